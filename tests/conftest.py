@@ -11,6 +11,8 @@ def pytest_configure(config):
     # tests that interrupt a frame or a command would wait for its end.
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    # The options of whoever runs the tests are none of the tests'.
+    os.environ["XDG_CONFIG_HOME"] = os.devnull
     # Where Python may write no bytecode, each of the hundreds of processes that tests start would
     # compile the package anew. They share what is compiled, outside the tree.
     if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):

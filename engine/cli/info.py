@@ -51,7 +51,8 @@ def describe(path) -> dict:
     Returns
     -------
     dict
-        ``file``, ``format``, ``counts``, ``triangles`` (as drawn, each instance's counted),
+        ``file``, ``format``, ``unit`` (of lengths; None where the format has none), ``counts``,
+        ``triangles`` (as drawn, each instance's counted),
         ``bounds`` (lowest and highest coordinates, at rest; None where there is no vertex),
         ``objects``, ``nodes`` and ``meshes`` (how many the file has), ``materials``, ``variants``,
         ``lights``, ``cameras``, ``skins``, ``animations``, ``warnings``.
@@ -62,6 +63,7 @@ def describe(path) -> dict:
     return {
         "file": path.name if hasattr(path, "read") else str(path),
         "format": document.format,
+        "unit": document.unit or None,
         "counts": dict(document.counts),
         **(_of_objects(document) if document.tree is None else _of_tree(document.tree)),
         "objects": [
@@ -146,7 +148,8 @@ def _box(mesh, pose) -> list[list[float]]:
 
 def report_lines(report: dict) -> list[str]:
     """Return the report as lines of text."""
-    lines = [f"{report['file']}: {report['format']}"]
+    unit = f", in {report['unit']}" if report["unit"] else ""
+    lines = [f"{report['file']}: {report['format']}{unit}"]
     for name, entries in report["counts"].items():
         count = entries if isinstance(entries, int) else len(entries)
         lines.append(f"  {name:<12}{count:>12,d}")

@@ -22,13 +22,15 @@ from ..choices import (
     Shading,
     Wireframe,
 )
-from . import ambient_options, antialiasing, values
+from . import ambient_options, antialiasing, backdrop_options, values
 from .environment_options import surroundings
 from .filter_options import add_line_shapes, add_texture_filters, filtering
+from .input_options import add_inputs, check_inputs
 from .inputs import model_files
 from .light_options import SHADOWS
 from .loading_bar import LoadingBar
 from .outputs import not_the_output
+from .scalar_options import coloring
 from .usage import UsageError
 
 #: How models are shown; the first is the default.
@@ -49,10 +51,12 @@ SIGNED_OPTIONS = frozenset(
         "--camera-position",
         "--camera-focal-point",
         "--camera-view-up",
+        "--camera-direction",
         "--camera-azimuth-angle",
         "--camera-elevation-angle",
         "--environment-rotation",
         "--lod-bias",
+        "--range",
         "--camera-index",
         "--animation-index",
         "--animation-time",
@@ -91,9 +95,10 @@ def add_viewed_scene(parser) -> None:
         "models",
         metavar="MODEL",
         nargs="*",
-        help="model files; - for standard input. Several are shown together, each where it places "
-        "itself",
+        help="model files, or folders of them; - for standard input. Several are shown together, "
+        "each where it places itself, or one by one: see --multi-file-mode",
     )
+    add_inputs(group)
     group.add_argument(
         "--side-by-side",
         action="store_true",
@@ -310,7 +315,8 @@ def add_up(group) -> None:
         "--up",
         type=values.up_direction,
         metavar="±X|±Y|±Z",
-        help="the model's up direction; +Y by default, +Z for .asc and .stl",
+        help="the model's up direction; +Y by default, +Z for CAD and printing formats "
+        "(.3mf, .asc, .iges, .step, .stl)",
     )
 
 
@@ -329,6 +335,12 @@ def add_camera(parser) -> None:
     )
     group.add_argument(
         "--camera-focal-point", type=values.vector, metavar="X,Y,Z", help="point to look at"
+    )
+    group.add_argument(
+        "--camera-direction",
+        type=values.direction,
+        metavar="X,Y,Z",
+        help="direction in which the camera looks; --camera-position has the last word",
     )
     group.add_argument(
         "--camera-view-up",
@@ -440,7 +452,9 @@ def add_render(parser) -> None:
         "-o",
         "--output",
         metavar="FILE",
-        help=".png, .jpg, .tga, .webp; - writes PNG to standard output, terminal: shows it there",
+        help=".png, .jpg, .tga, .webp; - writes PNG to standard output, terminal: shows it there. "
+        "{model}, {model.ext}, {model_ext}, {date}, {n} (the first number that is free; {n:3} has "
+        "three digits), {app} and {version} are filled in; {{ is a brace",
     )
     group.add_argument(
         "--turntable",
@@ -458,6 +472,9 @@ def add_render(parser) -> None:
     )
     group.add_argument(
         "--no-background", action="store_true", help="leave the background transparent"
+    )
+    group.add_argument(
+        "--watch", action="store_true", help="draw again when a model's file changes, until Ctrl+C"
     )
     group.add_argument(
         "--reference",
@@ -510,7 +527,9 @@ def settings(args: argparse.Namespace):
         look=args.look,
         appearance={name: value for name, value in appearance.items() if value is not None},
         up=args.up,
-        background=args.background_color,
+        background=backdrop_options.background(args),
+        fog=backdrop_options.fog(args),
+        fog_follows=args.fog_color is None,
         light_position=args.light_position,
         light_direction=args.light_direction,
         light_intensity=args.light_intensity,
@@ -524,6 +543,8 @@ def settings(args: argparse.Namespace):
         far=args.far,
         grid=args.grid,
         axes=args.axis,
+        axes_grid=args.axes_grid,
+        bar=args.bar,
         metadata=args.metadata,
         ui_scale=args.ui_scale,
     )
@@ -553,6 +574,8 @@ def place_view(args: argparse.Namespace, view_renderer, *, turns: bool = True):
         if args.camera_position == args.camera_focal_point:
             raise UsageError("--camera-position and --camera-focal-point are the same")
         view.look_from(place(args.camera_position), focal_point or view_renderer.bounds.center)
+    elif args.camera_direction is not None:
+        view.look_from(view.target - args.camera_direction, view.target)
     view.azimuth += math.radians(args.camera_azimuth_angle or 0.0)
     view.elevation += math.radians(args.camera_elevation_angle or 0.0)
     if args.camera_position is None:
@@ -606,6 +629,7 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
         return viewed
     from ..viewer.open_models import open_models
 
+    check_inputs(args)
     with LoadingBar() as progress:
         return open_models(model_files(args.models), **opening(args), progress=progress)
 
@@ -615,6 +639,8 @@ def opening(args: argparse.Namespace) -> dict:
     creases = {} if args.crease_angle is None else {"crease_angle": args.crease_angle}
     return {
         **creases,
+        "format": args.force_reader,
+        "scalars": coloring(args),
         "side_by_side": args.side_by_side,
         "up": args.up,
         "texture": args.texture,

@@ -6,15 +6,19 @@ A command's module is imported only when it runs, so that ``--help`` is quick.
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 
 from ..benchmarking.names import WORKLOADS
 from ..version import __version__
 from . import (
     ambient_options,
+    backdrop_options,
+    config,
     diff_options,
     environment_options,
     light_options,
     options,
+    scalar_options,
     sheet_options,
     suggestions,
     tone_options,
@@ -32,7 +36,21 @@ def parse(arguments: list[str]) -> argparse.Namespace:
 
     Raises `UsageError`, or `SystemExit` after argparse has printed its line.
     """
-    parser = make_parser()
+    args = _parsed(arguments, make_parser())
+    if "define" not in args:
+        return args
+
+    def configured(models: Sequence[str]) -> argparse.Namespace:
+        parser = make_parser()
+        is_changed = config.set_defaults(parser.commands, args, models)
+        found = _parsed(arguments, parser) if is_changed else args
+        found.configured = configured
+        return found
+
+    return configured(args.models)
+
+
+def _parsed(arguments: list[str], parser: Parser) -> argparse.Namespace:
     args, unknown = parser.parse_known_args(options.join_values(arguments))
     # Of positional arguments with options between them argparse takes only the first ones.
     files = getattr(args, "models", None) or getattr(args, "pictures", None)
@@ -133,12 +151,15 @@ def _add_render(commands) -> None:
 
 
 def _add_shared(command) -> None:
+    config.add_config(command)
     options.add_picture(command)
     options.add_appearance(command)
     light_options.add_light(command)
     ambient_options.add_ambient(command)
     environment_options.add_environment(command)
+    backdrop_options.add_backdrop(command)
     tone_options.add_tone(command)
+    scalar_options.add_scalars(command)
     options.add_camera(command)
 
 

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import argparse
+import time
 
+from ..errors import Engine3DError
 from ..files.animation_files import save_animation
 from ..viewer import headless
 from ..viewer.view_renderer import ViewRenderer
+from ..viewer.watch import CHECK_SECONDS, FileWatch
 from . import options
 from .antialiasing import PICTURES, antialiasing
+from .input_options import jobs
+from .inputs import STANDARD_INPUT
 from .outputs import (
     STANDARD_OUTPUT,
     TERMINAL,
@@ -18,6 +23,7 @@ from .outputs import (
     with_progress,
     write_standard_output,
 )
+from .quietness import remark
 from .report import Report
 from .said import say
 from .usage import UsageError
@@ -27,7 +33,41 @@ DEFAULT_SIZE = (1280, 720)
 
 def render(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
-    _check(args)
+    if args.watch and (not args.models or STANDARD_INPUT in args.models):
+        raise UsageError("--watch needs a MODEL that is a file")
+    found = jobs(args)
+    for job in found:
+        _check(job)
+    if len(found) == 1 and not args.watch:
+        return _render(found[0])
+    status = max([_tried(job) for job in found])
+    if args.watch:
+        _watch(found)
+    return status
+
+
+def _tried(job: argparse.Namespace) -> int:
+    """Draw what a job says; tell what is wrong, so that others go on."""
+    try:
+        return _render(job)
+    except (Engine3DError, OSError) as error:
+        say(f"error: {error}")
+        return 1
+
+
+def _watch(found: list[argparse.Namespace]) -> None:
+    """Draw again what shows a file that was written, until somebody interrupts."""
+    watched = [(job, [FileWatch(name) for name in job.models]) for job in found]
+    while True:
+        time.sleep(CHECK_SECONDS)
+        for job, files in watched:
+            changed = [file.changed() for file in files]  # all of them: each tells it once
+            if any(changed) and not any(file.missing for file in files):
+                if not _tried(job) and job.output is not None:
+                    remark(f"wrote {job.output}")
+
+
+def _render(args: argparse.Namespace) -> int:
     report = Report(args.verbose)
     viewed = options.viewed_scene(args)
     report.loaded(viewed)

@@ -13,6 +13,7 @@ from ..viewer.view_renderer import ViewRenderer
 from ..viewer.walking import GroundController, controller
 from . import options
 from .antialiasing import WINDOW, antialiasing
+from .input_options import jobs
 from .inputs import STANDARD_INPUT
 from .outputs import check_animation, check_picture, with_progress
 from .quietness import remark
@@ -28,14 +29,23 @@ FILE_SAMPLES = 4
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
-    _check(args)
-    report = Report(args.verbose)
+    found = jobs(args)
+    for job in found:
+        _check(job)
     reason = None if args.headless or args.terminal else _missing_screen()
+    if args.headless and len(found) > 1:
+        return max([_run(job, found, reason) for job in found])
+    return _run(found[0], found, reason)
+
+
+def _run(args: argparse.Namespace, found: list[argparse.Namespace], reason: str | None) -> int:
+    """Show the first of several, or write one of them."""
+    report = Report(args.verbose)
     viewed = options.viewed_scene(args, default_scene="default")
     report.loaded(viewed)
     if not args.headless and reason is None:
         try:
-            _show(args, viewed, report)
+            _show(args, found, viewed, report)
             return 0
         except DisplayError as error:
             if args.terminal:
@@ -98,7 +108,9 @@ def _view_renderer(
     )
 
 
-def _show(args: argparse.Namespace, viewed, report: Report) -> None:
+def _show(
+    args: argparse.Namespace, found: list[argparse.Namespace], viewed, report: Report
+) -> None:
     """Open a window and stay until it closes."""
     from ..viewer.ground import told
     from ..viewer.model_files import ModelFiles
@@ -118,7 +130,11 @@ def _show(args: argparse.Namespace, viewed, report: Report) -> None:
             playing=args.animate,
             statistics=args.fps,
             files=ModelFiles(
-                args.models, watch=args.watch, remembered=True, **options.opening(args)
+                args.models,
+                listed=[job.models[0] for job in found if len(found) > 1],
+                watch=args.watch,
+                remembered=True,
+                **options.opening(args),
             ),
             sampling=Sampling(1 if args.antialiasing == "none" else args.samples),
         )

@@ -210,6 +210,17 @@ def limits(text: str) -> tuple[float, float]:
     return low, high
 
 
+def interval(text: str) -> tuple[float, float]:
+    """Parse ``MIN,MAX``, the first less than the second."""
+    parts = text.split(",")
+    if len(parts) != 2:
+        raise argparse.ArgumentTypeError(f"{text!r} is not MIN,MAX")
+    low, high = map(number, parts)
+    if not low < high:
+        raise argparse.ArgumentTypeError(f"{text!r}: the first number is the lower one")
+    return low, high
+
+
 def names(text: str) -> tuple[str, ...]:
     """Parse names with commas between them."""
     return tuple(filter(None, (part.strip() for part in text.split(","))))

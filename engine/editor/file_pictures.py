@@ -1,8 +1,8 @@
 """Pictures of files, before they are opened: models and images, small.
 
 In: paths, as a dialog comes by them. Out: pixels, some time later: a thread of its own loads and
-draws, so that nobody waits. Of several files that are asked for, the latest is the next. What is
-large, or cannot be read, has none.
+draws, so that nobody waits. Models look as ``engine3d render`` draws them. Of several files that
+are asked for, the latest is the next. What is large, or cannot be read, has none.
 """
 
 from __future__ import annotations
@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 from ..loaders import formats
 from ..loaders.loading import document_of, texture_of
 from ..loaders.sources import read_source, stem_and_extension
-from ..rendering.renderer import Renderer
-from ..scene.lights import DirectionalLight
-from ..scene.loading import scene_from_document
-from .thumbnails import BACKGROUND, shrunk
+from ..viewer.near_origin import moved_near
+from ..viewer.open_model import view_document
+from ..viewer.settings import Settings
+from ..viewer.view_renderer import ViewRenderer
+from .thumbnails import shrunk
 
 #: Bytes of the largest files that have pictures.
 LARGEST = 8 << 20
@@ -112,9 +113,10 @@ def _draw_image(path: str, size: int) -> NDArray[np.uint8]:
 def _draw_model(path: str, size: int) -> NDArray[np.uint8]:
     with read_source(path) as source:
         document = document_of(source, None, split=True)
-    scene = scene_from_document(document)
-    if document.scene is None:
-        scene.background = BACKGROUND
-        scene.add(DirectionalLight((-0.4, -0.7, -0.6), intensity=0.8, unit="white"))
-    with Renderer(size, size, samples=4, threads=1) as renderer:
-        return renderer.render(scene, cull="auto").color.copy()
+    viewed = moved_near(view_document(document, path))
+    settings = Settings({}, look="studio")
+    quality = {"samples": 4, "antialias": "msaa", "threads": 1}
+    with ViewRenderer(viewed, settings, (size, size), **quality) as view_renderer:
+        view = view_renderer.view()
+        view_renderer.fill(view)
+        return view_renderer.draw(view).color.copy()

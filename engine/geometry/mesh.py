@@ -172,6 +172,8 @@ class Mesh(Closed):
     ) -> None:
         self.name = str(name)
         self._groups: dict[str, NDArray[np.int32]] = {}  # loaders put checked ones here
+        # Loaders put numbers of the vertices here, by name: what `viewer/scalars.py` colours by.
+        self._scalars: dict[str, NDArray[np.floating]] = {}
         self.warnings = []
         self._arrays: dict[str, np.ndarray | None] = dict.fromkeys(_movers.VERTEX_AXES)
         self._morph_targets = ()
@@ -447,7 +449,7 @@ class Mesh(Closed):
 
     def __setstate__(self, state: dict) -> None:
         super().__setstate__({**state, "_derived": {}})
-        for arrays in (self._arrays, self._groups):
+        for arrays in (self._arrays, self._groups, self._scalars):
             arrays.update({name: own(array) for name, array in arrays.items()})
 
     def __repr__(self) -> str:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..errors import InvalidArgumentError
+from ..loaders.far_coordinates import moved_near
 from ..loaders.images import check_image_size, rgba_pixels
 from ..loaders.indexed_mesh import IndexedGeometry, build_indexed_mesh
 from ..loaders.posed_parts import PosedPart
@@ -29,42 +30,57 @@ def mesh_from_trimesh(geometry) -> Mesh:
     return _mesh(geometry, "", _Textures())
 
 
-def scene_parts(scene, warnings: WarningList | None = None) -> list[PosedPart]:
+def scene_parts(
+    scene, warnings: WarningList | None = None, *, near: bool = False
+) -> list[PosedPart]:
     """Return the nodes of a trimesh scene; those of the same geometry share a mesh.
 
-    With ``warnings``, images that cannot be read are left out.
+    With ``warnings``, images that cannot be read are left out. With ``near``, coordinates far from
+    the origin get another one, and poses that take them back.
     """
-    meshes: dict[str, Mesh] = {}
+    meshes: dict[str, tuple[Mesh, np.ndarray | None]] = {}
     textures = _Textures(warnings)
     parts = []
     for node in scene.graph.nodes_geometry:
         pose, name = scene.graph[node]
         if name not in meshes:
-            meshes[name] = _mesh(scene.geometry[name], str(name), textures)
-        parts.append(PosedPart(str(node), meshes[name], np.array(pose, np.float64)))
+            meshes[name] = _near_mesh(scene.geometry[name], str(name), textures, near)
+        mesh, back = meshes[name]
+        pose = np.array(pose, np.float64)
+        parts.append(PosedPart(str(node), mesh, pose if back is None else pose @ back))
     return parts
 
 
-def _mesh(geometry, name: str, textures: _Textures) -> Mesh:
-    """The mesh of a Trimesh, a PointCloud or a Path."""
+def _near_mesh(
+    geometry, name: str, textures: _Textures, near: bool
+) -> tuple[Mesh, np.ndarray | None]:
+    """The mesh of a geometry, and what takes its coordinates back if they were moved."""
+    vertices = np.asarray(getattr(geometry, "vertices", ()), np.float64)
+    if not near or vertices.ndim != 2 or vertices.shape[1] != 3:
+        return _mesh(geometry, name, textures), None
+    moved, back = moved_near(vertices)
+    return _mesh(geometry, name, textures, moved), back
+
+
+def _mesh(geometry, name: str, textures: _Textures, positions: np.ndarray | None = None) -> Mesh:
+    """The mesh of a Trimesh, a PointCloud or a Path; its vertices may stand elsewhere."""
+    if positions is None:
+        positions = np.asarray(getattr(geometry, "vertices", ()), np.float64)
     if hasattr(geometry, "faces"):
-        return _triangle_mesh(geometry, name, textures)
+        return _triangle_mesh(geometry, name, textures, positions)
     if hasattr(geometry, "entities"):
-        return _path_mesh(geometry, name)
+        return _path_mesh(geometry, name, positions)
     if hasattr(geometry, "vertices"):
-        positions = np.asarray(geometry.vertices)
         colors = getattr(geometry, "colors", None)
         colors = None if colors is None or len(colors) != len(positions) else _bytes(colors)
         return Mesh(positions, colors=colors, points=np.arange(len(positions)), name=name)
     raise InvalidArgumentError(f"not a geometry of trimesh: {type(geometry).__name__}")
 
 
-def _triangle_mesh(geometry, name: str, textures: _Textures) -> Mesh:
+def _triangle_mesh(geometry, name: str, textures: _Textures, positions: np.ndarray) -> Mesh:
     visual = geometry.visual
     kind = getattr(visual, "kind", None)
-    indexed = IndexedGeometry(
-        np.asarray(geometry.vertices, np.float64), np.asarray(geometry.faces, np.int32)
-    )
+    indexed = IndexedGeometry(positions, np.asarray(geometry.faces, np.int32))
     # Asking for the normals of a mesh without any would make trimesh compute them.
     if "vertex_normals" in getattr(geometry, "_cache", ()):
         indexed.normals = np.asarray(geometry.vertex_normals, np.float32)
@@ -79,8 +95,7 @@ def _triangle_mesh(geometry, name: str, textures: _Textures) -> Mesh:
     return mesh
 
 
-def _path_mesh(geometry, name: str) -> Mesh:
-    vertices = np.asarray(geometry.vertices, np.float64)
+def _path_mesh(geometry, name: str, vertices: np.ndarray) -> Mesh:
     # Without the scale a circle would get a point every twentieth of a unit, however large it is.
     scale = float(np.ptp(vertices, axis=0).max(initial=0.0)) if len(vertices) else 1.0
     runs = [

@@ -21,6 +21,7 @@ from ..geometry.topology import polygon_ids
 from ..materials.material import Material
 from .corner_mesh import Geometry, Triangles, Vertices, build_mesh
 from .documents import CameraRecord, Document, DocumentObject, LightRecord
+from .far_coordinates import moved_near
 from .linked_textures import give_companion_texture
 from .number_arrays import parse_float
 from .registry import Reader
@@ -99,7 +100,8 @@ def read_asc(source: Source, split: bool = False) -> Document:
     ----------
     source : Source
     split : bool
-        Every tri-mesh is an object of its own in any case.
+        Give coordinates far from the origin another one; every tri-mesh is an object of its own in
+        any case.
 
     Raises
     ------
@@ -110,13 +112,14 @@ def read_asc(source: Source, split: bool = False) -> Document:
     parser.parse()
     materials = [_material(name) for name in parser.material_names]
     warnings = parser.warnings
-    meshes = [_mesh(record, materials) for record in parser.meshes]
+    objects = [_object(record, materials, split) for record in parser.meshes]
+    meshes = [entry.mesh for entry in objects]
     if any(mesh.uvs is not None for mesh in meshes):
         painted = {id(m): m for mesh in meshes for m in mesh.materials}.values()
         give_companion_texture(source, list(painted), warnings)
     return Document(
         "asc",
-        [DocumentObject(mesh.name, mesh, None) for mesh in meshes],
+        objects,
         parser.lights,
         parser.cameras,
         _counts(parser),
@@ -403,9 +406,20 @@ def _material(name: str) -> Material:
     return Material(name=name, color=tuple(round(c * 255) for c in color))
 
 
-def _mesh(record: _MeshRecord, materials: list[Material]) -> Mesh:
+def _object(record: _MeshRecord, materials: list[Material], split: bool) -> DocumentObject:
     vertices, faces = record.rows.take_rows(_VERTICES), record.rows.take_rows(_FACES)
     positions, uvs = vertices[:, :3].copy(), vertices[:, 3:]
+    positions, pose = moved_near(positions) if split else (positions, None)
+    return DocumentObject(record.name, _mesh(record, materials, positions, uvs, faces), pose)
+
+
+def _mesh(
+    record: _MeshRecord,
+    materials: list[Material],
+    positions: np.ndarray,
+    uvs: np.ndarray,
+    faces: np.ndarray,
+) -> Mesh:
     corners, edge_visible = faces[:, :3].astype(np.int32), faces[:, 3:] != 0
     numbers = np.full(len(faces), _UNNAMED, np.int64)
     given, named = record.said[_MATERIAL]

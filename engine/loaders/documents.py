@@ -378,6 +378,8 @@ class Document:
         The tree of nodes, of a scene of engine3d; its objects then are what of it shows.
     tree : TreeRecord or None
         The tree of nodes, of another file that holds one; its objects then are what of it shows.
+    unit : str
+        The symbol of the coordinates' unit, such as ``"mm"``; empty where the format has none.
     """
 
     format: str
@@ -388,3 +390,4 @@ class Document:
     warnings: list[str] = field(default_factory=list)
     scene: SceneRecord | None = None
     tree: TreeRecord | None = None
+    unit: str = ""

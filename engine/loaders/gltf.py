@@ -52,7 +52,9 @@ def read_gltf(source: Source, split: bool = False) -> Document:
     tree = _read_tree(file, buffers, warnings)
     objects = tree_objects(source, tree, buffers.limit, split)
     counts = tree_counts(tree, objects)
-    return Document(file.kind, objects, counts=counts, warnings=warnings.messages(), tree=tree)
+    return Document(
+        file.kind, objects, counts=counts, warnings=warnings.messages(), tree=tree, unit="m"
+    )
 
 
 def _read_tree(file: GltfFile, buffers: GltfBuffers, warnings: WarningList) -> TreeRecord:

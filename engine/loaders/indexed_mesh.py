@@ -7,7 +7,7 @@ their corners differ; triangles keep their order. Vertices that nothing uses are
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -38,12 +38,16 @@ class IndexedGeometry:
     colors : (V, 4) uint8 or float32, or None
     corner_uvs : (T, 3, 2) float32 or None
         Take the place of ``uvs``.
+    corner_colors : (T, 3, 4) uint8 or None
+        Take the place of ``colors`` and ``face_colors``.
     face_colors : (T, 4) uint8 or float32, or None
         Count only without ``colors``.
     lines : (L, 2) int or None
     position_ids : (V,) number or None
         Vertices with the same number are one point of the surface.
     edge_visible : (T, 3) bool or None
+    scalars : dict of str to (V,) float
+        Numbers of the vertices, by name.
     crease_angle : float
         Radians, of normals that are not given.
     """
@@ -56,10 +60,12 @@ class IndexedGeometry:
     tangents: np.ndarray | None = None
     colors: np.ndarray | None = None
     corner_uvs: np.ndarray | None = None
+    corner_colors: np.ndarray | None = None
     face_colors: np.ndarray | None = None
     lines: np.ndarray | None = None
     position_ids: np.ndarray | None = None
     edge_visible: np.ndarray | None = None
+    scalars: dict[str, np.ndarray] = field(default_factory=dict)
     crease_angle: float = CREASE_ANGLE
 
 
@@ -68,12 +74,14 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
     corners, count = geometry.corners, len(geometry.positions)
     lines = np.zeros((0, 2), np.int32) if geometry.lines is None else geometry.lines
     if not len(corners) and not len(lines):
-        return Mesh(
+        cloud = Mesh(
             geometry.positions,
             points=np.arange(count),
             name=name,
             **_chosen(geometry, _ALL),
         )
+        cloud._scalars = geometry.scalars
+        return cloud
     of_corner = _corner_attributes(geometry)
     faces, vertices, first_corner = _split(corners, of_corner, count)
     vertex_of, vertices, added = _vertices_for(lines.ravel(), vertices, count)
@@ -91,6 +99,7 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
         name=name,
         **attributes,
     )
+    mesh._scalars = {name: _rows(row, vertices) for name, row in geometry.scalars.items()}
     if not mesh.has_normals and geometry.position_ids is None:
         join_seams(mesh)
     return mesh
@@ -119,7 +128,9 @@ def _corner_attributes(geometry: IndexedGeometry) -> dict[str, np.ndarray]:
     found = {}
     if geometry.corner_uvs is not None:
         found["uvs"] = geometry.corner_uvs.reshape(-1, 2)
-    if geometry.face_colors is not None and geometry.colors is None:
+    if geometry.corner_colors is not None:
+        found["colors"] = geometry.corner_colors.reshape(-1, 4)
+    elif geometry.face_colors is not None and geometry.colors is None:
         found["colors"] = np.repeat(geometry.face_colors, 3, axis=0)
     return found
 

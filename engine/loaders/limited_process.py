@@ -13,13 +13,14 @@ import pickle
 import subprocess
 import sys
 from collections.abc import Callable
+from typing import TypeVar
 
 from ..errors import FileFormatError
-from .documents import Document
 from .images import PILLOW_FORMATS, images_of_one_model
 from .linked_files import found_files, tell_found
 from .sources import Source
 
+Answer = TypeVar("Answer")
 # A process may take so many bytes besides what Python takes, and so many times the file's.
 MAX_MEMORY_BASE = 256 << 20
 MAX_MEMORY_RATIO = 40
@@ -33,8 +34,8 @@ _RUN = "from engine3d.loaders.limited_process import main; main()"
 
 
 def in_limited_process(
-    read: Callable[[Source, bool], Document], source: Source, split: bool, *, size: int
-) -> Document:
+    read: Callable[[Source, bool], Answer], source: Source, split: bool, *, size: int
+) -> Answer:
     """Return ``read(source, split)``, called in another process.
 
     Parameters

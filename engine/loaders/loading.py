@@ -86,6 +86,7 @@ def load_document(
     progress: Progress | None = None,
     companion: Callable[[str], bool] | None = None,
     crease_angle: float = CREASE_ANGLE,
+    scalars: bool = False,
 ) -> Document:
     """Load everything that a model file holds: its objects one by one, lights and cameras.
 
@@ -96,9 +97,11 @@ def load_document(
     companion : callable, optional
         ``companion(path)`` tells whether the image ``path`` beside a model without materials may
         become its texture for its name alone (`companion_texture`); any may if left out.
+    scalars : bool
+        Whether meshes are to carry numbers of their vertices that have no meaning of their own.
     """
     with read_source(path) as source:
-        source = source._replace(crease_angle=check_crease_angle(crease_angle))
+        source = source._replace(crease_angle=check_crease_angle(crease_angle), scalars=scalars)
         if companion is not None:
             source = source._replace(companion=companion)
         document = _read_document(source, format, progress, split=True)

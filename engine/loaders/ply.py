@@ -19,7 +19,7 @@ from .ply_faces import PlyFaces, read_edges, read_faces, read_strips
 from .ply_header import is_ply, read_header
 from .ply_materials import material_ids, read_materials
 from .ply_tables import PlyTable, read_tables
-from .ply_vertices import PlyVertices, read_vertices
+from .ply_vertices import PlyVertices, read_scalars, read_vertices
 from .registry import Reader
 from .sources import Source
 from .triangulation import WorkBudget
@@ -59,7 +59,8 @@ def read_ply(source: Source, split: bool = False) -> Document:
     has_uvs = vertices.uvs is not None or faces.uvs is not None
     positions, pose = moved_near(vertices.positions) if split else (vertices.positions, None)
     vertices = vertices._replace(positions=positions)
-    mesh = _mesh(vertices, faces, lines, source)
+    scalars = read_scalars(table) if source.scalars else {}
+    mesh = _mesh(vertices, faces, lines, source, scalars)
     mesh.materials = read_materials(source, header.textures, has_uvs, warnings)
     mesh.material_ids = material_ids(faces.textures, len(faces.corners), len(mesh.materials))
     counts = _counts(tables, vertices, faces, lines)
@@ -67,7 +68,9 @@ def read_ply(source: Source, split: bool = False) -> Document:
     return Document("ply", [entry], counts=counts, warnings=warnings.messages())
 
 
-def _mesh(vertices: PlyVertices, faces: PlyFaces, lines: np.ndarray, source: Source) -> Mesh:
+def _mesh(
+    vertices: PlyVertices, faces: PlyFaces, lines: np.ndarray, source: Source, scalars: dict
+) -> Mesh:
     geometry = IndexedGeometry(
         vertices.positions,
         faces.corners,
@@ -79,6 +82,7 @@ def _mesh(vertices: PlyVertices, faces: PlyFaces, lines: np.ndarray, source: Sou
         lines=lines,
         position_ids=vertices.position_ids,
         edge_visible=faces.edge_visible,
+        scalars=scalars,
         crease_angle=source.crease_angle,
     )
     return build_indexed_mesh(geometry, source.stem)

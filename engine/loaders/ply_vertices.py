@@ -1,7 +1,8 @@
 """The vertices of a PLY file: positions, normals, colours and texture coordinates.
 
 In: the table of the element ``vertex``. Out: arrays as a `Mesh` takes them. The names are those
-that programs in use write; properties with other names are left alone.
+that programs in use write; properties with other names are numbers to
+colour by, if anybody asks for them.
 """
 
 from __future__ import annotations
@@ -56,6 +57,15 @@ def read_vertices(table: PlyTable) -> PlyVertices:
             break
     position_ids = table.column("position_id") if table.has("position_id") else None
     return PlyVertices(positions, normals, read_colors(table), uvs, position_ids)
+
+
+def read_scalars(table: PlyTable) -> dict[str, np.ndarray]:
+    """Read the numbers of vertices that are neither of what `read_vertices` reads, by name."""
+    uvs = next((names for names in _UVS if table.has(*names)), ())
+    colors = next((names for names in _COLORS if table.has(*names)), ())
+    taken = {"x", "y", "z", "nx", "ny", "nz", "position_id", *uvs, *colors, *_ALPHAS}
+    names = [name for name in table.element.properties if name not in taken and table.has(name)]
+    return {name: table.column(name).astype(np.float64) for name in names}
 
 
 def read_colors(table: PlyTable) -> np.ndarray | None:

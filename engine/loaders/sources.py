@@ -69,6 +69,8 @@ class Source(NamedTuple):
         ``companion(path) -> bool``: whether an image may become the texture for its name alone.
     crease_angle : float
         Radians, of normals that the file lacks.
+    scalars : bool
+        Whether meshes are to carry the numbers of vertices that have no meaning of their own.
     """
 
     path: str
@@ -76,6 +78,7 @@ class Source(NamedTuple):
     progress: Callable[[float], object] = _no_progress
     companion: Callable[[str], bool] = _any_image
     crease_angle: float = CREASE_ANGLE
+    scalars: bool = False
 
     def __enter__(self) -> Source:
         return self

@@ -1,4 +1,4 @@
-"""COLLADA, 3MF and other formats that the package trimesh reads, where it is installed.
+"""COLLADA and other formats that the package trimesh reads, where it is installed.
 
 In: the bytes of a file. Out: a `Document` with one object for each node. trimesh and the libraries
 that it calls are given a process of their own, see `limited_process`: a few hundred bytes can lead
@@ -12,10 +12,8 @@ import contextlib
 import importlib.util
 import io
 import logging
-import zipfile
 
 from ..errors import Engine3DError, FileFormatError, InvalidArgumentError, printable
-from . import sources
 from .documents import Document
 from .limited_process import in_limited_process
 from .linked_files import LinkedFileError, LinkedFiles
@@ -23,13 +21,13 @@ from .posed_parts import MAX_REPEATED, counts_of, document_objects
 from .registry import Reader, find_reader
 from .sources import Source
 from .warning_list import WarningList
+from .zip_archives import ZIP, ZipArchive
 
 # What trimesh reads by itself, and what it reads with further packages.
-_EXTENSIONS = (".xyz", ".dxf", ".dae", ".zae", ".3mf", ".3dxml", ".xaml")
+_EXTENSIONS = (".xyz", ".dxf", ".dae", ".zae", ".3dxml", ".xaml")
 # What files of a kind begin with, if anything.
-_ZIP = b"PK"
 _BEGINNINGS = {
-    **dict.fromkeys(("3mf", "3dxml", "zae"), _ZIP),
+    **dict.fromkeys(("3dxml", "zae"), ZIP),
     **dict.fromkeys(("dae", "xaml"), b"<"),
 }
 # Letters of what trimesh says that are passed on.
@@ -60,7 +58,9 @@ def read_with_trimesh(source: Source, split: bool = False) -> Document:
             "pip install engine3d[formats]",
             source.path,
         )
-    return in_limited_process(read_here, source, split, size=_unpacked_size(source))
+    is_packed = source.head(len(ZIP)) == ZIP
+    size = ZipArchive(source).unpacked_size if is_packed else source.size
+    return in_limited_process(read_here, source, split, size=size)
 
 
 def read_here(source: Source, split: bool) -> Document:
@@ -85,7 +85,7 @@ def read_here(source: Source, split: bool) -> Document:
                 process=False,
             )
         scene = loaded if isinstance(loaded, trimesh.Scene) else trimesh.Scene(loaded)
-        parts = scene_parts(scene, warnings)
+        parts = scene_parts(scene, warnings, near=split)
     except InvalidArgumentError as error:
         raise FileFormatError(f"damaged: {error}", source.path) from error
     except (Engine3DError, MemoryError):
@@ -105,29 +105,6 @@ def read_here(source: Source, split: bool) -> Document:
             part.mesh.crease_angle = source.crease_angle
     objects = document_objects(source, parts, MAX_REPEATED + source.size, split)
     return Document(kind, objects, counts=counts_of(objects), warnings=warnings.messages())
-
-
-def _unpacked_size(source: Source) -> int:
-    """The bytes that a file unpacks to if it is a ZIP archive, else its own.
-
-    Raises
-    ------
-    FileFormatError
-        They are too many, or the archive is damaged.
-    """
-    if source.head(len(_ZIP)) != _ZIP:
-        return source.size
-    try:
-        with zipfile.ZipFile(io.BytesIO(source.data)) as archive:
-            total = sum(entry.file_size for entry in archive.infolist())
-    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError) as error:
-        raise FileFormatError(f"damaged archive: {error}", source.path) from error
-    limit = sources.MAX_UNPACKED_BASE + sources.MAX_UNPACKED_RATIO * source.size
-    if total > limit:
-        raise FileFormatError(
-            f"unpacks to more than {limit} bytes, the limit for its size", source.path
-        )
-    return total
 
 
 @contextlib.contextmanager
@@ -191,7 +168,7 @@ def _image(source: Source) -> bytes:
 READERS = (
     Reader(
         "trimesh",
-        "COLLADA, 3MF, DXF and others, through trimesh",
+        "COLLADA, DXF and others, through trimesh",
         "mesh",
         _EXTENSIONS,
         read_with_trimesh,

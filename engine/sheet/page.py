@@ -87,7 +87,7 @@ class _Page:
     ) -> None:
         self._canvas, self._area, self._model = canvas, area, model
         self._up = up
-        self._unit = model.viewed.unit if unit is None else printable(unit)
+        self._unit = model.viewed.unit or None if unit is None else printable(unit)
         large = area.height >= _LARGE and area.width >= _WIDE
         self._text = 2 if large else 1
 

@@ -11,7 +11,15 @@ from pathlib import Path
 
 from ..errors import Engine3DError
 from ..files.animation_files import numbered_path
-from .appearance import CULLINGS, CULLS, HIDDEN_SURFACES, MODES, WIREFRAMES, following
+from .appearance import (
+    CULLINGS,
+    CULLS,
+    HIDDEN_SURFACES,
+    MODES,
+    TONE_MAPPINGS,
+    WIREFRAMES,
+    following,
+)
 from .clips import play_clips
 from .debug_lines import DEBUG_DRAWINGS
 from .file_dialog import FolderPanel, RecentPanel
@@ -250,6 +258,13 @@ def toggle_occlusion(viewer, step: int) -> None:
     viewer.say(f"ambient occlusion: {'on' if appearance.ambient_occlusion else 'off'}")
 
 
+def cycle_tone_mapping(viewer, step: int) -> None:
+    """Next way in which light becomes what a screen can show."""
+    appearance = viewer.view_renderer.appearance
+    appearance.tone_mapping = following(appearance.tone_mapping, TONE_MAPPINGS, step)
+    viewer.say(f"tone mapping: {appearance.tone_mapping}")
+
+
 def toggle_split(viewer, step: int) -> None:
     """Nine outputs side by side, or the picture alone."""
     viewer.view_renderer.split = not viewer.view_renderer.split
@@ -316,6 +331,12 @@ def toggle_grid(viewer, step: int) -> None:
 def toggle_axes(viewer, step: int) -> None:
     """The axes in the corner, or none."""
     viewer.view_renderer.settings.axes = not viewer.view_renderer.settings.axes
+
+
+def toggle_axes_grid(viewer, step: int) -> None:
+    """A grid around the scene with numbers, or none."""
+    settings = viewer.view_renderer.settings
+    settings.axes_grid = not settings.axes_grid
 
 
 def cycle_statistics(viewer, step: int) -> None:

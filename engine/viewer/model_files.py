@@ -26,6 +26,8 @@ class ModelFiles:
     ----------
     paths : sequence of path-like
         May be empty: a scene of no file's.
+    listed : sequence of path-like
+        What `beside` goes through, rather than the folder.
     watch : bool
         Look whether they change.
     remembered : bool
@@ -40,6 +42,7 @@ class ModelFiles:
         self,
         paths: Sequence = (),
         *,
+        listed: Sequence = (),
         watch: bool = False,
         remembered: bool = False,
         side_by_side: bool = False,
@@ -48,6 +51,7 @@ class ModelFiles:
     ):
         self._always = {"side_by_side": side_by_side, "up": up}
         self._options = options
+        self._listed = [os.path.abspath(os.fsdecode(path)) for path in listed]
         self._watches = watch
         self.remembered = remembered
         self._follow(paths)
@@ -70,14 +74,19 @@ class ModelFiles:
         return None if here is None else os.path.abspath(os.fsdecode(here))
 
     def beside(self, step: int) -> str | None:
-        """Return the path of the next model in the folder, or of one before, or None.
+        """Return the path of the next model of the list or the folder, or of one before, or None.
 
         Called again, it goes on from there, even if that file could not be opened.
         """
         here = self._tried or self.first()
         if here is None:
             return None
-        folder, name = os.path.split(os.path.abspath(here))
+        here = os.path.abspath(here)
+        if here in self._listed:
+            place = (self._listed.index(here) + step) % len(self._listed)
+            self._tried = self._listed[place]
+            return self._tried
+        folder, name = os.path.split(here)
         names = {entry for entry in os.listdir(folder) if entry.lower().endswith(MODEL_EXTENSIONS)}
         names = sorted(names | {name}, key=lambda entry: (entry.lower(), entry))
         if len(names) == 1:

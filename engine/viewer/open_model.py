@@ -20,9 +20,7 @@ from .viewed_scene import ViewedScene
 from .visibility import DRAWABLE, mesh_of
 
 #: Formats whose models, by custom, stand on the XY plane.
-Z_UP_FORMATS = ("asc", "stl")
-#: Units of length of those that have one.
-UNITS = {"glb": "m", "gltf": "m"}
+Z_UP_FORMATS = ("3mf", "asc", "iges", "step", "stl")
 
 
 def open_model(
@@ -35,6 +33,8 @@ def open_model(
     variant=None,
     animation=None,
     crease_angle=CREASE_ANGLE,
+    format=None,
+    scalars=None,
 ) -> ViewedScene:
     """Load a file to look at.
 
@@ -51,8 +51,10 @@ def open_model(
     companion : callable, optional
         As in `engine3d.loaders.load_document`; with a texture or a colour, no image is taken.
 
-    crease_angle : float, optional
+    crease_angle, format
         As in `engine3d.load_mesh`.
+    scalars : ScalarColoring, optional
+        Colours the meshes by a number of their vertices, whatever the file says.
     variant : str or int, optional
         As in `engine3d.load_scene`.
     animation : callable, optional
@@ -74,31 +76,51 @@ def open_model(
     if is_dressed:
         companion = _no_image
     document = load_document(
-        path, progress=progress, companion=companion, crease_angle=crease_angle
+        path,
+        format=format,
+        progress=progress,
+        companion=companion,
+        crease_angle=crease_angle,
+        scalars=scalars is not None,
     )
     path = None if hasattr(path, "read") else os.fspath(path)
     if is_dressed:
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
+    bar = None if scalars is None else scalars.dress(document, usual_up(document))
+    viewed = view_document(document, path, variant)
+    if bar is not None:
+        viewed.bar = bar
+        # Tone mapping would change the colours that the bar shows.
+        viewed.appearance = {**viewed.appearance, "tone_mapping": "none"}
+    if animation is not None:
+        animation(viewed)
+    return viewed
+
+
+def view_document(document, path: str | None, variant: str | int | None = None) -> ViewedScene:
+    """Return what a file holds as a scene to look at; see `open_model`."""
     scene = scene_from_document(document, variant)
     if document.scene is None:
         scene.background = DARK.background
-    viewed = ViewedScene(
+    return ViewedScene(
         scene,
         "model" if path is None else printable(os.path.basename(path)),
-        up="+Z" if document.format in Z_UP_FORMATS else "+Y",
+        up=usual_up(document),
         update=None if scene.animator is None else scene.animator.seek,
         themed=document.scene is None,
         # glTF says of each material which sides show; other files don't, or are often wrong.
         appearance={} if document.tree is not None else {"cull": "auto"},
         path=path,
         format=document.format,
-        unit=UNITS.get(document.format),
         details=document_lines(document),
         warnings=list(scene.warnings),
+        unit=document.unit,
     )
-    if animation is not None:
-        animation(viewed)
-    return viewed
+
+
+def usual_up(document) -> str:
+    """Return the direction that is up, by custom, in files of a document's format."""
+    return "+Z" if document.format in Z_UP_FORMATS else "+Y"
 
 
 def _no_image(path: str) -> bool:
@@ -142,6 +164,8 @@ def _warn(message: str) -> None:
 def document_lines(document) -> list[str]:
     """Return the format and the counts of a document, a line each."""
     lines = [f"{'format':<12}{document.format:>11}"]
+    if document.unit:
+        lines.append(f"{'unit':<12}{document.unit:>11}")
     for name, entries in document.counts.items():
         count = entries if isinstance(entries, int) else len(entries)
         if count:

@@ -73,6 +73,8 @@ def open_models(
         appearance={"cull": "auto"},
         details=[line for one in viewed_scenes for line in (one.title, *one.details)],
         warnings=[f"{one.title}: {line}" for one in viewed_scenes for line in one.warnings],
+        unit=first.unit if all(one.unit == first.unit for one in viewed_scenes) else "",
+        bar=first.bar,
     )
     return moved_near(viewed)
 

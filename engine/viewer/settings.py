@@ -8,6 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ..choices import LightShadow
+from ..scene.fog import ExponentialFog, Fog
+from ..scene.gradients import Gradient
 from .filtering import Filtering
 from .surroundings import Surroundings
 from .theme import DARK, Theme
@@ -25,8 +27,11 @@ class Settings:
         How models stand there: see `Stage`; or before one colour, without a shadow.
     up : str or None
         A key of `viewpoint.UP_DIRECTIONS`.
-    background : (3,) tuple of int or None
+    background : (3,) tuple of int, Gradient or None
         sRGB, 0 to 255.
+    fog : Fog, ExponentialFog or None
+    fog_follows : bool
+        Whether the fog takes its colour from the background.
     light_position : (3,) tuple of float or None
         World space.
     light_intensity : float or None
@@ -53,7 +58,7 @@ class Settings:
         Names of the materials that one walks on; None is all.
     slope : float or None
         The steepest ground that one walks on, in radians.
-    grid, axes, metadata : bool
+    grid, axes, metadata, axes_grid, bar : bool
         What to draw besides the scene.
     ui_scale : int or None
         Factor on the size of texts; None chooses by the screen and the picture.
@@ -64,7 +69,9 @@ class Settings:
     appearance: dict
     look: str = "plain"
     up: str | None = None
-    background: tuple[int, int, int] | None = None
+    background: tuple[int, int, int] | Gradient | None = None
+    fog: Fog | ExponentialFog | None = None
+    fog_follows: bool = False
     light_position: tuple[float, float, float] | None = None
     light_intensity: float | None = None
     light_direction: tuple[float, float, float] | None = None
@@ -82,5 +89,7 @@ class Settings:
     grid: bool = False
     axes: bool = False
     metadata: bool = False
+    axes_grid: bool = False
+    bar: bool = False
     ui_scale: int | None = None
     theme: Theme = DARK

@@ -8,7 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..environments.environment import Environment
+from ..materials.display_colors import display_color
 from ..materials.material import Material
+from ..scene.gradients import Gradient
 from ..scene.scene import Scene
 from ..scene.usage import uses_in
 
@@ -64,3 +66,11 @@ def _has_physical(scene: Scene) -> bool:
         isinstance(thing, Material) and thing.is_physical and not thing.unlit
         for thing in uses_in([scene])
     )
+
+
+def fog_color(background) -> tuple[int, ...] | None:
+    """Return the colour of a background, or of a gradient's middle; None where it has no one."""
+    if isinstance(background, Gradient):
+        ends = (display_color(end, "srgb") for end in (background.top, background.bottom))
+        return tuple(round(255 * (top + bottom) / 2) for top, bottom in zip(*ends, strict=True))
+    return background if isinstance(background, tuple) else None

@@ -6,6 +6,8 @@ drawn on it.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from .. import linalg
@@ -15,7 +17,8 @@ from ..rendering.support_functions import support_of_scene
 from ..scene.cameras import PerspectiveCamera
 from ..scene.lights import DirectionalLight
 from ..spatial.rays import RayHit
-from .appearance import Appearance, count_points, point_size
+from .appearance import Appearance, count_points, point_size, warn_of_blended
+from .box_grid import BoxGrid
 from .debug_lines import Lines, box_lines, draw_lines, frustum_lines, tree_lines
 from .grid_lines import grid
 from .lighting import OWN_LIGHTS, Lighting, OnlyLight, placed_light
@@ -33,6 +36,7 @@ from .selection import CLICK_OUTPUTS
 from .settings import Settings
 from .shadow_switch import ShadowSwitch
 from .stage import Stage, theme_for
+from .surroundings import fog_color
 from .theme import Theme
 from .untextured import Textures
 from .viewed_scene import ViewedScene
@@ -43,6 +47,8 @@ from .visibility import Visibility
 STUDIO = {"tone_mapping": "neutral", "ambient_occlusion": True}
 #: How far ambient occlusion reaches, in radii of what is shown.
 _OCCLUSION_REACH = 0.2
+#: How much farther away what has numbers around it is seen from.
+_LABEL_ROOM = 1.12
 
 
 class ViewRenderer:
@@ -139,8 +145,10 @@ class ViewRenderer:
         if not keep_appearance:
             look = STUDIO if settings.look == "studio" and viewed.themed else {}
             self.appearance = Appearance(**(look | viewed.appearance | settings.appearance))
+            warn_of_blended(self.appearance, viewed.scene)
         self.bounds = viewed.bounds
         self._grid = None
+        self._box = BoxGrid(viewed)
         self._stand(self.turned_up or settings.up or viewed.up)
         self._support = support_of_scene(viewed.scene) if viewed.focus is None else None
         self._points = count_points(viewed.scene)
@@ -151,6 +159,7 @@ class ViewRenderer:
         elif viewed.themed:
             viewed.scene.background = self.theme.background
         settings.surroundings.put(viewed.scene)
+        self._lay_fog()
         self.lighting = self._light()
         if lights in self.lighting.names:
             self.lighting.choose(lights)
@@ -250,6 +259,7 @@ class ViewRenderer:
         """Leave the scene, which is not drawn any more, as it was before."""
         self._textures.put_on()
         self._take_lights_and_grid()
+        self._box.leave()
 
     def _take_lights_and_grid(self) -> None:
         if self._shadows is not None:
@@ -272,6 +282,14 @@ class ViewRenderer:
         if self._shows_theme():
             background = theme.background if self._stage is None else theme.gradient
             self.viewed.scene.background = background
+            self._lay_fog()
+
+    def _lay_fog(self) -> None:
+        """Give the scene the fog that the user asked for."""
+        fog, scene = self.settings.fog, self.viewed.scene
+        if fog is not None:
+            color = fog_color(scene.background) if self.settings.fog_follows else None
+            scene.fog = fog if color is None else replace(fog, color=color)
 
     def show_grid(self, shown: bool) -> None:
         """Draw a grid under the scene, or not."""
@@ -288,8 +306,8 @@ class ViewRenderer:
         return Visibility(self.viewed.scene, self._added())
 
     def _added(self) -> tuple:
-        """What is drawn that was added to the scene: the grid and the shadow."""
-        grid = () if self._grid is None else (self._grid,)
+        """What is drawn that was added to the scene: the grids and the shadow."""
+        grid = self._box.nodes if self._grid is None else (self._grid, *self._box.nodes)
         return grid if self._stage is None else (*grid, *self._stage.nodes)
 
     def _lowest(self) -> float:
@@ -327,7 +345,10 @@ class ViewRenderer:
 
         That is nearer than `frame`, which leaves room for the scene to turn.
         """
-        if self._support is None:
+        if self.settings.axes_grid:
+            view.frame(self._box.corners, self.aspect)
+            view.distance *= _LABEL_ROOM
+        elif self._support is None:
             self.frame(view)
         else:
             view.fit(self._support, np.array(self.bounds.center), self.aspect)
@@ -339,8 +360,7 @@ class ViewRenderer:
             draw_lines(frame, self._debug_lines(), self.text_scale(frame.canvas()))
         if self.split:
             split(frame, self.bounds, self.theme)
-        if self.settings.axes or self.settings.metadata:
-            self._draw_overlays(frame.canvas(), view)
+        self._draw_overlays(frame, view)
         if self._culling_camera is None:
             self.stats = frame.stats
             if self._report is not None:
@@ -363,6 +383,7 @@ class ViewRenderer:
         if self.viewed.follow is not None:
             self.viewed.follow(pose[:3, 3])
         self._set_stage(view, time)
+        self._box.follow(view, self.settings.axes_grid and not self.split)
         camera, mode = self._camera(view), self.appearance.mode
         if self.viewed.detail is not None:
             self.viewed.detail(camera, pose, self.size)
@@ -432,13 +453,22 @@ class ViewRenderer:
             return box_lines(self.viewed.scene, self._added())
         return tree_lines(self.viewed.scene)
 
-    def _draw_overlays(self, canvas, view: Viewpoint) -> None:
+    def _draw_overlays(self, frame, view: Viewpoint) -> None:
+        settings, bar = self.settings, self.viewed.bar if self.settings.bar else None
+        if not (settings.axes or settings.metadata or settings.axes_grid or bar is not None):
+            return
         from .overlay import draw_axes, draw_block
+        from .scalar_bar import draw_scalar_bar
 
+        canvas = frame.canvas()
         scale = self.text_scale(canvas)
-        if self.settings.axes:
+        if settings.axes_grid and not self.split:
+            self._box.label(frame, scale, self.theme)
+        if bar is not None:
+            draw_scalar_bar(canvas, bar, scale, self.theme)
+        if settings.axes:
             draw_axes(canvas, view, scale)
-        if self.settings.metadata:
+        if settings.metadata:
             draw_block(canvas, self.metadata(), corner="top right", scale=scale, theme=self.theme)
 
     def text_scale(self, canvas) -> int:

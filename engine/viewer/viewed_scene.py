@@ -20,6 +20,7 @@ from .viewpoint import DEFAULT_AZIMUTH, DEFAULT_ELEVATION, Sphere
 if TYPE_CHECKING:
     from ..motion.player import AnimationPlayer
     from ..navigation import Walker
+    from .scalars import ScalarBar
 
 #: Seconds of one turn of a turntable.
 TURN_SECONDS = 6.0
@@ -74,12 +75,14 @@ class ViewedScene:
         The file it came from.
     format : str or None
         The file's.
-    unit : str or None
-        Of lengths, where the file's format says it.
     details : list of str
         What the file holds, line by line, for the metadata overlay.
     warnings : list of str
         What the loader had to pass over.
+    unit : str
+        Of its coordinates; empty where nobody says.
+    bar : ScalarBar or None
+        What its colours mean, if they stand for numbers.
     """
 
     scene: object
@@ -103,9 +106,10 @@ class ViewedScene:
     themed: bool = False
     path: str | None = None
     format: str | None = None
-    unit: str | None = None
     details: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
+    unit: str = ""
+    bar: ScalarBar | None = None
 
     @cached_property
     def bounds(self) -> Sphere:

@@ -17,6 +17,7 @@ from ..materials.colors import linear_color
 from ..materials.material import Material
 from ..materials.textures import PlacedTexture, Texture
 from .gltf_arrays import GltfArrays
+from .losses import lost_of_reading
 
 _WRAPS = {"clamp": 33071, "mirror": 33648, "repeat": 10497}
 _NEAREST, _LINEAR, _LEVELS = 9728, 9729, 9987
@@ -51,6 +52,8 @@ class GltfMaterialList:
     required : set of str
     converted : int
         How many materials were none of the physical ones.
+    lost : dict of str to int
+        What of how textures are read such files do not hold, and how many textures have it.
     """
 
     def __init__(self, arrays: GltfArrays) -> None:
@@ -62,9 +65,11 @@ class GltfMaterialList:
         self.extensions: set[str] = set()
         self.required: set[str] = set()
         self.converted = 0
+        self.lost: dict[str, int] = {}
         self._numbers: dict[int, int] = {}
         self._twins: dict[tuple[str, bool], list[int]] = {}
         self._images: dict[int, tuple[int, str | None]] = {}
+        self._read: set[int] = set()
         self._kept: list[Any] = []  # so that no other thing gets an id meanwhile
 
     def number(self, material: Material) -> int | None:
@@ -142,6 +147,11 @@ class GltfMaterialList:
         return info
 
     def _texture(self, texture: Texture) -> int:
+        if id(texture) not in self._read:
+            self._read.add(id(texture))
+            self._kept.append(texture)
+            for thing in lost_of_reading(texture):
+                self.lost[thing] = self.lost.get(thing, 0) + 1
         image, extension = self._image(texture)
         entry: dict[str, Any] = {}
         if extension is None:

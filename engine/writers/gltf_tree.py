@@ -65,6 +65,10 @@ class GltfTree:
             self.told.append(
                 f"gltf files hold physical materials: {materials.converted} others became such"
             )
+        self.told += [
+            f"gltf files do not hold {thing} of {count} texture{'s' * (count > 1)}"
+            for thing, count in materials.lost.items()
+        ]
         self._extensions |= materials.extensions
         self.json = self._with_extensions(tree, lists, materials.required)
 

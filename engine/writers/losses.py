@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from ..geometry.mesh import Mesh
 from ..materials.colors import linear_color
 from ..materials.material import Material, says_something, textures_of
+from ..materials.textures import Texture
 
 _NAMES = {
     "uvs": "texture coordinates",
@@ -63,6 +64,12 @@ def lost_of_materials(mesh: Mesh, unwritten: dict[str, list[str]]) -> list[str]:
     ]
 
 
+def lost_of_reading(texture: Texture) -> list[str]:
+    """Return what of how a texture is read only files of engine3d's own hold."""
+    usual = {"anisotropy": 1, "lod_bias": 0.0}
+    return [name for name, value in usual.items() if getattr(texture, name) != value]
+
+
 def _beyond_mtl(material: Material, has_normals: bool) -> list[str]:
     things = ["two_sided"] if material.two_sided else []
     if material.flat_shading and has_normals:
@@ -75,8 +82,7 @@ def _beyond_mtl(material: Material, has_normals: bool) -> list[str]:
         things += [] if is_held else [f"the texture's wrap {texture.wrap!r}"]
         is_usual = texture.filter == "trilinear"
         things += [] if is_usual else [f"the texture's filter {texture.filter!r}"]
-        things += [] if texture.anisotropy == 1 else ["the texture's anisotropy"]
-        things += [] if texture.lod_bias == 0.0 else ["the texture's lod_bias"]
+        things += [f"the texture's {thing}" for thing in lost_of_reading(texture)]
         is_srgb = texture.color_space == "srgb"
         things += [] if is_srgb else [f"the texture's colour space {texture.color_space!r}"]
         if not linear_color(material.rgb).any():

@@ -12,7 +12,7 @@ import random
 import re
 import struct
 
-from loaders.seeds import GLTF, MOVING_GLTF, SCENE
+from loaders.seeds import GLTF, MOVING_GLTF, SCENE, THREEMF, threemf_package
 
 WORDS = [b"f ", b"v ", b"vt", b"/", b"-", b"\n", b"1e999", b"nan", b"\\\n", b"#", b"s 3\n"]
 WORDS += [b"usemtl q\n", b"mtllib .\n", b"99999999999", b"\xff", b"\0", b'"', b"o x\n"]
@@ -249,6 +249,12 @@ def _ply_row(choice: random.Random, columns, vertices: int, encoding: str) -> li
     return [(" ".join(words) + "\n").encode()] if encoding == "ascii" else row
 
 
+def _threemf(choice: random.Random) -> bytes:
+    """A sound package of damaged XML: what mutates a packed file rarely gets past its checksums."""
+    name = choice.choice(["3D/model.model", "3D/model.model", "3D/model.model", "_rels/.rels"])
+    return threemf_package({**THREEMF, name: mutated(THREEMF[name], choice)})
+
+
 def _off(choice: random.Random) -> bytes:
     vertices, faces = choice.randint(0, 8), choice.randint(0, 6)
     head = choice.choice(
@@ -350,6 +356,7 @@ GENERATORS = {
     ".mtl": _mtl,
     ".asc": _asc,
     ".ply": _ply,
+    ".3mf": _threemf,
     ".off": _off,
     ".stl": _stl,
     ".tga": _tga,

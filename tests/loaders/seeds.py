@@ -5,8 +5,10 @@ those here. The tests of damaged files and the fuzzers start from them.
 """
 
 import base64
+import io
 import json
 import struct
+import zipfile
 
 OBJ = b"""# a house
 mtllib house.mtl
@@ -358,6 +360,71 @@ HDR = b"#?RADIANCE\n# light\nFORMAT=32-bit_rle_rgbe\n\n-Y 3 +X 8\n"
 HDR += 3 * (bytes([2, 2, 0, 8]) + 3 * _CHANNEL + bytes([128 + 8, 130]))
 OLD_HDR = b"#?RGBE\n\n+Y 2 +X 4\n" + bytes([9, 8, 7, 128, 1, 1, 1, 3, 5, 5, 5, 127, *range(12)])
 
+THREEMF_RELATIONS = b"""<?xml version="1.0"?>
+<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
+<Relationship Target="/3D/model.model" Id="r"
+ Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
+</Relationships>
+"""
+THREEMF_MODEL = b"""<?xml version="1.0" encoding="UTF-8"?>
+<model unit="inch" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+ xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02"
+ xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02">
+<metadata name="Title">a roof</metadata>
+<resources>
+<basematerials id="1"><base name="red" displaycolor="#FF0000"/>
+<base name="glass" displaycolor="#0080FF80"/></basematerials>
+<m:colorgroup id="2"><m:color color="#00FF00"/><m:color color="#0000FF"/></m:colorgroup>
+<m:texture2d id="3" path="/3D/house.tga" contenttype="image/png" tilestyleu="mirror"/>
+<m:texture2dgroup id="4" texid="3"><m:tex2coord u="0" v="0"/><m:tex2coord u="1" v="0.5"/>
+</m:texture2dgroup>
+<m:compositematerials id="5" matid="1" matindices="0 1"><m:composite values="0.5 0.5"/>
+</m:compositematerials>
+<m:multiproperties id="6" pids="1 4"><m:multi pindices="0 1"/></m:multiproperties>
+<object id="7" name="roof" pid="1" pindex="1"><mesh>
+<vertices>
+<vertex x="0" y="0" z="0"/>
+<vertex x="2" y="0" z="0"/>
+<vertex x="0" y="2.5" z="0"/>
+<vertex x="0" y="0" z="1e1"/>
+</vertices>
+<triangles>
+<triangle v1="0" v2="2" v3="1"/>
+<triangle v1="0" v2="1" v3="3" pid="2" p1="0" p2="1" p3="1"/>
+<triangle v1="1" v2="2" v3="3" pid="4" p1="0" p2="1" p3="0"/>
+<triangle v1="0" v2="3" v3="2" pid="5" p1="0"/>
+<triangle v1="0" v2="3" v3="2" pid="6" p1="0"/>
+</triangles>
+<b:beamlattice radius="1" minlength="0.1"><b:beams><b:beam v1="0" v2="3"/></b:beams></b:beamlattice>
+</mesh></object>
+<object id="8" name="pair"><components>
+<component objectid="7"/>
+<component objectid="7" transform="1 0 0 0 1 0 0 0 1 10 0 0"/>
+</components></object>
+</resources>
+<build><item objectid="8" transform="0 1 0 -1 0 0 0 0 1 0 0 5"/><item objectid="7"/></build>
+</model>
+"""
+#: What a 3MF package holds, by name; packed by `threemf_package`.
+THREEMF = {
+    "[Content_Types].xml": b"<Types/>",
+    "_rels/.rels": THREEMF_RELATIONS,
+    "3D/model.model": THREEMF_MODEL,
+    "3D/house.tga": TGA,
+}
+
+
+def threemf_package(parts: dict[str, bytes]) -> bytes:
+    """Return a 3MF file with these parts, the same bytes for the same parts."""
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w") as archive:
+        for name, content in parts.items():
+            entry = zipfile.ZipInfo(name)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(entry, content)
+    return file.getvalue()
+
+
 FILES = {
     "house.obj": OBJ,
     "house.mtl": MTL,
@@ -370,6 +437,7 @@ FILES = {
     "a.stl": STL,
     "binary.stl": BINARY_STL,
     "a.off": OFF,
+    "a.3mf": threemf_package(THREEMF),
     "a.gltf": GLTF,
     "moving.gltf": MOVING_GLTF,
     "moving.glb": MOVING_GLB,

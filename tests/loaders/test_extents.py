@@ -12,7 +12,7 @@ UTM = (500_000.0, 4_649_776.0, 0.0)
 
 
 def written(path, positions):
-    """A file of text with all digits: OBJ, OFF, PLY or STL."""
+    """A file of text with all digits: ASC, OBJ, OFF, PLY or STL."""
     rows = [" ".join(map(repr, row)) for row in positions.tolist()]
     faces = BALL.faces.tolist()
     if path.suffix == ".obj":
@@ -26,6 +26,14 @@ def written(path, positions):
         lines += [f"property double {axis}" for axis in "xyz"]
         lines += [f"element face {len(faces)}", "property list uchar int vertex_indices"]
         lines += ["end_header", *rows, *("3 " + " ".join(map(str, face)) for face in faces)]
+    elif path.suffix == ".asc":
+        lines = ['Named object: "Ball"', f"Tri-mesh, Vertices: {len(rows)} Faces: {len(faces)}"]
+        lines += ["Vertex list:"]
+        lines += [
+            f"Vertex {k}: X:{x!r} Y:{y!r} Z:{z!r}" for k, (x, y, z) in enumerate(positions.tolist())
+        ]
+        lines += ["Face list:"]
+        lines += [f"Face {k}: A:{a} B:{b} C:{c}" for k, (a, b, c) in enumerate(faces)]
     else:
         lines = ["solid ball"]
         for face in faces:
@@ -40,7 +48,7 @@ def ball(scale=1.0, offset=(0.0, 0.0, 0.0)):
     return BALL.positions.astype(np.float64) * scale + offset
 
 
-@pytest.mark.parametrize("suffix", [".obj", ".off", ".ply", ".stl"])
+@pytest.mark.parametrize("suffix", [".asc", ".obj", ".off", ".ply", ".stl"])
 def test_it_is_warned_of(tmp_path, suffix):
     path = written(tmp_path / f"model{suffix}", ball(100.0, UTM))
     with pytest.warns(e3d.Engine3DWarning, match="0.5 apart.*100 across") as seen:
@@ -49,7 +57,7 @@ def test_it_is_warned_of(tmp_path, suffix):
     assert str(seen[0].message) == mesh.warnings[0]
 
 
-@pytest.mark.parametrize("suffix", [".obj", ".off", ".ply", ".stl"])
+@pytest.mark.parametrize("suffix", [".asc", ".obj", ".off", ".ply", ".stl"])
 def test_scenes_keep_the_distance_in_their_nodes(tmp_path, suffix):
     path = written(tmp_path / f"model{suffix}", ball(100.0, UTM))
     with warnings.catch_warnings():

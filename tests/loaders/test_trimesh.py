@@ -11,6 +11,7 @@ import engine3d as e3d
 from engine3d.cli.info import describe
 from engine3d.errors import FileFormatError, InvalidArgumentError
 from engine3d.geometry.posing import posed_mesh
+from engine3d.geometry.trimesh_conversion import scene_parts
 from engine3d.loaders import load_document, load_mesh
 from engine3d.loaders.sources import read_source
 from engine3d.loaders.trimesh_formats import read_here
@@ -79,6 +80,19 @@ def test_a_mirroring_pose_turns_faces_over():
     assert (outward.sum(axis=1) > 0).all()
     assert np.allclose((posed.normals**2).sum(axis=1), 1)
     assert len(posed.edges()) == len(mesh.edges())
+
+
+def test_what_is_far_from_the_origin_stands_near_one_of_its_own():
+    far = np.array([500_000.0, 4_649_776.0, 0.0])
+    box = trimesh.creation.box((3, 1, 1))
+    points = trimesh.PointCloud(np.array([(0, 0, 0.1), (1, 0, 0)]) + far)
+    box.apply_translation(far + 1 / 64)
+    parts = scene_parts(trimesh.Scene({"box": box, "points": points}), near=True)
+    assert all(abs(part.mesh.positions).max() < 8 for part in parts)
+    again = parts[0].mesh.positions @ parts[0].pose[:3, :3].T + parts[0].pose[:3, 3]
+    assert (np.ptp(again, axis=0) == (3, 1, 1)).all()
+    assert (again.min(axis=0) == far + 1 / 64 - (1.5, 0.5, 0.5)).all()
+    assert (scene_parts(trimesh.Scene(box))[0].pose == np.eye(4)).all()
 
 
 def test_what_is_no_geometry():

@@ -209,6 +209,9 @@ def test_the_appearance_follows_the_keys():
     assert not appearance.ambient_occlusion
     viewer, _ = play(key("L", control=True))
     assert viewer.view_renderer.appearance.ambient_occlusion
+    assert viewer.view_renderer.appearance.tone_mapping == "none"
+    viewer, _ = play(key("T", control=True))
+    assert viewer.view_renderer.appearance.tone_mapping == "neutral"
     viewer, _ = play(key("M", shift=True))
     assert viewer.view_renderer.appearance.mode == MODES[-1] == "material_id"
 

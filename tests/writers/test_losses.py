@@ -287,3 +287,13 @@ def test_a_model_is_not_converted_to_itself(tmp_path, monkeypatch, capsys, way):
     assert main(["convert", "a.obj", output]) == 2
     assert capsys.readouterr().err == f"engine3d: error: {output} is the model itself\n"
     assert (tmp_path / "a.obj").read_bytes() == before
+
+
+def test_gltf_says_how_textures_are_no_longer_read(tmp_path):
+    sharp = image(1, anisotropy=4, lod_bias=-0.5)
+    mesh = polygon(uvs=np.zeros((4, 2)))
+    mesh.materials = [e3d.Material(texture=sharp), e3d.Material(texture=image(2, anisotropy=2))]
+    mesh.material_ids = [0, 1]
+    told = said_of(mesh, tmp_path / "a.glb")
+    assert "gltf files do not hold anisotropy of 2 textures" in told
+    assert "gltf files do not hold lod_bias of 1 texture" in told

@@ -26,6 +26,7 @@ from ...scene.scene import MAX_EXPOSURE, Scene
 from ...spatial.colliders import BoxCollider, MeshCollider, SphereCollider
 from ..value_commands import SetValues
 from .files import Files
+from .fog_fields import draw_fog
 from .layout import begin_panel
 from .workspace import Workspace
 
@@ -135,6 +136,8 @@ class PropertiesPanel:
             self._color(scene, "ambient", "Ambient")
             self._number(scene, "exposure", "Exposure", 0.02, -MAX_EXPOSURE, high=MAX_EXPOSURE)
             self._draw_environment(scene)
+            radius = self._workspace.bounds.radius
+            draw_fog(scene, radius, lambda fog: self._set([scene], {"fog": fog}), self._follow_drag)
 
     def _draw_environment(self, scene: Scene) -> None:
         """Lay out the light from all around: a built-in environment, or that of a file."""

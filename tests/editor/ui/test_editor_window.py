@@ -15,10 +15,13 @@ pytest.importorskip("imgui_bundle", reason="it is an extra: pip install -e .[edi
 
 from importlib.resources import files
 
+from engine3d.editor.ui import fog_fields
 from engine3d.editor.ui.editor_window import SETTLING, EditorWindow
 from engine3d.editor.ui.layout import layout_path, load_layout, save_layout
 from engine3d.editor.ui.properties_panel import _COLLIDERS, _KINDS
 from engine3d.editor.ui.workspace import Workspace
+from engine3d.editor.value_commands import SetValues
+from engine3d.scene.fog import ExponentialFog, Fog
 
 SIZE = (1000, 640)
 STUBBORN = "exec('while True:\\n try:\\n  while True: pass\\n except BaseException: pass')"
@@ -381,6 +384,25 @@ def test_every_kind_of_collider_fits_a_mesh(editor):
     workspace = editor.workspace
     workspace.document.selection.set([cab])
     settle(editor)
+
+
+def test_fog_is_set_dragged_and_undone(editor):
+    workspace = editor.workspace
+    scene, assigned = workspace.scene, []
+    workspace.document.selection.set([])
+    before = settle(editor)
+    for kind in (Fog, ExponentialFog):
+        fog = fog_fields._new_fog(kind, scene, workspace.bounds.radius)
+        workspace.do(SetValues([scene], {"fog": fog}))
+        assert (settle(editor) != before).any() and scene.fog == fog
+        workspace.undo()
+        assert scene.fog is None
+    fog = Fog((9, 8, 7), 1.0, 2.0)
+    for name, value in (("near", 5.0), ("far", 0.5), ("far", 0.0)):
+        assigned.append(fog_fields._with(fog, name, value))
+        assert getattr(assigned[-1], name) == max(value, 1e-4) and assigned[-1].color == (9, 8, 7)
+    assert assigned[0].far > 5.0 and assigned[1].near < 0.5
+    assert fog_fields._with(ExponentialFog((9, 8, 7), 1.0), "density", 0.25).density == 0.25
 
 
 def test_an_error_of_a_panel_is_told_and_the_editor_goes_on(editor, monkeypatch):

@@ -1,0 +1,76 @@
+"""The options of what is behind and between things: a background of two colours, and fog."""
+
+from __future__ import annotations
+
+import argparse
+
+from . import values
+from .usage import UsageError
+
+
+def add_backdrop(parser) -> None:
+    """Add backgrounds and fog."""
+    group = parser.add_argument_group("background and fog")
+    group.add_argument(
+        "--background-gradient",
+        nargs=2,
+        type=values.color,
+        metavar=("TOP", "BOTTOM"),
+        help="a background that goes from one COLOR at the top to another at the bottom",
+    )
+    group.add_argument(
+        "--fog",
+        type=values.limits,
+        metavar="NEAR,FAR",
+        help="fog that begins at one distance from the camera, and hides all from another one on, "
+        "in units of the scene",
+    )
+    group.add_argument(
+        "--fog-density",
+        type=values.not_negative,
+        metavar="D",
+        help="fog that begins at the camera: at a distance of 1.5/D a tenth of a colour is left",
+    )
+    group.add_argument(
+        "--fog-color",
+        type=values.color,
+        metavar="COLOR",
+        help="colour of the fog; by default that of the background or of its middle, and white "
+        "before an environment",
+    )
+
+
+def background(args: argparse.Namespace):
+    """Return the background that the options name: a colour, a `Gradient` or None."""
+    if args.background_gradient is None:
+        return args.background_color
+    others = {
+        "--background-color": args.background_color,
+        "--background environment": args.background,
+        "--no-background": getattr(args, "no_background", False) or None,
+    }
+    for option, given in others.items():
+        if given is not None:
+            raise UsageError(f"--background-gradient does not go with {option}")
+    from ..scene.gradients import Gradient
+
+    return Gradient(*args.background_gradient)
+
+
+def fog(args: argparse.Namespace):
+    """Return the fog that the options name, or None; white where they name no colour."""
+    from ..scene.fog import ExponentialFog, Fog
+
+    if args.fog is not None and args.fog_density is not None:
+        raise UsageError("--fog and --fog-density do not go together")
+    color = args.fog_color or (255, 255, 255)
+    if args.fog is not None:
+        near, far = args.fog
+        if not near < far:
+            raise UsageError("--fog needs NEAR,FAR with NEAR less than FAR")
+        return Fog(color, near, far)
+    if args.fog_density is not None:
+        return ExponentialFog(color, args.fog_density)
+    if args.fog_color is not None:
+        raise UsageError("--fog-color goes with --fog or --fog-density")
+    return None

@@ -1,0 +1,211 @@
+"""Options that stand in files: those of the user's own, and those that ``--config`` names.
+
+In: JSON, a list of entries: ``{"files": "*.stl", "options": {"up": "+Z"}}``. Out: other defaults of
+a command's options. An entry without ``files`` counts for all; later entries have the last word,
+then come ``-D``, then the command line.
+"""
+
+from __future__ import annotations
+
+import argparse
+import fnmatch
+import json
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from ..errors import FileAccessError, FileFormatError
+from . import suggestions
+from .usage import UsageError
+
+# What says where to look, or ends the program, stands on the command line.
+_NOT_HERE = frozenset({"config", "no-config", "define", "help"})
+_LARGEST = 1 << 20  # bytes
+_ENTRY = frozenset({"files", "options"})
+
+
+def add_config(parser) -> None:
+    """Add where options stand besides."""
+    group = parser.add_argument_group("options in files")
+    group.add_argument(
+        "--config",
+        metavar="FILE",
+        help="read options from this JSON file, instead of that of the user's own",
+    )
+    group.add_argument("--no-config", action="store_true", help="read options from no file")
+    group.add_argument(
+        "-D",
+        "--define",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
+        help="set an option as a file would: -D grid=true, -D grid=false",
+    )
+
+
+def user_config() -> Path:
+    """Return the path of the user's own file, which need not be there."""
+    if sys.platform == "win32" and os.environ.get("APPDATA"):
+        return Path(os.environ["APPDATA"]) / "engine3d" / "config.json"
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Application Support" / "engine3d" / "config.json"
+    given = os.environ.get("XDG_CONFIG_HOME", "")
+    root = Path(given) if os.path.isabs(given) else Path.home() / ".config"
+    return root / "engine3d" / "config.json"
+
+
+def set_defaults(
+    commands: dict[str, argparse.ArgumentParser], args: argparse.Namespace, models: Sequence[str]
+) -> bool:
+    """Let the options of files and of ``-D`` be the defaults of a command's; return if any are.
+
+    Parameters
+    ----------
+    commands : dict of str to ArgumentParser
+        All commands; options that only others have are passed over.
+    args : Namespace
+        What was parsed before.
+    models : sequence of str
+        The files to be shown, which entries may be for.
+
+    Raises
+    ------
+    FileFormatError, FileAccessError
+        A file cannot be read, or says what it may not.
+    UsageError
+        ``-D`` does.
+    """
+    known = {name for command in commands.values() for name in _options(command)}
+    options = _options(commands[args.command])
+    found = False
+    for path, number, name, value in _entries(args, models):
+        place = f"[{number}].options.{name}"
+        if name not in known:
+            hint = suggestions.meant(name, known)
+            raise FileFormatError(f"{place}: there is no such option{hint}", path)
+        if name in options:
+            found = True
+            try:
+                _set(commands[args.command], options[name], value)
+            except ValueError as error:
+                raise FileFormatError(f"{place}: {error}", path) from None
+    for text in args.define:
+        name, equals, value = text.partition("=")
+        name = name.removeprefix("--")
+        if not equals or name not in options:
+            hint = suggestions.meant(name, options)
+            raise UsageError(f"-D {text}: give NAME=VALUE of an option{hint}")
+        found = True
+        try:
+            said = {"true": True, "false": False}.get(value, value)
+            _set(commands[args.command], options[name], said)
+        except ValueError as error:
+            raise UsageError(f"-D {text}: {error}") from None
+    return found
+
+
+def _options(command: argparse.ArgumentParser) -> dict[str, argparse.Action]:
+    """The options of a command by their long names."""
+    found = {}
+    for action in command._actions:
+        names = [option[2:] for option in action.option_strings if option.startswith("--")]
+        if isinstance(action, argparse.BooleanOptionalAction):
+            names = [name for name in names if not name.startswith("no-")]
+        found |= {name: action for name in names if name not in _NOT_HERE}
+    return found
+
+
+def _set(command: argparse.ArgumentParser, action: argparse.Action, value) -> None:
+    """Let a value be the default of an option.
+
+    Raises
+    ------
+    ValueError
+        The option takes no such value.
+    """
+    if isinstance(value, bool) and (action.nargs in (0, "?")):
+        on = action.const if action.const is not None else True
+        off = False if action.const is True else None
+        if isinstance(action, argparse.BooleanOptionalAction):
+            on, off = True, False
+        command.set_defaults(**{action.dest: on if value else off})
+        return
+    if isinstance(value, bool) or action.nargs == 0:
+        raise ValueError(f"{json.dumps(value)} is no value of it")
+    words = value if isinstance(value, list) else [value]
+    if any(isinstance(word, bool) or not isinstance(word, str | int | float) for word in words):
+        raise ValueError("a text, a number or a list of them is needed")
+    words = [word if isinstance(word, str) else repr(word) for word in words]
+    if isinstance(action.nargs, int):
+        if len(words) != action.nargs:
+            raise ValueError(f"{action.nargs} values are needed")
+        parsed = [_parsed(command, action, word) for word in words]
+    else:
+        parsed = _parsed(command, action, ",".join(words))
+    command.set_defaults(**{action.dest: parsed})
+
+
+def _parsed(command: argparse.ArgumentParser, action: argparse.Action, text: str):
+    """What a word on the command line would become."""
+    try:
+        value = command._get_value(action, text)
+        command._check_value(action, value)
+    except argparse.ArgumentError as error:
+        raise ValueError(error.message) from None
+    return value
+
+
+def _entries(
+    args: argparse.Namespace, models: Sequence[str]
+) -> Iterator[tuple[str, int, str, object]]:
+    """Yield file, number of the entry, name and value of all options that count for the models."""
+    if args.no_config:
+        return
+    path = args.config or str(user_config())
+    if args.config is None and not os.path.isfile(path):
+        return
+    for number, entry in enumerate(_read(path)):
+        place = f"[{number}]"
+        if not isinstance(entry, dict) or not isinstance(entry.get("options"), dict):
+            raise FileFormatError(f'{place}: an object with "options" is needed', path)
+        if wrong := entry.keys() - _ENTRY:
+            raise FileFormatError(f"{place}.{min(wrong)}: there is no such key", path)
+        if _counts(entry.get("files"), models, place, path):
+            for name, value in entry["options"].items():
+                yield path, number, name, value
+
+
+def _counts(patterns, models: Sequence[str], place: str, path: str) -> bool:
+    """Whether an entry counts for one of the models: by its name, or by the end of its path."""
+    if patterns is None:
+        return True
+    patterns = [patterns] if isinstance(patterns, str) else patterns
+    if not isinstance(patterns, list) or not all(isinstance(one, str) for one in patterns):
+        raise FileFormatError(f"{place}.files: a pattern or a list of patterns is needed", path)
+    names = [Path(model).as_posix().lower() for model in models]
+    return any(
+        fnmatch.fnmatchcase(name if "/" in pattern else name.rpartition("/")[2], pattern.lower())
+        for pattern in patterns
+        for name in names
+    )
+
+
+def _read(path: str) -> list:
+    try:
+        with open(path, "rb") as file:
+            data = file.read(_LARGEST + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise FileAccessError(f"cannot read: {reason}", path) from error
+    if len(data) > _LARGEST:
+        raise FileFormatError(f"larger than {_LARGEST} bytes", path)
+    try:
+        tree = json.loads(data)
+    except json.JSONDecodeError as error:
+        raise FileFormatError(f"not JSON: {error.msg}", path, error.lineno) from error
+    except (ValueError, RecursionError) as error:
+        raise FileFormatError("not JSON", path) from error
+    if not isinstance(tree, list):
+        raise FileFormatError("a list of entries is needed", path)
+    return tree

@@ -1,0 +1,153 @@
+"""A grid around the scene with numbers and units along its edges.
+
+In: the box around a scene, and where it is seen from. Out: lines on the three sides of the box that
+are behind the scene, as a `Mesh`; and text over the picture.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ..canvas import text_size
+from ..geometry.mesh import Mesh
+from ..rendering.frame import Frame
+from .theme import Theme
+from .ticks import label, ticks
+
+_MOST_TICKS = 6
+_LINE, _EDGE = (120, 125, 135, 255), (165, 170, 180, 255)
+#: From the edge to its numbers, in letters.
+_GAP = 1.5
+#: From number to number above each other, in heights of letters.
+_APART = 1.4
+
+
+class AxesGrid(NamedTuple):
+    """The grid of a box.
+
+    Attributes
+    ----------
+    low, high : (3,) float64
+        The box, in world space.
+    origin : (3,) float64
+        What is added to world space to have the file's coordinates.
+    unit : str
+    """
+
+    low: np.ndarray
+    high: np.ndarray
+    origin: np.ndarray
+    unit: str
+
+    def numbers(self, axis: int) -> list[float]:
+        """Return the file's coordinates of the grid's lines across an axis."""
+        low = float(self.low[axis] + self.origin[axis])
+        high = float(self.high[axis] + self.origin[axis])
+        return ticks(low, high, _MOST_TICKS) if low < high else [low]
+
+    def far_sides(self, toward_eye: np.ndarray) -> tuple[bool, bool, bool]:
+        """Return for each axis whether its higher side is the one behind the scene.
+
+        Parameters
+        ----------
+        toward_eye : (3,) float
+            From the box's middle, world space.
+        """
+        return tuple(bool(value < 0.0) for value in toward_eye)
+
+    def lines(self, far: tuple[bool, bool, bool]) -> Mesh:
+        """Return the lines on the far sides."""
+        points, colors = [], []
+        for across in range(3):  # the axis that a side is at right angles to
+            for along in range(3):
+                if along == across:
+                    continue
+                other = 3 - across - along
+                places = [value - self.origin[along] for value in self.numbers(along)]
+                ends = float(self.low[along]), float(self.high[along])
+                for place in sorted({*places, *ends}):
+                    for end in (self.low, self.high):
+                        point = np.empty(3)
+                        point[across] = (self.high if far[across] else self.low)[across]
+                        point[along], point[other] = place, end[other]
+                        points.append(point)
+                        colors.append(_EDGE if place in ends else _LINE)
+        lines = np.arange(len(points), dtype=np.int32).reshape(-1, 2)
+        colors = np.array(colors, np.uint8)
+        return Mesh(np.array(points), lines=lines, colors=colors, name="axes grid")
+
+    def label(self, frame: Frame, far: tuple[bool, bool, bool], scale: int, theme: Theme) -> None:
+        """Write the numbers along one edge of each axis, and the axis's name and unit."""
+        canvas = frame.canvas()
+        middle, _ = frame.project((self.low + self.high) / 2)
+        for axis in range(3):
+            edge = self._edge(frame, axis, far, middle)
+            if edge is not None:
+                self._label_edge(frame, canvas, axis, edge, middle, scale, theme)
+
+    def _edge(self, frame: Frame, axis: int, far, middle: np.ndarray) -> np.ndarray | None:
+        """The edge along an axis that has its numbers, (2, 3); None where none is in sight.
+
+        Of the two edges that bound a far side and a near one, the one farther down, or for one that
+        stands upright farther left.
+        """
+        first, second = (other for other in range(3) if other != axis)
+        edges = []
+        for high_first, high_second in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            if (high_first == far[first]) == (high_second == far[second]):
+                continue
+            ends = np.stack([self.low, self.high])
+            ends[:, first] = (self.low, self.high)[high_first][first]
+            ends[:, second] = (self.low, self.high)[high_second][second]
+            pixels, _ = frame.project(ends)
+            if np.isfinite(pixels).all():
+                edges.append((ends, pixels))
+        if not edges:
+            return None
+        along = np.abs(edges[0][1][1] - edges[0][1][0])
+        sign, column = (1.0, 1) if along[0] > along[1] else (-1.0, 0)
+        return max(edges, key=lambda edge: sign * edge[1][:, column].mean())[0]
+
+    def _label_edge(
+        self, frame: Frame, canvas, axis: int, edge: np.ndarray, middle, scale: int, theme: Theme
+    ) -> None:
+        numbers = self.numbers(axis)
+        step = numbers[1] - numbers[0] if len(numbers) > 1 else 1.0
+        unit = self.unit.replace("µ", "u")  # the font has no other
+        texts = [(value - self.origin[axis], label(value, step)) for value in numbers]
+        name = "XYZ"[axis] + (f" [{unit}]" if unit else "")
+        cell = np.array(text_size("M", scale), np.float64)
+        pixels, _ = frame.project(edge)
+        direction = pixels[1] - pixels[0]
+        outward = np.array([direction[1], -direction[0]])
+        length = float(np.sqrt((outward * outward).sum()))
+        if length < 2 * cell[0]:
+            return  # seen from its end
+        outward *= np.sign((outward * (pixels.mean(axis=0) - middle)).sum() or 1.0) / length
+        widest = cell[0] * max(len(text) for _, text in texts)
+        for place, text in texts[:: self._stride(texts, length, np.abs(outward), widest, cell[1])]:
+            point = edge[0].copy()
+            point[axis] = place
+            self._write(
+                canvas, frame.project(point)[0], text, outward, _GAP * cell[0], scale, theme
+            )
+        room = np.abs(outward) * (widest, cell[1])
+        gap = 2 * _GAP * cell[0] + float(room.sum())
+        self._write(canvas, pixels.mean(axis=0), name, outward, gap, scale, theme)
+
+    def _stride(self, texts, length: float, outward: np.ndarray, wide: float, high: float) -> int:
+        """Every how many numbers stand apart from each other along an edge of so many pixels."""
+        needed = outward[1] * (wide + high) + outward[0] * high * _APART
+        return max(1, math.ceil(needed * (len(texts) - 1) / length))
+
+    def _write(
+        self, canvas, at, text: str, outward: np.ndarray, gap: float, scale: int, theme: Theme
+    ) -> None:
+        """Write a text outward of a point, so many pixels away."""
+        half = np.array(text_size(text, scale), np.float64) / 2
+        x, y = np.asarray(at) + outward * (gap + abs(outward[0]) * half[0]) - half
+        if np.isfinite([x, y]).all():
+            canvas.text(round(x), round(y), text, theme.text, scale=scale)

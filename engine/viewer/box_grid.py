@@ -1,0 +1,68 @@
+"""The grid around what is shown, which goes to the far sides as the camera moves.
+
+In: a scene to view. Out: a node in it while the grid is shown, and text over the picture.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..rendering.frame import Frame
+from .axes_grid import AxesGrid
+from .theme import Theme
+from .viewed_scene import ViewedScene
+from .viewpoint import Viewpoint
+
+
+class BoxGrid:
+    """The grid around a scene; nothing before it is shown.
+
+    Parameters
+    ----------
+    viewed : ViewedScene
+        As it first stands.
+    """
+
+    def __init__(self, viewed: ViewedScene):
+        self._scene = viewed.scene
+        low, high = viewed.scene.bounds
+        self._grid = AxesGrid(low, high, np.array(viewed.origin), viewed.unit)
+        self._node = None
+        self._far: tuple[bool, bool, bool] | None = None
+
+    @property
+    def corners(self) -> np.ndarray:
+        """The corners of the grid, (8, 3)."""
+        ends = np.stack([self._grid.low, self._grid.high])
+        return np.array([[ends[k >> axis & 1, axis] for axis in range(3)] for k in range(8)])
+
+    @property
+    def nodes(self) -> tuple:
+        """What was added to the scene."""
+        return () if self._node is None else (self._node,)
+
+    def follow(self, view: Viewpoint, shown: bool) -> None:
+        """Show the grid as it is seen by a view, or hide it."""
+        if shown and not np.isfinite([self._grid.low, self._grid.high]).all():
+            return
+        if shown:
+            middle = (self._grid.low + self._grid.high) / 2
+            far = self._grid.far_sides(view.position() - middle)
+            if self._node is None or far != self._far:
+                mesh = self._grid.lines(far)
+                if self._node is None:
+                    self._node = self._scene.add(mesh, name=mesh.name, cast_shadows=False)
+                self._node.object, self._far = mesh, far
+        if self._node is not None:
+            self._node.visible = shown
+
+    def label(self, frame: Frame, scale: int, theme: Theme) -> None:
+        """Write the numbers of the grid, if it is shown in the frame."""
+        if self._node is not None and self._far is not None:
+            self._grid.label(frame, self._far, scale, theme)
+
+    def leave(self) -> None:
+        """Leave the scene as it was."""
+        if self._node is not None:
+            self._scene.remove(self._node)
+            self._node = None

@@ -1,0 +1,144 @@
+"""Several files and folders, one by one; names of outputs with variables; what is read, and how."""
+
+import os
+import time
+
+import pytest
+from cli.conftest import OBJ, SMALL, pixels
+
+from engine3d.cli import main, render
+from engine3d.cli.output_templates import fill
+from engine3d.cli.usage import UsageError
+
+pytestmark = pytest.mark.usefixtures("no_screen")
+FAST = [*SMALL, "--look", "plain"]
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """Two models, one of them broken, one below, and other files."""
+    place = tmp_path / "models"
+    (place / "below").mkdir(parents=True)
+    (place / "b.obj").write_text(OBJ)
+    (place / "A.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    (place / "below" / "c.obj").write_text(OBJ)
+    (place / "notes.txt").write_text("none")
+    (place / "data.json").write_text("{}")
+    return place
+
+
+def test_a_folder_is_drawn_one_by_one(folder, tmp_path, capsys):
+    assert main(["render", str(folder), *FAST, "-o", "{model}-{model_ext}.png"]) == 0
+    assert sorted(path.name for path in tmp_path.glob("*.png")) == ["A-off.png", "b-obj.png"]
+    (folder / "bad.obj").write_text("v 1\n")
+    assert main(["render", str(folder), *FAST, "-o", "x{n:2}.png", "--recursive-dir-add"]) == 1
+    assert "bad.obj:1" in capsys.readouterr().err
+    # The broken one has no picture; the numbers are given before anything is drawn.
+    assert sorted(path.name for path in tmp_path.glob("x*.png")) == [
+        "x01.png",
+        "x02.png",
+        "x04.png",
+    ]
+
+
+def test_files_are_drawn_together_unless_the_output_names_them(model, tmp_path):
+    other = tmp_path / "other.obj"
+    other.write_text(OBJ)
+    both = ["render", str(model), str(other), *FAST, "-o"]
+    assert main([*both, "all.png"]) == 0
+    assert main([*both, "{model}_1.png"]) == 0
+    assert main([*both, "{date:%Y}.png", "--multi-file-mode", "all"]) == 0
+    names = {path.name for path in tmp_path.glob("*.png")}
+    assert names == {"all.png", "square_1.png", "other_1.png", time.strftime("%Y") + ".png"}
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (
+            ["-o", "a.png", "--multi-file-mode", "single"],
+            "needs a variable, as in -o '{model}.png'",
+        ),
+        (["-o", "{colour}.png"], "there is no variable {colour}; there are {app}"),
+        (["-o", "{n:x}.png"], "there is no variable {n:x}"),
+        (["-o", "{model_ext}.png"], "obj.png would be written twice; add {n}"),
+        (["-o", "{n}.png", "--side-by-side", "--multi-file-mode", "single"], "does not go with"),
+        (["-o", "a.png", "--force-reader", "tga"], "'tga' is not one of 3mf, asc"),
+    ],
+)
+def test_what_does_not_go_together(model, tmp_path, capsys, options, told):
+    (tmp_path / "b.obj").write_text(OBJ)
+    assert main(["render", str(model), "b.obj", *SMALL, *options]) == 2
+    assert told in capsys.readouterr().err
+    assert not list(tmp_path.glob("*.png"))
+
+
+def test_an_empty_folder_is_told(tmp_path, capsys):
+    (tmp_path / "empty").mkdir()
+    assert main(["render", "empty", *SMALL, "-o", "{model}.png"]) == 1
+    assert "empty: there is no model in this folder" in capsys.readouterr().err
+
+
+def test_variables(tmp_path):
+    assert fill("{model}.{model_ext}", "a/b.tar.gz") == "b.tar.gz"
+    assert fill("{{model}}_%04d_{:03}.png", "x") == "{model}_%04d_{:03}.png"
+    assert fill("plain.png", "x") == "plain.png" and fill(None, "x") is None
+    (tmp_path / "c_1.png").touch()
+    assert fill("{model}_{n}.png", "c.obj") == "c_2.png"
+    assert fill("{app}{n:3}.png", "c.obj", ["engine3d001.png"]) == "engine3d002.png"
+    with pytest.raises(UsageError, match="no variable {Model}"):
+        fill("{Model}.png", "x")
+
+
+def test_large_files_and_other_readers(model, tmp_path, capsys):
+    assert main(["render", str(model), *FAST, "--max-size", "0.00001", "-o", "a.png"]) == 1
+    assert "are more than --max-size 1e-05" in capsys.readouterr().err
+    renamed = tmp_path / "model.dat"
+    renamed.write_text("\n" + OBJ)
+    assert main(["render", str(renamed), *FAST, "--force-reader", "obj", "-o", "a.png"]) == 0
+    assert main(["render", str(renamed), *FAST, "--force-reader", "ply", "-o", "a.png"]) == 1
+
+
+def test_the_direction_of_the_camera(model):
+    name = model.with_name("a.png")
+    command = ["render", str(model), *FAST, "--color", "red", "--unlit", "-o", str(name)]
+    seen = []
+    for direction in ("0,0,-1", "0,0,1", "0,-1,0"):
+        assert main([*command, "--camera-direction", direction]) == 0
+        picture = pixels(name)[..., :3].astype(int)
+        seen.append((picture[..., 0] > picture[..., 1] + 100).any(axis=1).sum())
+    assert seen[0] == seen[1] > 25  # a square from before and from behind, which fills the picture
+    assert seen[2] <= 2  # and from above, where it is a line
+
+
+def test_render_watches(model, monkeypatch, capsys):
+    steps = []
+
+    def sleep(seconds):
+        steps.append(seconds)
+        if len(steps) == 1:
+            model.write_text(OBJ.replace("v 1 1 0", "v 1 3 0"))
+        if len(steps) == 12:
+            raise KeyboardInterrupt
+
+    clock = iter(range(10_000))
+    monkeypatch.setattr(render.time, "sleep", sleep)
+    monkeypatch.setattr("engine3d.viewer.watch.time.monotonic", lambda: next(clock))
+    output = model.with_name("a.png")
+    first = ["render", str(model), *FAST, "-o", str(output)]
+    assert main(first) == 0
+    before = output.read_bytes()
+    assert main([*first, "--watch"]) == 130
+    assert output.read_bytes() != before
+    assert capsys.readouterr().err.count(f"wrote {output}") == 1
+    assert main(["render", "--scene", "cube", "--watch", "-o", "a.png"]) == 2
+
+
+def test_arrows_go_through_what_was_given(folder):
+    from engine3d.viewer.model_files import ModelFiles
+
+    given = [folder / "b.obj", folder / "below" / "c.obj"]
+    files = ModelFiles(given[:1], listed=given)
+    assert files.beside(1) == os.fspath(given[1])
+    assert files.beside(1) == os.fspath(given[0])
+    assert ModelFiles([folder / "A.off"], listed=given).beside(1) == os.fspath(given[0])

@@ -1,0 +1,180 @@
+"""Colours that stand for numbers, the bar beside them, and the grid with numbers around a model."""
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import engine3d as e3d
+from engine3d.canvas import Canvas
+from engine3d.cli import main
+from engine3d.errors import InvalidArgumentError
+from engine3d.viewer.axes_grid import AxesGrid
+from engine3d.viewer.colormaps import COLORMAPS, MISSING, colormap
+from engine3d.viewer.open_model import open_model
+from engine3d.viewer.scalar_bar import draw_scalar_bar
+from engine3d.viewer.scalars import ScalarBar, ScalarColoring
+from engine3d.viewer.settings import Settings
+from engine3d.viewer.ticks import label, ticks
+from engine3d.viewer.view_renderer import ViewRenderer
+
+GRAY = colormap("gray")
+SIZE = (160, 120)
+
+
+@pytest.fixture(scope="module")
+def heat(tmp_path_factory):
+    """A square from x = 0 to 2 whose heat goes from 10 to 30; a corner behind it has none."""
+    path = tmp_path_factory.mktemp("scalars") / "heat.ply"
+    rows = ["0 0 0 10 1", "2 0 0 30 2", "2 2 0 30 3", "0 2 0 10 4", "0 0 -1 nan 5"]
+    head = ["ply", "format ascii 1.0", f"element vertex {len(rows)}"]
+    head += [f"property float {name}" for name in ("x", "y", "z", "heat", "label")]
+    head += ["element face 3", "property list uchar int vertex_indices", "end_header"]
+    path.write_text("\n".join([*head, *rows, "3 0 1 2", "3 0 2 3", "3 0 4 1"]) + "\n")
+    return path
+
+
+def shown(path, coloring, **settings):
+    viewed = open_model(path, scalars=coloring)
+    look = {"mode": "unlit"}
+    with ViewRenderer(viewed, Settings(look, **settings), SIZE) as view_renderer:
+        view = view_renderer.view()
+        view.look_from((1.0, 1.0, 4.0), (1.0, 1.0, 0.0))
+        frame = view_renderer.draw(view)
+        return viewed, frame
+
+
+def at(frame, *point):
+    """The grey level at a place of the model."""
+    x, y = np.floor(frame.project(point)[0]).astype(int)
+    return int(frame.color[y, x, 0])
+
+
+def test_numbers_are_interpolated_not_colours(heat):
+    steps = np.array([(0, 0, 0)] * 128 + [(255, 255, 255)] * 128, np.uint8)
+    viewed, frame = shown(heat, ScalarColoring(steps, "heat"))
+    assert (viewed.bar.title, viewed.bar.low, viewed.bar.high) == ("heat", 10, 30)
+    assert at(frame, 0.9, 1.2, 0) == 0 and at(frame, 1.1, 1.2, 0) == 255
+    _, frame = shown(heat, ScalarColoring(GRAY, "heat"))
+    for x in (0.25, 1.0, 1.75):
+        assert abs(at(frame, x, 1.2, 0) - 255 * x / 2) <= 3
+    _, frame = shown(heat, ScalarColoring(GRAY, "heat", (0.0, 20.0)))
+    assert abs(at(frame, 0.5, 1.2, 0) - 191) <= 3 and at(frame, 1.5, 1.2, 0) == 255
+
+
+def test_which_number_it_is(heat):
+    assert shown(heat, ScalarColoring(GRAY))[0].bar.title == "heat"  # the file's first
+    assert shown(heat, ScalarColoring(GRAY, "label"))[0].bar[1:3] == (1, 5)
+    viewed, frame = shown(heat, ScalarColoring(GRAY, "y"))
+    assert viewed.bar[:3] == ("y", 0, 2)
+    assert abs(at(frame, 1, 0.5, 0) - 64) <= 3
+    with pytest.raises(InvalidArgumentError, match="no array 'cold'; it has heat, label, x, y, z"):
+        open_model(heat, scalars=ScalarColoring(GRAY, "cold"))
+
+
+def test_what_has_no_number_is_grey(heat):
+    mesh = next(
+        node.object
+        for node in open_model(heat, scalars=ScalarColoring(GRAY, "heat")).scene.nodes
+        if isinstance(node.object, e3d.Mesh)
+    )
+    missing = mesh.positions[:, 2] == -1
+    assert mesh.uvs[:, 1].tolist() == np.where(missing, 0.75, 0.25).tolist()
+    assert (mesh.materials[0].texture.pixels[0, :, :3] == MISSING).all()
+
+
+def test_clouds_and_models_without_numbers(tmp_path):
+    cloud = e3d.Mesh([(0, 0, 0), (0, 0, 4), (0, 0, 2)], points=[0, 1, 2])
+    e3d.save_mesh(cloud, tmp_path / "cloud.ply")
+    viewed = open_model(tmp_path / "cloud.ply", scalars=ScalarColoring(GRAY, "z"))
+    mesh = next(node.object for node in viewed.scene.nodes if isinstance(node.object, e3d.Mesh))
+    assert mesh.colors[:, 0].tolist() == [0, 255, 128]
+    e3d.save_mesh(e3d.box(2.0), tmp_path / "box.glb")
+    viewed = open_model(tmp_path / "box.glb", scalars=ScalarColoring(GRAY))
+    assert viewed.bar[:3] == ("y [m]", -1, 1)  # how high it is
+    e3d.save_mesh(e3d.plane(), tmp_path / "flat.obj")
+    bar = open_model(tmp_path / "flat.obj", scalars=ScalarColoring(GRAY)).bar
+    assert bar.low == 0 < bar.high
+
+
+def test_colour_maps(tmp_path):
+    for name in COLORMAPS:
+        table = colormap(name)
+        assert table.shape == (256, 3) and len(np.unique(table, axis=0)) > 200
+    assert colormap("viridis")[[0, -1]].tolist() == [[0x44, 1, 0x54], [0xFD, 0xE7, 0x25]]
+    Image.new("RGB", (3, 5), (1, 2, 3)).save(tmp_path / "map.png")
+    assert colormap(str(tmp_path / "map.png")).tolist() == [[1, 2, 3]] * 3
+    with pytest.raises(InvalidArgumentError, match="'jet' is neither a picture nor one of virid"):
+        colormap("jet")
+
+
+def test_the_bar_has_all_colours_from_bottom_to_top():
+    canvas = Canvas(200, 300)
+    draw_scalar_bar(canvas, ScalarBar("heat", 0.0, 1.0, GRAY))
+    column = canvas.pixels[:, 100:, 0].astype(int)
+    levels = next(c for c in column.T if len(np.unique(c)) > 150)
+    levels = levels[levels.argmax() :][:180]  # the bar is as high as 0.6 of the picture
+    assert (np.diff(levels) <= 0).all() and (levels[0], levels[-1]) == (255, 0)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "most", "expected"),
+    [
+        (0.0, 1.0, 5, [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]),
+        (-3.0, 7.0, 5, [-2.0, 0.0, 2.0, 4.0, 6.0]),
+        (1.0, 1.0, 5, [1.0, 1.0]),
+        (0.0, 1e-300, 5, [0.0, 2e-301, 4e-301, 6e-301, 8e-301, 1e-300]),
+    ],
+)
+def test_round_numbers(low, high, most, expected):
+    assert np.allclose(ticks(low, high, most), expected, rtol=1e-9, atol=0)
+
+
+def test_labels_tell_neighbours_apart():
+    assert [label(value, 200.0) for value in (0.0, 4_600_200.0)] == ["0", "4600200"]
+    assert [label(value, 0.05) for value in (-0.05, 1.0)] == ["-0.05", "1.00"]
+    assert label(3e-7, 1e-7) == "3e-07" and label(1.25e12, 1e10) == "1.25e+12"
+
+
+def test_the_grid_is_behind_the_model():
+    grid = AxesGrid(np.array([0.0, 0, 0]), np.array([4.0, 2, 1]), np.array([100.0, 0, 0]), "mm")
+    assert grid.numbers(0) == [100, 101, 102, 103, 104]
+    far = grid.far_sides(np.array([1.0, -1.0, 1.0]))
+    assert far == (False, True, False)
+    mesh = grid.lines(far)
+    ends = mesh.positions[mesh.lines]
+    sides = [(ends[:, :, axis] == value).all(axis=1) for axis, value in ((0, 0), (1, 2), (2, 0))]
+    assert np.any(sides, axis=0).all()
+    assert set(ends[..., 0].ravel().tolist()) == {0, 1, 2, 3, 4}
+
+
+def test_the_grid_shows_moves_and_goes(heat):
+    viewed = open_model(heat)
+    with ViewRenderer(viewed, Settings({}, axes_grid=True), SIZE) as view_renderer:
+        pictures = []
+        view = view_renderer.view()
+        for azimuth in (0.5, 2.5):
+            view.azimuth = azimuth
+            view_renderer.fill(view)
+            pictures.append([])
+            for shown_now in (True, False):
+                view_renderer.settings.axes_grid = shown_now
+                pictures[-1].append(view_renderer.draw(view).color.copy())
+        for with_grid, without in pictures:
+            assert (with_grid != without).any(axis=-1).sum() > 300
+        assert len([node for node in viewed.scene.nodes if node.name == "axes grid"]) == 1
+        view_renderer.leave_scene()
+    assert not [node for node in viewed.scene.nodes if node.name == "axes grid"]
+
+
+def test_on_the_command_line(heat, capsys):
+    path = heat.with_name("out.png")
+    command = ["render", str(heat), "--resolution", "200x150", "-o", str(path)]
+    seen = set()
+    for options in ([], ["-s"], ["-b"], ["--range", "-5,50"], ["--colormap", "turbo"]):
+        assert main([*command, *options]) == 0
+        seen.add(path.read_bytes())
+    assert len(seen) == 5
+    assert main([*command, "--coloring-array", "cold"]) == 1
+    assert main([*command, "--colormap", "jet"]) == 1
+    assert main([*command, "--range", "2,1"]) == 2
+    assert "the first number is the lower one" in capsys.readouterr().err

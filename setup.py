@@ -139,6 +139,7 @@ def static_libraries():
         "e3d_environment": ["csrc/environment/*.c"],
         "e3d_images": ["csrc/images/*.c"],
         "e3d_navigation": ["csrc/navigation/*.c"],
+        "e3d_pyrender": ["csrc/pyrender/*.c"],
         "e3d_scene": ["csrc/scene/*.c"],
         "e3d_loaders": ["csrc/loaders/*.c"],
         "e3d_writers": ["csrc/writers/*.c"],

@@ -14,7 +14,7 @@ from importlib.util import spec_from_file_location
 from os.path import dirname, exists, join
 
 MODULES = (
-    *("canvas", "images", "loaders", "navigation", "rasterizer", "scene_graph", "ui", "writers"),
+    *("canvas", "images", "loaders", "navigation", "pyrender", "rasterizer", "scene_graph", "ui", "writers"),
 )
 
 

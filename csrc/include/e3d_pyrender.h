@@ -1,0 +1,115 @@
+/* Pictures lit as the package pyrender lights them (docs/exactness.md, section 24).
+ *
+ * In:  draws, lights, a camera, and for opaque triangles which of them shows where: IDs that e3d_render wrote.
+ * Out: colours and metric depths.
+ * Always: the same bytes for any number of threads: a pixel depends on nothing that another pixel writes.
+ */
+#ifndef E3D_API_PYRENDER_H
+#define E3D_API_PYRENDER_H
+
+#include <stdint.h>
+
+#include "e3d_status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum e3d_pyr_mode { E3D_PYR_TRIANGLES = 0,
+                            E3D_PYR_LINES,
+                            E3D_PYR_POINTS } e3d_pyr_mode;
+
+/* LIT: by lights. FLAT: the colour of the surface as it is. PLAIN: the colour of the draw. DEPTH: no colours. */
+typedef enum e3d_pyr_shading { E3D_PYR_LIT = 0,
+                               E3D_PYR_FLAT,
+                               E3D_PYR_PLAIN,
+                               E3D_PYR_DEPTH } e3d_pyr_shading;
+
+typedef enum e3d_pyr_wrap { E3D_PYR_REPEAT = 0,
+                            E3D_PYR_CLAMP,
+                            E3D_PYR_MIRROR } e3d_pyr_wrap;
+
+enum { E3D_PYR_LEVELS = 15,
+       E3D_PYR_SAMPLES = 4,                 /* a pixel has this many, or one */
+       E3D_PYR_PLACES = E3D_PYR_SAMPLES + 1 /* where visibility is known: the samples, then the pixel's centre */ };
+
+/* 8-bit texels, row 0 at the bottom; level k is max(1, size >> k) texels a side. */
+typedef struct e3d_pyr_texture {
+    const uint8_t *level[E3D_PYR_LEVELS];
+    int32_t width, height, channels, levels;
+    int32_t wrap[2];                       /* e3d_pyr_wrap, along u and v */
+    int32_t linear_near, linear_far;       /* whether texels are blended where the texture is magnified, where it isn't */
+    int32_t blends_levels;
+} e3d_pyr_texture;
+
+/* What a material's textures are; each is read at the first set of coordinates. */
+typedef enum e3d_pyr_slot { E3D_PYR_BASE_COLOR = 0,
+                            E3D_PYR_ROUGHNESS_METALLIC,
+                            E3D_PYR_NORMAL,
+                            E3D_PYR_OCCLUSION,
+                            E3D_PYR_EMISSIVE,
+                            E3D_PYR_SLOTS } e3d_pyr_slot;
+
+/* A primitive at one place. Indices are in range, (count, 3), (count, 2) or (count,) by the mode. */
+typedef struct e3d_pyr_draw {
+    int32_t mode, count, vertices;
+    const int32_t *indices;
+    const float *positions;                /* (vertices, 3) */
+    const float *normals, *uvs, *colors;   /* (vertices, 3), (vertices, 2), (vertices, 4), or NULL */
+    double world[16];                      /* world_from_object */
+    int32_t culls_backs, is_wireframe, blends;
+    float color[4];                        /* the base colour's factor, or of PLAIN the colour */
+    float metallic, roughness, emissive[3];
+    const e3d_pyr_texture *textures[E3D_PYR_SLOTS]; /* or NULL */
+    int32_t first_light, light_count;      /* in e3d_pyr_frame.light_numbers */
+} e3d_pyr_draw;
+
+typedef enum e3d_pyr_light_kind { E3D_PYR_DIRECTIONAL = 0,
+                                  E3D_PYR_POINT,
+                                  E3D_PYR_SPOT } e3d_pyr_light_kind;
+
+typedef struct e3d_pyr_light {
+    int32_t kind;
+    float color[3];                        /* times the intensity */
+    float position[3], direction[3];       /* the direction in which it shines, of unit length */
+    float cone_scale, cone_offset;
+    const float *shadow_map;               /* ndc depths, row 0 at the top, or NULL: no shadows */
+    int32_t shadow_size;
+    double shadow_from_world[16];          /* clip space of the map */
+} e3d_pyr_light;
+
+/* A step of the picture, in the order in which they are drawn. Either opaque triangles of which it is known what shows
+ * (object_id isn't NULL): at each place the draw is draw_of_object[object_id] + instance_id, or none where object_id is
+ * negative. Or draws that are drawn here, one after the other. */
+typedef struct e3d_pyr_step {
+    const int32_t *object_id[E3D_PYR_PLACES], *triangle_id[E3D_PYR_PLACES], *instance_id[E3D_PYR_PLACES];
+    const int32_t *draw_of_object;
+    int32_t first_draw, draw_count;
+} e3d_pyr_step;
+
+typedef struct e3d_pyr_frame {
+    int32_t width, height, samples;        /* samples: 1 or E3D_PYR_SAMPLES */
+    int32_t shading;
+    double clip_from_world[16];
+    float eye[3], ambient[3], background[4], point_size;
+    double depth_near, depth_far;          /* depth_far: infinity for none */
+    int32_t depth_is_straight;             /* depth rises with z_ndc in a straight line, as without perspective */
+    const e3d_pyr_draw *draws;
+    int32_t draw_count;
+    const e3d_pyr_light *lights;
+    const int32_t *light_numbers;
+    const e3d_pyr_step *steps;
+    int32_t step_count;
+    uint8_t *color;                        /* (height, width, channels), or NULL */
+    int32_t channels;                      /* 3 or 4 */
+    float *depth;                          /* (height, width) */
+} e3d_pyr_frame;
+
+/* Draw on up to `threads` threads (0: all). */
+e3d_status e3d_pyr_render(const e3d_pyr_frame *frame, int32_t threads);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

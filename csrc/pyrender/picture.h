@@ -1,0 +1,144 @@
+/* What the stages of a picture in pyrender's manner share: vertices, bands of rows, fragments. */
+#ifndef E3D_PYR_PICTURE_H
+#define E3D_PYR_PICTURE_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "e3d_pyrender.h"
+
+enum { PYR_BATCH = 64,        /* fragments that are lit side by side */
+       PYR_BAND = 16,         /* rows that a thread takes at a time */
+       PYR_CODE_STARTS = 4096 /* entries of e3d_pyr_codes */ };
+
+/* A vertex after its transformation. Clip space is f64: near planes of millimetres leave f32 few digits of depth. */
+typedef struct pyr_vertex {
+    double clip[4];
+    float world[3], normal[3];
+} pyr_vertex;
+
+/* How perspective-correct weights of a triangle's corners change over the picture: at (x, y) in pixels, y down, weight k is
+ * row[k][0]*x + row[k][1]*y + row[k][2], divided by the sum of the three. */
+typedef struct pyr_plane {
+    double row[3][3];
+    int32_t corner[3];
+    const pyr_vertex *vertex[3];
+} pyr_plane;
+
+/* What a fragment of a primitive is made of: up to three vertices, and what of each. */
+typedef struct pyr_weights {
+    int32_t corner[3];
+    float weight[3];
+} pyr_weights;
+
+/* Fragments of one draw, as structure of arrays; those of which nothing is known have values that change nothing. */
+typedef struct pyr_batch {
+    int32_t count;
+    const e3d_pyr_draw *draw;
+    int32_t x[PYR_BATCH], y[PYR_BATCH];
+    uint8_t mask[PYR_BATCH];                    /* the samples that are covered and show */
+    _Alignas(16) float world[3][PYR_BATCH];
+    _Alignas(16) float normal[3][PYR_BATCH];
+    _Alignas(16) float base[4][PYR_BATCH];
+    _Alignas(16) float vertex_color[4][PYR_BATCH];
+    _Alignas(16) float metallic[PYR_BATCH], roughness[PYR_BATCH], occlusion[PYR_BATCH];
+    _Alignas(16) float emissive[3][PYR_BATCH];
+    _Alignas(16) float unshadowed[PYR_BATCH];
+    _Alignas(16) float color[3][PYR_BATCH];
+} pyr_batch;
+
+/* All that the threads read. */
+typedef struct pyr_picture {
+    const e3d_pyr_frame *frame;
+    pyr_vertex **vertices;                      /* of each draw, or NULL where it shows nowhere */
+    int32_t places;                             /* 1, or the samples and the centre */
+    int32_t keeps_depths;                       /* of all places: a later step is hidden by an earlier one */
+    uint8_t code_start[PYR_CODE_STARTS + 1];    /* of the square root of light, in steps: the code of which to begin the search */
+    int32_t sample_x[E3D_PYR_PLACES], sample_y[E3D_PYR_PLACES]; /* of each place from the centre, in 1/256 pixel, y down */
+} pyr_picture;
+
+/* Rows of the picture while a thread draws them. */
+typedef struct pyr_band {
+    const pyr_picture *picture;
+    int32_t top, end;
+    uint8_t *codes;                             /* (rows, width, samples, 4) */
+    double *depth;                              /* (rows, width, places): z_ndc, infinity where nothing is */
+    pyr_batch batch;
+} pyr_band;
+
+static inline uint8_t *pyr_codes_at(const pyr_band *band, int32_t x, int32_t y)
+{
+    const e3d_pyr_frame *frame = band->picture->frame;
+    return band->codes + ((size_t)(y - band->top) * (size_t)frame->width + (size_t)x) * (size_t)frame->samples * 4;
+}
+
+static inline double *pyr_depths_at(const pyr_band *band, int32_t x, int32_t y)
+{
+    size_t pixel = (size_t)(y - band->top) * (size_t)band->picture->frame->width + (size_t)x;
+    return band->depth + pixel * (size_t)band->picture->places;
+}
+
+/* The code of 0 .. 1, rounded as Mesa does: the product to f32, its half to even. */
+static inline uint8_t pyr_code(float v)
+{
+    float product = (v > 0 ? v < 1 ? v : 1 : 0) * (255.0f / 256.0f);
+    float sum = product + 32768.0f;
+    uint32_t bits;
+    memcpy(&bits, &sum, sizeof bits);
+    return (uint8_t)bits;
+}
+
+/* ---- vertices.c ---- */
+
+/* Transforms vertices first to end - 1 of a draw. */
+void pyr_transform(const e3d_pyr_frame *frame, const e3d_pyr_draw *draw, int32_t first, int32_t end, pyr_vertex *out);
+
+/* ---- plane.c ---- */
+
+/* The corners of primitive number `number`: three, two or one. */
+void pyr_corners(const e3d_pyr_draw *draw, int32_t number, int32_t out[3]);
+void pyr_set_plane(const e3d_pyr_frame *frame, const e3d_pyr_draw *draw, const pyr_vertex *vertices, int32_t triangle,
+                   pyr_plane *out);
+/* Weights at a point, and z_ndc there. */
+double pyr_weigh(const pyr_plane *plane, double x, double y, float weight[3]);
+double pyr_depth_at(const pyr_plane *plane, double x, double y);
+
+/* ---- fragments.c ---- */
+
+/* Adds a fragment; with `plane`, it is of a triangle, and textures may be read at the detail that the plane tells. */
+void pyr_add_fragment(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, const pyr_weights *weights,
+                      const pyr_plane *plane, int32_t x, int32_t y, uint32_t mask);
+/* Lights and writes what was added. */
+void pyr_flush(pyr_band *band);
+
+/* ---- surface.c ---- */
+
+void pyr_find_surface(pyr_band *band, const pyr_vertex *vertices, const pyr_weights *weights, const pyr_plane *plane);
+
+/* ---- texels.c ---- */
+
+/* The color of a texture at (u, v), in 0 .. 1, missing channels 1. `detail`: texels a pixel, at most. */
+void pyr_sample(const e3d_pyr_texture *texture, float u, float v, float detail, float out[4]);
+
+/* ---- light.c ---- */
+
+void pyr_light(const e3d_pyr_frame *frame, pyr_batch *batch);
+
+/* ---- shadow.c ---- */
+
+/* What of a light reaches each fragment. */
+void pyr_find_unshadowed(const e3d_pyr_light *light, pyr_batch *batch);
+
+/* ---- visible.c, triangles.c, lines.c ---- */
+
+void pyr_draw_visible(pyr_band *band, const e3d_pyr_step *step);
+void pyr_draw_triangles(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices);
+void pyr_draw_lines(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices);
+void pyr_draw_edges(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices);
+void pyr_draw_points(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices);
+
+/* Keeps of `mask` the places at which z is nearer than what is there, and writes it there; returns the samples among them. */
+uint32_t pyr_test_depths(const pyr_band *band, int32_t x, int32_t y, uint32_t mask, const double z[E3D_PYR_PLACES]);
+
+#endif

@@ -1,0 +1,61 @@
+/* Planes: weights of a triangle's corners at any point of the picture, without clipping (Olano and Greer 1997). */
+#include <math.h>
+
+#include "pyrender/picture.h"
+
+void pyr_corners(const e3d_pyr_draw *draw, int32_t number, int32_t out[3])
+{
+    int size = draw->mode == E3D_PYR_TRIANGLES ? 3 : draw->mode == E3D_PYR_LINES ? 2 : 1;
+    for (int k = 0; k < 3; k++)
+        out[k] = draw->indices[(size_t)number * (size_t)size + (size_t)(k < size ? k : 0)];
+}
+
+void pyr_set_plane(const e3d_pyr_frame *frame, const e3d_pyr_draw *draw, const pyr_vertex *vertices, int32_t triangle,
+                   pyr_plane *out)
+{
+    double across = 2.0 / frame->width, down = -2.0 / frame->height;
+    pyr_corners(draw, triangle, out->corner);
+    for (int k = 0; k < 3; k++)
+        out->vertex[k] = &vertices[out->corner[k]];
+    for (int k = 0; k < 3; k++) {
+        const double *a = out->vertex[(k + 1) % 3]->clip, *b = out->vertex[(k + 2) % 3]->clip;
+        double cx = a[1] * b[3] - a[3] * b[1], cy = a[3] * b[0] - a[0] * b[3], cw = a[0] * b[1] - a[1] * b[0];
+        out->row[k][0] = cx * across;
+        out->row[k][1] = cy * down;
+        out->row[k][2] = (cw - cx) + cy;
+    }
+}
+
+static double weigh(const pyr_plane *plane, double x, double y, double out[3])
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) {
+        out[k] = (plane->row[k][0] * x + plane->row[k][1] * y) + plane->row[k][2];
+        sum += out[k];
+    }
+    double scale = 1 / sum, w = 0, z = 0;
+    if (!(fabs(scale) < 1e300)) { /* seen from the side: any point of it is as good */
+        out[0] = out[1] = out[2] = 1;
+        scale = 1.0 / 3;
+    }
+    for (int k = 0; k < 3; k++) {
+        out[k] *= scale;
+        w += out[k] * plane->vertex[k]->clip[3];
+        z += out[k] * plane->vertex[k]->clip[2];
+    }
+    return z / w;
+}
+
+double pyr_weigh(const pyr_plane *plane, double x, double y, float weight[3])
+{
+    double exact[3], z = weigh(plane, x, y, exact);
+    for (int k = 0; k < 3; k++)
+        weight[k] = (float)exact[k];
+    return z;
+}
+
+double pyr_depth_at(const pyr_plane *plane, double x, double y)
+{
+    double weights[3];
+    return weigh(plane, x, y, weights);
+}

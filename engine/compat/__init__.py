@@ -1,0 +1,1 @@
+"""Modules with the names and the meaning of other packages, drawn by this engine."""

@@ -1,0 +1,103 @@
+"""Lights as the core takes them, and which of them each node gets.
+
+In: a scene and flags. Out: lights in a `NativePicture`, and for each node the numbers of those that
+light it: of each kind at most four, the nearest.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from ..._native import pyrender as _native
+from .constants import MAX_N_LIGHTS, RenderFlags
+from .light import DirectionalLight, PointLight, SpotLight
+from .node import Node
+from .scene import Scene
+
+_KINDS = {
+    DirectionalLight: (_native.DIRECTIONAL, RenderFlags.SHADOWS_DIRECTIONAL),
+    SpotLight: (_native.SPOT, RenderFlags.SHADOWS_SPOT),
+    PointLight: (_native.POINT, RenderFlags.SHADOWS_POINT),
+}
+#: Textures that OpenGL has for maps of shadows: 32, but for those of materials.
+_MAPS = 32 - 6
+
+
+def _most_lights(flags: int) -> dict[type, int]:
+    """How many lights of each kind a node may get: with shadows, as many as there are textures."""
+    most = dict.fromkeys(_KINDS, MAX_N_LIGHTS)
+    shadowed = [kind for kind, (_, flag) in _KINDS.items() if flags & flag]
+    for kind in shadowed:
+        most[kind] = _MAPS // len(shadowed)
+    if DirectionalLight in shadowed:
+        most[DirectionalLight] += _MAPS % len(shadowed)
+    return most
+
+
+def _kind_of(light) -> type:
+    return next(kind for kind in _KINDS if isinstance(light, kind))
+
+
+class Lighting:
+    """The lights of a picture.
+
+    Parameters
+    ----------
+    picture : NativePicture
+    scene : Scene
+    flags : int
+    shadow_map : callable
+        Of a node with a light: its map, (N, N) float32, and clip-from-world of it.
+    """
+
+    def __init__(
+        self,
+        picture: _native.NativePicture,
+        scene: Scene,
+        flags: int,
+        shadow_map: Callable[[Node], tuple[np.ndarray, np.ndarray]],
+    ) -> None:
+        self._picture = picture
+        self._most = _most_lights(flags)
+        self._lights = []  # kind, number and place
+        self._lists: dict[tuple, tuple[int, int]] = {}
+        counts = dict.fromkeys(_KINDS, 0)
+        for node in scene._in_order(scene.light_nodes):
+            kind, pose = _kind_of(node.light), scene.get_pose(node)
+            counts[kind] += 1
+            self._lights.append((kind, len(self._lights), pose[:3, 3]))
+            shadow = shadow_map(node) if flags & _KINDS[kind][1] else (None, None)
+            self._add(node.light, kind, pose, shadow)
+        self._all_shine = all(counts[kind] <= most for kind, most in self._most.items())
+
+    def _add(self, light, kind: type, pose: np.ndarray, shadow: tuple) -> None:
+        scale = offset = 0.0
+        if kind is SpotLight:
+            inner, outer = math.cos(light.innerConeAngle), math.cos(light.outerConeAngle)
+            scale = 1.0 / max(0.001, inner - outer)
+            offset = -outer * scale
+        direction = -pose[:3, 2]
+        if kind is DirectionalLight:
+            direction = direction / (np.linalg.norm(direction) or 1.0)
+        color = light.color * np.float32(light.intensity)
+        self._picture.add_light(
+            _KINDS[kind][0], color, pose[:3, 3], direction, scale, offset, *shadow
+        )
+
+    def of(self, place: np.ndarray) -> tuple[int, int]:
+        """Return where the list of a node's lights begins, and how many there are."""
+        lights = self._lights
+        if not self._all_shine:
+            lights = sorted(lights, key=lambda light: float(np.linalg.norm(light[2] - place)))
+        left, numbers = dict(self._most), []
+        for kind, number, _ in lights:
+            if left[kind]:
+                left[kind] -= 1
+                numbers.append(number)
+        key = tuple(numbers)
+        if key not in self._lists:
+            self._lists[key] = self._picture.add_lights_of_draws(key), len(key)
+        return self._lists[key]

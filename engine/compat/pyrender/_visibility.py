@@ -1,0 +1,132 @@
+"""Which triangle shows where: what the engine's renderer finds out for a picture.
+
+In: primitives with their places, and a camera's matrix. Out: IDs of what shows at each pixel's
+centre and at its samples. Nodes and meshes stay from picture to picture.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...rendering.renderer import Renderer
+from ...scene.cameras import Camera
+from ...scene.instances import InstancedMesh
+from ...scene.scene import Scene
+from ._shapes import mesh_of
+from .primitive import Primitive
+
+#: Of the samples from the pixel's centre, in pixels, y down, as Mesa has them.
+_OFFSETS = ((-0.125, 0.375), (0.375, 0.125), (-0.375, -0.125), (0.125, -0.375))
+_CENTRE = (0.0, 0.0)
+_MANY = 1 << 16  # ids that a scene gives out before another takes its place
+
+
+class Placed(NamedTuple):
+    """Triangles of a primitive at a node.
+
+    Attributes
+    ----------
+    key : tuple
+        Tells them from others of the same scene.
+    primitive : Primitive
+    pose : (4, 4) float64
+        world-from-node.
+    two_sided, turned : bool
+        As for `_shapes.mesh_of`.
+    draw : int
+        The number of their first instance among what the picture draws.
+    """
+
+    key: tuple
+    primitive: Primitive
+    pose: np.ndarray
+    two_sided: bool
+    turned: bool
+    draw: int
+
+
+class Visibility:
+    """Triangles that are drawn again and again."""
+
+    def __init__(self) -> None:
+        self._forget()
+
+    def _forget(self) -> None:
+        self._scene = Scene()
+        self._nodes: dict[tuple, tuple] = {}  # the node, what it shows, and where
+        self._cameras = [Camera(np.eye(4)) for _ in range(1 + len(_OFFSETS))]
+        self._most = 0
+
+    def place(self, things: list[Placed]) -> np.ndarray:
+        """Take in what is to be drawn; return the draw of each object id, int32."""
+        if self._most > _MANY:
+            self._forget()
+        for key in self._nodes.keys() - {thing.key for thing in things}:
+            self._scene.remove(self._nodes.pop(key)[0])
+        ids = [(self._node(thing).id, thing.draw) for thing in things]
+        self._most = max((number for number, _ in ids), default=0)
+        draws = np.zeros(self._most + 1, np.int32)
+        for number, draw in ids:
+            draws[number] = draw
+        return draws
+
+    def _node(self, thing: Placed):
+        mesh = mesh_of(thing.primitive, two_sided=thing.two_sided, turned=thing.turned)
+        poses = thing.primitive.poses
+        node, shows, pose = self._nodes.get(thing.key, (None, None, None))
+        if node is None:
+            node = self._scene.add(None)
+        if shows is None or shows[0] is not mesh or shows[1] is not poses:
+            node.object = mesh if poses is None else InstancedMesh(mesh, poses)
+        if pose is None or not np.array_equal(pose, thing.pose):
+            node.pose = thing.pose
+        self._nodes[thing.key] = node, (mesh, poses), thing.pose
+        return node
+
+    def find(self, renderer: Renderer, projection, pose, samples: int) -> list[tuple]:
+        """Return what shows at the samples, then at the centre.
+
+        Parameters
+        ----------
+        renderer : Renderer
+        projection : (4, 4) float64
+            clip-from-camera.
+        pose : (4, 4) float64
+            world-from-camera.
+        samples : {1, 4}
+
+        Returns
+        -------
+        places : list of (object_id, triangle_id, instance_id)
+            Arrays (H, W) int32; the last is None where nothing has instances.
+        """
+        outputs = ["object_id", "triangle_id"]
+        has_instances = any(shows[1] is not None for _, shows, _ in self._nodes.values())
+        if has_instances:
+            outputs.append("instance_id")
+        offsets = [_CENTRE] if samples == 1 else [*_OFFSETS, _CENTRE]
+        places = []
+        for offset, camera in zip(offsets, self._cameras[-len(offsets) :], strict=True):
+            matrix = _moved(projection, offset, renderer.width, renderer.height)
+            if not np.array_equal(camera.matrix, matrix):
+                camera.matrix = matrix
+            frame = renderer.render(self._scene, (camera, pose), outputs=outputs)
+            instances = frame.instance_id if has_instances else None
+            places.append((frame.object_id, frame.triangle_id, instances))
+        return places
+
+    def depths(self, renderer: Renderer, projection, pose) -> np.ndarray:
+        """Return z_ndc of what shows at the centres, (H, W) float32, infinite where nothing does."""
+        camera = self._cameras[-1]
+        camera.matrix = projection
+        return renderer.render(self._scene, (camera, pose), outputs=("ndc_depth",)).ndc_depth
+
+
+def _moved(projection: np.ndarray, offset, width: int, height: int) -> np.ndarray:
+    """The projection of a picture whose pixels' centres are off by so many pixels."""
+    matrix = projection.copy()
+    matrix[0] -= matrix[3] * (2.0 * offset[0] / width)
+    matrix[1] += matrix[3] * (2.0 * offset[1] / height)
+    return matrix

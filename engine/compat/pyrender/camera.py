@@ -1,0 +1,236 @@
+"""Cameras: the matrices from a node's space to OpenGL's clip space."""
+
+from __future__ import annotations
+
+import abc
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._named import Named
+from .constants import DEFAULT_Z_FAR, DEFAULT_Z_NEAR
+
+
+class Camera(Named, abc.ABC):
+    """A camera; it looks along the -Z of its node, +Y up. Programs derive their own from it.
+
+    Parameters
+    ----------
+    znear, zfar : float
+        Distances of the near and far planes.
+    name : str, optional
+    """
+
+    def __init__(self, znear=DEFAULT_Z_NEAR, zfar=DEFAULT_Z_FAR, name=None):
+        self.name = name
+        self.znear = znear
+        self.zfar = zfar
+
+    @property
+    def znear(self) -> float:
+        """Distance of the near plane."""
+        return self._znear
+
+    @znear.setter
+    def znear(self, value) -> None:
+        number = float(value)
+        if number < 0:
+            raise ValueError("z-near must be >= 0.0")
+        self._znear = number
+
+    @property
+    def zfar(self) -> float | None:
+        """Distance of the far plane."""
+        return self._zfar
+
+    @zfar.setter
+    def zfar(self, value) -> None:
+        self._zfar = self._checked_far(float(value))
+
+    def _checked_far(self, number: float) -> float:
+        if number <= 0 or number <= self.znear:
+            raise ValueError("zfar must be >0 and >znear")
+        return number
+
+    @abc.abstractmethod
+    def get_projection_matrix(self, width=None, height=None) -> NDArray[np.float64]:
+        """Return clip-from-camera for a picture of some size, (4, 4)."""
+
+    def _depth_rows(self, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Fill in how depth becomes that of a perspective."""
+        near, far = self.znear, self.zfar
+        matrix[3, 2] = -1.0
+        if far is None:
+            matrix[2, 2:] = -1.0, -2.0 * near
+        else:
+            matrix[2, 2:] = (far + near) / (near - far), 2.0 * far * near / (near - far)
+        return matrix
+
+
+def _positive(value, what: str) -> float:
+    number = float(value)
+    if number <= 0.0:
+        raise ValueError(f"{what} must be positive")
+    return number
+
+
+class PerspectiveCamera(Camera):
+    """A camera with a field of view.
+
+    Parameters
+    ----------
+    yfov : float
+        Vertical field of view in radians.
+    znear : float
+    zfar : float, optional
+        None: there is no far plane.
+    aspectRatio : float, optional
+        Width over height. Where it isn't the picture's own, the picture is stretched.
+    name : str, optional
+    """
+
+    def __init__(self, yfov, znear=DEFAULT_Z_NEAR, zfar=None, aspectRatio=None, name=None):
+        super().__init__(znear=znear, zfar=zfar, name=name)
+        self.yfov = yfov
+        self.aspectRatio = aspectRatio
+
+    @property
+    def yfov(self) -> float:
+        """Vertical field of view in radians."""
+        return self._yfov
+
+    @yfov.setter
+    def yfov(self, value) -> None:
+        self._yfov = _positive(value, "Field of view")
+
+    @property
+    def zfar(self) -> float | None:
+        """Distance of the far plane; None where there is none."""
+        return self._zfar
+
+    @zfar.setter
+    def zfar(self, value) -> None:
+        self._zfar = None if value is None else self._checked_far(float(value))
+
+    @property
+    def aspectRatio(self) -> float | None:
+        """Width over height, or None for the picture's own."""
+        return self._aspectRatio
+
+    @aspectRatio.setter
+    def aspectRatio(self, value) -> None:
+        self._aspectRatio = None if value is None else _positive(value, "Aspect ratio")
+
+    def get_projection_matrix(self, width=None, height=None) -> NDArray[np.float64]:
+        aspect = self.aspectRatio
+        if aspect is None:
+            if width is None or height is None:
+                raise ValueError("Aspect ratio of camera must be defined")
+            aspect = float(width) / float(height)
+        slope = math.tan(self.yfov / 2.0)
+        matrix = np.zeros((4, 4))
+        matrix[0, 0], matrix[1, 1] = 1.0 / (aspect * slope), 1.0 / slope
+        return self._depth_rows(matrix)
+
+
+class OrthographicCamera(Camera):
+    """A camera without perspective.
+
+    Parameters
+    ----------
+    xmag, ymag : float
+        Half the width and height of what is seen. In a picture, the width follows from ``ymag`` and
+        the picture's aspect.
+    znear, zfar : float
+    name : str, optional
+    """
+
+    def __init__(self, xmag, ymag, znear=DEFAULT_Z_NEAR, zfar=DEFAULT_Z_FAR, name=None):
+        super().__init__(znear=znear, zfar=zfar, name=name)
+        self.xmag = xmag
+        self.ymag = ymag
+
+    @property
+    def xmag(self) -> float:
+        """Half the width."""
+        return self._xmag
+
+    @xmag.setter
+    def xmag(self, value) -> None:
+        self._xmag = _positive(value, "X magnification")
+
+    @property
+    def ymag(self) -> float:
+        """Half the height."""
+        return self._ymag
+
+    @ymag.setter
+    def ymag(self, value) -> None:
+        self._ymag = _positive(value, "Y magnification")
+
+    @property
+    def znear(self) -> float:
+        """Distance of the near plane, more than 0."""
+        return self._znear
+
+    @znear.setter
+    def znear(self, value) -> None:
+        number = float(value)
+        if number <= 0:
+            raise ValueError("z-near must be > 0.0")
+        self._znear = number
+
+    def get_projection_matrix(self, width=None, height=None) -> NDArray[np.float64]:
+        across = self.xmag if width is None or height is None else width / height * self.ymag
+        near, far = self.znear, self.zfar
+        matrix = np.diag([1.0 / across, 1.0 / self.ymag, 2.0 / (near - far), 1.0])
+        matrix[2, 3] = (far + near) / (near - far)
+        return matrix
+
+
+class IntrinsicsCamera(Camera):
+    """A camera given in pixels, as calibration gives it.
+
+    Parameters
+    ----------
+    fx, fy : float
+        Focal lengths.
+    cx, cy : float
+        The principal point, from the picture's left and top edges.
+    znear, zfar : float
+    name : str, optional
+    """
+
+    def __init__(self, fx, fy, cx, cy, znear=DEFAULT_Z_NEAR, zfar=DEFAULT_Z_FAR, name=None):
+        super().__init__(znear=znear, zfar=zfar, name=name)
+        self.fx, self.fy = fx, fy
+        self.cx, self.cy = cx, cy
+
+    def get_projection_matrix(self, width, height) -> NDArray[np.float64]:
+        width, height = float(width), float(height)
+        matrix = np.zeros((4, 4))
+        matrix[0, 0], matrix[1, 1] = 2.0 * self.fx / width, 2.0 * self.fy / height
+        matrix[0, 2], matrix[1, 2] = 1.0 - 2.0 * self.cx / width, 2.0 * self.cy / height - 1.0
+        return self._depth_rows(matrix)
+
+
+def _number(name: str, doc: str) -> property:
+    """A property that holds a float."""
+    hidden = f"_{name}"
+    return property(
+        lambda self: getattr(self, hidden),
+        lambda self, value: setattr(self, hidden, float(value)),
+        doc=doc,
+    )
+
+
+for _name, _doc in (
+    ("fx", "Focal length along x, in pixels."),
+    ("fy", "Focal length along y, in pixels."),
+    ("cx", "The principal point from the left edge, in pixels."),
+    ("cy", "The principal point from the top edge, in pixels."),
+):
+    setattr(IntrinsicsCamera, _name, _number(_name, _doc))
+
+__all__ = ["Camera", "IntrinsicsCamera", "OrthographicCamera", "PerspectiveCamera"]

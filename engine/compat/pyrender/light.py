@@ -1,0 +1,166 @@
+"""Lights: what they shine, and from where their shadows are drawn."""
+
+from __future__ import annotations
+
+import abc
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._named import Named
+from .camera import Camera, OrthographicCamera, PerspectiveCamera
+from .constants import SHADOW_TEX_SZ
+from .texture import Texture
+from .utils import format_color_vector
+
+_FLOAT = 5126  # of OpenGL
+_WIDER = math.pi / 16.0  # than its cone is what a map of a spotlight shows
+
+
+class Light(Named, abc.ABC):
+    """A light.
+
+    Parameters
+    ----------
+    color : float or sequence of 3 numbers, optional
+        Linear; whole numbers are of 0 to 255. By default white.
+    intensity : float, optional
+        By default 1.
+    name : str, optional
+    """
+
+    def __init__(self, color=None, intensity=None, name=None):
+        self.name = name
+        self.color = np.ones(3) if color is None else color
+        self.intensity = 1.0 if intensity is None else intensity
+        self.shadow_texture: Texture | None = None
+
+    @property
+    def color(self) -> NDArray[np.float32]:
+        """Colour, (3,) float32."""
+        return self._color
+
+    @color.setter
+    def color(self, value) -> None:
+        self._color = format_color_vector(value, 3)
+
+    @property
+    def intensity(self) -> float:
+        """Lux of directional lights, candela of others; 1 shows white as 1/pi."""
+        return self._intensity
+
+    @intensity.setter
+    def intensity(self, value) -> None:
+        self._intensity = float(value)
+
+    def _generate_shadow_texture(self, size=None) -> None:
+        side = SHADOW_TEX_SZ if size is None else size
+        self.shadow_texture = Texture(
+            width=side, height=side, source_channels="D", data_format=_FLOAT
+        )
+
+    @abc.abstractmethod
+    def _get_shadow_camera(self, scene_scale: float) -> Camera:
+        """Return the camera that sees what has light, in a scene with a diagonal of some length."""
+
+
+class DirectionalLight(Light):
+    """Light from far away, along the -Z of its node; see `Light`."""
+
+    def _get_shadow_camera(self, scene_scale: float) -> Camera:
+        near, far = 0.01 * scene_scale, 10 * scene_scale
+        return OrthographicCamera(scene_scale, scene_scale, znear=near, zfar=far)
+
+
+class _Lamp(Light):
+    """A light at a place, with a range that nothing reads."""
+
+    @property
+    def range(self) -> float | None:
+        """Kept, but not used: light has no end, as in pyrender."""
+        return self._range
+
+    @range.setter
+    def range(self, value) -> None:
+        number = None if value is None else float(value)
+        if number is not None and number <= 0:
+            raise ValueError("Range must be > 0")
+        self._range = number
+
+
+class PointLight(_Lamp):
+    """Light from a point in all directions.
+
+    Parameters
+    ----------
+    color, intensity, name
+        As for `Light`; at a distance of d, an intensity shines as intensity/d².
+    range : float, optional
+    """
+
+    def __init__(self, color=None, intensity=None, range=None, name=None):
+        super().__init__(color=color, intensity=intensity, name=name)
+        self.range = range
+
+    def _generate_shadow_texture(self, size=None) -> None:
+        raise NotImplementedError("Shadows not implemented for point lights")
+
+    def _get_shadow_camera(self, scene_scale: float) -> Camera:
+        raise NotImplementedError("Shadows not implemented for point lights")
+
+
+class SpotLight(_Lamp):
+    """Light from a point into a cone around the -Z of its node.
+
+    Parameters
+    ----------
+    color, intensity, range, name
+        As for `PointLight`.
+    innerConeAngle, outerConeAngle : float
+        Radians from the axis, where light begins to fade and where it ends.
+    """
+
+    def __init__(
+        self,
+        color=None,
+        intensity=None,
+        range=None,
+        innerConeAngle=0.0,
+        outerConeAngle=math.pi / 4.0,
+        name=None,
+    ):
+        super().__init__(color=color, intensity=intensity, name=name)
+        self.outerConeAngle = outerConeAngle
+        self.innerConeAngle = innerConeAngle
+        self.range = range
+
+    @property
+    def innerConeAngle(self) -> float:
+        """Radians from the axis where light begins to fade."""
+        return self._inner
+
+    @innerConeAngle.setter
+    def innerConeAngle(self, value) -> None:
+        if value < 0.0 or value > self.outerConeAngle:
+            raise ValueError("Invalid value for inner cone angle")
+        self._inner = float(value)
+
+    @property
+    def outerConeAngle(self) -> float:
+        """Radians from the axis where light ends, at most a right angle."""
+        return self._outer
+
+    @outerConeAngle.setter
+    def outerConeAngle(self, value) -> None:
+        if value < 0.0 or value > math.pi / 2.0 + 1e-9:
+            raise ValueError("Invalid value for outer cone angle")
+        self._outer = float(value)
+
+    def _get_shadow_camera(self, scene_scale: float) -> Camera:
+        yfov = min(2.0 * self.outerConeAngle + _WIDER, math.pi)
+        near, far = 0.01 * scene_scale, 10 * scene_scale
+        return PerspectiveCamera(yfov, znear=near, zfar=far, aspectRatio=1.0)
+
+
+__all__ = ["DirectionalLight", "Light", "PointLight", "SpotLight"]

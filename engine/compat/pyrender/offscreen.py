@@ -1,0 +1,98 @@
+"""Pictures in memory."""
+
+from __future__ import annotations
+
+import threading
+
+from .constants import RenderFlags
+from .renderer import Renderer
+
+
+class OffscreenRenderer:
+    """Draws scenes into arrays.
+
+    Any number of them may live side by side, in any thread and process.
+
+    Parameters
+    ----------
+    viewport_width, viewport_height : int
+        Pixels; may be assigned later.
+    point_size : float
+        Of points, in pixels.
+    """
+
+    def __init__(self, viewport_width, viewport_height, point_size=1.0):
+        self.viewport_width = viewport_width
+        self.viewport_height = viewport_height
+        self.point_size = point_size
+        self._lock = threading.Lock()
+        self._renderer: Renderer | None = Renderer(self.viewport_width, self.viewport_height)
+
+    @property
+    def viewport_width(self) -> int:
+        """Width of pictures, in pixels."""
+        return self._viewport_width
+
+    @viewport_width.setter
+    def viewport_width(self, value) -> None:
+        self._viewport_width = int(value)
+
+    @property
+    def viewport_height(self) -> int:
+        """Height of pictures, in pixels."""
+        return self._viewport_height
+
+    @viewport_height.setter
+    def viewport_height(self, value) -> None:
+        self._viewport_height = int(value)
+
+    @property
+    def point_size(self) -> float:
+        """Of points, in pixels."""
+        return self._point_size
+
+    @point_size.setter
+    def point_size(self, value) -> None:
+        self._point_size = float(value)
+
+    def render(self, scene, flags=RenderFlags.NONE, seg_node_map=None):
+        """Draw a scene from its main camera.
+
+        Parameters
+        ----------
+        scene : Scene
+        flags : int
+            Of `RenderFlags`.
+        seg_node_map : dict of Node to int or (3,) int, optional
+            With ``SEG``: the colour of each node that is drawn, 0 to 255.
+
+        Returns
+        -------
+        color : (H, W, 3) or, with ``RGBA``, (H, W, 4) uint8
+            Not with ``DEPTH_ONLY``, of which the depth alone is returned.
+        depth : (H, W) float32
+            Along the view axis, at the centres of the pixels; 0 where nothing is.
+
+        Both arrays are read-only, as pyrender's are.
+
+        Raises
+        ------
+        ValueError
+            The scene has no camera.
+        NotImplementedError
+            Shadows of point lights were asked for.
+        """
+        with self._lock:
+            if self._renderer is None:
+                raise RuntimeError("the renderer was deleted")
+            self._renderer.viewport_width = self.viewport_width
+            self._renderer.viewport_height = self.viewport_height
+            self._renderer.point_size = self.point_size
+            return self._renderer.render(scene, flags | RenderFlags.OFFSCREEN, seg_node_map)
+
+    def delete(self) -> None:
+        """Let go of what drawing keeps; arrays stay as they are, and so do other renderers."""
+        self._renderer = None
+
+
+__all__ = ["OffscreenRenderer"]

@@ -1,0 +1,229 @@
+"""Primitives: vertices, what joins them, and a material."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .constants import GLTF, BufFlags
+from .material import Material, MetallicRoughnessMaterial
+from .utils import format_color_array
+
+#: What vertices carry: name, columns, and what an error says.
+_ATTRIBUTES = {
+    "normals": (3, "Incorrect normals shape"),
+    "tangents": (4, "Incorrect tangent shape"),
+    "texcoord_0": (2, "Incorrect texture coordinate shape"),
+    "texcoord_1": (2, "Incorrect texture coordinate shape"),
+}
+_FLAGS = {
+    "normals": BufFlags.NORMAL,
+    "tangents": BufFlags.TANGENT,
+    "texcoord_0": BufFlags.TEXCOORD_0,
+    "texcoord_1": BufFlags.TEXCOORD_1,
+    "color_0": BufFlags.COLOR_0,
+    "joints_0": BufFlags.JOINTS_0,
+    "weights_0": BufFlags.WEIGHTS_0,
+}
+
+
+def _rows(name: str, doc: str) -> property:
+    """A property that holds an array with a row for each vertex, float32, or None."""
+    hidden = f"_{name}"
+    columns, complaint = _ATTRIBUTES[name]
+    may_have_more = name == "texcoord_0"
+
+    def put(self, value) -> None:
+        if value is not None:
+            value = np.asarray(value, np.float32)
+            fits = value.ndim == 2 and len(value) == len(self.positions)
+            enough = fits and (value.shape[1] >= columns if may_have_more else True)
+            if not enough or (value.shape[1] != columns and not may_have_more):
+                raise ValueError(complaint)
+            value = np.ascontiguousarray(value[:, :columns])
+        setattr(self, hidden, value)
+        self._forget()
+
+    return property(lambda self: getattr(self, hidden), put, doc=doc)
+
+
+class Primitive:
+    """Triangles, lines or points of one material.
+
+    Parameters
+    ----------
+    positions : (N, 3) float
+    normals : (N, 3) float, optional
+        Without any, a surface is lit as if it looked towards the camera.
+    tangents : (N, 4) float, optional
+        Kept, not read, as in pyrender.
+    texcoord_0, texcoord_1 : (N, 2) float, optional
+        Origin at the bottom left; all textures are read at the first.
+    color_0 : (N, 3) or (N, 4) float or int, optional
+        Multiplies what light has made of the surface.
+    joints_0, weights_0, targets
+        Kept, not read.
+    indices : (M, 3), (M, 2) or (M,) int, optional
+    material : Material, optional
+    mode : int
+        A mode of `GLTF`: POINTS, LINES, LINE_LOOP, LINE_STRIP, TRIANGLES, TRIANGLE_STRIP or
+        TRIANGLE_FAN.
+    poses : (K, 4, 4) float, optional
+        Where instances of it are, in the mesh's space.
+    """
+
+    def __init__(
+        self,
+        positions,
+        normals=None,
+        tangents=None,
+        texcoord_0=None,
+        texcoord_1=None,
+        color_0=None,
+        joints_0=None,
+        weights_0=None,
+        indices=None,
+        material=None,
+        mode=None,
+        targets=None,
+        poses=None,
+    ):
+        self.positions = positions
+        self.normals = normals
+        self.tangents = tangents
+        self.texcoord_0, self.texcoord_1 = texcoord_0, texcoord_1
+        self.color_0 = color_0
+        self.joints_0, self.weights_0 = joints_0, weights_0
+        self.indices = indices
+        self.material = material
+        self.mode = GLTF.TRIANGLES if mode is None else mode
+        self.targets = targets
+        self.poses = poses
+
+    normals = _rows("normals", "(N, 3) float32, or None.")
+    tangents = _rows("tangents", "(N, 4) float32, or None.")
+    texcoord_0 = _rows("texcoord_0", "(N, 2) float32, or None.")
+    texcoord_1 = _rows("texcoord_1", "(N, 2) float32, or None.")
+
+    def _forget(self) -> None:
+        """Let go of what drawing made of the arrays."""
+        self._bounds = None
+        self._drawn: dict = {}
+
+    @property
+    def positions(self) -> NDArray[np.float32]:
+        """(N, 3) float32."""
+        return self._positions
+
+    @positions.setter
+    def positions(self, value) -> None:
+        self._positions = np.ascontiguousarray(value, np.float32)
+        self._forget()
+
+    @property
+    def color_0(self) -> NDArray[np.float32] | None:
+        """(N, 4) float32, or None."""
+        return self._color_0
+
+    @color_0.setter
+    def color_0(self, value) -> None:
+        if value is not None:
+            value = format_color_array(value, (len(self.positions), 4))
+        self._color_0 = value
+        self._has_alpha = value is not None and bool(np.any(value[:, 3] != 1.0))
+        self._forget()
+
+    @property
+    def indices(self) -> NDArray[np.int32] | None:
+        """Whole numbers, as they were shaped, or None."""
+        return self._indices
+
+    @indices.setter
+    def indices(self, value) -> None:
+        self._indices = None if value is None else np.ascontiguousarray(value).astype(np.int32)
+        self._forget()
+
+    @property
+    def material(self) -> Material:
+        """What it is made of."""
+        return self._material
+
+    @material.setter
+    def material(self, value) -> None:
+        if value is not None and not isinstance(value, Material):
+            raise TypeError("Object material must be of type Material")
+        self._material = MetallicRoughnessMaterial() if value is None else value
+
+    @property
+    def mode(self) -> int:
+        """A mode of `GLTF`."""
+        return self._mode
+
+    @mode.setter
+    def mode(self, value) -> None:
+        number = int(value)
+        if not GLTF.POINTS <= number <= GLTF.TRIANGLE_FAN:
+            raise ValueError("Invalid mode")
+        self._mode = number
+        self._forget()
+
+    @property
+    def poses(self) -> NDArray[np.float32] | None:
+        """(K, 4, 4) float32, or None."""
+        return self._poses
+
+    @poses.setter
+    def poses(self, value) -> None:
+        if value is not None:
+            value = np.ascontiguousarray(value, np.float32)
+            value = value[np.newaxis] if value.ndim == 2 else value
+            if value.shape[1:] != (4, 4):
+                raise ValueError(f"Pose matrices must be of shape (n,4,4), got {value.shape}")
+        self._poses = value
+        self._forget()
+
+    @property
+    def bounds(self) -> NDArray:
+        """Lowest and highest corner, (2, 3); of instances, only their places count."""
+        if self._bounds is None:
+            bounds = np.array([self.positions.min(axis=0), self.positions.max(axis=0)])
+            if self.poses is not None:
+                places = self.poses[:, :3, 3]
+                bounds = bounds + np.array([places.min(axis=0), places.max(axis=0)])
+            self._bounds = bounds
+        return self._bounds
+
+    @property
+    def centroid(self) -> NDArray:
+        """The middle of the bounds, (3,)."""
+        return np.mean(self.bounds, axis=0)
+
+    @property
+    def extents(self) -> NDArray:
+        """The lengths of the bounds, (3,)."""
+        return self.bounds[1] - self.bounds[0]
+
+    @property
+    def scale(self) -> float:
+        """The diagonal of the bounds."""
+        return float(np.linalg.norm(self.extents))
+
+    @property
+    def buf_flags(self) -> int:
+        """What the vertices carry, as `BufFlags`."""
+        return sum(flag for name, flag in _FLAGS.items() if getattr(self, name) is not None)
+
+    @property
+    def is_transparent(self) -> bool:
+        """Whether it is drawn after what is not transparent."""
+        return self.material.is_transparent or self._has_alpha
+
+    def delete(self) -> None:
+        """Let go of what drawing keeps of the primitive."""
+        self._forget()
+
+    def __getstate__(self) -> dict:
+        return {**self.__dict__, "_drawn": {}}
+
+
+__all__ = ["Primitive"]

@@ -1,0 +1,69 @@
+"""The renderer: pictures of scenes in a viewport."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ._drawing import Drawing
+from .constants import RenderFlags
+
+
+class GLError(Exception):
+    """An error of OpenGL, which is never raised here; programs name it to catch it."""
+
+
+class Renderer:
+    """Draws scenes.
+
+    Parameters
+    ----------
+    viewport_width, viewport_height : int
+        Pixels.
+    point_size : float
+        Of points, in pixels.
+    """
+
+    def __init__(self, viewport_width, viewport_height, point_size=1.0):
+        self.dpscale = 1
+        self.viewport_width = viewport_width
+        self.viewport_height = viewport_height
+        self.point_size = point_size
+        self._drawing: Drawing | None = None
+
+    @property
+    def point_size(self) -> float:
+        """Of points, in pixels."""
+        return self._point_size
+
+    @point_size.setter
+    def point_size(self, value) -> None:
+        self._point_size = float(value)
+
+    def render(self, scene, flags, seg_node_map=None):
+        """Draw a scene; see `OffscreenRenderer.render`."""
+        if self._drawing is None:
+            self._drawing = Drawing()
+        size = int(self.viewport_width), int(self.viewport_height)
+        color, depth = self._drawing.draw(scene, flags, seg_node_map, *size, self.point_size)
+        depth.flags.writeable = False
+        if flags & RenderFlags.DEPTH_ONLY:
+            return depth
+        color.flags.writeable = False
+        return color, depth
+
+    def read_color_buf(self) -> np.ndarray:
+        """Raise: there is no screen to read from."""
+        raise NotImplementedError("there is no screen to read from: take what render() returns")
+
+    read_depth_buf = read_color_buf
+
+    def render_text(self, *args, **kwargs) -> None:
+        """Raise: captions are not drawn."""
+        raise NotImplementedError("captions are not drawn: use engine3d.Canvas on the picture")
+
+    def delete(self) -> None:
+        """Let go of what drawing keeps."""
+        self._drawing = None
+
+
+__all__ = ["Renderer"]

@@ -1,0 +1,64 @@
+"""What can be chosen of this module, beyond what pyrender lets one choose.
+
+Each setting is read whenever a picture is drawn, and may be set by an environment variable before
+the module is imported.
+"""
+
+from __future__ import annotations
+
+import os
+
+from ...errors import InvalidArgumentError
+
+_SAMPLES = (1, 4)
+_DEPTHS = ("metric", "pyrender")
+
+
+class Settings:
+    """The settings of the process.
+
+    Attributes
+    ----------
+    samples : {4, 1}
+        Samples of a pixel's colour: 4 as pyrender has them, or 1, at the centre.
+        ``ENGINE3D_PYRENDER_SAMPLES``.
+    orthographic_depth : {"metric", "pyrender"}
+        What depths of an `OrthographicCamera` are: distances along the view axis, or the numbers
+        that pyrender's formula for perspectives makes of them.
+        ``ENGINE3D_PYRENDER_ORTHOGRAPHIC_DEPTH``.
+    """
+
+    def __init__(self) -> None:
+        environment = os.environ
+        samples = environment.get("ENGINE3D_PYRENDER_SAMPLES") or "4"
+        self.samples = int(samples) if samples.isdecimal() else samples
+        self.orthographic_depth = (
+            environment.get("ENGINE3D_PYRENDER_ORTHOGRAPHIC_DEPTH") or "metric"
+        )
+
+    @property
+    def samples(self) -> int:
+        """Samples of a pixel's colour, 4 or 1."""
+        return self._samples
+
+    @samples.setter
+    def samples(self, value) -> None:
+        if value not in _SAMPLES:
+            raise InvalidArgumentError(f"samples must be 1 or 4, not {value!r}")
+        self._samples = int(value)
+
+    @property
+    def orthographic_depth(self) -> str:
+        """"metric" or "pyrender"."""
+        return self._orthographic_depth
+
+    @orthographic_depth.setter
+    def orthographic_depth(self, value) -> None:
+        if value not in _DEPTHS:
+            raise InvalidArgumentError(
+                f'orthographic_depth must be "metric" or "pyrender", not {value!r}'
+            )
+        self._orthographic_depth = value
+
+
+settings = Settings()

@@ -1,0 +1,3 @@
+"""The version of pyrender whose meaning the names here have."""
+
+__version__ = "0.1.45"

@@ -1,0 +1,2 @@
+"""placeholder"""
+class Viewer: pass

@@ -324,7 +324,7 @@ def test_an_underscore_tells_what_a_package_keeps_to_itself(package):
 
 def test_the_top_of_the_package_holds_no_helpers():
     top = {name for name, path in MODULES.items() if path.parent == ROOT / "engine"}
-    assert top == {"", "__main__", "canvas", "choices", "errors", "start", "version"}
+    assert top == {"", "__main__", "canvas", "choices", "errors", "notebook", "start", "version"}
 
 
 def module_lists(path):

@@ -26,7 +26,7 @@ def finish(run: Run, config: pytest.Config) -> bool:
     results = sorted((Result(**one) for one in run.results), key=lambda r: (r.name, r.test))
     conflicts = two_pictures(results)
     run.lines += [f"{name}: {TWO_PICTURES}" for name in conflicts]
-    _count(results, run, config.rootpath)
+    _count(results, run, config)
     unused = [] if _is_partial(run, config) else find_unused(run, config.rootpath)
     try:
         results += _treat_unused(unused, run, config)
@@ -37,14 +37,16 @@ def finish(run: Run, config: pytest.Config) -> bool:
     return not conflicts and not (unused and config.option.golden_unused == "fail")
 
 
-def _count(results: list[Result], run: Run, root: Path) -> None:
+def _count(results: list[Result], run: Run, config: pytest.Config) -> None:
     """Say how many pictures there are of each kind, where they did not all pass."""
     counts = Counter(result.status for result in results)
     if set(counts) - {PASSED}:
         order = (PASSED, CHANGED, NEW, UPDATED)
         run.lines.append(", ".join(f"{counts[one]} {one}" for one in order if counts[one]))
+    if counts[CHANGED] and not config.option.golden_report:
+        run.lines.append("side by side: pytest --golden-report=FILE.html")
     written = dict.fromkeys(r.expected for r in results if r.status == UPDATED)
-    run.lines += [f"written: {_short(path, root)}" for path in written if path]
+    run.lines += [f"written: {_short(path, config.rootpath)}" for path in written if path]
 
 
 def _treat_unused(unused: list[Path], run: Run, config: pytest.Config) -> list[Result]:

@@ -80,6 +80,7 @@ def test_written_then_equal_then_different(run):
             "*difference: *test_one.difference.png",
             "*pytest --golden-update=failed",
             "1 changed",
+            "side by side: pytest --golden-report=FILE.html",
         ]
     )
     line = next(line for line in result.outlines if "drawn now:" in line)

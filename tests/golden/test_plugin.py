@@ -308,7 +308,9 @@ def test_unused_files_are_reported_failed_or_deleted(run):
     result = run(code)
     assert result.ret == 0
     assert unused(result) == ["no test asks for it: golden/test_a/test_two.png"]
-    assert run(None, "--golden-unused=fail").ret == pytest.ExitCode.TESTS_FAILED
+    result = run(None, "--golden-unused=fail", "--golden-json=a.json")
+    assert result.ret == pytest.ExitCode.TESTS_FAILED
+    assert json.loads((run.path / "a.json").read_text())["deletedItems"] == ["test_a/test_two"]
     assert len(run.names()) == 2
     result = run(None, "--golden-unused=delete")
     assert unused(result) == ["deleted, no test asks for it: golden/test_a/test_two.png"]
@@ -317,8 +319,12 @@ def test_unused_files_are_reported_failed_or_deleted(run):
 
 def test_files_of_a_module_that_is_gone_are_unused(run):
     run(ONE.format(0), "--golden-update")
-    write_png(run.path / "golden" / "test_gone" / "a.png", DRAWN)
-    write_png(run.path / "golden" / "test_there" / "a.png", DRAWN)
+    write_png(run.path / "golden" / "data" / "of_others.png", DRAWN)
+    for name in ("test_gone", "test_there"):
+        folder = run.path / "golden" / name
+        folder.mkdir()
+        (folder / "a.png").write_bytes(encode_golden(DRAWN))
+        (folder / "b.png").write_bytes(b"no picture")
     (run.path / "test_there.py").write_text("")
     assert unused(run(None, "test_a.py")) == ["no test asks for it: golden/test_gone/a.png"]
 

@@ -8,6 +8,7 @@ In:  what the test drew. Out: nothing, or an `AssertionError` that says what dif
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -53,13 +54,15 @@ class Golden:
     place : Place
     update : str
         ``""``, ``"failed"``, ``"missing"`` or ``"all"``: which golden files are written.
-    failures : str
-        The folder for pictures of what failed; it is made when something does.
+    failures : callable
+        Returns the folder for pictures of what failed; it is asked and made when something does.
     written : dict of str to str
         The hashes of the golden files that the run has written, by path; it is added to.
     """
 
-    def __init__(self, place: Place, update: str, failures: str, written: dict[str, str]) -> None:
+    def __init__(
+        self, place: Place, update: str, failures: Callable[[], str], written: dict[str, str]
+    ) -> None:
         self._results: list[Result] = []
         self._place, self._update = place, update
         self._failures, self._written = failures, written
@@ -157,7 +160,7 @@ class Golden:
     def _explain(self, case: _Case) -> str:
         """Write the pictures of a failure; return the lines that say what to do."""
         result = case.result
-        write_failure(result, self._failures, case.pixels, case.expected, case.difference)
+        write_failure(result, self._failures(), case.pixels, case.expected, case.difference)
         which = "missing" if result.status == NEW else "failed"
         lines = [
             f"{result.name}: {result.message}",

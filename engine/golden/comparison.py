@@ -88,7 +88,7 @@ def compare(actual: np.ndarray, expected: np.ndarray, tolerance: float = 0) -> D
     shared = tuple(
         slice(min(a, b)) for a, b in zip(actual.shape[:2], expected.shape[:2], strict=True)
     )
-    mask[shared], distance = _different(*(one[shared] for one in pair), tolerance)
+    mask[shared], distance = _different(pair[0][shared], pair[1][shared], tolerance)
     largest = float(distance.max())
     with np.errstate(all="ignore"):
         amount[shared] = np.minimum(distance / _range(pair[1]), 1.0)
@@ -126,6 +126,7 @@ def _with_alpha(colors: np.ndarray) -> np.ndarray:
 
 def _different(a: np.ndarray, b: np.ndarray, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
     """Return which pixels of (H, W, C) arrays differ, and the largest distance of each."""
+    distance: np.ndarray
     if a.dtype.kind == "f":
         distance = _distance_of_floats(a, b)
         bits = f"u{a.dtype.itemsize}"

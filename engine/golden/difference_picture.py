@@ -11,7 +11,7 @@ import numpy as np
 
 from .comparison import Difference
 
-_HALO = np.array((255, 214, 224), np.float32)
+_HALO = np.array((255, 178, 198), np.float32)
 _LITTLE, _MUCH = np.array((255, 190, 0), np.float32), np.array((214, 0, 40), np.float32)
 _LUMA = np.array((0.2126, 0.7152, 0.0722), np.float32)
 _PALE = np.float32(0.22 / 255)  # how much of the picture is left, of its alpha in codes

@@ -80,12 +80,12 @@ def pairs(actual: str, expected: str, differences: str | None = None) -> list[Pa
     names = [set(_pictures_below(folder)) for folder in (actual, expected)]
     found = []
     for name in sorted(names[0] | names[1]):
-        paths = [
+        drawn, wanted = (
             os.path.join(folder, name) if name in held else None
             for folder, held in zip((actual, expected), names, strict=True)
-        ]
+        )
         place = None if differences is None else os.path.join(differences, _as_png(name))
-        found.append(Pair(name.replace(os.sep, "/"), *paths, place))
+        found.append(Pair(name.replace(os.sep, "/"), drawn, wanted, place))
     return found
 
 

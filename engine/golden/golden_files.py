@@ -14,6 +14,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+import os
 import zlib
 from dataclasses import dataclass
 
@@ -28,6 +29,7 @@ from .picture_files import decode_picture
 from .pixel_hash import pixel_hash
 
 _IDENTITY, _NUMBERS = b"goLD", b"daTA"
+_PLACE = 37  # of the first one's name: after the signature, the header and a length
 MAX_BYTES = 1 << 31  # of the numbers of one array
 
 
@@ -71,6 +73,16 @@ def read_golden(path: str) -> GoldenFile | None:
     except png_files.DamagedPng as error:
         raise FileFormatError(str(error), path) from error
     return GoldenFile(path, data, identity["sha256"] if identity else None)
+
+
+def is_golden_file(path: str | os.PathLike) -> bool:
+    """Return whether a file begins as `encode_golden` writes it."""
+    try:
+        with open(path, "rb") as file:
+            start = file.read(_PLACE + len(_IDENTITY))
+    except OSError:
+        return False
+    return start.startswith(png_files.SIGNATURE) and start[_PLACE:] == _IDENTITY
 
 
 def write_golden(path: str, pixels: np.ndarray) -> None:

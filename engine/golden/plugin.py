@@ -101,9 +101,13 @@ def golden(request: pytest.FixtureRequest) -> Golden:
         test=item.name,
         node=item.nodeid,
     )
-    failures = request.getfixturevalue("tmp_path_factory").getbasetemp() / "golden"
-    update, written = config.option.golden_update or "", config.stash[_RUN].written
-    item.stash[_CHECKER] = Golden(place, update, str(failures), written)
+    temporary = request.getfixturevalue("tmp_path_factory")
+    item.stash[_CHECKER] = Golden(
+        place,
+        update=config.option.golden_update or "",
+        failures=lambda: str(temporary.getbasetemp() / "golden"),
+        written=config.stash[_RUN].written,
+    )
     return item.stash[_CHECKER]
 
 

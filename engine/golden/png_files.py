@@ -43,7 +43,8 @@ def split_chunks(file: bytes) -> list[tuple[bytes, bytes]]:
     """
     if not file.startswith(SIGNATURE):
         raise DamagedPng("not a PNG file")
-    chunks, at = [], len(SIGNATURE)
+    chunks: list[tuple[bytes, bytes]] = []
+    at = len(SIGNATURE)
     while not chunks or chunks[-1][0] != b"IEND":
         head = file[at : at + 8]
         length = int.from_bytes(head[:4], "big")

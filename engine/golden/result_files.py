@@ -77,16 +77,14 @@ def _of_reg_cli(document: dict[str, Any]):
     for key, (status, *_) in _LISTS.items():
         for name in document[key]:
             name = name.lstrip("/")
-            paths = {
-                kind: f"{document[folder]}/{name}"
-                for kind, folder, listed in (
-                    ("actual", "actualDir", status != DELETED),
-                    ("expected", "expectedDir", status != NEW),
-                    ("difference", "diffDir", status == CHANGED),
-                )
-                if listed
-            }
-            yield Result(name, status, **paths)
+            result = Result(name, status)
+            if status != DELETED:
+                result.actual = f"{document['actualDir']}/{name}"
+            if status != NEW:
+                result.expected = f"{document['expectedDir']}/{name}"
+            if status == CHANGED:
+                result.difference = f"{document['diffDir']}/{name}"
+            yield result
 
 
 def write_junit(path: str, results: list[Result], failures: tuple[str, ...]) -> None:
@@ -96,8 +94,8 @@ def write_junit(path: str, results: list[Result], failures: tuple[str, ...]) -> 
     """
     failed = sum(result.status in failures for result in results)
     counts = {"tests": str(len(results)), "failures": str(failed)}
-    suites = ElementTree.Element("testsuites", name="engine3d diff", **counts)
-    suite = ElementTree.SubElement(suites, "testsuite", name="pictures", **counts)
+    suites = ElementTree.Element("testsuites", {"name": "engine3d diff", **counts})
+    suite = ElementTree.SubElement(suites, "testsuite", {"name": "pictures", **counts})
     for result in results:
         case = ElementTree.SubElement(
             suite, "testcase", classname="pictures", name=_of_xml(result.name)

@@ -26,8 +26,8 @@ def finish(run: Run, config: pytest.Config) -> bool:
     results = sorted((Result(**one) for one in run.results), key=lambda r: (r.name, r.test))
     conflicts = two_pictures(results)
     run.lines += [f"{name}: {TWO_PICTURES}" for name in conflicts]
-    _count(results, run, config.rootpath)
-    unused = [] if _is_partial(run, config) else find_unused(run, config.rootpath)
+    _count(results, run, config)
+    unused = {} if _is_partial(run, config) else find_unused(run, config.rootpath)
     try:
         results += _treat_unused(unused, run, config)
         _write_files(results, run, config)
@@ -37,17 +37,19 @@ def finish(run: Run, config: pytest.Config) -> bool:
     return not conflicts and not (unused and config.option.golden_unused == "fail")
 
 
-def _count(results: list[Result], run: Run, root: Path) -> None:
+def _count(results: list[Result], run: Run, config: pytest.Config) -> None:
     """Say how many pictures there are of each kind, where they did not all pass."""
     counts = Counter(result.status for result in results)
     if set(counts) - {PASSED}:
         order = (PASSED, CHANGED, NEW, UPDATED)
         run.lines.append(", ".join(f"{counts[one]} {one}" for one in order if counts[one]))
+    if counts[CHANGED] and not config.option.golden_report:
+        run.lines.append("side by side: pytest --golden-report=FILE.html")
     written = dict.fromkeys(r.expected for r in results if r.status == UPDATED)
-    run.lines += [f"written: {_short(path, root)}" for path in written if path]
+    run.lines += [f"written: {_short(path, config.rootpath)}" for path in written if path]
 
 
-def _treat_unused(unused: list[Path], run: Run, config: pytest.Config) -> list[Result]:
+def _treat_unused(unused: dict[Path, str], run: Run, config: pytest.Config) -> list[Result]:
     """Report or delete files; return results of those that are left. Raises `FileAccessError`."""
     deletes = config.option.golden_unused == "delete"
     done = "deleted, no test asks for it" if deletes else "no test asks for it"
@@ -58,7 +60,10 @@ def _treat_unused(unused: list[Path], run: Run, config: pytest.Config) -> list[R
         except OSError as error:
             raise FileAccessError(f"cannot delete: {error.strerror}", path) from error
         run.lines.append(f"{done}: {_short(path, config.rootpath)}")
-    return [] if deletes else [_unused_result(path, config.rootpath) for path in unused]
+    if deletes:
+        return []
+    message = "no test asks for it"
+    return [Result(name, UNUSED, message, expected=str(path)) for path, name in unused.items()]
 
 
 def two_pictures(results: list[Result]) -> list[str]:
@@ -80,8 +85,8 @@ def _is_partial(run: Run, config: pytest.Config) -> bool:
     return bool(config.getoption("lf", False) or config.getoption("stepwise", False))
 
 
-def find_unused(run: Run, root: Path) -> list[Path]:
-    """Return the golden files that no test has asked for, of modules whose tests all passed.
+def find_unused(run: Run, root: Path) -> dict[Path, str]:
+    """Return golden files that no test has asked for, with their names, of modules that passed.
 
     A test that failed or was skipped might have asked for more; nothing is said of its module then.
     """
@@ -91,20 +96,38 @@ def find_unused(run: Run, root: Path) -> list[Path]:
         for file, count in run.collected.items()
         if run.passed[file] == count and (root / file).resolve() not in partial
     ]
-    used = {os.path.normpath(result["expected"]) for result in run.results if result["expected"]}
+    used = {Path(os.path.normpath(one["expected"])) for one in run.results if one["expected"]}
     folders = {folder_of(module) for module in modules}
     # Of modules that are gone.
     for parent in {folder.parent for folder in folders}:
         if parent.is_dir():
             gone = {path for path in parent.iterdir() if path.is_dir()} - folders
             folders |= {path for path in gone if not (parent.parent / f"{path.name}.py").exists()}
-    found = [path for folder in folders for path in folder.rglob(f"*{SUFFIX}")]
-    return sorted(path for path in found if os.path.normpath(path) not in used)
+    return {
+        path: _name(path, folder, root)
+        for folder in sorted(folders)
+        for path in _golden_files(folder, used)
+        if path not in used
+    }
 
 
-def _unused_result(path: Path, root: Path) -> Result:
-    name = path.relative_to(root).with_suffix("").as_posix()
-    return Result(name, UNUSED, "no test asks for it", expected=str(path))
+def _golden_files(folder: Path, used: set[Path]) -> list[Path]:
+    """Return the golden files below the folder of a module.
+
+    Where none is used, the folder may be one for other purposes: only files of our own count.
+    """
+    found = sorted(Path(os.path.normpath(path)) for path in folder.rglob(f"*{SUFFIX}"))
+    if not found or not used.isdisjoint(found):
+        return found
+    from .golden_files import is_golden_file
+
+    return [path for path in found if is_golden_file(path)]
+
+
+def _name(path: Path, folder: Path, root: Path) -> str:
+    """Return what the fixture would call a file in the folder of a module."""
+    module = os.path.relpath(folder.parent.parent / folder.name, root)
+    return (Path(module) / path.relative_to(folder).with_suffix("")).as_posix()
 
 
 def _short(path: str | Path, root: Path) -> str:

@@ -87,7 +87,7 @@ def test_the_picture_of_a_difference():
     little, much = picture[10, 20], picture[30, 50]
     assert little[0] > 250 and little[1] > 160 and much[1] < 60 < 200 < much[0]
     halo = picture[12, 22].tolist()
-    assert halo == [255, 214, 224, 255] and picture[8, 18].tolist() == halo
+    assert halo == [255, 178, 198, 255] and picture[8, 18].tolist() == halo
     assert picture[13, 20].tolist() != halo and picture[10, 23].tolist() != halo
     plain = picture[0, 0]
     assert plain[0] == plain[1] == plain[2] > 230

@@ -31,11 +31,14 @@ DRAWN = np.arange(6 * 8 * 4, dtype=np.uint8).reshape(6, 8, 4)
 def run(pytester, monkeypatch):
     """``run(code, *arguments)``: test_a.py in a run of its own; ``run(None, …)`` keeps the file."""
     monkeypatch.delenv("CI", raising=False)
+    # Looking for plugins takes longer than all the rest.
+    monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
+    plugins = ("-p", "engine3d.golden.plugin", "-p", "no:cacheprovider")
 
     def run(code, *arguments):
         if code is not None:
             pytester.makepyfile(test_a=HEAD + code)
-        return pytester.runpytest_inprocess("-p", "no:cacheprovider", *arguments)
+        return pytester.runpytest_inprocess(*plugins, *arguments)
 
     run.path = pytester.path
     run.folder = pytester.path / "golden" / "test_a"
@@ -77,6 +80,7 @@ def test_written_then_equal_then_different(run):
             "*difference: *test_one.difference.png",
             "*pytest --golden-update=failed",
             "1 changed",
+            "side by side: pytest --golden-report=FILE.html",
         ]
     )
     line = next(line for line in result.outlines if "drawn now:" in line)
@@ -304,7 +308,9 @@ def test_unused_files_are_reported_failed_or_deleted(run):
     result = run(code)
     assert result.ret == 0
     assert unused(result) == ["no test asks for it: golden/test_a/test_two.png"]
-    assert run(None, "--golden-unused=fail").ret == pytest.ExitCode.TESTS_FAILED
+    result = run(None, "--golden-unused=fail", "--golden-json=a.json")
+    assert result.ret == pytest.ExitCode.TESTS_FAILED
+    assert json.loads((run.path / "a.json").read_text())["deletedItems"] == ["test_a/test_two"]
     assert len(run.names()) == 2
     result = run(None, "--golden-unused=delete")
     assert unused(result) == ["deleted, no test asks for it: golden/test_a/test_two.png"]
@@ -313,8 +319,12 @@ def test_unused_files_are_reported_failed_or_deleted(run):
 
 def test_files_of_a_module_that_is_gone_are_unused(run):
     run(ONE.format(0), "--golden-update")
-    write_png(run.path / "golden" / "test_gone" / "a.png", DRAWN)
-    write_png(run.path / "golden" / "test_there" / "a.png", DRAWN)
+    write_png(run.path / "golden" / "data" / "of_others.png", DRAWN)
+    for name in ("test_gone", "test_there"):
+        folder = run.path / "golden" / name
+        folder.mkdir()
+        (folder / "a.png").write_bytes(encode_golden(DRAWN))
+        (folder / "b.png").write_bytes(b"no picture")
     (run.path / "test_there.py").write_text("")
     assert unused(run(None, "test_a.py")) == ["no test asks for it: golden/test_gone/a.png"]
 
@@ -369,22 +379,23 @@ def test_folders_of_reports_are_made_and_errors_are_told(run):
     result.stdout.fnmatch_lines(["error: test_a.py/r.json: cannot write: *"])
 
 
-def test_workers_collect_and_one_process_reports(run, pytester):
+def test_workers_collect_and_one_process_reports(run, pytester, monkeypatch):
     pytest.importorskip("xdist", reason="needs pytest-xdist")
     code = """
 @pytest.mark.parametrize("n", range(4))
 def test_it(golden, n): golden(picture(n)); golden(picture(), "shared")
 """
-    pytester.makepyfile(test_a=HEAD + code, test_b=HEAD + ONE.format(1))
-    arguments = ("-n2", "--golden-json=a.json", "--golden-report=a.html")
-    result = pytester.runpytest_subprocess(*arguments, "--golden-update")
-    result.assert_outcomes(passed=5)
-    assert run.names() == ["shared.png", *(f"test_it-{n}.png" for n in range(4))]
+    run(code, "--golden-update").assert_outcomes(passed=4)
+    (run.folder / "test_it-3.png").unlink()
     write_png(run.folder / "old.png", DRAWN)
+    write_png(run.path / "golden" / "test_b" / "test_one.png", DRAWN)
     pytester.makepyfile(test_b=HEAD + ONE.format(2))
-    result = pytester.runpytest_subprocess(*arguments)
+    monkeypatch.delenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD")
+    arguments = ("-n2", "--golden-json=a.json", "--golden-report=a.html")
+    result = pytester.runpytest_subprocess(*arguments, "--golden-update=missing")
     result.assert_outcomes(passed=4, failed=1)
     assert unused(result) == ["no test asks for it: golden/test_a/old.png"]
+    result.stdout.fnmatch_lines(["written: golden/test_a/test_it-3.png"])
     document = json.loads((run.path / "a.json").read_text())
     assert document["failedItems"] == ["test_b/test_one"]
     assert len(document["pictures"]) == 10

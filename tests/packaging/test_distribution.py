@@ -86,7 +86,7 @@ def test_wheel_holds_every_module_stub_and_data_file(wheel, source_tree):
     engine = source_tree / "engine"
     expected = {
         f"engine3d/{path.relative_to(engine).as_posix()}"
-        for pattern in ("*.py", "*.pyi", "py.typed")
+        for pattern in ("*.py", "*.pyi", "*.html", "py.typed")
         for path in engine.rglob(pattern)
         if path.stem != "kernels_testing"
     }

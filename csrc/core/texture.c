@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/large_pages.h"
 #include "core/srgb_tables.h"
 #include "e3d.h"
 
@@ -186,7 +187,7 @@ e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t heig
     keep_sampling(sampling, &texture->view);
     texture->view.is_opaque = is_opaque(pixels, (size_t)width * (size_t)height);
     size_t bytes = chain_texels(width, height, levels) * texel_bytes(texture);
-    texture->texels = malloc(bytes + PAST);
+    texture->texels = e3d_large_memory(bytes + PAST);
     if (!texture->texels) {
         free(texture);
         return E3D_OUT_OF_MEMORY;

@@ -18,6 +18,7 @@
 #include "kernels/types/fragments.h"
 #include "kernels/types/lobe.h"
 #include "kernels/types/maps.h"
+#include "kernels/types/mixed.h"
 #include "kernels/types/occlusion.h"
 #include "kernels/types/records.h"
 #include "kernels/types/samples.h"
@@ -70,6 +71,8 @@ typedef struct e3d_kernels {
     /* Finds the pixels whose samples don't all show the same, a bit each, row by row. `shared` gets the IDs of the others, and
      * E3D_NO_SLOT for these. Returns whether some of the others, of the first width x height, show nothing. */
     int (*planes_split)(const e3d_visible_tile *planes, int count, int width, int height, uint64_t mixed[E3D_TILE], e3d_visible_tile *shared);
+    /* Lists the colours that are to be shaded of the list's pixels from `first` on, as far as there is room; returns the pixel that comes next. */
+    int (*list_mixed)(const e3d_visible_tile *planes, int samples, int first, e3d_run *runs, e3d_mixed_list *list);
     /* Adds the samples that a piece, whose slot is its ID, covers in front of what shows: row by row from y0 on, while there is room
      * for a whole one. Returns the row that comes next. */
     int32_t (*raster_alpha)(const e3d_piece *piece, const e3d_record_table *table, e3d_alpha_list *out);

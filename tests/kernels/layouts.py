@@ -147,6 +147,8 @@ BATCH_RECORD = np.dtype(
         ("alpha", "f4", _LANES),
         ("hidden_lights", "u4", _LANES),
         ("visibility", "f4", _LANES),
+        ("reached", "f4", (2, _LANES)),
+        ("sun", "i4", 2),
         ("count", "i4"),
         ("unmapped_normal", "u8"),  # an address, or 0
         ("pattern", "u8"),  # likewise

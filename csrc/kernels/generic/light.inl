@@ -285,6 +285,7 @@ static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float s
     int32_t chosen[AT_ONCE + E3D_PAD];
     light_box box;
     int boxed = lighting->light_count > E3D_FEW_LIGHTS && light_bounds(batch, &box), first = 0;
+    shadow_suns(lighting, batch);
     do {
         int rest = lighting->light_count - first, end = first + (rest < AT_ONCE ? rest : AT_ONCE);
         int count = light_choose(lighting, first, end, boxed ? &box : NULL, chosen);

@@ -10,6 +10,7 @@
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/anisotropic.inl"
 #include "kernels/generic/light.inl"
+#include "kernels/generic/shadow.inl"
 #include "kernels/generic/encode.inl"
 #include "kernels/generic/tone.inl"
 #include "kernels/generic/samples.inl"
@@ -164,6 +165,8 @@ static void kernel_paint(e3d_batch *batch, const e3d_surfaces *surfaces, const e
     if (paint->wanted & E3D_WANT_SURFACE)
         kernel_interpolate(batch, surfaces, paint->wanted);
     int colored = paint_albedo(batch, surfaces, paint);
+    if (paint->lighting)
+        shadow_suns(paint->lighting, batch);
     if (paint->fog || paint->tone != E3D_TONE_NONE)
         paint_toned(batch, paint, colored, rgba);
     else if (!paint->lighting)

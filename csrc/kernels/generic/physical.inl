@@ -193,6 +193,7 @@ static void kernel_physical(e3d_batch *batch, const e3d_surface_model *model, co
     int boxed = lighting->light_count > E3D_FEW_LIGHTS && light_bounds(batch, &box), first = 0;
     if (around)
         environment_begin(lighting->environment, &plan);
+    shadow_suns(lighting, batch);
     do {
         int rest = lighting->light_count - first, end = first + (rest < AT_ONCE ? rest : AT_ONCE);
         int count = light_choose(lighting, first, end, boxed ? &box : NULL, chosen);

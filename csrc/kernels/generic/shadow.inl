@@ -167,19 +167,25 @@ static ALWAYS_INLINE vi32 shadow_weigh(vi32 bits, const shadow_weights *x, const
     return sum;
 }
 
+/* What of the light sums of weights are. */
+static ALWAYS_INLINE vf32 shadow_share(const e3d_light_shadow *shadow, vi32 sum)
+{
+    return v_div(v_float(sum), v_setf((float)(65536 * shadow->taps * shadow->taps)));
+}
+
 /* Taps that are a texel apart share the comparisons between them: 3 x 3 are sixteen comparisons. */
-static ALWAYS_INLINE vi32 shadow_block(const e3d_light_shadow *shadow, vi32 at, vi32 x, vi32 y, vf32 depth)
+static ALWAYS_INLINE vf32 shadow_block(const e3d_light_shadow *shadow, vi32 at, vi32 x, vi32 y, vf32 depth)
 {
     vi32 bits = v_ge16(shadow->depths, shadow->size, at, depth), all = v_seti(0xFFFF), low = v_seti(255);
     vmask none = v_eqi(bits, v_seti(0)), whole = v_eqi(bits, all);
     if (!v_any(v_mnot(v_mor(none, whole)))) /* as mostly */
-        return v_seli(whole, v_seti(65536 * 9), v_seti(0));
+        return v_self(whole, v_setf(1.0f), v_setf(0.0f));
     shadow_weights across = shadow_block_weights(v_andi(x, low)), down = shadow_block_weights(v_andi(y, low));
-    return shadow_weigh(bits, &across, &down);
+    return shadow_share(shadow, shadow_weigh(bits, &across, &down));
 }
 
 /* 5 x 5 taps: four such blocks, which overlap. */
-static ALWAYS_INLINE vi32 shadow_large_block(const e3d_light_shadow *shadow, vi32 at, vi32 x, vi32 y, vf32 depth)
+static ALWAYS_INLINE vf32 shadow_large_block(const e3d_light_shadow *shadow, vi32 at, vi32 x, vi32 y, vf32 depth)
 {
     vi32 bits[4], every = v_seti(0xFFFF), some = v_seti(0), low = v_seti(255), sum = v_seti(0);
     for (int k = 0; k < 4; k++) {
@@ -189,12 +195,12 @@ static ALWAYS_INLINE vi32 shadow_large_block(const e3d_light_shadow *shadow, vi3
     }
     vmask none = v_eqi(some, v_seti(0)), whole = v_eqi(every, v_seti(0xFFFF));
     if (!v_any(v_mnot(v_mor(none, whole))))
-        return v_seli(whole, v_seti(65536 * 25), v_seti(0));
+        return v_self(whole, v_setf(1.0f), v_setf(0.0f));
     for (int k = 0; k < 4; k++) {
         shadow_weights across = shadow_half_weights(v_andi(x, low), k & 1), down = shadow_half_weights(v_andi(y, low), k >> 1);
         sum = v_addi(sum, shadow_weigh(bits[k], &across, &down));
     }
-    return sum;
+    return shadow_share(shadow, sum);
 }
 
 /* R93: the column or row of the first tap in 1/256 texel, which lanes outside of the maps have somewhere inside. */
@@ -205,34 +211,41 @@ static ALWAYS_INLINE vi32 shadow_first(const e3d_light_shadow *shadow, vf32 at, 
     return v_mini(v_maxi(first, v_seti(0)), v_seti(256 * shadow->size - 257 - across));
 }
 
-static ALWAYS_INLINE vf32 shadow_blend(const e3d_light_shadow *shadow, const shadow_place *place)
+/* The first comparisons of samples: column and row in 1/256 texel, the first texel of the map, the depth to compare. */
+typedef struct shadow_taps {
+    vi32 x, y, map;
+    vf32 depth;
+} shadow_taps;
+
+static ALWAYS_INLINE shadow_taps shadow_taps_of(const e3d_light_shadow *shadow, const shadow_place *place)
 {
-    int32_t step = shadow->step, across = step * (shadow->taps - 1);
-    vi32 x = shadow_first(shadow, place->x, across), y = shadow_first(shadow, place->y, across), sum = v_seti(0);
-    vi32 base = v_muli(place->map, v_seti(shadow->size * shadow->size));
-    vi32 at = v_addi(v_addi(base, v_muli(v_sra(y, 8), v_seti(shadow->size))), v_sra(x, 8));
+    int32_t across = shadow->step * (shadow->taps - 1);
+    return (shadow_taps){shadow_first(shadow, place->x, across), shadow_first(shadow, place->y, across),
+                         v_muli(place->map, v_seti(shadow->size * shadow->size)), place->depth};
+}
+
+static ALWAYS_INLINE vf32 shadow_blend(const e3d_light_shadow *shadow, const shadow_taps *taps)
+{
+    int32_t step = shadow->step;
+    vi32 x = taps->x, y = taps->y, sum = v_seti(0);
+    vi32 at = v_addi(v_addi(taps->map, v_muli(v_sra(y, 8), v_seti(shadow->size))), v_sra(x, 8));
     if (step == 256 && shadow->taps == 3)
-        sum = shadow_block(shadow, at, x, y, place->depth);
-    else if (step == 256 && shadow->taps == 5)
-        sum = shadow_large_block(shadow, at, x, y, place->depth);
-    else
-        for (int32_t t = 0; t < shadow->taps * shadow->taps; t++) {
-            vi32 right = v_seti(step * (t % shadow->taps)), down = v_seti(step * (t / shadow->taps));
-            sum = v_addi(sum, shadow_tap(shadow, base, v_addi(x, right), v_addi(y, down), place->depth));
-        }
-    vf32 reached = v_div(v_float(sum), v_setf((float)(65536 * shadow->taps * shadow->taps)));
-    return v_self(place->inside, reached, v_setf(1.0f));
+        return shadow_block(shadow, at, x, y, taps->depth);
+    if (step == 256 && shadow->taps == 5)
+        return shadow_large_block(shadow, at, x, y, taps->depth);
+    for (int32_t t = 0; t < shadow->taps * shadow->taps; t++) {
+        vi32 right = v_seti(step * (t % shadow->taps)), down = v_seti(step * (t / shadow->taps));
+        sum = v_addi(sum, shadow_tap(shadow, taps->map, v_addi(x, right), v_addi(y, down), taps->depth));
+    }
+    return shadow_share(shadow, sum);
 }
 
 /* ---- lights ---- */
 
-/* R91-R94 of a light that has maps; `l` is towards it. */
-static __attribute__((noinline)) vf32 shadow_map_reached(const e3d_lighting *lighting, int n, const vf32 position[3], const vf32 normal[3],
-                                                         const vf32 l[3])
+/* Samples as a light sees them that has maps; `l` is towards it. */
+static ALWAYS_INLINE shadow_lanes shadow_lanes_of(const e3d_light *light, const vf32 position[3], const vf32 normal[3], const vf32 l[3])
 {
-    const e3d_light *light = &lighting->lights[n];
     const e3d_light_shadow *shadow = &light->shadow;
-    const e3d_shadow_map *maps = lighting->shadows + shadow->first;
     shadow_lanes s; /* not cleared first: what is written so cannot be loaded at once */
     vf32 p[3];
     s.sine = shadow_sine(normal, l);
@@ -243,10 +256,91 @@ static __attribute__((noinline)) vf32 shadow_map_reached(const e3d_lighting *lig
         s.at[k] = light->kind == E3D_LIGHT_POINT ? p[k] : dot_three(p, axis);
         s.along[k] = light->kind == E3D_LIGHT_POINT ? normal[k] : dot_three(normal, axis);
     }
+    return s;
+}
+
+/* R91-R94 of a light that has maps; `l` is towards it. */
+static __attribute__((noinline)) vf32 shadow_map_reached(const e3d_lighting *lighting, int n, const vf32 position[3], const vf32 normal[3],
+                                                         const vf32 l[3])
+{
+    const e3d_light *light = &lighting->lights[n];
+    const e3d_light_shadow *shadow = &light->shadow;
+    const e3d_shadow_map *maps = lighting->shadows + shadow->first;
+    shadow_lanes s = shadow_lanes_of(light, position, normal, l);
     shadow_place place = light->kind == E3D_LIGHT_DIRECTIONAL ? shadow_place_directional(shadow, maps, &s)
                          : light->kind == E3D_LIGHT_SPOT      ? shadow_place_spot(shadow, maps, &s)
                                                               : shadow_place_point(shadow, maps, &s);
-    return v_any(place.inside) ? shadow_blend(shadow, &place) : v_setf(1.0f);
+    if (!v_any(place.inside))
+        return v_setf(1.0f);
+    shadow_taps taps = shadow_taps_of(shadow, &place);
+    return v_self(place.inside, shadow_blend(shadow, &taps), v_setf(1.0f));
+}
+
+/* ---- directional lights: a whole batch at a time, so that no vector waits for the one before ---- */
+
+typedef struct shadow_batch {
+    int32_t x[E3D_BATCH + E3D_PAD], y[E3D_BATCH + E3D_PAD], map[E3D_BATCH + E3D_PAD], outside[E3D_BATCH + E3D_PAD];
+    float depth[E3D_BATCH + E3D_PAD];
+} shadow_batch;
+
+static ALWAYS_INLINE void shadow_load(const e3d_lane_array *from, int i, vf32 out[3])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = v_loadf(from[k] + i);
+}
+
+/* Where the samples of a batch are in the maps; what faces away from the light gets none of it anyway, and counts as outside. */
+static void shadow_find_batch(const e3d_light *light, const e3d_shadow_map *maps, const e3d_batch *batch, shadow_batch *out)
+{
+    const e3d_lane_array *normals = batch->unmapped_normal ? batch->unmapped_normal : batch->normal;
+    const vf32 l[3] = {v_setf(light->to_light[0]), v_setf(light->to_light[1]), v_setf(light->to_light[2])};
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        vf32 position[3], normal[3], lit[3];
+        shadow_load(batch->position, i, position);
+        shadow_load(normals, i, normal);
+        shadow_load(batch->normal, i, lit);
+        shadow_lanes s = shadow_lanes_of(light, position, normal, l);
+        shadow_place place = shadow_place_directional(&light->shadow, maps, &s);
+        shadow_taps taps = shadow_taps_of(&light->shadow, &place);
+        vmask counts = v_mand(place.inside, v_gt(dot_three(lit, l), v_setf(0.0f)));
+        v_storei(out->x + i, taps.x);
+        v_storei(out->y + i, taps.y);
+        v_storei(out->map + i, taps.map);
+        v_storef(out->depth + i, taps.depth);
+        v_storei(out->outside + i, v_seli(counts, v_seti(0), v_seti(-1)));
+    }
+}
+
+/* R91-R94 of a directional light that has maps. */
+static __attribute__((noinline)) void shadow_find_reached(const e3d_light *light, const e3d_shadow_map *maps, const e3d_batch *batch,
+                                                          float *reached)
+{
+    shadow_batch places;
+    shadow_find_batch(light, maps, batch, &places);
+    for (int i = 0; i < batch->count; i += V_LANES) {
+        vmask outside = v_negi(v_loadi(places.outside + i));
+        vf32 share = v_setf(1.0f);
+        if (v_any(v_mnot(outside))) {
+            shadow_taps taps = {v_loadi(places.x + i), v_loadi(places.y + i), v_loadi(places.map + i), v_loadf(places.depth + i)};
+            share = v_self(outside, share, shadow_blend(&light->shadow, &taps));
+        }
+        v_storef(reached + i, share);
+    }
+}
+
+/* The first directional lights that have maps: what of them reaches the samples of a batch. */
+static inline void shadow_suns(const e3d_lighting *lighting, e3d_batch *batch)
+{
+    int found = 0;
+    for (int n = 0; n < lighting->light_count && found < E3D_SUNS && lighting->shadows; n++) {
+        const e3d_light *light = &lighting->lights[n];
+        if (light->kind != E3D_LIGHT_DIRECTIONAL || light->shadow.kind != E3D_SHADOW_MAP)
+            continue;
+        shadow_find_reached(light, lighting->shadows + light->shadow.first, batch, batch->reached[found]);
+        batch->sun[found++] = n;
+    }
+    for (; found < E3D_SUNS; found++)
+        batch->sun[found] = -1;
 }
 
 /* How much of light n, which has a shadow, reaches a vector of samples, from 0 to 1: those of the batch from i on, at these positions. */
@@ -258,10 +352,12 @@ static ALWAYS_INLINE vf32 light_reached(const e3d_lighting *lighting, int n, con
         vi32 hidden = v_andi(v_loadi(batch->hidden_lights + i), v_seti((int32_t)(UINT32_C(1) << shadow->first)));
         return v_self(v_eqi(hidden, v_seti(0)), v_setf(1.0f), v_setf(0.0f));
     }
+    for (int k = 0; k < E3D_SUNS; k++)
+        if (batch->sun[k] == n)
+            return v_loadf(batch->reached[k] + i);
     const e3d_lane_array *normals = batch->unmapped_normal ? batch->unmapped_normal : batch->normal;
     vf32 normal[3];
-    for (int k = 0; k < 3; k++)
-        normal[k] = v_loadf(normals[k] + i);
+    shadow_load(normals, i, normal);
     return shadow_map_reached(lighting, n, position, normal, l);
 }
 

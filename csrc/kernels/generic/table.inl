@@ -11,6 +11,7 @@
 #include "kernels/generic/visible.inl"
 #include "kernels/generic/visible_records.inl"
 #include "kernels/generic/planes.inl"
+#include "kernels/generic/mixed.inl"
 #include "kernels/generic/runs.inl"
 #include "kernels/generic/shown.inl"
 #include "kernels/generic/spans.inl"
@@ -59,6 +60,7 @@ const e3d_kernels E3D_TABLE = {
     .planes_settle = kernel_planes_settle,
     .planes_measure = kernel_planes_measure,
     .planes_split = kernel_planes_split,
+    .list_mixed = kernel_list_mixed,
     .cover_planes = kernel_cover_planes,
     .find_runs = kernel_find_runs,
     .take_runs = kernel_take_runs,

@@ -11,6 +11,7 @@
 #include "kernels/types/samples.h"
 
 enum { E3D_BATCH = 256, E3D_BATCH_SURFACES = 128 };
+enum { E3D_SUNS = 2 }; /* directional lights whose maps are looked up for a whole batch at once; of others, vector by vector */
 
 typedef float e3d_surface_floats[E3D_BATCH_SURFACES + E3D_PAD];
 typedef int32_t e3d_surface_words[E3D_BATCH_SURFACES + E3D_PAD];
@@ -73,6 +74,8 @@ typedef struct e3d_batch {
     e3d_lane_array energy[3], shine[3], alpha;
     uint32_t hidden_lights[E3D_BATCH + E3D_PAD]; /* where lights have exact shadows: a bit for each of them, set where it is hidden */
     e3d_lane_array visibility; /* R129, where the frame has it */
+    e3d_lane_array reached[E3D_SUNS]; /* `reached` of R93 of the lights whose numbers are in `sun`, found by the kernels that light the batch */
+    int32_t sun[E3D_SUNS];
     int count;
     const e3d_lane_array *unmapped_normal; /* where `normal` is mapped: what it was before; else NULL */
     const e3d_sample_pattern *pattern;     /* NULL: values are those of samples' centres; else R105 tells where they are found: */

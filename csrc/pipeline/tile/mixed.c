@@ -6,12 +6,13 @@
  * Always: lists are of at most as many colours as a tile has samples; pixels of a full one are done before the next begins.
  */
 #include <math.h>
+#include <string.h>
 
-#include "core/always_inline.h"
 #include "core/limits.h"
 #include "core/sample_patterns.h"
 #include "core/vectors.h"
 #include "kernels/kernels.h"
+#include "kernels/types/mixed.h"
 #include "kernels/types/records.h"
 #include "kernels/types/samples.h"
 #include "kernels/types/shown.h"
@@ -49,49 +50,43 @@ static int32_t background_of(const e3d_tile_job *job, int32_t pixel, e3d_mixed_l
     return number;
 }
 
-/* The same where the background has one colour and faces show. Which samples show the same is unpredictable: nothing branches on it. */
-static ALWAYS_INLINE int32_t list_simple(const e3d_visible_tile *planes, int32_t samples, int32_t pixel, e3d_run *runs, int32_t count,
-                                         e3d_mixed_list *list)
-{
-    uint16_t *of = list->of + list->pixels * samples;
-    int32_t ids[E3D_MOST_MSAA_SAMPLES];
-    list->pixel[list->pixels++] = (uint16_t)pixel;
-    for (int32_t s = 0; s < samples; s++) {
-        int32_t id = ids[s] = planes[s].id[pixel], number = id < 0 ? E3D_MIXED_BACKGROUND : count, fresh = id >= 0;
-        for (int32_t t = 0; t < s; t++) {
-            number = ids[t] == id ? of[t] : number;
-            fresh = ids[t] == id ? 0 : fresh;
-        }
-        of[s] = (uint16_t)number;
-        runs[count] = (e3d_run){id, (uint16_t)(pixel | s << E3D_SHOWN_NUMBER), (uint16_t)count};
-        count += fresh;
-    }
-    list->colors = count;
-    return count;
-}
-
-/* Lists a pixel: a colour for each piece that shows in it, at the first sample that shows it; how many there are to be shaded then. */
-static int32_t list_pixel(const e3d_tile_job *job, int32_t pixel, int only_edges, e3d_run *runs, int32_t count, e3d_mixed_list *list)
+/* Lists a pixel: a colour for each piece that shows in it, at the first sample that shows it. */
+static int32_t list_pixel(const e3d_tile_job *job, int32_t at, int only_edges, e3d_run *runs, int32_t count, e3d_mixed_list *list)
 {
     const e3d_visible_tile *planes = job->visible;
-    int32_t samples = job->in->pass->pattern->count, ids[E3D_MOST_MSAA_SAMPLES];
-    uint16_t *of = list->of + list->pixels * samples;
-    list->pixel[list->pixels++] = (uint16_t)pixel;
+    int32_t samples = job->in->pass->pattern->count, pixel = list->pixel[at], ids[E3D_MOST_MSAA_SAMPLES];
     for (int32_t s = 0; s < samples; s++) {
         int32_t t = 0, id = shown_id(job, planes[s].id[pixel], only_edges);
         ids[s] = id;
         while (t < s && ids[t] != id)
             t++;
         if (t < s) {
-            of[s] = of[t];
+            list->of[s][at] = list->of[t][at];
         } else if (id < 0) {
-            of[s] = (uint16_t)background_of(job, pixel, list);
+            list->of[s][at] = (uint16_t)background_of(job, pixel, list);
         } else {
-            of[s] = (uint16_t)list->colors++;
-            runs[count++] = (e3d_run){id, (uint16_t)(pixel | s << E3D_SHOWN_NUMBER), of[s]};
+            list->of[s][at] = (uint16_t)list->colors++;
+            runs[count++] = (e3d_run){id, (uint16_t)(pixel | s << E3D_SHOWN_NUMBER), list->of[s][at]};
         }
     }
     return count;
+}
+
+/* Lists pixels from `first` on, as far as there is room; the pixel that comes next. */
+static int32_t list_pixels(const e3d_tile_job *job, int32_t first, e3d_run *runs, int32_t *count, e3d_mixed_list *list)
+{
+    const e3d_prepared *pass = job->in->pass;
+    int32_t samples = pass->pattern->count;
+    int only_edges = e3d_plans(pass, E3D_ASKED_WIRE_ONLY);
+    *count = list->colors = 0;
+    if (!only_edges && !e3d_plans(pass, E3D_PLAN_BACKDROP)) {
+        first = pass->kernels->list_mixed(job->visible, samples, first, runs, list);
+        *count = list->colors;
+        return first;
+    }
+    for (; first < list->pixels && list->colors + samples <= E3D_TILE_SAMPLES; first++)
+        *count = list_pixel(job, first, only_edges, runs, *count, list);
+    return first;
 }
 
 /* Sorts what is to be shaded by piece; `length` of a run is the number of its colour here. */
@@ -142,78 +137,63 @@ static void encode_averages(const e3d_tile_job *job)
     a->count = 0;
 }
 
-static void average_list(const e3d_tile_job *job)
+static void average_list(const e3d_tile_job *job, int32_t first, int32_t end)
 {
     const e3d_mixed_list *list = &job->memory->multisample->list;
     int32_t samples = job->in->pass->pattern->count;
     float share = 1.0f / (float)samples;
-    const uint16_t *of = list->of;
-    for (int32_t p = 0; p < list->pixels; p++, of += samples) {
+    for (int32_t p = first; p < end; p++) {
         float4 color[E3D_MOST_MSAA_SAMPLES];
         for (int32_t s = 0; s < samples; s++)
-            color[s] = load4(list->color[list->place[of[s]]]);
+            color[s] = load4(list->color[list->place[list->of[s][p]]]);
         add_average(job->in->shade->store, list->pixel[p], sum_of(color, samples), share, &job->memory->multisample->average);
     }
     encode_averages(job);
 }
 
 /* Leaves the colours in the samples. */
-static void keep_list(const e3d_tile_job *job)
+static void keep_list(const e3d_tile_job *job, int32_t first, int32_t end)
 {
     const e3d_mixed_list *list = &job->memory->multisample->list;
     e3d_samples *out = job->memory->multisample->samples;
     int32_t samples = job->in->pass->pattern->count;
-    for (int32_t p = 0; p < list->pixels; p++)
+    for (int32_t p = first; p < end; p++)
         for (int32_t s = 0; s < samples; s++) {
-            const float *color = list->color[list->place[list->of[p * samples + s]]];
+            const float *color = list->color[list->place[list->of[s][p]]];
             for (int k = 0; k < 3; k++)
                 out[s].color[k][list->pixel[p]] = color[k];
             out[s].counts[list->pixel[p]] = color[3];
         }
 }
 
-static int finish_list(const e3d_tile_job *job, int32_t count, int layered)
+/* The pixels whose bits are set, row by row. */
+static void take_pixels(const e3d_tile_job *job, e3d_mixed_list *list)
 {
-    e3d_mixed_list *list = &job->memory->multisample->list;
-    show(job, count, list);
-    if (count && !e3d_alpha_shade(job, E3D_SOLID_KEEP, list->color, NULL))
-        return 0;
-    if (layered)
-        keep_list(job);
-    else
-        average_list(job);
-    list->pixels = list->colors = 0;
-    return 1;
-}
-
-static ALWAYS_INLINE int32_t list_any(const e3d_tile_job *job, int32_t pixel, int only_edges, int simple, int32_t count, e3d_mixed_list *list)
-{
-    int32_t samples = job->in->pass->pattern->count;
-    e3d_run *runs = job->memory->shade.runs.rows;
-    if (!simple)
-        return list_pixel(job, pixel, only_edges, runs, count, list);
-    return samples == 4 ? list_simple(job->visible, 4, pixel, runs, count, list) : list_simple(job->visible, samples, pixel, runs, count, list);
+    list->pixels = 0;
+    for (int32_t y = 0; y < job->tile.height; y++)
+        for (uint64_t left = job->memory->multisample->mixed[y]; left; left &= left - 1)
+            list->pixel[list->pixels++] = y * E3D_TILE + __builtin_ctzll(left);
+    memset(list->pixel + list->pixels, 0, E3D_PAD * sizeof *list->pixel);
 }
 
 int e3d_mixed_shade(const e3d_tile_job *job, int layered)
 {
-    e3d_multisample_memory *memory = job->memory->multisample;
-    e3d_mixed_list *list = &memory->list;
-    int32_t samples = job->in->pass->pattern->count, count = 0;
-    int only_edges = e3d_plans(job->in->pass, E3D_ASKED_WIRE_ONLY), simple = !only_edges && !e3d_plans(job->in->pass, E3D_PLAN_BACKDROP);
-    list->pixels = list->colors = memory->average.count = 0;
+    e3d_mixed_list *list = &job->memory->multisample->list;
+    job->memory->multisample->average.count = 0;
     list->place[E3D_MIXED_BACKGROUND] = E3D_MIXED_BACKGROUND;
     store4(list->color[E3D_MIXED_BACKGROUND], load4(job->in->shade->store->background.sample));
-    for (int32_t y = 0; y < job->tile.height; y++)
-        for (uint64_t left = memory->mixed[y]; left; left &= left - 1) {
-            if (list->colors + samples > E3D_TILE_SAMPLES) {
-                if (!finish_list(job, count, layered))
-                    return 0;
-                count = 0;
-            }
-            count = list_any(job, y * E3D_TILE + __builtin_ctzll(left), only_edges, simple, count, list);
-        }
-    return !list->pixels || finish_list(job, count, layered);
+    take_pixels(job, list);
+    for (int32_t first = 0, next, count; first < list->pixels; first = next) {
+        next = list_pixels(job, first, job->memory->shade.runs.rows, &count, list);
+        show(job, count, list);
+        if (count && !e3d_alpha_shade(job, E3D_SOLID_KEEP, list->color, NULL))
+            return 0;
+        if (layered)
+            keep_list(job, first, next);
+        else
+            average_list(job, first, next);
+    }
+    return 1;
 }
 
 void e3d_mixed_average_samples(const e3d_tile_job *job)

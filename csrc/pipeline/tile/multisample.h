@@ -7,24 +7,11 @@
 #include "core/grow.h"
 #include "core/limits.h"
 #include "core/sample_patterns.h"
+#include "kernels/types/mixed.h"
 #include "kernels/types/samples.h"
 #include "kernels/types/visible.h"
 
 typedef struct e3d_tile_job e3d_tile_job;
-
-/* Colours of a list of pixels: those that are shaded, that of the background, and those of a backdrop, each of one pixel. */
-enum { E3D_MIXED_BACKGROUND = E3D_TILE_SAMPLES,
-       E3D_MIXED_BACKDROP,
-       E3D_MIXED_COLORS = E3D_MIXED_BACKDROP + E3D_TILE_SAMPLES };
-
-/* Pixels whose samples don't all show the same. */
-typedef struct e3d_mixed_list {
-    int32_t pixels, colors;
-    uint16_t pixel[E3D_TILE_SAMPLES];
-    uint16_t of[E3D_TILE_SAMPLES * E3D_MOST_MSAA_SAMPLES]; /* the colour of each sample of each pixel: its number, */
-    uint16_t place[E3D_MIXED_COLORS];                      /* and of each number its place in `color` */
-    float color[E3D_MIXED_COLORS][4];                      /* clamped, and multiplied by its alpha */
-} e3d_mixed_list;
 
 /* Pixels that are averaged, and where they go. */
 typedef struct e3d_average {

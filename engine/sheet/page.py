@@ -167,7 +167,10 @@ class _Page:
         name = marks.short(printable(panel.spec.name), columns)
         window.text(8 * text, 7 * text, name, theme.title, scale=text)
         if panel.reason is not None:
-            reason = marks.short(f"blank: {panel.reason.sentence}", columns - len(name) - 2)
+            room = columns - len(name) - 2
+            reason = f"blank: {panel.reason.sentence}"
+            if len(reason) > room:
+                reason = marks.short(f"blank: {panel.reason.word}", room)
             place = (8 + 8 * (len(name) + 2)) * text
             window.text(place, 7 * text, reason, theme.key, scale=text)
         marks.draw_frame(canvas, panel.rectangle, studio.paper)

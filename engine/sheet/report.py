@@ -144,9 +144,11 @@ class ModelReport:
         return report
 
     def _nodes_of(self, table: list[Shown], panel: Panel) -> list[dict[str, Any]]:
-        found = []
-        for number in dict.fromkeys(shown.key >> _MATERIAL_BITS for shown in table):
-            node = joined([s for s in table if s.key >> _MATERIAL_BITS == number], number)
+        found, by_node = [], {}
+        for shown in table:
+            by_node.setdefault(shown.key >> _MATERIAL_BITS, []).append(shown)
+        for number, of_node in by_node.items():
+            node = joined(of_node, number)
             alone = panel.alone.get(number, node.pixels)
             hidden = None if alone is None else max(0.0, 1.0 - node.pixels / alone)
             found.append(

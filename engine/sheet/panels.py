@@ -125,22 +125,26 @@ def draw_panel(
         frame,
         shown,
     )
-    if spec.kind == "section":
-        section = spec.section
-        plane = Plane(section.axis, float(pose[section.axis, 3]), section.from_above)
+    if spec.section is not None:
+        plane = Plane(spec.section.axis, float(pose[spec.section.axis, 3]), spec.section.from_above)
         panel.caps = find_caps(studio, plane, camera, pose, rectangle, frame)
     if spec.kind != "isometric":
         _ink(panel, studio)
-    panel.contrast = _contrast(studio, panel)
-    if not shown.any():
-        panel.reason = why_blank(studio, camera, pose, rectangle)
-    elif panel.contrast <= SAME_COLOUR:
-        panel.reason = Reason("same_colour", "what shows has the colour of the ground")
-    options = studio.options(rectangle, both_sides=spec.kind == "section")
+    _look_for_reasons(panel, studio)
+    options = studio.options(rectangle, both_sides=spec.section is not None)
     panel.alone = alone.count(camera, pose, rectangle, options)
     x, y, width, height = rectangle
     canvas.pixels[y : y + height, x : x + width] = frame.color
     return panel
+
+
+def _look_for_reasons(panel: Panel, studio: Studio) -> None:
+    """Find out whether anything is to be seen, and if not, why."""
+    panel.contrast = _contrast(studio, panel)
+    if not panel.shown.any():
+        panel.reason = why_blank(studio, panel.camera, panel.pose, panel.rectangle)
+    elif panel.contrast <= SAME_COLOUR:
+        panel.reason = Reason("same_colour", "what shows has the colour of the ground")
 
 
 def _camera(studio: Studio, place: Place, cameras: list[Node], origin):
@@ -163,7 +167,7 @@ def _draw(studio: Studio, spec: ViewSpec, camera, pose, rectangle) -> Frame:
     if spec.kind == "isometric":
         azimuth = math.radians(spec.angles[0])
         return studio.draw(camera, pose, rectangle, on_stage=True, azimuth=azimuth)
-    return studio.draw(camera, pose, rectangle, both_sides=spec.kind == "section")
+    return studio.draw(camera, pose, rectangle, both_sides=spec.section is not None)
 
 
 def _contrast(studio: Studio, panel: Panel) -> int:

@@ -101,47 +101,50 @@ class ModelReport:
         }
 
     def _view(self, panel: Panel) -> dict[str, Any]:
-        table = _count(panel)
-        box = panel.box
-        shown = int(panel.shown.sum())
-        x, y, width, height = panel.rectangle
+        table, box, reason = _count(panel), panel.box, panel.reason
         report = {
             "name": printable(panel.spec.name),
             "kind": panel.spec.kind,
-            "rectangle": [x, y, width, height],
+            "rectangle": list(panel.rectangle),
             "to_scale": panel.spec.to_scale,
             "camera": _camera(panel, self._viewed.origin),
-            "blank": panel.reason is not None,
-            "why": None if panel.reason is None else panel.reason.word,
-            "sentence": None if panel.reason is None else panel.reason.sentence,
+            "blank": reason is not None,
+            "why": None if reason is None else reason.word,
+            "sentence": None if reason is None else reason.sentence,
             "contrast": panel.contrast,
-            "pixels": shown,
-            "coverage": shown / panel.shown.size,
+            "pixels": int(panel.shown.sum()),
+            "coverage": int(panel.shown.sum()) / panel.shown.size,
             "box": None if box is None else _on_sheet(box, panel),
             "extent": list(panel.extent.size[:2]) if panel.scale is not None else None,
             "nodes": self._nodes_of(table, panel),
             "materials": self._materials_of(table, panel),
-            "parts": [
-                {
-                    "node": part.node,
-                    "name": printable(part.name),
-                    "pixels": part.pixels,
-                    "box": _on_sheet(part.box, panel),
-                }
-                for part in count_parts(panel.frame, panel.shown, self._scene)
-            ],
+            "parts": self._parts_of(panel),
         }
         if panel.caps is not None:
-            report["cut"] = [
-                {
-                    "id": cut.node,
-                    "name": self._names.get(cut.node, ""),
-                    "pixels": cut.pixels,
-                    "area": cut.area,
-                }
-                for cut in panel.caps.nodes
-            ]
+            report["cut"] = self._cut_of(panel)
         return report
+
+    def _parts_of(self, panel: Panel) -> list[dict[str, Any]]:
+        return [
+            {
+                "node": part.node,
+                "name": printable(part.name),
+                "pixels": part.pixels,
+                "box": _on_sheet(part.box, panel),
+            }
+            for part in count_parts(panel.frame, panel.shown, self._scene)
+        ]
+
+    def _cut_of(self, panel: Panel) -> list[dict[str, Any]]:
+        return [
+            {
+                "id": cut.node,
+                "name": self._names.get(cut.node, ""),
+                "pixels": cut.pixels,
+                "area": cut.area,
+            }
+            for cut in panel.caps.nodes
+        ]
 
     def _nodes_of(self, table: list[Shown], panel: Panel) -> list[dict[str, Any]]:
         found, by_node = [], {}

@@ -166,4 +166,4 @@ def inside(ends: np.ndarray, width: int, height: int) -> np.ndarray:
     places = x[number, 0] + run * ((rows + 0.5 - y[number, 0]) / rise)
     columns = np.clip(np.ceil(places - 0.5), 0, width).astype(np.int64)
     np.add.at(turns, (rows, columns), np.where(down[number], 1, -1).astype(np.int32))
-    return np.cumsum(turns, axis=1)[:, :width] != 0
+    return np.cumsum(turns, axis=1, dtype=np.int32)[:, :width] != 0

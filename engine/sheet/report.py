@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import math
-import re
 from typing import Any
 
 import numpy as np
@@ -26,13 +25,22 @@ from .visible import Shown, count_by_key, count_parts, joined, mesh_of_node
 #: Grows when a key gets another meaning.
 VERSION = 1
 _MATERIAL_BITS = 20
-_LIST_OF_NUMBERS = re.compile(r"\[\n\s+([^\[\]{}\"]*?)\n\s+\]")
 
 
 def report_text(report: dict[str, Any]) -> str:
-    """Return a report as JSON, lists of numbers on one line each."""
-    text = json.dumps(report, indent=2, allow_nan=False)
-    return _LIST_OF_NUMBERS.sub(lambda m: "[" + re.sub(r"\s*\n\s*", " ", m[1]) + "]", text) + "\n"
+    """Return a report as JSON: a line for each value that holds no others."""
+    return _text(report, "\n") + "\n"
+
+
+def _text(value: Any, margin: str) -> str:
+    """Return a value as JSON whose further lines begin with a margin."""
+    inner = margin + "  "
+    if isinstance(value, dict) and value:
+        rows = [f"{json.dumps(key)}: {_text(item, inner)}" for key, item in value.items()]
+        return "{" + inner + ("," + inner).join(rows) + margin + "}"
+    if isinstance(value, list) and any(isinstance(item, (dict, list)) for item in value):
+        return "[" + inner + ("," + inner).join(_text(v, inner) for v in value) + margin + "]"
+    return json.dumps(value, allow_nan=False)
 
 
 class ModelReport:
@@ -74,6 +82,7 @@ class ModelReport:
             "lines": sum(len(m.lines) * n for m, n in zip(meshes, times, strict=True)),
             "points": sum(len(m.points) * n for m, n in zip(meshes, times, strict=True)),
             "blank": all(view["blank"] for view in views),
+            "why": views[0]["why"] if all(view["blank"] for view in views) else None,
             "materials": [_material(number, m) for number, m in enumerate(self._materials)],
             "nodes": [self._node(node) for node in self._nodes],
             "never_visible": [node.id for node in self._nodes if node.id not in seen],
@@ -102,6 +111,7 @@ class ModelReport:
 
     def _view(self, panel: Panel) -> dict[str, Any]:
         table, box, reason = _count(panel), panel.box, panel.reason
+        pixels = int(np.count_nonzero(panel.shown))
         report = {
             "name": printable(panel.spec.name),
             "kind": panel.spec.kind,
@@ -112,8 +122,8 @@ class ModelReport:
             "why": None if reason is None else reason.word,
             "sentence": None if reason is None else reason.sentence,
             "contrast": panel.contrast,
-            "pixels": int(panel.shown.sum()),
-            "coverage": int(panel.shown.sum()) / panel.shown.size,
+            "pixels": pixels,
+            "coverage": pixels / panel.shown.size,
             "box": None if box is None else _on_sheet(box, panel),
             "extent": list(panel.extent.size[:2]) if panel.scale is not None else None,
             "nodes": self._nodes_of(table, panel),

@@ -8,7 +8,7 @@ import engine3d as e3d
 
 
 def cuts(scene, section, **options):
-    (view,) = drawn(scene, views=(), sections=section, **options).report["models"][0]["views"]
+    view, _ = drawn(scene, views=(), sections=section, **options).report["models"][0]["views"]
     return view, {cut["name"]: cut for cut in view["cut"]}
 
 
@@ -45,7 +45,7 @@ def test_a_hollow_body_is_hollow():
     view, found = cuts(scene, "x=0.3")
     assert found["solid"]["area"] == 12.0
     sheet = drawn(scene, views=(), sections="x=0.3")
-    (panel,) = sheet._panels[0]
+    panel, _ = sheet._panels[0]
     middle = sheet.project("section x=0.3", (0.3, 0, 0)) - view["rectangle"][:2]
     column, row = middle.astype(int)
     assert panel.caps.ids[row, column] == -1
@@ -125,7 +125,46 @@ def test_a_plane_through_vertices_closes_all_outlines():
 
 def test_cut_material_is_hatched():
     sheet = drawn(part(), views=(), sections="z=0")
-    (panel,) = sheet._panels[0]
+    panel, _ = sheet._panels[0]
     colors = panel.frame.color[panel.caps.ids >= 0][:, :3]
     cut = (colors == (232, 164, 124)).all(axis=1).mean()
     assert 0.6 < cut < 0.95
+
+
+def test_a_cutaway_shows_the_same_cut_from_aside():
+    sheet = drawn(part(), views="iso", sections="x=-1")  # through the base alone
+    _, section, cutaway = sheet.report["models"][0]["views"]
+    assert (section["kind"], cutaway["kind"]) == ("section", "cutaway")
+    assert [cut["area"] for cut in section["cut"]] == [cut["area"] for cut in cutaway["cut"]]
+    direction = cutaway["camera"]["direction"]
+    scale = cutaway["camera"]["scale"]
+    seen = sum(cut["pixels"] for cut in cutaway["cut"]) / scale**2
+    assert seen == pytest.approx(2.0 * abs(direction[0]), rel=0.03)
+
+
+@pytest.mark.parametrize("section", ["x=0.8", "-x=0.8", "-y=0.4", "z=10%"])
+@pytest.mark.parametrize("up", ["+Y", "-Z"])
+def test_pixels_of_cuts_are_places_on_the_plane(section, up):
+    sheet = drawn(part(), (480, 300), views=(), sections=section, up=up)
+    tried = 0
+    for panel, view in zip(sheet._panels[0], sheet.report["models"][0]["views"], strict=True):
+        left, top, width, height = view["rectangle"]
+        axis = "xyz".index(section.strip("-")[0])
+        plane = sheet.report["models"][0]["bounds"]["low"][2] + 0.2 if "%" in section else None
+        plane = float(section.partition("=")[2]) if plane is None else plane
+        for x in range(left, left + width, 9):
+            for y in range(top, top + height, 9):
+                found = sheet.at(x, y)
+                if "position" not in found:
+                    continue
+                tried += 1
+                back = sheet.project(view["name"], found["position"])
+                assert back == pytest.approx([x + 0.5, y + 0.5], abs=1e-6)
+                place = found["position"][axis]
+                if panel.caps.ids[y - top, x - left] >= 0:
+                    assert place == pytest.approx(plane, abs=1e-6)
+                    assert found["triangle"] == -1
+                else:
+                    beyond = place - plane if section[0] == "-" else plane - place
+                    assert beyond > -1e-5
+    assert tried > 100

@@ -127,7 +127,7 @@ def draw_panel(
     )
     if spec.section is not None:
         plane = _plane(studio, spec, origin)
-        panel.caps = find_caps(studio, plane, camera, pose, rectangle, frame)
+        panel.caps = find_caps(studio, plane, camera, pose, rectangle)
         _show_caps(panel, plane, origin)
     if spec.kind != "isometric":
         _ink(panel, studio)

@@ -76,7 +76,7 @@ def test_a_body_that_is_inside_out_is_filled_as_well():
     assert found["solid"]["area"] == 4.0 and found["solid"]["pixels"] > 1000
 
 
-def test_an_open_body_has_no_area_but_shows_where_it_is_cut():
+def test_an_open_body_has_no_area_but_is_filled():
     ball = e3d.uv_sphere(1.0, (24, 12))
     # Without what is right above.
     low = ball.positions[ball.faces][:, :, 1].max(axis=1) < 0.8
@@ -87,14 +87,22 @@ def test_an_open_body_has_no_area_but_shows_where_it_is_cut():
     assert found["bowl"]["pixels"] > 1000
 
 
-def test_two_sided_materials_stay_so():
+def test_a_surface_that_is_open_all_round_has_no_inside():
     scene = e3d.Scene()
-    bowl = e3d.plane((2, 2))
-    bowl.materials = [e3d.Material(two_sided=True)]
-    scene.add(bowl, name="floor", rotation=(0.6, 0, 0, 0.8))
+    scene.add(e3d.plane((2, 2)), name="floor", rotation=(0.6, 0, 0, 0.8))
     _, found = cuts(scene, "x=0.1")
-    assert found["floor"]["area"] is None
-    assert bowl.materials[0].two_sided
+    assert found["floor"] == {"id": 0, "name": "floor", "pixels": 0, "area": None}
+
+
+def test_a_pipe_without_ends_is_closed_by_straight_lines():
+    pipe = e3d.cylinder(1.0, 6.0, 24)
+    sides = np.abs(pipe.face_normals[:, 1]) < 0.5
+    scene = e3d.Scene()
+    scene.add(e3d.Mesh(pipe.positions, pipe.faces[sides]), name="pipe")
+    view, found = cuts(scene, "z=0.2")
+    assert found["pipe"]["area"] is None
+    whole = 6.0 * 2.0 * np.sqrt(1.0 - 0.04) * view["camera"]["scale"] ** 2
+    assert found["pipe"]["pixels"] == pytest.approx(whole, rel=0.05)
 
 
 def test_instances_are_cut_one_by_one():

@@ -253,7 +253,7 @@ def city() -> np.ndarray:
 def contact_sheet() -> np.ndarray:
     """The sheet of docs/sheet.md."""
     train = MODELS / "train.asc"
-    return e3d.contact_sheet(train, sections=("-y=50%", "x=62%"), size=(1500, 900)).picture.pixels
+    return e3d.contact_sheet(train, sections="-y=50%", size=(1500, 900)).picture.pixels
 
 
 def impostors() -> np.ndarray:

@@ -40,7 +40,7 @@ def add(parser) -> None:
         "--section",
         action="append",
         metavar="AXIS=PLACE",
-        help="cut the model in a view of its own: x=0.5 cuts off what has greater coordinates, "
+        help="cut the model in two views of its own: x=0.5 cuts off what has greater coordinates, "
         "-x=0.5 the rest, x=50%% is in the middle, as is x. May be given several times",
     )
     group.add_argument(

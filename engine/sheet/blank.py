@@ -6,12 +6,15 @@ Reasons are tried from what the file holds to how it is looked at.
 
 from __future__ import annotations
 
+import contextlib
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from .. import linalg
 from ..geometry.mesh import Mesh
+from ..materials.material import Material
 from ..motion.shown import placing_pose, shown_object
 from ..rendering.frame import Frame
 from ..scene.cameras import Camera
@@ -23,6 +26,7 @@ from .visible import covered
 
 #: Colours that differ by no more codes of 255 cannot be told from the ground.
 SAME_COLOUR = 6
+_MANY = 1024
 
 
 class Reason(NamedTuple):
@@ -96,9 +100,16 @@ def _of_place(
 
 
 def _points(studio: Studio) -> np.ndarray:
-    """Corners of the boxes of instances, and all finite vertices of other meshes."""
-    found = [np.zeros((0, 3))]
-    for node in _drawables(studio):
+    """Corners of the boxes of instances, and all finite vertices of other meshes.
+
+    Of very many nodes, their boxes must do.
+    """
+    found, nodes = [np.zeros((0, 3))], _drawables(studio)
+    if len(nodes) > _MANY:
+        bounds = studio.scene.select(nodes).bounds
+        bounds = bounds[np.isfinite(bounds).all(axis=(1, 2))]
+        return bounds[:, [[i & 1, i >> 1 & 1, i >> 2] for i in range(8)], [0, 1, 2]].reshape(-1, 3)
+    for node in nodes:
         thing = shown_object(node)
         if isinstance(thing, InstancedMesh):
             box = thing.bounds_in_node()
@@ -120,7 +131,21 @@ def _of_surface(studio: Studio, camera: Camera, pose: np.ndarray, rectangle: Rec
     )
     if covered(both, studio.own_ids).any():
         return Reason("all_culled", "all faces show their backs, which are left out")
-    modes = {material.alpha_mode for material in materials}
-    if "blend" in modes or "mask" in modes:
+    with _opaque(materials):
+        solid = studio.render(camera, pose, rectangle, outputs=("object_id",), cull="none")
+    if covered(solid, studio.own_ids).any():
         return Reason("transparent", "what is there is transparent or cut out")
     return Reason("edge_on", "its faces are seen edge on, or are thinner than a pixel")
+
+
+@contextlib.contextmanager
+def _opaque(materials: Iterable[Material]) -> Iterator[None]:
+    """Let no material have holes or let anything through, for a while."""
+    modes = [(m, m.alpha_mode) for m in materials if m.alpha_mode != "opaque"]
+    try:
+        for material, _ in modes:
+            material.alpha_mode = "opaque"
+        yield
+    finally:
+        for material, mode in modes:
+            material.alpha_mode = mode

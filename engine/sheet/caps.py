@@ -1,25 +1,18 @@
 """The faces of a cut: the pixels of a section at which its plane goes through something.
 
-In: a panel whose camera's near plane cuts the scene. Out: which node each pixel goes through, and
-the areas. Of nodes whose outlines do not close, as in open meshes, a pixel counts as cut where what
-is nearest turns its back.
+In: nodes, and a camera whose near plane cuts them. Out: which node each pixel goes through, and the
+areas.
 """
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from .. import linalg
-from ..materials.material import Material
-from ..rendering.frame import Frame
 from ..scene.cameras import Camera
-from ..scene.scene import Scene
-from ..scene.usage import uses_in
-from .cutting import Outline, Plane, area_of, cut_nodes, inside, is_closed
+from .cutting import Plane, area_of, cut_nodes, gaps_of, inside
 from .layout import Rectangle
 from .studio import Studio
 
@@ -52,12 +45,7 @@ class Caps(NamedTuple):
 
 
 def find_caps(
-    studio: Studio,
-    plane: Plane,
-    camera: Camera,
-    pose: np.ndarray,
-    rectangle: Rectangle,
-    shown: Frame,
+    studio: Studio, plane: Plane, camera: Camera, pose: np.ndarray, rectangle: Rectangle
 ) -> Caps:
     """Return the cut faces of a panel.
 
@@ -65,66 +53,36 @@ def find_caps(
     ----------
     studio, plane, camera, pose, rectangle
         Of the panel.
-    shown : Frame
-        Drawn with both sides of all faces.
     """
     wanted = set(studio.own_ids.tolist())
-    nodes = [node for node in studio.scene.nodes if node.id in wanted]
-    outlines = cut_nodes(nodes, plane)
-    closed = [is_closed(outline.segments) for outline in outlines]
+    outlines = cut_nodes([node for node in studio.scene.nodes if node.id in wanted], plane)
     areas = [area_of(outline.segments, plane) for outline in outlines]
-    backs = None if all(closed) else _backs(studio, camera, pose, rectangle, shown)
-    ids = np.full(shown.depth.shape, -1, np.int64)
+    gaps = [gaps_of(outline.segments) for outline in outlines]
+    ids = np.full((rectangle.height, rectangle.width), -1, np.int64)
     # What lies within something else is painted over it.
     for number in sorted(range(len(outlines)), key=lambda k: -areas[k]):
-        outline = outlines[number]
-        if closed[number]:
-            ends = _on_panel(outline, camera, pose, rectangle)
-            mask = inside(ends, rectangle.width, rectangle.height)
-        else:
-            mask = backs & (shown.object_id == outline.node)
-        ids[mask] = outline.node
-    nodes = [
-        CutNode(outline.node, int((ids == outline.node).sum()), area if is_whole else None)
-        for outline, area, is_whole in zip(outlines, areas, closed, strict=True)
-    ]
+        if gaps[number] is not None:
+            closed = np.concatenate([outlines[number].segments, gaps[number]])
+            ends = _on_panel(closed, camera, pose, rectangle)
+            ids[inside(ends, rectangle.width, rectangle.height)] = outlines[number].node
+    nodes = []
+    for outline, area, gap in zip(outlines, areas, gaps, strict=True):
+        is_closed = gap is not None and not len(gap)
+        pixels = int(np.count_nonzero(ids == outline.node))
+        nodes.append(CutNode(outline.node, pixels, area if is_closed else None))
     return Caps(ids, nodes)
 
 
 def _on_panel(
-    outline: Outline, camera: Camera, pose: np.ndarray, rectangle: Rectangle
+    segments: np.ndarray, camera: Camera, pose: np.ndarray, rectangle: Rectangle
 ) -> np.ndarray:
     """The ends of segments in the panel's pixels, (N, 2, 2)."""
     projection = np.array(camera.projection(rectangle.width, rectangle.height), np.float64)
     clip = linalg.multiply(projection, linalg.inverse(pose))
-    x, y = (linalg.dot(outline.segments, row[:3]) + row[3] for row in clip[:2])
+    x, y = (linalg.dot(segments, row[:3]) + row[3] for row in clip[:2])
     return np.stack(
         [(x + 1.0) * (0.5 * rectangle.width), (1.0 - y) * (0.5 * rectangle.height)], axis=-1
     )
-
-
-def _backs(
-    studio: Studio, camera: Camera, pose: np.ndarray, rectangle: Rectangle, shown: Frame
-) -> np.ndarray:
-    """Where what is nearest turns its back, (H, W) bool."""
-    with _one_sided(studio.scene):
-        fronts = studio.render(camera, pose, rectangle, outputs=("depth",), cull="back").depth
-    return (shown.depth > 0) & ((fronts > shown.depth) | (fronts == 0))
-
-
-@contextlib.contextmanager
-def _one_sided(scene: Scene) -> Iterator[None]:
-    """Let no material of a scene show its back, for a while."""
-    materials = [
-        thing for thing in uses_in([scene]) if isinstance(thing, Material) and thing.two_sided
-    ]
-    try:
-        for material in materials:
-            material.two_sided = False
-        yield
-    finally:
-        for material in materials:
-            material.two_sided = True
 
 
 def paint_caps(color: np.ndarray, ids: np.ndarray) -> None:

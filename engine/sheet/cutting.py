@@ -3,7 +3,8 @@
 In: nodes, a plane across an axis. Out: for each node the directed segments in which the plane meets
 its faces, and from them the pixels inside. Every edge that crosses the plane gives one point, found
 from its lower end to its upper end whatever face asks, so that the outlines of closed meshes close
-to the bit. Inside is where the winding number is not zero.
+to the bit; those of open ones are closed by straight lines. Inside is where the winding number is
+not zero.
 """
 
 from __future__ import annotations
@@ -22,6 +23,10 @@ from ..scene.nodes import Node
 
 #: More instances than these are not cut one by one.
 MOST_INSTANCES = 4096
+#: More gaps than these of a node are not closed.
+MOST_GAPS = 1024
+#: Gaps are closed that are together shorter than this share of what they close.
+_LONGEST_GAPS = 0.75
 
 
 class Plane(NamedTuple):
@@ -133,13 +138,51 @@ def area_of(segments: np.ndarray, plane: Plane) -> float:
     return abs(math.fsum(doubled.tolist())) * 0.5
 
 
-def is_closed(segments: np.ndarray) -> bool:
-    """Return whether as many segments begin as end at each point."""
-    begins, ends = (np.ascontiguousarray(segments[:, k]) + 0.0 for k in (0, 1))
-    return all(
-        np.array_equal(begins[np.lexsort(begins.T)][:, k], ends[np.lexsort(ends.T)][:, k])
-        for k in range(3)
-    )
+def gaps_of(segments: np.ndarray) -> np.ndarray | None:
+    """Return what closes outlines: segments from where some end to where others begin.
+
+    Each end leads to the nearest beginning, of pairs that are nearest to each other first.
+
+    Returns
+    -------
+    (K, 2, 3) ndarray of float64, or None
+        None where there are too many gaps, or they are so long that there is no inside, as of a
+        surface that is open all round.
+    """
+    points = segments.transpose(1, 0, 2).reshape(-1, 3) + 0.0  # what begins comes first
+    order = np.lexsort(points.T)
+    steps = np.any(points[order][1:] != points[order][:-1], axis=1)
+    numbers = np.empty(len(points), np.int64)
+    numbers[order] = np.concatenate([[0], np.cumsum(steps)])
+    begins = np.bincount(numbers[: len(segments)], minlength=len(points))
+    ends = np.bincount(numbers[len(segments) :], minlength=len(points))
+    places = np.zeros((len(points), 3))
+    places[numbers] = points
+    free_begins = np.repeat(places, np.maximum(begins - ends, 0), axis=0)
+    free_ends = np.repeat(places, np.maximum(ends - begins, 0), axis=0)
+    if len(free_ends) > MOST_GAPS:
+        return None
+    gaps = _joined(free_ends, free_begins)
+    is_short = _length(gaps) <= _LONGEST_GAPS * _length(segments)
+    return gaps if is_short else None
+
+
+def _joined(ends: np.ndarray, begins: np.ndarray) -> np.ndarray:
+    """Pair points, as many as there are of each, (K, 2, 3)."""
+    pairs = [np.zeros((0, 2, 3))]
+    while len(ends):
+        away = ends[:, np.newaxis] - begins[np.newaxis]
+        squares = away[..., 0] * away[..., 0] + away[..., 1] * away[..., 1]
+        squares += away[..., 2] * away[..., 2]
+        to, back = squares.argmin(axis=1), squares.argmin(axis=0)
+        mutual = np.flatnonzero(back[to] == np.arange(len(ends)))
+        pairs.append(np.stack([ends[mutual], begins[to[mutual]]], axis=1))
+        ends, begins = np.delete(ends, mutual, axis=0), np.delete(begins, to[mutual], axis=0)
+    return np.concatenate(pairs)
+
+
+def _length(segments: np.ndarray) -> float:
+    return math.fsum(linalg.length(segments[:, 1] - segments[:, 0]).tolist())
 
 
 def inside(ends: np.ndarray, width: int, height: int) -> np.ndarray:
@@ -166,4 +209,4 @@ def inside(ends: np.ndarray, width: int, height: int) -> np.ndarray:
     places = x[number, 0] + run * ((rows + 0.5 - y[number, 0]) / rise)
     columns = np.clip(np.ceil(places - 0.5), 0, width).astype(np.int64)
     np.add.at(turns, (rows, columns), np.where(down[number], 1, -1).astype(np.int32))
-    return np.cumsum(turns, axis=1)[:, :width] != 0
+    return np.cumsum(turns, axis=1, dtype=np.int32)[:, :width] != 0

@@ -19,6 +19,8 @@ _DARK_AXES = ((196, 44, 44, 255), (30, 132, 44, 255), (44, 84, 214, 255))
 _ARROW = 7
 _AXIS = 15
 _DIGITS = 4
+#: The rows that the name of a view takes.
+_NAME = 24
 
 
 def length_text(value: float, unit: str | None) -> str:
@@ -76,8 +78,9 @@ def draw_height(
         for y, way in ((top, 1), (bottom, -1)):
             _arrow(canvas, (x, y), (0, way), color, scale)
     width, height = text_size(text, scale)
-    y = (top + bottom + 1 - width) // 2
-    _text_upward(canvas, x - reach - 2 * scale - height, max(y, 2), text, theme.text, scale)
+    # Not over the view's name.
+    y = max((top + bottom + 1 - width) // 2, _NAME * scale)
+    _text_upward(canvas, x - reach - 2 * scale - height, y, text, theme.text, scale)
 
 
 def _arrow(canvas: Canvas, tip, way, color: Rgba, scale: int) -> None:

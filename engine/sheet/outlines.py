@@ -96,8 +96,8 @@ def _strength(lines: np.ndarray) -> np.ndarray:
     sums = np.zeros((lines.shape[0] + side, lines.shape[1] + side), np.int32)
     inside = slice(_NEAR + 1, -_NEAR)
     sums[inside, inside] = lines
-    np.cumsum(sums, axis=0, out=sums)
-    np.cumsum(sums, axis=1, out=sums)
+    for axis in (0, 1):
+        np.cumsum(sums, axis=axis, dtype=np.int32, out=sums)
     count = sums[side:, side:] - sums[:-side, side:] - sums[side:, :-side] + sums[:-side, :-side]
     many, too_many = (int(share * side * side) for share in (_MANY, _TOO_MANY))
     left = np.clip(too_many - count, 0, too_many - many)

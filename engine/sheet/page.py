@@ -69,9 +69,9 @@ def draw_pages(
     panels, reports = [], []
     for number, model in enumerate(models):
         area = Rectangle(0, number * height, width, height)
-        columns = {1: None}.get(len(models), len(specs))
-        if len(models) == 1 and len(specs) == 4:
-            columns = 2
+        columns = len(specs)
+        if len(models) == 1:
+            columns = 2 if len(specs) == 4 else None
         page = _Page(canvas, area, model, up or model.viewed.up, unit)
         drawn, report = page.draw(specs, columns, drawing)
         panels.append(drawn)
@@ -104,7 +104,7 @@ class _Page:
         reaches = _reaches(specs, extents)
         rectangles, scale = lay_out(room, reaches, self._padding(_DRAWING), _GAP * text, columns)
         with studio:
-            self._choose_theme(studio, extents[0])
+            self._choose_theme(studio, specs, extents[0])
             self._canvas.rectangle(x, y, width, height, (*studio.paper.background, 255))
             panels = []
             for spec, extent, rectangle in zip(specs, extents, rectangles, strict=True):
@@ -141,7 +141,9 @@ class _Page:
             found.append(find_extent(support, center, sight.axes(studio.up)))
         return found
 
-    def _choose_theme(self, studio: Studio, extent: Extent) -> None:
+    def _choose_theme(self, studio: Studio, specs, extent: Extent) -> None:
+        if studio.has_faces and not any(spec.kind == "isometric" for spec in specs):
+            return  # lines make drawings of faces stand out from any ground
         area = Rectangle(0, 0, 160, 120)
         scale = _fitting_scale(extent, area, Padding(0, 0, 0, 0))
         studio.choose_theme(*place_camera(extent, studio.sphere, area, Padding(0, 0, 0, 0), scale))
@@ -167,7 +169,10 @@ class _Page:
         name = marks.short(printable(panel.spec.name), columns)
         window.text(8 * text, 7 * text, name, theme.title, scale=text)
         if panel.reason is not None:
-            reason = marks.short(f"blank: {panel.reason.sentence}", columns - len(name) - 2)
+            room = columns - len(name) - 2
+            reason = f"blank: {panel.reason.sentence}"
+            if len(reason) > room:
+                reason = marks.short(f"blank: {panel.reason.word}", room)
             place = (8 + 8 * (len(name) + 2)) * text
             window.text(place, 7 * text, reason, theme.key, scale=text)
         marks.draw_frame(canvas, panel.rectangle, studio.paper)

@@ -21,7 +21,7 @@ from .cutting import Plane
 from .hidden import AloneScene
 from .layout import Padding, Rectangle
 from .outlines import draw_outlines
-from .placing import Extent, Matrices, cut, find_matrices, place_camera
+from .placing import Extent, Matrices, cut, cut_obliquely, find_matrices, place_camera
 from .studio import Studio
 from .views import ViewSpec
 from .visible import box_of, covered
@@ -125,22 +125,43 @@ def draw_panel(
         frame,
         shown,
     )
-    if spec.kind == "section":
-        section = spec.section
-        plane = Plane(section.axis, float(pose[section.axis, 3]), section.from_above)
-        panel.caps = find_caps(studio, plane, camera, pose, rectangle, frame)
+    if spec.section is not None:
+        plane = _plane(studio, spec, origin)
+        panel.caps = find_caps(studio, plane, camera, pose, rectangle)
+        _show_caps(panel, plane, origin)
     if spec.kind != "isometric":
         _ink(panel, studio)
-    panel.contrast = _contrast(studio, panel)
-    if not shown.any():
-        panel.reason = why_blank(studio, camera, pose, rectangle)
-    elif panel.contrast <= SAME_COLOUR:
-        panel.reason = Reason("same_colour", "what shows has the colour of the ground")
-    options = studio.options(rectangle, both_sides=spec.kind == "section")
+    _look_for_reasons(panel, studio)
+    options = studio.options(rectangle, both_sides=spec.section is not None)
     panel.alone = alone.count(camera, pose, rectangle, options)
     x, y, width, height = rectangle
     canvas.pixels[y : y + height, x : x + width] = frame.color
     return panel
+
+
+def _show_caps(panel: Panel, plane: Plane, origin) -> None:
+    """Let the outputs of a frame tell of cut faces, rather than of what lies behind them."""
+    ids, frame = panel.caps.ids, panel.frame
+    rows, columns = np.nonzero(ids >= 0)
+    nodes = ids[rows, columns]
+    other = frame.object_id[rows, columns] != nodes
+    frame.material_id[rows[other], columns[other]] = 0
+    frame.object_id[rows, columns], frame.triangle_id[rows, columns] = nodes, -1
+    # Where the lines of sight meet the plane.
+    across, down, away, start = panel.matrices.world_from_pixel[plane.axis].tolist()
+    x, y = columns + (panel.rectangle.x + 0.5), rows + (panel.rectangle.y + 0.5)
+    goal = plane.coordinate + origin[plane.axis]
+    frame.depth[rows, columns] = (goal - start - x * across - y * down) / away
+    panel.shown[rows, columns] = True
+
+
+def _look_for_reasons(panel: Panel, studio: Studio) -> None:
+    """Find out whether anything is to be seen, and if not, why."""
+    panel.contrast = _contrast(studio, panel)
+    if not panel.shown.any():
+        panel.reason = why_blank(studio, panel.camera, panel.pose, panel.rectangle)
+    elif panel.contrast <= SAME_COLOUR:
+        panel.reason = Reason("same_colour", "what shows has the colour of the ground")
 
 
 def _camera(studio: Studio, place: Place, cameras: list[Node], origin):
@@ -151,19 +172,29 @@ def _camera(studio: Studio, place: Place, cameras: list[Node], origin):
     camera, pose = place_camera(
         place.extent, studio.sphere, place.rectangle, place.padding, place.scale
     )
-    if spec.section is not None:
-        axis = spec.section.axis
-        low, high = (float(corner[axis]) for corner in studio.bounds)
-        coordinate = spec.section.coordinate(low + origin[axis], high + origin[axis])
-        camera, pose = cut(camera, pose, axis, coordinate - origin[axis])
+    plane = _plane(studio, spec, origin)
+    if spec.kind == "section":
+        camera, pose = cut(camera, pose, plane.axis, plane.coordinate)
+    elif spec.kind == "cutaway":
+        camera = cut_obliquely(camera, pose, place.rectangle, plane, studio.bounds)
     return camera, pose, place.scale
+
+
+def _plane(studio: Studio, spec: ViewSpec, origin) -> Plane | None:
+    """The plane of a section, in the scene."""
+    if spec.section is None:
+        return None
+    axis = spec.section.axis
+    low, high = (float(corner[axis]) + origin[axis] for corner in studio.bounds)
+    coordinate = spec.section.coordinate(low, high) - origin[axis]
+    return Plane(axis, coordinate, spec.section.from_above)
 
 
 def _draw(studio: Studio, spec: ViewSpec, camera, pose, rectangle) -> Frame:
     if spec.kind == "isometric":
         azimuth = math.radians(spec.angles[0])
         return studio.draw(camera, pose, rectangle, on_stage=True, azimuth=azimuth)
-    return studio.draw(camera, pose, rectangle, both_sides=spec.kind == "section")
+    return studio.draw(camera, pose, rectangle, both_sides=spec.section is not None)
 
 
 def _contrast(studio: Studio, panel: Panel) -> int:
@@ -191,7 +222,6 @@ def _ink(panel: Panel, studio: Studio) -> None:
         is_cut = ids >= 0
         paint_caps(frame.color[window], ids)
         things = np.where(is_cut, (ids << 32) + _CUT, things)
-        depth = np.where(is_cut, np.float32(0), depth)
         normals = np.where(is_cut[..., np.newaxis], np.float32(1), normals)
     normals = None if studio.has_normal_maps else normals
     draw_outlines(frame.color[window], things, depth, normals, panel.scale)

@@ -14,6 +14,7 @@ from .. import linalg
 from ..rendering.support_functions import SupportFunction
 from ..scene.cameras import Camera, OrthographicCamera
 from ..viewer.viewpoint import Sphere
+from .cutting import Plane
 from .layout import Padding, Reach, Rectangle
 
 #: The eye stands so many radii from the middle, and sees as far again: the shadow on the ground
@@ -102,6 +103,40 @@ def cut(
     at_plane[axis, 3] = coordinate
     cutting = OrthographicCamera(camera.ymag, xmag=camera.xmag, znear=0.0, zfar=camera.zfar)
     return cutting, at_plane
+
+
+def cut_obliquely(
+    camera: OrthographicCamera,
+    pose: np.ndarray,
+    rectangle: Rectangle,
+    plane: Plane,
+    bounds: np.ndarray,
+) -> Camera:
+    """Return a camera at the same pose whose near plane is a plane that it looks at aslant.
+
+    Along each line of sight, the distance from the plane grows as the depth does. So depth in clip
+    space may as well be that distance: what is hidden is the same (Lengyel, "Oblique View Frustum
+    Depth Projection and Clipping", 2005).
+
+    Parameters
+    ----------
+    camera, pose
+        Of a parallel projection from the side from which the plane is seen.
+    rectangle : Rectangle
+        The panel's pixels.
+    plane : Plane
+    bounds : (2, 3) ndarray of float64
+        What must be before the far plane.
+    """
+    far = bounds[0 if plane.from_above else 1, plane.axis]
+    reach = abs(float(far) - plane.coordinate) * 1.01 or 1.0
+    sign = -1.0 if plane.from_above else 1.0
+    row = np.zeros(4)  # -1 on the plane, and 1 as far behind it as the bounds reach
+    row[plane.axis], row[3] = sign * 2.0 / reach, -sign * plane.coordinate * 2.0 / reach - 1.0
+    projection = np.array(camera.projection(rectangle.width, rectangle.height), np.float64)
+    projection[2, :3] = linalg.dot(pose[:3, :3].T, row[:3])
+    projection[2, 3] = float(linalg.dot(pose[:3, 3], row[:3])) + row[3]
+    return Camera(projection)
 
 
 class Matrices(NamedTuple):

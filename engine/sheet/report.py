@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import math
-import re
 from typing import Any
 
 import numpy as np
@@ -26,13 +25,22 @@ from .visible import Shown, count_by_key, count_parts, joined, mesh_of_node
 #: Grows when a key gets another meaning.
 VERSION = 1
 _MATERIAL_BITS = 20
-_LIST_OF_NUMBERS = re.compile(r"\[\n\s+([^\[\]{}\"]*?)\n\s+\]")
 
 
 def report_text(report: dict[str, Any]) -> str:
-    """Return a report as JSON, lists of numbers on one line each."""
-    text = json.dumps(report, indent=2, allow_nan=False)
-    return _LIST_OF_NUMBERS.sub(lambda m: "[" + re.sub(r"\s*\n\s*", " ", m[1]) + "]", text) + "\n"
+    """Return a report as JSON: a line for each value that holds no others."""
+    return _text(report, "\n") + "\n"
+
+
+def _text(value: Any, margin: str) -> str:
+    """Return a value as JSON whose further lines begin with a margin."""
+    inner = margin + "  "
+    if isinstance(value, dict) and value:
+        rows = [f"{json.dumps(key)}: {_text(item, inner)}" for key, item in value.items()]
+        return "{" + inner + ("," + inner).join(rows) + margin + "}"
+    if isinstance(value, list) and any(isinstance(item, (dict, list)) for item in value):
+        return "[" + inner + ("," + inner).join(_text(v, inner) for v in value) + margin + "]"
+    return json.dumps(value, allow_nan=False)
 
 
 class ModelReport:
@@ -74,6 +82,7 @@ class ModelReport:
             "lines": sum(len(m.lines) * n for m, n in zip(meshes, times, strict=True)),
             "points": sum(len(m.points) * n for m, n in zip(meshes, times, strict=True)),
             "blank": all(view["blank"] for view in views),
+            "why": views[0]["why"] if all(view["blank"] for view in views) else None,
             "materials": [_material(number, m) for number, m in enumerate(self._materials)],
             "nodes": [self._node(node) for node in self._nodes],
             "never_visible": [node.id for node in self._nodes if node.id not in seen],
@@ -101,52 +110,58 @@ class ModelReport:
         }
 
     def _view(self, panel: Panel) -> dict[str, Any]:
-        table = _count(panel)
-        box = panel.box
-        shown = int(panel.shown.sum())
-        x, y, width, height = panel.rectangle
+        table, box, reason = _count(panel), panel.box, panel.reason
+        pixels = int(np.count_nonzero(panel.shown))
         report = {
             "name": printable(panel.spec.name),
             "kind": panel.spec.kind,
-            "rectangle": [x, y, width, height],
+            "rectangle": list(panel.rectangle),
             "to_scale": panel.spec.to_scale,
             "camera": _camera(panel, self._viewed.origin),
-            "blank": panel.reason is not None,
-            "why": None if panel.reason is None else panel.reason.word,
-            "sentence": None if panel.reason is None else panel.reason.sentence,
+            "blank": reason is not None,
+            "why": None if reason is None else reason.word,
+            "sentence": None if reason is None else reason.sentence,
             "contrast": panel.contrast,
-            "pixels": shown,
-            "coverage": shown / panel.shown.size,
+            "pixels": pixels,
+            "coverage": pixels / panel.shown.size,
             "box": None if box is None else _on_sheet(box, panel),
             "extent": list(panel.extent.size[:2]) if panel.scale is not None else None,
             "nodes": self._nodes_of(table, panel),
             "materials": self._materials_of(table, panel),
-            "parts": [
-                {
-                    "node": part.node,
-                    "name": printable(part.name),
-                    "pixels": part.pixels,
-                    "box": _on_sheet(part.box, panel),
-                }
-                for part in count_parts(panel.frame, panel.shown, self._scene)
-            ],
+            "parts": self._parts_of(panel),
         }
         if panel.caps is not None:
-            report["cut"] = [
-                {
-                    "id": cut.node,
-                    "name": self._names.get(cut.node, ""),
-                    "pixels": cut.pixels,
-                    "area": cut.area,
-                }
-                for cut in panel.caps.nodes
-            ]
+            report["cut"] = self._cut_of(panel)
         return report
 
+    def _parts_of(self, panel: Panel) -> list[dict[str, Any]]:
+        return [
+            {
+                "node": part.node,
+                "name": printable(part.name),
+                "pixels": part.pixels,
+                "box": _on_sheet(part.box, panel),
+            }
+            for part in count_parts(panel.frame, panel.shown, self._scene)
+        ]
+
+    def _cut_of(self, panel: Panel) -> list[dict[str, Any]]:
+        return [
+            {
+                "id": cut.node,
+                "name": self._names.get(cut.node, ""),
+                "pixels": cut.pixels,
+                "area": cut.area,
+            }
+            for cut in panel.caps.nodes
+        ]
+
     def _nodes_of(self, table: list[Shown], panel: Panel) -> list[dict[str, Any]]:
-        found = []
-        for number in dict.fromkeys(shown.key >> _MATERIAL_BITS for shown in table):
-            node = joined([s for s in table if s.key >> _MATERIAL_BITS == number], number)
+        found, by_node = [], {}
+        for shown in table:
+            by_node.setdefault(shown.key >> _MATERIAL_BITS, []).append(shown)
+        for number, of_node in by_node.items():
+            node = joined(of_node, number)
             alone = panel.alone.get(number, node.pixels)
             hidden = None if alone is None else max(0.0, 1.0 - node.pixels / alone)
             found.append(

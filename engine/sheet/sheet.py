@@ -205,8 +205,9 @@ def contact_sheet(
         ``NAME=X,Y,Z`` (the way the camera looks) or ``NAME=AZIMUTH,ELEVATION`` (degrees, where the
         camera stands). They stand in rows, in this order.
     sections : str or iterable of str
-        Cuts, each in a view of its own: ``"x=0.5"`` (a coordinate of the file), ``"x=50%"`` (of the
-        model) or ``"x"`` (the middle) cuts off what has greater coordinates; ``"-x=0.5"`` the rest.
+        Cuts, each in two views, straight and aslant: ``"x=0.5"`` (a coordinate of the file),
+        ``"x=50%"`` (of the model) or ``"x"`` (the middle) cuts off what has greater coordinates;
+        ``"-x=0.5"`` the rest.
     size : (int, int), optional
         Width and height in pixels, of the part of each model: 1600 x 1200, or 1600 x 480 where
         there are several.

@@ -57,13 +57,13 @@ class Studio:
         Of the model.
     sphere : Sphere
         Round the model.
-    has_normal_maps : bool
+    has_faces, has_normal_maps : bool
     paper, stage_theme : Theme
         Grounds that the model stands out from: of drawings, whose lines help, and of pictures.
     """
 
-    paper: Theme
-    stage_theme: Theme
+    paper: Theme = LIGHT
+    stage_theme: Theme = LIGHT
 
     def __init__(self, viewed: ViewedScene, up: str, drawing: Mapping[str, Any]) -> None:
         self.scene = viewed.scene
@@ -83,7 +83,7 @@ class Studio:
         self._drawing = dict(drawing)
         self._cull = viewed.appearance.get("cull", "back")
         self._points = count_points(self.scene)
-        self._has_faces = any(isinstance(t, Mesh) and len(t.faces) for t in uses_in([self.scene]))
+        self.has_faces = any(isinstance(t, Mesh) and len(t.faces) for t in uses_in([self.scene]))
         self._renderer: Renderer | None = None
 
     def __enter__(self) -> Studio:
@@ -103,13 +103,17 @@ class Studio:
             self._renderer.close()
 
     def choose_theme(self, camera: Camera, pose: np.ndarray) -> None:
-        """Choose grounds that the model stands out from, as a camera sees it."""
+        """Choose grounds that the model stands out from, as a camera sees it.
+
+        Without, it is drawn on light ground.
+        """
         self.scene.background = None
         self._lighting.follow(pose)
         with Renderer(*_SMALL, **self._drawing) as renderer:
             color = renderer.render(self.scene, (camera, pose), cull=self._cull).color
         self.stage_theme = theme_for(color)
-        self.paper = LIGHT if self._has_faces else self.stage_theme
+        if not self.has_faces:
+            self.paper = self.stage_theme
 
     def draw(
         self,

@@ -83,7 +83,10 @@ class ViewSpec:
     camera : int or None
         Or the number of one of the file's cameras.
     section : Section or None
-        What is cut away.
+        What is cut off.
+    is_oblique : bool
+        Whether a section is seen as an isometric picture sees things, rather than from straight
+        before its plane.
     """
 
     name: str
@@ -91,12 +94,13 @@ class ViewSpec:
     sight: tuple[float, float, float] | None = None
     camera: int | None = None
     section: Section | None = None
+    is_oblique: bool = False
 
     @property
     def kind(self) -> str:
-        """``"drawing"``, ``"isometric"``, ``"camera"`` or ``"section"``."""
+        """``"drawing"``, ``"isometric"``, ``"camera"``, ``"section"`` or ``"cutaway"``."""
         if self.section is not None:
-            return "section"
+            return "cutaway" if self.is_oblique else "section"
         if self.camera is not None:
             return "camera"
         return "isometric" if self.angles == STANDARD["iso"] else "drawing"
@@ -108,14 +112,30 @@ class ViewSpec:
 
     def axes(self, up) -> np.ndarray:
         """Return the camera's axes in world space: (3, 3), columns right, up and back."""
+        if self.is_oblique:
+            return _oblique_axes(up, self.section.sight)
         if self.angles is not None:
-            azimuth, elevation = self.angles
-            return orbit_axes(up, math.radians(azimuth), math.radians(elevation))
+            return _orbit_axes(up, *self.angles)
         up = home_axes(up)[1]
         back = -linalg.normalize(np.array(self.sight, np.float64))
         if float(linalg.length(linalg.cross(up, back))) < 1e-9:
             return orbit_axes(up, 0.0, math.copysign(math.pi / 2, float(linalg.dot(up, back))))
         return linalg.look_at(back, (0.0, 0.0, 0.0), up)[:3, :3]
+
+
+def _orbit_axes(up, azimuth: float, elevation: float) -> np.ndarray:
+    return orbit_axes(up, math.radians(azimuth), math.radians(elevation))
+
+
+def _oblique_axes(up, sight) -> np.ndarray:
+    """The axes of an isometric camera that stands before a plane that is looked at along sight."""
+    azimuth, elevation = STANDARD["iso"]
+    choices = (
+        _orbit_axes(up, azimuth + turn, raised)
+        for raised in (elevation, -elevation)
+        for turn in (0.0, -90.0, 90.0, 180.0)
+    )
+    return next(axes for axes in choices if float(linalg.dot(axes[:, 2], sight)) < -0.1)
 
 
 def parse_views(text: str) -> list[ViewSpec]:
@@ -177,14 +197,16 @@ def parse_section(text: str) -> Section:
 
 
 def check_views(views: str | Iterable[str], sections: str | Iterable[str]) -> list[ViewSpec]:
-    """Return all views of a sheet: those of a list, then the sections.
+    """Return all views of a sheet: those of a list, then two of each section.
 
     Raises `InvalidArgumentError` where there is none, or two have one name.
     """
     specs = [spec for text in _texts(views, "views") for spec in parse_views(text)]
     for text in _texts(sections, "sections"):
         section = parse_section(text)
-        specs.append(ViewSpec(_section_name(section), sight=section.sight, section=section))
+        name = _section_name(section)
+        specs.append(ViewSpec(f"section {name}", sight=section.sight, section=section))
+        specs.append(ViewSpec(f"cutaway {name}", section=section, is_oblique=True))
     names = [spec.name for spec in specs]
     twice = [name for name in names if names.count(name) > 1]
     if twice:
@@ -206,7 +228,7 @@ def _texts(given: str | Iterable[str], what: str) -> list[str]:
 def _section_name(section: Section) -> str:
     sign = "" if section.from_above else "-"
     place = f"{section.place * 100:.6g}%" if section.is_share else f"{section.place:.6g}"
-    return f"section {sign}{'xyz'[section.axis]}={place}"
+    return f"{sign}{'xyz'[section.axis]}={place}"
 
 
 def _number(text: str, what: str) -> float:

@@ -60,26 +60,30 @@ def count_by_key(keys: np.ndarray, mask: np.ndarray) -> list[Shown]:
     mask : (H, W) bool
         The pixels that count.
     """
+    table = _count(keys, mask).tolist()
+    return [Shown(key, pixels, (x, y, r - x, b - y)) for key, pixels, x, y, r, b in table]
+
+
+def _count(keys: np.ndarray, mask: np.ndarray) -> np.ndarray:
+    """Rows of keys, their pixels, and of their boxes left, top, right and bottom, (K, 6)."""
     box = box_of(mask)
     if box is None:
-        return []
+        return np.zeros((0, 6), np.int64)
     left, top, width, height = box
     window = slice(top, top + height), slice(left, left + width)
     mask = mask[window]
     given = keys[window][mask]
     first = int(given[0])
     if (given == first).all():
-        return [Shown(first, len(given), box)]
+        return np.array([[first, len(given), left, top, left + width, top + height]])
     rows, columns = np.nonzero(mask)
     order = np.argsort(given, kind="stable")
     given, rows, columns = given[order], rows[order] + top, columns[order] + left
     starts = np.flatnonzero(np.concatenate([[True], given[1:] != given[:-1]]))
     counts = np.diff(np.append(starts, len(given)))
-    lefts, rights = (f.reduceat(columns, starts) for f in (np.minimum, np.maximum))
-    tops, bottoms = (f.reduceat(rows, starts) for f in (np.minimum, np.maximum))
-    sizes = rights - lefts + 1, bottoms - tops + 1
-    table = np.stack([given[starts], counts, lefts, tops, *sizes], axis=1).tolist()
-    return [Shown(key, pixels, (x, y, w, h)) for key, pixels, x, y, w, h in table]
+    lows = [np.minimum.reduceat(places, starts) for places in (columns, rows)]
+    highs = [np.maximum.reduceat(places, starts) + 1 for places in (columns, rows)]
+    return np.stack([given[starts], counts, *lows, *highs], axis=1)
 
 
 def joined(shown: list[Shown], key: int) -> Shown | None:
@@ -113,18 +117,27 @@ class PartShown(NamedTuple):
 
 def count_parts(frame: Frame, mask: np.ndarray, scene: Scene) -> Iterator[PartShown]:
     """Yield the named groups of faces that show, node by node."""
-    for node in scene.nodes:
-        mesh = mesh_of_node(node)
-        if mesh is None or not mesh.groups:
-            continue
-        own = mask & (frame.object_id == node.id) & (frame.triangle_id >= 0)
-        faces = count_by_key(frame.triangle_id, own)
-        if not faces:
-            continue
-        place = np.full(len(mesh.faces), -1)
-        place[[face.key for face in faces]] = np.arange(len(faces))
-        for name, group in mesh.groups.items():
-            found = np.unique(place[group])
-            part = joined([faces[number] for number in found[found >= 0].tolist()], 0)
-            if part is not None:
-                yield PartShown(node.id, name, part.pixels, part.box)
+    nodes = {node.id: node for node in scene.nodes}
+    for shown in count_by_key(frame.object_id, mask & (frame.triangle_id >= 0)):
+        mesh = mesh_of_node(nodes[shown.key])
+        if mesh is not None and mesh.groups:
+            for name, pixels, box in _groups(frame, mask, shown, mesh):
+                yield PartShown(shown.key, name, pixels, box)
+
+
+def _groups(frame: Frame, mask: np.ndarray, shown: Shown, mesh: Mesh):
+    """Yield the name, pixels and box of each group of a mesh, within what its node shows."""
+    x, y, width, height = shown.box
+    window = slice(y, y + height), slice(x, x + width)
+    faces = frame.triangle_id[window]
+    table = _count(faces, mask[window] & (frame.object_id[window] == shown.key) & (faces >= 0))
+    place = np.full(len(mesh.faces), -1)
+    place[table[:, 0]] = np.arange(len(table))
+    for name, group in mesh.groups.items():
+        found = np.zeros(len(table) + 1, bool)
+        found[place[group]] = True  # the last one is of faces that do not show
+        rows = table[found[:-1]]
+        if len(rows):
+            left, top = (int(low) for low in rows[:, 2:4].min(axis=0))
+            right, bottom = (int(high) for high in rows[:, 4:].max(axis=0))
+            yield name, int(rows[:, 1].sum()), (x + left, y + top, right - left, bottom - top)

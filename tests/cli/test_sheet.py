@@ -27,7 +27,8 @@ def test_views_sections_and_units(model, tmp_path):
     assert main(["sheet", "square.obj", "-o", "out.png", "--json", *options, *SMALL]) == 0
     (told,) = json.loads((tmp_path / "out.json").read_text())["models"]
     names = [view["name"] for view in told["views"]]
-    assert names == ["front", "a", "section -x=50%", "section y=50%"]
+    cuts = [f"{kind} {cut}" for cut in ("-x=50%", "y=50%") for kind in ("section", "cutaway")]
+    assert names == ["front", "a", *cuts]
     assert told["unit"] == "mm"
 
 

@@ -62,7 +62,7 @@ def test_why_it_is_blank(word):
     report = drawn(make(), (300, 220), views=name).report["models"][0]
     (view,) = report["views"]
     assert (view["blank"], view["why"]) == (True, word)
-    assert report["blank"] and view["sentence"]
+    assert (report["blank"], report["why"]) == (True, word) and view["sentence"]
     assert (view["pixels"] == 0) == (word != "same_colour")
 
 
@@ -81,7 +81,7 @@ def test_what_shows_is_not_blank():
 def test_one_blank_panel_is_no_blank_sheet():
     report = drawn(of_mesh(FLAT, [[0, 1, 2]]), (300, 440), views="top,front").report["models"][0]
     assert [view["blank"] for view in report["views"]] == [True, False]
-    assert not report["blank"]
+    assert (report["blank"], report["why"]) == (False, None)
 
 
 def test_the_reason_is_written_in_the_panel():

@@ -8,7 +8,7 @@ import engine3d as e3d
 
 
 def cuts(scene, section, **options):
-    (view,) = drawn(scene, views=(), sections=section, **options).report["models"][0]["views"]
+    view, _ = drawn(scene, views=(), sections=section, **options).report["models"][0]["views"]
     return view, {cut["name"]: cut for cut in view["cut"]}
 
 
@@ -45,7 +45,7 @@ def test_a_hollow_body_is_hollow():
     view, found = cuts(scene, "x=0.3")
     assert found["solid"]["area"] == 12.0
     sheet = drawn(scene, views=(), sections="x=0.3")
-    (panel,) = sheet._panels[0]
+    panel, _ = sheet._panels[0]
     middle = sheet.project("section x=0.3", (0.3, 0, 0)) - view["rectangle"][:2]
     column, row = middle.astype(int)
     assert panel.caps.ids[row, column] == -1
@@ -76,7 +76,7 @@ def test_a_body_that_is_inside_out_is_filled_as_well():
     assert found["solid"]["area"] == 4.0 and found["solid"]["pixels"] > 1000
 
 
-def test_an_open_body_has_no_area_but_shows_where_it_is_cut():
+def test_an_open_body_has_no_area_but_is_filled():
     ball = e3d.uv_sphere(1.0, (24, 12))
     # Without what is right above.
     low = ball.positions[ball.faces][:, :, 1].max(axis=1) < 0.8
@@ -87,14 +87,22 @@ def test_an_open_body_has_no_area_but_shows_where_it_is_cut():
     assert found["bowl"]["pixels"] > 1000
 
 
-def test_two_sided_materials_stay_so():
+def test_a_surface_that_is_open_all_round_has_no_inside():
     scene = e3d.Scene()
-    bowl = e3d.plane((2, 2))
-    bowl.materials = [e3d.Material(two_sided=True)]
-    scene.add(bowl, name="floor", rotation=(0.6, 0, 0, 0.8))
+    scene.add(e3d.plane((2, 2)), name="floor", rotation=(0.6, 0, 0, 0.8))
     _, found = cuts(scene, "x=0.1")
-    assert found["floor"]["area"] is None
-    assert bowl.materials[0].two_sided
+    assert found["floor"] == {"id": 0, "name": "floor", "pixels": 0, "area": None}
+
+
+def test_a_pipe_without_ends_is_closed_by_straight_lines():
+    pipe = e3d.cylinder(1.0, 6.0, 24)
+    sides = np.abs(pipe.face_normals[:, 1]) < 0.5
+    scene = e3d.Scene()
+    scene.add(e3d.Mesh(pipe.positions, pipe.faces[sides]), name="pipe")
+    view, found = cuts(scene, "z=0.2")
+    assert found["pipe"]["area"] is None
+    whole = 6.0 * 2.0 * np.sqrt(1.0 - 0.04) * view["camera"]["scale"] ** 2
+    assert found["pipe"]["pixels"] == pytest.approx(whole, rel=0.05)
 
 
 def test_instances_are_cut_one_by_one():
@@ -125,7 +133,46 @@ def test_a_plane_through_vertices_closes_all_outlines():
 
 def test_cut_material_is_hatched():
     sheet = drawn(part(), views=(), sections="z=0")
-    (panel,) = sheet._panels[0]
+    panel, _ = sheet._panels[0]
     colors = panel.frame.color[panel.caps.ids >= 0][:, :3]
     cut = (colors == (232, 164, 124)).all(axis=1).mean()
     assert 0.6 < cut < 0.95
+
+
+def test_a_cutaway_shows_the_same_cut_from_aside():
+    sheet = drawn(part(), views="iso", sections="x=-1")  # through the base alone
+    _, section, cutaway = sheet.report["models"][0]["views"]
+    assert (section["kind"], cutaway["kind"]) == ("section", "cutaway")
+    assert [cut["area"] for cut in section["cut"]] == [cut["area"] for cut in cutaway["cut"]]
+    direction = cutaway["camera"]["direction"]
+    scale = cutaway["camera"]["scale"]
+    seen = sum(cut["pixels"] for cut in cutaway["cut"]) / scale**2
+    assert seen == pytest.approx(2.0 * abs(direction[0]), rel=0.03)
+
+
+@pytest.mark.parametrize("section", ["x=0.8", "-x=0.8", "-y=0.4", "z=10%"])
+@pytest.mark.parametrize("up", ["+Y", "-Z"])
+def test_pixels_of_cuts_are_places_on_the_plane(section, up):
+    sheet = drawn(part(), (480, 300), views=(), sections=section, up=up)
+    tried = 0
+    for panel, view in zip(sheet._panels[0], sheet.report["models"][0]["views"], strict=True):
+        left, top, width, height = view["rectangle"]
+        axis = "xyz".index(section.strip("-")[0])
+        plane = sheet.report["models"][0]["bounds"]["low"][2] + 0.2 if "%" in section else None
+        plane = float(section.partition("=")[2]) if plane is None else plane
+        for x in range(left, left + width, 9):
+            for y in range(top, top + height, 9):
+                found = sheet.at(x, y)
+                if "position" not in found:
+                    continue
+                tried += 1
+                back = sheet.project(view["name"], found["position"])
+                assert back == pytest.approx([x + 0.5, y + 0.5], abs=1e-6)
+                place = found["position"][axis]
+                if panel.caps.ids[y - top, x - left] >= 0:
+                    assert place == pytest.approx(plane, abs=1e-6)
+                    assert found["triangle"] == -1
+                else:
+                    beyond = place - plane if section[0] == "-" else plane - place
+                    assert beyond > -1e-5
+    assert tried > 100

@@ -42,7 +42,7 @@ def add_backdrop(parser) -> None:
 
 def background(args: argparse.Namespace):
     """Return the background that the options name: a colour, a `Gradient` or None."""
-    if args.background_gradient is None:
+    if getattr(args, "background_gradient", None) is None:  # some commands have no gradients
         return args.background_color
     others = {
         "--background-color": args.background_color,
@@ -57,20 +57,23 @@ def background(args: argparse.Namespace):
     return Gradient(*args.background_gradient)
 
 
-def fog(args: argparse.Namespace):
-    """Return the fog that the options name, or None; white where they name no colour."""
+def fog(args: argparse.Namespace) -> dict:
+    """Return the fields of `Settings` that the options of fog name."""
+    if "fog" not in args:  # some commands have none
+        return {}
     from ..scene.fog import ExponentialFog, Fog
 
     if args.fog is not None and args.fog_density is not None:
         raise UsageError("--fog and --fog-density do not go together")
     color = args.fog_color or (255, 255, 255)
+    follows = args.fog_color is None
     if args.fog is not None:
         near, far = args.fog
         if not near < far:
             raise UsageError("--fog needs NEAR,FAR with NEAR less than FAR")
-        return Fog(color, near, far)
+        return {"fog": Fog(color, near, far), "fog_follows": follows}
     if args.fog_density is not None:
-        return ExponentialFog(color, args.fog_density)
-    if args.fog_color is not None:
+        return {"fog": ExponentialFog(color, args.fog_density), "fog_follows": follows}
+    if not follows:
         raise UsageError("--fog-color goes with --fog or --fog-density")
-    return None
+    return {}

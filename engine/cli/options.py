@@ -22,7 +22,7 @@ from ..choices import (
     Shading,
     Wireframe,
 )
-from . import ambient_options, antialiasing, backdrop_options, values
+from . import ambient_options, antialiasing, backdrop_options, scalar_options, values
 from .environment_options import surroundings
 from .filter_options import add_line_shapes, add_texture_filters, filtering
 from .input_options import add_inputs, check_inputs
@@ -30,7 +30,6 @@ from .inputs import model_files
 from .light_options import SHADOWS
 from .loading_bar import LoadingBar
 from .outputs import not_the_output
-from .scalar_options import coloring
 from .usage import UsageError
 
 #: How models are shown; the first is the default.
@@ -528,8 +527,7 @@ def settings(args: argparse.Namespace):
         appearance={name: value for name, value in appearance.items() if value is not None},
         up=args.up,
         background=backdrop_options.background(args),
-        fog=backdrop_options.fog(args),
-        fog_follows=args.fog_color is None,
+        **backdrop_options.fog(args),
         light_position=args.light_position,
         light_direction=args.light_direction,
         light_intensity=args.light_intensity,
@@ -543,8 +541,7 @@ def settings(args: argparse.Namespace):
         far=args.far,
         grid=args.grid,
         axes=args.axis,
-        axes_grid=args.axes_grid,
-        bar=args.bar,
+        **scalar_options.shown(args),
         metadata=args.metadata,
         ui_scale=args.ui_scale,
     )
@@ -640,7 +637,7 @@ def opening(args: argparse.Namespace) -> dict:
     return {
         **creases,
         "format": args.force_reader,
-        "scalars": coloring(args),
+        "scalars": scalar_options.coloring(args),
         "side_by_side": args.side_by_side,
         "up": args.up,
         "texture": args.texture,

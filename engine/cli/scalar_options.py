@@ -49,6 +49,8 @@ def add_scalars(parser) -> None:
 
 def coloring(args: argparse.Namespace):
     """Return the `ScalarColoring` that the options name, or None."""
+    if "scalar_coloring" not in args:  # some commands have no such options
+        return None
     given = (args.coloring_array, args.colormap, args.range, args.scalar_coloring or None)
     if given == (None,) * 4 and not args.bar:
         return None
@@ -57,3 +59,8 @@ def coloring(args: argparse.Namespace):
 
     colors = colormap(args.colormap or _DEFAULT_MAP)
     return ScalarColoring(colors, args.coloring_array, args.range)
+
+
+def shown(args: argparse.Namespace) -> dict:
+    """Return the fields of `Settings` that the options of numbers name."""
+    return {name: getattr(args, name, False) for name in ("axes_grid", "bar")}

@@ -29,7 +29,7 @@ LARGEST = 8 << 20
 #: How many pictures are kept.
 MOST = 64
 #: What a process of its own reads, which takes seconds.
-_SLOW = frozenset({"trimesh"})
+_SLOW = frozenset({"trimesh", "step", "iges"})
 
 
 class FilePictures:

@@ -391,3 +391,12 @@ class Document:
     scene: SceneRecord | None = None
     tree: TreeRecord | None = None
     unit: str = ""
+
+    @property
+    def scalars(self) -> list[dict[str, np.ndarray]]:
+        """Numbers of vertices, (V,) float64 by name, of the mesh of each object.
+
+        Scalar properties of PLY files that have no meaning of their own, if `load_document` was
+        asked for them.
+        """
+        return [entry.mesh._scalars for entry in self.objects]

@@ -98,7 +98,7 @@ def load_document(
         ``companion(path)`` tells whether the image ``path`` beside a model without materials may
         become its texture for its name alone (`companion_texture`); any may if left out.
     scalars : bool
-        Whether meshes are to carry numbers of their vertices that have no meaning of their own.
+        Read also numbers of the vertices that have no meaning of their own: `Document.scalars`.
     """
     with read_source(path) as source:
         source = source._replace(crease_angle=check_crease_angle(crease_angle), scalars=scalars)

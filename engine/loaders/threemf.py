@@ -18,6 +18,7 @@ from .posed_parts import MAX_REPEATED, PosedPart, counts_of, document_objects
 from .registry import Reader
 from .sources import Source
 from .text import shown
+from .threemf_blocks import cut_lists
 from .threemf_meshes import MeshBuilder
 from .threemf_model import UNITS, ModelParser, ModelPart, ObjectRecord, Placement
 from .warning_list import WarningList
@@ -29,6 +30,8 @@ _RELATIONS = "_rels/.rels"
 # Components may hold components, and each may be placed many times.
 _MOST_DEPTH = 32
 _MOST_PLACED = 1 << 16
+# Parts of so many bytes, and so many times the file's size besides, are in memory as a whole.
+_AT_ONCE, _RATIO_AT_ONCE = 4 << 20, 16
 
 
 def read_3mf(source: Source, split: bool = False) -> Document:
@@ -75,7 +78,7 @@ class _Package:
         """The part that holds the build: what the package names, or the only model in it."""
         found: list[str] = []
 
-        def begin(name: str, attributes: Attributes) -> None:
+        def begin(name: str, attributes: Attributes, place: int) -> None:
             if attributes.get("Type") == _MODEL_TYPE:
                 found.append(attributes.get("Target", ""))
 
@@ -91,8 +94,11 @@ class _Package:
         path = posixpath.normpath("/" + path.lstrip("/"))
         key = path.lower()
         if key not in self._parts:
-            parser = ModelParser(self._warnings)
-            pieces = self._archive.pieces(path)
+            pieces, lists = self._archive.pieces(path), {}
+            if self._archive.size(path) <= _AT_ONCE + _RATIO_AT_ONCE * self._source.size:
+                text, lists = cut_lists(b"".join(pieces))
+                pieces = iter([text])
+            parser = ModelParser(self._warnings, lists)
             read_xml(pieces, parser.begin, parser.end, self._source.path, path.lstrip("/"))
             part = parser.part
             builder = MeshBuilder(part, self._archive, self._source, self._warnings)

@@ -21,6 +21,7 @@ from .sources import Source
 from .text import shown
 from .threemf_model import ModelPart, ObjectRecord
 from .threemf_properties import Color, PropertyGroup
+from .vertex_values import finite_uvs
 from .warning_list import WarningList
 from .zip_archives import ZipArchive
 
@@ -78,7 +79,9 @@ class MeshBuilder:
         materials = [Material()]
         found = self._corners(record, len(corners), materials)
         if found is not None:
-            geometry.corner_colors, geometry.corner_uvs = found.colors, found.uvs
+            geometry.corner_colors = found.colors
+            if found.uvs is not None:
+                geometry.corner_uvs = finite_uvs(found.uvs.reshape(-1, 2)).reshape(-1, 3, 2)
         mesh = build_indexed_mesh(geometry, record.name)
         mesh.materials = materials
         if found is not None:
@@ -119,7 +122,7 @@ class MeshBuilder:
             found.colors[triangles] = _WHITE
         if kind == "texture":
             if found.uvs is None:
-                found.uvs = np.zeros((count, 3, 2), np.float32)
+                found.uvs = np.zeros((count, 3, 2))
             found.uvs[triangles] = entries
 
     def _resolved(self, number: int, indices: tuple) -> tuple[str, list, Material]:

@@ -107,6 +107,8 @@ class ModelParser:
     Parameters
     ----------
     warnings : WarningList
+    lists : dict of int to (N, 3) float64
+        Vertices and triangles that were taken out of the text: see `cut_lists`.
 
     Attributes
     ----------
@@ -114,8 +116,9 @@ class ModelParser:
         What was read.
     """
 
-    def __init__(self, warnings: WarningList) -> None:
+    def __init__(self, warnings: WarningList, lists: dict[int, np.ndarray]) -> None:
         self.part = ModelPart()
+        self._lists, self._place = lists, 0
         self._warnings = warnings
         self._properties = PropertyParser(self.part.groups, warnings)
         self._object: ObjectRecord | None = None
@@ -124,12 +127,14 @@ class ModelParser:
         core = {
             "model": self._model,
             "object": self._begin_object,
+            "vertices": self._vertices,
             "vertex": self._vertex,
+            "triangles": self._triangles,
             "triangle": self._triangle,
             "component": self._component,
             "item": self._item,
         }
-        known = ("resources", "mesh", "vertices", "triangles", "components", "build")
+        known = ("resources", "mesh", "components", "build")
         self._handlers = {_name(CORE, local): handler for local, handler in core.items()}
         self._handlers |= {_name(CORE, local): _nothing for local in known}
         self._handlers |= {
@@ -139,8 +144,9 @@ class ModelParser:
         }
         self._handlers |= self._properties.handlers(CORE)
 
-    def begin(self, name: str, attributes: Attributes) -> None:
+    def begin(self, name: str, attributes: Attributes, place: int) -> None:
         """Take the beginning of an element."""
+        self._place = place
         if self._skipped:
             self._skipped += 1
             return
@@ -183,6 +189,19 @@ class ModelParser:
             raise XmlFault(f"a {what} outside of an object")
         return self._object
 
+    def _vertices(self, attributes: Attributes) -> None:
+        values = self._lists.get(self._place)
+        if values is not None:
+            self._current("vertex").positions.frombytes(values.tobytes())
+
+    def _triangles(self, attributes: Attributes) -> None:
+        values = self._lists.get(self._place)
+        if values is None or not len(values):
+            return
+        record = self._current("triangle")
+        _check_vertex(int(values.max()), record)
+        record.corners.frombytes(values.astype(np.int32).tobytes())
+
     def _vertex(self, attributes: Attributes) -> None:
         record = self._current("vertex")
         try:
@@ -198,9 +217,7 @@ class ModelParser:
     def _triangle(self, attributes: Attributes) -> None:
         record = self._current("triangle")
         corners = [whole(attributes, key) for key in ("v1", "v2", "v3")]
-        count = len(record.positions) // 3
-        if max(corners) >= count:
-            raise XmlFault(f"vertex {max(corners)} where there are {count}")
+        _check_vertex(max(corners), record)
         if len(attributes) > 3:
             self._triangle_property(record, attributes)
         record.corners.extend(corners)
@@ -227,10 +244,14 @@ class ModelParser:
     def _beam(self, attributes: Attributes) -> None:
         record = self._current("beam")
         ends = whole(attributes, "v1"), whole(attributes, "v2")
-        count = len(record.positions) // 3
-        if max(ends) >= count:
-            raise XmlFault(f"vertex {max(ends)} where there are {count}")
+        _check_vertex(max(ends), record)
         record.beams.extend(ends)
+
+
+def _check_vertex(index: int, record: ObjectRecord) -> None:
+    count = len(record.positions) // 3
+    if index >= count:
+        raise XmlFault(f"vertex {index} where there are {count}")
 
 
 def _nothing(attributes: Attributes) -> None:

@@ -24,19 +24,19 @@ class XmlFault(ValueError):
 
 def read_xml(
     pieces: Iterable[bytes],
-    begin: Callable[[str, Attributes], object],
+    begin: Callable[[str, Attributes, int], object],
     end: Callable[[str], object],
     path: str,
     part: str = "",
 ) -> None:
-    """Call ``begin(name, attributes)`` and ``end(name)`` for each element, in the text's order.
+    """Call ``begin(name, attributes, place)`` and ``end(name)`` for each element, in their order.
 
     Parameters
     ----------
     pieces : iterable of bytes
     begin, end : callable
         Names, those of attributes too, are ``"namespace local"``, or local only where there is no
-        namespace. `XmlFault` may be raised.
+        namespace; ``place`` is the offset in the text. `XmlFault` may be raised.
     path, part : str
         The file that messages name, and which part of it the text is.
 
@@ -53,7 +53,7 @@ def read_xml(
         depth += 1
         if depth > _MOST_DEPTH:
             raise XmlFault(f"elements are nested more than {_MOST_DEPTH} deep")
-        begin(name, attributes)
+        begin(name, attributes, parser.CurrentByteIndex)
 
     def leave(name: str) -> None:
         nonlocal depth

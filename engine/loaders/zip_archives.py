@@ -71,6 +71,11 @@ class ZipArchive:
     def __contains__(self, name: str) -> bool:
         return _key(name) in self._parts
 
+    def size(self, name: str) -> int:
+        """Return how many bytes a part unpacks to; 0 if it is not there."""
+        entry = self._parts.get(_key(name))
+        return 0 if entry is None else entry.file_size
+
     def pieces(self, name: str) -> Iterator[bytes]:
         """Yield the bytes of a part, piece by piece.
 

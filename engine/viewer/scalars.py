@@ -81,7 +81,7 @@ class ScalarColoring:
         return ScalarBar(f"{name} [{unit}]" if unit else name, low, high, self.colors)
 
     def _chosen(self, document: Document, up: str) -> str:
-        known = dict.fromkeys(name for entry in document.objects for name in entry.mesh._scalars)
+        known = dict.fromkeys(name for scalars in document.scalars for name in scalars)
         if self.name is None:
             return next(iter(known), up[1:].lower())
         if self.name not in known and self.name not in _AXES:

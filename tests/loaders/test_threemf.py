@@ -13,6 +13,7 @@ import engine3d as e3d
 from engine3d.cli.info import describe
 from engine3d.errors import FileFormatError
 from engine3d.loaders import load_document, load_mesh, sources, threemf
+from engine3d.loaders.threemf_blocks import cut_lists
 from engine3d.viewer.open_model import open_model
 
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
@@ -194,3 +195,54 @@ def test_components_that_multiply_are_limited(write, monkeypatch):
     path = write("a.3mf", package(model("".join(levels), '<item objectid="29"/>')))
     with pytest.raises(FileFormatError, match="or place more than 500 objects"):
         load_document(path)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: text,
+        lambda text: text.replace("/>", " />"),
+        lambda text: text.replace('"/>\n', '"/>'),
+        lambda text: text.replace('x="2" y="0" z="0"', 'x="2" z="0" y="0"'),
+        lambda text: text.replace('x="2" y="0" z="0"', 'y="0" x="2"  z="0"'),
+        lambda text: text.replace("<vertices>\n", "<vertices><!-- a comment -->"),
+        lambda text: text.replace("<resources>", "<resources><!--<vertices></vertices>-->"),
+        lambda text: text.replace('x="2"', 'x="2&#46;0"'),
+        lambda text: text.replace('x="2"', "x='2'"),
+        lambda text: text.replace('"1e1"', '" 1e1 "'),
+    ],
+)
+def test_lists_at_once_and_element_by_element_are_the_same(write, monkeypatch, change):
+    plain = re.sub(r' p\w+="\d+"', "", THREEMF_MODEL.decode())
+    path = write("a.3mf", package(change(plain).encode(), **{"house.tga": b"x"}))
+    meshes = []
+    for at_once in (1 << 20, 0):
+        monkeypatch.setattr(threemf, "_AT_ONCE", at_once)
+        monkeypatch.setattr(threemf, "_RATIO_AT_ONCE", 0)
+        meshes.append(quietly(load_mesh, path))
+    first, second = meshes
+    assert first.positions.tobytes() == second.positions.tobytes() and len(first.faces) == 15
+    assert first.faces.tobytes() == second.faces.tobytes()
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        '<vertex x="1" y="2" z="3"/>4',
+        '<vertex x="1 2" y="" z="3"/>',
+        '<vertex x="1" y="2" z="3"/><vertex x="1" y="2"/>',
+        '<vertex x="1" y="2" z="1e"/>',
+        '<vertex x="1" y="2" z="nan"/>',
+        'x="1" y="2" z="3"/>',
+    ],
+)
+def test_what_is_no_plain_list_stays(content):
+    text = f"<a><vertices>{content}</vertices></a>".encode()
+    assert cut_lists(text) == (text, {})
+
+
+def test_lists_are_cut_out_whole():
+    vertex = '\n<vertex x="1" y="-2.5" z="3e0"/>'
+    text, lists = cut_lists(f"<a><vertices>{vertex}{vertex}</vertices><triangles>".encode())
+    assert text == b"<a><vertices>\n\n</vertices><triangles>"
+    assert {place: values.tolist() for place, values in lists.items()} == {3: [[1, -2.5, 3]] * 2}

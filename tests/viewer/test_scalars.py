@@ -8,6 +8,7 @@ import engine3d as e3d
 from engine3d.canvas import Canvas
 from engine3d.cli import main
 from engine3d.errors import InvalidArgumentError
+from engine3d.loaders import load_document
 from engine3d.viewer.axes_grid import AxesGrid
 from engine3d.viewer.colormaps import COLORMAPS, MISSING, colormap
 from engine3d.viewer.open_model import open_model
@@ -69,6 +70,12 @@ def test_which_number_it_is(heat):
     assert abs(at(frame, 1, 0.5, 0) - 64) <= 3
     with pytest.raises(InvalidArgumentError, match="no array 'cold'; it has heat, label, x, y, z"):
         open_model(heat, scalars=ScalarColoring(GRAY, "cold"))
+
+
+def test_documents_have_the_numbers(heat):
+    (scalars,) = load_document(heat, scalars=True).scalars
+    assert list(scalars) == ["heat", "label"] and scalars["label"].tolist() == [1, 2, 3, 4, 5]
+    assert load_document(heat).scalars == [{}]
 
 
 def test_what_has_no_number_is_grey(heat):

@@ -394,7 +394,8 @@ def test_fog_is_set_dragged_and_undone(editor):
     for kind in (Fog, ExponentialFog):
         fog = fog_fields._new_fog(kind, scene, workspace.bounds.radius)
         workspace.do(SetValues([scene], {"fog": fog}))
-        assert (settle(editor) != before).any() and scene.fog == fog
+        x, y = middle_of(editor, find(editor, "Cab"))  # of the scene, not of the panel
+        assert (settle(editor)[y, x] != before[y, x]).any() and scene.fog == fog
         workspace.undo()
         assert scene.fog is None
     fog = Fog((9, 8, 7), 1.0, 2.0)

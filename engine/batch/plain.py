@@ -1,0 +1,43 @@
+"""Pictures that are no data set: the files of each beside each other, under its name.
+
+Out: ``NAME.png``, or another format, and ``NAME.OUTPUT.npy``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ..datasets.folders import encoded
+from ..datasets.samples import Sample
+from ..datasets.writer import DatasetWriter
+
+
+class PlainWriter(DatasetWriter):
+    """Writes what a task's ``outputs`` name.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Checked by `Task`.
+    """
+
+    kind = "plain"
+
+    def __init__(self, names: Sequence[str]) -> None:
+        self.formats = {name.partition(".")[0]: name.partition(".")[2] for name in names}
+        self.outputs = tuple(self.formats)
+
+    def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
+        files = {}
+        for output, suffix in self.formats.items():
+            if output == "color" and suffix:
+                files[f"{sample.name}.{suffix}"] = sample.frame.encode(suffix)
+                continue
+            suffix, data = encoded(sample.frame, output)
+            name = sample.name if output == "color" else f"{sample.name}.{output}"
+            files[f"{name}.{suffix}"] = data
+        return files, None
+
+    def beside(self, sample: Sample, end: str) -> str:
+        return f"{sample.name}.{end}"

@@ -109,7 +109,7 @@ CHAPTERS = {
     ),
 }
 #: Modules whose functions are written out here; those of the other modules are public names too.
-MODULES = ("events", "linalg", "loaders")
+MODULES = ("batch", "datasets", "events", "linalg", "loaders")
 #: Classes that a user never makes: they come without a constructor.
 MADE_BY_OTHERS = ("Node", "Frame", "RasterizeResult", "World")
 PLAIN_NAMES = ("__version__", "choices", "errors", "primitives")

@@ -175,8 +175,6 @@ class Drawer:
     def _scene(self, task: Task, inputs: InputFiles) -> tuple[Scene, Said]:
         """The scene of a task, and what its script says of it."""
         scene = Scene() if task.model is None else self._files.scene(task.path(task.model))
-        for text in scene.warnings:
-            warnings.warn(f"{task.model}: {text}", Engine3DWarning, stacklevel=2)
         for key, value in task.scene.items():
             setattr(scene, key, value)
         if task.script is None:

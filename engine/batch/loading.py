@@ -12,8 +12,9 @@ from collections import OrderedDict
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import Any
+from typing import Any, NamedTuple
 
+from ..errors import warn
 from ..files.resources import Resources, versions_of
 from ..geometry.mesh import Mesh
 from ..loaders import load_document
@@ -22,10 +23,24 @@ from ..loaders.linked_files import found_files
 from ..materials.textures import Texture
 from ..scene.loading import scene_from_document
 from ..scene.scene import Scene
-from .file_digests import InputFiles
+from .file_digests import InputFiles, digest_of
 
 #: Files that a process keeps loaded.
 KEPT = 16
+
+
+class Held(NamedTuple):
+    """What is kept of a file.
+
+    Attributes
+    ----------
+    thing : object
+    files : dict of str to str
+        The hashes of the files that it came from, by path.
+    """
+
+    thing: Any
+    files: dict[str, str | None]
 
 
 class LoadedFiles:
@@ -33,7 +48,7 @@ class LoadedFiles:
 
     def __init__(self) -> None:
         self._resources = Resources()
-        self._kept: OrderedDict[tuple, tuple[Any, list[str]]] = OrderedDict()
+        self._kept: OrderedDict[tuple, Held] = OrderedDict()
         self.inputs: InputFiles | None = None
 
     def mesh(self, path: str, options: dict[str, Any]) -> Mesh:
@@ -46,41 +61,57 @@ class LoadedFiles:
 
     def scene(self, path: str) -> Scene:
         """Return a scene of its own of what a file holds, with the meshes that are loaded."""
-        path, key = os.path.realpath(path), ("scene", os.path.realpath(path))
-        held = self._kept.get(key)
-        if held is None or _changed(held[0]):
-            with self._found(path) as found:
+        path = os.path.realpath(path)
+        held = self._kept.get(("scene", path))
+        if held is None or _changed(held.thing):
+            with _found(path) as files:
                 document = load_document(path)
-            held = (document, _versions(document)), found
-        self._keep(key, held)
-        return scene_from_document(held[0][0])
+            held = Held((document, _versions(document)), files)
+        self._keep(("scene", path), held)
+        document = held.thing[0]
+        scene = scene_from_document(document)
+        for text in scene.warnings[len(document.warnings) :]:  # those of the document were given
+            warn(f"{path}: {text}")
+        return scene
+
+    def forget_changed(self) -> None:
+        """Let go of what came from files that hold something else now."""
+        for key, held in list(self._kept.items()):
+            if any(digest_of(path) != digest for path, digest in held.files.items()):
+                del self._kept[key]
+                self._resources = Resources()
 
     def _shared(self, kind: str, load, path: str, options: dict[str, Any]):
         path = os.path.realpath(path)
         key = kind, path, tuple(sorted(options.items()))
         held = self._kept.get(key)
-        with self._found(path) as found:
+        with _found(path) as files:
             thing = load(path, **options)  # what is kept is not read again
-        self._keep(key, (thing, found if held is None or held[0] is not thing else held[1]))
+        same = held is not None and held.thing is thing
+        self._keep(key, held if same else Held(thing, files))
         return thing
 
-    @contextmanager
-    def _found(self, path: str) -> Iterator[list[str]]:
-        """Collect the paths that are read within the block."""
-        found = [path]
-        if self.inputs is not None:
-            self.inputs.note(path)
-        with found_files(lambda one: found.append(os.path.realpath(one))):
-            yield found
-
-    def _keep(self, key: tuple, held: tuple[Any, list[str]]) -> None:
+    def _keep(self, key: tuple, held: Held) -> None:
         """Keep what is loaded, and take down the files that it came from."""
         self._kept[key] = held
         self._kept.move_to_end(key)
         while len(self._kept) > KEPT:
             self._kept.popitem(last=False)
-        for path in held[1] if self.inputs is not None else ():
+        for path in held.files if self.inputs is not None else ():
             self.inputs.note(path)
+
+
+@contextmanager
+def _found(path: str) -> Iterator[dict[str, str | None]]:
+    """Collect the paths that are read within the block, and their hashes before that."""
+    files = {path: digest_of(path)}
+
+    def note(one: str) -> None:
+        one = os.path.realpath(one)
+        files.setdefault(one, digest_of(one))
+
+    with found_files(note):
+        yield files
 
 
 def _versions(document: Document) -> tuple:
@@ -103,6 +134,7 @@ _current: ContextVar[LoadedFiles | None] = ContextVar("loaded_files", default=No
 @contextmanager
 def loading(files: LoadedFiles, inputs: InputFiles) -> Iterator[None]:
     """Let `load_mesh` and `load_texture` go through some files within the block."""
+    files.forget_changed()
     token, files.inputs = _current.set(files), inputs
     try:
         yield

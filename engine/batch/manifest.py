@@ -82,12 +82,12 @@ def _check_keys(value: JsonValue, known: set[str]) -> None:
             raise member.error(f"is none of {', '.join(sorted(known))}")
 
 
-def _told(place: JsonValue, do: Callable[[], Any]) -> Any:
-    """Let an error say where in the file it comes from."""
+def _told(place: JsonValue, do: Callable[[], Any], member: str = "") -> Any:
+    """Let an error say where in the file it comes from; the place ends with ``member``."""
     try:
         return do()
     except (InvalidArgumentError, TypeError) as error:
-        raise place.error(str(error)) from None
+        raise place.error(str(error).removeprefix(f"{member}: ")) from None
 
 
 def _writer(entry: JsonValue) -> DatasetWriter:
@@ -115,7 +115,7 @@ def _value(key: str, member: JsonValue, number: int) -> Value:
         if not isinstance(member.value, str):
             raise member.wrong("a text")
         return Value(member.value, member.value)
-    value = _told(member, lambda: checked(key, member.value))
+    value = _told(member, lambda: checked(key, member.value), key)
     return value_of(key, value, number)
 
 
@@ -139,12 +139,13 @@ def _naming(own: dict[str, Value], lists: dict[str, list[Value]]) -> list[str]:
 
 
 def _matrix(entry: JsonValue, number: int, of_dataset: bool) -> dict[str, list[Value]]:
-    lists, count = {}, 1
+    lists: dict[str, Any] = {}
+    count = 1
     for key, member in entry.members().items():
         if key not in _KEYS - {"name"} or (of_dataset and key == "outputs"):
             raise member.error("is no key whose values may be combined")
         if key == "seed" and isinstance(member.value, dict):
-            lists[key] = [Value(seed, str(seed)) for seed in _seeds(member)]
+            lists[key] = _seeds(member)
         else:
             lists[key] = [_value(key, one, n) for n, one in enumerate(member)]
         if not lists[key]:
@@ -152,6 +153,8 @@ def _matrix(entry: JsonValue, number: int, of_dataset: bool) -> dict[str, list[V
         count *= len(lists[key])
     if number + count > _MOST:
         raise entry.error(f"these are {count:,} tasks; a manifest has up to {_MOST:,}")
+    if isinstance(seeds := lists.get("seed"), range):
+        lists["seed"] = [Value(seed, str(seed)) for seed in seeds]
     return lists
 
 

@@ -8,7 +8,6 @@ picture that ends its process three times has failed.
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
 import math
 import os
@@ -186,7 +185,7 @@ class _Run:
     def _take_in(self, future: Any, chunk: list[Task]) -> None:
         try:
             outcomes = future.result()
-        except (Exception, asyncio.CancelledError) as error:
+        except Exception as error:
             self._died(chunk, error)
             return
         for task, outcome in zip(chunk, outcomes, strict=True):

@@ -17,10 +17,10 @@ from typing import Any, NamedTuple
 from .._support.numbers import shown
 from ..datasets.generator import Generator
 from ..errors import Engine3DError, InvalidArgumentError, located
-from ..files.stamps import file_stamp
 from ..scene.nodes import Node
 from ..scene.scene import Scene
 from .bytes_of import bytes_of
+from .file_digests import digest_of
 
 _SAID = ("camera", "labels", "files")
 
@@ -45,11 +45,28 @@ class Said(NamedTuple):
     files: Mapping[str, bytes] = {}
 
 
+class Loaded(NamedTuple):
+    """A script that was run.
+
+    Attributes
+    ----------
+    module : ModuleType
+    beside : dict of str to str
+        Names of the modules of its folder that it imported, and their files.
+    digests : dict of str to str
+        Hashes of all these files and its own, by path.
+    """
+
+    module: ModuleType
+    beside: dict[str, str]
+    digests: dict[str, str | None]
+
+
 class Scripts:
-    """The scripts that a process has run, each once for as long as its file stays as it is."""
+    """The scripts that a process has run, each once for as long as its files stay as they are."""
 
     def __init__(self) -> None:
-        self._modules: dict[str, tuple[Any, ModuleType, list[str]]] = {}
+        self._loaded: dict[str, Loaded] = {}
 
     def call(
         self,
@@ -67,15 +84,10 @@ class Scripts:
         ScriptError
         """
         path = os.path.realpath(path)
-        note(path)
-        stamp = file_stamp(path)
-        known = self._modules.get(path)
-        if known is None or known[0] != stamp:
-            module, imported = _guarded(path, lambda: _loaded(path))
-            known = self._modules[path] = stamp, module, imported
-        for other in known[2]:
-            note(other)
-        build = getattr(known[1], function, None)
+        loaded = self._fresh(path)
+        for file in loaded.digests:
+            note(file)
+        build = getattr(loaded.module, function, None)
         if not callable(build):
             raise ScriptError(located(f"there is no function {function}", path))
         result = _guarded(path, lambda: build(scene, generator, **arguments))
@@ -84,17 +96,31 @@ class Scripts:
         except InvalidArgumentError as error:
             raise ScriptError(located(f"what {function} returned: {error}", path)) from None
 
+    def _fresh(self, path: str) -> Loaded:
+        """The script as its files are now."""
+        known = self._loaded.get(path)
+        if known is not None:
+            if all(digest_of(file) == digest for file, digest in known.digests.items()):
+                return known
+            for name in known.beside:
+                sys.modules.pop(name, None)
+        loaded = self._loaded[path] = _guarded(path, lambda: _run(path))
+        return loaded
 
-def _loaded(path: str) -> tuple[ModuleType, list[str]]:
-    """Run a script as a module; return it, and the files of its folder that it imported."""
-    folder, before = os.path.dirname(path), set(sys.modules)
+
+def _run(path: str) -> Loaded:
+    """Run a script as a module."""
+    folder, before = os.path.dirname(path) + os.sep, set(sys.modules)
+    own = digest_of(path)
     spec = importlib.util.spec_from_file_location(f"engine3d_script_{abs(hash(path))}", path)
     if spec is None or spec.loader is None:
-        raise ScriptError(located("not a file of Python: its name does not end in .py", path))
+        raise ScriptError(located("its name does not end in .py", path))
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    new = (getattr(sys.modules[name], "__file__", None) for name in set(sys.modules) - before)
-    return module, sorted(file for file in new if file and file.startswith(folder + os.sep))
+    new = {name: getattr(sys.modules[name], "__file__", None) for name in set(sys.modules) - before}
+    beside = {name: file for name, file in new.items() if file and file.startswith(folder)}
+    files = sorted(beside.values())
+    return Loaded(module, beside, {path: own, **{file: digest_of(file) for file in files}})
 
 
 def _guarded(path: str, do: Callable[[], Any]) -> Any:

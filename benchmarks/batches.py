@@ -19,7 +19,7 @@ import time
 from pathlib import Path
 
 from engine3d.batch import Task, run
-from engine3d.batch.drawing import Drawer, How
+from engine3d.batch.drawing import How, draw_chunk
 from engine3d.batch.processes import ProcessPool
 from engine3d.version import __version__
 
@@ -46,23 +46,23 @@ def cpu_of(processes):
 
 
 class Loop:
-    """Pictures drawn one after the other, and nothing else."""
+    """Pictures drawn one after the other by a process that does nothing else."""
 
     name = "loop"
 
     def __init__(self):
-        self._drawer = Drawer(1, "auto")
+        self._pool = ProcessPool(1)
 
     def processes(self):
-        return [os.getpid()]
+        return self._pool.process_ids()
 
     def draw(self, pictures, folder):
         how = How(folder, None, 1, "auto", False, __version__)
-        for task in pictures:
-            assert self._drawer.outcome(task, how).error is None
+        outcomes = self._pool.submit(draw_chunk, pictures, how).result()
+        assert all(outcome.drawn for outcome in outcomes)
 
     def stop(self):
-        pass
+        self._pool.stop()
 
 
 class Batch:
@@ -150,15 +150,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--pictures", type=int, default=100)
     parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--without-dask", action="store_true")
     parser.add_argument("--json", action="store_true")
     arguments = parser.parse_args()
     makes, report = [Loop, Batch], {"when": time.strftime("%Y-%m-%d"), "rows": []}
-    try:
-        import distributed  # noqa: F401
-
+    if not arguments.without_dask:
         makes.append(Dask)
-    except ImportError:
-        report["dask"] = "not installed"
     ways, starts = zip(*map(started, makes), strict=True)
     waits = [waiting_of(way) for way in ways]
     rounds = [one_round(ways, waits, arguments.pictures) for _ in range(arguments.rounds)]

@@ -105,6 +105,8 @@ class _Worker:
         try:
             if self.process is None or self.process.poll() is not None:
                 self.process = _started()
+                if self._stopped:
+                    self.hang_up()
             send(self.process.stdin, call)
             returned, result = receive(self.process.stdout)
         except (EOFError, OSError, ValueError, pickle.UnpicklingError) as error:

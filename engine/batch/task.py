@@ -32,7 +32,7 @@ _NAME = re.compile(r"[^\W_][\w .+@=,-]*(?:/[^\W_][\w .+@=,-]*)*")
 _LONGEST = 200  # characters: with the folder and a suffix it is still the name of a file
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)  # there may be millions
 class Task:
     """One picture of a batch.
 
@@ -97,7 +97,8 @@ class Task:
 
     def __post_init__(self) -> None:
         for one in fields(self):
-            self.__dict__[one.name] = checked(one.name, getattr(self, one.name))
+            value = checked(one.name, getattr(self, one.name))
+            object.__setattr__(self, one.name, value)
         if self.model is None and self.script is None:
             raise InvalidArgumentError("a task needs a model or a script")
 
@@ -111,6 +112,14 @@ class Task:
         said = {"task": told, "writer": writer.said(), "engine3d": __version__}
         text = json.dumps(said, sort_keys=True, separators=(",", ":"))
         return hashlib.blake2b(text.encode("utf-8"), digest_size=20).hexdigest()
+
+
+def task_of(values: Mapping[str, Any]) -> Task:
+    """Return a task of values that `checked` returned, which many tasks may share."""
+    task = object.__new__(Task)
+    for name, value in {**_DEFAULTS, **values}.items():
+        object.__setattr__(task, name, value)
+    return task
 
 
 def checked(name: str, value: Any) -> Any:
@@ -235,3 +244,5 @@ _CHECKS = {
     "index": _whole("index"),
     "folder": _text("folder"),
 }
+_USUAL = Task(name="a", model="a", folder="/")
+_DEFAULTS = {one.name: getattr(_USUAL, one.name) for one in fields(Task)} | {"model": None}

@@ -169,7 +169,10 @@ class Drawer:
         )
         files, note = writer.describe(sample)
         for end, data in said.files.items():
-            files[writer.beside(sample, end)] = data
+            path = writer.beside(sample, end)
+            if path in files:
+                raise InvalidArgumentError(f"{path} is written twice: it is an output")
+            files[path] = data
         write_picture(out, task, task.key(writer), inputs, files, note)
 
     def _scene(self, task: Task, inputs: InputFiles) -> tuple[Scene, Said]:

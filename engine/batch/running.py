@@ -33,6 +33,7 @@ from .task import Task
 LEAST_SECONDS = 0.05  # of a chunk
 _MOST_IN_CHUNK = 256
 _TRIES = 3
+_NAMED = 4  # of the pictures that a process may have been drawing when it died
 _LEFT_BEHIND = re.compile(r"\..*\.[0-9a-f]{16}\.part")
 
 
@@ -195,13 +196,18 @@ class _Run:
         """Have tasks drawn again whose process died, or that could not be asked for."""
         text = " ".join(str(error).split()) or type(error).__name__
         lasting = isinstance(error, InvalidArgumentError)
+        again = []
         for task in chunk:
             tries = self._tries[task.index] = self._tries.get(task.index, 0) + 1
             if lasting or tries >= _TRIES:
                 self._count(task, Outcome(task.index, text, False, 0.0, ()))
-                continue
-            self._again.append(task)
-            self._progress(task, None, f"{text} while it drew {task.name}: drawn again")
+            else:
+                again.append(task)
+        self._again.extend(again)
+        if again:
+            names = " or ".join(task.name for task in again[:_NAMED])
+            more = " or others" if len(again) > _NAMED else ""
+            self._progress(again[0], None, f"{text} while it drew {names}{more}: drawn again")
 
     def _count(self, task: Task, outcome: Outcome) -> None:
         if outcome.error is not None:

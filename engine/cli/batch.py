@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import sys
 
 from ..batch import Summary, Task, read_manifest, run
 from ..batch.drawing import Outcome
@@ -16,7 +17,8 @@ _SHOWN = 20  # failures that are listed
 def batch(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
     manifest = read_manifest(args.manifest)
-    with _Progress(len(manifest.tasks)) as progress:
+    # What scripts print is not what this command is there to print.
+    with _Progress(len(manifest.tasks)) as progress, contextlib.redirect_stdout(sys.stderr):
         summary = run(
             manifest.tasks,
             args.output,

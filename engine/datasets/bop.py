@@ -125,7 +125,7 @@ class BopWriter(DatasetWriter):
 
     def _steps(self, depth: NDArray[np.float32]) -> NDArray[np.uint16]:
         """Depths in whole steps, rounded half up; 0 where nothing is."""
-        steps = np.floor(depth * np.float64(self.millimetres / self.depth_scale) + 0.5)
+        steps = np.floor(depth.astype(np.float64) * (self.millimetres / self.depth_scale) + 0.5)
         if steps.max(initial=0.0) > _DEEPEST:
             farthest = float(depth.max()) * self.millimetres
             raise InvalidArgumentError(

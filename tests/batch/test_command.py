@@ -43,6 +43,18 @@ def test_failures_are_listed_at_the_end(manifest, place, capsys):
     assert said.out.startswith("1 drawn, 0 done before, 22 failed;")
 
 
+def test_a_terminal_gets_a_bar(manifest, place, capsys, monkeypatch):
+    monkeypatch.setattr("engine3d.cli.quietness.shows_progress", lambda: True)
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    path = manifest(
+        MODEL, {**SCRIPT, "function": "say"}, {**SCRIPT, "function": "fail", "name": "f"}
+    )
+    assert batch(path, place / "out", "--jobs", "1") == 1
+    said = capsys.readouterr()
+    assert "drawing, 1 failed" in said.err and "3/3" in said.err
+    assert said.out.startswith("2 drawn, 0 done before, 1 failed;") and said.out.count("\n") == 1
+
+
 def test_what_scripts_print_is_not_in_the_way(manifest, place, capfd):
     path = manifest({**SCRIPT, "function": "say", "matrix": {"seed": {"count": 2}}})
     with ProcessPool(1) as pool:

@@ -151,6 +151,13 @@ def test_what_a_script_changes_does_not_reach_other_pictures(place, manifest):
         assert (place / "one" / name).read_bytes() == (place / "all" / name).read_bytes()
 
 
+def test_a_script_writes_over_no_output(place, manifest):
+    said = {"value": {"files": {"depth.npy": "text"}}}
+    task = {**SCRIPT, "function": "returned", "arguments": said, "outputs": ["depth"], "name": "a"}
+    summary = run(read_manifest(manifest(task)).tasks, place / "out", jobs=1)
+    assert summary.failures[0].error.startswith("a.depth.npy is written twice")
+
+
 def test_a_script_may_write_files_beside(place, manifest):
     tasks = read_manifest(manifest({**SCRIPT, "function": "beside", "name": "a"})).tasks
     run(tasks, place / "out", jobs=1)
@@ -203,7 +210,8 @@ def test_a_killed_process_loses_nothing(place, manifest):
         tasks, place / "out", jobs=2, progress=lambda task, outcome, text: said.append(text)
     )
     assert summary.drawn + summary.done_before == 6 and not summary.failures
-    assert any("SIGKILL while it drew t2: drawn again" in text for text in said)
+    told = [text for text in said if "SIGKILL while it drew" in text]
+    assert len(told) == 1 and "t2" in told[0] and told[0].endswith(": drawn again")
     shutil.rmtree(place / "serial", ignore_errors=True)
     assert run(tasks, place / "serial", jobs=1).hash == summary.hash
 

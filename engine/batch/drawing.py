@@ -19,6 +19,7 @@ from ..datasets.generator import Generator
 from ..datasets.samples import Sample
 from ..datasets.writer import DatasetWriter
 from ..errors import Engine3DError, Engine3DWarning, InvalidArgumentError
+from ..loaders.linked_files import found_files
 from ..rendering.options import RenderOptions
 from ..rendering.renderer import Renderer
 from ..scene.cameras import Camera
@@ -27,7 +28,7 @@ from ..scene.scene import Scene
 from ..version import __version__
 from .cameras import camera_of
 from .file_digests import InputFiles
-from .loading import LoadedFiles, loading
+from .loading import LoadedFiles, loading, not_written_to
 from .plain import PlainWriter
 from .records import is_done, write_picture
 from .scripts import Said, Scripts
@@ -149,7 +150,10 @@ class Drawer:
         inputs = InputFiles(task.folder)
         for path in task.inputs:
             inputs.note(task.path(path))
-        with loading(self._files, inputs):
+        if task.look is not None:
+            self._draw_look(task, out, writer, inputs)
+            return
+        with loading(self._files, inputs, out):
             scene, said = self._scene(task, inputs)
         camera, pose = _chosen_camera(task, scene, said)
         renderer = self._sized_renderer(task)
@@ -174,6 +178,18 @@ class Drawer:
                 raise InvalidArgumentError(f"{path} is written twice: it is an output")
             files[path] = data
         write_picture(out, task, task.key(writer), inputs, files, note)
+
+    def _draw_look(self, task: Task, out: str, writer: DatasetWriter, inputs: InputFiles) -> None:
+        """Draw a model as ``engine3d render`` does."""
+        from .looks import draw_look
+
+        if not isinstance(writer, PlainWriter):
+            raise InvalidArgumentError("a look is for pictures, not for data sets")
+        inputs.note(task.path(task.model))
+        with found_files(inputs.note):
+            frame = draw_look(task, self._threads, self._backend, not_written_to(out))
+        files = writer.files(task.name, frame)
+        write_picture(out, task, task.key(writer), inputs, files, None)
 
     def _scene(self, task: Task, inputs: InputFiles) -> tuple[Scene, Said]:
         """The scene of a task, and what its script says of it."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+from typing import Any
 
 from ..files.stamps import FileStamp, file_stamp, was_written
 
@@ -53,17 +54,17 @@ def digest_of(path: str) -> str | None:
     before = _known.get(path)
     if before is not None and not was_written(before[0], stamp):
         return before[1]
-    digest = _read(path)
+    try:
+        digest = hash_of_file(path, hashlib.blake2b(digest_size=20))
+    except OSError:
+        digest = None
     _known[path] = stamp, digest
     return digest
 
 
-def _read(path: str) -> str | None:
-    digest = hashlib.blake2b(digest_size=20)
-    try:
-        with open(path, "rb") as file:
-            while piece := file.read(1 << 20):
-                digest.update(piece)
-    except OSError:
-        return None
+def hash_of_file(path: str, digest: Any) -> str:
+    """Return the hash of a file, by an object of `hashlib`, in hexadecimal digits."""
+    with open(path, "rb") as file:
+        while piece := file.read(1 << 20):
+            digest.update(piece)
     return digest.hexdigest()

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 from collections import OrderedDict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any, NamedTuple
@@ -50,6 +50,7 @@ class LoadedFiles:
         self._resources = Resources()
         self._kept: OrderedDict[tuple, Held] = OrderedDict()
         self.inputs: InputFiles | None = None
+        self.out = ""  # the folder that is written to
 
     def mesh(self, path: str, options: dict[str, Any]) -> Mesh:
         """Return the mesh of a file, as `Resources.load_mesh` shares it."""
@@ -62,12 +63,13 @@ class LoadedFiles:
     def scene(self, path: str) -> Scene:
         """Return a scene of its own of what a file holds, with the meshes that are loaded."""
         path = os.path.realpath(path)
-        held = self._kept.get(("scene", path))
+        key = "scene", path, self.out
+        held = self._kept.get(key)
         if held is None or _changed(held.thing):
             with _found(path) as files:
-                document = load_document(path)
+                document = load_document(path, companion=not_written_to(self.out))
             held = Held((document, _versions(document)), files)
-        self._keep(("scene", path), held)
+        self._keep(key, held)
         document = held.thing[0]
         scene = scene_from_document(document)
         for text in scene.warnings[len(document.warnings) :]:  # those of the document were given
@@ -131,11 +133,20 @@ def _changed(held: tuple[Document, tuple]) -> bool:
 _current: ContextVar[LoadedFiles | None] = ContextVar("loaded_files", default=None)
 
 
+def not_written_to(out: str) -> Callable[[str], bool]:
+    """Return what tells whether an image beside a model is none of the pictures of a batch.
+
+    A picture of a model that lies beside it, under its name, must not become its texture.
+    """
+    folder = os.path.realpath(out) + os.sep
+    return lambda path: not os.path.realpath(path).startswith(folder)
+
+
 @contextmanager
-def loading(files: LoadedFiles, inputs: InputFiles) -> Iterator[None]:
+def loading(files: LoadedFiles, inputs: InputFiles, out: str) -> Iterator[None]:
     """Let `load_mesh` and `load_texture` go through some files within the block."""
     files.forget_changed()
-    token, files.inputs = _current.set(files), inputs
+    token, files.inputs, files.out = _current.set(files), inputs, out
     try:
         yield
     finally:

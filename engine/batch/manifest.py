@@ -18,7 +18,7 @@ from ..errors import InvalidArgumentError
 from ..loaders.json_values import JsonValue, parsed_json
 from ..loaders.sources import read_source
 from .matrix import Value, combinations, name_from, value_of
-from .task import Task, checked, task_of
+from .task import Task, check_look, checked, task_of
 
 VERSION = 1
 _WRITERS = {w.kind: w for w in (BopWriter, CocoWriter, FolderWriter, WebDatasetWriter)}
@@ -177,7 +177,9 @@ def _task(entry: JsonValue, values: dict[str, Value], index: int, folder: str) -
         raise entry.error("a task needs a model or a script")
     place = entry.get("name") or entry
     name = _told(place, lambda: checked("name", name_from(pattern, texts)))
-    return task_of({**given, "name": name, "index": index, "folder": folder})
+    task = task_of({**given, "name": name, "index": index, "folder": folder})
+    _told(entry, lambda: check_look(task))
+    return task
 
 
 def _check_name(entry: JsonValue, name: str, names: dict[str, str]) -> None:

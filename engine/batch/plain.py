@@ -11,6 +11,7 @@ from typing import Any
 from ..datasets.folders import encoded
 from ..datasets.samples import Sample
 from ..datasets.writer import DatasetWriter
+from ..rendering.frame import Frame
 
 
 class PlainWriter(DatasetWriter):
@@ -29,15 +30,19 @@ class PlainWriter(DatasetWriter):
         self.outputs = tuple(self.formats)
 
     def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
+        return self.files(sample.name, sample.frame), None
+
+    def files(self, name: str, frame: Frame) -> dict[str, bytes]:
+        """Return the files of a picture, by their paths."""
         files = {}
         for output, suffix in self.formats.items():
             if output == "color" and suffix:
-                files[f"{sample.name}.{suffix}"] = sample.frame.encode(suffix)
+                files[f"{name}.{suffix}"] = frame.encode(suffix)
                 continue
-            suffix, data = encoded(sample.frame, output)
-            name = sample.name if output == "color" else f"{sample.name}.{output}"
-            files[f"{name}.{suffix}"] = data
-        return files, None
+            suffix, data = encoded(frame, output)
+            own = name if output == "color" else f"{name}.{output}"
+            files[f"{own}.{suffix}"] = data
+        return files
 
     def beside(self, sample: Sample, end: str) -> str:
         return f"{sample.name}.{end}"

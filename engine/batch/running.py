@@ -9,6 +9,7 @@ picture that ends its process three times has failed.
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import math
 import os
 import queue
@@ -25,9 +26,10 @@ from ..rendering.backend_selection import resolve_backend
 from ..version import __version__
 from .drawing import How, Outcome, draw_chunk, writer_of
 from .executors import Engine, engine_for
+from .file_digests import hash_of_file
 from .locking import locked_folder
 from .records import FOLDER, note_of, read_record
-from .summary import Failure, Summary, sha256_of, write_sums
+from .summary import Failure, Summary, write_sums
 from .task import Task
 
 LEAST_SECONDS = 0.05  # of a chunk
@@ -249,7 +251,7 @@ def _finish(tasks: Sequence[Task], how: How) -> str:
     notes, whole = _Notes(tasks, how), []
     if how.writer is not None:
         whole = list(how.writer.finish(how.out, notes))
-    hashes = {path: sha256_of(os.path.join(how.out, path)) for path in whole}
+    hashes = {p: hash_of_file(f"{how.out}/{p}", hashlib.sha256()) for p in whole}
     for _, record in notes.records():
         files = record["files"].items()
         # What is not there is within one of the files of the whole.

@@ -62,17 +62,8 @@ def write_sums(folder: str, hashes: Iterable[tuple[str, str]]) -> str:
     folder : str
     hashes : iterable of (path, SHA-256)
     """
-    lines = sorted(f"{digest}  {path}\n" for path, digest in hashes)
+    lines = [f"{digest}  {path}\n" for path, digest in hashes]
     data = "".join(sorted(lines, key=lambda line: line[66:])).encode("utf-8")
     with atomic_write(os.path.join(folder, SUMS)) as file:
         file.write(data)
     return hashlib.sha256(data).hexdigest()
-
-
-def sha256_of(path: str) -> str:
-    """Return the hash of a file."""
-    digest = hashlib.sha256()
-    with open(path, "rb") as file:
-        while piece := file.read(1 << 20):
-            digest.update(piece)
-    return digest.hexdigest()

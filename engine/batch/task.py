@@ -28,6 +28,8 @@ from .cameras import check_camera
 
 #: What of a scene a task may set.
 SCENE_KEYS = ("background", "ambient", "light_clamp", "exposure")
+LOOKS = ("studio", "plain")
+_LOOK_CAMERA = ("azimuth", "elevation", "view_angle", "name")
 _NAME = re.compile(r"[^\W_][\w .+@=,-]*(?:/[^\W_][\w .+@=,-]*)*")
 _LONGEST = 200  # characters: with the folder and a suffix it is still the name of a file
 
@@ -59,6 +61,10 @@ class Task:
         As of `Renderer`.
     render : mapping
         Keyword arguments of `RenderOptions`, but for ``outputs``.
+    look : {"studio", "plain"}, optional
+        Draw the model as ``engine3d render --look`` does, instead of as it is in a scene. Such a
+        task has no script, ``render``, ``scene`` or output but the colour, and its camera says
+        ``azimuth`` and ``elevation`` from where the command looks, and ``view_angle``, at most.
     scene : mapping
         ``background``, ``ambient``, ``light_clamp`` and ``exposure``, as of `Scene`.
     outputs : sequence of str
@@ -88,6 +94,7 @@ class Task:
     samples: Samples = 4
     antialias: Antialias = "ssaa"
     render: Mapping[str, Any] = field(default_factory=dict)
+    look: str | None = None
     scene: Mapping[str, Any] = field(default_factory=dict)
     outputs: Sequence[str] = ("color",)
     seed: int = 0
@@ -101,6 +108,7 @@ class Task:
             object.__setattr__(self, one.name, value)
         if self.model is None and self.script is None:
             raise InvalidArgumentError("a task needs a model or a script")
+        check_look(self)
 
     def path(self, name: str) -> str:
         """Return the path of a file that the task names."""
@@ -112,6 +120,24 @@ class Task:
         said = {"task": told, "writer": writer.said(), "engine3d": __version__}
         text = json.dumps(said, sort_keys=True, separators=(",", ":"))
         return hashlib.blake2b(text.encode("utf-8"), digest_size=20).hexdigest()
+
+
+def check_look(task: Task) -> None:
+    """Raise unless what a task says goes with its look.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+    if task.look is None:
+        return
+    other = [key for key in ("script", "render", "scene") if getattr(task, key)]
+    other += [f"the output {name}" for name in task.outputs if not name.startswith("color")]
+    if task.camera is not None:
+        said = task.camera if isinstance(task.camera, Mapping) else {"a number of a camera": 0}
+        other += [f"camera: {key}" for key in said if key not in _LOOK_CAMERA]
+    if other:
+        raise InvalidArgumentError(f"look does not go with {', '.join(other)}")
 
 
 def task_of(values: Mapping[str, Any]) -> Task:
@@ -238,6 +264,7 @@ _CHECKS = {
     "antialias": lambda value: choose(value, get_args(Antialias), "antialias"),
     "render": _render,
     "scene": _scene,
+    "look": lambda value: choose(value, (None, *LOOKS), "look"),
     "outputs": _outputs,
     "seed": _whole("seed"),
     "inputs": _texts("inputs"),

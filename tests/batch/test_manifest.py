@@ -74,6 +74,12 @@ WRONG = [
         "tasks[1].name: {kind} stands for nothing: known are size",
     ),
     ({**MODEL, "name": "first"}, "tasks[1]: two tasks have the name 'first', the other is of task"),
+    ({**SCRIPT, "look": "plain"}, "tasks[1]: look does not go with script"),
+    ({**MODEL, "look": "nice"}, "tasks[1].look: look must be one of None, 'studio', 'plain'"),
+    (
+        {**MODEL, "look": "plain", "outputs": ["depth"], "camera": {"position": [1, 2, 3]}},
+        "tasks[1]: look does not go with the output depth, camera: position",
+    ),
     ({**SCRIPT, "arguments": [1]}, "tasks[1].arguments: arguments must be an object"),
     ({**SCRIPT, "function": "a b"}, "tasks[1].function: function must be a name"),
     ({"model": ""}, "tasks[1].model: model must be a text"),
@@ -156,6 +162,7 @@ def test_tasks_are_known_by_all_that_they_say():
         for key, value in (
             *(("seed", 1), ("size", (3, 4)), ("camera", 0), ("render", {"cull": "none"})),
             *(("scene", {"exposure": 1}), ("samples", 1), ("antialias", "msaa"), ("index", 2)),
+            ("look", "plain"),
             *(("script", "b.py"), ("arguments", {"a": 1}), ("function", "f"), ("inputs", ["x"])),
         )
     ]

@@ -15,6 +15,7 @@ from patience import HUNG
 import engine3d as e3d
 from engine3d.batch import Task, read_manifest, run
 from engine3d.batch.processes import ProcessPool
+from engine3d.cli import main
 from engine3d.datasets import CocoWriter, WebDatasetWriter
 
 MODEL = {"model": "model.obj"}
@@ -60,6 +61,28 @@ def test_pictures_are_those_of_the_scene_api(tasks, serial, place):
     np.save(place / "depth.npy", frame.depth)
     depth = np.load(place / "serial" / "model_1.depth.npy")
     np.testing.assert_allclose(depth, frame.depth, rtol=1e-6)
+
+
+def test_looks_are_those_of_the_command(place, manifest):
+    camera = {"azimuth": 25.0, "elevation": 10.0}
+    task = {**MODEL, "look": "studio", "camera": camera, "antialias": "msaa", "name": "a"}
+    run(read_manifest(manifest(task)).tasks, place / "out", jobs=1)
+    drawn = place / "drawn.png"
+    angles = ["--camera-azimuth-angle", "25", "--camera-elevation-angle", "10"]
+    arguments = ["render", str(place / "model.obj"), "-o", str(drawn), "--resolution", "24x16"]
+    assert main([*arguments, *angles]) == 0
+    assert (place / "out" / "a.png").read_bytes() == drawn.read_bytes()
+
+
+@pytest.mark.parametrize("look", [{}, {"look": "plain"}])
+def test_a_picture_beside_its_model_does_not_become_its_texture(place, manifest, look):
+    (place / "model.obj").write_text("v -1 0 0\nv 1 0 0\nv 0 2 0\nvt 0 0\nf 1/1 2/1 3/1\n")
+    tasks = read_manifest(manifest({**MODEL, **look})).tasks
+    first = run(tasks, place, jobs=1)
+    picture = (place / "model.png").read_bytes()
+    assert run(tasks, place, jobs=1).hash == first.hash
+    assert (place / "model.png").read_bytes() == picture
+    assert run(tasks, place, jobs=1, resume=True).done_before == 1
 
 
 def test_processes_draw_the_same_bytes(tasks, serial, tmp_path):

@@ -103,7 +103,9 @@ _PUBLIC = {
     "rasterize": "rendering.rasterization",
     "backends": "rendering.backend_selection",
 }
-_MODULES = ("choices", "errors", "events", "linalg", "loaders", "primitives")
+_MODULES = (
+    *("batch", "choices", "datasets", "errors", "events", "linalg", "loaders", "primitives"),
+)
 
 __all__ = ["__version__", *_PUBLIC, *_MODULES]
 

@@ -1,6 +1,8 @@
 """The public names of engine3d, for type checkers; `__init__.py` imports them on first use."""
 
+from . import batch as batch
 from . import choices as choices
+from . import datasets as datasets
 from . import errors as errors
 from . import events as events
 from . import linalg as linalg

@@ -1,4 +1,4 @@
-/* PNG files of RGBA pixels.
+/* PNG files of RGBA, RGB or grey pixels.
  *
  * In:  rows of pixels.
  * Out: signature, header, one chunk of compressed rows, end.
@@ -13,14 +13,18 @@
 #include "deflate.h"
 #include "e3d_images.h"
 
-#define PIXEL 4
+/* Bytes of a pixel. */
+#define GREY_16 2
+#define RGB 3
+#define RGBA 4
 #define ADLER_MODULUS 65521u
 #define ADLER_SUMMANDS 5552 /* bytes until the sums could overflow 32 bits */
 #define CRC_POLYNOMIAL 0xEDB88320u
 
 typedef enum filter { SUB = 1, UP = 2, AVERAGE = 3, PAETH = 4 } filter;
 
-/* Filters. A row begins with PIXEL bytes of zero, so that every byte has a left neighbour. */
+/* Filters. A pixel has 1 to 4 bytes, which the compiler knows where it matters. So many bytes of zero
+ * stand before a row, so that every byte has a left neighbour. */
 
 static inline uint8_t paeth(int16_t left, int16_t up, int16_t corner)
 {
@@ -35,9 +39,9 @@ static inline uint8_t paeth(int16_t left, int16_t up, int16_t corner)
     return (uint8_t)(from_left <= least ? left : other);
 }
 
-static ALWAYS_INLINE uint8_t difference(const uint8_t *row, const uint8_t *above, filter type)
+static ALWAYS_INLINE uint8_t difference(const uint8_t *row, const uint8_t *above, int pixel, filter type)
 {
-    const uint8_t left = row[-PIXEL];
+    const uint8_t left = row[-pixel];
     switch (type) {
     case SUB:
         return (uint8_t)(*row - left);
@@ -46,29 +50,29 @@ static ALWAYS_INLINE uint8_t difference(const uint8_t *row, const uint8_t *above
     case AVERAGE:
         return (uint8_t)(*row - ((left + *above) >> 1));
     default:
-        return (uint8_t)(*row - paeth(left, *above, above[-PIXEL]));
+        return (uint8_t)(*row - paeth(left, *above, above[-pixel]));
     }
 }
 
 /* The sum of the differences' sizes, each as a signed byte. */
-static ALWAYS_INLINE uint32_t cost_of(const uint8_t *row, const uint8_t *above, size_t count, filter type)
+static ALWAYS_INLINE uint32_t cost_of(const uint8_t *row, const uint8_t *above, size_t count, int pixel, filter type)
 {
     uint32_t sum = 0;
     for (size_t k = 0; k < count; k++) {
-        const uint8_t up = difference(row + k, above + k, type);
+        const uint8_t up = difference(row + k, above + k, pixel, type);
         const uint8_t down = (uint8_t)-up;
         sum += up < down ? up : down;
     }
     return sum;
 }
 
-static filter cheapest_filter(const uint8_t *row, const uint8_t *above, size_t count)
+static ALWAYS_INLINE filter cheapest_filter(const uint8_t *row, const uint8_t *above, size_t count, int pixel)
 {
     const uint32_t cost[] = {
-        cost_of(row, above, count, SUB),
-        cost_of(row, above, count, UP),
-        cost_of(row, above, count, AVERAGE),
-        cost_of(row, above, count, PAETH),
+        cost_of(row, above, count, pixel, SUB),
+        cost_of(row, above, count, pixel, UP),
+        cost_of(row, above, count, pixel, AVERAGE),
+        cost_of(row, above, count, pixel, PAETH),
     };
     filter best = SUB;
     for (filter type = UP; type <= PAETH; type++) {
@@ -79,29 +83,38 @@ static filter cheapest_filter(const uint8_t *row, const uint8_t *above, size_t c
     return best;
 }
 
-static ALWAYS_INLINE void store(uint8_t *restrict to, const uint8_t *row, const uint8_t *above, size_t count, filter type)
+static ALWAYS_INLINE void store(uint8_t *restrict to, const uint8_t *row, const uint8_t *above, size_t count, int pixel, filter type)
 {
     for (size_t k = 0; k < count; k++) {
-        to[k] = difference(row + k, above + k, type);
+        to[k] = difference(row + k, above + k, pixel, type);
     }
 }
 
-static void filter_row(uint8_t *to, const uint8_t *row, const uint8_t *above, size_t count)
+static ALWAYS_INLINE void filter_as(uint8_t *to, const uint8_t *row, const uint8_t *above, size_t count, int pixel)
 {
-    const filter type = cheapest_filter(row, above, count);
+    const filter type = cheapest_filter(row, above, count, pixel);
     *to++ = (uint8_t)type;
     switch (type) {
     case SUB:
-        store(to, row, above, count, SUB);
+        store(to, row, above, count, pixel, SUB);
         break;
     case UP:
-        store(to, row, above, count, UP);
+        store(to, row, above, count, pixel, UP);
         break;
     case AVERAGE:
-        store(to, row, above, count, AVERAGE);
+        store(to, row, above, count, pixel, AVERAGE);
         break;
     default:
-        store(to, row, above, count, PAETH);
+        store(to, row, above, count, pixel, PAETH);
+    }
+}
+
+static void filter_row(uint8_t *to, const uint8_t *row, const uint8_t *above, size_t count, int pixel)
+{
+    if (pixel == RGBA) {
+        filter_as(to, row, above, count, RGBA);
+    } else {
+        filter_as(to, row, above, count, pixel);
     }
 }
 
@@ -197,10 +210,12 @@ static void end_chunk(bit_writer *out, size_t start, const crc_table *table)
     write_u32(out, crc(table, out->bytes + start + 4, out->size - start - 4));
 }
 
-static void write_header(bit_writer *out, int32_t width, int32_t height, const crc_table *table)
+static void write_header(bit_writer *out, int32_t width, int32_t height, int pixel, const crc_table *table)
 {
     static const uint8_t signature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-    static const uint8_t form[] = {8, 6, 0, 0, 0}; /* 8 bits a channel, RGBA, not interlaced */
+    /* Bits a channel; grey, RGB or RGBA; compressed and filtered as always; not interlaced. */
+    const uint8_t color_type = pixel == RGBA ? 6 : pixel == RGB ? 2 : 0;
+    const uint8_t form[] = {pixel == GREY_16 ? 16 : 8, color_type, 0, 0, 0};
     writer_bytes(out, signature, sizeof signature);
     const size_t start = begin_chunk(out, "IHDR");
     write_u32(out, (uint32_t)width);
@@ -211,11 +226,11 @@ static void write_header(bit_writer *out, int32_t width, int32_t height, const c
 
 /* The filtered rows, compressed; `rows` is room for two rows that begin with a pixel of zero. */
 static void write_rows(bit_writer *out, const uint8_t *pixels, size_t count, int32_t height,
-                       ptrdiff_t stride, uint8_t *rows)
+                       ptrdiff_t stride, int pixel, uint8_t *rows)
 {
     static const uint8_t zlib_header[] = {0x78, 0x01};
-    uint8_t *row = rows + PIXEL;
-    uint8_t *above = rows + PIXEL + count + PIXEL;
+    uint8_t *row = rows + pixel;
+    uint8_t *above = rows + pixel + count + pixel;
     uint32_t sums = 1;
     writer_bytes(out, zlib_header, sizeof zlib_header);
     deflater *d = deflate_begin(out);
@@ -225,7 +240,7 @@ static void write_rows(bit_writer *out, const uint8_t *pixels, size_t count, int
     for (int32_t y = 0; y < height; y++) {
         memcpy(row, pixels + y * stride, count);
         uint8_t *room = deflate_room(d, 1 + count);
-        filter_row(room, row, above, count);
+        filter_row(room, row, above, count, pixel);
         sums = adler(sums, room, 1 + count);
         uint8_t *drawn = row;
         row = above;
@@ -235,19 +250,19 @@ static void write_rows(bit_writer *out, const uint8_t *pixels, size_t count, int
     write_u32(out, sums);
 }
 
-bool e3d_png_encode(const uint8_t *pixels, int32_t width, int32_t height, ptrdiff_t stride,
-                    uint8_t **file, size_t *size)
+static bool encode(const uint8_t *pixels, int32_t width, int32_t height, ptrdiff_t stride, int pixel,
+                   uint8_t **file, size_t *size)
 {
     bit_writer out = {0};
     crc_table table;
-    const size_t count = PIXEL * (size_t)width;
-    uint8_t *rows = calloc(2, PIXEL + count);
+    const size_t count = (size_t)pixel * (size_t)width;
+    uint8_t *rows = calloc(2, (size_t)pixel + count);
     out.failed = rows == NULL;
     make_crc_table(&table);
-    write_header(&out, width, height, &table);
+    write_header(&out, width, height, pixel, &table);
     size_t start = begin_chunk(&out, "IDAT");
     if (rows != NULL) {
-        write_rows(&out, pixels, count, height, stride, rows);
+        write_rows(&out, pixels, count, height, stride, pixel, rows);
     }
     end_chunk(&out, start, &table);
     start = begin_chunk(&out, "IEND");
@@ -260,4 +275,16 @@ bool e3d_png_encode(const uint8_t *pixels, int32_t width, int32_t height, ptrdif
     *file = out.bytes;
     *size = out.size;
     return true;
+}
+
+bool e3d_png_encode(const uint8_t *pixels, int32_t width, int32_t height, ptrdiff_t stride,
+                    uint8_t **file, size_t *size)
+{
+    return encode(pixels, width, height, stride, RGBA, file, size);
+}
+
+bool e3d_png_encode_opaque(const uint8_t *pixels, int32_t width, int32_t height, ptrdiff_t stride,
+                         int32_t pixel_bytes, uint8_t **file, size_t *size)
+{
+    return encode(pixels, width, height, stride, pixel_bytes, file, size);
 }

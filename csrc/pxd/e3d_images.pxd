@@ -9,6 +9,10 @@ cdef extern from "e3d_images.h" nogil:
         const uint8_t *pixels, int32_t width, int32_t height, ptrdiff_t stride,
         uint8_t **file, size_t *size,
     )
+    bint e3d_png_encode_opaque(
+        const uint8_t *pixels, int32_t width, int32_t height, ptrdiff_t stride, int32_t pixel_bytes,
+        uint8_t **file, size_t *size,
+    )
     size_t e3d_tga_unpack(
         const uint8_t *data, size_t length, int32_t pixel_bytes, uint8_t *pixels, size_t count,
     )

@@ -24,16 +24,35 @@ cdef dict RGBE_FAULTS = {
 
 def encode_png(const uint8_t[:, :, :] pixels not None):
     """Return a PNG file of (H, W, 4) uint8 RGBA pixels, each side from 1 to 16384."""
+    if pixels.shape[2] != 4:
+        raise InvalidArgumentError("pixels must be (height, width, 4), each row contiguous")
+    return _encoded(pixels)
+
+
+def encode_opaque_png(const uint8_t[:, :, :] pixels not None):
+    """Return a PNG file of (H, W, 1) uint8 grey pixels, (H, W, 2) of 16 bits, high byte first, or RGB."""
+    if pixels.shape[2] not in (1, 2, 3):
+        raise InvalidArgumentError("pixels must be (height, width, 1 to 3), each row contiguous")
+    return _encoded(pixels)
+
+
+cdef bytes _encoded(const uint8_t[:, :, :] pixels):
     cdef int32_t height = <int32_t>pixels.shape[0], width = <int32_t>pixels.shape[1]
+    cdef int32_t pixel_bytes = <int32_t>pixels.shape[2]
     if not (0 < pixels.shape[0] <= MAX_SIDE and 0 < pixels.shape[1] <= MAX_SIDE):
         raise InvalidArgumentError(f"a side is from 1 to {MAX_SIDE} pixels")
-    if pixels.shape[2] != 4 or pixels.strides[2] != 1 or pixels.strides[1] != 4:
-        raise InvalidArgumentError("pixels must be (height, width, 4), each row contiguous")
+    if pixels.strides[2] != 1 or pixels.strides[1] != pixel_bytes:
+        raise InvalidArgumentError("each row of pixels must be contiguous")
     cdef uint8_t *file = NULL
     cdef size_t size = 0
     cdef bint done
     with nogil:
-        done = e3d_png_encode(&pixels[0, 0, 0], width, height, pixels.strides[0], &file, &size)
+        if pixel_bytes == 4:
+            done = e3d_png_encode(&pixels[0, 0, 0], width, height, pixels.strides[0], &file, &size)
+        else:
+            done = e3d_png_encode_opaque(
+                &pixels[0, 0, 0], width, height, pixels.strides[0], pixel_bytes, &file, &size
+            )
     if not done:
         raise OutOfMemoryError("no memory for a PNG file")
     try:

@@ -95,12 +95,13 @@ def make_parser() -> Parser:
     _add_diff(commands)
     _add_sheet(commands)
     _add_convert(commands)
+    _add_batch(commands)
     _add_city(commands)
     _add_learn(commands)
     _add_bench(commands)
     _add_completion(commands, parser)
     parser.commands = commands.choices
-    for name in ("run", "edit", "render", "info", "sheet", "diff", "convert", "city"):
+    for name in ("run", "edit", "render", "info", "sheet", "diff", "convert", "batch", "city"):
         options.add_quiet(commands.choices[name])
     return parser
 
@@ -231,6 +232,54 @@ def _add_convert(commands) -> None:
     command.add_argument("--ascii", action="store_true", help="write PLY and STL as text")
 
 
+def _add_batch(commands) -> None:
+    command = commands.add_parser(
+        "batch",
+        help="draw many pictures, or a data set, with many processes",
+        description="Draw the pictures that a manifest lists (docs/batches.md tells its format), "
+        "with many processes. A picture is there whole or not at all. Ends with status 1 if some "
+        "could not be drawn; they are listed at the end.",
+        allow_abbrev=False,
+    )
+    command.set_defaults(load_command=_load_batch)
+    command.add_argument("manifest", metavar="FILE", help="the manifest, a file of JSON")
+    command.add_argument(
+        "-o", "--output", metavar="FOLDER", required=True, help="the folder to write to; is made"
+    )
+    command.add_argument(
+        "--resume",
+        action="store_true",
+        help="leave out pictures that are there, made of what models, scripts and the manifest "
+        "hold now",
+    )
+    who = command.add_mutually_exclusive_group()
+    who.add_argument(
+        "--jobs",
+        type=values.count,
+        metavar="N",
+        help="number of processes; by default one per available CPU",
+    )
+    who.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="let the workers of a Dask scheduler draw, tcp://HOST:PORT; needs "
+        "pip install 'engine3d[dask]'",
+    )
+    command.add_argument(
+        "--backend",
+        choices=options.BACKENDS,
+        default="auto",
+        help="instruction set to draw with; auto is the fastest. All give the same pictures",
+    )
+    command.add_argument(
+        "--threads",
+        type=values.thread_count,
+        default=0,
+        metavar="N",
+        help="number of threads of each process; 0, the default, shares the CPUs out",
+    )
+
+
 def _add_city(commands) -> None:
     command = commands.add_parser(
         "city",
@@ -355,11 +404,8 @@ def _add_completion(commands, parser: Parser) -> None:
 
 def _missing_command():
     raise UsageError(
-        "say which command: run, edit, render, info, diff, convert, city, learn, bench or "
-        "completion "
-        "(see engine3d --help)"
-        "say which command: run, edit, render, info, sheet, convert, city, learn, bench or "
-        "completion (see engine3d --help)"
+        "say which command: run, edit, render, info, sheet, diff, convert, batch, city, learn, "
+        "bench or completion (see engine3d --help)"
     )
 
 
@@ -403,6 +449,12 @@ def _load_convert():
     from .convert import convert
 
     return convert
+
+
+def _load_batch():
+    from .batch import batch
+
+    return batch
 
 
 def _load_city():

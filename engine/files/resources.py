@@ -148,7 +148,7 @@ class Resources:
             with self._lock:
                 self._forget_content(thing)
                 _become(thing, fresh)
-                loaded.states, loaded.versions = states, _versions(thing)
+                loaded.states, loaded.versions = states, versions_of(thing)
             done.append(path)
         return tuple(done)
 
@@ -220,7 +220,7 @@ class Resources:
     def _known(self, key: tuple):
         """What was loaded so, as long as nobody has changed it since."""
         thing, loaded = self._by_file.get(key), self._files.get(key)
-        if thing is None or loaded is None or loaded.versions != _versions(thing):
+        if thing is None or loaded is None or loaded.versions != versions_of(thing):
             return None
         self._shared += 1
         return thing
@@ -231,7 +231,7 @@ class Resources:
             for slot, texture in textures_of(material).items():
                 put_texture(material, slot, self._same(texture, count=False))
         thing = self._same(thing)
-        loaded.versions = _versions(thing)
+        loaded.versions = versions_of(thing)
         self._files[key] = loaded
         self._by_file[key] = thing
         return thing
@@ -267,8 +267,8 @@ class _Loaded:
         self.versions: tuple = ()
 
 
-def _versions(thing) -> tuple:
-    """What is another once somebody has changed the thing."""
+def versions_of(thing: Mesh | Texture) -> tuple:
+    """Return what is another once somebody has changed the thing."""
     materials = thing.materials if isinstance(thing, Mesh) else ()
     textures = (texture for material in materials for texture in textures_of(material).values())
     return tuple(part.version for part in (thing, *materials, *textures))

@@ -32,6 +32,12 @@ def test_lines():
         assert row["dda_ns_per_line"] > 0 and row["bresenham_ns_per_line"] > 0
 
 
+def test_batches():
+    rows = report("batches.py", "--pictures", "2", "--rounds", "1", "--without-dask")["rows"]
+    assert [row["way"] for row in rows] == ["loop", "processes"]
+    assert all(row["ms_per_picture"] > 0 for row in rows)
+
+
 def test_user_interface():
     pytest.importorskip("imgui_bundle", reason="it is an extra: pip install -e .[editor]")
     rows = report("user_interface.py", "--repeats", "1")["rows"]

@@ -1,0 +1,98 @@
+"""Who does the calls of a batch: this process, processes of ours, Dask, or what callers give.
+
+In: what `run` was given. Out: something with ``submit(function, *arguments)`` that returns a future
+with ``add_done_callback`` and ``result``, and how many calls it does at once.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from concurrent.futures import Future
+from contextlib import contextmanager
+from typing import Any, NamedTuple
+
+from ..errors import InvalidArgumentError
+from .processes import ProcessPool
+
+
+class Engine(NamedTuple):
+    """Who does the calls.
+
+    Attributes
+    ----------
+    executor : object
+        With ``submit``.
+    at_once : int
+        Calls that it does at the same time.
+    threads : int
+        Of each renderer, so that they do not fight for processors.
+    """
+
+    executor: Any
+    at_once: int
+    threads: int
+
+
+def usable_cpus() -> int:
+    """Return on how many processors this process may run."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+class InThisProcess:
+    """Does each call at once, as it is submitted."""
+
+    def submit(self, function, /, *arguments: Any) -> Future:
+        """Do a call; the future is done."""
+        future: Future = Future()
+        try:
+            future.set_result(function(*arguments))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+
+@contextmanager
+def engine_for(
+    jobs: int | None, threads: int | None, executor: Any, scheduler: str | None
+) -> Iterator[Engine]:
+    """Make what does the calls, and end what was made.
+
+    Raises
+    ------
+    InvalidArgumentError
+        Two are asked for at once, or Dask is asked for and is not installed or does not answer.
+    """
+    if sum(x is not None for x in (jobs, executor, scheduler)) > 1:
+        raise InvalidArgumentError("give one of jobs, executor and scheduler")
+    if scheduler is not None:
+        from .dask_engine import connected
+
+        with connected(scheduler) as (client, count):
+            yield Engine(client, count, threads or 1)
+    elif executor is not None:
+        if not callable(getattr(executor, "submit", None)):
+            raise InvalidArgumentError("executor must have a method submit")
+        yield _given(executor, threads or 1)
+    else:
+        yield from _own(usable_cpus() if jobs is None else jobs, threads)
+
+
+def _own(jobs: int, threads: int | None) -> Iterator[Engine]:
+    each = threads or max(1, usable_cpus() // jobs)
+    if jobs == 1:
+        yield Engine(InThisProcess(), 1, each)
+        return
+    with ProcessPool(jobs) as pool:
+        yield Engine(pool, jobs, each)
+
+
+def _given(executor: Any, threads: int) -> Engine:
+    """An executor of the caller's, who ends it."""
+    if hasattr(executor, "scheduler_info"):
+        from .dask_engine import DaskExecutor, count_of
+
+        return Engine(DaskExecutor(executor), count_of(executor), threads)
+    return Engine(executor, getattr(executor, "_max_workers", None) or usable_cpus(), threads)

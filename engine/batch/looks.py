@@ -1,0 +1,62 @@
+"""Pictures of models as ``engine3d render`` draws them: in soft light, on their shadow.
+
+In: a task with a look. Out: a frame; its bytes are those of the command with the same options.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+from ..choices import Backend
+from ..errors import Engine3DWarning
+from ..rendering.frame import Frame
+from ..viewer.open_models import open_models
+from ..viewer.settings import Settings
+from ..viewer.view_renderer import ViewRenderer
+from .task import Task
+
+
+def draw_look(
+    task: Task, threads: int, backend: Backend, companion: Callable[[str], bool]
+) -> Frame:
+    """Draw a task's model in its look.
+
+    Parameters
+    ----------
+    task : Task
+    threads, backend
+        As of `Renderer`.
+    companion : callable
+        Whether an image beside the model, which has its name, may be its texture.
+
+    Raises
+    ------
+    FileFormatError, FileAccessError
+    """
+    viewed = open_models([task.path(task.model)], companion=companion)
+    for text in viewed.warnings:
+        warnings.warn(f"{task.model}: {text}", Engine3DWarning, stacklevel=2)
+    with ViewRenderer(
+        viewed,
+        Settings(appearance={}, look=task.look),
+        task.size,
+        backend=backend,
+        threads=threads,
+        samples=task.samples,
+        antialias=task.antialias,
+    ) as view_renderer:
+        return view_renderer.draw(_view(task.camera or {}, view_renderer))
+
+
+def _view(said: Any, view_renderer: ViewRenderer):
+    if "view_angle" in said:
+        view = view_renderer.view(math.radians(said["view_angle"]))
+    else:
+        view = view_renderer.view()
+    view.azimuth += math.radians(said.get("azimuth", 0.0))
+    view.elevation += math.radians(said.get("elevation", 0.0))
+    view_renderer.fill(view)
+    return view

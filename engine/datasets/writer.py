@@ -1,0 +1,168 @@
+"""What all writers of data sets have in common.
+
+In: a `Sample`. Out: the files that belong to that picture alone, and a note of it in JSON's types,
+from whichever process drew it; at the end, from all notes in the order of the data set, the files
+that belong to all of it. So the bytes depend neither on who drew what nor in which order.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, ClassVar, NamedTuple
+
+from ..errors import InvalidArgumentError
+from ..files.atomic_write import AtomicFiles
+from ..rendering.frame import Output
+from .samples import Sample
+
+
+class Note(NamedTuple):
+    """What is kept of a picture until the data set is whole.
+
+    Attributes
+    ----------
+    name : str
+    index : int
+    files : list of str
+        The picture's own files, relative to the data set's folder.
+    said : object
+        What `DatasetWriter.describe` said of it, in JSON's types.
+    """
+
+    name: str
+    index: int
+    files: list[str]
+    said: Any
+
+
+class DatasetWriter(ABC):
+    """Says which files a data set is made of.
+
+    A writer keeps nothing of the pictures: it is given to any number of processes.
+
+    Attributes
+    ----------
+    kind : str
+        Its name in manifests.
+    outputs : tuple of str
+        What frames must hold.
+    """
+
+    kind: ClassVar[str]
+    outputs: tuple[Output, ...] = ("color",)
+
+    @abstractmethod
+    def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
+        """Return a picture's own files, by their paths in the data set, and a note for `finish`."""
+
+    def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
+        """Write what belongs to the whole data set; yield the paths of these files in it.
+
+        Parameters
+        ----------
+        folder : str
+            Of the data set; the pictures' own files are there.
+        notes : iterable of Note
+            In the order of the data set; may be gone through several times.
+        """
+        for _ in notes:
+            pass
+        yield from ()
+
+    def beside(self, sample: Sample, end: str) -> str:
+        """Return where a further file of a picture goes, whose name has this end."""
+        return f"extra/{sample.name}.{end}"
+
+    def said(self) -> dict[str, Any]:
+        """What tells this writer from others of its kind, in JSON's types."""
+        return {"kind": self.kind, **dict(sorted(vars(self).items()))}
+
+    def stored(self, folder: str, note: Note, path: str) -> bytes | None:
+        """Return the bytes of one of a picture's own files; None where they are not there.
+
+        Parameters
+        ----------
+        folder : str
+            Of the data set.
+        note : Note
+            Of the picture.
+        path : str
+            One of ``note.files``.
+        """
+        try:
+            with open(os.path.join(folder, path), "rb") as file:
+                return file.read()
+        except OSError:
+            return None
+
+
+class JsonParts:
+    """A JSON file written value by value, so that it needs no memory: whole or not at all.
+
+    Parameters
+    ----------
+    folder, path : str
+        The file is at ``path`` in ``folder``.
+    """
+
+    def __init__(self, folder: str, path: str) -> None:
+        target = os.path.join(folder, path)
+        os.makedirs(os.path.dirname(target), exist_ok=True)
+        self._files = AtomicFiles()
+        self._file = self._files.create(target)
+
+    def __enter__(self) -> JsonParts:
+        return self
+
+    def __exit__(self, *error) -> None:
+        self._files.__exit__(*error)
+
+    def text(self, text: str) -> None:
+        """Write a piece of JSON as it is."""
+        self._file.write(text.encode("utf-8"))
+
+    def all(self, values: Iterable[Any], brackets: str = "[]", keys: bool = False) -> None:
+        """Write an array of values, or of (key, value) an object."""
+        start, end = brackets
+        between = start
+        for value in values:
+            if keys:
+                key, value = value
+                self.text(f"{between}\n{json.dumps(key)}: {compact(value)}")
+            else:
+                self.text(f"{between}\n{compact(value)}")
+            between = ","
+        self.text(f"{start if between == start else ''}\n{end}")
+
+
+def compact(value: Any) -> str:
+    """Return a value as JSON on one line."""
+    return json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+
+
+def checked_categories(names: Sequence[str] | None) -> list[str] | None:
+    """Return the names of categories, each once; None where pictures are to tell them."""
+    if names is None:
+        return None
+    listed = list(names) if not isinstance(names, str) else []
+    if not listed or len(set(listed)) != len(listed):
+        raise InvalidArgumentError("categories must be names, none twice")
+    if not all(isinstance(name, str) and name for name in listed):
+        raise InvalidArgumentError("categories must be names, none empty")
+    return listed
+
+
+def category_numbers(listed: list[str] | None, found: Iterable[str]) -> dict[str, int]:
+    """Return the number of each category, from 1 on; sorted by name where none are listed."""
+    names = sorted(set(found)) if listed is None else listed
+    return {name: number for number, name in enumerate(names, start=1)}
+
+
+def check_category(listed: list[str] | None, category: str) -> None:
+    """Raise unless a category is one of those that are listed."""
+    if listed is not None and category not in listed:
+        known = ", ".join(listed)
+        raise InvalidArgumentError(f"{category!r} is not one of the categories {known}")

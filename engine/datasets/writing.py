@@ -1,0 +1,56 @@
+"""A whole data set from one process: what `engine3d.batch` does with many.
+
+In: a folder, a writer, samples one after the other. Out: its files.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+
+from ..errors import InvalidArgumentError
+from ..files.atomic_write import AtomicFiles
+from .samples import Sample
+from .writer import DatasetWriter, Note
+
+
+def write_dataset(
+    folder: str | os.PathLike[str], writer: DatasetWriter, samples: Iterable[Sample]
+) -> list[str]:
+    """Write a data set.
+
+    Parameters
+    ----------
+    folder : path-like
+        Is made where it is missing.
+    writer : DatasetWriter
+    samples : iterable of Sample
+        With ascending indices; each is let go before the next is asked for.
+
+    Returns
+    -------
+    list of str
+        The paths of all files, relative to the folder.
+
+    Raises
+    ------
+    InvalidArgumentError, FileAccessError
+    """
+    root, notes = os.fspath(folder), []
+    for sample in samples:
+        if notes and sample.index <= notes[-1].index:
+            raise InvalidArgumentError(f"samples come in the order of their index: {sample.index}")
+        files, said = writer.describe(sample)
+        save_files(root, files)
+        notes.append(Note(sample.name, sample.index, list(files), said))
+    written = [path for note in notes for path in note.files]
+    return written + list(writer.finish(root, notes))
+
+
+def save_files(folder: str, files: dict[str, bytes]) -> None:
+    """Write a picture's files, which appear together, in a folder that is made for them."""
+    with AtomicFiles() as parts:
+        for path, data in files.items():
+            target = os.path.join(folder, path)
+            os.makedirs(os.path.dirname(target), exist_ok=True)
+            parts.create(target).write(data)

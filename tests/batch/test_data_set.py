@@ -1,0 +1,25 @@
+"""The data set that docs/batches.md documents: its first pictures are those of everybody."""
+
+import hashlib
+from pathlib import Path
+
+from engine3d.batch import read_manifest, run
+
+FOLDER = Path(__file__).parents[2] / "benchmarks" / "data_set"
+FIRST = {
+    "000000.png": "8b6618f7459b23b1",
+    "000001.png": "7ce7b61c1daf1345",
+    "000002.png": "89fae05c89d200d2",
+    "000003.png": "8866ac0e43e595a5",
+}
+
+
+def test_the_first_pictures(tmp_path):
+    tasks, writer = read_manifest(FOLDER / "things.json")
+    assert len(tasks) == 1000
+    run(tasks[:4], tmp_path, writer=writer, jobs=1)
+    found = {
+        path.name: hashlib.sha256(path.read_bytes()).hexdigest()[:16]
+        for path in sorted((tmp_path / "images").iterdir())
+    }
+    assert found == FIRST

@@ -1,0 +1,173 @@
+"""Manifests: what they may say, and errors that name the place of what is wrong."""
+
+import json
+
+import pytest
+
+import engine3d as e3d
+from engine3d.batch import Task, read_manifest
+
+MODEL = {"model": "model.obj"}
+SCRIPT = {"script": "script.py"}
+
+
+def test_defaults_and_own_values(manifest, place):
+    path = manifest(MODEL, {**SCRIPT, "name": "a/b", "size": [8, 9], "seed": 5})
+    tasks, writer = read_manifest(path)
+    assert writer is None
+    assert [task.name for task in tasks] == ["model", "a/b"]
+    assert [task.size for task in tasks] == [(24, 16), (8, 9)]
+    assert [task.index for task in tasks] == [0, 1]
+    assert tasks[1].seed == 5 and tasks[1].path("x") == str(place / "x")
+
+
+def test_matrices_combine_values(manifest):
+    cameras = [{"azimuth": 10, "name": "left"}, {"azimuth": 20}]
+    path = manifest(
+        {"matrix": {"model": ["model.obj", "b/c.stl"], "camera": cameras, "seed": [7, 9]}},
+        {**SCRIPT, "name": "s{seed:03}-{index}", "matrix": {"seed": {"from": 4, "count": 2}}},
+        {**MODEL, "matrix": {"size": [[4, 5], [6, 7]], "camera": [0]}},
+    )
+    names = [task.name for task in read_manifest(path).tasks]
+    assert names[:4] == ["model_left_7", "model_left_9", "model_1_7", "model_1_9"]
+    assert names[4:8] == [name.replace("model", "c") for name in names[:4]]
+    assert names[8:] == ["s004-8", "s005-9", "model_4x5_0", "model_6x7_0"]
+
+
+def test_writers_are_made_as_they_say(manifest):
+    path = manifest(SCRIPT, dataset={"writer": "bop", "split": "val", "depth_scale": 2})
+    assert read_manifest(path).writer.said()["split"] == "val"
+
+
+WRONG = [
+    ({}, "tasks[1]: a task needs a model or a script"),
+    ({**MODEL, "modle": 1}, "tasks[1].modle: is none of antialias, arguments, camera"),
+    ({**MODEL, "size": [0, 4]}, "tasks[1].size: width must be a whole number in 1..16384, not 0"),
+    ({**MODEL, "seed": -1}, "tasks[1].seed: seed must be a whole number from 0 on: -1"),
+    ({**MODEL, "samples": 3}, "tasks[1].samples: samples must be one of 1, 2, 4, 8, 16, not 3"),
+    ({**MODEL, "camera": {"azimuth": "x"}}, "tasks[1].camera: azimuth must be a finite"),
+    ({**MODEL, "camera": {"pose": [1]}}, "tasks[1].camera: pose must have shape (4, 4)"),
+    (
+        {**MODEL, "camera": {"position": [1, 2, 3], "azimuth": 3}},
+        "camera: azimuth is none of pos",
+    ),
+    (
+        {**MODEL, "camera": {"position": [1, 2, 3], "height": 1, "view_angle": 3}},
+        "view_angle and height do not go together",
+    ),
+    (
+        {**MODEL, "camera": {"elevation": 91}},
+        "tasks[1].camera: elevation must be from -90",
+    ),
+    ({**MODEL, "camera": True}, "camera must be a number or an object, not True"),
+    ({**MODEL, "render": {"mode": "lti"}}, "tasks[1].render: mode must be one of 'lit'"),
+    ({**MODEL, "render": {"outputs": ["color"]}}, "tasks[1].render: render must be one of"),
+    ({**MODEL, "scene": {"ambient": 3}}, "tasks[1].scene: "),
+    ({**MODEL, "outputs": ["depth.png"]}, "tasks[1].outputs: the format of depth must"),
+    ({**MODEL, "outputs": "color"}, "outputs must be a list of texts"),
+    ({**MODEL, "outputs": ["color", "color.jpg"]}, "outputs must name some outputs, none twice"),
+    ({**MODEL, "name": "../up"}, "tasks[1].name: name must be made of letters"),
+    ({**MODEL, "name": "a/.b"}, "tasks[1].name: name must be made of letters"),
+    ({**MODEL, "name": 4}, "tasks[1].name: 4 is not a text"),
+    (
+        {**MODEL, "name": "{kind}"},
+        "tasks[1].name: {kind} stands for nothing: known are size",
+    ),
+    ({**MODEL, "name": "first"}, "tasks[1]: two tasks have the name 'first', the other is of task"),
+    ({**SCRIPT, "look": "plain"}, "tasks[1]: look does not go with script"),
+    ({**MODEL, "look": "nice"}, "tasks[1].look: look must be one of None, 'studio', 'plain'"),
+    (
+        {**MODEL, "look": "plain", "outputs": ["depth"], "camera": {"position": [1, 2, 3]}},
+        "tasks[1]: look does not go with the output depth, camera: position",
+    ),
+    ({**SCRIPT, "arguments": [1]}, "tasks[1].arguments: arguments must be an object"),
+    ({**SCRIPT, "function": "a b"}, "tasks[1].function: function must be a name"),
+    ({"model": ""}, "tasks[1].model: model must be a text"),
+    ({**MODEL, "inputs": [3]}, "tasks[1].inputs: inputs must be a text, not 3"),
+    ({**MODEL, "matrix": {"seed": []}}, "tasks[1].matrix.seed: holds no values"),
+    ({**MODEL, "matrix": {"seed": [1, -2]}}, "tasks[1].matrix.seed[1]: seed must be"),
+    ({**MODEL, "matrix": {"seed": {"count": 0}}}, "tasks[1].matrix.seed.count: 0 is not a whole"),
+    ({**MODEL, "matrix": {"seed": {"count": 10**8}}}, "tasks[1].matrix.seed.count: 100000000"),
+    ({**MODEL, "matrix": {"seed": {"to": 3}}}, "tasks[1].matrix.seed.to: is none of count, from"),
+    ({**MODEL, "matrix": {"name": ["a"]}}, "tasks[1].matrix.name: is no key whose values may be"),
+    ({**MODEL, "matrix": [1]}, "tasks[1].matrix: [1] is not an object"),
+    (
+        {**MODEL, "matrix": {"seed": {"count": 10**6}, "size": [[k, 1] for k in range(1, 20)]}},
+        "tasks[1].matrix: these are 19,000,000 tasks; a manifest has up to 10,000,000",
+    ),
+    ([], "tasks[1]: [] is not an object"),
+]
+
+
+@pytest.mark.parametrize(("task", "message"), WRONG)
+def test_errors_name_the_place(manifest, task, message):
+    path = manifest({**MODEL, "name": "first"}, task)
+    with pytest.raises(e3d.FileFormatError) as caught:
+        read_manifest(path)
+    assert str(caught.value).startswith(f"{path}: ") and message in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("whole", "message"),
+    [
+        ({"version": 2}, "version: 2 is not 1, the only version of manifests"),
+        ({"version": True}, "version: True is not 1"),
+        ({"tasks": []}, "tasks: there are no tasks"),
+        ({"tasks": 3}, "tasks: 3 is not"),
+        ({"task": []}, "task: is none of dataset, defaults, tasks, version"),
+        ({"defaults": {"name": "x"}}, "defaults.name: is none of"),
+        ({"defaults": {"seed": "x"}}, "defaults.seed: seed must be"),
+        ({"dataset": {"writer": "voc"}}, "dataset.writer: voc' is not one of bop, coco, folders"),
+        ({"dataset": {}}, "dataset: 'writer' is missing"),
+        ({"dataset": {"writer": "coco", "shard": 3}}, "dataset.shard: is none of categories"),
+        ({"dataset": {"writer": "webdataset", "shard": 0}}, "dataset: shard must be a whole"),
+        (
+            {"dataset": {"writer": "coco"}, "defaults": {"outputs": ["color"]}},
+            "defaults.outputs: a data set's writer says what is written",
+        ),
+    ],
+)
+def test_errors_of_the_whole(manifest, whole, message):
+    path = manifest(MODEL, **whole)
+    with pytest.raises(e3d.FileFormatError) as caught:
+        read_manifest(path)
+    assert message in str(caught.value).replace("'voc", "voc")
+
+
+def test_what_is_no_json_names_the_line(place):
+    path = place / "manifest.json"
+    path.write_text('{"version": 1,\n "tasks": [}')
+    with pytest.raises(e3d.FileFormatError, match=r"manifest\.json:2: not JSON"):
+        read_manifest(path)
+    with pytest.raises(e3d.FileAccessError):
+        read_manifest(place / "none.json")
+
+
+def test_tasks_in_python_are_checked_alike():
+    with pytest.raises(e3d.InvalidArgumentError, match="seed must be"):
+        Task(name="a", model="a.obj", seed=1.5)
+    with pytest.raises(e3d.InvalidArgumentError, match="a model or a script"):
+        Task(name="a")
+    with pytest.raises(e3d.InvalidArgumentError, match="arguments must be of JSON's types"):
+        Task(name="a", script="a.py", arguments={"x": object()})
+
+
+def test_tasks_are_known_by_all_that_they_say():
+    from engine3d.batch.plain import PlainWriter
+    from engine3d.datasets import CocoWriter
+
+    writer, base = PlainWriter(["color"]), Task(name="a", model="a.obj", folder="/a")
+    others = [
+        Task(name="a", model="a.obj", folder="/a", **{key: value})
+        for key, value in (
+            *(("seed", 1), ("size", (3, 4)), ("camera", 0), ("render", {"cull": "none"})),
+            *(("scene", {"exposure": 1}), ("samples", 1), ("antialias", "msaa"), ("index", 2)),
+            ("look", "plain"),
+            *(("script", "b.py"), ("arguments", {"a": 1}), ("function", "f"), ("inputs", ["x"])),
+        )
+    ]
+    keys = {task.key(writer) for task in (base, *others)}
+    keys |= {base.key(CocoWriter()), base.key(CocoWriter(["a"])), base.key(PlainWriter(["depth"]))}
+    assert len(keys) == len(others) + 4
+    assert Task(name="a", model="a.obj", folder="/b").key(writer) == base.key(writer)
+    assert json.dumps(base.name) == '"a"'

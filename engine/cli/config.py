@@ -8,12 +8,9 @@ then come ``-D``, then the command line.
 from __future__ import annotations
 
 import argparse
-import fnmatch
-import json
 import os
 import sys
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 
 from ..errors import FileAccessError, FileFormatError
 from . import suggestions
@@ -44,15 +41,18 @@ def add_config(parser) -> None:
     )
 
 
-def user_config() -> Path:
+def user_config() -> str:
     """Return the path of the user's own file, which need not be there."""
-    if sys.platform == "win32" and os.environ.get("APPDATA"):
-        return Path(os.environ["APPDATA"]) / "engine3d" / "config.json"
-    if sys.platform == "darwin":
-        return Path.home() / "Library" / "Application Support" / "engine3d" / "config.json"
-    given = os.environ.get("XDG_CONFIG_HOME", "")
-    root = Path(given) if os.path.isabs(given) else Path.home() / ".config"
-    return root / "engine3d" / "config.json"
+    home = os.path.expanduser("~")
+    if sys.platform == "win32":
+        root = os.environ.get("APPDATA") or home
+    elif sys.platform == "darwin":
+        root = os.path.join(home, "Library", "Application Support")
+    else:
+        root = os.environ.get("XDG_CONFIG_HOME", "")
+        if not os.path.isabs(root):  # which the specification has ignored
+            root = os.path.join(home, ".config")
+    return os.path.join(root, "engine3d", "config.json")
 
 
 def set_defaults(
@@ -132,7 +132,7 @@ def _set(command: argparse.ArgumentParser, action: argparse.Action, value) -> No
         command.set_defaults(**{action.dest: on if value else off})
         return
     if isinstance(value, bool) or action.nargs == 0:
-        raise ValueError(f"{json.dumps(value)} is no value of it")
+        raise ValueError(f"{str(value).lower()} is no value of it")
     words = value if isinstance(value, list) else [value]
     if any(isinstance(word, bool) or not isinstance(word, str | int | float) for word in words):
         raise ValueError("a text, a number or a list of them is needed")
@@ -162,7 +162,7 @@ def _entries(
     """Yield file, number of the entry, name and value of all options that count for the models."""
     if args.no_config:
         return
-    path = args.config or str(user_config())
+    path = args.config or user_config()
     if args.config is None and not os.path.isfile(path):
         return
     for number, entry in enumerate(_read(path)):
@@ -183,7 +183,9 @@ def _counts(patterns, models: Sequence[str], place: str, path: str) -> bool:
     patterns = [patterns] if isinstance(patterns, str) else patterns
     if not isinstance(patterns, list) or not all(isinstance(one, str) for one in patterns):
         raise FileFormatError(f"{place}.files: a pattern or a list of patterns is needed", path)
-    names = [Path(model).as_posix().lower() for model in models]
+    import fnmatch
+
+    names = [model.replace(os.sep, "/").lower() for model in models]
     return any(
         fnmatch.fnmatchcase(name if "/" in pattern else name.rpartition("/")[2], pattern.lower())
         for pattern in patterns
@@ -192,6 +194,8 @@ def _counts(patterns, models: Sequence[str], place: str, path: str) -> bool:
 
 
 def _read(path: str) -> list:
+    import json
+
     try:
         with open(path, "rb") as file:
             data = file.read(_LARGEST + 1)

@@ -166,7 +166,7 @@ def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report)
     path = Path(args.output) if args.output else _new_path(viewed, count)
     if reason is not None:
         remark(f"{reason}: rendering a turntable to {path} instead")
-    with _view_renderer(args, viewed, FILE_SIZE, "ssaa", FILE_SAMPLES, report) as view_renderer:
+    with _view_renderer(args, viewed, FILE_SIZE, "msaa", FILE_SAMPLES, report) as view_renderer:
         view = options.place_view(args, view_renderer)
         walks = args.camera == "fps"
         if count == 1:

@@ -165,9 +165,29 @@ def view_isometric(viewer, step: int) -> None:
     _look_along(viewer, QUARTER_TURN / 2, ISOMETRIC_ELEVATION)
 
 
-def _orbit(viewer, right: int, up: int) -> None:
+def _orbit(viewer, right: int, up: int, step: float = ORBIT_STEP) -> None:
     if viewer.walker is None:
-        viewer.orbit.turn(right * ORBIT_STEP, up * ORBIT_STEP)
+        viewer.orbit.turn(right * step, up * step)
+
+
+def quarter_left(viewer, step: int) -> None:
+    """Turn the camera by a right angle to the left, round what it looks at."""
+    _orbit(viewer, -1, 0, QUARTER_TURN)
+
+
+def quarter_right(viewer, step: int) -> None:
+    """Turn the camera by a right angle to the right."""
+    _orbit(viewer, 1, 0, QUARTER_TURN)
+
+
+def quarter_up(viewer, step: int) -> None:
+    """Turn the camera by a right angle upwards."""
+    _orbit(viewer, 0, 1, QUARTER_TURN)
+
+
+def quarter_down(viewer, step: int) -> None:
+    """Turn the camera by a right angle downwards."""
+    _orbit(viewer, 0, -1, QUARTER_TURN)
 
 
 def orbit_left(viewer, step: int) -> None:

@@ -15,7 +15,8 @@ from ..canvas import text_size
 from ..geometry.mesh import Mesh
 from ..rendering.frame import Frame
 from .theme import Theme
-from .ticks import label, ticks
+from .ticks import label as number_text
+from .ticks import ticks
 
 _MOST_TICKS = 6
 _LINE, _EDGE = (120, 125, 135, 255), (165, 170, 180, 255)
@@ -83,12 +84,14 @@ class AxesGrid(NamedTuple):
         """Write the numbers along one edge of each axis, and the axis's name and unit."""
         canvas = frame.canvas()
         middle, _ = frame.project((self.low + self.high) / 2)
+        taken: list[tuple] = []
         for axis in range(3):
-            edge = self._edge(frame, axis, far, middle)
+            edge = self._edge(frame, axis, far)
             if edge is not None:
-                self._label_edge(frame, canvas, axis, edge, middle, scale, theme)
+                for label in self._labels(frame, axis, edge, middle, scale):
+                    self._write(label, canvas, taken, scale, theme)
 
-    def _edge(self, frame: Frame, axis: int, far, middle: np.ndarray) -> np.ndarray | None:
+    def _edge(self, frame: Frame, axis: int, far) -> np.ndarray | None:
         """The edge along an axis that has its numbers, (2, 3); None where none is in sight.
 
         Of the two edges that bound a far side and a near one, the one farther down, or for one that
@@ -111,13 +114,14 @@ class AxesGrid(NamedTuple):
         sign, column = (1.0, 1) if along[0] > along[1] else (-1.0, 0)
         return max(edges, key=lambda edge: sign * edge[1][:, column].mean())[0]
 
-    def _label_edge(
-        self, frame: Frame, canvas, axis: int, edge: np.ndarray, middle, scale: int, theme: Theme
-    ) -> None:
+    def _labels(
+        self, frame: Frame, axis: int, edge: np.ndarray, middle: np.ndarray, scale: int
+    ) -> list[_Label]:
+        """The name of an axis, and its numbers as far as there is room."""
         numbers = self.numbers(axis)
         step = numbers[1] - numbers[0] if len(numbers) > 1 else 1.0
         unit = self.unit.replace("µ", "u")  # the font has no other
-        texts = [(value - self.origin[axis], label(value, step)) for value in numbers]
+        texts = [(value - self.origin[axis], number_text(value, step)) for value in numbers]
         name = "XYZ"[axis] + (f" [{unit}]" if unit else "")
         cell = np.array(text_size("M", scale), np.float64)
         pixels, _ = frame.project(edge)
@@ -125,29 +129,46 @@ class AxesGrid(NamedTuple):
         outward = np.array([direction[1], -direction[0]])
         length = float(np.sqrt((outward * outward).sum()))
         if length < 2 * cell[0]:
-            return  # seen from its end
+            return []  # seen from its end
         outward *= np.sign((outward * (pixels.mean(axis=0) - middle)).sum() or 1.0) / length
         widest = cell[0] * max(len(text) for _, text in texts)
-        for place, text in texts[:: self._stride(texts, length, np.abs(outward), widest, cell[1])]:
+        gap = _GAP * cell[0]
+        aside = np.abs(outward)
+        room = float((aside * (widest, cell[1])).sum())
+        labels = [_Label(name, pixels.mean(axis=0), outward, 2 * gap + room)]
+        for place, text in texts[:: self._stride(texts, length, aside, widest, cell[1])]:
             point = edge[0].copy()
             point[axis] = place
-            self._write(
-                canvas, frame.project(point)[0], text, outward, _GAP * cell[0], scale, theme
-            )
-        room = np.abs(outward) * (widest, cell[1])
-        gap = 2 * _GAP * cell[0] + float(room.sum())
-        self._write(canvas, pixels.mean(axis=0), name, outward, gap, scale, theme)
+            labels.append(_Label(text, frame.project(point)[0], outward, gap))
+        return labels
 
     def _stride(self, texts, length: float, outward: np.ndarray, wide: float, high: float) -> int:
         """Every how many numbers stand apart from each other along an edge of so many pixels."""
         needed = outward[1] * (wide + high) + outward[0] * high * _APART
         return max(1, math.ceil(needed * (len(texts) - 1) / length))
 
-    def _write(
-        self, canvas, at, text: str, outward: np.ndarray, gap: float, scale: int, theme: Theme
-    ) -> None:
-        """Write a text outward of a point, so many pixels away."""
-        half = np.array(text_size(text, scale), np.float64) / 2
-        x, y = np.asarray(at) + outward * (gap + abs(outward[0]) * half[0]) - half
-        if np.isfinite([x, y]).all():
-            canvas.text(round(x), round(y), text, theme.text, scale=scale)
+    def _write(self, label: _Label, canvas, taken: list[tuple], scale: int, theme: Theme) -> None:
+        """Write a text outward of a point, unless another one is there."""
+        size = np.array(text_size(label.text, scale), np.float64)
+        reach = label.gap + abs(label.outward[0]) * size[0] / 2
+        corner = np.asarray(label.at) + label.outward * reach - size / 2
+        if not np.isfinite(corner).all():
+            return
+        box = (*corner.tolist(), *(corner + size).tolist())
+        if any(_overlap(box, other) for other in taken):
+            return
+        taken.append(box)
+        canvas.text(round(box[0]), round(box[1]), label.text, theme.text, scale=scale)
+
+
+class _Label(NamedTuple):
+    """A text, the pixel that it is about, and in which direction and how far away it stands."""
+
+    text: str
+    at: np.ndarray
+    outward: np.ndarray
+    gap: float
+
+
+def _overlap(a: tuple, b: tuple) -> bool:
+    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]

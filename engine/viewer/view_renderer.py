@@ -47,6 +47,8 @@ from .visibility import Visibility
 STUDIO = {"tone_mapping": "neutral", "ambient_occlusion": True}
 #: How far ambient occlusion reaches, in radii of what is shown.
 _OCCLUSION_REACH = 0.2
+#: A box around a sphere reaches no farther than this, in radii.
+_BOX_REACH = 1.75
 #: How much farther away what has numbers around it is seen from.
 _LABEL_ROOM = 1.12
 
@@ -478,10 +480,12 @@ class ViewRenderer:
         return self.settings.ui_scale or text_scale(canvas, self.screen_scale)
 
     def _clip_bounds(self) -> Sphere:
-        """Return what the clip planes must enclose: animated parts and the grid included."""
+        """Return what the clip planes must enclose: animated parts and the grids included."""
         margin = 1.0 if self.viewed.update is None else 1.6
         if self.settings.grid or self._stage is not None:
             margin = max(margin, 3.2)
+        if self.settings.axes_grid:
+            margin = max(margin, _BOX_REACH)
         return self.bounds._replace(radius=self.bounds.radius * margin)
 
     def metadata(self) -> list[str]:

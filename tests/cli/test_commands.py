@@ -24,7 +24,6 @@ pytestmark = pytest.mark.usefixtures("no_screen")
         (["square.obj", "-o", "no/folder/out.png"], "no/folder"),
         (["square.obj", "--camera-position", "0.5,0.5,0"], "same"),
         (["square.obj", "--camera-position", "1e300,0,0"], "too far apart"),
-        (["."], "."),
     ],
 )
 def test_bad_input_is_one_line_and_status_1(model, tmp_path, capsys, arguments, part):

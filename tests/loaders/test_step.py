@@ -10,6 +10,9 @@ import pytest
 import engine3d as e3d
 from engine3d.errors import FileFormatError
 from engine3d.loaders import load_document
+from engine3d.loaders.loading import whole_mesh
+from engine3d.loaders.registry import find_reader
+from engine3d.loaders.sources import Source
 
 HAS_CASCADIO = importlib.util.find_spec("cascadio") is not None
 needs_cascadio = pytest.mark.skipif(not HAS_CASCADIO, reason="needs the package cascadio")
@@ -66,14 +69,14 @@ def test_a_tetrahedron(tmp_path):
     path = tmp_path / "solid.stp"
     points = [(0, 0, 0), (30, 0, 0), (0, 20, 0), (0, 0, 10)]
     path.write_bytes(faceted(points, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]))
-    mesh = e3d.load_mesh(path)
-    assert len(mesh.faces) == 4 and mesh.warnings == []
-    assert np.allclose(mesh.bounds, [(0, 0, 0), (0.03, 0.02, 0.01)])
     document = load_document(path)
     assert (document.format, document.unit) == ("step", "m")
     assert not any(material.is_physical for material in document.tree.materials)
-    path.with_suffix(".bin").write_bytes(path.read_bytes())
-    assert load_document(path.with_suffix(".bin")).format == "step"  # by its first bytes
+    mesh = whole_mesh(document, Source(str(path), b""), None)
+    assert len(mesh.faces) == 4 and mesh.warnings == []
+    assert np.allclose(mesh.bounds, [(0, 0, 0), (0.03, 0.02, 0.01)])
+    by_content = Source("a.bin", path.read_bytes())
+    assert find_reader(by_content, "mesh").name == "step"
 
 
 @needs_cascadio

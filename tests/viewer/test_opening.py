@@ -1,7 +1,9 @@
 """Stepping through the models of a folder, and the files that were opened before."""
 
+import math
 import os
 
+import numpy as np
 import pytest
 from viewer.scripted_window import ScriptedWindow
 
@@ -94,23 +96,28 @@ def test_a_held_arrow_key_goes_to_one_file_and_turns_on_with_shift(viewer):
     press(viewer, "Right", repeat=True)
     assert title(viewer) == "b.obj"
     azimuths = [viewer.view.azimuth]
-    for key, modifiers in (("Right", {"shift": True}), ("6", {}), ("Keypad 6", {})):
-        for repeat in (False, True):
-            press(viewer, key, repeat=repeat, **modifiers)
-            azimuths.append(viewer.view.azimuth)
-    steps = [after - before for before, after in zip(azimuths, azimuths[1:], strict=False)]
-    assert steps == pytest.approx([steps[0]] * 6) and steps[0] > 0.1
-    for key, modifiers in (("Left", {"shift": True}), ("4", {}), ("Keypad 4", {})):
+    for repeat in (False, True):
+        press(viewer, "Right", shift=True, repeat=repeat)
+        azimuths.append(viewer.view.azimuth)
+    for key in ("6", "Keypad 6"):
+        press(viewer, key)
+        press(viewer, key, repeat=True)  # a quarter at a time
+        azimuths.append(viewer.view.azimuth)
+    steps = np.remainder(np.diff(azimuths), 2 * math.pi)
+    assert steps[0] > 0.1 and steps == pytest.approx([steps[0]] * 2 + [math.pi / 2] * 2)
+    for key, modifiers in (("Left", {"shift": True}), ("4", {})):
         press(viewer, key, **modifiers)
         press(viewer, key, **modifiers)
     assert viewer.view.azimuth == pytest.approx(azimuths[0])
     elevation = viewer.view.elevation
     press(viewer, "Up", shift=True)
-    press(viewer, "8")
-    assert viewer.view.elevation > elevation + 0.2
+    assert viewer.view.elevation > elevation + 0.1
     press(viewer, "Down", shift=True)
-    press(viewer, "2")
     assert viewer.view.elevation == pytest.approx(elevation)
+    press(viewer, "8")
+    assert viewer.view.elevation == math.pi / 2  # overhead
+    press(viewer, "2")
+    assert viewer.view.elevation == pytest.approx(0.0)
     assert title(viewer) == "b.obj"
 
 

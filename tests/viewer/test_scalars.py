@@ -185,3 +185,22 @@ def test_on_the_command_line(heat, capsys):
     assert main([*command, "--colormap", "jet"]) == 1
     assert main([*command, "--range", "2,1"]) == 2
     assert "the first number is the lower one" in capsys.readouterr().err
+
+
+def test_numbers_of_the_grid_do_not_overlap(tmp_path, monkeypatch):
+    e3d.save_mesh(e3d.box((2.0, 2.0, 0.02)), tmp_path / "plate.obj")
+    written = []
+    monkeypatch.setattr(
+        Canvas, "text", lambda self, x, y, *texts, **_: written.append((x, y, *texts))
+    )
+    with ViewRenderer(
+        open_model(tmp_path / "plate.obj"), Settings({}, axes_grid=True), (400, 300)
+    ) as view_renderer:
+        view = view_renderer.view()
+        view_renderer.fill(view)
+        view_renderer.draw(view)
+    boxes = [(x, y, x + 8 * len(text), y + 14) for x, y, text, *_ in written]
+    assert {"X", "Y", "-1.0", "0.5"} <= {text for _, _, text, *_ in written}
+    for number, a in enumerate(boxes):
+        for b in boxes[:number]:  # rounded to whole pixels, they may touch
+            assert not (a[0] + 1 < b[2] and b[0] + 1 < a[2] and a[1] + 1 < b[3] and b[1] + 1 < a[3])

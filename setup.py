@@ -90,9 +90,15 @@ def machine_of(platform):
     return next((name for name, pattern in names.items() if re.search(pattern, platform)), "")
 
 
+def is_windows(platform):
+    """Whether a name of a platform, as Python or a compiler has it, is one of Windows."""
+    return platform.startswith("win") or "windows" in platform or "mingw" in platform
+
+
 BUILD = os.environ.get("ENGINE3D_BUILD") or "release"
 # What the built code runs on: of the rest, the kernels are portable only.
 MACHINE = machine_of(sysconfig.get_platform())
+IS_WINDOWS = is_windows(sysconfig.get_platform())
 
 PACKAGE_DIR = {"engine3d": "engine", "engine3d.data": "data", "engine3d.lessons": "lessons"}
 DATA_PACKAGES = ["engine3d.data", "engine3d.lessons"]
@@ -106,6 +112,8 @@ def common_flags():
     if BUILD not in BUILDS:
         raise SystemExit(f"ENGINE3D_BUILD={BUILD}: expected one of {', '.join(BUILDS)}")
     baseline = ["-march=x86-64", "-mtune=generic"] if MACHINE == "X86" else []
+    if IS_WINDOWS:
+        baseline += ["-include", "csrc/windows/memory.h"]
     return [*baseline, *BUILDS[BUILD], *EXACT, *HYGIENE, *SANITIZERS.get(BUILD, [])]
 
 

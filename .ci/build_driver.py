@@ -33,8 +33,9 @@ def rules_for(compiler):
     """The globals of setup.py, as if it were run on the processor that `compiler` compiles for."""
     rules = runpy.run_path(str(ROOT / "setup.py"), run_name="rules")
     machine = subprocess.run([compiler, "-dumpmachine"], capture_output=True, text=True, check=True)
-    # The functions of setup.py read this name from their own globals.
-    rules["static_libraries"].__globals__["MACHINE"] = rules["machine_of"](machine.stdout)
+    # The functions of setup.py read these names from their own globals.
+    for name, tell in (("MACHINE", "machine_of"), ("IS_WINDOWS", "is_windows")):
+        rules["static_libraries"].__globals__[name] = rules[tell](machine.stdout)
     return rules
 
 

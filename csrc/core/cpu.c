@@ -3,13 +3,11 @@
  * Thread count: the affinity mask, capped by the cgroup's CPU quota (v2 cpu.max, v1 cfs_quota_us),
  * because a container's quota does not show in the mask.
  */
-#define _GNU_SOURCE
-#include <sched.h>
 #include <stdio.h>
-#include <unistd.h>
 
 #include "core/built_backends.h"
 #include "core/limits.h"
+#include "core/system.h"
 #include "e3d.h"
 #ifdef E3D_HAVE_X86
 #include "core/instructions.h"
@@ -40,17 +38,6 @@ e3d_backend e3d_backend_best(void)
         if (e3d_backend_available((e3d_backend)b))
             return (e3d_backend)b;
     return E3D_BACKEND_PORTABLE;
-}
-
-static int affinity_count(void)
-{
-#ifdef __linux__
-    cpu_set_t set;
-    if (sched_getaffinity(0, sizeof set, &set) == 0)
-        return CPU_COUNT(&set);
-#endif
-    long online = sysconf(_SC_NPROCESSORS_ONLN);
-    return online > 0 ? (int)online : 1;
 }
 
 /* CPUs that the quota allows, rounded up; 0 where there is none. */
@@ -84,7 +71,7 @@ static int quota_count(void)
 
 int e3d_thread_count(void)
 {
-    int count = affinity_count(), quota = quota_count();
+    int count = e3d_usable_processors(), quota = quota_count();
     if (quota && quota < count)
         count = quota;
     if (count > E3D_MAX_THREADS)

@@ -11,4 +11,10 @@
 /* Memory that is aligned to a cache line; free() takes it back. NULL when memory is out. */
 void *e3d_large_memory(size_t bytes);
 
+/* Asks for large pages in memory that is there already: those that lie in it whole. */
+void e3d_want_large_pages(void *memory, size_t bytes);
+
+/* Has the small pages of a range come all at once, where the system can: one by one, on first use, takes longer. */
+void e3d_populate(void *memory, size_t bytes);
+
 #endif

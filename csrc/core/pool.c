@@ -8,7 +8,6 @@
 #include "core/pool.h"
 
 #include <pthread.h>
-#include <signal.h>
 #include <stdatomic.h>
 #include <stdint.h>
 
@@ -16,11 +15,14 @@
 #include "core/fpenv.h"
 #include "core/helping.h"
 #include "core/limits.h"
+#include "core/system.h"
 #include "e3d.h"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
 static inline void pause_briefly(void) { _mm_pause(); }
+#elif defined(__aarch64__)
+static inline void pause_briefly(void) { __asm__ volatile("yield"); }
 #else
 static inline void pause_briefly(void) {}
 #endif
@@ -119,15 +121,8 @@ static void *helper(void *number)
     return NULL;
 }
 
-/* Helpers take no signals: those stay with the program's own threads. */
-static void make_helpers(int wanted)
+static void start_helpers(int wanted)
 {
-    if (pool.threads >= wanted)
-        return;
-    sigset_t all, saved;
-    atomic_store(&pool.watches, wanted < e3d_thread_count());
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &saved);
     while (pool.threads < wanted) {
         pthread_t thread;
         if (pthread_create(&thread, NULL, helper, (void *)(intptr_t)(pool.threads + 1)))
@@ -135,7 +130,14 @@ static void make_helpers(int wanted)
         pthread_detach(thread);
         pool.threads++;
     }
-    pthread_sigmask(SIG_SETMASK, &saved, NULL);
+}
+
+static void make_helpers(int wanted)
+{
+    if (pool.threads >= wanted)
+        return;
+    atomic_store(&pool.watches, wanted < e3d_thread_count());
+    e3d_without_signals(start_helpers, wanted);
 }
 
 /* Ends the job, and waits for the helpers that are at work; returns the CPU time of all helpers. */

@@ -7,11 +7,11 @@
  *      file whose rows all fall into one place.
  */
 #include "core/large_pages.h"
+#include "core/system.h"
 #include "loaders/row_table.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <sys/random.h>
 #include <time.h>
 
 #define BLOCK E3D_ROW_BLOCK
@@ -40,7 +40,7 @@ typedef struct guesses {
 e3d_row_seeds e3d_random_seeds(void)
 {
     e3d_row_seeds seeds;
-    if (getrandom(&seeds, sizeof seeds, GRND_NONBLOCK) != (ssize_t)sizeof seeds) {
+    if (!e3d_random_bytes(&seeds, sizeof seeds)) {
         seeds.first = (uint64_t)time(NULL) * UINT64_C(0x9E3779B97F4A7C15) ^ (uintptr_t)&seeds;
         seeds.second = seeds.first * UINT64_C(0xD1342543DE82EF95) + 1;
     }

@@ -3,18 +3,10 @@
 # In:  sizes, or what C hands over.
 # Out: arrays over memory in large pages; once frozen, nobody can write to it any more.
 
-cdef extern from *:
-    """
-    #include <sys/mman.h>
-    #ifndef MADV_POPULATE_WRITE
-    #define MADV_POPULATE_WRITE 23
-    #endif
-    """
-    int madvise(void *start, size_t size, int advice) nogil
-    int MADV_HUGEPAGE, MADV_POPULATE_WRITE
-
 cdef extern from "core/large_pages.h":
     void *e3d_large_memory(size_t bytes) nogil
+    void e3d_want_large_pages(void *memory, size_t bytes) nogil
+    void e3d_populate(void *memory, size_t bytes) nogil
     size_t E3D_LARGE_ROOM
 
 cdef size_t PAGE = 1 << 12, LARGE_PAGE = 1 << 21
@@ -28,9 +20,7 @@ def read_bytes(readinto, Py_ssize_t size):
     """
     data = PyBytes_FromStringAndSize(NULL, size)
     cdef char *start = PyBytes_AS_STRING(data)
-    cdef size_t skip = -<size_t>start % LARGE_PAGE
-    if <size_t>size >= E3D_LARGE_ROOM:
-        madvise(start + skip, (<size_t>size - skip) // LARGE_PAGE * LARGE_PAGE, MADV_HUGEPAGE)
+    e3d_want_large_pages(start, size)
     cdef Py_ssize_t done = 0, count
     while done < size:
         count = readinto(PyMemoryView_FromMemory(start + done, size - done, PyBUF_WRITE))
@@ -76,7 +66,7 @@ def large_array(shape, dtype):
     # Small pages come faster all at once; where the system cannot, they come one by one.
     large = size // LARGE_PAGE * LARGE_PAGE if size >= E3D_LARGE_ROOM else PAGE
     if size > large:
-        madvise(<char *>data + large - (<size_t>data + large) % PAGE, size - large, MADV_POPULATE_WRITE)
+        e3d_populate(<char *>data + large - (<size_t>data + large) % PAGE, size - large)
     return owned(&data, size, np.dtype(np.uint8)).view(dtype).reshape(shape)
 
 

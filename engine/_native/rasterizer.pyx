@@ -14,7 +14,6 @@ from cpython.ref cimport PyObject
 from libc.stdint cimport int32_t, int64_t, uint8_t, uint16_t, uint64_t
 from libc.stdlib cimport calloc, free, realloc
 from libc.string cimport memcmp, memcpy, memset
-from posix.time cimport CLOCK_MONOTONIC, clock_gettime, timespec
 
 from e3d cimport *
 from e3d_occlusion cimport *
@@ -144,10 +143,12 @@ cdef struct SignalPoll:
     void *renderer
 
 
+cdef extern from "core/clock.h":
+    int64_t e3d_now_ns() nogil
+
+
 cdef double monotonic_seconds() noexcept nogil:
-    cdef timespec now
-    clock_gettime(CLOCK_MONOTONIC, &now)
-    return <double>now.tv_sec + 1e-9 * <double>now.tv_nsec
+    return 1e-9 * <double>e3d_now_ns()
 
 
 cdef int poll_signals(void *user) noexcept nogil:

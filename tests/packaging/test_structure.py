@@ -59,6 +59,7 @@ FOLDERS = {
     "posing": {"core", "include", "scene"},
     "scene": {"core", "include"},
     "ui": {"core", "include", "kernels", "reference"},
+    "windows": set(),
     "writers": {"include"},
 }
 MAX_HEADER_LINES = 260

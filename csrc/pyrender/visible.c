@@ -32,7 +32,7 @@ static void set_row(const pyr_picture *picture, const e3d_pyr_step *step, int32_
     out->places = picture->places;
     out->draw_of_object = step->draw_of_object;
     for (int p = 0; p < picture->places; p++) {
-        out->object[p] = step->object_id[p] + first;
+        out->object[p] = step->object_id[p] ? step->object_id[p] + first : NULL;
         out->triangle[p] = step->triangle_id[p] + first;
         out->instance[p] = step->instance_id[p] ? step->instance_id[p] + first : NULL;
     }
@@ -44,7 +44,10 @@ static void compare_places(const row *row, int32_t width, int32_t *differs)
     memset(differs, 0, (size_t)width * sizeof *differs);
     for (int p = 1; p < row->places; p++) {
         for (int32_t x = 0; x < width; x++)
-            differs[x] |= (row->object[0][x] ^ row->object[p][x]) | (row->triangle[0][x] ^ row->triangle[p][x]);
+            differs[x] |= row->triangle[0][x] ^ row->triangle[p][x];
+        if (row->object[0])
+            for (int32_t x = 0; x < width; x++)
+                differs[x] |= row->object[0][x] ^ row->object[p][x];
         if (row->instance[0])
             for (int32_t x = 0; x < width; x++)
                 differs[x] |= row->instance[0][x] ^ row->instance[p][x];
@@ -53,11 +56,11 @@ static void compare_places(const row *row, int32_t width, int32_t *differs)
 
 static shown shown_at(const row *row, int place, int32_t x)
 {
-    int32_t object = row->object[place][x];
-    if (object < 0)
+    int32_t triangle = row->triangle[place][x];
+    if (triangle < 0)
         return (shown){-1, -1};
     int32_t instance = row->instance[place] ? row->instance[place][x] : 0;
-    return (shown){row->draw_of_object[object] + instance, row->triangle[place][x]};
+    return (shown){row->draw_of_object[row->object[place] ? row->object[place][x] : 0] + instance, triangle};
 }
 
 static int same(shown a, shown b) { return a.draw == b.draw && a.triangle == b.triangle; }
@@ -117,25 +120,29 @@ static void add(pyr_band *band, shown what, recent *last, int32_t x, int32_t y, 
         pyr_add_fragment(band, &frame->draws[what.draw], picture->vertices[what.draw], &weights, plane, x, y, mask);
 }
 
-/* Where samples aren't kept: what is behind the samples that show nothing. */
-static void add_background(pyr_band *band, int32_t x, int32_t y, uint32_t mask, int covers)
+/* Where samples aren't kept: a row of background. */
+static void fill_row(const pyr_band *band, int32_t y)
 {
     const e3d_pyr_frame *frame = band->picture->frame;
-    mask &= (1u << frame->samples) - 1;
-    if (!covers)
-        frame->depth[(size_t)y * (size_t)frame->width + (size_t)x] = 0;
+    memset(frame->depth + (size_t)y * (size_t)frame->width, 0, (size_t)frame->width * sizeof *frame->depth);
     if (!frame->color)
         return;
-    if (mask == (1u << frame->samples) - 1) {
-        uint8_t *to = pyr_color_at(frame, x, y);
-        for (int c = 0; c < frame->channels; c++)
-            to[c] = band->picture->background[c];
-        return;
-    }
+    uint8_t *to = pyr_color_at(frame, 0, y);
+    size_t size = (size_t)frame->width * (size_t)frame->channels, done = (size_t)frame->channels;
+    memcpy(to, band->picture->background, done);
+    for (; done * 2 <= size; done *= 2)
+        memcpy(to + done, to, done);
+    memcpy(to + done, to, size - done);
+}
+
+/* Where samples aren't kept: begins the sum of a pixel's codes with those of its samples that show nothing. */
+static void begin_sum(pyr_band *band, int32_t x, int32_t y, uint32_t nothing)
+{
+    const e3d_pyr_frame *frame = band->picture->frame;
     uint16_t *sum = pyr_sums_at(band, x, y);
     int count = 0;
-    for (; mask; mask &= mask - 1)
-        count++;
+    for (int s = 0; s < frame->samples; s++)
+        count += nothing >> s & 1;
     for (int c = 0; c < 4; c++)
         sum[c] = (uint16_t)(count * band->picture->background[c] + frame->samples / 2);
 }
@@ -163,11 +170,11 @@ static void add_each(pyr_band *band, const shown at[E3D_PYR_PLACES], recent *las
         mask[k] |= 1u << p;
     }
     uint32_t samples = (1u << frame->samples) - 1;
-    if (!band->picture->keeps_samples && !(count && (mask[0] & samples) == samples))
-        add_background(band, x, y, nothing, !(nothing >> (places - 1) & 1));
+    band->differs[x] = (mask[0] & samples) != samples;
+    if (band->differs[x] && !band->picture->keeps_samples)
+        begin_sum(band, x, y, nothing);
     for (int k = 0; k < count; k++)
         add(band, of[k], last, x, y, mask[k]);
-    band->differs[x] = count == 0 || (mask[0] & samples) != samples;
 }
 
 /* Colours of the pixels of a row that have several. */
@@ -190,6 +197,8 @@ static void draw_row(pyr_band *band, const row *row, recent *last, int32_t y)
     uint32_t all = (1u << picture->places) - 1;
     shown at[E3D_PYR_PLACES];
     compare_places(row, picture->frame->width, band->differs);
+    if (!picture->keeps_samples)
+        fill_row(band, y);
     for (int32_t x = 0; x < picture->frame->width; x++) {
         at[0] = shown_at(row, 0, x);
         if (band->differs[x]) {
@@ -198,8 +207,6 @@ static void draw_row(pyr_band *band, const row *row, recent *last, int32_t y)
             add_each(band, at, last, x, y);
         } else if (at[0].draw >= 0) {
             add(band, at[0], last, x, y, all);
-        } else if (!picture->keeps_samples) {
-            add_background(band, x, y, all, 0);
         }
     }
     if (picture->keeps_samples || !picture->frame->color)

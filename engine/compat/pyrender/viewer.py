@@ -298,11 +298,8 @@ class Viewer:
             size, points = self._size, float(self._render_flags["point_size"])
             color, _ = self._drawing.draw(scene, self._flags(), None, *size, points)
         finally:
+            scene.remove_node(self._node)  # and the lights, which are its children
             self._node.children.clear()
-            for light in lights:
-                if scene.has_node(light):
-                    scene.remove_node(light)
-            scene.remove_node(self._node)
             if before is not None:
                 scene.main_camera_node = before
         return color

@@ -79,8 +79,9 @@ typedef struct e3d_pyr_light {
 } e3d_pyr_light;
 
 /* A step of the picture, in the order in which they are drawn. Either opaque triangles of which it is known what shows
- * (object_id isn't NULL): at each place the draw is draw_of_object[object_id] + instance_id, or none where object_id is
- * negative. Or draws that are drawn here, one after the other. */
+ * (triangle_id isn't NULL): at each place the draw is draw_of_object[object_id] + instance_id, or none where triangle_id is
+ * negative; object_id is NULL where all is of object 0, and instance_id where there are no instances. Or draws that are
+ * drawn here, one after the other. */
 typedef struct e3d_pyr_step {
     const int32_t *object_id[E3D_PYR_PLACES], *triangle_id[E3D_PYR_PLACES], *instance_id[E3D_PYR_PLACES];
     const int32_t *draw_of_object;

@@ -56,7 +56,7 @@ static void blend(uint8_t *to, const uint8_t code[4])
         to[c] = (uint8_t)((code[c] * share + to[c] * (255 - share) + 127) / 255);
 }
 
-static void write(const pyr_band *band, int i, const uint8_t code[4])
+static void write_samples(const pyr_band *band, int i, const uint8_t code[4])
 {
     const pyr_batch *batch = &band->batch;
     uint8_t *to = pyr_codes_at(band, batch->x[i], batch->y[i]);
@@ -66,9 +66,26 @@ static void write(const pyr_band *band, int i, const uint8_t code[4])
         if (batch->draw->blends && code[3] != 255)
             blend(to, code);
         else
-            for (int c = 0; c < 4; c++)
-                to[c] = code[c];
+            memcpy(to, code, 4);
     }
+}
+
+/* A pixel of which no sample is kept: its colour, or what the fragment adds to it. */
+static void write_pixel(const pyr_band *band, int i, const uint8_t code[4])
+{
+    const pyr_batch *batch = &band->batch;
+    const e3d_pyr_frame *frame = band->picture->frame;
+    uint32_t all = (1u << frame->samples) - 1;
+    if (batch->mask[i] == all) {
+        uint8_t *to = pyr_color_at(frame, batch->x[i], batch->y[i]);
+        for (int c = 0; c < frame->channels; c++)
+            to[c] = code[c];
+        return;
+    }
+    uint16_t *sum = pyr_sums_at(band, batch->x[i], batch->y[i]);
+    for (uint32_t left = batch->mask[i]; left; left &= left - 1)
+        for (int c = 0; c < 4; c++)
+            sum[c] = (uint16_t)(sum[c] + code[c]);
 }
 
 void pyr_flush(pyr_band *band)
@@ -79,7 +96,10 @@ void pyr_flush(pyr_band *band)
         pyr_light(band->picture->frame, batch);
     for (int i = 0; i < batch->count; i++) {
         find_codes(band->picture, batch, i, code);
-        write(band, i, code);
+        if (band->picture->keeps_samples)
+            write_samples(band, i, code);
+        else
+            write_pixel(band, i, code);
     }
     batch->count = 0;
 }

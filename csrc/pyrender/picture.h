@@ -53,8 +53,9 @@ typedef struct pyr_picture {
     const e3d_pyr_frame *frame;
     pyr_vertex **vertices;                      /* of each draw, or NULL where it shows nowhere */
     int32_t places;                             /* 1, or the samples and the centre */
-    int32_t keeps_depths;                       /* of all places: a later step is hidden by an earlier one */
+    int32_t keeps_samples;                      /* codes and depths of all places: a later step is hidden by an earlier one, or over it */
     uint8_t code_start[PYR_CODE_STARTS + 1];    /* of the square root of light, in steps: the code of which to begin the search */
+    uint8_t background[4];
     int32_t sample_x[E3D_PYR_PLACES], sample_y[E3D_PYR_PLACES]; /* of each place from the centre, in 1/256 pixel, y down */
 } pyr_picture;
 
@@ -62,8 +63,10 @@ typedef struct pyr_picture {
 typedef struct pyr_band {
     const pyr_picture *picture;
     int32_t top, end;
-    uint8_t *codes;                             /* (rows, width, samples, 4) */
-    double *depth;                              /* (rows, width, places): z_ndc, infinity where nothing is */
+    uint8_t *codes;                             /* where samples are kept: (rows, width, samples, 4) */
+    double *depth;                              /* likewise (rows, width, places): z_ndc, infinity where nothing is */
+    uint16_t *sums;                             /* else, of pixels that show several things: (rows, width, 4), codes times samples */
+    int32_t *differs;                           /* (width): whether the places of a pixel show different things */
     pyr_batch batch;
 } pyr_band;
 
@@ -88,6 +91,19 @@ static inline uint8_t pyr_code(float v)
     memcpy(&bits, &sum, sizeof bits);
     return (uint8_t)bits;
 }
+
+static inline uint16_t *pyr_sums_at(const pyr_band *band, int32_t x, int32_t y)
+{
+    return band->sums + ((size_t)(y - band->top) * (size_t)band->picture->frame->width + (size_t)x) * 4;
+}
+
+static inline uint8_t *pyr_color_at(const e3d_pyr_frame *frame, int32_t x, int32_t y)
+{
+    return frame->color + ((size_t)y * (size_t)frame->width + (size_t)x) * (size_t)frame->channels;
+}
+
+/* The distance that z_ndc stands for, 0 behind the far plane. */
+float pyr_metric_depth(const e3d_pyr_frame *frame, double z);
 
 /* ---- vertices.c ---- */
 

@@ -45,7 +45,9 @@ static void mark_shown(const pyr_picture *picture, uint8_t *shows)
     const e3d_pyr_frame *frame = picture->frame;
     for (int32_t s = 0; s < frame->step_count; s++) {
         const e3d_pyr_step *step = &frame->steps[s];
-        if (!step->object_id[0])
+        if (step->triangle_id[0] && !step->object_id[0])
+            shows[step->draw_of_object[0]] = 1;
+        else if (!step->triangle_id[0])
             memset(shows + step->first_draw, 1, (size_t)step->draw_count);
         else
             for (int p = 0; p < picture->places; p++)
@@ -100,19 +102,16 @@ static void clear(pyr_band *band)
 {
     const e3d_pyr_frame *frame = band->picture->frame;
     size_t pixels = (size_t)(band->end - band->top) * (size_t)frame->width;
-    uint8_t code[4];
-    for (int c = 0; c < 4; c++)
-        code[c] = pyr_code(frame->background[c]);
     if (frame->color)
         for (size_t i = 0; i < pixels * (size_t)frame->samples; i++)
-            memcpy(band->codes + 4 * i, code, 4);
+            memcpy(band->codes + 4 * i, band->picture->background, 4);
     for (size_t i = 0; i < pixels * (size_t)band->picture->places; i++)
         band->depth[i] = INFINITY;
 }
 
 static void draw_step(pyr_band *band, const e3d_pyr_step *step)
 {
-    if (step->object_id[0]) {
+    if (step->triangle_id[0]) {
         pyr_draw_visible(band, step);
         return;
     }
@@ -131,7 +130,7 @@ static void draw_step(pyr_band *band, const e3d_pyr_step *step)
     }
 }
 
-static float metric(const e3d_pyr_frame *frame, double z)
+float pyr_metric_depth(const e3d_pyr_frame *frame, double z)
 {
     double near = frame->depth_near, far = frame->depth_far;
     if (!(z <= 1))
@@ -149,7 +148,7 @@ static void resolve(const pyr_band *band)
     size_t first = (size_t)band->top * (size_t)frame->width, count = (size_t)(band->end - band->top) * (size_t)frame->width;
     int places = band->picture->places, samples = frame->samples;
     for (size_t i = 0; i < count; i++)
-        frame->depth[first + i] = metric(frame, band->depth[i * (size_t)places + (size_t)places - 1]);
+        frame->depth[first + i] = pyr_metric_depth(frame, band->depth[i * (size_t)places + (size_t)places - 1]);
     if (!frame->color)
         return;
     for (size_t i = 0; i < count; i++) {
@@ -174,10 +173,12 @@ static void draw_bands(void *argument, int worker)
         if (band->top >= frame->height)
             return;
         band->end = band->top + PYR_BAND < frame->height ? band->top + PYR_BAND : frame->height;
-        clear(band);
+        if (job->picture.keeps_samples)
+            clear(band);
         for (int32_t s = 0; s < frame->step_count; s++)
             draw_step(band, &frame->steps[s]);
-        resolve(band);
+        if (job->picture.keeps_samples)
+            resolve(band);
     }
 }
 
@@ -211,9 +212,14 @@ static int prepare_bands(render_job *job)
     for (int i = 0; i < job->threads; i++) {
         pyr_band *band = &job->bands[i];
         band->picture = &job->picture;
-        band->codes = frame->color ? malloc(pixels * (size_t)frame->samples * 4) : NULL;
-        band->depth = malloc(pixels * (size_t)job->picture.places * sizeof *band->depth);
-        if (!band->depth || (frame->color && !band->codes))
+        band->differs = malloc((size_t)frame->width * sizeof *band->differs);
+        if (job->picture.keeps_samples) {
+            band->codes = malloc(pixels * (size_t)frame->samples * 4);
+            band->depth = malloc(pixels * (size_t)job->picture.places * sizeof *band->depth);
+        } else {
+            band->sums = malloc(pixels * 4 * sizeof *band->sums);
+        }
+        if (!band->differs || (job->picture.keeps_samples ? !band->codes || !band->depth : !band->sums))
             return 0;
     }
     return 1;
@@ -241,6 +247,8 @@ static void release(render_job *job)
     for (int i = 0; job->bands && i < job->threads; i++) {
         free(job->bands[i].codes);
         free(job->bands[i].depth);
+        free(job->bands[i].sums);
+        free(job->bands[i].differs);
     }
     free(job->bands);
     free(job->chunks);
@@ -255,7 +263,9 @@ e3d_status e3d_pyr_render(const e3d_pyr_frame *frame, int32_t threads)
     size_t draws = (size_t)frame->draw_count;
     render_job job = {.picture = {.frame = frame}};
     job.threads = threads > 0 ? threads : e3d_thread_count();
-    job.picture.keeps_depths = frame->step_count > 1 || (frame->step_count == 1 && !frame->steps[0].object_id[0]);
+    job.picture.keeps_samples = frame->step_count != 1 || !frame->steps[0].triangle_id[0];
+    for (int c = 0; c < 4; c++)
+        job.picture.background[c] = pyr_code(frame->background[c]);
     set_places(&job.picture);
     set_code_starts(&job.picture);
     job.picture.vertices = calloc(draws + 1, sizeof *job.picture.vertices);

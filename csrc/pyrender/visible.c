@@ -1,4 +1,8 @@
-/* Opaque triangles of which it is known what shows where: each is a fragment once a pixel, whatever samples it covers. */
+/* Opaque triangles of which it is known what shows where.
+ *
+ * In: a step with IDs of each place. Out: a fragment for each triangle that shows in a pixel; but triangles that share a vertex with the
+ * one at the pixel's centre, whose colours go over into one another, are one fragment with it (R152).
+ */
 #include "pyrender/picture.h"
 
 /* What shows at a place: nothing where the draw is negative. */
@@ -6,31 +10,84 @@ typedef struct shown {
     int32_t draw, triangle;
 } shown;
 
-static shown shown_at(const e3d_pyr_step *step, int place, size_t pixel)
+/* The planes of triangles that showed last: neighbours often show the same. */
+enum { RECENT = 4 };
+
+typedef struct recent {
+    shown of[RECENT];
+    pyr_plane plane[RECENT];
+    int next;
+} recent;
+
+/* Rows of a step. */
+typedef struct row {
+    const int32_t *object[E3D_PYR_PLACES], *triangle[E3D_PYR_PLACES], *instance[E3D_PYR_PLACES];
+    const int32_t *draw_of_object;
+    int places;
+} row;
+
+static void set_row(const pyr_picture *picture, const e3d_pyr_step *step, int32_t y, row *out)
 {
-    int32_t object = step->object_id[place][pixel];
-    if (object < 0)
+    size_t first = (size_t)y * (size_t)picture->frame->width;
+    out->places = picture->places;
+    out->draw_of_object = step->draw_of_object;
+    for (int p = 0; p < picture->places; p++) {
+        out->object[p] = step->object_id[p] ? step->object_id[p] + first : NULL;
+        out->triangle[p] = step->triangle_id[p] + first;
+        out->instance[p] = step->instance_id[p] ? step->instance_id[p] + first : NULL;
+    }
+}
+
+/* Sets bits where a place shows something else than the first one. */
+static void compare_places(const row *row, int32_t width, int32_t *differs)
+{
+    memset(differs, 0, (size_t)width * sizeof *differs);
+    for (int p = 1; p < row->places; p++) {
+        for (int32_t x = 0; x < width; x++)
+            differs[x] |= row->triangle[0][x] ^ row->triangle[p][x];
+        if (row->object[0])
+            for (int32_t x = 0; x < width; x++)
+                differs[x] |= row->object[0][x] ^ row->object[p][x];
+        if (row->instance[0])
+            for (int32_t x = 0; x < width; x++)
+                differs[x] |= row->instance[0][x] ^ row->instance[p][x];
+    }
+}
+
+static shown shown_at(const row *row, int place, int32_t x)
+{
+    int32_t triangle = row->triangle[place][x];
+    if (triangle < 0)
         return (shown){-1, -1};
-    int32_t instance = step->instance_id[place] ? step->instance_id[place][pixel] : 0;
-    return (shown){step->draw_of_object[object] + instance, step->triangle_id[place][pixel]};
+    int32_t instance = row->instance[place] ? row->instance[place][x] : 0;
+    return (shown){row->draw_of_object[row->object[place] ? row->object[place][x] : 0] + instance, triangle};
 }
 
 static int same(shown a, shown b) { return a.draw == b.draw && a.triangle == b.triangle; }
 
-/* The plane of what showed last: neighbours often show the same. */
-typedef struct recent {
-    shown of;
-    pyr_plane plane;
-} recent;
+/* Whether two triangles of a draw share a vertex. */
+static int meet(const e3d_pyr_frame *frame, shown a, shown b)
+{
+    if (a.draw != b.draw || a.draw < 0)
+        return 0;
+    const int32_t *indices = frame->draws[a.draw].indices;
+    const int32_t *p = indices + 3 * (size_t)a.triangle, *q = indices + 3 * (size_t)b.triangle;
+    for (int k = 0; k < 3; k++)
+        if (p[k] == q[0] || p[k] == q[1] || p[k] == q[2])
+            return 1;
+    return 0;
+}
 
 static const pyr_plane *plane_of(const pyr_picture *picture, shown what, recent *last)
 {
-    if (!same(last->of, what)) {
-        const e3d_pyr_draw *draw = &picture->frame->draws[what.draw];
-        last->of = what;
-        pyr_set_plane(picture->frame, draw, picture->vertices[what.draw], what.triangle, &last->plane);
-    }
-    return &last->plane;
+    for (int k = 0; k < RECENT; k++)
+        if (same(last->of[k], what))
+            return &last->plane[k];
+    int slot = last->next++ % RECENT;
+    const e3d_pyr_draw *draw = &picture->frame->draws[what.draw];
+    last->of[slot] = what;
+    pyr_set_plane(picture->frame, draw, picture->vertices[what.draw], what.triangle, &last->plane[slot]);
+    return &last->plane[slot];
 }
 
 /* The places of a mask at which a triangle isn't hidden by an earlier step. */
@@ -38,66 +95,135 @@ static uint32_t nearer(const pyr_band *band, const pyr_plane *plane, int32_t x, 
 {
     const pyr_picture *picture = band->picture;
     double z[E3D_PYR_PLACES] = {0};
-    if (!picture->keeps_depths)
-        return mask;
     for (int p = 0; p < picture->places; p++)
         if (mask >> p & 1)
             z[p] = pyr_depth_at(plane, x + 0.5 + picture->sample_x[p] / 256.0, y + 0.5 + picture->sample_y[p] / 256.0);
     return pyr_test_depths(band, x, y, mask, z);
 }
 
+/* Adds what shows at some places of a pixel. */
 static void add(pyr_band *band, shown what, recent *last, int32_t x, int32_t y, uint32_t mask)
 {
     const pyr_picture *picture = band->picture;
     const e3d_pyr_frame *frame = picture->frame;
     const pyr_plane *plane = plane_of(picture, what, last);
     pyr_weights weights;
-    uint32_t centre = 1u << (picture->places - 1);
     double z = pyr_weigh(plane, x + 0.5, y + 0.5, weights.weight);
     for (int k = 0; k < 3; k++)
         weights.corner[k] = plane->corner[k];
-    if (mask & centre && !picture->keeps_depths)
-        pyr_depths_at(band, x, y)[picture->places - 1] = z;
-    mask = nearer(band, plane, x, y, mask) & ((1u << frame->samples) - 1);
+    if (picture->keeps_samples)
+        mask = nearer(band, plane, x, y, mask);
+    else if (mask >> (picture->places - 1) & 1)
+        frame->depth[(size_t)y * (size_t)frame->width + (size_t)x] = pyr_metric_depth(frame, z);
+    mask &= (1u << frame->samples) - 1;
     if (mask && frame->shading != E3D_PYR_DEPTH)
         pyr_add_fragment(band, &frame->draws[what.draw], picture->vertices[what.draw], &weights, plane, x, y, mask);
 }
 
-/* A pixel whose places show different things: each of these once. */
+/* Where samples aren't kept: a row of background. */
+static void fill_row(const pyr_band *band, int32_t y)
+{
+    const e3d_pyr_frame *frame = band->picture->frame;
+    memset(frame->depth + (size_t)y * (size_t)frame->width, 0, (size_t)frame->width * sizeof *frame->depth);
+    if (!frame->color)
+        return;
+    uint8_t *to = pyr_color_at(frame, 0, y);
+    size_t size = (size_t)frame->width * (size_t)frame->channels, done = (size_t)frame->channels;
+    memcpy(to, band->picture->background, done);
+    for (; done * 2 <= size; done *= 2)
+        memcpy(to + done, to, done);
+    memcpy(to + done, to, size - done);
+}
+
+/* Where samples aren't kept: begins the sum of a pixel's codes with those of its samples that show nothing. */
+static void begin_sum(pyr_band *band, int32_t x, int32_t y, uint32_t nothing)
+{
+    const e3d_pyr_frame *frame = band->picture->frame;
+    uint16_t *sum = pyr_sums_at(band, x, y);
+    int count = 0;
+    for (int s = 0; s < frame->samples; s++)
+        count += nothing >> s & 1;
+    for (int c = 0; c < 4; c++)
+        sum[c] = (uint16_t)(count * band->picture->background[c] + frame->samples / 2);
+}
+
+/* A pixel whose places show different things: each of these once, the centre's first. */
 static void add_each(pyr_band *band, const shown at[E3D_PYR_PLACES], recent *last, int32_t x, int32_t y)
 {
+    const e3d_pyr_frame *frame = band->picture->frame;
     int places = band->picture->places;
-    uint32_t left = (1u << places) - 1;
+    shown of[E3D_PYR_PLACES];
+    uint32_t mask[E3D_PYR_PLACES], nothing = 0;
+    int count = 0;
     for (int p = places - 1; p >= 0; p--) {
-        uint32_t mask = 0;
-        if (!(left >> p & 1))
+        int k = 0;
+        if (at[p].draw < 0) {
+            nothing |= 1u << p;
             continue;
-        for (int q = 0; q <= p; q++)
-            if (left >> q & 1 && same(at[q], at[p]))
-                mask |= 1u << q;
-        left &= ~mask;
-        if (at[p].draw >= 0)
-            add(band, at[p], last, x, y, mask);
+        }
+        while (k < count && !same(of[k], at[p]) && !(k == 0 && meet(frame, of[0], at[p])))
+            k++;
+        if (k == count) {
+            of[count] = at[p];
+            mask[count++] = 0;
+        }
+        mask[k] |= 1u << p;
     }
+    uint32_t samples = (1u << frame->samples) - 1;
+    band->differs[x] = (mask[0] & samples) != samples;
+    if (band->differs[x] && !band->picture->keeps_samples)
+        begin_sum(band, x, y, nothing);
+    for (int k = 0; k < count; k++)
+        add(band, of[k], last, x, y, mask[k]);
+}
+
+/* Colours of the pixels of a row that have several. */
+static void add_up(const pyr_band *band, int32_t y)
+{
+    const e3d_pyr_frame *frame = band->picture->frame;
+    for (int32_t x = 0; x < frame->width; x++) {
+        if (!band->differs[x])
+            continue;
+        const uint16_t *sum = pyr_sums_at(band, x, y);
+        uint8_t *to = pyr_color_at(frame, x, y);
+        for (int c = 0; c < frame->channels; c++)
+            to[c] = (uint8_t)(sum[c] / frame->samples);
+    }
+}
+
+static void draw_row(pyr_band *band, const row *row, recent *last, int32_t y)
+{
+    const pyr_picture *picture = band->picture;
+    uint32_t all = (1u << picture->places) - 1;
+    shown at[E3D_PYR_PLACES];
+    compare_places(row, picture->frame->width, band->differs);
+    if (!picture->keeps_samples)
+        fill_row(band, y);
+    for (int32_t x = 0; x < picture->frame->width; x++) {
+        at[0] = shown_at(row, 0, x);
+        if (band->differs[x]) {
+            for (int p = 1; p < picture->places; p++)
+                at[p] = shown_at(row, p, x);
+            add_each(band, at, last, x, y);
+        } else if (at[0].draw >= 0) {
+            add(band, at[0], last, x, y, all);
+        }
+    }
+    if (picture->keeps_samples || !picture->frame->color)
+        return;
+    pyr_flush(band);
+    add_up(band, y);
 }
 
 void pyr_draw_visible(pyr_band *band, const e3d_pyr_step *step)
 {
-    int32_t width = band->picture->frame->width;
-    int places = band->picture->places;
-    recent last = {.of = {-1, -1}};
-    shown at[E3D_PYR_PLACES];
-    for (int32_t y = band->top; y < band->end; y++)
-        for (int32_t x = 0; x < width; x++) {
-            int differ = 0;
-            for (int p = 0; p < places; p++) {
-                at[p] = shown_at(step, p, (size_t)y * (size_t)width + (size_t)x);
-                differ |= !same(at[p], at[0]);
-            }
-            if (differ)
-                add_each(band, at, &last, x, y);
-            else if (at[0].draw >= 0)
-                add(band, at[0], &last, x, y, (1u << places) - 1);
-        }
+    recent last = {.next = 0};
+    row row;
+    for (int k = 0; k < RECENT; k++)
+        last.of[k] = (shown){-2, -2};
+    for (int32_t y = band->top; y < band->end; y++) {
+        set_row(band->picture, step, y, &row);
+        draw_row(band, &row, &last, y);
+    }
     pyr_flush(band);
 }

@@ -14,7 +14,17 @@ from importlib.util import spec_from_file_location
 from os.path import dirname, exists, join
 
 MODULES = (
-    *("canvas", "images", "loaders", "navigation", "pyrender", "rasterizer", "scene_graph", "ui", "writers"),
+    *(
+        "canvas",
+        "images",
+        "loaders",
+        "navigation",
+        "pyrender",
+        "rasterizer",
+        "scene_graph",
+        "ui",
+        "writers",
+    ),
 )
 
 

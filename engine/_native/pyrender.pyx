@@ -211,8 +211,9 @@ cdef class NativePicture:
     def add_visible(self, list places not None, const int32_t[::1] draw_of_object not None):
         """Show next what is known to be visible.
 
-        `places`: of each sample, then of the centre, the outputs object_id and triangle_id of a frame, and its instance_id or
-        None. `draw_of_object`: the draw of each object's first instance.
+        `places`: of each sample, then of the centre, the outputs object_id, triangle_id and instance_id of a frame; None for the
+        first where all is of object 0, and for the last where nothing has instances. `draw_of_object`: the draw of each object's
+        first instance.
         """
         cdef e3d_pyr_step *step = self.new_step()
         cdef const int32_t[:, ::1] ids
@@ -220,8 +221,9 @@ cdef class NativePicture:
         require(0 < len(places) <= E3D_PYR_PLACES, "a pixel has one place or five")
         for k in range(len(places)):
             objects, triangles, instances = places[k]
-            ids = objects
-            step.object_id[k] = &ids[0, 0]
+            if objects is not None:
+                ids = objects
+                step.object_id[k] = &ids[0, 0]
             ids = triangles
             step.triangle_id[k] = &ids[0, 0]
             if instances is not None:

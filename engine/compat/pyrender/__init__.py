@@ -4,6 +4,7 @@
 be changed runs after `install`. docs/pyrender.md tells what works and what differs.
 """
 
+from . import platforms, shader_program, trackball, utils
 from .camera import Camera, IntrinsicsCamera, OrthographicCamera, PerspectiveCamera
 from .constants import GLTF, RenderFlags, TextAlign
 from .installing import install
@@ -46,5 +47,9 @@ __all__ = [
     "Viewer",
     "__version__",
     "install",
+    "platforms",
     "settings",
+    "shader_program",
+    "trackball",
+    "utils",
 ]

@@ -116,8 +116,7 @@ class _Pass:
     def _depth_range(self) -> tuple[float, float, bool]:
         far = self._camera.zfar
         is_straight = (
-            isinstance(self._camera, OrthographicCamera)
-            and settings.orthographic_depth == "metric"
+            isinstance(self._camera, OrthographicCamera) and settings.orthographic_depth == "metric"
         )
         return self._camera.znear, np.inf if far is None else far, is_straight
 
@@ -148,7 +147,10 @@ class _Pass:
         if self._shading == _native.LIT:
             shadows = self._drawing._shadows
             lights = Lighting(
-                self._picture, self._scene, self._flags, lambda node: shadows.map_of(self._scene, node)
+                self._picture,
+                self._scene,
+                self._flags,
+                lambda node: shadows.map_of(self._scene, node),
             )
         groups: list[_Group] = [_Group()]
         for node, pose in self._nodes():

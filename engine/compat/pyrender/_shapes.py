@@ -36,7 +36,7 @@ def corners_of(primitive: Primitive) -> np.ndarray:
     numbers = np.arange(count, dtype=np.int32)
     if primitive.indices is not None:
         numbers = primitive.indices.ravel()
-        if len(numbers) and not (0 <= numbers.min() and numbers.max() < count):
+        if len(numbers) and not (numbers.min() >= 0 and numbers.max() < count):
             raise ValueError(f"indices must be in 0..{count - 1}")
     return np.ascontiguousarray(_joined(numbers, primitive.mode), np.int32)
 

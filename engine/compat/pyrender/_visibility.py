@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...rendering.options import RenderOptions
 from ...rendering.renderer import Renderer
 from ...scene.cameras import Camera
 from ...scene.instances import InstancedMesh
@@ -60,17 +61,28 @@ class Visibility:
         self._most = 0
 
     def place(self, things: list[Placed]) -> np.ndarray:
-        """Take in what is to be drawn; return the draw of each object id, int32."""
+        """Take in what is to be drawn; return the draw of each object id, int32, or of the only one."""
         if self._most > _MANY:
             self._forget()
         for key in self._nodes.keys() - {thing.key for thing in things}:
             self._scene.remove(self._nodes.pop(key)[0])
         ids = [(self._node(thing).id, thing.draw) for thing in things]
         self._most = max((number for number, _ in ids), default=0)
+        if self._is_single:
+            return np.array([things[0].draw], np.int32)
         draws = np.zeros(self._most + 1, np.int32)
         for number, draw in ids:
             draws[number] = draw
         return draws
+
+    @property
+    def _is_single(self) -> bool:
+        """Whether there is one object without instances, so that triangles tell all."""
+        return len(self._nodes) == 1 and not self._has_instances
+
+    @property
+    def _has_instances(self) -> bool:
+        return any(shows[1] is not None for _, shows, _ in self._nodes.values())
 
     def _node(self, thing: Placed):
         mesh = mesh_of(thing.primitive, two_sided=thing.two_sided, turned=thing.turned)
@@ -100,21 +112,27 @@ class Visibility:
         Returns
         -------
         places : list of (object_id, triangle_id, instance_id)
-            Arrays (H, W) int32; the last is None where nothing has instances.
+            Arrays (H, W) int32; the first is None where there is one object, the last where nothing
+            has instances.
         """
-        outputs = ["object_id", "triangle_id"]
-        has_instances = any(shows[1] is not None for _, shows, _ in self._nodes.values())
-        if has_instances:
-            outputs.append("instance_id")
+        names = [
+            *(["triangle_id"] if self._is_single else ["object_id", "triangle_id"]),
+            *(["instance_id"] if self._has_instances else []),
+        ]
+        options = RenderOptions(outputs=names)
         offsets = [_CENTRE] if samples == 1 else [*_OFFSETS, _CENTRE]
         places = []
         for offset, camera in zip(offsets, self._cameras[-len(offsets) :], strict=True):
             matrix = _moved(projection, offset, renderer.width, renderer.height)
             if not np.array_equal(camera.matrix, matrix):
                 camera.matrix = matrix
-            frame = renderer.render(self._scene, (camera, pose), outputs=outputs)
-            instances = frame.instance_id if has_instances else None
-            places.append((frame.object_id, frame.triangle_id, instances))
+            frame = renderer.render(self._scene, (camera, pose), options=options)
+            places.append(
+                tuple(
+                    getattr(frame, name) if name in names else None
+                    for name in ("object_id", "triangle_id", "instance_id")
+                )
+            )
         return places
 
     def depths(self, renderer: Renderer, projection, pose) -> np.ndarray:

@@ -125,7 +125,7 @@ class Material(Named, abc.ABC):
 
     @property
     def alphaMode(self) -> str:
-        """"OPAQUE", "MASK" or "BLEND"."""
+        """ "OPAQUE", "MASK" or "BLEND"."""
         return self._alphaMode
 
     @alphaMode.setter

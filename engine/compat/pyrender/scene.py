@@ -40,7 +40,7 @@ class Scene(Named):
         self.name = name
         self._numbers = itertools.count()
         self.clear()
-        parents: dict = {node: None for node in nodes or ()}
+        parents: dict = dict.fromkeys(nodes or ())
         for node in list(parents):
             for child in node.children:
                 if parents.get(child) is not None:

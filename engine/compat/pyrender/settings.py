@@ -49,7 +49,7 @@ class Settings:
 
     @property
     def orthographic_depth(self) -> str:
-        """"metric" or "pyrender"."""
+        """ "metric" or "pyrender"."""
         return self._orthographic_depth
 
     @orthographic_depth.setter

@@ -1,0 +1,42 @@
+"""Shaders, which there are none of: pictures are drawn without OpenGL.
+
+Programs that bring shaders of their own get an error that says what to do instead.
+"""
+
+from __future__ import annotations
+
+_ADVICE = (
+    "shaders cannot run: engine3d draws without OpenGL. For normals, positions, uv and the like, "
+    "ask engine3d.Renderer.render for outputs, such as outputs=('normal', 'depth')"
+)
+
+
+class ShaderProgram:
+    """Raises: GLSL cannot run here."""
+
+    def __init__(self, *args, **kwargs):
+        raise NotImplementedError(_ADVICE)
+
+
+class ShaderProgramCache:
+    """A cache of shaders, which programs replace to bring their own.
+
+    Parameters
+    ----------
+    shader_dir : str, optional
+        A folder of shaders; naming one raises.
+    """
+
+    def __init__(self, shader_dir=None):
+        if shader_dir is not None:
+            raise NotImplementedError(_ADVICE)
+
+    def get_program(self, *args, **kwargs):
+        """Raise: GLSL cannot run here."""
+        raise NotImplementedError(_ADVICE)
+
+    def clear(self) -> None:
+        """Do nothing: there is nothing to forget."""
+
+
+__all__ = ["ShaderProgram", "ShaderProgramCache"]

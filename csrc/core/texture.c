@@ -9,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/large_pages.h"
 #include "core/srgb_tables.h"
 #include "e3d.h"
 
@@ -55,12 +54,26 @@ static uint8_t *row_of(const e3d_texture *texture, const e3d_level *level, int32
 
 static uint16_t to_15_bits(uint32_t c16) { return (uint16_t)((c16 * 32767 + 32767) / 65535); }
 
-static void decode_row(const uint8_t *pixels, int32_t width, const uint16_t table[256], uint16_t *out)
+/* What 8-bit colours and alphas are as texels. */
+typedef struct decoding {
+    uint16_t color[256], alpha[256];
+} decoding;
+
+static decoding find_decoding(int decode_srgb)
 {
-    for (int32_t x = 0; x < width; x++, pixels += 4, out += 4) {
-        for (int k = 0; k < 3; k++)
-            out[k] = table[pixels[k]];
-        out[3] = to_15_bits(pixels[3] * 257u);
+    decoding out;
+    for (uint32_t c = 0; c < 256; c++) {
+        out.alpha[c] = to_15_bits(c * 257);
+        out.color[c] = decode_srgb ? to_15_bits(SRGB_TO_LINEAR16[c]) : out.alpha[c];
+    }
+    return out;
+}
+
+static void decode_row(const uint8_t *pixels, int32_t width, const decoding *by, uint8_t *out)
+{
+    for (int32_t x = 0; x < width; x++, pixels += 4, out += 8) {
+        const uint16_t texel[4] = {by->color[pixels[0]], by->color[pixels[1]], by->color[pixels[2]], by->alpha[pixels[3]]};
+        memcpy(out, texel, sizeof texel);
     }
 }
 
@@ -76,30 +89,50 @@ static void decode(const e3d_texture *texture, const uint8_t *pixels, int decode
 {
     const e3d_level *level = &texture->view.levels[0];
     size_t row_bytes = 4 * (size_t)level->width;
-    uint16_t table[256];
-    for (int c = 0; c < 256; c++)
-        table[c] = to_15_bits(decode_srgb ? SRGB_TO_LINEAR16[c] : (uint32_t)c * 257);
+    const decoding by = find_decoding(decode_srgb);
     for (int32_t y = 0; y < level->height; y++, pixels += row_bytes) {
         if (texture->view.channel_bits == 8)
             memcpy(row_of(texture, level, y), pixels, row_bytes);
         else
-            decode_row(pixels, level->width, table, (uint16_t *)row_of(texture, level, y));
+            decode_row(pixels, level->width, &by, row_of(texture, level, y));
     }
 }
 
-/* Averages a level of 15-bit texels to the next coarser one (R28). */
+static uint64_t load_texel(const uint8_t *at)
+{
+    uint64_t texel;
+    memcpy(&texel, at, sizeof texel);
+    return texel;
+}
+
+/* R28: the mean of four texels, which are 8 bytes apart side by side. Every other channel has 32 bits to be summed in. */
+static uint64_t mean_of_four(const uint8_t *top, const uint8_t *bottom, size_t next)
+{
+    const uint64_t some = UINT64_C(0x0000FFFF0000FFFF), half = UINT64_C(0x0000000200000002);
+    uint64_t a = load_texel(top), b = load_texel(top + next), c = load_texel(bottom), d = load_texel(bottom + next);
+    uint64_t low = (a & some) + (b & some) + (c & some) + (d & some) + half;
+    uint64_t high = (a >> 16 & some) + (b >> 16 & some) + (c >> 16 & some) + (d >> 16 & some) + half;
+    return (low >> 2 & some) | (high >> 2 & some) << 16;
+}
+
+static void halve_row(const uint8_t *top, const uint8_t *bottom, int32_t width, size_t next, uint8_t *out)
+{
+    for (int32_t x = 0; x < width; x++, top += 16, bottom += 16, out += 8) {
+        uint64_t texel = mean_of_four(top, bottom, next);
+        memcpy(out, &texel, sizeof texel);
+    }
+}
+
+/* Averages a level of 15-bit texels to the next coarser one (R28). A level that is one texel wide or high counts it twice. */
 static void halve(const e3d_texture *texture, const e3d_level *fine, const e3d_level *coarse)
 {
     for (int32_t y = 0; y < coarse->height; y++) {
         int32_t y1 = 2 * y + 1 < fine->height ? 2 * y + 1 : fine->height - 1;
-        const uint16_t *top = (const uint16_t *)row_of(texture, fine, 2 * y);
-        const uint16_t *bottom = (const uint16_t *)row_of(texture, fine, y1);
-        uint16_t *out = (uint16_t *)row_of(texture, coarse, y);
-        for (int32_t x = 0; x < coarse->width; x++) {
-            size_t x0 = 8 * (size_t)x, x1 = 2 * x + 1 < fine->width ? x0 + 4 : 4 * (size_t)fine->width - 4;
-            for (int k = 0; k < 4; k++)
-                *out++ = (uint16_t)((top[x0 + k] + top[x1 + k] + bottom[x0 + k] + bottom[x1 + k] + 2) >> 2);
-        }
+        const uint8_t *top = row_of(texture, fine, 2 * y), *bottom = row_of(texture, fine, y1);
+        if (fine->width > 1)
+            halve_row(top, bottom, coarse->width, 8, row_of(texture, coarse, y));
+        else
+            halve_row(top, bottom, 1, 0, row_of(texture, coarse, y));
     }
 }
 
@@ -187,7 +220,7 @@ e3d_status e3d_texture_create(const uint8_t *pixels, int32_t width, int32_t heig
     keep_sampling(sampling, &texture->view);
     texture->view.is_opaque = is_opaque(pixels, (size_t)width * (size_t)height);
     size_t bytes = chain_texels(width, height, levels) * texel_bytes(texture);
-    texture->texels = e3d_large_memory(bytes + PAST);
+    texture->texels = malloc(bytes + PAST);
     if (!texture->texels) {
         free(texture);
         return E3D_OUT_OF_MEMORY;

@@ -24,7 +24,7 @@ from ..scene.scene import Scene
 from ._enclosing import all_in_front, hole_looked_into, holes_of, is_in_front, plane_in_node
 from ._light_list import LightList
 from ._native_handles import MeshNeeds, native_mesh
-from ._native_materials import set_material
+from ._native_materials import make_textures, set_material
 from ._view import View
 
 _FEW = 64  # meshes that are looked at vertex by vertex
@@ -273,8 +273,14 @@ class DrawList:
         self._left = 0
         self._marks = self._trees = False
         self._many, self._frames = {}, 0
+        self._make_textures(scene)
         for number, obj in enumerate(scene._objects.objects):
             self._set_object(number, obj)
+
+    def _make_textures(self, scene: Scene) -> None:
+        meshes = (getattr(obj, "mesh", obj) for obj in scene._objects.objects if obj is not None)
+        materials = {material for mesh in meshes for material in mesh.materials}
+        make_textures(materials, self._color_space, self._threads)
 
     def _set_object(self, number: int, obj) -> None:
         """List a mesh, once or at many poses, or nothing, under a number or the next one."""

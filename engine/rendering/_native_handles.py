@@ -68,6 +68,11 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
     return native
 
 
+def is_new(texture: Texture) -> bool:
+    """Whether no handle of a texture has been made yet."""
+    return texture not in _textures
+
+
 def native_texture(texture: Texture, color_space: str) -> NativeTexture:
     """Return the handle of a texture as it is now, for renderers of one colour space."""
     pixels = texture.pixels

@@ -6,17 +6,20 @@ In: a `Material` with its textures. Out: one material of a `NativeDrawList`.
 from __future__ import annotations
 
 import math
+import os
+from collections.abc import Iterable
 from typing import Any
 
 from .. import linalg
 from .._native.rasterizer import ALPHA_MODES, NativeDrawList, NativeTexture
 from ..materials.display_colors import shading_color
-from ..materials.material import Material
+from ..materials.material import Material, placed_textures_of
 from ..materials.textures import PlacedTexture
-from ._native_handles import native_texture
+from ._native_handles import is_new, native_texture
 
 _SMALLEST_SHININESS = 1e-3  # the core wants an exponent above 0; this one shows as 0 would
 _LEAST_LEFT = 2.0**-126  # of light that is absorbed: its logarithm is finite
+_LARGE = 512 * 512  # pixels of a texture whose levels take as long as starting a thread, and longer
 
 
 def set_material(
@@ -67,12 +70,41 @@ def set_material(
         native.set_physical(index, **_physical(material, color_space))
 
 
+def make_textures(materials: Iterable[Material], color_space: str, threads: int) -> None:
+    """Make the first handles of large textures side by side, before materials ask one by one.
+
+    Parameters
+    ----------
+    materials : iterable of Material
+    color_space : {"srgb", "linear"}
+        How 8-bit colours are read.
+    threads : int
+        How many may be made at once; 0: as many as there are CPUs.
+    """
+    wanted = dict.fromkeys(
+        (placed.texture, _space(slot, color_space))
+        for material in materials
+        for slot, placed in placed_textures_of(material).items()
+        if is_new(placed.texture) and placed.texture.width * placed.texture.height >= _LARGE
+    )
+    count = min(len(wanted), threads or os.cpu_count() or 1)
+    if count > 1:
+        from concurrent.futures import ThreadPoolExecutor
+
+        with ThreadPoolExecutor(count) as pool:
+            for _ in pool.map(native_texture, *zip(*wanted, strict=True)):
+                pass
+
+
+def _space(slot: str, color_space: str) -> str:
+    return color_space if vars(Material)[slot].is_color else "linear"
+
+
 def _use(
     slot: str, placed: PlacedTexture, color_space: str
 ) -> tuple[NativeTexture, int, list[float] | None]:
     """A texture of a slot: its handle, its set of coordinates, and the matrix of these."""
-    is_color = vars(Material)[slot].is_color
-    handle = native_texture(placed.texture, color_space if is_color else "linear")
+    handle = native_texture(placed.texture, _space(slot, color_space))
     return handle, placed.uv_set, placed.matrix.ravel().tolist() if placed.is_moved else None
 
 

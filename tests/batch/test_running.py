@@ -249,6 +249,14 @@ def test_a_picture_that_kills_its_process_fails_alone(place, manifest):
     assert summary.drawn + summary.done_before == 3
 
 
+def test_an_executor_that_was_shut_down_fails_all(tasks, tmp_path):
+    executor = ThreadPoolExecutor(1)
+    executor.shutdown()
+    summary = run(tasks, tmp_path / "out", executor=executor)
+    assert len(summary.failures) == len(tasks) and summary.drawn == 0
+    assert summary.failures[3].error.startswith("the executor takes no more calls: ")
+
+
 def test_the_process_group_ends_with_whoever_asked(place, manifest):
     tasks = read_manifest(manifest({**SCRIPT, "function": "wait"})).tasks
     with ProcessPool(1) as pool:

@@ -142,16 +142,17 @@ def camera_of(
 def _framed(
     said: Mapping[str, Any], scene: Scene, size: tuple[int, int]
 ) -> tuple[Camera, NDArray[np.float64]]:
-    up = said.get("up", _UP)
-    angles = (math.radians(said.get(key, 0.0)) for key in ("azimuth", "elevation"))
-    axes = orbit_axes(up, *angles)
+    way = {}
+    if any(key in said for key in ("azimuth", "elevation", "up")):
+        angles = (math.radians(said.get(key, 0.0)) for key in ("azimuth", "elevation"))
+        axes = orbit_axes(said.get("up", _UP), *angles)
+        way = {"direction": -axes[:, 2], "up": axes[:, 1]}
     return frame_scene(
         scene,
         aspect=size[0] / size[1],
         yfov=math.radians(said.get("view_angle", _VIEW_ANGLE)),
-        direction=-axes[:, 2],
-        up=axes[:, 1],
         margin=said.get("margin", 1.05),
+        **way,
     )
 
 

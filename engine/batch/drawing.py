@@ -140,8 +140,8 @@ class Drawer:
                 if not (how.resume and is_done(how.out, task, writer)):
                     self._draw(task, how.out, writer)
                     drawn = True
-            except (Engine3DError, OSError, MemoryError) as problem:
-                error = " ".join(str(problem).split()) or type(problem).__name__
+            except Exception as problem:  # one picture's fault is not that of the others
+                error = _told(problem)
         texts = (str(one.message) for one in said if issubclass(one.category, Engine3DWarning))
         seconds = time.perf_counter() - start
         return Outcome(task.index, error, drawn, seconds, tuple(dict.fromkeys(texts)))
@@ -218,6 +218,14 @@ class Drawer:
         elif (renderer.width, renderer.height) != tuple(task.size):
             renderer.resize(*task.size)
         return renderer
+
+
+def _told(error: Exception) -> str:
+    """An error on one line; those that nobody foresaw say what they are."""
+    text = " ".join(str(error).split())
+    if text and isinstance(error, (Engine3DError, OSError)):
+        return text
+    return f"{type(error).__name__}: {text}"
 
 
 def _chosen_camera(task: Task, scene: Scene, said: Said) -> tuple[Camera, NDArray[np.float64]]:

@@ -165,7 +165,11 @@ class _Run:
         while len(self._running) < most and (chunk := self._next_chunk()):
             again = any(self._tries.get(task.index) for task in chunk)
             how = self._how._replace(resume=True) if again else self._how
-            future = self._engine.executor.submit(draw_chunk, chunk, how)
+            try:
+                future = self._engine.executor.submit(draw_chunk, chunk, how)
+            except RuntimeError as error:  # it is broken, or was shut down
+                self._fail(chunk, f"the executor takes no more calls: {error}")
+                continue
             self._running[future] = chunk
             future.add_done_callback(self._finished.put)
 
@@ -202,7 +206,7 @@ class _Run:
         for task in chunk:
             tries = self._tries[task.index] = self._tries.get(task.index, 0) + 1
             if lasting or tries >= _TRIES:
-                self._count(task, Outcome(task.index, text, False, 0.0, ()))
+                self._fail([task], text)
             else:
                 again.append(task)
         self._again.extend(again)
@@ -210,6 +214,10 @@ class _Run:
             names = " or ".join(task.name for task in again[:_NAMED])
             more = " or others" if len(again) > _NAMED else ""
             self._progress(again[0], None, f"{text} while it drew {names}{more}: drawn again")
+
+    def _fail(self, chunk: list[Task], text: str) -> None:
+        for task in chunk:
+            self._count(task, Outcome(task.index, " ".join(text.split()), False, 0.0, ()))
 
     def _count(self, task: Task, outcome: Outcome) -> None:
         if outcome.error is not None:

@@ -1,11 +1,14 @@
 """Manifests: what they may say, and errors that name the place of what is wrong."""
 
 import json
+import re
+from pathlib import Path
 
 import pytest
 
 import engine3d as e3d
 from engine3d.batch import Task, read_manifest
+from engine3d.cli.parser import make_parser
 
 MODEL = {"model": "model.obj"}
 SCRIPT = {"script": "script.py"}
@@ -171,3 +174,22 @@ def test_tasks_are_known_by_all_that_they_say():
     assert len(keys) == len(others) + 4
     assert Task(name="a", model="a.obj", folder="/b").key(writer) == base.key(writer)
     assert json.dumps(base.name) == '"a"'
+
+
+PAGE = Path(__file__).parents[2] / "docs" / "batches.md"
+
+
+def test_the_manifest_of_the_page_is_one(place):
+    text = PAGE.read_text(encoding="utf-8")
+    start = text.index("    {\n")
+    path = place / "manifest.json"
+    path.write_text(text[start : text.index("\n\n", start)])
+    names = [task.name for task in read_manifest(path).tasks]
+    assert len(names) == 101 and names[0] == "teapot" and names[100] == "boxes_99"
+
+
+def test_the_commands_of_the_page_parse():
+    lines = re.findall(r"^    engine3d (.*)$", PAGE.read_text(encoding="utf-8"), re.M)
+    parsed = [make_parser().parse_args(line.split()) for line in lines]
+    assert len(parsed) == 4 and all(args.command == "batch" for args in parsed)
+    assert parsed[1].resume and parsed[2].scheduler.startswith("tcp://")

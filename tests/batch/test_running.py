@@ -206,6 +206,10 @@ FAILING = [
         {**SCRIPT, "function": "returned", "arguments": {"value": {"camera": 1}}},
         "camera must be a node of a camera, or (camera, pose)",
     ),
+    (
+        {**SCRIPT, "function": "returned", "arguments": {"value": {"labels": {"a": "b"}}}},
+        "labels: 'a' is no node of the scene",
+    ),
     ({"script": "broken.py"}, "broken.py:2: SyntaxError: "),
     ({"script": "none.py"}, "none.py: FileNotFoundError: "),
     ({"model": "none.obj"}, "none.obj: "),
@@ -217,12 +221,12 @@ def test_failures_name_the_task_and_the_reason(place, manifest):
     (place / "broken.py").write_text("# a\nx = (\n")
     entries = [{"name": f"t{n}", **task} for n, (task, _) in enumerate(FAILING)]
     tasks = read_manifest(manifest(*entries, {**MODEL, "name": "fine"})).tasks
-    summary = run(tasks, place / "out", jobs=1)
+    summary = run(tasks, place / "out", jobs=1, writer=CocoWriter())
     assert summary.drawn == 1
     assert [failure.name for failure in summary.failures] == [entry["name"] for entry in entries]
     for failure, (_, message) in zip(summary.failures, FAILING, strict=True):
         assert message in failure.error and "\n" not in failure.error
-    assert {path.name for path in (place / "out").glob("*.png")} == {"fine.png"}
+    assert {path.name for path in (place / "out").rglob("*.png")} == {"fine.png"}
 
 
 def test_a_killed_process_loses_nothing(place, manifest):
@@ -247,6 +251,14 @@ def test_a_picture_that_kills_its_process_fails_alone(place, manifest):
     assert [failure.name for failure in summary.failures] == ["t1"]
     assert "was ended by SIGKILL" in summary.failures[0].error
     assert summary.drawn + summary.done_before == 3
+
+
+def test_an_executor_that_was_shut_down_fails_all(tasks, tmp_path):
+    executor = ThreadPoolExecutor(1)
+    executor.shutdown()
+    summary = run(tasks, tmp_path / "out", executor=executor)
+    assert len(summary.failures) == len(tasks) and summary.drawn == 0
+    assert summary.failures[3].error.startswith("the executor takes no more calls: ")
 
 
 def test_the_process_group_ends_with_whoever_asked(place, manifest):

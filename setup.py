@@ -124,7 +124,8 @@ def hardened_flags():
 
 def build_base():
     """The build folder of this kind of build and compiler: none reuses another's objects."""
-    settings = [os.environ.get(name, "") for name in ("CC", "CFLAGS", "CPPFLAGS", "LDFLAGS")]
+    names = ("CC", "CFLAGS", "CPPFLAGS", "LDFLAGS", "ENGINE3D_TARGET")
+    settings = [os.environ.get(name, "") for name in names]
     suffix = f"-{zlib.crc32(repr(settings).encode()):08x}" if any(settings) else ""
     return f"build/{BUILD}{suffix}"
 
@@ -307,7 +308,8 @@ class BuildExtensions(build_ext):
 
 def run_in_parallel(function, jobs):
     """Call `function(*job)` for each job, on all processors; raise what one of them raises."""
-    with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+    affinity = getattr(os, "sched_getaffinity", None)
+    with ThreadPoolExecutor(len(affinity(0)) if affinity else os.cpu_count()) as pool:
         for done in [pool.submit(function, *job) for job in jobs]:
             done.result()
 

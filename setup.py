@@ -59,7 +59,8 @@ HYGIENE = [
 ]
 # Outside the kernels, where files and callers' arrays are read.
 HARDENING = ["-fstack-protector-strong", "-U_FORTIFY_SOURCE", "-D_FORTIFY_SOURCE=2"]
-LINK_FLAGS = ["-pthread", "-Wl,-z,relro,-z,now"]
+LINK_FLAGS = ["-pthread"]
+ELF_LINK_FLAGS = ["-Wl,-z,relro,-z,now"]
 STRIPPED = {"release": ["-s"]}
 NATIVE = "engine3d._native"
 CORE_MODULE = f"{NATIVE}._core"
@@ -100,6 +101,9 @@ BUILD = os.environ.get("ENGINE3D_BUILD") or "release"
 MACHINE = machine_of(sysconfig.get_platform())
 IS_WINDOWS = is_windows(sysconfig.get_platform())
 
+# Untested: setuptools' own choice on Windows does not know the flags of gcc and clang.
+DEFAULT_COMPILER = "mingw32" if IS_WINDOWS else None
+
 PACKAGE_DIR = {"engine3d": "engine", "engine3d.data": "data", "engine3d.lessons": "lessons"}
 DATA_PACKAGES = ["engine3d.data", "engine3d.lessons"]
 DATA_SUFFIXES = ["obj", "mtl", "tga", "webp", "asc", "md"]
@@ -122,9 +126,16 @@ def hardened_flags():
     return [*common_flags(), *([] if BUILD in SANITIZERS else HARDENING)]
 
 
+def link_flags():
+    """The flags of the linker; those of ELF are for Linux."""
+    is_elf = sysconfig.get_platform().startswith("linux")
+    return [*LINK_FLAGS, *(ELF_LINK_FLAGS if is_elf else [])]
+
+
 def build_base():
     """The build folder of this kind of build and compiler: none reuses another's objects."""
-    settings = [os.environ.get(name, "") for name in ("CC", "CFLAGS", "CPPFLAGS", "LDFLAGS")]
+    names = ("CC", "CFLAGS", "CPPFLAGS", "LDFLAGS", "ENGINE3D_TARGET")
+    settings = [os.environ.get(name, "") for name in names]
     suffix = f"-{zlib.crc32(repr(settings).encode()):08x}" if any(settings) else ""
     return f"build/{BUILD}{suffix}"
 
@@ -187,7 +198,7 @@ def extensions():
             # build_ext lists the static libraries once more after these, so their order is free.
             libraries=[*(library for library, _ in static_libraries()), "m"],
             extra_compile_args=[*hardened_flags(), *GATEWAY_FLAGS.get(BUILD, [])],
-            extra_link_args=[*LINK_FLAGS, *STRIPPED.get(BUILD, []), *SANITIZERS.get(BUILD, [])],
+            extra_link_args=[*link_flags(), *STRIPPED.get(BUILD, []), *SANITIZERS.get(BUILD, [])],
         )
         for name, sources in parts.items()
     ]
@@ -229,6 +240,10 @@ class Build(build):
 class BuildStaticLibraries(build_clib):
     """Compiles only the files that are out of date, in parallel."""
 
+    def finalize_options(self):
+        super().finalize_options()
+        self.compiler = self.compiler or DEFAULT_COMPILER
+
     def build_libraries(self, libraries):
         jobs = [(source, info) for _, info in libraries for source in info["sources"]]
         run_in_parallel(self.compile_one, sorted(jobs, key=lambda job: "kernels" not in job[0]))
@@ -260,6 +275,7 @@ class BuildExtensions(build_ext):
 
     def finalize_options(self):
         super().finalize_options()
+        self.compiler = self.compiler or DEFAULT_COMPILER
         # build_ext would compile an extension after the other, and translate .pyx files itself.
         self.parallel = False
         if not (self.inplace or os.environ.get("ENGINE3D_TESTING")):
@@ -308,7 +324,8 @@ class BuildExtensions(build_ext):
 
 def run_in_parallel(function, jobs):
     """Call `function(*job)` for each job, on all processors; raise what one of them raises."""
-    with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+    affinity = getattr(os, "sched_getaffinity", None)
+    with ThreadPoolExecutor(len(affinity(0)) if affinity else os.cpu_count()) as pool:
         for done in [pool.submit(function, *job) for job in jobs]:
             done.result()
 

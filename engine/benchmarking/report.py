@@ -5,11 +5,11 @@ In:  rows of `measuring.measure`. Out: text.
 
 from __future__ import annotations
 
-import os
 import platform
 from pathlib import Path
 
 from .. import __version__
+from .._support.system import usable_processors
 
 
 def machine() -> dict:
@@ -18,7 +18,7 @@ def machine() -> dict:
         "engine3d": __version__,
         "machine": platform.machine(),
         "processor": _processor(),
-        "cpus": len(os.sched_getaffinity(0)),
+        "cpus": usable_processors(),
         "python": platform.python_version(),
         "system": platform.system(),
     }

@@ -117,12 +117,14 @@ def _ended_politely():
     import signal
     import threading
 
+    from .._support.system import ending_signals
+
     def end(number, frame):
         raise _Ended(number)
 
-    numbers = [signal.SIGTERM, signal.SIGHUP]
+    numbers = ending_signals()
     if threading.current_thread() is not threading.main_thread():
-        numbers = []
+        numbers = ()
     changed = [number for number in numbers if signal.getsignal(number) is signal.SIG_DFL]
     try:
         for number in changed:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import time
 from collections.abc import Iterator
 
+from .._support.system import usable_processors
 from ..benchmarking import measuring, report, workloads
 from ..files.atomic_write import atomic_write
 from ..rendering.backend_selection import backends, resolve_backend
@@ -47,7 +47,7 @@ def _backends(names: list[str]) -> list[str]:
 
 def _thread_counts(args) -> list[int]:
     """One thread and all, unless asked otherwise."""
-    return args.threads or ([0] if len(os.sched_getaffinity(0)) == 1 else [1, 0])
+    return args.threads or ([0] if usable_processors() == 1 else [1, 0])
 
 
 def _measure(args, cases) -> Iterator[dict]:

@@ -2,19 +2,19 @@
 
 In: a document, now and then. Out: a copy of its scene in the user's cache folder, at most a minute
 old, which the next editor finds if this one ended without a word. A copy belongs to the process
-that locks it (flock, which the system lets go of when a process ends, however it does).
+that locks it; the system lets go of a lock when a process ends, however it does.
 """
 
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import json
 import os
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from .._support.system import READ_WRITE, locked
 from ..errors import FileAccessError
 from ..files.atomic_write import atomic_write
 from ..writers.scene import scene_text
@@ -117,9 +117,10 @@ class Autosave:
         if self._path is None:
             self._folder.mkdir(mode=0o700, parents=True, exist_ok=True)
             path = self._folder / f"{os.urandom(8).hex()}.e3d.json"
-            flags = os.O_RDWR | os.O_CREAT | os.O_CLOEXEC
+            flags = READ_WRITE | os.O_CREAT
             self._lock = os.open(_lock_of(path), flags, 0o600)
-            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if not locked(self._lock):
+                raise OSError("another process has locked a name drawn at random")
             os.close(os.open(path, flags, 0o600))  # private from the beginning
             self._path = path
         return self._path
@@ -166,14 +167,11 @@ def _lock_of(path: Path) -> Path:
 def _is_locked(path: Path) -> bool:
     """Whether a process that is alive owns a copy."""
     try:
-        handle = os.open(_lock_of(path), os.O_RDWR | os.O_CLOEXEC)
+        handle = os.open(_lock_of(path), READ_WRITE)
     except OSError:
         return False
     try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        return False
-    except OSError:
-        return True
+        return not locked(handle)
     finally:
         os.close(handle)
 

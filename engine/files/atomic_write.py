@@ -16,6 +16,7 @@ import stat
 from collections.abc import Iterator
 from typing import BinaryIO
 
+from .._support.system import AT_ONCE, READ_WRITE, WRITE, set_mode
 from ..errors import FileAccessError, InvalidArgumentError
 
 
@@ -148,13 +149,13 @@ class _Part:
         self._temporary = os.path.join(folder, f".{name[:32]}.{os.urandom(8).hex()}.part")
         # What replaces a private file is private from the beginning.
         mode = 0o666 if self._mode is None else 0o600
-        flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC
+        flags = READ_WRITE | os.O_CREAT | os.O_EXCL
         self.file = os.fdopen(os.open(self._temporary, flags, mode), "wb")
 
     def finish(self) -> None:
         self.file.flush()
         if self._mode is not None:
-            os.fchmod(self.file.fileno(), self._mode)
+            set_mode(self.file.fileno(), self._temporary or self._target, self._mode)
         if self._temporary is not None:
             os.fsync(self.file.fileno())
         self.file.close()
@@ -176,12 +177,13 @@ class _Part:
 def _opened_device(path: str) -> int:
     """Open what is no regular file; a FIFO that nobody reads is an error, not a wait for ever."""
     try:
-        handle = os.open(path, os.O_WRONLY | os.O_CLOEXEC | os.O_NONBLOCK)
+        handle = os.open(path, WRITE | AT_ONCE)
     except OSError as error:
         if error.errno == errno.ENXIO and stat.S_ISFIFO(os.stat(path).st_mode):
             raise OSError(errno.ENXIO, "a FIFO that nobody reads") from error
         raise
-    os.set_blocking(handle, True)
+    if AT_ONCE:
+        os.set_blocking(handle, True)
     return handle
 
 

@@ -14,6 +14,8 @@ import os
 import time
 from typing import NamedTuple
 
+from .._support.system import AT_ONCE
+
 _STEP = 2 * 10**9  # nanoseconds; FAT has the longest step
 
 
@@ -78,7 +80,7 @@ class FileState:
 
 
 def _opened_at_once(path: str, flags: int) -> int:
-    return os.open(path, flags | os.O_NONBLOCK)
+    return os.open(path, flags | AT_ONCE)
 
 
 def _digest(path: str | os.PathLike) -> bytes | None:

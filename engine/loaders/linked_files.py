@@ -16,6 +16,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from urllib.parse import unquote
 
+from .._support.system import FOLDER, NO_LINK
 from ..errors import FileAccessError
 from .open_files import unreadable
 from .sources import READING, Source, opened_source, unpacked
@@ -23,9 +24,6 @@ from .sources import READING, Source, opened_source, unpacked
 _MAX_NAME = 4096
 # A file that names more missing ones than this only wants to keep the disk busy.
 _MAX_FAILURES = 2000
-# A folder on the way to a file need not be readable, where the system can do without.
-_FOLDER = getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | os.O_CLOEXEC
-
 
 _listeners: ContextVar[tuple[Callable[[str], object], ...]] = ContextVar("listeners", default=())
 
@@ -113,13 +111,16 @@ class LinkedFiles:
 
     def _opened(self, path: str) -> int:
         """Go from the root to the file, folder by folder, following no link."""
-        *folders, name = os.path.relpath(self._real_path(path), self._real_root).split(os.sep)
-        handle = os.open(self._real_root, _FOLDER)
+        real = self._real_path(path)
+        if not FOLDER:  # a system that opens no folders
+            return os.open(real, READING)
+        *folders, name = os.path.relpath(real, self._real_root).split(os.sep)
+        handle = os.open(self._real_root, FOLDER)
         try:
             for folder in folders:
-                outer, handle = handle, os.open(folder, _FOLDER | os.O_NOFOLLOW, dir_fd=handle)
+                outer, handle = handle, os.open(folder, FOLDER | NO_LINK, dir_fd=handle)
                 os.close(outer)
-            return os.open(name, READING | os.O_NOFOLLOW, dir_fd=handle)
+            return os.open(name, READING | NO_LINK, dir_fd=handle)
         finally:
             os.close(handle)
 

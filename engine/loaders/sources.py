@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, BinaryIO, NamedTuple, TypeAlias
 
 import numpy as np
 
+from .._support.system import AT_ONCE, READ
 from ..errors import FileAccessError, FileFormatError, InvalidArgumentError
 from ..geometry.creases import CREASE_ANGLE
 from .open_files import OpenFile, unreadable
@@ -34,7 +35,7 @@ MAX_UNPACKED_BASE = 16 << 20
 MAX_UNPACKED_RATIO = 50
 
 # How files are opened: without O_NONBLOCK, a FIFO that nobody writes to would wait for ever.
-READING = os.O_RDONLY | os.O_CLOEXEC | getattr(os, "O_NONBLOCK", 0)
+READING = READ | AT_ONCE
 
 _GZIP = b"\x1f\x8b\x08"
 _GZIP_WINDOW = 16 + 15

@@ -14,12 +14,24 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 
+from ..._support.system import ending_signals, has_alarm
+
 #: Seconds before it is asked for the first time, and from then on between two times.
 FIRST, PERIOD = 0.2, 0.1
 #: How long the editor may take to end by itself once a signal asked it to, in seconds.
 GRACE = 0.6
-_ENDING = (signal.SIGTERM, signal.SIGHUP)
+_ENDING = ending_signals()
+_HAS_ALARM = has_alarm()
 _BASE = 128  # plus the signal's number is the exit status, as shells count
+
+
+def _set_alarm(seconds: float) -> None:
+    """Let the alarm come after so long, and then again and again; 0: no more.
+
+    Where the system has none, as Windows, what goes on too long is not stopped.
+    """
+    if _HAS_ALARM:
+        signal.setitimer(signal.ITIMER_REAL, seconds, PERIOD if seconds else 0.0)
 
 
 class Interrupts:
@@ -51,13 +63,15 @@ class Interrupts:
 
     def __enter__(self) -> Interrupts:
         if threading.current_thread() is threading.main_thread():
-            handlers = {signal.SIGALRM: self._look, **dict.fromkeys(_ENDING, self._note)}
+            handlers = dict.fromkeys(_ENDING, self._note)
+            if _HAS_ALARM:
+                handlers[signal.SIGALRM] = self._look
             self._before = {each: signal.signal(each, handlers[each]) for each in handlers}
         return self
 
     def __exit__(self, *exception: object) -> None:
         if self._before:
-            signal.setitimer(signal.ITIMER_REAL, 0.0)
+            _set_alarm(0.0)
         for number, handler in self._before.items():
             signal.signal(number, handler)
         self._before = {}
@@ -69,18 +83,18 @@ class Interrupts:
             yield
             return
         self._stops = stops
-        signal.setitimer(signal.ITIMER_REAL, FIRST, PERIOD)
+        _set_alarm(FIRST)
         try:
             yield
         finally:
             self._stops = None
             if not self.number:
-                signal.setitimer(signal.ITIMER_REAL, 0.0)
+                _set_alarm(0.0)
 
     def _note(self, number: int, frame: object) -> None:
         if not self.number:
             self.number, self._deadline = number, time.monotonic() + GRACE
-            signal.setitimer(signal.ITIMER_REAL, PERIOD, PERIOD)
+            _set_alarm(PERIOD)
 
     def _look(self, number: int, frame: object) -> None:
         if self.number and time.monotonic() > self._deadline:

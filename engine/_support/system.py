@@ -1,0 +1,73 @@
+"""What systems give in different ways: how files are opened and locked, processors, signals.
+
+What a system lacks does nothing here: on Windows a file cannot be opened without waiting, from an
+open folder or without following links, and no signal tells that a terminal was closed.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+
+_BINARY = getattr(os, "O_BINARY", 0)  # or else Windows changes the ends of lines
+_OWN = getattr(os, "O_CLOEXEC", getattr(os, "O_NOINHERIT", 0))
+
+#: Flags of `os.open`: read bytes, in this process alone.
+READ = os.O_RDONLY | _BINARY | _OWN
+#: The same to write, and for both.
+WRITE = os.O_WRONLY | _BINARY | _OWN
+READ_WRITE = os.O_RDWR | _BINARY | _OWN
+#: In addition: a FIFO that nobody writes to is not waited for; a link is not followed.
+AT_ONCE = getattr(os, "O_NONBLOCK", 0)
+NO_LINK = getattr(os, "O_NOFOLLOW", 0)
+#: Opens a folder, which need not be readable where the system can do without; 0 where it cannot.
+FOLDER = getattr(os, "O_DIRECTORY", 0) and (
+    getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | _OWN
+)
+
+
+def usable_processors() -> int:
+    """The processors that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def ending_signals() -> tuple:
+    """The signals by which a system asks a program to end."""
+    import signal
+
+    names = ("SIGTERM", "SIGHUP")
+    return tuple(getattr(signal, name) for name in names if hasattr(signal, name))
+
+
+def has_alarm() -> bool:
+    """Whether the system can interrupt this process after a while."""
+    import signal
+
+    return hasattr(signal, "setitimer") and hasattr(signal, "SIGALRM")
+
+
+def locked(handle: int) -> bool:
+    """Lock an open file until it is closed; tell whether no other process has locked it."""
+    try:
+        import fcntl
+    except ImportError:
+        import msvcrt
+
+        with contextlib.suppress(OSError):
+            msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
+            return True
+        return False
+    with contextlib.suppress(OSError):
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        return True
+    return False
+
+
+def set_mode(handle: int, path: str, mode: int) -> None:
+    """Set who may read and write an open file, whose path this is."""
+    if hasattr(os, "fchmod"):
+        os.fchmod(handle, mode)
+    else:
+        os.chmod(path, mode)

@@ -101,7 +101,6 @@ static void add_from(four *f, const e3d_pyr_light *light, float4 strength)
     add_light(f, l, light->color, strength);
 }
 
-
 static void finish(const e3d_pyr_frame *frame, pyr_batch *batch, int i, const float4 sum[3])
 {
     for (int c = 0; c < 3; c++) {

@@ -5,7 +5,8 @@
 
 void pyr_corners(const e3d_pyr_draw *draw, int32_t number, int32_t out[3])
 {
-    int size = draw->mode == E3D_PYR_TRIANGLES ? 3 : draw->mode == E3D_PYR_LINES ? 2 : 1;
+    int size = draw->mode == E3D_PYR_TRIANGLES ? 3 : draw->mode == E3D_PYR_LINES ? 2
+                                                                                 : 1;
     for (int k = 0; k < 3; k++)
         out[k] = draw->indices[(size_t)number * (size_t)size + (size_t)(k < size ? k : 0)];
 }

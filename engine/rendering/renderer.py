@@ -8,7 +8,7 @@ gives the same bytes on every backend and every number of threads.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .._native import rasterizer as _native
 from .._support.image_size import check_side, check_size
@@ -34,6 +34,7 @@ from ..choices import (
 from ..errors import InvalidArgumentError, SceneChangedError
 from ..materials.colors import COLOR_SPACES
 from ..scene.scene import Scene
+from ..scene.trimesh_scenes import is_of_trimesh, scene_from_trimesh
 from ._ambient_occlusion import AmbientOcclusion, radius_of, shows_occlusion
 from ._bloom import Bloom
 from ._draw_list import DrawList
@@ -513,7 +514,7 @@ def _blame_change(scene: Scene, census: tuple[int, int], error: Exception) -> No
 
 
 def render(
-    scene: Scene,
+    scene: Scene | Any,
     camera: CameraChoice = None,
     *,
     size: tuple[int, int] = (1280, 720),
@@ -528,7 +529,7 @@ def render(
 
     Parameters
     ----------
-    scene : Scene
+    scene : Scene, or a scene or geometry of trimesh
     camera : None, Node or (Camera, pose)
     size : (int, int)
         Width and height in pixels.
@@ -546,6 +547,8 @@ def render(
     InvalidArgumentError, BackendError, OutOfMemoryError
     """
     width, height = check_size(size)
+    if is_of_trimesh(scene):
+        scene = scene_from_trimesh(scene)
     with Renderer(
         width,
         height,

@@ -6,6 +6,7 @@ In: what to show. Out: nothing; a scene is afterwards as it was before.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from .._support.image_size import check_size
 from .._support.numbers import real, shown
@@ -16,6 +17,7 @@ from ..motion.shown import placing_pose, shown_object
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.scene import Scene
+from ..scene.trimesh_scenes import is_of_trimesh, scene_from_trimesh
 from .clips import play_clips
 from .picture_window import PictureWindow, fitting_size
 from .pixels import Picture, as_pixels
@@ -32,7 +34,7 @@ SIZE = (1280, 720)
 
 
 def show(
-    thing: Scene | Node | Mesh | InstancedMesh | Picture,
+    thing: Scene | Node | Mesh | InstancedMesh | Picture | Any,
     *,
     size: tuple[int, int] | None = None,
     title: str | None = None,
@@ -49,7 +51,7 @@ def show(
 
     Parameters
     ----------
-    thing : Scene, Node, Mesh, InstancedMesh, Frame, Canvas or ndarray
+    thing : Scene, Node, Mesh, InstancedMesh, Frame, Canvas, ndarray, or a scene of trimesh
         Of a node, its children show as well, and the lights among them. A scene with a camera is
         seen from there at first. Arrays are as for `Window.present`.
     size : (int, int), optional
@@ -125,6 +127,8 @@ def _scene(thing) -> Scene | None:
     """Return a scene to show a thing in; None for what is none."""
     if isinstance(thing, Scene):
         return thing
+    if is_of_trimesh(thing):
+        return scene_from_trimesh(thing)
     scene = Scene(DARK.background)
     if isinstance(thing, Mesh | InstancedMesh):
         scene.add(thing, name=getattr(thing, "name", "") or "mesh")

@@ -57,6 +57,7 @@ FOLDERS = {
     },
     "reference": {"core", "include"},
     "posing": {"core", "include", "scene"},
+    "pyrender": {"core", "include"},
     "scene": {"core", "include"},
     "ui": {"core", "include", "kernels", "reference"},
     "windows": set(),

@@ -47,7 +47,7 @@ class Drawing:
     def draw(
         self, scene: Scene, flags: int, seg_node_map, width: int, height: int, point_size: float
     ) -> tuple[np.ndarray | None, np.ndarray]:
-        """Return colours, (H, W, 3 or 4) uint8, or None for depths alone, and depths, (H, W) float32.
+        """Return colours, (H, W, 3 or 4) uint8, None for depths alone, and depths, (H, W) float32.
 
         Raises
         ------

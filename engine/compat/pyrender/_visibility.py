@@ -61,7 +61,7 @@ class Visibility:
         self._most = 0
 
     def place(self, things: list[Placed]) -> np.ndarray:
-        """Take in what is to be drawn; return the draw of each object id, int32, or of the only one."""
+        """Take in what is to be drawn; return the draw of each object id, or of the only one."""
         if self._most > _MANY:
             self._forget()
         for key in self._nodes.keys() - {thing.key for thing in things}:
@@ -136,7 +136,7 @@ class Visibility:
         return places
 
     def depths(self, renderer: Renderer, projection, pose) -> np.ndarray:
-        """Return z_ndc of what shows at the centres, (H, W) float32, infinite where nothing does."""
+        """Return z_ndc of what shows at the centres, (H, W) float32, infinite for nothing."""
         camera = self._cameras[-1]
         camera.matrix = projection
         return renderer.render(self._scene, (camera, pose), outputs=("ndc_depth",)).ndc_depth

@@ -378,13 +378,16 @@ static ALWAYS_INLINE void fetch_vertices(const e3d_visible_primitive *piece, con
     if (piece->draw != draw)
         return;
     const int32_t *vertex = piece->vertex;
-    const float *normals = wanted & E3D_WANT_NORMAL ? mesh->normals : NULL, *uvs = wanted & E3D_WANT_UV ? mesh->uvs : NULL;
+    const float *normals = wanted & E3D_WANT_NORMAL ? mesh->normals : NULL, *tangents = wanted & E3D_WANT_MAPS ? mesh->tangents : NULL;
+    const float *uvs = wanted & (E3D_WANT_UV | E3D_WANT_MAPS) ? mesh->uvs : NULL;
     for (int v = 0; v < 3; v++)
         __builtin_prefetch(mesh->positions + 3 * (size_t)vertex[v]);
     for (int v = 0; v < 3 && normals; v++)
         __builtin_prefetch(normals + 3 * (size_t)vertex[v]);
     for (int v = 0; v < 3 && uvs; v++)
         __builtin_prefetch(uvs + 2 * (size_t)vertex[v]);
+    for (int v = 0; v < 3 && tangents; v++)
+        __builtin_prefetch(tangents + 4 * (size_t)vertex[v]);
     for (int v = 0; v < 3 && mesh->colors_u8; v++)
         __builtin_prefetch(mesh->colors_u8 + 4 * (size_t)vertex[v]);
 }

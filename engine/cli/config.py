@@ -95,7 +95,9 @@ def set_defaults(
         name = name.removeprefix("--")
         if not equals or name not in options:
             hint = suggestions.meant(name, options)
-            raise UsageError(f"-D {text}: give NAME=VALUE of an option{hint}")
+            if not equals:
+                raise UsageError(f"-D {text}: NAME=VALUE is needed, such as grid=true")
+            raise UsageError(f"-D {text}: there is no option {name!r}{hint}")
         found = True
         try:
             said = {"true": True, "false": False}.get(value, value)

@@ -40,9 +40,11 @@ def render(args: argparse.Namespace) -> int:
         _check(job)
     if len(found) == 1 and not args.watch:
         return _render(found[0])
+    # Files are watched from before they are read: what changes meanwhile is drawn again.
+    files = [[FileWatch(name) for name in job.models] for job in found] if args.watch else None
     status = max([_tried(job) for job in found])
-    if args.watch:
-        _watch(found)
+    if files is not None:
+        _watch(list(zip(found, files, strict=True)))
     return status
 
 
@@ -55,9 +57,8 @@ def _tried(job: argparse.Namespace) -> int:
         return 1
 
 
-def _watch(found: list[argparse.Namespace]) -> None:
+def _watch(watched: list[tuple[argparse.Namespace, list[FileWatch]]]) -> None:
     """Draw again what shows a file that was written, until somebody interrupts."""
-    watched = [(job, [FileWatch(name) for name in job.models]) for job in found]
     while True:
         time.sleep(CHECK_SECONDS)
         for job, files in watched:

@@ -73,8 +73,9 @@ def lay_out(
     fitting = [grid for grid in found if grid is not None]
     if not fitting:
         raise InvalidArgumentError(
-            f"size: {area.width}x{area.height} pixels are too few for {count} views: "
-            f"each needs {LEAST_WIDTH}x{LEAST_HEIGHT}"
+            f"size: pixels are too few for {count} views: "
+            f"{max(area.width, 0)}x{max(area.height, 0)} are left beside the texts, "
+            f"and each view needs {LEAST_WIDTH}x{LEAST_HEIGHT}"
         )
     return max(fitting, key=lambda grid: grid[1])
 

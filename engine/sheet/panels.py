@@ -28,6 +28,8 @@ from .visible import box_of, covered
 
 #: In place of the number of an instance: no other thing has that.
 _CUT = 0x7FFFFFFF
+# How far from the model's box the plane of a section may be, in radii of the model.
+_BESIDE = 0.01
 
 
 @dataclass
@@ -181,13 +183,18 @@ def _camera(studio: Studio, place: Place, cameras: list[Node], origin):
 
 
 def _plane(studio: Studio, spec: ViewSpec, origin) -> Plane | None:
-    """The plane of a section, in the scene."""
+    """The plane of a section, in the scene.
+
+    One that misses the model is moved close to it: it cuts off as much, all or nothing, and a far
+    one would be beyond the reach of the camera and of its numbers.
+    """
     if spec.section is None:
         return None
     axis = spec.section.axis
     low, high = (float(corner[axis]) + origin[axis] for corner in studio.bounds)
-    coordinate = spec.section.coordinate(low, high) - origin[axis]
-    return Plane(axis, coordinate, spec.section.from_above)
+    beside = studio.sphere.radius * _BESIDE
+    coordinate = min(max(spec.section.coordinate(low, high), low - beside), high + beside)
+    return Plane(axis, coordinate - origin[axis], spec.section.from_above)
 
 
 def _draw(studio: Studio, spec: ViewSpec, camera, pose, rectangle) -> Frame:

@@ -7,7 +7,6 @@ is interpolated across a triangle is the number, not the colour.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -139,4 +138,7 @@ def _range(arrays) -> tuple[float, float]:
     high = max(float(array.max()) for array in finite)
     if low < high:
         return low, high
-    return low, math.nextafter(low + max(abs(low), 1.0) * 1e-6, math.inf)
+    # One number for all: it is the middle of what the bar shows, not the end of a range too narrow
+    # to be written.
+    around = abs(low) / 2 or 0.5
+    return low - around, low + around

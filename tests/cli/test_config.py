@@ -107,8 +107,8 @@ def test_files_that_cannot_be_read(tmp_path, capsys, monkeypatch):
 @pytest.mark.parametrize(
     ("given", "told"),
     [
-        ("grid", "give NAME=VALUE of an option"),
-        ("gird=true", "did you mean grid?"),
+        ("grid", "NAME=VALUE is needed"),
+        ("gird=true", "there is no option 'gird': did you mean grid?"),
         ("samples=3", "is not one of 1, 2, 4, 8, 16"),
     ],
 )

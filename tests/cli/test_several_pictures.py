@@ -134,6 +134,29 @@ def test_render_watches(model, monkeypatch, capsys):
     assert main(["render", "--scene", "cube", "--watch", "-o", "a.png"]) == 2
 
 
+def test_what_changes_while_the_first_picture_is_drawn_is_drawn_again(model, monkeypatch, capsys):
+    steps = []
+
+    def drawn(job, draw=render._render):
+        status = draw(job)
+        if not steps:
+            model.write_text(OBJ.replace("v 1 1 0", "v 1 3 0"))
+        return status
+
+    def sleep(seconds):
+        steps.append(seconds)
+        if len(steps) == 12:
+            raise KeyboardInterrupt
+
+    clock = iter(range(10_000))
+    monkeypatch.setattr(render, "_render", drawn)
+    monkeypatch.setattr(render.time, "sleep", sleep)
+    monkeypatch.setattr("engine3d.viewer.watch.time.monotonic", lambda: next(clock))
+    output = model.with_name("a.png")
+    assert main(["render", str(model), *FAST, "--watch", "-o", str(output)]) == 130
+    assert capsys.readouterr().err.count(f"wrote {output}") == 1
+
+
 def test_arrows_go_through_what_was_given(folder):
     from engine3d.viewer.model_files import ModelFiles
 

@@ -122,6 +122,16 @@ def test_beside_the_model_nothing_is_cut():
     assert (view["blank"], view["why"]) == (True, "behind_camera")
 
 
+def test_a_plane_far_before_the_model_leaves_all_of_it():
+    far, near, whole = (
+        drawn(part(), views=views, sections=sections).report["models"][0]["views"]
+        for views, sections in (((), "x=1e9"), ((), "x=2.001"), ("right,other=1,0,0", ()))
+    )
+    assert [view["box"] for view in far] == [view["box"] for view in near]
+    assert [view["pixels"] for view in far] == [view["pixels"] for view in near]
+    assert far[0]["extent"] == whole[0]["extent"] and far[0]["pixels"] > 1000
+
+
 def test_a_plane_through_vertices_closes_all_outlines():
     ball = e3d.uv_sphere(1.0, (16, 8))
     scene = e3d.Scene()

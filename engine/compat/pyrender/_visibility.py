@@ -59,6 +59,9 @@ class Visibility:
         self._nodes: dict[tuple, tuple] = {}  # the node, what it shows, and where
         self._cameras = [Camera(np.eye(4)) for _ in range(1 + len(_OFFSETS))]
         self._most = 0
+        self._changes = 0  # of what is placed
+        self._last: tuple | None = None  # of what picture the places are that were found last
+        self._found: list[tuple] = []
 
     def place(self, things: list[Placed]) -> np.ndarray:
         """Take in what is to be drawn; return the draw of each object id, or of the only one."""
@@ -66,6 +69,7 @@ class Visibility:
             self._forget()
         for key in self._nodes.keys() - {thing.key for thing in things}:
             self._scene.remove(self._nodes.pop(key)[0])
+            self._changes += 1
         ids = [(self._node(thing).id, thing.draw) for thing in things]
         self._most = max((number for number, _ in ids), default=0)
         if self._is_single:
@@ -92,8 +96,10 @@ class Visibility:
             node = self._scene.add(None)
         if shows is None or shows[0] is not mesh or shows[1] is not poses:
             node.object = mesh if poses is None else InstancedMesh(mesh, poses)
+            self._changes += 1
         if pose is None or not np.array_equal(pose, thing.pose):
             node.pose = thing.pose
+            self._changes += 1
         self._nodes[thing.key] = node, (mesh, poses), thing.pose
         return node
 
@@ -115,6 +121,16 @@ class Visibility:
             Arrays (H, W) int32; the first is None where there is one object, the last where nothing
             has instances.
         """
+        size = renderer.width, renderer.height
+        key = self._changes, size, samples, projection.tobytes(), pose.tobytes()
+        if key != self._last:
+            self._last = None
+            self._found = self._look(renderer, projection, pose, samples)
+            self._last = key
+        return self._found
+
+    def _look(self, renderer: Renderer, projection, pose, samples: int) -> list[tuple]:
+        """Find what `find` returns; the same is found once for pictures that follow one another."""
         names = [
             *(["triangle_id"] if self._is_single else ["object_id", "triangle_id"]),
             *(["instance_id"] if self._has_instances else []),

@@ -2,7 +2,7 @@
 A first picture
 ===============
 
-A scene holds meshes, lights and a camera. Without a camera, the whole of it is shown.
+A scene holds meshes, lights and a camera. Without a camera, the whole scene is shown.
 """
 
 import engine3d as e3d
@@ -16,12 +16,12 @@ scene.add(e3d.DirectionalLight((-0.5, -1.0, -0.6)))
 frame = e3d.render(scene, size=(480, 300), samples=4, antialias="msaa")
 
 # %%
-# A frame is arrays of NumPy, and it can be saved: ``frame.save("ring.png")``.
+# A frame holds arrays of NumPy, and can be saved: ``frame.save("ring.png")``.
 
 print(frame.color.shape, frame.color.dtype)
 
 # %%
-# A camera of one's own stands where ``look_at`` puts it.
+# To choose the view, add a camera: ``look_at`` says where it stands.
 
 camera = e3d.PerspectiveCamera(yfov=0.7)
 pose = e3d.look_at(eye=(0.0, 0.6, 3.6), target=(0.3, 0.0, 0.0))

@@ -2,8 +2,9 @@
 Two kinds of shadows
 ====================
 
-``shadow=True`` draws a map of depths from the light, whose edges are soft. ``shadow="exact"``
-finds what a ray from each sample would find: hard edges, with nothing to tune.
+With ``shadow=True`` a light casts shadows from a map of depths. Their edges are soft. With
+``shadow="exact"`` it casts the shadows that rays would find. Their edges are hard, and there is
+nothing to tune.
 """
 
 import engine3d as e3d
@@ -23,6 +24,6 @@ def pillars(shadow):
 soft = pillars(shadow=True)
 
 # %%
-# The same with exact shadows:
+# This is the same scene with exact shadows:
 
 exact = pillars(shadow="exact")

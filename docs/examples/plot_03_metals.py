@@ -2,8 +2,8 @@
 Metals and lacquers in a studio
 ===============================
 
-Physical materials mirror what is around them. ``Environment.studio()`` is a room of lights made by
-rule; a file of the formats ``.hdr`` or ``.exr`` does as well.
+Physically based materials mirror what is around them. ``Environment.studio()`` is a built-in room
+with lights; a picture in a file of the formats ``.hdr`` or ``.exr`` can take its place.
 """
 
 import engine3d as e3d

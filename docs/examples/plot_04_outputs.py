@@ -2,8 +2,8 @@
 Depths, normals and identities
 ==============================
 
-Beside colours, a frame has outputs that belong to the same pixels: distances, normals, positions,
-and which object, material or triangle each pixel shows. Nothing in them is blended.
+Beside colour, a frame has other outputs for the same pixels: distances, normals, positions, and
+which object, material or triangle each pixel shows. They are never blended at edges.
 """
 
 import numpy as np
@@ -29,7 +29,7 @@ light = np.where(seen, 255 * (far - frame.depth) / (far - near), 0).astype(np.ui
 depth_picture = e3d.Canvas(np.stack([light, light, light, np.full_like(light, 255)], axis=-1))
 
 # %%
-# An identity picks out one object, here to find the box around it in pixels:
+# An identity selects the pixels of one object. Here they give its bounding box in pixels:
 
 rows, columns = np.nonzero(frame.object_id == block.id)
 print("box:", columns.min(), rows.min(), columns.max(), rows.max())

@@ -2,8 +2,8 @@
 The same bytes everywhere
 =========================
 
-Every backend and every number of threads gives the same picture, to the bit. So a test of a
-picture is a comparison of hashes.
+Every backend and every number of threads gives the same picture, to the bit. So a test can compare
+the hashes of pictures.
 """
 
 import hashlib

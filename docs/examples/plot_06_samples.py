@@ -2,8 +2,8 @@
 Edges with more samples
 =======================
 
-One sample per pixel gives steps. Multisampling covers edges finely and shades each pixel once.
-Here each picture is enlarged four times.
+With one sample per pixel, edges are steps. Multisampling tests several samples per pixel for what
+covers them, and shades each surface once per pixel. Here each picture is enlarged four times.
 """
 
 import numpy as np

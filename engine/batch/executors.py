@@ -15,6 +15,9 @@ from typing import Any, NamedTuple
 from ..errors import InvalidArgumentError
 from .processes import ProcessPool
 
+#: A scheduler, a client and a worker have a hand in each call of Dask's.
+DASK_SECONDS = 0.25
+
 
 class Engine(NamedTuple):
     """Who does the calls.
@@ -27,11 +30,14 @@ class Engine(NamedTuple):
         Calls that it does at the same time.
     threads : int
         Of each renderer, so that they do not fight for processors.
+    chunk_seconds : float
+        How long a call should take at least, so that asking for it costs little beside it.
     """
 
     executor: Any
     at_once: int
     threads: int
+    chunk_seconds: float = 0.05
 
 
 def usable_cpus() -> int:
@@ -71,7 +77,7 @@ def engine_for(
         from .dask_engine import connected
 
         with connected(scheduler) as (client, count):
-            yield Engine(client, count, threads or 1)
+            yield Engine(client, count, threads or 1, DASK_SECONDS)
     elif executor is not None:
         if not callable(getattr(executor, "submit", None)):
             raise InvalidArgumentError("executor must have a method submit")
@@ -94,5 +100,5 @@ def _given(executor: Any, threads: int) -> Engine:
     if hasattr(executor, "scheduler_info"):
         from .dask_engine import DaskExecutor, count_of
 
-        return Engine(DaskExecutor(executor), count_of(executor), threads)
+        return Engine(DaskExecutor(executor), count_of(executor), threads, DASK_SECONDS)
     return Engine(executor, getattr(executor, "_max_workers", None) or usable_cpus(), threads)

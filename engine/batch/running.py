@@ -1,9 +1,9 @@
 """Running a batch: chunks out, outcomes in, and what is written at the end.
 
 In: tasks, a folder, who draws. Out: files, and a `Summary`. Chunks are as many pictures as take 50
-ms, so that handing them out costs little, and only a few more are handed out than are drawn at
-once, so that memory is bounded. A chunk whose process dies is drawn again, picture by picture; a
-picture that ends its process three times has failed.
+ms (by Dask 250), so that handing them out costs little. Only a few more are handed out than are
+drawn at once, so that memory is bounded. A chunk whose process dies is drawn again, picture by
+picture; a picture that ends its process three times has failed.
 """
 
 from __future__ import annotations
@@ -32,7 +32,6 @@ from .records import FOLDER, note_of, read_record
 from .summary import Failure, Summary, write_sums
 from .task import Task
 
-LEAST_SECONDS = 0.05  # of a chunk
 _MOST_IN_CHUNK = 256
 _TRIES = 3
 _NAMED = 4  # of the pictures that a process may have been drawing when it died
@@ -187,7 +186,7 @@ class _Run:
         if not self._counted:
             return 1
         mean = max(self._seconds / self._counted, 1e-6)
-        return min(math.ceil(LEAST_SECONDS / mean), _MOST_IN_CHUNK)
+        return min(math.ceil(self._engine.chunk_seconds / mean), _MOST_IN_CHUNK)
 
     def _take_in(self, future: Any, chunk: list[Task]) -> None:
         try:

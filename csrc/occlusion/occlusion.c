@@ -95,6 +95,22 @@ static void take_row(const occlusion_job *job, const float *picture, int32_t y, 
         memcpy(out, picture + (size_t)y * width, width * sizeof *out);
 }
 
+/* Where the kernels write a row of a picture: to its place, if they write no pixel past its end, else to a worker's own row, which
+ * is put there afterwards. */
+static int is_whole(const occlusion_job *job) { return job->plan->picture->width % E3D_PAD == 0; }
+
+static float *row_to_write(const occlusion_job *job, int worker, float *picture, int32_t y)
+{
+    return is_whole(job) ? picture + (size_t)y * (size_t)job->plan->picture->width : own_row(job, worker, RESULT, 0);
+}
+
+static void put_row(const occlusion_job *job, const float *row, float *picture, int32_t y)
+{
+    size_t width = (size_t)job->plan->picture->width;
+    if (!is_whole(job))
+        memcpy(picture + (size_t)y * width, row, width * sizeof *row);
+}
+
 /* What lies after the last pixel of a row of depths stays 0, and so does its nearness. */
 static void take_depths(const occlusion_job *job, int worker, int32_t y)
 {
@@ -119,15 +135,14 @@ static e3d_occlusion_rows rows_around(const occlusion_job *job, int worker, int3
 /* The shares of a band, unfiltered. */
 static void find_shares(const occlusion_job *job, int worker, int32_t first, int32_t end)
 {
-    size_t width = (size_t)job->plan->picture->width;
-    float *out = own_row(job, worker, RESULT, 0);
     take_depths(job, worker, first - 1);
     take_depths(job, worker, first);
     for (int32_t y = first; y < end; y++) {
         take_depths(job, worker, y + 1);
         e3d_occlusion_rows rows = rows_around(job, worker, y);
+        float *out = row_to_write(job, worker, job->scratch, y);
         job->kernels->occlusion(job->plan, &rows, out);
-        memcpy(job->scratch + (size_t)y * width, out, width * sizeof *out);
+        put_row(job, out, job->scratch, y);
     }
 }
 
@@ -144,16 +159,15 @@ static void filter_across(const occlusion_job *job, int worker, int32_t y)
 
 static void filter(const occlusion_job *job, int worker, int32_t first, int32_t end)
 {
-    size_t width = (size_t)job->plan->picture->width;
-    float *out = own_row(job, worker, RESULT, 0);
     for (int32_t y = first - E3D_OCCLUSION_FILTER; y < end + E3D_OCCLUSION_FILTER; y++) {
         filter_across(job, worker, y);
         int32_t middle = y - E3D_OCCLUSION_FILTER;
         if (middle < first)
             continue;
         e3d_occlusion_rows rows = rows_around(job, worker, middle);
+        float *out = row_to_write(job, worker, job->visibility, middle);
         job->kernels->occlusion_down(job->plan, &rows, out);
-        memcpy(job->visibility + (size_t)middle * width, out, width * sizeof *out);
+        put_row(job, out, job->visibility, middle);
     }
 }
 

@@ -1,5 +1,8 @@
 /* shade: the alphas of samples (R80), which are tested, kept with their colours to be sorted, or laid over the tile at once (R84). */
+#include <string.h>
+
 #include "core/limits.h"
+#include "core/vectors.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
 #include "kernels/types/maps.h"
@@ -38,12 +41,6 @@ static int32_t next_place(const e3d_visible_primitive *pieces, int32_t piece, e3
     return alpha->at++;
 }
 
-static float clamped(float v)
-{
-    v = v > 0.0f ? v : 0.0f;
-    return v < 1.0f ? v : 1.0f;
-}
-
 static void test(e3d_shade_memory *memory, e3d_alpha_shading *alpha)
 {
     const e3d_batch *batch = &memory->batch;
@@ -53,14 +50,31 @@ static void test(e3d_shade_memory *memory, e3d_alpha_shading *alpha)
     }
 }
 
+/* The colours of four samples, channel by channel, clamped, as rows. */
+static inline void keep_four(const e3d_batch *batch, int i, float sign, float (*color)[4])
+{
+    float4 channel[4], zero = splat(0.0f), one = splat(1.0f);
+    for (int k = 0; k < 3; k++)
+        channel[k] = less_of(more_of(load4(batch->color[k] + i), zero), one);
+    channel[3] = splat(sign) * load4(batch->alpha + i);
+    float4 low = LANES(channel[0], channel[1], 0, 4, 1, 5), low2 = LANES(channel[2], channel[3], 0, 4, 1, 5);
+    float4 high = LANES(channel[0], channel[1], 2, 6, 3, 7), high2 = LANES(channel[2], channel[3], 2, 6, 3, 7);
+    store4(color[0], LANES(low, low2, 0, 1, 4, 5));
+    store4(color[1], LANES(low, low2, 2, 3, 6, 7));
+    store4(color[2], LANES(high, high2, 0, 1, 4, 5));
+    store4(color[3], LANES(high, high2, 2, 3, 6, 7));
+}
+
 /* Samples first to end - 1 of the batch, which are of one piece. */
 static void keep_run(const e3d_batch *batch, int first, int end, float sign, float (*color)[4])
 {
-    for (int i = first; i < end; i++, color++) {
-        (*color)[0] = clamped(batch->color[0][i]);
-        (*color)[1] = clamped(batch->color[1][i]);
-        (*color)[2] = clamped(batch->color[2][i]);
-        (*color)[3] = sign * batch->alpha[i];
+    float rest[4][4];
+    int i = first;
+    for (; i + 4 <= end; i += 4)
+        keep_four(batch, i, sign, color + (i - first));
+    if (i < end) { /* lanes past the batch's end have a pad */
+        keep_four(batch, i, sign, rest);
+        memcpy(color + (i - first), rest, (size_t)(end - i) * sizeof *rest);
     }
 }
 

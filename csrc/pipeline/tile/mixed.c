@@ -115,14 +115,15 @@ static inline float4 sum_of(float4 color[E3D_MOST_MSAA_SAMPLES], int32_t samples
     return color[0];
 }
 
-/* R33, R85: a pixel of such sums is to be encoded. */
+/* R33, R85: a pixel of such sums is to be encoded. Where all samples are opaque, as mostly, 1 over the sum of their alphas is `share`. */
 static inline void add_average(const e3d_store *store, int32_t pixel, float4 sum, float share, e3d_average *out)
 {
     int32_t n = out->count++;
-    float4 mean = sum * splat(1.0f / (sum[3] > 0.0f ? sum[3] : 1.0f));
+    float alpha = sum[3] * share, scale = alpha == 1.0f ? share : 1.0f / (sum[3] > 0.0f ? sum[3] : 1.0f);
+    float4 mean = sum * splat(scale);
     for (int k = 0; k < 3; k++)
         out->color[k][n] = sum[3] > 0.0f ? mean[k] : store->background.color[k];
-    out->alpha[n] = (uint8_t)lrintf(255.0f * (sum[3] * share));
+    out->alpha[n] = (uint8_t)lrintf(255.0f * alpha);
     out->pixel[n] = (uint16_t)pixel;
 }
 

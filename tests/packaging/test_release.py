@@ -1,0 +1,57 @@
+"""What wheels for other machines are built with."""
+
+import os
+import runpy
+import subprocess
+import sys
+
+import pytest
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="wheels are built on Linux")
+
+
+def rules(source_tree, name):
+    return runpy.run_path(str(source_tree / name), run_name="rules")
+
+
+@pytest.mark.parametrize("machine", ["aarch64-linux-gnu", "x86_64-linux-musl"])
+def test_a_module_is_named_after_its_machine(source_tree, tmp_path, machine):
+    release = rules(source_tree, ".ci/release")
+    release["write_settings"](machine, tmp_path)
+    made = runpy.run_path(str(tmp_path / f"{release['SETTINGS']}.py"))["build_time_vars"]
+    tag = f"{sys.implementation.cache_tag}-{machine}"
+    assert made["EXT_SUFFIX"] == f".{tag}.so"
+    assert made["SOABI"] == tag
+
+
+def test_the_cross_compiler_names_its_target(source_tree):
+    command = [sys.executable, source_tree / ".ci" / "zigcc", "-dumpmachine"]
+    environment = {**os.environ, "ENGINE3D_TARGET": "aarch64-linux-gnu.2.17"}
+    named = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    assert named.stdout == "aarch64-linux-gnu.2.17\n"
+
+
+@pytest.mark.parametrize(
+    "platform, machine, is_windows",
+    [
+        ("linux-x86_64", "X86", False),
+        ("x86_64-linux-gnu.2.17", "X86", False),
+        ("win-amd64", "X86", True),
+        ("x86_64-windows-gnu", "X86", True),
+        ("linux-aarch64", "AARCH64", False),
+        ("macosx-11.0-arm64", "AARCH64", False),
+        ("aarch64_be-linux-gnu", "", False),
+        ("linux-riscv64", "", False),
+    ],
+)
+def test_the_build_knows_its_machine(source_tree, platform, machine, is_windows):
+    setup = rules(source_tree, "setup.py")
+    assert setup["machine_of"](platform) == machine
+    assert setup["is_windows"](platform) == is_windows
+
+
+def test_each_machine_has_its_kernels(source_tree):
+    setup = rules(source_tree, "setup.py")
+    assert list(setup["isa_flags"]("X86")) == ["sse41", "avx2", "avx512"]
+    assert setup["isa_flags"]("AARCH64") == {"neon": []}
+    assert setup["isa_flags"]("") == {}

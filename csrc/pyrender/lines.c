@@ -8,6 +8,8 @@
 #include "pyrender/clip.h"
 #include "pyrender/picture.h"
 
+#define MOST_PIXELS 0x1p30
+
 /* A line in pixels, y up as OpenGL counts; z and 1/w at its ends. */
 typedef struct segment {
     double end[2][2], z[2], inverse_w[2];
@@ -50,6 +52,8 @@ static int set_segment(const line_job *job, const int32_t corner[2], segment *ou
         out->inverse_w[e] = 1 / p[3];
         out->end[e][0] = (p[0] / p[3] + 1) * (0.5 * frame->width);
         out->end[e][1] = (p[1] / p[3] + 1) * (0.5 * frame->height);
+        if (!(fabs(out->end[e][0]) < MOST_PIXELS && fabs(out->end[e][1]) < MOST_PIXELS))
+            return 0; /* not a number */
         out->z[e] = p[2] / p[3];
         out->weights[e] = (pyr_weights){{corner[0], corner[1], corner[0]}, {(float)(1 - range[e]), (float)range[e], 0}};
     }

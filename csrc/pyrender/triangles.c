@@ -30,19 +30,6 @@ static void to_screen(const e3d_pyr_frame *frame, const double p[4], int64_t out
     out[1] = (int64_t)rint((1 - p[1] / p[3]) * (128.0 * frame->height));
 }
 
-uint32_t pyr_test_depths(const pyr_band *band, int32_t x, int32_t y, uint32_t mask, const double z[E3D_PYR_PLACES])
-{
-    const pyr_picture *picture = band->picture;
-    double *depth = pyr_depths_at(band, x, y);
-    uint32_t kept = 0;
-    for (int p = 0; p < picture->places; p++)
-        if (mask >> p & 1 && z[p] >= -1 && z[p] <= 1 && z[p] < depth[p]) {
-            depth[p] = z[p];
-            kept |= 1u << p;
-        }
-    return kept;
-}
-
 /* Which places of a pixel three edges enclose. */
 static uint32_t covered(const pyr_picture *picture, const edge edges[3], int32_t x, int32_t y)
 {

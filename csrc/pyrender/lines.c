@@ -189,7 +189,7 @@ static void draw_line(const line_job *job, int32_t from, int32_t to)
 {
     int32_t corner[2] = {from, to};
     segment line;
-    if (!set_segment(job, corner, &line))
+    if (pyr_misses_band(job->band, job->vertices, corner, 2) || !set_segment(job, corner, &line))
         return;
     if (job->band->picture->places == 1)
         draw_thin(job, &line);
@@ -205,19 +205,12 @@ void pyr_draw_lines(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *
     pyr_flush(band);
 }
 
-/* Whether a triangle shows its back; of what is partly behind the viewer, the homogeneous area tells. */
-static int shows_back(const pyr_vertex *vertices, const int32_t corner[3])
-{
-    const double *a = vertices[corner[0]].clip, *b = vertices[corner[1]].clip, *c = vertices[corner[2]].clip;
-    return a[0] * (b[1] * c[3] - b[3] * c[1]) - a[1] * (b[0] * c[3] - b[3] * c[0]) + a[3] * (b[0] * c[1] - b[1] * c[0]) <= 0;
-}
-
 void pyr_draw_edges(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices)
 {
     line_job job = {band, draw, vertices};
     for (int32_t i = 0; i < draw->count; i++) {
         const int32_t *corner = draw->indices + 3 * (size_t)i;
-        if (draw->culls_backs && shows_back(vertices, corner))
+        if (draw->culls_backs && pyr_shows_back(vertices, corner))
             continue;
         draw_line(&job, corner[2], corner[0]);
         draw_line(&job, corner[0], corner[1]);

@@ -123,6 +123,10 @@ void pyr_set_plane(const e3d_pyr_frame *frame, const e3d_pyr_draw *draw, const p
 /* Weights at a point, and z_ndc there. */
 double pyr_weigh(const pyr_plane *plane, double x, double y, float weight[3]);
 double pyr_depth_at(const pyr_plane *plane, double x, double y);
+/* Whether a triangle shows its back; of what is partly behind the viewer, the homogeneous area tells. */
+int pyr_shows_back(const pyr_vertex *vertices, const int32_t corner[3]);
+/* Whether a primitive is sure to show nothing in a band, nor in a pixel above and below it. */
+int pyr_misses_band(const pyr_band *band, const pyr_vertex *vertices, const int32_t *corner, int count);
 
 /* ---- fragments.c ---- */
 

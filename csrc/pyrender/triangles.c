@@ -122,6 +122,8 @@ void pyr_draw_triangles(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vert
         int64_t corners[PYR_MOST_CORNERS][2];
         int32_t corner[3];
         pyr_corners(draw, t, corner);
+        if (pyr_misses_band(band, vertices, corner, 3) || (draw->culls_backs && pyr_shows_back(vertices, corner)))
+            continue;
         for (int k = 0; k < 3; k++)
             for (int c = 0; c < 4; c++)
                 p[k][c] = vertices[corner[k]].clip[c];

@@ -8,6 +8,8 @@
 #include "pyrender/clip.h"
 #include "pyrender/picture.h"
 
+#define MOST_PIXELS 0x1p30
+
 /* A line in pixels, y up as OpenGL counts; z and 1/w at its ends. */
 typedef struct segment {
     double end[2][2], z[2], inverse_w[2];
@@ -50,6 +52,8 @@ static int set_segment(const line_job *job, const int32_t corner[2], segment *ou
         out->inverse_w[e] = 1 / p[3];
         out->end[e][0] = (p[0] / p[3] + 1) * (0.5 * frame->width);
         out->end[e][1] = (p[1] / p[3] + 1) * (0.5 * frame->height);
+        if (!(fabs(out->end[e][0]) < MOST_PIXELS && fabs(out->end[e][1]) < MOST_PIXELS))
+            return 0; /* not a number */
         out->z[e] = p[2] / p[3];
         out->weights[e] = (pyr_weights){{corner[0], corner[1], corner[0]}, {(float)(1 - range[e]), (float)range[e], 0}};
     }
@@ -185,7 +189,7 @@ static void draw_line(const line_job *job, int32_t from, int32_t to)
 {
     int32_t corner[2] = {from, to};
     segment line;
-    if (!set_segment(job, corner, &line))
+    if (pyr_misses_band(job->band, job->vertices, corner, 2) || !set_segment(job, corner, &line))
         return;
     if (job->band->picture->places == 1)
         draw_thin(job, &line);
@@ -201,19 +205,12 @@ void pyr_draw_lines(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *
     pyr_flush(band);
 }
 
-/* Whether a triangle shows its back; of what is partly behind the viewer, the homogeneous area tells. */
-static int shows_back(const pyr_vertex *vertices, const int32_t corner[3])
-{
-    const double *a = vertices[corner[0]].clip, *b = vertices[corner[1]].clip, *c = vertices[corner[2]].clip;
-    return a[0] * (b[1] * c[3] - b[3] * c[1]) - a[1] * (b[0] * c[3] - b[3] * c[0]) + a[3] * (b[0] * c[1] - b[1] * c[0]) <= 0;
-}
-
 void pyr_draw_edges(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices)
 {
     line_job job = {band, draw, vertices};
     for (int32_t i = 0; i < draw->count; i++) {
         const int32_t *corner = draw->indices + 3 * (size_t)i;
-        if (draw->culls_backs && shows_back(vertices, corner))
+        if (draw->culls_backs && pyr_shows_back(vertices, corner))
             continue;
         draw_line(&job, corner[2], corner[0]);
         draw_line(&job, corner[0], corner[1]);

@@ -102,13 +102,17 @@ static inline uint8_t *pyr_color_at(const e3d_pyr_frame *frame, int32_t x, int32
     return frame->color + ((size_t)y * (size_t)frame->width + (size_t)x) * (size_t)frame->channels;
 }
 
-/* The distance that z_ndc stands for, 0 behind the far plane. */
-float pyr_metric_depth(const e3d_pyr_frame *frame, double z);
-
 /* ---- vertices.c ---- */
 
 /* Transforms vertices first to end - 1 of a draw. */
 void pyr_transform(const e3d_pyr_frame *frame, const e3d_pyr_draw *draw, int32_t first, int32_t end, pyr_vertex *out);
+
+/* ---- depths.c ---- */
+
+/* The distance that z_ndc stands for, 0 behind the far plane. */
+float pyr_metric_depth(const e3d_pyr_frame *frame, double z);
+/* Keeps of `mask` the places at which z is nearer than what is there, and writes it there; returns the samples among them. */
+uint32_t pyr_test_depths(const pyr_band *band, int32_t x, int32_t y, uint32_t mask, const double z[E3D_PYR_PLACES]);
 
 /* ---- plane.c ---- */
 
@@ -119,6 +123,10 @@ void pyr_set_plane(const e3d_pyr_frame *frame, const e3d_pyr_draw *draw, const p
 /* Weights at a point, and z_ndc there. */
 double pyr_weigh(const pyr_plane *plane, double x, double y, float weight[3]);
 double pyr_depth_at(const pyr_plane *plane, double x, double y);
+/* Whether a triangle shows its back; of what is partly behind the viewer, the homogeneous area tells. */
+int pyr_shows_back(const pyr_vertex *vertices, const int32_t corner[3]);
+/* Whether a primitive is sure to show nothing in a band, nor in a pixel above and below it. */
+int pyr_misses_band(const pyr_band *band, const pyr_vertex *vertices, const int32_t *corner, int count);
 
 /* ---- fragments.c ---- */
 
@@ -153,8 +161,5 @@ void pyr_draw_triangles(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vert
 void pyr_draw_lines(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices);
 void pyr_draw_edges(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices);
 void pyr_draw_points(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices);
-
-/* Keeps of `mask` the places at which z is nearer than what is there, and writes it there; returns the samples among them. */
-uint32_t pyr_test_depths(const pyr_band *band, int32_t x, int32_t y, uint32_t mask, const double z[E3D_PYR_PLACES]);
 
 #endif

@@ -60,3 +60,22 @@ double pyr_depth_at(const pyr_plane *plane, double x, double y)
     double weights[3];
     return weigh(plane, x, y, weights);
 }
+
+int pyr_misses_band(const pyr_band *band, const pyr_vertex *vertices, const int32_t *corner, int count)
+{
+    double height = band->picture->frame->height;
+    double high = 1 - 2 * (band->top - 1) / height, low = 1 - 2 * (band->end + 1) / height;
+    int above = 1, below = 1;
+    for (int k = 0; k < count; k++) {
+        const double *p = vertices[corner[k]].clip;
+        above &= p[1] > high * p[3];
+        below &= p[1] < low * p[3];
+    }
+    return above || below;
+}
+
+int pyr_shows_back(const pyr_vertex *vertices, const int32_t corner[3])
+{
+    const double *a = vertices[corner[0]].clip, *b = vertices[corner[1]].clip, *c = vertices[corner[2]].clip;
+    return a[0] * (b[1] * c[3] - b[3] * c[1]) - a[1] * (b[0] * c[3] - b[3] * c[0]) + a[3] * (b[0] * c[1] - b[1] * c[0]) <= 0;
+}

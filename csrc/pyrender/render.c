@@ -130,18 +130,6 @@ static void draw_step(pyr_band *band, const e3d_pyr_step *step)
     }
 }
 
-float pyr_metric_depth(const e3d_pyr_frame *frame, double z)
-{
-    double near = frame->depth_near, far = frame->depth_far;
-    if (!(z <= 1))
-        return 0;
-    if (frame->depth_is_straight)
-        return (float)(near + (z + 1) * 0.5 * (far - near));
-    if (isinf(far))
-        return (float)(2 * near / (1 - z));
-    return (float)(2 * near * far / (far + near - z * (far - near)));
-}
-
 static void resolve(const pyr_band *band)
 {
     const e3d_pyr_frame *frame = band->picture->frame;

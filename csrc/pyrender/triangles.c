@@ -30,19 +30,6 @@ static void to_screen(const e3d_pyr_frame *frame, const double p[4], int64_t out
     out[1] = (int64_t)rint((1 - p[1] / p[3]) * (128.0 * frame->height));
 }
 
-uint32_t pyr_test_depths(const pyr_band *band, int32_t x, int32_t y, uint32_t mask, const double z[E3D_PYR_PLACES])
-{
-    const pyr_picture *picture = band->picture;
-    double *depth = pyr_depths_at(band, x, y);
-    uint32_t kept = 0;
-    for (int p = 0; p < picture->places; p++)
-        if (mask >> p & 1 && z[p] >= -1 && z[p] <= 1 && z[p] < depth[p]) {
-            depth[p] = z[p];
-            kept |= 1u << p;
-        }
-    return kept;
-}
-
 /* Which places of a pixel three edges enclose. */
 static uint32_t covered(const pyr_picture *picture, const edge edges[3], int32_t x, int32_t y)
 {
@@ -135,6 +122,8 @@ void pyr_draw_triangles(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vert
         int64_t corners[PYR_MOST_CORNERS][2];
         int32_t corner[3];
         pyr_corners(draw, t, corner);
+        if (pyr_misses_band(band, vertices, corner, 3) || (draw->culls_backs && pyr_shows_back(vertices, corner)))
+            continue;
         for (int k = 0; k < 3; k++)
             for (int c = 0; c < 4; c++)
                 p[k][c] = vertices[corner[k]].clip[c];

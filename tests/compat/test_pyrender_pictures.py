@@ -297,6 +297,13 @@ def test_changes_of_a_scene_show_in_the_next_picture():
     assert not renderer.render(scene)[1].any()
 
 
+def test_vertices_that_are_no_numbers_are_left_out():
+    places = np.array([(-1, 0, 0), (np.nan, 0, 0), (1, np.inf, 0), (1, 0, 0)])
+    for mode in range(7):
+        scene = seen(pyrender.Mesh([pyrender.Primitive(places, mode=mode)]))
+        assert (drawn(scene)[1] > 0).sum() <= 12, mode
+
+
 def test_a_scene_without_a_camera_is_an_error():
     with pytest.raises(ValueError, match="camera"):
         drawn(pyrender.Scene())

@@ -126,20 +126,22 @@ class _Pass:
 
     # ---- steps ----
 
-    def _nodes(self) -> list[Node]:
-        """Nodes that show, in the order in which they are drawn."""
-        scene, eye = self._scene, self._pose[:3, 3]
-        listed = []
-        for node in scene._in_order(scene.mesh_nodes):
-            if not node.mesh.is_visible:
-                continue
-            if self._seg_node_map is not None and node not in self._seg_node_map:
-                continue
-            pose = scene.get_pose(node)
-            distance = float(np.linalg.norm(pose[:3, 3] - eye))
-            listed.append((node.mesh.is_transparent, -distance, node, pose))
-        listed.sort(key=lambda entry: entry[:2])
-        return [(node, pose) for _, _, node, pose in listed]
+    def _nodes(self) -> list[tuple[Node, np.ndarray, bool]]:
+        """Nodes that show, in the order of drawing: with poses, and which of them are mirrored."""
+        scene, listed = self._scene, self._seg_node_map
+        nodes = [
+            node
+            for node in scene._in_order(scene.mesh_nodes)
+            if node.mesh.is_visible and (listed is None or node in listed)
+        ]
+        if not nodes:
+            return []
+        poses = np.array([scene.get_pose(node) for node in nodes])
+        away = poses[:, :3, 3] - self._pose[:3, 3]
+        transparent = [node.mesh.is_transparent for node in nodes]
+        order = np.lexsort((-(away * away).sum(axis=1), transparent)).tolist()
+        mirrored = (np.linalg.det(poses[:, :3, :3]) < 0).tolist()
+        return [(nodes[k], poses[k], mirrored[k]) for k in order]
 
     def _steps(self, projection: np.ndarray, mirrored: bool, samples: int) -> None:
         """List lights, draws and steps in the picture."""
@@ -153,10 +155,10 @@ class _Pass:
                 lambda node: shadows.map_of(self._scene, node),
             )
         groups: list[_Group] = [_Group()]
-        for node, pose in self._nodes():
+        for node, pose, turned in self._nodes():
             listed = (0, 0) if lights is None else lights.of(pose[:3, 3])
             for number, primitive in enumerate(node.mesh.primitives):
-                self._list(groups, node, pose, number, primitive, mirrored, listed)
+                self._list(groups, node, pose, number, primitive, mirrored != turned, listed)
         for number, group in enumerate(groups):
             if group.visible:
                 self._see(number, group.visible, projection, samples)
@@ -171,7 +173,7 @@ class _Pass:
         places = kept[number].find(self._engine, projection, self._pose, samples)
         self._picture.add_visible(places, draw_of_object)
 
-    def _list(self, groups, node, pose, number, primitive, mirrored, lights) -> None:
+    def _list(self, groups, node, pose, number, primitive, turned, lights) -> None:
         """List a primitive: with what is seen, or with what is drawn one by one."""
         if not len(primitive.positions):
             return
@@ -189,7 +191,6 @@ class _Pass:
             return
         if groups[-1].blends:  # it must not get below what was blended before
             groups.append(_Group())
-        turned = mirrored != self._is_mirrored(pose)
         if primitive.poses is not None and len(primitive.poses):
             turned ^= self._is_mirrored(primitive.poses[0])
         key = (node, number)

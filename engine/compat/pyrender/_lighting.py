@@ -62,16 +62,17 @@ class Lighting:
     ) -> None:
         self._picture = picture
         self._most = _most_lights(flags)
-        self._lights = []  # kind, number and place
+        self._kinds: list[type] = []  # of each light
         self._lists: dict[tuple, tuple[int, int]] = {}
-        counts = dict.fromkeys(_KINDS, 0)
+        places = []
         for node in scene._in_order(scene.light_nodes):
             kind, pose = _kind_of(node.light), scene.get_pose(node)
-            counts[kind] += 1
-            self._lights.append((kind, len(self._lights), pose[:3, 3]))
+            self._kinds.append(kind)
+            places.append(pose[:3, 3])
             shadow = shadow_map(node) if flags & _KINDS[kind][1] else (None, None)
             self._add(node.light, kind, pose, shadow)
-        self._all_shine = all(counts[kind] <= most for kind, most in self._most.items())
+        self._places = np.array(places).reshape(-1, 3)
+        self._all_shine = all(self._kinds.count(kind) <= most for kind, most in self._most.items())
 
     def _add(self, light, kind: type, pose: np.ndarray, shadow: tuple) -> None:
         scale = offset = 0.0
@@ -89,15 +90,17 @@ class Lighting:
 
     def of(self, place: np.ndarray) -> tuple[int, int]:
         """Return where the list of a node's lights begins, and how many there are."""
-        lights = self._lights
-        if not self._all_shine:
-            lights = sorted(lights, key=lambda light: float(np.linalg.norm(light[2] - place)))
-        left, numbers = dict(self._most), []
-        for kind, number, _ in lights:
-            if left[kind]:
-                left[kind] -= 1
-                numbers.append(number)
-        key = tuple(numbers)
-        if key not in self._lists:
-            self._lists[key] = self._picture.add_lights_of_draws(key), len(key)
-        return self._lists[key]
+        if self._all_shine:
+            nearest = tuple(range(len(self._kinds)))
+        else:
+            away = self._places - place
+            nearest = tuple(np.argsort((away * away).sum(axis=1), kind="stable").tolist())
+        if nearest not in self._lists:
+            left, numbers = dict(self._most), []
+            for number in nearest:
+                kind = self._kinds[number]
+                if left[kind]:
+                    left[kind] -= 1
+                    numbers.append(number)
+            self._lists[nearest] = self._picture.add_lights_of_draws(numbers), len(numbers)
+        return self._lists[nearest]

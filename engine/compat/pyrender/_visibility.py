@@ -62,6 +62,7 @@ class Visibility:
         self._changes = 0  # of what is placed
         self._last: tuple | None = None  # of what picture the places are that were found last
         self._found: list[tuple] = []
+        self._frames: tuple = ((), [])  # drawn into again: of what kind, and a frame of each place
 
     def place(self, things: list[Placed]) -> np.ndarray:
         """Take in what is to be drawn; return the draw of each object id, or of the only one."""
@@ -135,21 +136,26 @@ class Visibility:
             *(["triangle_id"] if self._is_single else ["object_id", "triangle_id"]),
             *(["instance_id"] if self._has_instances else []),
         ]
+        kept = tuple(names), renderer.width, renderer.height, samples
+        if self._frames[0] != kept:
+            self._frames = kept, [None] * (1 if samples == 1 else 1 + len(_OFFSETS))
         options = RenderOptions(outputs=names)
         offsets = [_CENTRE] if samples == 1 else [*_OFFSETS, _CENTRE]
-        places = []
-        for offset, camera in zip(offsets, self._cameras[-len(offsets) :], strict=True):
+        frames = self._frames[1]
+        for number, offset in enumerate(offsets):
+            camera = self._cameras[number - len(offsets)]
             matrix = _moved(projection, offset, renderer.width, renderer.height)
             if not np.array_equal(camera.matrix, matrix):
                 camera.matrix = matrix
-            frame = renderer.render(self._scene, (camera, pose), options=options)
-            places.append(
-                tuple(
-                    getattr(frame, name) if name in names else None
-                    for name in ("object_id", "triangle_id", "instance_id")
-                )
+            place = camera, pose
+            frames[number] = renderer.render(
+                self._scene, place, out=frames[number], options=options
             )
-        return places
+        every = ("object_id", "triangle_id", "instance_id")
+        return [
+            tuple(getattr(frame, name) if name in names else None for name in every)
+            for frame in frames
+        ]
 
     def depths(self, renderer: Renderer, projection, pose) -> np.ndarray:
         """Return z_ndc of what shows at the centres, (H, W) float32, infinite for nothing."""

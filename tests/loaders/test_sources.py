@@ -70,7 +70,9 @@ def test_the_format_may_be_named(write):
     assert len(load_mesh(path, format=".OFF").points) == 3
     with pytest.raises(FileFormatError, match="no vertices"):
         load_mesh(path, format="obj")
-    with pytest.raises(InvalidArgumentError, match=r"format='tga' is no mesh format \(known: asc"):
+    with pytest.raises(
+        InvalidArgumentError, match=r"format='tga' is no mesh format \(known: 3mf, asc"
+    ):
         load_mesh(path, format="tga")
 
 

@@ -185,3 +185,5 @@ def test_on_the_command_line(heat, capsys):
     assert main([*command, "--colormap", "jet"]) == 1
     assert main([*command, "--range", "2,1"]) == 2
     assert "the first number is the lower one" in capsys.readouterr().err
+    assert main(["render", "--scene", "cube", "-b", "-o", str(path)]) == 2
+    assert "--bar needs a MODEL" in capsys.readouterr().err

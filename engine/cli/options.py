@@ -597,8 +597,8 @@ def _through_camera(args: argparse.Namespace, view_renderer, view):
     return view
 
 
-# Options that say how models are read or dressed; built-in scenes are neither.
-_OF_MODELS = (
+#: Options that say how models are read or dressed; built-in scenes are neither.
+OF_MODELS = (
     *("texture", "variant", "animation_index", "animation_time", "crease_angle"),
     *("force_reader", "max_size", *scalar_options.COLORING),
 )
@@ -615,7 +615,7 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
     if args.dusk and args.scene != "city":
         raise UsageError("--dusk goes with --scene city")
     if not args.models:
-        for option in _OF_MODELS:
+        for option in OF_MODELS:
             given = getattr(args, option, None)
             if given is not None and given is not False:  # 0 is given, too
                 raise UsageError(f"--{option.replace('_', '-')} needs a MODEL")

@@ -14,12 +14,24 @@ from collections.abc import Iterator, Sequence
 
 from ..errors import FileAccessError, FileFormatError
 from . import suggestions
+from .options import OF_MODELS
 from .usage import UsageError
 
 # What says where to look, or ends the program, stands on the command line.
 _NOT_HERE = frozenset({"config", "no-config", "define", "help"})
 _LARGEST = 1 << 20  # bytes
 _ENTRY = frozenset({"files", "options"})
+# Options that contradict each other: of two, the one that is said later counts.
+_RIVALS = (
+    *(("background_gradient", other) for other in ("background_color", "no_background")),
+    *(("background", other) for other in ("background_color", "no_background")),
+    ("background", "background_gradient"),
+    ("fog", "fog_density"),
+    ("light_position", "light_direction"),
+    ("unlit", "mode"),
+    ("edges", "wireframe"),
+)
+_DEFINED, _TYPED = 1 << 20, 1 << 21  # places of -D and of the command line after all entries
 
 
 def add_config(parser) -> None:
@@ -77,17 +89,19 @@ def set_defaults(
         ``-D`` does.
     """
     known = {name for command in commands.values() for name in _options(command)}
-    options = _options(commands[args.command])
-    found = False
+    command = commands[args.command]
+    options = _options(command)
+    usual = {action.dest: command.get_default(action.dest) for action in options.values()}
+    said_at: dict[str, int] = {}  # place of the last entry that has an option
     for path, number, name, value in _entries(args, models):
         place = f"[{number}].options.{name}"
         if name not in known:
             hint = suggestions.meant(name, known)
             raise FileFormatError(f"{place}: there is no such option{hint}", path)
-        if name in options:
-            found = True
+        if name in options and (models or options[name].dest not in OF_MODELS):
+            said_at[options[name].dest] = number
             try:
-                _set(commands[args.command], options[name], value)
+                _set(command, options[name], value)
             except ValueError as error:
                 raise FileFormatError(f"{place}: {error}", path) from None
     for text in args.define:
@@ -98,13 +112,26 @@ def set_defaults(
             if not equals:
                 raise UsageError(f"-D {text}: NAME=VALUE is needed, such as grid=true")
             raise UsageError(f"-D {text}: there is no option {name!r}{hint}")
-        found = True
+        said_at[options[name].dest] = _DEFINED
         try:
             said = {"true": True, "false": False}.get(value, value)
-            _set(commands[args.command], options[name], said)
+            _set(command, options[name], said)
         except ValueError as error:
             raise UsageError(f"-D {text}: {error}") from None
-    return found
+    typed = {name: _TYPED for name, value in usual.items() if getattr(args, name) != value}
+    _give_way(command, usual, said_at | typed)
+    return bool(said_at)
+
+
+def _give_way(
+    command: argparse.ArgumentParser, usual: dict[str, object], said_at: dict[str, int]
+) -> None:
+    """Take back what was said before something else that contradicts it."""
+    for pair in _RIVALS:
+        places = [said_at.get(name, -1) for name in pair]
+        if -1 not in places and places[0] != places[1]:
+            earlier = pair[places[0] > places[1]]
+            command.set_defaults(**{earlier: usual[earlier]})
 
 
 def _options(command: argparse.ArgumentParser) -> dict[str, argparse.Action]:

@@ -12,7 +12,7 @@ from ..golden import folders
 from ..golden.report import Report
 from ..golden.result_files import read_json, write_json, write_junit
 from ..golden.results import CHANGED, DELETED, NEW, PASSED, Result
-from .outputs import check_folder, with_progress
+from .outputs import STANDARD_OUTPUT, check_folder, with_progress
 from .usage import UsageError
 
 _SIGNS = {PASSED: "=", CHANGED: "!", NEW: "+", DELETED: "-"}
@@ -23,6 +23,8 @@ def diff(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
     sys.stdout.reconfigure(errors="backslashreplace")
     for path in filter(None, (args.report, args.json, args.junit)):
+        if path == STANDARD_OUTPUT:
+            raise UsageError("standard output takes the list of pictures: name a file, not -")
         check_folder(path)
     if args.from_json is not None:
         return _report_again(args)

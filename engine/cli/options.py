@@ -597,6 +597,13 @@ def _through_camera(args: argparse.Namespace, view_renderer, view):
     return view
 
 
+#: Options that say how models are read or dressed; built-in scenes are neither.
+OF_MODELS = (
+    *("texture", "variant", "animation_index", "animation_time", "crease_angle"),
+    *("force_reader", "max_size", *scalar_options.COLORING),
+)
+
+
 def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
     """Return the `ViewedScene` that the options name; ``default_scene`` if they name none."""
     if args.models and args.scene is not None:
@@ -608,9 +615,9 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
     if args.dusk and args.scene != "city":
         raise UsageError("--dusk goes with --scene city")
     if not args.models:
-        needing = ("texture", "variant", "animation_index", "animation_time", "crease_angle")
-        for option in needing:
-            if getattr(args, option) is not None:
+        for option in OF_MODELS:
+            given = getattr(args, option, None)
+            if given is not None and given is not False:  # 0 is given, too
                 raise UsageError(f"--{option.replace('_', '-')} needs a MODEL")
         if args.scene is None and default_scene is None:
             raise UsageError("give a MODEL or --scene NAME")

@@ -96,9 +96,14 @@ def check_standard_output() -> None:
 def write_standard_output(data: bytes) -> None:
     """Write all of ``data`` to standard output, which may be unbuffered and take less at a time."""
     rest = memoryview(data)
-    while rest:
-        rest = rest[sys.stdout.buffer.write(rest) :]
-    sys.stdout.buffer.flush()
+    try:
+        while rest:
+            rest = rest[sys.stdout.buffer.write(rest) :]
+        sys.stdout.buffer.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise FileAccessError(f"cannot write: {error.strerror}", "standard output") from error
 
 
 def with_progress(items: Iterable, total: int, label: str) -> Iterator:

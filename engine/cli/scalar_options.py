@@ -6,6 +6,8 @@ import argparse
 
 from . import values
 
+#: Options that colour models by numbers.
+COLORING = ("scalar_coloring", "coloring_array", "colormap", "range", "bar")
 _DEFAULT_MAP = "viridis"
 
 

@@ -26,7 +26,7 @@ def sheet(args: argparse.Namespace) -> int:
     report = _check(args)
     drawn = contact_sheet(
         model_files(args.models),
-        views=args.views or DEFAULT_VIEWS,
+        views=_views(args),
         sections=args.section or (),
         size=args.size,
         up=args.up,
@@ -38,10 +38,14 @@ def sheet(args: argparse.Namespace) -> int:
     return 0
 
 
+def _views(args: argparse.Namespace) -> str:
+    return DEFAULT_VIEWS if args.views is None else args.views
+
+
 def _check(args: argparse.Namespace) -> str | None:
     """Refuse, before any work, what cannot be done; return where the report goes."""
     try:
-        check_views(args.views or DEFAULT_VIEWS, args.section or ())
+        check_views(_views(args), args.section or ())
     except InvalidArgumentError as error:
         raise UsageError(f"--{error}") from None
     if args.output is None and args.report is None:

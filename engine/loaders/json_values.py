@@ -10,6 +10,7 @@ import base64
 import binascii
 import json
 import math
+from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
@@ -142,6 +143,15 @@ class JsonValue:
         return np.frombuffer(content, dtype).reshape(axes)
 
 
+def _object(members: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object, none of whose members is there twice: which one counts would be a guess."""
+    found = dict(members)
+    if len(found) < len(members):
+        (name, _), *_ = Counter(name for name, _ in members).most_common(1)
+        raise ValueError(f"an object has {shown(name)} twice")
+    return found
+
+
 def parsed_json(source: Source) -> JsonValue:
     """Return the value that a JSON file holds.
 
@@ -152,7 +162,7 @@ def parsed_json(source: Source) -> JsonValue:
     """
     try:
         text = checked_text(source).decode("utf-8")
-        value = json.loads(text)
+        value = json.loads(text, object_pairs_hook=_object)
     except UnicodeDecodeError:
         raise FileFormatError("not JSON: it is not in UTF-8", source.path) from None
     except RecursionError:

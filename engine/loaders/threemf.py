@@ -145,4 +145,11 @@ class _Package:
         return PosedPart(record.name, mesh, pose if back is None else pose @ back)
 
 
-READERS = (Reader("3mf", "3D Manufacturing Format", "mesh", (".3mf",), read_3mf),)
+def _resembles(head: bytes, size: int) -> bool:
+    """Whether it is a ZIP archive: no other format that is told by its look is one."""
+    return head.startswith(ZIP)
+
+
+READERS = (
+    Reader("3mf", "3D Manufacturing Format", "mesh", (".3mf",), read_3mf, resembles=_resembles),
+)

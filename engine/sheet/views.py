@@ -212,7 +212,7 @@ def check_views(views: str | Iterable[str], sections: str | Iterable[str]) -> li
     if twice:
         raise InvalidArgumentError(f"views: {twice[0]!r} is there twice")
     if not 1 <= len(specs) <= MOST_VIEWS:
-        raise InvalidArgumentError(f"a sheet has 1 to {MOST_VIEWS} views, not {len(specs)}")
+        raise InvalidArgumentError(f"views: a sheet has 1 to {MOST_VIEWS}, not {len(specs)}")
     return specs
 
 

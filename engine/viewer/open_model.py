@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import warnings
 
-from ..errors import Engine3DWarning, printable
+from ..errors import Engine3DWarning, InvalidArgumentError, printable
 from ..geometry.creases import CREASE_ANGLE
 from ..loaders import load_document, load_texture
 from ..materials.material import says_something
@@ -86,7 +86,7 @@ def open_model(
     path = None if hasattr(path, "read") else os.fspath(path)
     if is_dressed:
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
-    bar = None if scalars is None else scalars.dress(document, usual_up(document))
+    bar = None if scalars is None else _dressed_by_numbers(document, scalars, path)
     viewed = view_document(document, path, variant)
     if bar is not None:
         viewed.bar = bar
@@ -95,6 +95,16 @@ def open_model(
     if animation is not None:
         animation(viewed)
     return viewed
+
+
+def _dressed_by_numbers(document, scalars, path: str | None):
+    """Colour a document's meshes by numbers; what is wrong is told with its file."""
+    try:
+        return scalars.dress(document, usual_up(document))
+    except InvalidArgumentError as error:
+        if path is None:
+            raise
+        raise InvalidArgumentError(f"{printable(path)}: {error}") from None
 
 
 def view_document(document, path: str | None, variant: str | int | None = None) -> ViewedScene:

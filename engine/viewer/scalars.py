@@ -85,7 +85,7 @@ class ScalarColoring:
             return next(iter(known), up[1:].lower())
         if self.name not in known and self.name not in _AXES:
             names = ", ".join([*known, *_AXES])
-            raise InvalidArgumentError(f"the model has no array {self.name!r}; it has {names}")
+            raise InvalidArgumentError(f"there is no array {self.name!r}; there are {names}")
         return self.name
 
     def _texture(self) -> Texture:

@@ -142,6 +142,9 @@ def test_what_is_no_json_names_the_line(place):
     path.write_text('{"version": 1,\n "tasks": [}')
     with pytest.raises(e3d.FileFormatError, match=r"manifest\.json:2: not JSON"):
         read_manifest(path)
+    path.write_text('{"version": 1, "tasks": [{"model": "a.obj", "model": "b.obj"}]}')
+    with pytest.raises(e3d.FileFormatError, match="an object has 'model' twice"):
+        read_manifest(path)
     with pytest.raises(e3d.FileAccessError):
         read_manifest(place / "none.json")
 

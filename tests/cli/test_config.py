@@ -48,6 +48,27 @@ def test_options_of_the_users_own_file(own):
     assert args.wireframe == "overlay"
 
 
+def test_what_is_said_later_counts(own):
+    own(
+        {"options": {"background-color": "red", "fog": [1, 2], "light-position": [1, 2, 3]}},
+        {"files": "*.stl", "options": {"background-gradient": ["white", "black"]}},
+    )
+    args = parsed("-D", "fog-density=0.5", "--light-direction", "1,0,0")
+    assert args.background_color is None and args.background_gradient is not None
+    assert (args.fog, args.fog_density) == (None, 0.5)
+    assert (args.light_position, args.light_direction) == (None, (1.0, 0.0, 0.0))
+    args = parsed("--background-color", "blue")
+    assert (args.background_color, args.background_gradient) == ((0, 0, 255), None)
+    assert args.fog == (1.0, 2.0)
+
+
+def test_options_of_models_are_no_matter_of_built_in_scenes(own):
+    own({"options": {"crease-angle": 20, "grid": True}})
+    args = parse(["render", "--scene", "cube"])
+    assert (args.crease_angle, args.grid) == (None, True)
+    assert parsed().crease_angle is not None
+
+
 def test_options_that_other_commands_have_are_passed_over(own):
     own({"options": {"vsync": False, "no-background": True}})
     assert parsed(command="run").vsync is False

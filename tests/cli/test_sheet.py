@@ -63,6 +63,7 @@ def test_a_picture_on_standard_output(model, tmp_path, capfdbinary):
         (["-o", "-", "--json"], "--json goes with -o FILE"),
         (["-o", "-", "--report", "-"], "not both"),
         (["-o", "out.png", "--views", "fronts"], "--views: 'fronts'"),
+        (["-o", "out.png", "--views", ""], "--views: a sheet has 1 to 24, not 0"),
         (["-o", "out.png", "--section", "w=1"], "--section: 'w=1'"),
         (["-o", "out.png", "--size", "40"], "40"),
         (["--report", "square.obj"], "is the model"),

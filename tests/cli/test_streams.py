@@ -79,6 +79,14 @@ def test_what_is_printed_on_a_full_disk_ends_without_a_traceback(option, unbuffe
     assert done.stderr or option != "--list-readers"
 
 
+def test_a_picture_on_a_full_disk_says_where(model):
+    with open("/dev/full", "w") as full:
+        command = [sys.executable, "-m", "engine3d", "render", str(model), *SMALL, "-o", "-"]
+        done = subprocess.run(command, stdout=full, stderr=-1, check=False)
+    told = b"engine3d: error: standard output: cannot write: No space left on device\n"
+    assert (done.returncode, done.stderr) == (1, told)
+
+
 def test_a_reader_that_leaves_is_no_traceback(model):
     process = start("info", model, "--json")
     process.stdout.close()

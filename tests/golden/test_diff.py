@@ -178,6 +178,7 @@ def test_errors_are_one_line_and_status_1(folders, capsys, arguments, message):
         ["new", "old", "-T", "2"],
         ["new", "old", "-S", "-1"],
         ["new", "old", "-M", "x"],
+        ["new", "old", "-J", "-"],
         ["-F", "r.json"],
         ["new", "old", "-F", "r.json", "-R", "r.html"],
     ],

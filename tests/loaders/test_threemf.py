@@ -62,6 +62,7 @@ def test_what_the_build_places(write):
     report = describe(path)
     assert (report["format"], report["unit"], report["triangles"]) == ("3mf", "in", 15)
     assert quietly(open_model, path).up == "+Z"
+    assert len(quietly(load_mesh, path.read_bytes()).faces) == 15  # known without its name
 
 
 def test_colours_and_textures_of_triangles(write):

@@ -81,6 +81,7 @@ class View(RemoteFrameBuffer):
     >>> View(e3d.torus())
     """
 
+    _page: _Page | None = None
     _view_renderer: ViewRenderer | None = None
     _event_compatibility = 2  # events in the names that jupyter_rfb documents now
 
@@ -100,6 +101,8 @@ class View(RemoteFrameBuffer):
             raise InvalidArgumentError(
                 f"a view shows a scene, a node or a mesh, not {type(thing).__name__}"
             )
+        if not (isinstance(quality, int) and 1 <= quality <= 100):
+            raise InvalidArgumentError(f"quality must be a whole number in 1..100, not {quality!r}")
         super().__init__(css_width=f"{width}px", css_height=f"{height}px", quality=quality)
         self._page = _Page((width, height))
         self._view_renderer = ViewRenderer(viewed, Settings({}), (width, height))
@@ -117,6 +120,8 @@ class View(RemoteFrameBuffer):
 
     def close(self) -> None:
         """Take the view away, and leave the scene as it was; may be called twice."""
+        if self._page is None:
+            return  # Python takes away what an error kept from being made
         if self._view_renderer is not None:
             self._viewer.visibility.restore()
             self._view_renderer.leave_scene()

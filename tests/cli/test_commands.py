@@ -24,9 +24,11 @@ pytestmark = pytest.mark.usefixtures("no_screen")
         (["square.obj", "-o", "no/folder/out.png"], "no/folder"),
         (["square.obj", "--camera-position", "0.5,0.5,0"], "same"),
         (["square.obj", "--camera-position", "1e300,0,0"], "too far apart"),
+        (["empty"], "empty: there is no model in this folder"),
     ],
 )
 def test_bad_input_is_one_line_and_status_1(model, tmp_path, capsys, arguments, part):
+    (tmp_path / "empty").mkdir()
     (tmp_path / "broken.obj").write_text("v 0 0 0\nf 1 2 9\n")
     if "-o" not in arguments:
         arguments = [*arguments, "-o", "out.png"]

@@ -105,9 +105,12 @@ def test_a_change_of_the_scene_shows_after_update():
     assert len(scene.nodes) == 2, "the view's own lights are left in the scene"
 
 
+@pytest.mark.filterwarnings("error::pytest.PytestUnraisableExceptionWarning")
 def test_what_cannot_be_shown_is_an_error():
     with pytest.raises(engine3d.InvalidArgumentError, match="scene, a node or a mesh, not int"):
         View(3)
+    with pytest.raises(engine3d.InvalidArgumentError, match=r"quality must be .* in 1\.\.100"):
+        View(engine3d.torus(), quality=300)
     with pytest.raises(engine3d.InvalidArgumentError, match="up must be one of"):
         View(engine3d.box(), up="north")
 

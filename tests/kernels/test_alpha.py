@@ -160,8 +160,9 @@ def test_alpha_of_a_texture(kernels, filter_name, width, wrap, opaque):
         base = np.float32(rng.random())
         given = stored(texels, sizes, wrap, width)
         texture = given, width, sizes, FILTERS[filter_name], numbers_of(wrap), opaque
+        surfaces = bytes_of(random_surfaces(rng))
         for row in batches.rows:
-            kernels.alpha(row, bytes_of(random_surfaces(rng)), texture, base, False, False)
+            kernels.alpha(row, surfaces, texture, base, False, False)
         alpha_first = np.roll(texels, 1, axis=1)
         values = sampled(alpha_first, sizes, filter_name, wrap, planes(uv), lod, width)[..., 0]
         expected = clamp(values.astype(np.float32) * (base * unit), np.float32(0), ONE)

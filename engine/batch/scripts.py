@@ -127,6 +127,9 @@ def _guarded(path: str, do: Callable[[], Any]) -> Any:
     """Let a script import what is beside it, and whatever it raises name the file and the line."""
     folder = os.path.dirname(path)
     sys.path.insert(0, folder)
+    # Python takes compiled code for a file of the same size and second: a change could be missed.
+    writes, sys.dont_write_bytecode = sys.dont_write_bytecode, True
+    importlib.invalidate_caches()
     try:
         return do()
     except ScriptError:
@@ -142,6 +145,7 @@ def _guarded(path: str, do: Callable[[], Any]) -> Any:
         said = f"{type(error).__name__}: {' '.join(text.split())}"
         raise ScriptError(located(said, path, line)) from error
     finally:
+        sys.dont_write_bytecode = writes
         sys.path.remove(folder)
 
 

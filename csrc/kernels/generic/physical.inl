@@ -9,6 +9,7 @@
 #include "kernels/types/shading.h"
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/light.inl"
+#include "kernels/generic/shadow.inl"
 #include "kernels/generic/albedo.inl"
 #include "kernels/generic/environment.inl"
 #include "kernels/generic/maps.inl"

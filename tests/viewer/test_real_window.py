@@ -61,7 +61,7 @@ class Desktop:
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
         )
-        self.window = self.find_window()
+        self.window = ""
         self.do("mousemove", *(side // 2 for side in SCREEN))
         self.focus()
         self.settle()
@@ -79,12 +79,24 @@ class Desktop:
     def focus(self):
         """Give the keyboard to the window, which may not take it at once."""
         end = time.monotonic() + HUNG
-        command = ["xdotool", "windowfocus", "--sync", self.window]
-        while subprocess.run(command, env=self.environment, timeout=HUNG, check=False).returncode:
+        while not self.takes_focus():
             if time.monotonic() > end:
                 self.process.kill()
                 raise AssertionError("the window takes no keyboard")
             time.sleep(0.1)
+
+    def takes_focus(self):
+        """Offer the keyboard once, to the window that is there now: SDL makes another one at first.
+
+        xdotool waits for ever where the window let the keyboard go again.
+        """
+        self.window = self.find_window()
+        command = ["xdotool", "windowfocus", "--sync", self.window]
+        try:
+            done = subprocess.run(command, env=self.environment, timeout=5, check=False)
+        except subprocess.TimeoutExpired:
+            return False
+        return done.returncode == 0
 
     def do(self, *arguments, check=True):
         """Run xdotool; return what it prints."""

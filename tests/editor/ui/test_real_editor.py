@@ -76,11 +76,16 @@ class Desktop:
         self.process = subprocess.Popen(
             command, env=self.environment, cwd=folder, stderr=subprocess.PIPE
         )
-        self.window = until(lambda: self.do("search", "--onlyvisible", "--class", "engine3d"))
-        self.do("windowfocus", "--sync", self.window)
+        self.window = until(self.focused_window)
         time.sleep(1)
         place = self.do("getwindowgeometry", "--shell", self.window).split()
         self.corner = [int(line.partition("=")[2]) for line in place if line[:2] in ("X=", "Y=")]
+
+    def focused_window(self):
+        """Return the window's number once it has the keyboard: SDL makes another one at first."""
+        window = self.do("search", "--onlyvisible", "--class", "engine3d")
+        self.do("windowfocus", window)
+        return window if window and self.do("getwindowfocus", "-f") == window else ""
 
     def do(self, *arguments):
         command = ["xdotool", *map(str, arguments)]

@@ -7,13 +7,14 @@ import copy
 import numpy as np
 from numpy.typing import NDArray
 
+from ._bounded import Bounded
 from ._named import Named
 from .constants import GLTF
 from .material import Material, MetallicRoughnessMaterial
 from .primitive import Primitive
 
 
-class Mesh(Named):
+class Mesh(Bounded, Named):
     """What a node shows.
 
     Parameters
@@ -39,22 +40,6 @@ class Mesh(Named):
             bounds[0] = np.minimum(bounds[0], primitive.bounds[0])
             bounds[1] = np.maximum(bounds[1], primitive.bounds[1])
         return bounds
-
-    @property
-    def centroid(self) -> NDArray:
-        """The middle of the bounds, (3,)."""
-        return np.mean(self.bounds, axis=0)
-
-    @property
-    def extents(self) -> NDArray:
-        """The lengths of the bounds, (3,)."""
-        bounds = self.bounds
-        return bounds[1] - bounds[0]
-
-    @property
-    def scale(self) -> float:
-        """The diagonal of the bounds."""
-        return float(np.linalg.norm(self.extents))
 
     @property
     def is_transparent(self) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ._bounded import Bounded
 from .constants import GLTF, BufFlags
 from .material import Material, MetallicRoughnessMaterial
 from .utils import format_color_array
@@ -47,7 +48,7 @@ def _rows(name: str, doc: str) -> property:
     return property(lambda self: getattr(self, hidden), put, doc=doc)
 
 
-class Primitive:
+class Primitive(Bounded):
     """Triangles, lines or points of one material.
 
     Parameters
@@ -192,21 +193,6 @@ class Primitive:
                 bounds = bounds + np.array([places.min(axis=0), places.max(axis=0)])
             self._bounds = bounds
         return self._bounds
-
-    @property
-    def centroid(self) -> NDArray:
-        """The middle of the bounds, (3,)."""
-        return np.mean(self.bounds, axis=0)
-
-    @property
-    def extents(self) -> NDArray:
-        """The lengths of the bounds, (3,)."""
-        return self.bounds[1] - self.bounds[0]
-
-    @property
-    def scale(self) -> float:
-        """The diagonal of the bounds."""
-        return float(np.linalg.norm(self.extents))
 
     @property
     def buf_flags(self) -> int:

@@ -7,6 +7,7 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 
+from ._bounded import Bounded
 from ._named import Named
 from .camera import Camera
 from .light import DirectionalLight, Light, PointLight, SpotLight
@@ -20,7 +21,7 @@ def _entries(node: Node) -> list:
     return [obj for obj in (node.mesh, node.camera, node.light) if obj is not None]
 
 
-class Scene(Named):
+class Scene(Bounded, Named):
     """A tree of nodes.
 
     Parameters
@@ -176,22 +177,6 @@ class Scene(Named):
             return np.zeros((2, 3))
         points = np.concatenate(corners)
         return np.array([points.min(axis=0), points.max(axis=0)])
-
-    @property
-    def centroid(self) -> NDArray:
-        """The middle of the bounds, (3,)."""
-        return np.mean(self.bounds, axis=0)
-
-    @property
-    def extents(self) -> NDArray:
-        """The lengths of the bounds, (3,)."""
-        bounds = self.bounds
-        return bounds[1] - bounds[0]
-
-    @property
-    def scale(self) -> float:
-        """The diagonal of the bounds."""
-        return float(np.linalg.norm(self.extents))
 
     # ---- changes ----
 

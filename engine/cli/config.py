@@ -14,7 +14,7 @@ from collections.abc import Iterator, Sequence
 
 from ..errors import FileAccessError, FileFormatError
 from . import suggestions
-from .options import OF_MODELS
+from .scene_options import OF_MODELS
 from .usage import UsageError
 
 # What says where to look, or ends the program, stands on the command line.

@@ -10,8 +10,9 @@ from ..files.animation_files import save_animation
 from ..viewer import headless
 from ..viewer.view_renderer import ViewRenderer
 from ..viewer.watch import CHECK_SECONDS, FileWatch
-from . import options
+from . import options, scene_options
 from .antialiasing import PICTURES, antialiasing
+from .camera_options import place_view
 from .input_options import jobs
 from .inputs import STANDARD_INPUT
 from .outputs import (
@@ -70,7 +71,7 @@ def _watch(watched: list[tuple[argparse.Namespace, list[FileWatch]]]) -> None:
 
 def _render(args: argparse.Namespace) -> int:
     report = Report(args.verbose)
-    viewed = options.viewed_scene(args)
+    viewed = scene_options.viewed_scene(args)
     report.loaded(viewed)
     settings = options.settings(args)
     antialias, samples = antialiasing(args, *PICTURES[args.look])
@@ -85,7 +86,7 @@ def _render(args: argparse.Namespace) -> int:
         transparent=args.no_background,
         report=report.frame if args.verbose else None,
     ) as view_renderer:
-        view = options.place_view(args, view_renderer, turns=args.turntable is not None)
+        view = place_view(args, view_renderer, turns=args.turntable is not None)
         if _count(args) is not None:
             _write_pictures(args, view_renderer, view)
             return 0

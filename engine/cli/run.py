@@ -11,8 +11,9 @@ from ..files.animation_files import numbered_path, save_animation
 from ..viewer import headless
 from ..viewer.view_renderer import ViewRenderer
 from ..viewer.walking import GroundController, controller
-from . import options
+from . import options, scene_options
 from .antialiasing import WINDOW, antialiasing
+from .camera_options import place_view
 from .input_options import jobs
 from .inputs import STANDARD_INPUT
 from .outputs import check_animation, check_picture, with_progress
@@ -41,7 +42,7 @@ def run(args: argparse.Namespace) -> int:
 def _run(args: argparse.Namespace, found: list[argparse.Namespace], reason: str | None) -> int:
     """Show the first of several, or write one of them."""
     report = Report(args.verbose)
-    viewed = options.viewed_scene(args, default_scene="default")
+    viewed = scene_options.viewed_scene(args, default_scene="default")
     report.loaded(viewed)
     if not args.headless and reason is None:
         try:
@@ -125,7 +126,7 @@ def _show(
         viewer = Viewer(
             view_renderer,
             window,
-            view=options.place_view(args, view_renderer),
+            view=place_view(args, view_renderer),
             walking=args.camera == "fps",
             playing=args.animate,
             statistics=args.fps,
@@ -134,7 +135,7 @@ def _show(
                 listed=[job.models[0] for job in found if len(found) > 1],
                 watch=args.watch,
                 remembered=True,
-                **options.opening(args),
+                **scene_options.opening(args),
             ),
             sampling=Sampling(1 if args.antialiasing == "none" else args.samples),
         )
@@ -167,7 +168,7 @@ def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report)
     if reason is not None:
         remark(f"{reason}: rendering a turntable to {path} instead")
     with _view_renderer(args, viewed, FILE_SIZE, "msaa", FILE_SAMPLES, report) as view_renderer:
-        view = options.place_view(args, view_renderer)
+        view = place_view(args, view_renderer)
         walks = args.camera == "fps"
         if count == 1:
             if walks:

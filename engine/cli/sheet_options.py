@@ -5,7 +5,9 @@ In: an argparse parser. Out: the same parser with options; their texts are check
 
 from __future__ import annotations
 
-from . import options, values
+from . import values
+from .camera_options import add_up
+from .picture_options import add_drawing
 
 
 def add(parser) -> None:
@@ -53,5 +55,5 @@ def add(parser) -> None:
     group.add_argument(
         "--unit", metavar="NAME", help="unit of lengths, where the file's format has none"
     )
-    options.add_up(group)
-    options.add_drawing(parser.add_argument_group("drawing"))
+    add_up(group)
+    add_drawing(parser.add_argument_group("drawing"))

@@ -55,7 +55,7 @@ def test_names_with_numbers_that_fit_nothing(model, capsys, arguments, message):
 def test_mp4_without_the_package_names_the_extra(model, capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     monkeypatch.setenv("PATH", "")
-    monkeypatch.setattr("engine3d.cli.options.viewed_scene", None)  # no work is begun
+    monkeypatch.setattr("engine3d.cli.scene_options.viewed_scene", None)  # no work is begun
     assert main(["render", str(model), *SMALL, "--turntable", "3", "-o", "a.mp4"]) == 1
     expected = (
         "engine3d: error: a.mp4: cannot write: MP4 needs the package imageio-ffmpeg: "

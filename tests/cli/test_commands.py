@@ -104,8 +104,8 @@ def test_wrong_usage_is_status_2_and_writes_nothing(tmp_path, capsys, arguments)
 @pytest.mark.parametrize(
     ("arguments", "work"),
     [
-        (["render", "--scene", "cube", "-o", "no/a.png"], "options.viewed_scene"),
-        (["run", "--scene", "cube", "--headless", "-o", "no/a.gif"], "options.viewed_scene"),
+        (["render", "--scene", "cube", "-o", "no/a.png"], "scene_options.viewed_scene"),
+        (["run", "--scene", "cube", "--headless", "-o", "no/a.gif"], "scene_options.viewed_scene"),
         (["convert", "square.obj", "no/a.ply"], "convert.load_mesh"),
         (["city", "no/a.obj"], "city.make_city"),
         (["bench", "--json", "no/a.json"], "bench.workloads.make"),

@@ -9,7 +9,7 @@ import pytest
 
 import engine3d as e3d
 from engine3d.cli import main
-from engine3d.cli.parser import MODEL_FORMATS
+from engine3d.cli.convert_options import MODEL_FORMATS
 from engine3d.errors import InvalidArgumentError
 from engine3d.writers import formats
 

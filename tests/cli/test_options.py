@@ -6,7 +6,8 @@ import pytest
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.cli import main, options, values
+from engine3d.cli import appearance_options, main, options, scene_options, values
+from engine3d.cli.joined_values import join_values
 from engine3d.cli.parser import make_parser
 from engine3d.cli.usage import UsageError
 from engine3d.demos import DEMO_NAMES
@@ -16,7 +17,7 @@ from engine3d.worlds.city import LEAST, MOST
 
 
 def parse(*arguments):
-    return make_parser().parse_args(options.join_values(list(arguments)))
+    return make_parser().parse_args(join_values(list(arguments)))
 
 
 @pytest.mark.parametrize("text", ["1280x720", "1280,720", "1280X720", " 1280 x 720 "])
@@ -138,11 +139,11 @@ def test_values_may_start_with_a_minus_sign():
 
 
 def test_choices_are_those_of_the_display_package():
-    assert options.MODES == MODES
+    assert appearance_options.MODES == MODES
     assert tuple(UP_DIRECTIONS) == values.UPS
-    assert options.SCENES == DEMO_NAMES
+    assert scene_options.SCENES == DEMO_NAMES
     parser = argparse.ArgumentParser()
-    options.add_appearance(parser)
+    appearance_options.add_appearance(parser)
     choices = {action.dest: action.choices for action in parser._actions}
     assert choices["cull"] == CULLS
     assert choices["hidden_surfaces"] == HIDDEN_SURFACES

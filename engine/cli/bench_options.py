@@ -1,0 +1,48 @@
+"""The options of ``bench``."""
+
+from __future__ import annotations
+
+from ..benchmarking.names import WORKLOADS
+from . import values
+from .picture_options import BACKENDS
+
+
+def add(command) -> None:
+    """Add what is measured, and how long."""
+    command.add_argument(
+        "--workloads",
+        type=values.some_of(tuple(WORKLOADS)),
+        default=list(WORKLOADS),
+        metavar="NAME,…",
+        help="workloads to measure (default: all of those below)",
+    )
+    command.add_argument(
+        "--backends",
+        type=values.some_of((*BACKENDS, "all")),
+        default=["auto"],
+        metavar="NAME,…",
+        help="all, or some of " + ", ".join(BACKENDS) + " (default: auto, the fastest)",
+    )
+    command.add_argument(
+        "--threads",
+        type=values.thread_counts,
+        metavar="N,…",
+        help="numbers of threads to measure with; 0 is one per available CPU (default: 1,0)",
+    )
+    command.add_argument(
+        "--resolution",
+        type=values.resolution,
+        default=(1920, 1080),
+        metavar="WxH",
+        help="size in pixels (default: 1920x1080)",
+    )
+    command.add_argument(
+        "--seconds",
+        type=values.positive,
+        default=45.0,
+        metavar="N",
+        help="about how long to measure in all; slow frames may take longer (default: 45)",
+    )
+    command.add_argument(
+        "--json", metavar="FILE", help="write the results as JSON; - for standard output"
+    )

@@ -1,0 +1,25 @@
+"""The options of ``convert``."""
+
+from __future__ import annotations
+
+MODEL_FORMATS = ("glb", "gltf", "obj", "ply", "stl")
+
+
+def add(command) -> None:
+    """Add what is read, and what is written."""
+    command.add_argument(
+        "model", metavar="IN", help="the file to read, of any format; - for standard input"
+    )
+    command.add_argument(
+        "output", metavar="OUT", nargs="?", help="the file to write; - for standard output"
+    )
+    command.add_argument(
+        "-o", "--output", dest="output_option", metavar="OUT", help="another way to say OUT"
+    )
+    command.add_argument(
+        "--format",
+        choices=MODEL_FORMATS,
+        help="what to write whatever the extension; OBJ with materials is several files, and does "
+        "not go to standard output",
+    )
+    command.add_argument("--ascii", action="store_true", help="write PLY and STL as text")

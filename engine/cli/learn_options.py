@@ -1,0 +1,29 @@
+"""The options of ``learn``."""
+
+from __future__ import annotations
+
+LANGUAGES = ("en", "fr")
+
+
+def add(command) -> None:
+    """Add which lesson, in which language, and where it goes."""
+    command.add_argument(
+        "lesson",
+        metavar="LESSON",
+        nargs="?",
+        default="1",
+        help="its number or name, such as 3 or lines (default: 1)",
+    )
+    command.add_argument("--list", action="store_true", help="list the lessons")
+    command.add_argument("--path", action="store_true", help="print where the program is")
+    command.add_argument(
+        "--language",
+        choices=LANGUAGES,
+        help="of titles and captions (default: French where the locale is, else English)",
+    )
+    command.add_argument(
+        "-o",
+        "--output",
+        metavar="FOLDER",
+        help="write the lesson's pictures to a folder instead of opening a window",
+    )

@@ -1,0 +1,167 @@
+"""The options of what to show, models or a scene, and what they open."""
+
+from __future__ import annotations
+
+import argparse
+
+from . import scalar_options, values
+from .input_options import add_inputs, check_inputs
+from .inputs import model_files
+from .loading_bar import LoadingBar
+from .outputs import not_the_output
+from .usage import UsageError
+
+SCENES = (
+    *("default", "vertices", "edges", "faces", "cube", "shapes"),
+    *("textured", "asc", "city", "solar", "spheres", "lod", "parcels"),
+)
+#: Options that say how models are read or dressed; built-in scenes are neither.
+OF_MODELS = (
+    *("texture", "variant", "animation_index", "animation_time", "crease_angle"),
+    *("force_reader", "max_size", *scalar_options.COLORING),
+)
+
+
+def add_viewed_scene(parser) -> None:
+    """Add what to show."""
+    group = parser.add_argument_group("what to show")
+    group.add_argument(
+        "models",
+        metavar="MODEL",
+        nargs="*",
+        help="model files, or folders of them; - for standard input. Several are shown together, "
+        "each where it places itself, or one by one: see --multi-file-mode",
+    )
+    add_inputs(group)
+    group.add_argument(
+        "--side-by-side",
+        action="store_true",
+        help="stand several models in a row, upright and in their own sizes",
+    )
+    group.add_argument(
+        "--scene", choices=SCENES, metavar="NAME", help=f"a scene: {', '.join(SCENES)}"
+    )
+    group.add_argument(
+        "--triangles",
+        type=values.city_triangles,
+        metavar="N",
+        help="with --scene city: about how many triangles, 20,000 to 50,000,000",
+    )
+    group.add_argument(
+        "--dusk",
+        action="store_true",
+        help="with --scene city: let the sun set, and lamps and windows shine",
+    )
+    group.add_argument(
+        "--texture",
+        metavar="FILE",
+        help="texture for a model without materials; by default an image of the same name "
+        "beside the model",
+    )
+    group.add_argument(
+        "--color",
+        type=values.color,
+        metavar="COLOR",
+        help="colour for a model, or for what in a scene is, without materials",
+    )
+    group.add_argument(
+        "--animation-index",
+        type=values.index,
+        metavar="N",
+        help="which animation of the model plays, from 0 on; -1 for all of them together",
+    )
+    group.add_argument(
+        "--animation-time",
+        type=values.number,
+        metavar="T",
+        help="seconds of the animation at which the model stands, or begins to play",
+    )
+    group.add_argument(
+        "--variant",
+        metavar="NAME",
+        help="which of the sets of materials that the model offers, by name or number",
+    )
+    group.add_argument(
+        "--crease-angle",
+        type=values.crease_angle,
+        metavar="DEGREES",
+        help="where a model has no normals, draw edges sharp whose faces meet at more than this; "
+        "35 by default, 180 makes all smooth, 0 all flat",
+    )
+    group.add_argument(
+        "--no-texture", action="store_true", help="leave textures out; light and colours stay"
+    )
+    group.add_argument(
+        "--verbose",
+        action="store_true",
+        help="print what is loaded and how long loading and each frame take",
+    )
+
+
+def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
+    """Return the `ViewedScene` that the options name; ``default_scene`` if they name none."""
+    if args.models and args.scene is not None:
+        raise UsageError("give a MODEL or --scene, not both")
+    if args.side_by_side and len(args.models) < 2:
+        raise UsageError("--side-by-side needs several MODELs")
+    if args.triangles is not None and args.scene != "city":
+        raise UsageError("--triangles goes with --scene city")
+    if args.dusk and args.scene != "city":
+        raise UsageError("--dusk goes with --scene city")
+    if not args.models:
+        for option in OF_MODELS:
+            given = getattr(args, option, None)
+            if given is not None and given is not False:  # 0 is given, too
+                raise UsageError(f"--{option.replace('_', '-')} needs a MODEL")
+        if args.scene is None and default_scene is None:
+            raise UsageError("give a MODEL or --scene NAME")
+        from ..demos import load_demo
+
+        how = {} if args.triangles is None else {"triangles": args.triangles}
+        how |= {"dusk": True} if args.dusk else {}
+        viewed = load_demo(args.scene or default_scene, **how)
+        if args.color is not None:
+            from ..viewer.open_model import dress_scene
+
+            dress_scene(viewed.scene, args.color)
+        return viewed
+    from ..viewer.open_models import open_models
+
+    check_inputs(args)
+    with LoadingBar() as progress:
+        return open_models(model_files(args.models), **opening(args), progress=progress)
+
+
+def opening(args: argparse.Namespace) -> dict:
+    """Return how the options say that models are to be opened."""
+    creases = {} if args.crease_angle is None else {"crease_angle": args.crease_angle}
+    return {
+        **creases,
+        "format": args.force_reader,
+        "scalars": scalar_options.coloring(args),
+        "side_by_side": args.side_by_side,
+        "up": args.up,
+        "texture": args.texture,
+        "color": args.color,
+        "companion": not_the_output(args.output),
+        "variant": _variant(args.variant),
+        "animation": _animation(args),
+    }
+
+
+def _variant(given: str | None) -> str | int | None:
+    """A name, or a number where it is one."""
+    return int(given) if given is not None and given.isdecimal() else given
+
+
+def _animation(args: argparse.Namespace):
+    """Return what lets a model that is opened play its animations, or stand at a time of them."""
+    from ..viewer.clips import play_clips, stand_at
+
+    plays = getattr(args, "animation", None) is not None or args.command == "run"
+    asked = args.animation_index is not None or args.animation_time is not None
+    if plays:
+        return lambda viewed: play_clips(viewed, args.animation_index)
+    if asked and getattr(args, "turntable", None) is None:
+        return lambda viewed: stand_at(viewed, args.animation_index, args.animation_time or 0.0)
+    return (lambda viewed: play_clips(viewed, args.animation_index)) if asked else None

@@ -44,6 +44,47 @@ def test_folders(folders, capsys):
     assert sorted(path.name for path in folders.iterdir()) == ["new", "old"]
 
 
+@pytest.fixture
+def damaged(folders):
+    """Of five pictures, one drawn and one expected are damaged, and one cannot be opened."""
+    whole = (folders / "new/same.png").read_bytes()
+    for name, drawn, expected in (
+        ("drawn", whole[:60], whole),
+        ("expected", whole, b"nothing"),
+        ("other", whole, whole[:-20] + b"x" * 20),
+    ):
+        (folders / f"new/{name}.png").write_bytes(drawn)
+        (folders / f"old/{name}.png").write_bytes(expected)
+    return folders
+
+
+def test_damaged_pictures_fail_and_the_others_are_compared(damaged, capsys):
+    assert diff("new", "old", "-R", "r.html", "-J", "r.json", "--junit", "r.xml") == 1
+    out, err = capsys.readouterr()
+    lines = out.splitlines()
+    assert err == "" and "= passed  same.png" in lines
+    assert any(line.startswith("! changed sub/changed.png: ") for line in lines)
+    assert lines[-4].startswith("? failed  drawn.png: new/drawn.png: damaged image: ")
+    expected = "? failed  expected.png: old/expected.png: not an image of a known format"
+    assert lines[-3] == expected
+    assert lines[-1] == "1 passed, 1 new, 1 deleted, 1 changed, 3 failed"
+    names = ["drawn.png", "expected.png", "other.png", "sub/changed.png"]
+    assert json.loads((damaged / "r.json").read_text())["failedItems"] == names
+    assert 'type="failed" message="old/expected.png: not an' in (damaged / "r.xml").read_text()
+    assert '<article class="card failed' in (damaged / "r.html").read_text()
+    assert diff("-F", "r.json", "-R", "again.html") == 0
+    assert diff("new", "old", "-I") == 1
+
+
+def test_an_update_replaces_damaged_pictures_by_whole_ones_alone(damaged, capsys):
+    before = (damaged / "old/drawn.png").read_bytes()
+    assert diff("new", "old", "-U") == 1
+    assert capsys.readouterr().out.endswith(", but for 1 that cannot be read\n")
+    assert (damaged / "old/drawn.png").read_bytes() == before
+    (damaged / "new/drawn.png").unlink()
+    assert diff("new", "old") == 0
+
+
 def test_what_is_a_failure(folders, capsys):
     assert diff("new", "old", "-I") == 0
     assert diff("new", "old", "-IE") == 0

@@ -9,10 +9,11 @@ from collections import Counter
 
 from ..errors import printable
 from ..golden import folders
+from ..golden.making_folders import make_folder_of
 from ..golden.report import Report
 from ..golden.result_files import read_json, write_json, write_junit
 from ..golden.results import CHANGED, DELETED, FAILED, NEW, PASSED, Result
-from .outputs import STANDARD_OUTPUT, check_folder, with_progress
+from .outputs import STANDARD_OUTPUT, with_progress
 from .usage import UsageError
 
 _SIGNS = {PASSED: "=", CHANGED: "!", NEW: "+", DELETED: "-", FAILED: "?"}
@@ -22,10 +23,8 @@ _ORDER = (PASSED, NEW, DELETED, CHANGED, FAILED)
 def diff(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
     sys.stdout.reconfigure(errors="backslashreplace")
-    for path in filter(None, (args.report, args.json, args.junit)):
-        if path == STANDARD_OUTPUT:
-            raise UsageError("standard output takes the list of pictures: name a file, not -")
-        check_folder(path)
+    if STANDARD_OUTPUT in (args.report, args.json, args.junit):
+        raise UsageError("standard output takes the list of pictures: name a file, not -")
     if args.from_json is not None:
         return _report_again(args)
     if len(args.pictures) not in (2, 3):
@@ -62,6 +61,8 @@ def _compare(args: argparse.Namespace) -> list[Result]:
         flip=args.flip,
     )
     found = folders.pairs(*args.pictures)
+    for path in filter(None, (args.report, args.json, args.junit)):
+        make_folder_of(path)  # before the work: it may be impossible
     threads = args.concurrency or os.cpu_count() or 1
     are_folders = os.path.isdir(args.pictures[0])
     compared = folders.compare_all(found, rules, threads, keep_going=are_folders)
@@ -98,5 +99,7 @@ def _report_again(args: argparse.Namespace) -> int:
         raise UsageError("-F reads results for a report: say which file with -R FILE")
     if args.pictures:
         raise UsageError("-F compares nothing: leave out the pictures")
-    _write_report(args.report, read_json(args.from_json))
+    results = read_json(args.from_json)
+    make_folder_of(args.report)
+    _write_report(args.report, results)
     return 0

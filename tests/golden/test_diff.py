@@ -97,17 +97,17 @@ def test_what_is_a_failure(folders, capsys):
 
 
 def test_everything_that_is_written(folders, capsys):
-    options = ("-R", "r.html", "-J", "r.json", "--junit", "r.xml", "-C", "2")
+    options = ("-R", "r/r.html", "-J", "made/too/r.json", "--junit", "made/r.xml", "-C", "2")
     assert diff("new", *options, "old", "out") == 1
-    document = json.loads((folders / "r.json").read_text())
+    document = json.loads((folders / "made/too/r.json").read_text())
     assert document["failedItems"] == ["sub/changed.png"] and document["newItems"] == ["added.png"]
     assert document["deletedItems"] == ["gone.png"] and document["passedItems"] == ["same.png"]
     assert (document["actualDir"], document["diffDir"]) == ("new", "out")
-    assert "sub/changed" in (folders / "r.xml").read_text()
+    assert "sub/changed" in (folders / "made/r.xml").read_text()
     (difference,) = read_picture("out/sub/changed.png").frames
     assert difference.shape == (20, 30, 4)
-    assert diff("-F", "r.json", "-R", "again.html") == 0
-    assert (folders / "again.html").read_bytes() == (folders / "r.html").read_bytes()
+    assert diff("-F", "made/too/r.json", "-R", "r2/again.html") == 0
+    assert (folders / "r2/again.html").read_bytes() == (folders / "r/r.html").read_bytes()
 
 
 def test_update(folders, capsys):
@@ -200,7 +200,7 @@ def test_animations_are_compared_frame_by_frame(folders, capsys):
         (["new", "nowhere"], "nowhere: cannot read: No such file or directory"),
         (["new", "old/same.png"], "new: one is a folder and the other is none: old/same.png"),
         (["old/same.png", "new/notes.txt"], "new/notes.txt: not an image of a known format"),
-        (["new", "old", "-R", "no/r.html"], "no/r.html: cannot write: No such file or directory"),
+        (["new", "old", "-R", "new/notes.txt/r"], "new/notes.txt/r: cannot write: "),
         (["-F", "new/notes.txt", "-R", "r.html"], "new/notes.txt: no JSON: "),
     ],
 )

@@ -131,9 +131,7 @@ def compare_files(pair: Pair, rules: Rules, keep_going: bool = False) -> Result:
     return result
 
 
-def _judge(
-    result: Result, pair: Pair, pictures: tuple[Picture, Picture], rules: Rules
-) -> None:
+def _judge(result: Result, pair: Pair, pictures: tuple[Picture, Picture], rules: Rules) -> None:
     """Say how two pictures differ, if they do more than is allowed."""
     frame, difference = _first_difference(*pictures, rules)
     result.frame = frame

@@ -22,11 +22,11 @@ from typing import Any
 from ..choices import Backend
 from ..datasets.writer import DatasetWriter, Note
 from ..errors import FileAccessError, InvalidArgumentError, warn
+from ..files.hashing import hash_of_file
 from ..rendering.backend_selection import resolve_backend
 from ..version import __version__
 from .drawing import How, Outcome, draw_chunk, writer_of
 from .executors import Engine, engine_for
-from .file_digests import hash_of_file
 from .locking import locked_folder
 from .records import FOLDER, note_of, read_record
 from .summary import Failure, Summary, write_sums

@@ -63,7 +63,7 @@ def test_files_are_drawn_together_unless_the_output_names_them(model, tmp_path):
         (["-o", "{n:x}.png"], "there is no variable {n:x}"),
         (
             ["-o", "{model.png"],
-            "-o: '{' without '}' in '{model.png': a variable is {model}, and {{",
+            "-o: '{' without '}' in '{model.png': a variable is {model}",
         ),
         (["-o", "{n}model}.png"], "-o: '}' without '{' in '{n}model}.png': a variable is {model}"),
         (["-o", "{model_ext}.png"], "obj.png would be written twice; add {n}"),

@@ -21,7 +21,7 @@ from .scene.nodes import Node
 from .scene.scene import Scene
 from .viewer.sampling import Sampling
 from .viewer.settings import Settings
-from .viewer.show import first_view, viewed_thing
+from .viewer.show import check_motion, first_view, viewed_thing
 from .viewer.view_renderer import ViewRenderer
 from .viewer.viewed_scene import TURN_SECONDS
 from .viewer.viewer import Viewer
@@ -73,7 +73,7 @@ class View(RemoteFrameBuffer):
     Raises
     ------
     InvalidArgumentError
-        It is nothing of these.
+        It is nothing of these, or another argument is wrong.
 
     Examples
     --------
@@ -96,6 +96,7 @@ class View(RemoteFrameBuffer):
         quality: int = 80,
     ) -> None:
         width, height = check_size(size)
+        check_motion(animate, "animate")
         viewed = viewed_thing(thing, title=None, up=up, update=animate, period=period)
         if viewed is None:
             raise InvalidArgumentError(

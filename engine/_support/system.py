@@ -48,6 +48,17 @@ def has_alarm() -> bool:
     return hasattr(signal, "setitimer") and hasattr(signal, "SIGALRM")
 
 
+def kill_group(process: int) -> None:
+    """End a process that leads a group, and where the system has groups, all of its group."""
+    import signal
+
+    with contextlib.suppress(OSError):
+        if hasattr(os, "killpg"):
+            os.killpg(process, signal.SIGKILL)
+        else:
+            os.kill(process, signal.SIGTERM)  # which Windows knows as the end at once
+
+
 def locked(handle: int) -> bool:
     """Lock an open file until it is closed; tell whether no other process has locked it."""
     try:

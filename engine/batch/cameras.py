@@ -26,6 +26,7 @@ from ..scene.cameras import Camera, IntrinsicsCamera, OrthographicCamera, Perspe
 from ..scene.nodes import check_pose
 from ..scene.orbiting import orbit_axes
 from ..scene.scene import Scene
+from .members import member
 
 _FRAMED = ("azimuth", "elevation", "up", "view_angle", "margin")
 _PLACED = ("position", "target", "up", "view_angle", "height", "near", "far")
@@ -53,11 +54,12 @@ def check_camera(value: Any) -> int | dict[str, Any] | None:
     said = dict(value)
     known = _POSED if "pose" in said else _PLACED if "position" in said else _FRAMED
     for key, one in said.items():
-        if key not in (*known, "name"):
-            raise InvalidArgumentError(
-                f"camera: {key} is none of {', '.join(known)}, which go together"
-            )
-        said[key] = _MEMBERS[key](one, f"camera: {key}")
+        with member(key):
+            if key not in (*known, "name"):
+                raise InvalidArgumentError(
+                    f"camera: {key} is none of {', '.join(known)}, which go together"
+                )
+            said[key] = _MEMBERS[key](one, f"camera: {key}")
     lenses = [key for key in ("view_angle", "height", "intrinsics") if key in said]
     if len(lenses) > 1:
         raise InvalidArgumentError(f"camera: {' and '.join(lenses)} do not go together")
@@ -87,7 +89,11 @@ def _pose(value: Any, what: str) -> list[list[float]]:
 def _intrinsics(value: Any, what: str) -> dict[str, float]:
     if not isinstance(value, Mapping) or set(value) != set(_INTRINSICS):
         raise InvalidArgumentError(f"{what} must be an object of fx, fy, cx and cy")
-    return {key: finite(value[key], f"{what}: {key}") for key in _INTRINSICS}
+    numbers = {}
+    for key in _INTRINSICS:
+        with member(key):
+            numbers[key] = finite(value[key], f"{what}: {key}")
+    return numbers
 
 
 def _name(value: Any, what: str) -> str:

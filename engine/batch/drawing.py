@@ -51,6 +51,8 @@ class How(NamedTuple):
         Leave out what is done.
     version : str
         Of the engine3d that asks: another one would draw other bytes.
+    timeout : float or None
+        Seconds that a picture may take where who draws cannot be ended (`limits`).
     """
 
     out: str
@@ -59,6 +61,7 @@ class How(NamedTuple):
     backend: str
     resume: bool
     version: str
+    timeout: float | None = None
 
 
 class Outcome(NamedTuple):

@@ -6,12 +6,12 @@ with ``add_done_callback`` and ``result``, and how many calls it does at once.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from concurrent.futures import Future
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
+from .._support.system import usable_processors
 from ..errors import InvalidArgumentError
 from .processes import ProcessPool
 
@@ -32,19 +32,15 @@ class Engine(NamedTuple):
         Of each renderer, so that they do not fight for processors.
     chunk_seconds : float
         How long a call should take at least, so that asking for it costs little beside it.
+    ends_calls : bool
+        Whether it ends calls that take too long.
     """
 
     executor: Any
     at_once: int
     threads: int
     chunk_seconds: float = 0.05
-
-
-def usable_cpus() -> int:
-    """Return on how many processors this process may run."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+    ends_calls: bool = False
 
 
 class InThisProcess:
@@ -62,7 +58,11 @@ class InThisProcess:
 
 @contextmanager
 def engine_for(
-    jobs: int | None, threads: int | None, executor: Any, scheduler: str | None
+    jobs: int | None,
+    threads: int | None,
+    executor: Any,
+    scheduler: str | None,
+    timeout: float | None = None,
 ) -> Iterator[Engine]:
     """Make what does the calls, and end what was made.
 
@@ -83,16 +83,19 @@ def engine_for(
             raise InvalidArgumentError("executor must have a method submit")
         yield _given(executor, threads or 1)
     else:
-        yield from _own(usable_cpus() if jobs is None else jobs, threads)
+        yield from _own(usable_processors() if jobs is None else jobs, threads, timeout)
 
 
-def _own(jobs: int, threads: int | None) -> Iterator[Engine]:
-    each = threads or max(1, usable_cpus() // jobs)
-    if jobs == 1:
+def _own(jobs: int, threads: int | None, timeout: float | None) -> Iterator[Engine]:
+    each = threads or max(1, usable_processors() // jobs)
+    if timeout is not None:
+        with ProcessPool(jobs, timeout) as pool:  # a call is a picture: it alone is ended
+            yield Engine(pool, jobs, each, chunk_seconds=0.0, ends_calls=True)
+    elif jobs == 1:
         yield Engine(InThisProcess(), 1, each)
-        return
-    with ProcessPool(jobs) as pool:
-        yield Engine(pool, jobs, each)
+    else:
+        with ProcessPool(jobs) as pool:
+            yield Engine(pool, jobs, each)
 
 
 def _given(executor: Any, threads: int) -> Engine:
@@ -101,4 +104,4 @@ def _given(executor: Any, threads: int) -> Engine:
         from .dask_engine import DaskExecutor, count_of
 
         return Engine(DaskExecutor(executor), count_of(executor), threads, DASK_SECONDS)
-    return Engine(executor, getattr(executor, "_max_workers", None) or usable_cpus(), threads)
+    return Engine(executor, getattr(executor, "_max_workers", None) or usable_processors(), threads)

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import hashlib
 import os
-from typing import Any
 
+from ..files.hashing import hash_of_file
 from ..files.stamps import FileStamp, file_stamp, was_written
 
 _known: dict[str, tuple[FileStamp | None, str | None]] = {}
@@ -60,11 +60,3 @@ def digest_of(path: str) -> str | None:
         digest = None
     _known[path] = stamp, digest
     return digest
-
-
-def hash_of_file(path: str, digest: Any) -> str:
-    """Return the hash of a file, by an object of `hashlib`, in hexadecimal digits."""
-    with open(path, "rb") as file:
-        while piece := file.read(1 << 20):
-            digest.update(piece)
-    return digest.hexdigest()

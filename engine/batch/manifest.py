@@ -18,6 +18,7 @@ from ..errors import InvalidArgumentError
 from ..loaders.json_values import JsonValue, parsed_json
 from ..loaders.sources import read_source
 from .matrix import Value, combinations, name_from, value_of
+from .members import MemberError
 from .task import Task, check_look, checked, task_of
 
 VERSION = 1
@@ -87,7 +88,11 @@ def _told(place: JsonValue, do: Callable[[], Any], member: str = "") -> Any:
     try:
         return do()
     except (InvalidArgumentError, TypeError) as error:
-        raise place.error(str(error).removeprefix(f"{member}: ")) from None
+        keys = error.keys if isinstance(error, MemberError) else ()
+        text = str(error)
+        for key in (member, *keys):
+            text = text.removeprefix(f"{key}: ")
+        raise place.at(keys).error(text) from None
 
 
 def _writer(entry: JsonValue) -> DatasetWriter:
@@ -98,7 +103,12 @@ def _writer(entry: JsonValue) -> DatasetWriter:
     known = set(inspect.signature(make).parameters)
     _check_keys(entry, {"writer", *known})
     given = {key: one.value for key, one in entry.members().items() if key != "writer"}
-    return _told(entry, lambda: make(**given))
+    try:
+        return make(**given)
+    except (InvalidArgumentError, TypeError) as error:
+        text = str(error)  # it begins with the parameter at fault
+        key = next((key for key in given if text.startswith(f"{key} ")), None)
+        raise entry.at([] if key is None else [key]).error(text) from None
 
 
 def _values(entry: JsonValue, known: set[str], of_dataset: bool) -> dict[str, Value]:

@@ -2,8 +2,9 @@
 
 In: calls of functions that can be imported. Out: futures, as executors of `concurrent.futures` give
 them. A process that dies fails the call that it worked on, by an error that names it, and another
-takes its place. No process runs the program that made the pool, so that it needs no guard; none is
-in the terminal's group, so that Ctrl-C reaches the pool alone, which ends them.
+takes its place; one that works on a call for too long is ended. No process runs the program that
+made the pool, so that it needs no guard; none is in the terminal's group, so that Ctrl-C reaches
+the pool alone, which ends them.
 """
 
 from __future__ import annotations
@@ -19,14 +20,34 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any
 
-from .worker import receive, send
+from .._support.system import kill_group
+from .worker import BEGUN, receive, send
 
-_PROGRAM = "import sys; sys.path[:] = {path!r}; from engine3d.batch.worker import main; main()"
+_PROGRAM = (
+    "import sys; sys.path[:] = {path!r}; from engine3d.batch.worker import main; main({idle})"
+)
 _PATIENCE = 5.0  # seconds, for a process to end that was asked to
 
 
 class WorkerDiedError(RuntimeError):
     """A process ended while it worked on a call."""
+
+
+class TimeLimitError(RuntimeError):
+    """A process was ended because it worked on a call for too long.
+
+    Parameters
+    ----------
+    seconds : float
+        The limit.
+    """
+
+    def __init__(self, seconds: float) -> None:
+        super().__init__(seconds)
+        self.seconds = seconds
+
+    def __str__(self) -> str:
+        return f"it took more than {self.seconds:g} s, and was ended"
 
 
 class ProcessPool:
@@ -35,14 +56,23 @@ class ProcessPool:
     Parameters
     ----------
     count : int
+    limit : float, optional
+        Seconds that a call may take, from when its process has begun with it.
+    idle : float, optional
+        Seconds after which a process ends that nobody asks anything; the next call starts another.
     """
 
-    def __init__(self, count: int) -> None:
+    def __init__(self, count: int, limit: float | None = None, idle: float | None = None) -> None:
         self._calls: queue.SimpleQueue = queue.SimpleQueue()
-        self._workers = [_Worker(number, self._calls) for number in range(1, count + 1)]
+        numbers = range(1, count + 1)
+        self._workers = [_Worker(number, self._calls, limit, idle) for number in numbers]
 
     def submit(self, function: Callable[..., Any], /, *arguments: Any) -> Future:
-        """Have a call done; its future fails with `WorkerDiedError` where the process dies."""
+        """Have a call done.
+
+        Its future fails with `WorkerDiedError` where the process dies, and with `TimeLimitError`
+        where it was ended.
+        """
         future: Future = Future()
         self._calls.put((future, function, arguments))
         return future
@@ -70,8 +100,11 @@ class ProcessPool:
 class _Worker:
     """A process, and the thread that talks with it."""
 
-    def __init__(self, number: int, calls: queue.SimpleQueue) -> None:
+    def __init__(
+        self, number: int, calls: queue.SimpleQueue, limit: float | None, idle: float | None
+    ) -> None:
         self._number, self._calls = number, calls
+        self._limit, self._idle = limit, idle
         self._stopped = False
         self.process: subprocess.Popen | None = None
         self._thread = threading.Thread(target=self._serve, daemon=True)
@@ -104,11 +137,15 @@ class _Worker:
     def _do(self, future: Future, call: tuple) -> None:
         try:
             if self.process is None or self.process.poll() is not None:
-                self.process = _started()
+                self.process = _started(self._idle)
                 if self._stopped:
                     self.hang_up()
             send(self.process.stdin, call)
-            returned, result = receive(self.process.stdout)
+            returned, result = self._result(self.process)
+        except TimeLimitError as error:
+            self._end(error)
+            future.set_exception(error)
+            return
         except (EOFError, OSError, ValueError, pickle.UnpicklingError) as error:
             future.set_exception(WorkerDiedError(self._end(error)))
             return
@@ -119,6 +156,28 @@ class _Worker:
             future.set_result(result)
         else:
             future.set_exception(result)
+
+    def _result(self, process: subprocess.Popen) -> tuple[bool, Any]:
+        """What the process returns; it is ended if that takes too long."""
+        begun = receive(process.stdout)
+        assert begun == BEGUN
+        if self._limit is None:
+            return receive(process.stdout)
+        is_over = threading.Event()
+
+        def end() -> None:
+            is_over.set()
+            kill_group(process.pid)
+
+        timer = threading.Timer(self._limit, end)
+        timer.start()
+        try:
+            return receive(process.stdout)
+        finally:
+            timer.cancel()
+            timer.join()
+            if is_over.is_set():
+                raise TimeLimitError(self._limit)
 
     def _end(self, error: Exception) -> str:
         """Say how the process ended."""
@@ -140,8 +199,8 @@ class _Worker:
         return f"worker {self._number} (process {process.pid}) {how}"
 
 
-def _started() -> subprocess.Popen:
-    program = _PROGRAM.format(path=sys.path)
+def _started(idle: float | None) -> subprocess.Popen:
+    program = _PROGRAM.format(path=sys.path, idle=idle)
     return subprocess.Popen(
         [sys.executable, "-c", program],
         stdin=subprocess.PIPE,

@@ -3,7 +3,7 @@
 In: tasks, a folder, who draws. Out: files, and a `Summary`. Chunks are as many pictures as take 50
 ms (by Dask 250), so that handing them out costs little. Only a few more are handed out than are
 drawn at once, so that memory is bounded. A chunk whose process dies is drawn again, picture by
-picture; a picture that ends its process three times has failed.
+picture; a picture that ends its process three times has failed, and so has one that takes too long.
 """
 
 from __future__ import annotations
@@ -14,20 +14,24 @@ import math
 import os
 import queue
 import re
+import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
+from .._support.numbers import real, shown
 from ..choices import Backend
 from ..datasets.writer import DatasetWriter, Note
 from ..errors import FileAccessError, InvalidArgumentError, warn
+from ..files.hashing import hash_of_file
 from ..rendering.backend_selection import resolve_backend
 from ..version import __version__
 from .drawing import How, Outcome, draw_chunk, writer_of
 from .executors import Engine, engine_for
-from .file_digests import hash_of_file
+from .limits import draw_limited
 from .locking import locked_folder
+from .processes import TimeLimitError
 from .records import FOLDER, note_of, read_record
 from .summary import Failure, Summary, write_sums
 from .task import Task
@@ -49,6 +53,7 @@ def run(
     executor: Any = None,
     scheduler: str | None = None,
     resume: bool = False,
+    timeout: float | None = None,
     progress: Callable[[Task, Outcome | None, str], object] | None = None,
 ) -> Summary:
     """Draw a batch of pictures.
@@ -74,6 +79,11 @@ def run(
         see the same files, at the same paths.
     resume : bool
         Leave out pictures that are there, made of what there is now.
+    timeout : float, optional
+        Seconds that a picture may take, with loading what it shows. The process that takes longer
+        is ended, and the picture has failed; ``resume`` tries it again. A process other than this
+        one then draws also with ``jobs=1``, and with executors and Dask beside each of their
+        workers.
     progress : callable, optional
         Is called with a task, what became of it, and ``""``; or with a task, None, and a line that
         says why it is drawn again.
@@ -93,14 +103,17 @@ def run(
     for number in (jobs, threads):
         if number is not None and not (isinstance(number, int) and number >= 1):
             raise InvalidArgumentError("jobs and threads must be whole numbers from 1 on")
+    if timeout is not None and not 0 < real(timeout) <= threading.TIMEOUT_MAX:
+        raise InvalidArgumentError(f"timeout must be a number of seconds, not {shown(timeout)}")
     resolve_backend(backend)
     folder = os.path.abspath(os.fspath(out))
     _make(folder)
     with locked_folder(os.path.join(folder, FOLDER)):
         _remove_left_behind(folder)
         try:
-            with engine_for(jobs, threads, executor, scheduler) as engine:
-                how = How(folder, writer, engine.threads, backend, resume, __version__)
+            with engine_for(jobs, threads, executor, scheduler, timeout) as engine:
+                limit = None if engine.ends_calls else timeout
+                how = How(folder, writer, engine.threads, backend, resume, __version__, limit)
                 summary = _Run(numbered, how, engine, progress).run()
         finally:
             _remove_left_behind(folder)
@@ -133,6 +146,7 @@ class _Run:
 
     def __init__(self, tasks: Sequence[Task], how: How, engine: Engine, progress: Any) -> None:
         self._tasks, self._how, self._engine = tasks, how, engine
+        self._draw = draw_chunk if how.timeout is None else draw_limited
         self._progress = progress or (lambda task, outcome, text: None)
         self._fresh = iter(tasks)
         self._again: deque[Task] = deque()  # whose process died
@@ -165,7 +179,7 @@ class _Run:
             again = any(self._tries.get(task.index) for task in chunk)
             how = self._how._replace(resume=True) if again else self._how
             try:
-                future = self._engine.executor.submit(draw_chunk, chunk, how)
+                future = self._engine.executor.submit(self._draw, chunk, how)
             except RuntimeError as error:  # it is broken, or was shut down
                 self._fail(chunk, f"the executor takes no more calls: {error}")
                 continue
@@ -186,7 +200,7 @@ class _Run:
         if not self._counted:
             return 1
         mean = max(self._seconds / self._counted, 1e-6)
-        return min(math.ceil(self._engine.chunk_seconds / mean), _MOST_IN_CHUNK)
+        return min(math.ceil(self._engine.chunk_seconds / mean) or 1, _MOST_IN_CHUNK)
 
     def _take_in(self, future: Any, chunk: list[Task]) -> None:
         try:
@@ -200,7 +214,7 @@ class _Run:
     def _died(self, chunk: list[Task], error: BaseException) -> None:
         """Have tasks drawn again whose process died, or that could not be asked for."""
         text = " ".join(str(error).split()) or type(error).__name__
-        lasting = isinstance(error, InvalidArgumentError)
+        lasting = isinstance(error, (InvalidArgumentError, TimeLimitError))
         again = []
         for task in chunk:
             tries = self._tries[task.index] = self._tries.get(task.index, 0) + 1

@@ -25,6 +25,7 @@ from ..rendering.options import RenderOptions
 from ..scene.scene import Scene
 from ..version import __version__
 from .cameras import check_camera
+from .members import member
 
 #: What of a scene a task may set.
 SCENE_KEYS = ("background", "ambient", "light_clamp", "exposure")
@@ -187,7 +188,11 @@ def _texts(what: str):
     def check_all(value: Any) -> tuple[str, ...]:
         if isinstance(value, str) or not isinstance(value, Sequence):
             raise InvalidArgumentError(f"{what} must be a list of texts, not {shown(value)}")
-        return tuple(check(one) for one in value)
+        texts = []
+        for number, one in enumerate(value):
+            with member(number):
+                texts.append(check(one))
+        return tuple(texts)
 
     return check_all
 
@@ -225,9 +230,21 @@ def _render(value: Any) -> dict[str, Any]:
     options = _mapping("render", value)
     known = {one.name for one in fields(RenderOptions)} - {"outputs"}
     for key in options:
-        choose(key, sorted(known), "render")
-    RenderOptions(**options)
+        with member(key):
+            _check_key("render", key, sorted(known))
+    try:
+        RenderOptions(**options)
+    except (InvalidArgumentError, TypeError):
+        for key, one in options.items():
+            with member(key):
+                RenderOptions(**{key: one})
+        raise
     return options
+
+
+def _check_key(what: str, key: str, known: Sequence[str]) -> None:
+    if key not in known:
+        raise InvalidArgumentError(f"{what}: {key} is none of {', '.join(known)}")
 
 
 def _scene(value: Any) -> dict[str, Any]:
@@ -235,21 +252,28 @@ def _scene(value: Any) -> dict[str, Any]:
     if values:
         scene = Scene()
         for key, held in values.items():
-            setattr(scene, choose(key, SCENE_KEYS, "scene"), held)
+            with member(key):
+                _check_key("scene", key, SCENE_KEYS)
+                setattr(scene, key, held)
     return values
 
 
 def _outputs(value: Any) -> tuple[str, ...]:
     names = _texts("outputs")(value)
-    for name in names:
-        output, _, suffix = name.partition(".")
-        choose(output, OUTPUTS, "outputs")
-        if suffix:
-            formats = get_args(ImageFormat) if output == "color" else ("npy",)
-            choose(suffix, formats, f"outputs: the format of {output}")
+    for number, name in enumerate(names):
+        with member(number):
+            _check_output(name)
     if not names or len({name.partition(".")[0] for name in names}) < len(names):
         raise InvalidArgumentError("outputs must name some outputs, none twice")
     return names
+
+
+def _check_output(name: str) -> None:
+    output, _, suffix = name.partition(".")
+    choose(output, OUTPUTS, "outputs")
+    if suffix:
+        formats = get_args(ImageFormat) if output == "color" else ("npy",)
+        choose(suffix, formats, f"outputs: the format of {output}")
 
 
 _CHECKS = {

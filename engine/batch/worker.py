@@ -4,6 +4,7 @@ In: pickled calls on standard input, each behind its length. Out: pickled result
 standard output; what a script prints goes to standard error. When the asking process is gone,
 whatever happens to it, standard input ends: the process stops at once, and half-written files with
 it. It is started as a program of its own: nothing of the asking program is imported or run again.
+Before each result it says that it begins, so that whoever waits can tell how long a call takes.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ import threading
 from typing import Any, BinaryIO
 
 LENGTH = struct.Struct("<Q")
+BEGUN = "begun"
 
 
 def send(stream: BinaryIO, thing: Any) -> None:
@@ -47,8 +49,8 @@ def receive(stream: BinaryIO) -> Any:
     return pickle.loads(data)
 
 
-def main() -> None:
-    """Do what is asked until nobody asks any more."""
+def main(idle: float | None = None) -> None:
+    """Do what is asked until nobody asks any more, or for ``idle`` seconds nobody did."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
     # Whoever ends this process means what Ctrl-C means: nothing half written stays behind.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
@@ -57,9 +59,10 @@ def main() -> None:
     calls: queue.SimpleQueue = queue.SimpleQueue()
     threading.Thread(target=_listen, args=(sys.stdin.buffer, calls), daemon=True).start()
     try:
-        while (call := calls.get()) is not None:
+        while (call := calls.get(timeout=idle)) is not None:
+            send(results, BEGUN)
             send(results, _answer(*call))
-    except (KeyboardInterrupt, BrokenPipeError):
+    except (KeyboardInterrupt, BrokenPipeError, queue.Empty):
         pass
     finally:
         signal.signal(signal.SIGINT, signal.SIG_IGN)

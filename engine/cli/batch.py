@@ -28,6 +28,7 @@ def batch(args: argparse.Namespace) -> int:
             backend=args.backend,
             scheduler=args.scheduler,
             resume=args.resume,
+            timeout=args.timeout,
             progress=progress,
         )
     return _report(summary)

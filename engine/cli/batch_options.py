@@ -32,6 +32,12 @@ def add(command) -> None:
         "pip install 'engine3d[dask]'",
     )
     command.add_argument(
+        "--timeout",
+        type=values.positive,
+        metavar="SECONDS",
+        help="how long a picture may take; its process is ended then, and the picture has failed",
+    )
+    command.add_argument(
         "--backend",
         choices=BACKENDS,
         default="auto",

@@ -43,10 +43,11 @@ def fill(output: str | None, model: str, taken: Sequence = ()) -> str | None:
     Raises
     ------
     UsageError
-        There is no such variable.
+        There is no such variable, or a brace stands alone.
     """
-    if output is None or "{" not in output:
+    if output is None or not {"{", "}"} & set(output):
         return output
+    _check_braces(output)
     stem, extension = os.path.splitext(os.path.basename(model))
     said = {
         "app": "engine3d",
@@ -78,3 +79,16 @@ def fill(output: str | None, model: str, taken: Sequence = ()) -> str | None:
         if filled not in taken and not os.path.exists(filled):
             break
     return filled
+
+
+def _check_braces(output: str) -> None:
+    """Raise `UsageError` if a brace neither belongs to a variable nor is written twice."""
+    from ..files.animation_files import FRAME_NUMBER
+
+    rest = FRAME_NUMBER.sub("", _FIELD.sub("", output))
+    for brace, other in ("{}", "}{"):
+        if brace in rest:
+            raise UsageError(
+                f"-o: {brace!r} without {other!r} in {output!r}: a variable is {{model}}, and "
+                f"{2 * brace} stands for {brace}"
+            )

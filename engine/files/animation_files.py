@@ -33,7 +33,7 @@ TRANSPARENT_INDEX = 255
 #: Viewers of GIF take anything shorter for a mistake and show a tenth of a second.
 SHORTEST_MILLISECONDS = 20
 #: Where a frame's number goes into a name: ``%04d``, ``{:04}``, ``{:04d}``, ``{}``.
-_NUMBER = re.compile(r"%(0?\d?)d|\{(?::(0?\d?)d?)?\}")
+FRAME_NUMBER = re.compile(r"%(0?\d?)d|\{(?::(0?\d?)d?)?\}")
 
 
 def save_animation(pictures: Iterable[np.ndarray], path, seconds_a_frame: float) -> None:
@@ -68,14 +68,14 @@ def save_animation(pictures: Iterable[np.ndarray], path, seconds_a_frame: float)
 
 def is_numbered(path) -> bool:
     """Return whether a name has one place for a frame's number, such as ``%04d`` or ``{:04}``."""
-    return len(_NUMBER.findall(os.path.basename(path))) == 1
+    return len(FRAME_NUMBER.findall(os.path.basename(path))) == 1
 
 
 def frame_path(path, number: int) -> str:
     """Return a name with the number where `is_numbered` found its place."""
     folder, name = os.path.split(path)
-    width = next(group for group in (*_NUMBER.search(name).groups(), "") if group is not None)
-    return os.path.join(folder, _NUMBER.sub(format(number, width + "d"), name))
+    width = next(group for group in (*FRAME_NUMBER.search(name).groups(), "") if group is not None)
+    return os.path.join(folder, FRAME_NUMBER.sub(format(number, width + "d"), name))
 
 
 def _save_images(

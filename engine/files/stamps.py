@@ -14,7 +14,7 @@ import os
 import time
 from typing import NamedTuple
 
-from .._support.system import AT_ONCE
+from .hashing import hash_of_file
 
 _STEP = 2 * 10**9  # nanoseconds; FAT has the longest step
 
@@ -58,8 +58,7 @@ class FileState:
     def __init__(self, path: str | os.PathLike) -> None:
         self._path = path
         self._stamp = file_stamp(path)
-        readable = self._is_young() and os.path.isfile(path)  # not a FIFO
-        self._content = _digest(path) if readable else None
+        self._content = _digest(path) if self._is_young() else None
 
     def changed(self) -> bool:
         """Whether the file is another now; within two seconds of a change, it may take so long."""
@@ -79,17 +78,8 @@ class FileState:
         return any(abs(now - at) < _STEP for at in times)
 
 
-def _opened_at_once(path: str, flags: int) -> int:
-    return os.open(path, flags | AT_ONCE)
-
-
-def _digest(path: str | os.PathLike) -> bytes | None:
-    digest = hashlib.blake2b(digest_size=20)
+def _digest(path: str | os.PathLike) -> str | None:
     try:
-        # What has become a FIFO meanwhile must not be waited for.
-        with open(path, "rb", opener=_opened_at_once) as file:
-            while piece := file.read(1 << 20):
-                digest.update(piece)
+        return hash_of_file(path, hashlib.blake2b(digest_size=20))
     except OSError:
         return None
-    return digest.digest()

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import FileAccessError
+from ..errors import Engine3DError, FileAccessError, FileFormatError
 from ..files.atomic_write import atomic_write
 from .comparison import Difference, compare
 from .difference_picture import difference_picture
@@ -25,7 +25,7 @@ from .making_folders import make_folder_of
 from .picture_files import SUFFIXES, Picture
 from .png_files import encode
 from .reading import read_picture
-from .results import CHANGED, DELETED, NEW, PASSED, Result
+from .results import CHANGED, DELETED, FAILED, NEW, PASSED, Result
 
 
 @dataclass(frozen=True)
@@ -99,15 +99,18 @@ def _pictures_below(folder: str) -> Iterator[str]:
             yield os.fspath(path.relative_to(folder))
 
 
-def compare_all(found: list[Pair], rules: Rules, threads: int) -> Iterator[Result]:
-    """Yield what came of each pair, in their order."""
+def compare_all(
+    found: list[Pair], rules: Rules, threads: int, *, keep_going: bool
+) -> Iterator[Result]:
+    """Yield what came of each pair, in their order; see `compare_files`."""
     with ThreadPoolExecutor(threads) as pool:
-        yield from pool.map(lambda pair: compare_files(pair, rules), found)
+        yield from pool.map(lambda pair: compare_files(pair, rules, keep_going), found)
 
 
-def compare_files(pair: Pair, rules: Rules) -> Result:
+def compare_files(pair: Pair, rules: Rules, keep_going: bool = False) -> Result:
     """Compare two files, and write the picture of their difference where there is a place for it.
 
+    With ``keep_going`` a file that cannot be read has failed: the other pictures are compared.
     Raises `FileAccessError`, or `FileFormatError` where one is no picture.
     """
     result = Result(pair.name, PASSED, actual=pair.actual, expected=pair.expected)
@@ -115,22 +118,33 @@ def compare_files(pair: Pair, rules: Rules) -> Result:
         result.status = NEW if pair.expected is None else DELETED
         result.message = "nothing was expected" if pair.expected is None else "nothing was drawn"
         return result
-    if _same_bytes(pair.actual, pair.expected):
+    try:
+        if _same_bytes(pair.actual, pair.expected):
+            return result
+        pictures = read_picture(pair.actual), read_picture(pair.expected)
+    except (FileAccessError, FileFormatError) as error:
+        if not keep_going:
+            raise
+        result.status, result.message = FAILED, str(error)
         return result
-    pictures = read_picture(pair.actual), read_picture(pair.expected)
+    _judge(result, pair, pictures, rules)
+    return result
+
+
+def _judge(result: Result, pair: Pair, pictures: tuple[Picture, Picture], rules: Rules) -> None:
+    """Say how two pictures differ, if they do more than is allowed."""
     frame, difference = _first_difference(*pictures, rules)
     result.frame = frame
     shown = [one.frames[min(frame, len(one.frames) - 1)] for one in pictures]
     result.measure(difference)
     if _passes(result, difference, shown, rules):
-        return result
+        return
     result.status, result.message = CHANGED, _what_differs(*pictures, result, difference)
     if pair.difference is not None:
         result.difference = pair.difference
         make_folder_of(pair.difference)
         with atomic_write(pair.difference) as file:
             file.write(encode(difference_picture(displayed(shown[1]), difference)))
-    return result
 
 
 def _same_bytes(a: str, b: str) -> bool:
@@ -191,16 +205,18 @@ def _what_differs(
     return text if result.flip is None else f"{text}; mean FLIP error {result.flip:.4g}"
 
 
-def update(results: list[Result], actual: str, expected: str) -> None:
+def update(results: list[Result], actual: str, expected: str) -> list[Result]:
     """Make what was drawn what is expected: copy what is changed or new, remove what was deleted.
 
-    Raises `FileAccessError`.
+    A damaged picture is replaced by what was drawn, but never the other way round. Returns the
+    results of those that were drawn and cannot be read. Raises `FileAccessError`.
     """
+    left = [r for r in results if r.status == FAILED and not _is_readable(r.actual)]
     try:
         for result in results:
             if result.status == DELETED and result.expected is not None:
                 os.remove(result.expected)
-            elif result.status in (CHANGED, NEW) and result.actual is not None:
+            elif result.status in (CHANGED, NEW, FAILED) and result not in left:
                 is_folder = os.path.isdir(actual)
                 name = os.path.join(expected, *result.name.split("/"))
                 _copy(result.actual, name if is_folder else expected)
@@ -208,6 +224,15 @@ def update(results: list[Result], actual: str, expected: str) -> None:
         raise
     except OSError as error:
         raise FileAccessError(f"cannot write: {error.strerror}", error.filename) from error
+    return left
+
+
+def _is_readable(path: str) -> bool:
+    try:
+        read_picture(path)
+    except Engine3DError:
+        return False
+    return True
 
 
 def _copy(source: str, target: str) -> None:

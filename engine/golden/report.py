@@ -20,9 +20,9 @@ from ..version import __version__
 from .display import displayed
 from .png_files import encode
 from .reading import read_picture
-from .results import CHANGED, DELETED, NEW, PASSED, UNUSED, UPDATED, Result
+from .results import CHANGED, DELETED, FAILED, NEW, PASSED, UNUSED, UPDATED, Result
 
-_ORDER = (CHANGED, NEW, DELETED, UPDATED, UNUSED, PASSED)
+_ORDER = (FAILED, CHANGED, NEW, DELETED, UPDATED, UNUSED, PASSED)
 _VIEWS = (
     ("side", "Side by side"),
     ("swipe", "Swipe"),

@@ -8,11 +8,10 @@ from xml.etree import ElementTree
 
 from ..errors import FileAccessError, FileFormatError, printable
 from ..files.atomic_write import atomic_write
-from .results import CHANGED, DELETED, NEW, PASSED, UNUSED, UPDATED, Result
+from .results import CHANGED, DELETED, FAILED, NEW, PASSED, UNUSED, UPDATED, Result
 
-FAILURES = (CHANGED, NEW, DELETED)
 _LISTS = {
-    "failedItems": (CHANGED,),
+    "failedItems": (CHANGED, FAILED),
     "newItems": (NEW,),
     "deletedItems": (DELETED, UNUSED),
     "passedItems": (PASSED, UPDATED),

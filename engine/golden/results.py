@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 PASSED, CHANGED, NEW, UPDATED = "passed", "changed", "new", "updated"
-UNUSED, DELETED = "unused", "deleted"
+UNUSED, DELETED, FAILED = "unused", "deleted", "failed"
 TWO_PICTURES = "two calls gave different pictures for this name in one run"
 
 
@@ -22,8 +22,8 @@ class Result:
         are compared.
     status : str
         ``"passed"``, ``"changed"``, ``"new"`` (nothing was expected), ``"updated"`` (what was
-        expected has been written anew), ``"unused"`` (no test asked for it) or ``"deleted"``
-        (nothing was drawn).
+        expected has been written anew), ``"unused"`` (no test asked for it), ``"deleted"``
+        (nothing was drawn) or ``"failed"`` (one of the files cannot be read).
     message : str
         A line about what differs; empty where nothing does.
     test : str

@@ -11,7 +11,7 @@ import binascii
 import json
 import math
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
@@ -65,8 +65,15 @@ class JsonValue:
             raise self.wrong("an object")
         return {key: self._member(key) for key in self.value}
 
-    def _member(self, key: str) -> JsonValue:
+    def _member(self, key: str | int) -> JsonValue:
         return JsonValue(self.value[key], self._path, (self._place, key))
+
+    def at(self, keys: Iterable[str | int]) -> JsonValue:
+        """Return what is there at the end of a way of keys and numbers."""
+        place = self
+        for key in keys:
+            place = place._member(key)
+        return place
 
     def get(self, key: str) -> JsonValue | None:
         """Return what an object holds under a key; None where it is left out."""

@@ -29,7 +29,11 @@ AXIS_LENGTH = 34
 
 def text_scale(canvas, screen: int = 1) -> int:
     """Return the factor on the font's size that suits the picture, on a screen of some scale."""
-    height, width = canvas.pixels.shape[:2]
+    return text_scale_for(canvas.width, canvas.height, screen)
+
+
+def text_scale_for(width: int, height: int, screen: int = 1) -> int:
+    """Return the same for a picture of some size."""
     scale = max(screen, 2 if height >= LARGE_HEIGHT else 1)
     return max(1, min(scale, width // (FEWEST_COLUMNS * text_size("M")[0])))
 

@@ -101,6 +101,7 @@ def viewed_thing(
     scene = _scene(thing)
     if scene is None:
         return None
+    check_motion(update, "update")
     if up not in UP_DIRECTIONS:
         raise InvalidArgumentError(f"up must be one of {', '.join(UP_DIRECTIONS)}, not {up!r}")
     if not real(period) > 0:
@@ -111,6 +112,12 @@ def viewed_thing(
     if update is None:
         play_clips(viewed)
     return viewed
+
+
+def check_motion(function, what: str) -> None:
+    """Raise `InvalidArgumentError` unless it is None or can be called."""
+    if function is not None and not callable(function):
+        raise InvalidArgumentError(f"{what} must be a function of the time, not {shown(function)}")
 
 
 def first_view(view_renderer: ViewRenderer) -> Viewpoint | None:

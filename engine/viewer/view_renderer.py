@@ -20,6 +20,7 @@ from ..spatial.rays import RayHit
 from .appearance import Appearance, count_points, point_size, warn_of_blended
 from .box_grid import BoxGrid
 from .debug_lines import Lines, box_lines, draw_lines, frustum_lines, tree_lines
+from .free_region import NOTHING, Taken, frame_beside
 from .grid_lines import grid
 from .lighting import OWN_LIGHTS, Lighting, OnlyLight, placed_light
 from .near_origin import from_file
@@ -340,7 +341,7 @@ class ViewRenderer:
 
     def frame(self, view: Viewpoint) -> None:
         """Move a view along its direction to where all of the scene shows."""
-        view.frame(self._outline, self.aspect)
+        frame_beside(view, self._outline, self.aspect, self._taken())
 
     def fill(self, view: Viewpoint) -> None:
         """Move a view to where the scene, as it first stands, fills the picture.
@@ -348,12 +349,22 @@ class ViewRenderer:
         That is nearer than `frame`, which leaves room for the scene to turn.
         """
         if self.settings.axes_grid:
-            view.frame(self._box.corners, self.aspect)
+            frame_beside(view, self._box.corners, self.aspect, self._taken())
             view.distance *= _LABEL_ROOM
         elif self._support is None:
             self.frame(view)
         else:
-            view.fit(self._support, np.array(self.bounds.center), self.aspect)
+            view.fit(self._support, np.array(self.bounds.center), self.aspect, self._taken())
+
+    def _taken(self) -> Taken:
+        """What of the picture the bar of numbers takes."""
+        bar = self.viewed.bar if self.settings.bar else None
+        if bar is None:
+            return NOTHING
+        from .scalar_bar import place_bar
+
+        scale = self._text_scale(*self.size)
+        return place_bar(*self.size, bar, scale).taken(*self.size)
 
     def draw(self, view: Viewpoint, time: float = 0.0, outputs=("color",)):
         """Return the frame at ``time`` (seconds) as seen by ``view``."""
@@ -475,9 +486,12 @@ class ViewRenderer:
 
     def text_scale(self, canvas) -> int:
         """Return the factor on the font's size of texts over a picture."""
-        from .overlay import text_scale
+        return self._text_scale(canvas.width, canvas.height)
 
-        return self.settings.ui_scale or text_scale(canvas, self.screen_scale)
+    def _text_scale(self, width: int, height: int) -> int:
+        from .overlay import text_scale_for
+
+        return self.settings.ui_scale or text_scale_for(width, height, self.screen_scale)
 
     def _clip_bounds(self) -> Sphere:
         """Return what the clip planes must enclose: animated parts and the grids included."""

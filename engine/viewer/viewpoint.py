@@ -20,6 +20,7 @@ from ..rendering.framing import fit_frustum, frustum_reach
 from ..rendering.support_functions import SupportFunction, support_of_points
 from ..scene.cameras import OrthographicCamera, PerspectiveCamera
 from ..scene.orbiting import home_axes, orbit_axes
+from .free_region import NOTHING, Taken, sheared
 
 #: What ``up`` may be, as the command line spells it.
 UP_DIRECTIONS = {
@@ -143,7 +144,9 @@ class Viewpoint:
         self.target = middle + up * height
         self.distance = FRAMING_MARGIN * max(distance - height * approach, parallel) or 1.0
 
-    def fit(self, support: SupportFunction, center: np.ndarray, aspect: float) -> None:
+    def fit(
+        self, support: SupportFunction, center: np.ndarray, aspect: float, taken: Taken = NOTHING
+    ) -> None:
         """Show something as large as possible, as it stands and from this direction.
 
         Parameters
@@ -154,16 +157,21 @@ class Viewpoint:
             About the middle of it.
         aspect : float
             Width over height of the picture.
+        taken : Taken
+            What of the picture is for other things.
         """
         axes, slopes = self.rotation().T, self._slopes(aspect)
+        shift, slopes = taken.shift(slopes), taken.narrowed(slopes)
         if self.orthographic:
             right, left, top, bottom = self._sides(support, center)
             x, y = (right - left) / 2, (top - bottom) / 2
             distance = max((right + left) / slopes[0], (top + bottom) / slopes[1]) / 2
         else:
-            x, y, distance, _ = fit_frustum(support, axes, center, *slopes)
-        self.target = center + axes[0] * x + axes[1] * y
+            seen = sheared(support, axes, center, shift)
+            x, y, distance, _ = fit_frustum(seen, axes, center, *slopes)
         self.distance = FRAMING_MARGIN * distance or 1.0
+        x, y = x + shift[0] * self.distance, y + shift[1] * self.distance
+        self.target = center + axes[0] * x + axes[1] * y
 
     def stretch(self, aspect: float) -> float:
         """Return how many times farther away the corner of a picture's plane is than its middle."""

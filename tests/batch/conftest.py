@@ -9,6 +9,8 @@ OBJ = "v -1 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n"
 SCRIPT = '''"""A script of tests."""
 import os
 import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -60,6 +62,13 @@ def die_once(scene, generator):
 
 def die(scene, generator):
     os.kill(os.getpid(), signal.SIGKILL)
+
+
+def sleep(scene, generator):
+    """Sleep, and let a process of its own sleep too."""
+    other = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(1000)"])
+    (HERE / f"other{other.pid}").touch()
+    other.wait()
 
 
 def wait(scene, generator):

@@ -42,31 +42,41 @@ def test_writers_are_made_as_they_say(manifest):
     assert read_manifest(path).writer.said()["split"] == "val"
 
 
+POSE = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+INTRINSICS = {"fx": 1, "fy": 1, "cx": 1, "cy": 1}
 WRONG = [
     ({}, "tasks[1]: a task needs a model or a script"),
     ({**MODEL, "modle": 1}, "tasks[1].modle: is none of antialias, arguments, camera"),
     ({**MODEL, "size": [0, 4]}, "tasks[1].size: width must be a whole number in 1..16384, not 0"),
     ({**MODEL, "seed": -1}, "tasks[1].seed: seed must be a whole number from 0 on: -1"),
     ({**MODEL, "samples": 3}, "tasks[1].samples: samples must be one of 1, 2, 4, 8, 16, not 3"),
-    ({**MODEL, "camera": {"azimuth": "x"}}, "tasks[1].camera: azimuth must be a finite"),
-    ({**MODEL, "camera": {"pose": [1]}}, "tasks[1].camera: pose must have shape (4, 4)"),
+    ({**MODEL, "camera": {"azimuth": "x"}}, "tasks[1].camera.azimuth: azimuth must be a finite"),
+    ({**MODEL, "camera": {"pose": [1]}}, "tasks[1].camera.pose: pose must have shape (4, 4)"),
     (
         {**MODEL, "camera": {"position": [1, 2, 3], "azimuth": 3}},
-        "camera: azimuth is none of pos",
+        "tasks[1].camera.azimuth: azimuth is none of pos",
     ),
     (
         {**MODEL, "camera": {"position": [1, 2, 3], "height": 1, "view_angle": 3}},
-        "view_angle and height do not go together",
+        "tasks[1].camera: view_angle and height do not go together",
     ),
     (
         {**MODEL, "camera": {"elevation": 91}},
-        "tasks[1].camera: elevation must be from -90",
+        "tasks[1].camera.elevation: elevation must be from -90",
     ),
-    ({**MODEL, "camera": True}, "camera must be a number or an object, not True"),
-    ({**MODEL, "render": {"mode": "lti"}}, "tasks[1].render: mode must be one of 'lit'"),
-    ({**MODEL, "render": {"outputs": ["color"]}}, "tasks[1].render: render must be one of"),
-    ({**MODEL, "scene": {"ambient": 3}}, "tasks[1].scene: "),
-    ({**MODEL, "outputs": ["depth.png"]}, "tasks[1].outputs: the format of depth must"),
+    (
+        {**MODEL, "camera": {"pose": POSE, "intrinsics": {**INTRINSICS, "fy": "x"}}},
+        "tasks[1].camera.intrinsics.fy: fy must be a finite number, not 'x'",
+    ),
+    (
+        {**MODEL, "matrix": {"camera": [{}, {"view_angle": 200}]}},
+        "tasks[1].matrix.camera[1].view_angle: view_angle must be between 0 and 180",
+    ),
+    ({**MODEL, "camera": True}, "tasks[1].camera: camera must be a number or an object, not True"),
+    ({**MODEL, "render": {"mode": "lti"}}, "tasks[1].render.mode: mode must be one of 'lit'"),
+    ({**MODEL, "render": {"outputs": ["color"]}}, "tasks[1].render.outputs: outputs is none of al"),
+    ({**MODEL, "scene": {"ambient": 3}}, "tasks[1].scene.ambient: "),
+    ({**MODEL, "outputs": ["depth.png"]}, "tasks[1].outputs[0]: the format of depth must"),
     ({**MODEL, "outputs": "color"}, "outputs must be a list of texts"),
     ({**MODEL, "outputs": ["color", "color.jpg"]}, "outputs must name some outputs, none twice"),
     ({**MODEL, "name": "../up"}, "tasks[1].name: name must be made of letters"),
@@ -86,7 +96,7 @@ WRONG = [
     ({**SCRIPT, "arguments": [1]}, "tasks[1].arguments: arguments must be an object"),
     ({**SCRIPT, "function": "a b"}, "tasks[1].function: function must be a name"),
     ({"model": ""}, "tasks[1].model: model must be a text"),
-    ({**MODEL, "inputs": [3]}, "tasks[1].inputs: inputs must be a text, not 3"),
+    ({**MODEL, "inputs": [3]}, "tasks[1].inputs[0]: inputs must be a text, not 3"),
     ({**MODEL, "matrix": {"seed": []}}, "tasks[1].matrix.seed: holds no values"),
     ({**MODEL, "matrix": {"seed": [1, -2]}}, "tasks[1].matrix.seed[1]: seed must be"),
     ({**MODEL, "matrix": {"seed": {"count": 0}}}, "tasks[1].matrix.seed.count: 0 is not a whole"),
@@ -123,7 +133,7 @@ def test_errors_name_the_place(manifest, task, message):
         ({"dataset": {"writer": "voc"}}, "dataset.writer: voc' is not one of bop, coco, folders"),
         ({"dataset": {}}, "dataset: 'writer' is missing"),
         ({"dataset": {"writer": "coco", "shard": 3}}, "dataset.shard: is none of categories"),
-        ({"dataset": {"writer": "webdataset", "shard": 0}}, "dataset: shard must be a whole"),
+        ({"dataset": {"writer": "webdataset", "shard": 0}}, "dataset.shard: shard must be a whole"),
         (
             {"dataset": {"writer": "coco"}, "defaults": {"outputs": ["color"]}},
             "defaults.outputs: a data set's writer says what is written",

@@ -190,7 +190,7 @@ def test_a_script_may_write_files_beside(place, manifest):
 
 
 FAILING = [
-    ({**SCRIPT, "function": "fail"}, "script.py:33: ValueError: no such thing"),
+    ({**SCRIPT, "function": "fail"}, "script.py:35: ValueError: no such thing"),
     ({**SCRIPT, "function": "nothing"}, "script.py: there is no function nothing"),
     ({**SCRIPT, "arguments": {"size": 1}}, "TypeError: build() got an unexpected keyword"),
     ({**SCRIPT, "function": "returned"}, "what returned returned: must be None or a dict, not 3"),
@@ -326,6 +326,8 @@ def test_packed_pictures_are_done(place, manifest):
     [
         ({"jobs": 0}, "jobs and threads must be"),
         ({"threads": 1.5}, "jobs and threads must be"),
+        ({"timeout": 0}, "timeout must be a number of seconds, not 0"),
+        ({"timeout": "3"}, "timeout must be a number of seconds, not '3'"),
         ({"jobs": 1, "scheduler": "tcp://a:1"}, "give one of"),
         ({"executor": 3}, "executor must have a method submit"),
     ],

@@ -61,6 +61,11 @@ def test_files_are_drawn_together_unless_the_output_names_them(model, tmp_path):
         ),
         (["-o", "{colour}.png"], "there is no variable {colour}; there are {app}"),
         (["-o", "{n:x}.png"], "there is no variable {n:x}"),
+        (
+            ["-o", "{model.png"],
+            "-o: '{' without '}' in '{model.png': a variable is {model}",
+        ),
+        (["-o", "{n}model}.png"], "-o: '}' without '{' in '{n}model}.png': a variable is {model}"),
         (["-o", "{model_ext}.png"], "obj.png would be written twice; add {n}"),
         (["-o", "{n}.png", "--side-by-side", "--multi-file-mode", "single"], "does not go with"),
         (["-o", "a.png", "--force-reader", "tga"], "'tga' is not one of 3mf, asc"),

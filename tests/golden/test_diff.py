@@ -44,6 +44,47 @@ def test_folders(folders, capsys):
     assert sorted(path.name for path in folders.iterdir()) == ["new", "old"]
 
 
+@pytest.fixture
+def damaged(folders):
+    """Of five pictures, one drawn and one expected are damaged, and one cannot be opened."""
+    whole = (folders / "new/same.png").read_bytes()
+    for name, drawn, expected in (
+        ("drawn", whole[:60], whole),
+        ("expected", whole, b"nothing"),
+        ("other", whole, whole[:-20] + b"x" * 20),
+    ):
+        (folders / f"new/{name}.png").write_bytes(drawn)
+        (folders / f"old/{name}.png").write_bytes(expected)
+    return folders
+
+
+def test_damaged_pictures_fail_and_the_others_are_compared(damaged, capsys):
+    assert diff("new", "old", "-R", "r.html", "-J", "r.json", "--junit", "r.xml") == 1
+    out, err = capsys.readouterr()
+    lines = out.splitlines()
+    assert err == "" and "= passed  same.png" in lines
+    assert any(line.startswith("! changed sub/changed.png: ") for line in lines)
+    assert lines[-4].startswith("? failed  drawn.png: new/drawn.png: damaged image: ")
+    expected = "? failed  expected.png: old/expected.png: not an image of a known format"
+    assert lines[-3] == expected
+    assert lines[-1] == "1 passed, 1 new, 1 deleted, 1 changed, 3 failed"
+    names = ["drawn.png", "expected.png", "other.png", "sub/changed.png"]
+    assert json.loads((damaged / "r.json").read_text())["failedItems"] == names
+    assert 'type="failed" message="old/expected.png: not an' in (damaged / "r.xml").read_text()
+    assert '<article class="card failed' in (damaged / "r.html").read_text()
+    assert diff("-F", "r.json", "-R", "again.html") == 0
+    assert diff("new", "old", "-I") == 1
+
+
+def test_an_update_replaces_damaged_pictures_by_whole_ones_alone(damaged, capsys):
+    before = (damaged / "old/drawn.png").read_bytes()
+    assert diff("new", "old", "-U") == 1
+    assert capsys.readouterr().out.endswith(", but for 1 that cannot be read\n")
+    assert (damaged / "old/drawn.png").read_bytes() == before
+    (damaged / "new/drawn.png").unlink()
+    assert diff("new", "old") == 0
+
+
 def test_what_is_a_failure(folders, capsys):
     assert diff("new", "old", "-I") == 0
     assert diff("new", "old", "-IE") == 0
@@ -56,17 +97,17 @@ def test_what_is_a_failure(folders, capsys):
 
 
 def test_everything_that_is_written(folders, capsys):
-    options = ("-R", "r.html", "-J", "r.json", "--junit", "r.xml", "-C", "2")
+    options = ("-R", "r/r.html", "-J", "made/too/r.json", "--junit", "made/r.xml", "-C", "2")
     assert diff("new", *options, "old", "out") == 1
-    document = json.loads((folders / "r.json").read_text())
+    document = json.loads((folders / "made/too/r.json").read_text())
     assert document["failedItems"] == ["sub/changed.png"] and document["newItems"] == ["added.png"]
     assert document["deletedItems"] == ["gone.png"] and document["passedItems"] == ["same.png"]
     assert (document["actualDir"], document["diffDir"]) == ("new", "out")
-    assert "sub/changed" in (folders / "r.xml").read_text()
+    assert "sub/changed" in (folders / "made/r.xml").read_text()
     (difference,) = read_picture("out/sub/changed.png").frames
     assert difference.shape == (20, 30, 4)
-    assert diff("-F", "r.json", "-R", "again.html") == 0
-    assert (folders / "again.html").read_bytes() == (folders / "r.html").read_bytes()
+    assert diff("-F", "made/too/r.json", "-R", "r2/again.html") == 0
+    assert (folders / "r2/again.html").read_bytes() == (folders / "r/r.html").read_bytes()
 
 
 def test_update(folders, capsys):
@@ -159,7 +200,7 @@ def test_animations_are_compared_frame_by_frame(folders, capsys):
         (["new", "nowhere"], "nowhere: cannot read: No such file or directory"),
         (["new", "old/same.png"], "new: one is a folder and the other is none: old/same.png"),
         (["old/same.png", "new/notes.txt"], "new/notes.txt: not an image of a known format"),
-        (["new", "old", "-R", "no/r.html"], "no/r.html: cannot write: No such file or directory"),
+        (["new", "old", "-R", "new/notes.txt/r"], "new/notes.txt/r: cannot write: "),
         (["-F", "new/notes.txt", "-R", "r.html"], "new/notes.txt: no JSON: "),
     ],
 )

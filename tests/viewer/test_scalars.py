@@ -12,7 +12,7 @@ from engine3d.loaders import load_document
 from engine3d.viewer.axes_grid import AxesGrid
 from engine3d.viewer.colormaps import COLORMAPS, MISSING, colormap
 from engine3d.viewer.open_model import open_model
-from engine3d.viewer.scalar_bar import draw_scalar_bar
+from engine3d.viewer.scalar_bar import draw_scalar_bar, place_bar
 from engine3d.viewer.scalars import ScalarBar, ScalarColoring
 from engine3d.viewer.settings import Settings
 from engine3d.viewer.ticks import label, ticks
@@ -114,13 +114,66 @@ def test_colour_maps(tmp_path):
         colormap("jet")
 
 
-def test_the_bar_has_all_colours_from_bottom_to_top():
-    canvas = Canvas(200, 300)
-    draw_scalar_bar(canvas, ScalarBar("heat", 0.0, 1.0, GRAY))
-    column = canvas.pixels[:, 100:, 0].astype(int)
-    levels = next(c for c in column.T if len(np.unique(c)) > 150)
-    levels = levels[levels.argmax() :][:180]  # the bar is as high as 0.6 of the picture
+TITLE = "temperature at the surface"
+
+
+@pytest.mark.parametrize("size", [(300, 300), (90, 130)])
+def test_the_bar_has_all_colours_from_bottom_to_top_or_from_left_to_right(size):
+    canvas = Canvas(*size)
+    bar = ScalarBar("heat", 0.0, 1.0, GRAY)
+    draw_scalar_bar(canvas, bar)
+    place = place_bar(*size, bar)
+    assert place.upright == (size[0] == 300)
+    block = canvas.pixels[place.top :, place.left :, 0].astype(int)
+    lines = block.T if place.upright else block
+    line = next(line for line in lines if len(np.unique(line)) > 60)
+    levels = line[line.argmax() :] if place.upright else line[line.argmax() :: -1]
+    levels = levels[: place.length]
     assert (np.diff(levels) <= 0).all() and (levels[0], levels[-1]) == (255, 0)
+
+
+@pytest.mark.parametrize("title", ["y", TITLE])
+@pytest.mark.parametrize("turns", [False, True])
+@pytest.mark.parametrize("orthographic", [False, True])
+@pytest.mark.parametrize("size", [(64, 48), (128, 96), (320, 240), (300, 700)])
+def test_the_model_is_beside_the_bar(tmp_path, size, orthographic, turns, title):
+    e3d.save_mesh(e3d.box((2.0, 1.0, 1.5)), tmp_path / "box.obj")
+    viewed = open_model(tmp_path / "box.obj", scalars=ScalarColoring(GRAY))
+    viewed.bar = viewed.bar._replace(title=title)
+    place = place_bar(*size, viewed.bar)
+    look = {"mode": "unlit"}
+    with ViewRenderer(viewed, Settings(look, bar=True), size) as view_renderer:
+        view = view_renderer.view()
+        view.orthographic = orthographic
+        (view_renderer.frame if turns else view_renderer.fill)(view)
+        shown = view_renderer.draw(view, outputs=("color", "depth")).depth > 0
+    rows, columns = np.flatnonzero(shown.any(axis=1)), np.flatnonzero(shown.any(axis=0))
+    right, bottom = (place.left, size[1]) if place.upright else (size[0], place.top)
+    assert columns[0] > 0 and columns[-1] < right and rows[0] > 0 and rows[-1] < bottom
+    if not turns:
+        # It fills what is left, and has as much room on one side as on the other.
+        share = max(np.ptp(columns) / right, np.ptp(rows) / bottom)
+        assert share > 0.85
+        assert abs(columns[0] - (right - 1 - columns[-1])) <= 3
+        assert abs(rows[0] - (bottom - 1 - rows[-1])) <= 3
+
+
+@pytest.mark.parametrize(
+    "size", [(1, 1), (16, 16), (40, 400), (400, 40), (1024, 768), (3000, 2000)]
+)
+@pytest.mark.parametrize("ends", [(0.0, 1.0), (-1234567.0, 8e6), (1e-12, 3e-12)])
+def test_the_bar_takes_a_part_of_the_picture(size, ends):
+    width, height = size
+    for title in ("", TITLE, "x" * 600):
+        bar = ScalarBar(title, *ends, GRAY)
+        place = place_bar(width, height, bar)
+        draw_scalar_bar(Canvas(width, height), bar)
+        taken = place.taken(width, height)
+        if min(size) >= 40:
+            assert taken.right <= 0.25 and taken.bottom <= 0.4
+            assert place.top >= 0 and place.left >= 0
+        if min(size) >= 700:
+            assert place.labels and bool(place.title) == (0 < len(title) < 600)
 
 
 @pytest.mark.parametrize(

@@ -56,6 +56,7 @@ SIGNED_OPTIONS = frozenset(
         "--environment-rotation",
         "--lod-bias",
         "--range",
+        "--coloring-range",
         "--camera-index",
         "--animation-index",
         "--animation-time",

@@ -21,6 +21,7 @@ SIGNED_OPTIONS = frozenset(
         "--environment-rotation",
         "--lod-bias",
         "--range",
+        "--coloring-range",
         "--camera-index",
         "--animation-index",
         "--animation-time",

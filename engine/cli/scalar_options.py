@@ -7,7 +7,15 @@ import argparse
 from . import values
 
 #: Options that colour models by numbers.
-COLORING = ("scalar_coloring", "coloring_array", "colormap", "range", "bar")
+COLORING = (
+    "scalar_coloring",
+    "coloring_array",
+    "coloring_component",
+    "coloring_by_cells",
+    "colormap",
+    "range",
+    "bar",
+)
 _DEFAULT_MAP = "viridis"
 
 
@@ -18,29 +26,51 @@ def add_scalars(parser) -> None:
         "-s",
         "--scalar-coloring",
         action="store_true",
-        help="colour models by a number that their vertices have",
+        help="colour models by a number that their vertices or faces have",
     )
     group.add_argument(
         "--coloring-array",
         metavar="NAME",
-        help="which number: a scalar property of a PLY file, or x, y, z; by default the file's "
-        "first one, or without any how high it is. Implies -s",
+        help="which number: a property of a PLY file, an attribute of a glTF file that begins "
+        "with _, or x, y, z, normals; by default the file's first one in alphabetical order, or "
+        "without any how high it is. Implies -s",
+    )
+    group.add_argument(
+        "-y",
+        "--coloring-component",
+        type=values.component,
+        metavar="N",
+        help="which number of vectors, from 0 on; -1, the default: their length; -2: none, they "
+        "are colours. Implies -s",
+    )
+    group.add_argument(
+        "-c",
+        "--coloring-by-cells",
+        action="store_true",
+        help="colour by a number of faces: a property of them in a PLY file. Implies -s",
     )
     group.add_argument(
         "--colormap",
-        metavar="FILE|NAME",
-        help="viridis (the default), plasma, inferno, magma, turbo, coolwarm, gray, or a picture "
-        "whose middle row goes from the lowest to the highest number. Implies -s",
+        "--colormap-file",
+        metavar="MAP",
+        help="viridis (the default), plasma, inferno, magma, turbo, coolwarm, gray; a picture "
+        "whose middle row goes from the lowest to the highest number; or places from 0 to 1 with "
+        "their colours, 0,#000000,0.4,red,1,white. Implies -s",
     )
     group.add_argument(
         "--range",
+        "--coloring-range",
         type=values.interval,
         metavar="MIN,MAX",
         help="what the first and the last colour stand for; by default the lowest and the highest "
         "number. Implies -s",
     )
     group.add_argument(
-        "-b", "--bar", action="store_true", help="show which colour is which number. Implies -s"
+        "-b",
+        "--bar",
+        "--coloring-scalar-bar",
+        action="store_true",
+        help="show which colour is which number. Implies -s",
     )
     group.add_argument(
         "--axes-grid",
@@ -53,14 +83,16 @@ def coloring(args: argparse.Namespace):
     """Return the `ScalarColoring` that the options name, or None."""
     if "scalar_coloring" not in args:  # some commands have no such options
         return None
-    given = (args.coloring_array, args.colormap, args.range, args.scalar_coloring or None)
-    if given == (None,) * 4 and not args.bar:
+    if all(getattr(args, name) is None or getattr(args, name) is False for name in COLORING):
         return None
     from ..viewer.colormaps import colormap
-    from ..viewer.scalars import ScalarColoring
+    from ..viewer.scalars import MAGNITUDE, ScalarColoring
 
     colors = colormap(args.colormap or _DEFAULT_MAP)
-    return ScalarColoring(colors, args.coloring_array, args.range)
+    component = MAGNITUDE if args.coloring_component is None else args.coloring_component
+    return ScalarColoring(
+        colors, args.coloring_array, args.range, component, args.coloring_by_cells
+    )
 
 
 def shown(args: argparse.Namespace) -> dict:

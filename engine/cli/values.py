@@ -56,6 +56,17 @@ def index(text: str) -> int:
     return value
 
 
+def component(text: str) -> int:
+    """Parse the number of a component, or what stands for their length or for colours."""
+    try:
+        value = int(text)
+    except ValueError:
+        value = -3
+    if value < -2:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number, -2 or greater")
+    return value
+
+
 def positive(text: str) -> float:
     """Parse a finite number above zero."""
     value = number(text)

@@ -172,8 +172,9 @@ class Mesh(Closed):
     ) -> None:
         self.name = str(name)
         self._groups: dict[str, NDArray[np.int32]] = {}  # loaders put checked ones here
-        # Loaders put numbers of the vertices here, by name: what `viewer/scalars.py` colours by.
-        self._scalars: dict[str, NDArray[np.floating]] = {}
+        # Loaders put numbers of the vertices here, (V,) or (V, N) by name: `viewer/scalars.py`
+        # colours by them.
+        self._scalars: dict[str, NDArray[np.number]] = {}
         self.warnings = []
         self._arrays: dict[str, np.ndarray | None] = dict.fromkeys(_movers.VERTEX_AXES)
         self._morph_targets = ()

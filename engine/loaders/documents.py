@@ -394,9 +394,10 @@ class Document:
 
     @property
     def scalars(self) -> list[dict[str, np.ndarray]]:
-        """Numbers of vertices, (V,) float64 by name, of the mesh of each object.
+        """Numbers of vertices, (V,) or (V, N) by name, of the mesh of each object.
 
-        Scalar properties of PLY files that have no meaning of their own, if `load_document` was
-        asked for them.
+        What has no meaning of its own, if `load_document` was asked for it: properties of PLY
+        files, attributes of glTF files whose names begin with ``_``. Of faces, each vertex has the
+        numbers of the faces around it.
         """
         return [entry.mesh._scalars for entry in self.objects]

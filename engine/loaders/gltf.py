@@ -49,7 +49,7 @@ def read_gltf(source: Source, split: bool = False) -> Document:
     warnings = WarningList(source.path)
     check_extensions(file, warnings)
     buffers = GltfBuffers(file, source, warnings)
-    tree = _read_tree(file, buffers, warnings)
+    tree = _read_tree(file, buffers, warnings, source.scalars == "vertices")
     objects = tree_objects(source, tree, buffers.limit, split)
     counts = tree_counts(tree, objects)
     return Document(
@@ -57,12 +57,15 @@ def read_gltf(source: Source, split: bool = False) -> Document:
     )
 
 
-def _read_tree(file: GltfFile, buffers: GltfBuffers, warnings: WarningList) -> TreeRecord:
+def _read_tree(
+    file: GltfFile, buffers: GltfBuffers, warnings: WarningList, scalars: bool
+) -> TreeRecord:
     accessors = GltfAccessors(file, buffers)
     nodes = read_nodes(file, accessors)
     roots = read_roots(file, nodes, warnings)
     materials = GltfMaterials(file, GltfTextures(file, buffers, warnings), warnings)
-    primitives = GltfPrimitives(file, accessors, materials, GltfDraco(file, buffers), warnings)
+    draco = GltfDraco(file, buffers)
+    primitives = GltfPrimitives(file, accessors, materials, draco, warnings, scalars)
     meshes = GltfMeshes(file, buffers, primitives, materials).all()
     if primitives.left_out:
         first, count = primitives.left_out[0], len(primitives.left_out)

@@ -88,11 +88,27 @@ class GltfAccessors:
         is_all = isinstance(rows, slice)
         values = values[rows]
         self._buffers.count(values.size)
-        said = self.file.entries("accessors")[index].get("normalized") is True
         # Some exporters say it of floats, too, of which it means nothing.
-        if not said or values.dtype.kind == "f":
+        if not self._is_normalized(index) or values.dtype.kind == "f":
             return _copied(values) if is_all else values.astype(np.float32, copy=False)
         return np.maximum(values / np.float32(np.iinfo(values.dtype).max), np.float32(-1))
+
+    def as_numbers(self, values: np.ndarray, index: int, rows=slice(None)) -> np.ndarray:
+        """As `as_floats`, but integers that stand for themselves stay what they are."""
+        if self._is_normalized(index):
+            return self.as_floats(values, index, rows)
+        values = values[rows]
+        self._buffers.count(values.size)
+        return values.copy()
+
+    def width(self, index, where: str) -> int:
+        """Return how many columns an accessor has; 0 if it is of a type that nothing here needs."""
+        kind = self.file.entry("accessors", index, where).get("type")
+        return _WIDTHS.get(kind, 0) if isinstance(kind, str) else 0
+
+    def _is_normalized(self, index: int) -> bool:
+        """Whether an accessor's integers stand for 0..1 or -1..1."""
+        return self.file.entries("accessors")[index].get("normalized") is True
 
     def indices(self, index, where: str) -> np.ndarray:
         """Return an accessor of indices as (N,), of an unsigned type."""

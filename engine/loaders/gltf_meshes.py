@@ -132,6 +132,9 @@ class GltfMeshes:
             name=name,
             **arrays,
         )
+        mesh._scalars = {
+            key: self._joined([p.scalars[key] for p in primitives]) for key in primitives[0].scalars
+        }
         if flat:
             join_seams(mesh)
         if primitives[0].joints is not None:
@@ -150,6 +153,8 @@ class GltfMeshes:
         uv_set = next((found for m in materials if (found := _tangent_set(m)) is not None), None)
         if uv_set is None or (mesh.uvs1 if uv_set else mesh.uvs) is None:
             return mesh
+        if mesh._scalars:
+            return mesh  # it will be coloured by them, without maps
         if mesh.joints is None and not mesh.morph_targets:
             mesh._tangent_uv_set = uv_set
             return mesh
@@ -201,7 +206,8 @@ def _kind_of(primitive: Primitive) -> tuple:
     joints = 0 if primitive.joints is None else primitive.joints.shape[1]
     material = None if primitive.kind == "faces" else primitive.material
     # The materials of other sets of texture coordinates are others, of these one may be drawn.
-    return primitive.kind, tuple(primitive.arrays), joints, material
+    scalars = tuple((name, values.shape[1]) for name, values in sorted(primitive.scalars.items()))
+    return primitive.kind, tuple(primitive.arrays), joints, material, scalars
 
 
 def _tangent_set(material: Material) -> int | None:

@@ -24,6 +24,7 @@ READ = ("KHR_mesh_quantization",)
 # Of so few of all vertices a list is sorted; of more each is marked.
 _FEW = 4
 _INFLUENCES = 4
+_WIDTHS = (1, 2, 3, 4)  # of attributes of the file's own
 _MORPHED = {"POSITION": "positions", "NORMAL": "normals", "TANGENT": "tangents"}
 
 
@@ -45,6 +46,8 @@ class Primitive:
     material : int or None
     uv_sets : tuple of int
         The sets of texture coordinates of the file that ``uvs`` and ``uvs1`` are.
+    scalars : dict of str to (V, N) number
+        Attributes of the file's own, if they are asked for.
     """
 
     kind: str
@@ -55,6 +58,7 @@ class Primitive:
     morphs: list[dict[str, np.ndarray]] = field(default_factory=list)
     material: int | None = None
     uv_sets: tuple[int, ...] = (0, 1)
+    scalars: dict[str, np.ndarray] = field(default_factory=dict)
 
 
 class GltfPrimitives:
@@ -67,6 +71,8 @@ class GltfPrimitives:
     materials : GltfMaterials
     draco : GltfDraco
     warnings : WarningList
+    scalars : bool
+        Whether to read attributes whose names begin with ``_``.
 
     Attributes
     ----------
@@ -81,8 +87,10 @@ class GltfPrimitives:
         materials: GltfMaterials,
         draco: GltfDraco,
         warnings: WarningList,
+        scalars: bool = False,
     ) -> None:
         self._file, self._accessors, self._materials = file, accessors, materials
+        self._scalars = scalars
         self._draco, self._warnings = draco, warnings
         self._told: set[str] = set()
         self.left_out: list[str] = []
@@ -111,6 +119,11 @@ class GltfPrimitives:
         primitive = Primitive(kind, elements, {}, material=material, uv_sets=uv_sets)
         self._add_arrays(primitive, vertices)
         self._add_influences(primitive, vertices, where)
+        if self._scalars:
+            own = [name for name in attributes if name.startswith("_")]
+            width_of = {name: self._accessors.width(attributes[name], where) for name in own}
+            usable = [name for name in own if width_of[name] in _WIDTHS]
+            primitive.scalars = {name: vertices.numbers(name) for name in usable}
         primitive.morphs = [
             self._morph(vertices, target, f"{where}.targets[{number}]")
             for number, target in enumerate(targets)
@@ -242,6 +255,11 @@ class _Vertices:
         return self._accessors.as_floats(
             self._stored(name, *widths), self.attributes[name], self.rows
         )
+
+    def numbers(self, name: str) -> np.ndarray:
+        """An attribute of the file's own, integers as they are unless they stand for others."""
+        values = self._stored(name, *_WIDTHS)
+        return self._accessors.as_numbers(values, self.attributes[name], self.rows)
 
     def deltas(self, index: int, where: str) -> np.ndarray:
         """What a morph target adds to an attribute."""

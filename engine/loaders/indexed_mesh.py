@@ -46,8 +46,10 @@ class IndexedGeometry:
     position_ids : (V,) number or None
         Vertices with the same number are one point of the surface.
     edge_visible : (T, 3) bool or None
-    scalars : dict of str to (V,) float
+    scalars : dict of str to (V,) or (V, N) number
         Numbers of the vertices, by name.
+    face_scalars : dict of str to (T,) or (T, N) number
+        Numbers of the faces: become those of vertices, which are split for it.
     crease_angle : float
         Radians, of normals that are not given.
     """
@@ -66,6 +68,7 @@ class IndexedGeometry:
     position_ids: np.ndarray | None = None
     edge_visible: np.ndarray | None = None
     scalars: dict[str, np.ndarray] = field(default_factory=dict)
+    face_scalars: dict[str, np.ndarray] = field(default_factory=dict)
     crease_angle: float = CREASE_ANGLE
 
 
@@ -82,8 +85,9 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
         )
         cloud._scalars = geometry.scalars
         return cloud
-    of_corner = _corner_attributes(geometry)
-    faces, vertices, first_corner = _split(corners, of_corner, count)
+    of_corner, kinds = _corner_attributes(geometry), _face_kinds(geometry)
+    splitting = [*of_corner.values(), *([] if kinds is None else [np.repeat(kinds, 3, axis=0)])]
+    faces, vertices, first_corner = _split(corners, splitting, count)
     vertex_of, vertices, added = _vertices_for(lines.ravel(), vertices, count)
     attributes = _chosen(geometry, vertices)
     for attribute, rows in of_corner.items():
@@ -94,12 +98,15 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
         faces,
         lines=vertex_of.reshape(-1, 2),
         edge_visible=geometry.edge_visible,
-        position_ids=_position_ids(geometry, vertices, bool(of_corner)),
+        position_ids=_position_ids(geometry, vertices, bool(splitting)),
         crease_angle=SMOOTH if geometry.normals is not None else geometry.crease_angle,
         name=name,
         **attributes,
     )
     mesh._scalars = {name: _rows(row, vertices) for name, row in geometry.scalars.items()}
+    for name, row in geometry.face_scalars.items():
+        filler = np.full((added, *row.shape[1:]), np.nan)
+        mesh._scalars[name] = np.concatenate([row[first_corner // 3], *([filler] * bool(added))])
     if not mesh.has_normals and geometry.position_ids is None:
         join_seams(mesh)
     return mesh
@@ -135,16 +142,25 @@ def _corner_attributes(geometry: IndexedGeometry) -> dict[str, np.ndarray]:
     return found
 
 
-def _split(corners: np.ndarray, of_corner: dict[str, np.ndarray], count: int):
+def _face_kinds(geometry: IndexedGeometry) -> np.ndarray | None:
+    """A number (T, 1) uint32 for each face, equal where all their numbers are."""
+    if not geometry.face_scalars:
+        return None
+    rows = [row.reshape(len(row), -1) for row in geometry.face_scalars.values()]
+    rows = np.concatenate([row.astype(np.float64).view(np.uint32) for row in rows], axis=1)
+    return number_rows(rows)[0].astype(np.uint32).reshape(-1, 1)
+
+
+def _split(corners: np.ndarray, splitting: list[np.ndarray], count: int):
     """Faces, the old vertex of each new one, and a corner that each new one stands at."""
-    if not of_corner:
+    if not splitting:
         is_used = native.used_or_all(np.ascontiguousarray(corners, np.int32).ravel(), count)
         if is_used is None:
             return corners, _ALL, None
         number = np.cumsum(is_used, dtype=np.int32) - 1
         return number[corners], np.flatnonzero(is_used), None
     keys = corners.ravel().astype(np.int64)
-    for attribute in of_corner.values():
+    for attribute in splitting:
         number, first = number_rows(attribute)
         # Numbered anew each time, so that the product cannot overflow.
         _, keys = np.unique(keys * len(first) + number, return_inverse=True)

@@ -6,7 +6,7 @@ import contextlib
 import os
 import warnings
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -86,7 +86,7 @@ def load_document(
     progress: Progress | None = None,
     companion: Callable[[str], bool] | None = None,
     crease_angle: float = CREASE_ANGLE,
-    scalars: bool = False,
+    scalars: Literal["vertices", "faces"] | None = None,
 ) -> Document:
     """Load everything that a model file holds: its objects one by one, lights and cameras.
 
@@ -97,8 +97,9 @@ def load_document(
     companion : callable, optional
         ``companion(path)`` tells whether the image ``path`` beside a model without materials may
         become its texture for its name alone (`companion_texture`); any may if left out.
-    scalars : bool
-        Read also numbers of the vertices that have no meaning of their own: `Document.scalars`.
+    scalars : {"vertices", "faces"}, optional
+        Read also numbers of vertices, or of faces, that have no meaning of their own:
+        `Document.scalars`. Vertices are split where their faces have different numbers.
     """
     with read_source(path) as source:
         source = source._replace(crease_angle=check_crease_angle(crease_angle), scalars=scalars)

@@ -15,7 +15,7 @@ from .documents import Document, DocumentObject
 from .far_coordinates import moved_near
 from .indexed_mesh import IndexedGeometry, build_indexed_mesh
 from .ply_body import open_body
-from .ply_faces import PlyFaces, read_edges, read_faces, read_strips
+from .ply_faces import PlyFaces, read_edges, read_face_scalars, read_faces, read_strips
 from .ply_header import is_ply, read_header
 from .ply_materials import material_ids, read_materials
 from .ply_tables import PlyTable, read_tables
@@ -54,13 +54,16 @@ def read_ply(source: Source, split: bool = False) -> Document:
     faces = read_faces(tables.get("face"), vertices.positions, budget, warnings)
     strips = read_strips(tables.get("tristrips"), count)
     lines = read_edges(tables.get("edge"), count)
+    face_scalars = {}
+    if source.scalars == "faces":
+        face_scalars = read_face_scalars(tables.get("face"), faces)
     if len(strips) and not len(faces.corners):
-        faces = PlyFaces(strips)
+        faces, face_scalars = PlyFaces(strips), {}
     has_uvs = vertices.uvs is not None or faces.uvs is not None
     positions, pose = moved_near(vertices.positions) if split else (vertices.positions, None)
     vertices = vertices._replace(positions=positions)
-    scalars = read_scalars(table) if source.scalars else {}
-    mesh = _mesh(vertices, faces, lines, source, scalars)
+    scalars = read_scalars(table) if source.scalars == "vertices" else {}
+    mesh = _mesh(vertices, faces, lines, source, scalars, face_scalars)
     mesh.materials = read_materials(source, header.textures, has_uvs, warnings)
     mesh.material_ids = material_ids(faces.textures, len(faces.corners), len(mesh.materials))
     counts = _counts(tables, vertices, faces, lines)
@@ -69,7 +72,12 @@ def read_ply(source: Source, split: bool = False) -> Document:
 
 
 def _mesh(
-    vertices: PlyVertices, faces: PlyFaces, lines: np.ndarray, source: Source, scalars: dict
+    vertices: PlyVertices,
+    faces: PlyFaces,
+    lines: np.ndarray,
+    source: Source,
+    scalars: dict,
+    face_scalars: dict,
 ) -> Mesh:
     geometry = IndexedGeometry(
         vertices.positions,
@@ -83,6 +91,7 @@ def _mesh(
         position_ids=vertices.position_ids,
         edge_visible=faces.edge_visible,
         scalars=scalars,
+        face_scalars=face_scalars,
         crease_angle=source.crease_angle,
     )
     return build_indexed_mesh(geometry, source.stem)

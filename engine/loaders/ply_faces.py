@@ -12,7 +12,7 @@ import numpy as np
 
 from .._native import loaders as native
 from .ply_tables import PlyList, PlyTable
-from .ply_vertices import read_colors
+from .ply_vertices import numbers_of, read_colors
 from .triangulation import WorkBudget, triangulate
 from .vertex_values import finite_uvs
 from .warning_list import WarningList
@@ -34,6 +34,8 @@ class PlyFaces(NamedTuple):
     textures : (T,) int64 or None
         The number of each triangle's image.
     edge_visible : (T, 3) bool or None
+    polygons : (T,) int or None
+        The face of the file that each is a part of; None where all are faces.
     """
 
     corners: np.ndarray
@@ -41,6 +43,7 @@ class PlyFaces(NamedTuple):
     colors: np.ndarray | None = None
     textures: np.ndarray | None = None
     edge_visible: np.ndarray | None = None
+    polygons: np.ndarray | None = None
 
 
 def read_faces(
@@ -79,7 +82,18 @@ def read_faces(
         None if colors is None else colors[cut.polygons],
         None if textures is None else textures[cut.polygons],
         cut.edge_visible,
+        cut.polygons,
     )
+
+
+def read_face_scalars(table: PlyTable | None, faces: PlyFaces) -> dict[str, np.ndarray]:
+    """Read the numbers of faces that are nothing of what `read_faces` reads, by name: (T, ...)."""
+    if table is None or not len(table):
+        return {}
+    found = numbers_of(table, {*_INDEX_LISTS, "texcoord", "texnumber"})
+    if faces.polygons is None:
+        return found
+    return {name: values[faces.polygons] for name, values in found.items()}
 
 
 def read_strips(table: PlyTable | None, count: int) -> np.ndarray:

@@ -7,6 +7,7 @@ colour by, if anybody asks for them.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +21,7 @@ _COLORS = (
     ("diffuse_red", "diffuse_green", "diffuse_blue"),
 )
 _ALPHAS = ("alpha", "a", "diffuse_alpha")
+_WIDEST = 16  # lists of more items are no vectors
 _UVS = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "texture_t"))
 
 
@@ -62,10 +64,28 @@ def read_vertices(table: PlyTable) -> PlyVertices:
 def read_scalars(table: PlyTable) -> dict[str, np.ndarray]:
     """Read the numbers of vertices that are neither of what `read_vertices` reads, by name."""
     uvs = next((names for names in _UVS if table.has(*names)), ())
+    return numbers_of(table, {"x", "y", "z", "nx", "ny", "nz", "position_id", *uvs})
+
+
+def numbers_of(table: PlyTable, taken: Collection[str]) -> dict[str, np.ndarray]:
+    """Read the numbers of an element but for its colours and those in ``taken``, by name.
+
+    They are (N,), or (N, K) of lists that all have K items.
+    """
     colors = next((names for names in _COLORS if table.has(*names)), ())
-    taken = {"x", "y", "z", "nx", "ny", "nz", "position_id", *uvs, *colors, *_ALPHAS}
-    names = [name for name in table.element.properties if name not in taken and table.has(name)]
-    return {name: table.column(name).astype(np.float64) for name in names}
+    taken, found = {*taken, *colors, *_ALPHAS}, {}
+    for name in table.element.properties:
+        if name in taken:
+            continue
+        if table.has(name):
+            found[name] = table.column(name).astype(np.dtype(table.type(name)), copy=False)
+            continue
+        items = table.list(name)
+        width = int(items.sizes[0]) if len(table) else 0
+        if 1 <= width <= _WIDEST and (items.sizes == width).all():
+            values = items.values.astype(np.dtype(table.type(name)), copy=False)
+            found[name] = values.reshape(-1, width)
+    return found
 
 
 def read_colors(table: PlyTable) -> np.ndarray | None:

@@ -70,8 +70,8 @@ class Source(NamedTuple):
         ``companion(path) -> bool``: whether an image may become the texture for its name alone.
     crease_angle : float
         Radians, of normals that the file lacks.
-    scalars : bool
-        Whether meshes are to carry the numbers of vertices that have no meaning of their own.
+    scalars : {"vertices", "faces"} or None
+        Of which of these meshes are to carry the numbers that have no meaning of their own.
     """
 
     path: str
@@ -79,7 +79,7 @@ class Source(NamedTuple):
     progress: Callable[[float], object] = _no_progress
     companion: Callable[[str], bool] = _any_image
     crease_angle: float = CREASE_ANGLE
-    scalars: bool = False
+    scalars: str | None = None
 
     def __enter__(self) -> Source:
         return self

@@ -1,13 +1,14 @@
 """Colour maps: from numbers to colours.
 
-In: the name of a map, or a picture whose middle row is one. Out: a table of colours. The maps of
-matplotlib and of Google's turbo are interpolated between a few of their own colours; both are free
-for any use (CC0 and Apache-2.0).
+In: the name of a map, a picture whose middle row is one, or places and colours. Out: a table of
+colours. The maps of matplotlib and of Google's turbo are interpolated between a few of their own
+colours; both are free for any use (CC0 and Apache-2.0).
 """
 
 from __future__ import annotations
 
 import os
+import re
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,8 @@ _COLORS = {
     "gray": "000000 ffffff",
 }
 COLORMAPS = tuple(_COLORS)
+_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
+_PART = re.compile(r"[^,(]+(?:\([^)]*\))?")  # rgb(1,2,3) is one
 
 
 def colormap(name: str) -> NDArray[np.uint8]:
@@ -37,7 +40,8 @@ def colormap(name: str) -> NDArray[np.uint8]:
     Parameters
     ----------
     name : str
-        One of `COLORMAPS`, or the path of a picture.
+        One of `COLORMAPS`, the path of a picture, or places with their colours, as f3d has them:
+        ``0,#000000,1,white``, or with three numbers from 0 to 1 a colour ``0,0,0,0,1,1,1,1``.
 
     Returns
     -------
@@ -47,17 +51,44 @@ def colormap(name: str) -> NDArray[np.uint8]:
     Raises
     ------
     InvalidArgumentError
-        There is neither such a map nor such a file.
+        There is neither such a map nor such a file, or the places do not ascend from 0 to 1.
     FileFormatError
         The file is no picture.
     """
     if name in _COLORS:
         given = np.array([list(bytes.fromhex(color)) for color in _COLORS[name].split()], float)
-        places = np.linspace(0.0, len(given) - 1.0, SIZE)
-        columns = [np.interp(places, np.arange(len(given)), given[:, k]) for k in range(3)]
-        return np.rint(np.stack(columns, axis=1)).astype(np.uint8)
+        return _table(np.linspace(0.0, 1.0, len(given)), given)
     if not os.path.isfile(name):
+        if "," in name:
+            return _placed(name)
         known = ", ".join(COLORMAPS)
         raise InvalidArgumentError(f"{name!r} is neither a picture nor one of {known}")
     pixels = load_texture(name).pixels
     return np.ascontiguousarray(pixels[len(pixels) // 2, :, :3])
+
+
+def _table(places: NDArray[np.float64], colors: NDArray[np.float64]) -> NDArray[np.uint8]:
+    """Interpolate between colours at places from 0 to 1."""
+    wanted = np.linspace(0.0, 1.0, SIZE)
+    columns = [np.interp(wanted, places, colors[:, k]) for k in range(3)]
+    return np.rint(np.stack(columns, axis=1)).astype(np.uint8)
+
+
+def _placed(text: str) -> NDArray[np.uint8]:
+    """The table of places and colours."""
+    from PIL import ImageColor
+
+    parts = [part.strip() for part in _PART.findall(text)]
+    try:
+        if len(parts) % 4 == 0 and all(_NUMBER.fullmatch(part) for part in parts):
+            numbers = np.array(parts, np.float64).reshape(-1, 4)
+            places, colors = numbers[:, 0], numbers[:, 1:].clip(0.0, 1.0) * 255.0
+        else:
+            places = np.array(parts[::2], np.float64)
+            colors = np.array([ImageColor.getrgb(part)[:3] for part in parts[1::2]], np.float64)
+    except ValueError as error:
+        raise InvalidArgumentError(f"{text!r} is no list of places and colours: {error}") from None
+    is_rising = len(places) == len(colors) > 1 and (np.diff(places) > 0).all()
+    if not (is_rising and places[0] >= 0.0 and places[-1] <= 1.0):
+        raise InvalidArgumentError(f"{text!r}: the places of colours must ascend from 0 to 1")
+    return _table(places, colors)

@@ -54,7 +54,7 @@ def open_model(
     crease_angle, format
         As in `engine3d.load_mesh`.
     scalars : ScalarColoring, optional
-        Colours the meshes by a number of their vertices, whatever the file says.
+        Colours the meshes by a number of their vertices or faces, whatever the file says.
     variant : str or int, optional
         As in `engine3d.load_scene`.
     animation : callable, optional
@@ -81,14 +81,14 @@ def open_model(
         progress=progress,
         companion=companion,
         crease_angle=crease_angle,
-        scalars=scalars is not None,
+        scalars=None if scalars is None else scalars.kind,
     )
     path = None if hasattr(path, "read") else os.fspath(path)
     if is_dressed:
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
     bar = None if scalars is None else _dressed_by_numbers(document, scalars, path)
     viewed = view_document(document, path, variant)
-    if bar is not None:
+    if scalars is not None:
         viewed.bar = bar
         # Tone mapping would change the colours that the bar shows.
         viewed.appearance = {**viewed.appearance, "tone_mapping": "none"}

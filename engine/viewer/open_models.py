@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -58,6 +59,11 @@ def open_models(
     viewed_scenes = [open_model(path, **options) for path in paths]
     if len(viewed_scenes) == 1:
         return moved_near(viewed_scenes[0])
+    if len(ranges := {viewed.bar[1:3] for viewed in viewed_scenes if viewed.bar is not None}) > 1:
+        # One colour must mean one number in all of them, which is known only now.
+        lows, highs = zip(*ranges, strict=True)
+        options["scalars"] = replace(options["scalars"], range=(min(lows), max(highs)))
+        viewed_scenes = [open_model(path, **options) for path in paths]
     for viewed in viewed_scenes:
         viewed.up = up or viewed.up
     first = viewed_scenes[0]
@@ -70,7 +76,7 @@ def open_models(
         ", ".join(viewed.title for viewed in viewed_scenes),
         up=first.up,
         themed=True,
-        appearance={"cull": "auto"},
+        appearance={**first.appearance, "cull": "auto"},
         details=[line for one in viewed_scenes for line in (one.title, *one.details)],
         warnings=[f"{one.title}: {line}" for one in viewed_scenes for line in one.warnings],
         unit=first.unit if all(one.unit == first.unit for one in viewed_scenes) else "",

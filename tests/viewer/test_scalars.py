@@ -1,5 +1,8 @@
 """Colours that stand for numbers, the bar beside them, and the grid with numbers around a model."""
 
+import base64
+import json
+
 import numpy as np
 import pytest
 from PIL import Image
@@ -12,6 +15,7 @@ from engine3d.loaders import load_document
 from engine3d.viewer.axes_grid import AxesGrid
 from engine3d.viewer.colormaps import COLORMAPS, MISSING, colormap
 from engine3d.viewer.open_model import open_model
+from engine3d.viewer.open_models import open_models
 from engine3d.viewer.scalar_bar import draw_scalar_bar, place_bar
 from engine3d.viewer.scalars import ScalarBar, ScalarColoring
 from engine3d.viewer.settings import Settings
@@ -31,6 +35,57 @@ def heat(tmp_path_factory):
     head += [f"property float {name}" for name in ("x", "y", "z", "heat", "label")]
     head += ["element face 3", "property list uchar int vertex_indices", "end_header"]
     path.write_text("\n".join([*head, *rows, "3 0 1 2", "3 0 2 3", "3 0 4 1"]) + "\n")
+    return path
+
+
+@pytest.fixture(scope="module")
+def wind(tmp_path_factory):
+    """A glTF file of a square from x = 0 to 2, and of another mesh that lacks an attribute."""
+    arrays = {
+        "POSITION": np.array([(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0)], np.float32),
+        "_WIND": np.array([(0, 0, 0), (3, -4, 0), (3, -4, 0), (0, 0, 1)], np.float32),
+        "_HEAT": np.array([-7, 1, 1, 2], np.float32),
+        "_ID": np.array([(1 << 24) + 1, 1, 2, 3], np.uint32),
+        "_SHARE": np.array([0, 255, 255, 0], np.uint8),
+        "_MATRIX": np.zeros((4, 9), np.float32),
+    }
+    data, views, accessors = b"", [], []
+    types = {1: "SCALAR", 3: "VEC3", 9: "MAT3"}
+    kinds = {"float32": 5126, "uint32": 5125, "uint8": 5121}
+    for array in (*arrays.values(), np.array([0, 1, 2, 0, 2, 3], np.uint32)):
+        size = array.dtype.itemsize * array.size
+        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": size})
+        width = 1 if array.ndim == 1 else array.shape[1]
+        accessor = {"bufferView": len(accessors), "componentType": kinds[array.dtype.name]}
+        accessor |= {"count": len(array), "type": types[width]}
+        if array.dtype == np.uint8:
+            accessor["normalized"] = True
+        if len(accessors) == 0:
+            accessor |= {"min": [0, 0, 0], "max": [2, 2, 0]}
+        accessors.append(accessor)
+        data += array.tobytes()
+    named = {name: number for number, name in enumerate(arrays)}
+    fewer = {name: named[name] for name in ("POSITION", "_HEAT")}
+    indices = len(arrays)
+    tree = {
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0}, {"mesh": 1, "translation": [0, 0, -1]}],
+        "meshes": [
+            {"primitives": [{"attributes": named, "indices": indices}]},
+            {"primitives": [{"attributes": fewer, "indices": indices}]},
+        ],
+        "buffers": [
+            {
+                "byteLength": len(data),
+                "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode(),
+            }
+        ],
+        "bufferViews": views,
+        "accessors": accessors,
+    }
+    path = tmp_path_factory.mktemp("wind") / "wind.gltf"
+    path.write_text(json.dumps(tree))
     return path
 
 
@@ -63,7 +118,7 @@ def test_numbers_are_interpolated_not_colours(heat):
 
 
 def test_which_number_it_is(heat):
-    assert shown(heat, ScalarColoring(GRAY))[0].bar.title == "heat"  # the file's first
+    assert shown(heat, ScalarColoring(GRAY))[0].bar.title == "heat"  # the first of them
     assert shown(heat, ScalarColoring(GRAY, "label"))[0].bar[1:3] == (1, 5)
     viewed, frame = shown(heat, ScalarColoring(GRAY, "y"))
     assert viewed.bar[:3] == ("y", 0, 2)
@@ -73,9 +128,92 @@ def test_which_number_it_is(heat):
 
 
 def test_documents_have_the_numbers(heat):
-    (scalars,) = load_document(heat, scalars=True).scalars
+    (scalars,) = load_document(heat, scalars="vertices").scalars
     assert list(scalars) == ["heat", "label"] and scalars["label"].tolist() == [1, 2, 3, 4, 5]
     assert load_document(heat).scalars == [{}]
+
+
+def test_which_component_it_is(wind):
+    bars = {
+        number: open_model(wind, scalars=ScalarColoring(GRAY, "_WIND", component=number)).bar
+        for number in (-1, 0, 1, 2)
+    }
+    assert [bar.title for bar in bars.values()] == ["|_WIND|", "_WIND[0]", "_WIND[1]", "_WIND[2]"]
+    assert [bar[1:3] for bar in bars.values()] == [(0, 5), (0, 3), (-4, 0), (0, 1)]
+    with pytest.raises(InvalidArgumentError, match="'_WIND' has no component 3: the last is 2"):
+        open_model(wind, scalars=ScalarColoring(GRAY, "_WIND", component=3))
+    # Of single numbers there is no length: negative ones stay.
+    assert open_model(wind, scalars=ScalarColoring(GRAY, "_HEAT")).bar[:3] == ("_HEAT", -7, 2)
+    viewed, frame = shown(wind, ScalarColoring(GRAY, "_WIND", component=1))
+    assert abs(at(frame, 1.0, 1.2, 0) - 255 / 2) <= 3
+
+
+def test_attributes_of_gltf_files(wind):
+    assert load_document(wind).scalars == [{}, {}]
+    first, second = load_document(wind, scalars="vertices").scalars
+    # Whole numbers stay such, those that stand for shares become shares.
+    assert first["_ID"].tolist() == [[16777217], [1], [2], [3]] and "_MATRIX" not in first
+    assert first["_SHARE"].tolist() == [[0], [1], [1], [0]]
+    assert set(first) == {"_HEAT", "_ID", "_SHARE", "_WIND"} and set(second) == {"_HEAT"}
+    assert open_model(wind, scalars=ScalarColoring(GRAY)).bar.title == "_HEAT"
+    assert load_document(wind, scalars="faces").scalars == [{}, {}]
+
+
+def test_numbers_that_are_colours(wind):
+    viewed, frame = shown(wind, ScalarColoring(GRAY, "_SHARE", component=-2))
+    assert viewed.bar is None
+    assert at(frame, 0.01, 1.2, 0) < 50 and at(frame, 1.99, 1.2, 0) > 250
+    viewed = open_model(wind, scalars=ScalarColoring(GRAY, "_ID", component=-2))
+    mesh = next(node.object for node in viewed.scene.nodes if isinstance(node.object, e3d.Mesh))
+    assert mesh.colors.tolist() == [[level] * 3 + [255] for level in (255, 1, 2, 3)]
+
+
+def test_numbers_of_faces(tmp_path):
+    path = tmp_path / "faces.ply"
+    head = ["ply", "format ascii 1.0", "element vertex 6"]
+    head += [f"property float {name}" for name in "xyz"]
+    head += ["property list uchar float flow", "element face 2"]
+    head += ["property list uchar int vertex_indices", "property int group", "property uchar red"]
+    head += ["property uchar green", "property uchar blue", "property list uchar float force"]
+    vertices = [f"{x} {y} 0 2 {x} {y}" for y in (0, 2) for x in (0, 1, 2)]
+    faces = ["4 0 1 4 3 7 9 9 9 3 0 3 4", "4 1 2 5 4 -1 9 9 9 3 0 0 1"]
+    path.write_text("\n".join([*head, "end_header", *vertices, *faces]) + "\n")
+    viewed, frame = shown(path, ScalarColoring(GRAY, by_faces=True))
+    assert viewed.bar[:3] == ("|force|", 1, 5)  # the first in alphabetical order
+    viewed, frame = shown(path, ScalarColoring(GRAY, "group", by_faces=True))
+    assert viewed.bar[:3] == ("group", -1, 7)
+    assert [at(frame, x, 1, 0) for x in (0.1, 0.9, 1.1, 1.9)] == [255, 255, 0, 0]
+    assert open_model(path, scalars=ScalarColoring(GRAY, "flow", component=1)).bar.high == 2
+    for name, said in (("x", "'x'; there are force, group"), ("flow", "'flow'; there are")):
+        with pytest.raises(InvalidArgumentError, match=f"there is no array of faces {said}"):
+            open_model(path, scalars=ScalarColoring(GRAY, name, by_faces=True))
+
+
+def test_faces_without_numbers(heat):
+    with pytest.raises(InvalidArgumentError, match="no array of faces; there are none"):
+        open_model(heat, scalars=ScalarColoring(GRAY, by_faces=True))
+
+
+def test_normals_are_turned_with_their_mesh(tmp_path):
+    scene, mesh = e3d.Scene(), e3d.Mesh([(0, 0, 0), (1, -1, 0), (1, -1, 1)], [(0, 1, 2)])
+    scene.add(mesh, scale=(1.0, 2.0, 1.0))  # the normal is that of (1, -2, 0), not twice as high
+    e3d.save_scene(scene, tmp_path / "plane.glb")
+    for component, expected in ((0, 2 / 5**0.5), (1, 1 / 5**0.5), (2, 0.0)):
+        coloring = ScalarColoring(GRAY, "normals", component=component)
+        bar = open_model(tmp_path / "plane.glb", scalars=coloring).bar
+        assert bar.title == f"normals[{component}]"
+        assert abs(bar.low + bar.high) / 2 == pytest.approx(expected, abs=1e-6)
+
+
+def test_several_models_share_a_range(heat, tmp_path):
+    other = tmp_path / "other.ply"
+    other.write_text(heat.read_text().replace("0 0 0 10 1", "0 0 0 -30 1"))
+    viewed = open_models([heat, other], scalars=ScalarColoring(GRAY, "heat"))
+    assert viewed.bar[:3] == ("heat", -30, 30)
+    meshes = [node.object for node in viewed.scene.nodes if isinstance(node.object, e3d.Mesh)]
+    first, second = (mesh.uvs[mesh.positions[:, 0] == 2, 0].tolist() for mesh in meshes)
+    assert first == second
+    assert viewed.appearance["tone_mapping"] == "none"
 
 
 def test_what_has_no_number_is_grey(heat):
@@ -110,6 +248,20 @@ def test_colour_maps(tmp_path):
     assert colormap("viridis")[[0, -1]].tolist() == [[0x44, 1, 0x54], [0xFD, 0xE7, 0x25]]
     Image.new("RGB", (3, 5), (1, 2, 3)).save(tmp_path / "map.png")
     assert colormap(str(tmp_path / "map.png")).tolist() == [[1, 2, 3]] * 3
+    table = colormap("0,#000000,0.5,rgb(200,0,100),1,white")
+    assert table[[0, -1]].tolist() == [[0, 0, 0], [255, 255, 255]]
+    assert np.abs(table[128].astype(int) - (200, 0, 100)).max() <= 1
+    assert (colormap("0, 0,0,0, 1, 1,0.5,0")[-1] == [255, 128, 0]).all()
+    for wrong in (
+        "0,red",
+        "0,red,1",
+        "1,red,0,blue",
+        "0,red,2,blue",
+        "0,rot,1,blue",
+        "a,red,1,red",
+    ):
+        with pytest.raises(InvalidArgumentError):
+            colormap(wrong)
     with pytest.raises(InvalidArgumentError, match="'jet' is neither a picture nor one of virid"):
         colormap("jet")
 
@@ -230,10 +382,15 @@ def test_on_the_command_line(heat, capsys):
     path = heat.with_name("out.png")
     command = ["render", str(heat), "--resolution", "200x150", "-o", str(path)]
     seen = set()
-    for options in ([], ["-s"], ["-b"], ["--range", "-5,50"], ["--colormap", "turbo"]):
+    for options in ([], ["-s"], ["-b"], ["--coloring-range", "-5,50"], ["--colormap", "turbo"]):
         assert main([*command, *options]) == 0
         seen.add(path.read_bytes())
     assert len(seen) == 5
+    assert main([*command, "-y", "0"]) == 0  # of single numbers, the only one
+    assert path.read_bytes() in seen
+    assert main([*command, "-y", "-3"]) == 2
+    assert main([*command, "-c"]) == 1
+    assert "heat.ply: there is no array of faces; there are none" in capsys.readouterr().err
     assert main([*command, "--coloring-array", "cold"]) == 1
     assert main([*command, "--colormap", "jet"]) == 1
     assert main([*command, "--range", "2,1"]) == 2

@@ -6,12 +6,12 @@ with ``add_done_callback`` and ``result``, and how many calls it does at once.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from concurrent.futures import Future
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
+from .._support.system import usable_processors
 from ..errors import InvalidArgumentError
 from .processes import ProcessPool
 
@@ -38,13 +38,6 @@ class Engine(NamedTuple):
     at_once: int
     threads: int
     chunk_seconds: float = 0.05
-
-
-def usable_cpus() -> int:
-    """Return on how many processors this process may run."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 class InThisProcess:
@@ -83,11 +76,11 @@ def engine_for(
             raise InvalidArgumentError("executor must have a method submit")
         yield _given(executor, threads or 1)
     else:
-        yield from _own(usable_cpus() if jobs is None else jobs, threads)
+        yield from _own(usable_processors() if jobs is None else jobs, threads)
 
 
 def _own(jobs: int, threads: int | None) -> Iterator[Engine]:
-    each = threads or max(1, usable_cpus() // jobs)
+    each = threads or max(1, usable_processors() // jobs)
     if jobs == 1:
         yield Engine(InThisProcess(), 1, each)
         return
@@ -101,4 +94,4 @@ def _given(executor: Any, threads: int) -> Engine:
         from .dask_engine import DaskExecutor, count_of
 
         return Engine(DaskExecutor(executor), count_of(executor), threads, DASK_SECONDS)
-    return Engine(executor, getattr(executor, "_max_workers", None) or usable_cpus(), threads)
+    return Engine(executor, getattr(executor, "_max_workers", None) or usable_processors(), threads)

@@ -4,6 +4,7 @@ import os
 import runpy
 import subprocess
 import sys
+import sysconfig
 
 import pytest
 
@@ -55,3 +56,13 @@ def test_each_machine_has_its_kernels(source_tree):
     assert list(setup["isa_flags"]("X86")) == ["sse41", "avx2", "avx512"]
     assert setup["isa_flags"]("AARCH64") == {"neon": []}
     assert setup["isa_flags"]("") == {}
+
+
+@pytest.mark.parametrize("machine", ["x86_64-linux-gnu", "aarch64-linux-musl"])
+def test_only_where_there_is_sdl_it_is_required(source_tree, monkeypatch, machine):
+    settings = {"SOABI": f"cpython-311-{machine}", "HOST_GNU_TYPE": machine}
+    monkeypatch.setattr(sysconfig, "get_config_var", settings.get)
+    required = rules(source_tree, "setup.py")["requirements"]()
+    names = [requirement.partition(">")[0] for requirement in required]
+    sdl = ["pysdl2-dll"] if machine.endswith("gnu") else []
+    assert names == ["numpy", "pillow", "pysdl2", "rich", *sdl]

@@ -5,6 +5,7 @@ import runpy
 import subprocess
 import sys
 import sysconfig
+from types import SimpleNamespace
 
 import pytest
 
@@ -23,6 +24,19 @@ def test_a_module_is_named_after_its_machine(source_tree, tmp_path, machine):
     tag = f"{sys.implementation.cache_tag}-{machine}"
     assert made["EXT_SUFFIX"] == f".{tag}.so"
     assert made["SOABI"] == tag
+
+
+def test_no_folder_of_this_machine_is_in_the_settings(source_tree, tmp_path, monkeypatch):
+    release = rules(source_tree, ".ci/release")
+    here = {"MULTIARCH": "m", "EXT_SUFFIX": ".m.so", "SOABI": "m", "N": 1}
+    here["LDSHARED"] = "gcc -shared -L/here/lib -Wl,-rpath,/here/lib -Wl,-z,now"
+    monkeypatch.setattr(
+        release["importlib"], "import_module", lambda name: SimpleNamespace(build_time_vars=here)
+    )
+    release["write_settings"]("x86_64-linux-musl", tmp_path)
+    made = runpy.run_path(str(tmp_path / f"{release['SETTINGS']}.py"))["build_time_vars"]
+    assert made["LDSHARED"] == "gcc -shared -Wl,-z,now"
+    assert made["HOST_GNU_TYPE"] == "x86_64-linux-musl" and made["N"] == 1
 
 
 def test_the_cross_compiler_names_its_target(source_tree):

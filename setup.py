@@ -9,7 +9,8 @@ CFLAGS. The baseline is plain x86-64, so that only the ISA files hold code that 
 A file is compiled again when its command has changed or a file that it includes, which the compiler
 lists beside the object.
 ENGINE3D_BUILD=release|debug|profile|asan|tsan chooses the kind of build, each in its own folder.
-Everything that is not a rule of the build (name, version, dependencies) is in pyproject.toml.
+Everything that is not a rule of the build (name, version, extras) is in pyproject.toml; what the
+package needs depends on the system, and is here.
 """
 
 import json
@@ -62,6 +63,9 @@ HARDENING = ["-fstack-protector-strong", "-U_FORTIFY_SOURCE", "-D_FORTIFY_SOURCE
 LINK_FLAGS = ["-pthread"]
 ELF_LINK_FLAGS = ["-Wl,-z,relro,-z,now"]
 STRIPPED = {"release": ["-s"]}
+REQUIREMENTS = ["numpy>=1.23", "pillow>=12.3", "pysdl2>=0.9.16", "rich>=13"]
+# The window's SDL. There is none for musl: the window wants the system's there, all else nothing.
+SDL = "pysdl2-dll>=2.28"
 NATIVE = "engine3d._native"
 CORE_MODULE = f"{NATIVE}._core"
 # What Cython would otherwise write into every module, such as the code of memoryviews.
@@ -94,6 +98,12 @@ def machine_of(platform):
 def is_windows(platform):
     """Whether a name of a platform, as Python or a compiler has it, is one of Windows."""
     return platform.startswith("win") or "windows" in platform or "mingw" in platform
+
+
+def requirements():
+    """The packages that engine3d needs at run time, where it is built for."""
+    names = [sysconfig.get_config_var(name) or "" for name in ("SOABI", "HOST_GNU_TYPE")]
+    return REQUIREMENTS if "musl" in "".join(names) else [*REQUIREMENTS, SDL]
 
 
 BUILD = os.environ.get("ENGINE3D_BUILD") or "release"
@@ -417,6 +427,7 @@ if __name__ == "__main__":
             "engine3d._native": ["kernels_testing.pyi"],
             "engine3d.data": SOURCE_ONLY,
         },
+        install_requires=requirements(),
         libraries=static_libraries(),
         ext_modules=extensions(),
         cmdclass={

@@ -12,9 +12,10 @@ well. Each step that others could see half done is one operation of the interpre
 from __future__ import annotations
 
 import itertools
-import os
 from collections import deque
 from collections.abc import Iterable
+
+from .system import after_fork
 
 _REMEMBERED = 2048
 
@@ -47,7 +48,7 @@ def _forget() -> None:
     _changed.extend([[0] for _ in range(_REMEMBERED)])
 
 
-os.register_at_fork(after_in_child=_forget)
+after_fork(_forget)
 
 
 class Watch:

@@ -1,16 +1,19 @@
-"""What systems give in different ways: how files are opened and locked, processors, signals.
+"""What systems give in different ways: how files are opened and locked, processors, signals, forks.
 
 What a system lacks does nothing here: on Windows a file cannot be opened without waiting, from an
-open folder or without following links, and no signal tells that a terminal was closed.
+open folder or without following links, no process is forked, and no signal tells that a terminal
+was closed.
 """
 
 from __future__ import annotations
 
-import contextlib
+import errno
 import os
+from collections.abc import Callable
 
 _BINARY = getattr(os, "O_BINARY", 0)  # or else Windows changes the ends of lines
 _OWN = getattr(os, "O_CLOEXEC", getattr(os, "O_NOINHERIT", 0))
+_TAKEN = (errno.EAGAIN, errno.EACCES, errno.EDEADLK)  # what says that another has locked a file
 
 #: Flags of `os.open`: read bytes, in this process alone.
 READ = os.O_RDONLY | _BINARY | _OWN
@@ -59,21 +62,33 @@ def kill_group(process: int) -> None:
             os.kill(process, signal.SIGTERM)  # which Windows knows as the end at once
 
 
+def after_fork(function: Callable[[], object]) -> None:
+    """Call a function in every process that is forked from this one."""
+    if hasattr(os, "register_at_fork"):
+        os.register_at_fork(after_in_child=function)
+
+
 def locked(handle: int) -> bool:
-    """Lock an open file until it is closed; tell whether no other process has locked it."""
+    """Lock an open file until it is closed; tell whether no other process has locked it.
+
+    Where a file system has no locks, as some on networks, nobody has.
+    """
+    try:
+        _lock(handle)
+    except OSError as error:
+        return error.errno not in _TAKEN
+    return True
+
+
+def _lock(handle: int) -> None:
     try:
         import fcntl
     except ImportError:
         import msvcrt
 
-        with contextlib.suppress(OSError):
-            msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
-            return True
-        return False
-    with contextlib.suppress(OSError):
+        msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
+    else:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        return True
-    return False
 
 
 def set_mode(handle: int, path: str, mode: int) -> None:

@@ -6,17 +6,12 @@ on some network file systems, two batches may meet: they write whole files all t
 
 from __future__ import annotations
 
-import errno
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from .._support.system import READ_WRITE, locked
 from ..errors import FileAccessError
-
-try:
-    import fcntl
-except ImportError:  # no POSIX
-    fcntl = None
 
 
 @contextmanager
@@ -30,20 +25,12 @@ def locked_folder(folder: str) -> Iterator[None]:
     """
     path = os.path.join(folder, "lock")
     try:
-        handle = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_CLOEXEC", 0), 0o666)
+        handle = os.open(path, READ_WRITE | os.O_CREAT, 0o666)
     except OSError as error:
         raise FileAccessError(f"cannot write: {error.strerror}", path) from error
     try:
-        if fcntl is not None:
-            _lock(handle, path)
+        if not locked(handle):
+            raise FileAccessError("another batch writes to this folder", path)
         yield
     finally:
         os.close(handle)
-
-
-def _lock(handle: int, path: str) -> None:
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError as error:
-        if error.errno in (errno.EAGAIN, errno.EACCES):
-            raise FileAccessError("another batch writes to this folder", path) from None

@@ -7,11 +7,11 @@ process that was forked from the middle of a frame: the rest of that frame is el
 
 from __future__ import annotations
 
-import os
 import threading
 import weakref
 from contextlib import contextmanager
 
+from .._support.system import after_fork
 from ..errors import RendererBusyError
 
 _WITHIN = (
@@ -83,4 +83,4 @@ def _fork_all() -> None:
         turn._fork()
 
 
-os.register_at_fork(after_in_child=_fork_all)
+after_fork(_fork_all)

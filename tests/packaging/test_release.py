@@ -4,6 +4,8 @@ import os
 import runpy
 import subprocess
 import sys
+import sysconfig
+from types import SimpleNamespace
 
 import pytest
 
@@ -22,6 +24,19 @@ def test_a_module_is_named_after_its_machine(source_tree, tmp_path, machine):
     tag = f"{sys.implementation.cache_tag}-{machine}"
     assert made["EXT_SUFFIX"] == f".{tag}.so"
     assert made["SOABI"] == tag
+
+
+def test_no_folder_of_this_machine_is_in_the_settings(source_tree, tmp_path, monkeypatch):
+    release = rules(source_tree, ".ci/release")
+    here = {"MULTIARCH": "m", "EXT_SUFFIX": ".m.so", "SOABI": "m", "N": 1}
+    here["LDSHARED"] = "gcc -shared -L/here/lib -Wl,-rpath,/here/lib -Wl,-z,now"
+    monkeypatch.setattr(
+        release["importlib"], "import_module", lambda name: SimpleNamespace(build_time_vars=here)
+    )
+    release["write_settings"]("x86_64-linux-musl", tmp_path)
+    made = runpy.run_path(str(tmp_path / f"{release['SETTINGS']}.py"))["build_time_vars"]
+    assert made["LDSHARED"] == "gcc -shared -Wl,-z,now"
+    assert made["HOST_GNU_TYPE"] == "x86_64-linux-musl" and made["N"] == 1
 
 
 def test_the_cross_compiler_names_its_target(source_tree):
@@ -55,3 +70,13 @@ def test_each_machine_has_its_kernels(source_tree):
     assert list(setup["isa_flags"]("X86")) == ["sse41", "avx2", "avx512"]
     assert setup["isa_flags"]("AARCH64") == {"neon": []}
     assert setup["isa_flags"]("") == {}
+
+
+@pytest.mark.parametrize("machine", ["x86_64-linux-gnu", "aarch64-linux-musl"])
+def test_only_where_there_is_sdl_it_is_required(source_tree, monkeypatch, machine):
+    settings = {"SOABI": f"cpython-311-{machine}", "HOST_GNU_TYPE": machine}
+    monkeypatch.setattr(sysconfig, "get_config_var", settings.get)
+    required = rules(source_tree, "setup.py")["requirements"]()
+    names = [requirement.partition(">")[0] for requirement in required]
+    sdl = ["pysdl2-dll"] if machine.endswith("gnu") else []
+    assert names == ["numpy", "pillow", "pysdl2", "rich", *sdl]

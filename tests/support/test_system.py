@@ -1,46 +1,12 @@
-"""The package on a system that lacks what only POSIX has, as Windows does."""
+"""What systems give in different ways."""
 
+import errno
 import os
-import subprocess
 import sys
 
 import pytest
 
 from engine3d._support import system
-
-# What Windows lacks is taken away once the standard library is loaded, then all of the package
-# loads, and the command draws a model that names another file.
-WITHOUT_POSIX = """
-import ctypes, os, signal, subprocess, sys, tempfile, pathlib, multiprocessing, types
-for name in ("fcntl", "resource", "termios", "pwd", "grp"):
-    sys.modules[name] = None
-for name in ("O_CLOEXEC", "O_NONBLOCK", "O_NOFOLLOW", "O_DIRECTORY", "O_PATH", "fork", "fchmod",
-             "sched_getaffinity", "set_blocking", "getuid", "geteuid"):
-    delattr(os, name)
-for name in ("SIGHUP", "SIGALRM", "setitimer", "pthread_sigmask"):
-    delattr(signal, name)
-sys.modules["msvcrt"] = types.SimpleNamespace(LK_NBLCK=2, locking=lambda *file: None)
-
-import pkgutil, engine3d
-from importlib import import_module
-for module in pkgutil.walk_packages(engine3d.__path__, "engine3d."):
-    if module.name.startswith(("engine3d._native", "engine3d.lessons")):
-        continue
-    try:
-        import_module(module.name)
-    except ImportError as error:  # an extra that is not installed
-        assert error.name and not error.name.startswith("engine3d"), module.name
-pathlib.Path("a.mtl").write_text("newmtl m\\nKd 1 0 0\\n")
-text = "mtllib a.mtl\\nv 0 0 0\\nv 1 0 0\\nv 0 1 0\\nusemtl m\\nf 1 2 3\\n"
-pathlib.Path("a.obj").write_text(text)
-from engine3d.cli import main
-assert main(["render", "a.obj", "-o", "a.png", "--resolution", "32x24"]) == 0
-"""
-
-
-def test_without_posix(tmp_path):
-    subprocess.run([sys.executable, "-c", WITHOUT_POSIX], cwd=tmp_path, check=True)
-    assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="locks by flock")
@@ -54,6 +20,19 @@ def test_a_lock_ends_with_its_file(tmp_path):
     os.close(first)
     assert system.locked(second)
     os.close(second)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="locks by flock")
+@pytest.mark.parametrize("number, alone", [(errno.EWOULDBLOCK, False), (errno.ENOLCK, True)])
+def test_where_there_are_no_locks_nobody_has_one(tmp_path, monkeypatch, number, alone):
+    import fcntl
+
+    def refused(handle, how):
+        raise OSError(number, os.strerror(number))
+
+    monkeypatch.setattr(fcntl, "flock", refused)
+    with open(tmp_path / "lock", "wb") as file:
+        assert system.locked(file.fileno()) is alone
 
 
 def test_ending_signals_and_processors():

@@ -8,6 +8,7 @@ from e3d cimport (
 from e3d_clusters cimport e3d_cluster
 
 
+ctypedef float three_floats[3]
 ctypedef float four_floats[4]
 
 cdef extern from "kernels/kernels.h" nogil:
@@ -173,6 +174,9 @@ cdef extern from "kernels/kernels.h" nogil:
         const uint32_t *which
         const four_floats *color
         const four_floats *through
+        const four_floats *light
+        three_floats *lit
+        int axis
 
     ctypedef struct e3d_fog_view:
         e3d_fog_kind kind

@@ -2,8 +2,9 @@
  *
  * In:  pieces whose materials are masked or blended, and the samples that they cover.
  * Out: whether they show there; of blended ones, fragments sorted by sample, and their colours laid over the sample's.
- * Rules: R81 (coverage), R82 (what is kept), R83 (order), R84 (composition), R105 and R108 (multisampling). The alpha of a surface is R80, in surface.c.
+ * Rules: R81 (coverage), R82 (what is kept), R83 (order), R84 (composition), R123 (of radiance), R105 and R108 (multisampling). The alpha of a surface is R80, in surface.c.
  */
+#include <math.h>
 #include <stdlib.h>
 
 #include "reference/arithmetic.h"
@@ -154,32 +155,65 @@ static ref_place first_with(const ref_band *band, const ref_place *at, int64_t p
     return first;
 }
 
+/* What a fragment lays over a sample: a surface with its alpha, and of what transmits (R133) the shares of light that pass. */
+typedef struct layer {
+    ref_surface surface;
+    int transmits;
+    float transmittance[3];
+} layer;
+
+/* Returns 0 where the fragment's alpha is too little to lay it. */
+static int find_layer(const ref_scene *scene, const ref_piece *piece, const ref_place *at, layer *out)
+{
+    ref_surface_at(scene, piece, at, &out->surface);
+    out->transmits = ref_transmits(scene->frame, piece);
+    if (out->transmits)
+        out->surface.alpha = ref_transmitting_alpha(piece->primitive.material, out->surface.alpha);
+    if (out->surface.alpha < E3D_LEAST_ALPHA)
+        return 0;
+    if (out->transmits)
+        ref_transmittance(scene->frame, &out->surface, out->transmittance);
+    return 1;
+}
+
 void ref_blend_sample(ref_scene *scene, const ref_band *band, const ref_place *at, float color[3], float *alpha)
 {
     size_t sample = ref_sample_at(band, at);
     for (int64_t i = band->first_fragment[sample]; i < band->first_fragment[sample + 1]; i++) {
         const ref_piece *piece = &scene->pieces.items[band->fragments[i].piece];
         const ref_place first = first_with(band, at, band->fragments[i].piece);
-        ref_surface surface;
+        layer layer;
         float shaded[3];
         if (scene->frame->wireframe == E3D_WIRE_ONLY && piece->primitive.kind == REF_FACE)
             continue;
-        ref_surface_at(scene, piece, &first, &surface);
         scene->stats.pixels_shaded += first.number == at->number;
-        int transmits = ref_transmits(scene->frame, piece);
-        if (transmits)
-            surface.alpha = ref_transmitting_alpha(piece->primitive.material, surface.alpha);
-        if (surface.alpha < E3D_LEAST_ALPHA)
+        if (!find_layer(scene, piece, &first, &layer))
             continue;
-        ref_show(scene->frame, &surface, shaded);
-        if (transmits) {
-            float transmittance[3];
-            ref_transmittance(scene->frame, &surface, transmittance);
-            ref_lay_transmitting(shaded, surface.alpha, transmittance, color, alpha);
+        ref_show(scene->frame, &layer.surface, shaded);
+        if (layer.transmits) {
+            ref_lay_transmitting(shaded, layer.surface.alpha, layer.transmittance, color, alpha);
             continue;
         }
         for (int c = 0; c < 3; c++)
-            color[c] = shaded[c] * surface.alpha + color[c] * (1.0f - surface.alpha);
-        *alpha = surface.alpha + *alpha * (1.0f - surface.alpha);
+            color[c] = shaded[c] * layer.surface.alpha + color[c] * (1.0f - layer.surface.alpha);
+        *alpha = layer.surface.alpha + *alpha * (1.0f - layer.surface.alpha);
+    }
+}
+
+void ref_blend_radiance(const ref_scene *scene, const ref_band *band, const ref_place *at, float radiance[3])
+{
+    size_t sample = ref_sample_at(band, at);
+    for (int64_t i = band->first_fragment[sample]; i < band->first_fragment[sample + 1]; i++) {
+        layer layer;
+        float light[3];
+        if (!find_layer(scene, &scene->pieces.items[band->fragments[i].piece], at, &layer))
+            continue;
+        ref_shade(scene->frame, &layer.surface, light);
+        for (int c = 0; c < 3; c++) {
+            float alpha = layer.surface.alpha, rest = 1.0f - alpha;
+            if (layer.transmits)
+                rest = rest + alpha * layer.transmittance[c];
+            radiance[c] = (isfinite(light[c]) ? light[c] : 0.0f) * alpha + radiance[c] * rest;
+        }
     }
 }

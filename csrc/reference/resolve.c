@@ -4,7 +4,7 @@
  * Out: one row of pixels after another: colour averaged over a pixel's samples and encoded; every
  *      other output from the one sample of R35.
  * Rules: R32 (overdraw), R33 and R85 (average), R34 (encoding), R35 and R86 (outputs), R36 (what wireframe shows), R63 (an
- *      environment as the background), R123 (radiance); R84 through alpha.c, R117, R122 through tone.c.
+ *      environment as the background), R123 (radiance); R84 and R123 through alpha.c, R117, R122 through tone.c.
  */
 #include <math.h>
 
@@ -195,33 +195,43 @@ static void write_id(int32_t *target, size_t pixel, int32_t id)
 static void write_background(const e3d_targets *targets, size_t pixel)
 {
 #define WRITE_BACKGROUND(output, name, type, channels, background, ...) \
-    for (size_t c = 0; output != E3D_OUTPUT_COLOR && targets->name && c < channels; c++) \
+    for (size_t c = 0; output != E3D_OUTPUT_COLOR && output != E3D_OUTPUT_RADIANCE && targets->name && c < channels; c++) \
         targets->name[channels * pixel + c] = background;
     E3D_EACH_OUTPUT(WRITE_BACKGROUND)
 }
 
-/* R123: of what is behind everything, only an environment has any. */
-static void write_background_radiance(const e3d_frame *frame, size_t pixel, float *target)
+/* R123, of what is kept at a sample; of what is behind everything, only an environment has any. */
+static void kept_radiance(const ref_scene *scene, const ref_band *band, const ref_place *at, float out[3])
 {
-    float color[3];
-    if (!target || !shows_backdrop(frame))
+    const e3d_frame *frame = scene->frame;
+    int64_t number = band->piece[ref_sample_at(band, at)];
+    ref_surface surface;
+    for (int c = 0; c < 3; c++)
+        out[c] = 0.0f;
+    if (frame->mode == E3D_MODE_OVERDRAW)
         return;
-    ref_backdrop(&frame->backdrop, (int32_t)(pixel % (size_t)frame->width), (int32_t)(pixel / (size_t)frame->width), color);
-    write_floats(target, pixel, color, 3);
+    if (number >= 0) {
+        find_surface(scene, &scene->pieces.items[number], at, &surface);
+        ref_shade(frame, &surface, out);
+    } else if (shows_backdrop(frame)) {
+        ref_backdrop(&frame->backdrop, at->x / frame->samples_axis, at->y / frame->samples_axis, out);
+    }
 }
 
 /* R123 */
-static void write_radiance(const e3d_frame *frame, const ref_surface *surface, size_t pixel, float *target)
+static void write_radiance(const ref_scene *scene, const ref_band *band, const ref_place *at, size_t pixel, float *target)
 {
-    float color[3] = {0.0f, 0.0f, 0.0f};
+    float radiance[3];
     if (!target)
         return;
-    if (frame->mode != E3D_MODE_OVERDRAW)
-        ref_shade(frame, surface, color);
-    write_floats(target, pixel, color, 3);
+    kept_radiance(scene, band, at, radiance);
+    for (int c = 0; c < 3; c++)
+        radiance[c] = isfinite(radiance[c]) ? radiance[c] : 0.0f;
+    ref_blend_radiance(scene, band, at, radiance);
+    write_floats(target, pixel, radiance, 3);
 }
 
-static void write_surface(const e3d_frame *frame, const e3d_targets *targets, size_t pixel, const ref_surface *surface, float ndc_depth)
+static void write_surface(const e3d_targets *targets, size_t pixel, const ref_surface *surface, float ndc_depth)
 {
     const ref_primitive *primitive = &surface->piece->primitive;
     write_id(targets->triangle_id, pixel, primitive->kind == REF_FACE ? primitive->index : -1);
@@ -243,7 +253,6 @@ static void write_surface(const e3d_frame *frame, const e3d_targets *targets, si
     write_floats(targets->metallic_roughness, pixel, metallic_roughness, 2);
     write_floats(targets->emissive, pixel, surface->emissive, 3);
     write_floats(targets->tangent, pixel, surface->view_tangent, 4);
-    write_radiance(frame, surface, pixel, targets->radiance);
 }
 
 /* R35 */
@@ -252,6 +261,7 @@ static void resolve_outputs(const ref_scene *scene, const ref_band *band, int32_
 {
     const ref_place at = {x, y, 0};
     size_t sample = ref_sample_at(band, &at);
+    write_radiance(scene, band, &at, pixel, targets->radiance);
     int64_t end = band->first_fragment[sample + 1], number = band->piece[sample];
     float depth = band->depth[sample];
     if (scene->frame->transparent_outputs && end > band->first_fragment[sample]) { /* R86 */
@@ -260,12 +270,11 @@ static void resolve_outputs(const ref_scene *scene, const ref_band *band, int32_
     }
     if (number < 0) {
         write_background(targets, pixel);
-        write_background_radiance(scene->frame, pixel, targets->radiance);
         return;
     }
     ref_surface surface;
     find_surface(scene, &scene->pieces.items[number], &at, &surface);
-    write_surface(scene->frame, targets, pixel, &surface, depth);
+    write_surface(targets, pixel, &surface, depth);
 }
 
 void ref_resolve_band(ref_scene *scene, const ref_band *band, const e3d_targets *targets)

@@ -168,6 +168,8 @@ e3d_status ref_add_fragment(ref_band *band, size_t sample, float depth, int64_t 
 void ref_sort_fragments(const ref_scene *scene, ref_band *band);
 /* R84: lays the fragments of a sample over its colour, which is multiplied by its alpha. */
 void ref_blend_sample(ref_scene *scene, const ref_band *band, const ref_place *at, float color[3], float *alpha);
+/* R123: lays their light over its radiance. */
+void ref_blend_radiance(const ref_scene *scene, const ref_band *band, const ref_place *at, float radiance[3]);
 
 /* resolve.c */
 /* R34 of a clamped value. */

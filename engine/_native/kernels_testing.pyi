@@ -243,6 +243,10 @@ class Kernels:
         color: _Floats,
         samples: _Floats,
         left: npt.NDArray[np.uint16],
+        through: _Floats | None = None,
+        light: _Floats | None = None,
+        lit: _Floats | None = None,
+        axis: int = 1,
     ) -> int: ...
     def average(
         self,

@@ -601,8 +601,9 @@ cdef class Kernels:
 
     def blend(self, const uint32_t[::1] first, const int32_t[::1] depth, const uint32_t[::1] which,
               const float[:, ::1] color, float[:, ::1] samples, uint16_t[::1] left,
-              const float[:, ::1] through=None):
-        """Returns how many samples are left, which are listed. ``through`` is like ``color``, or None."""
+              const float[:, ::1] through=None, const float[:, ::1] light=None, float[:, ::1] lit=None, int axis=1):
+        """Returns how many samples are left, which are listed. ``through`` and ``light`` are like ``color``, or None; ``lit``
+        is the radiance of the tile's pixels, of axis * axis samples each."""
         cdef e3d_alpha_layers layers
         cdef int count = 0
         if first.shape[0] != E3D_TILE_SAMPLES + 1 or left.shape[0] != E3D_TILE_SAMPLES or color.shape[1] != 4:
@@ -610,6 +611,10 @@ cdef class Kernels:
         layers.first, layers.depth, layers.which = &first[0], &depth[0], &which[0]
         layers.color = <const four_floats *>&color[0, 0]
         layers.through = NULL if through is None else <const four_floats *>&through[0, 0]
+        layers.light = NULL if light is None else <const four_floats *>&light[0, 0]
+        layers.lit, layers.axis = NULL if lit is None else <three_floats *>&lit[0, 0], axis
+        if light is not None and (lit is None or lit.shape[0] != E3D_TILE_SAMPLES or lit.shape[1] != 3):
+            raise ValueError("light goes to the pixels of a tile, of three numbers each")
         for _ in range(self.rounds):
             count = self.table.blend(&layers, samples_of(samples), &left[0])
         return count

@@ -16,7 +16,7 @@ from .. import linalg
 from .._native.rasterizer import find_occlusion
 from ._output_pool import OutputPool
 from ._view import View
-from .options import RenderOptions
+from .options import RenderOptions, shows_light
 
 #: How far things count where nothing is said, as a share of the diagonal of the scene's box.
 RADIUS_SHARE = 0.1
@@ -50,7 +50,7 @@ def pixel_rays(view: View, width: int, height: int) -> PixelRays | None:
 
 def shows_occlusion(options: RenderOptions, outputs: tuple[str, ...]) -> bool:
     """Whether a picture with these outputs shows ambient occlusion."""
-    if not options.ambient_occlusion or options.mode != "lit" or "color" not in outputs:
+    if not options.ambient_occlusion or options.mode != "lit" or not shows_light(outputs):
         return False
     return options.wireframe != "only"
 

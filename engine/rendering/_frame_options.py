@@ -21,7 +21,7 @@ from ..scene.gradients import Gradient
 from ..scene.scene import SCENE_VALUES, Scene
 from ._native_handles import MeshNeeds, native_environment
 from ._tone_inverse import light_that_shows
-from .options import RenderOptions, check_outputs
+from .options import RenderOptions, check_outputs, shows_light
 
 _NO_CLAMP = (0.0, math.inf)
 _MOST_BLURRED = 8.0  # the last level of an environment: E3D_ENVIRONMENT_LEVELS - 1
@@ -155,13 +155,13 @@ class FrameOptions:
         """Return which derived arrays of meshes a frame with these outputs reads."""
         known, options = self._needs.get(outputs), self._options
         if known is None:
-            shaded = "color" in outputs
+            shaded = shows_light(outputs)
             reads_normals = "normal" in outputs or "world_normal" in outputs
             reads_normals = reads_normals or (shaded and options.mode in ("lit", "normal"))
             known = self._needs[outputs] = MeshNeeds(
                 vertex_normals=reads_normals and options.normals != "flat",
                 face_normals=reads_normals and options.normals != "smooth",
-                edges=shaded and options.wireframe is not None,
+                edges="color" in outputs and options.wireframe is not None,
             )
         return known
 

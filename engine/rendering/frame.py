@@ -168,7 +168,8 @@ class Frame:
     )
     radiance: _Output[np.float32] = _Output(
         "(H, W, 3) float32: the colour with exposure and fog before it is tone mapped and clamped, "
-        "linear; 0 = background, unless it is an environment."
+        "linear; 0 = background, unless it is an environment. What is blended is laid over what is "
+        "behind it, as in the picture."
     )
 
     def __init__(self, width: int, height: int, outputs: dict[Output, NDArray[Any]]) -> None:

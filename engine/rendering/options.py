@@ -54,6 +54,11 @@ def check_outputs(outputs: Iterable[str]) -> tuple[str, ...]:
     return names
 
 
+def shows_light(outputs: Iterable[str]) -> bool:
+    """Whether outputs show light: shadows and all that falls on surfaces are found for them."""
+    return "color" in outputs or "radiance" in outputs
+
+
 def size_in_picture(pixels: float, height: int) -> float:
     """Return a size of pixels as ``size_unit="picture"`` counts it in a picture of some height."""
     return pixels * _ROWS / height

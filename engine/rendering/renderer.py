@@ -48,7 +48,7 @@ from ._view import CameraChoice
 from ._viewpoint import Viewpoint, frustum_of
 from .backend_selection import resolve_backend, resolve_threads
 from .frame import Frame, Output
-from .options import WHITE, RenderKeywords, RenderOptions, either, with_both_sides
+from .options import WHITE, RenderKeywords, RenderOptions, either, shows_light, with_both_sides
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -329,8 +329,8 @@ class Renderer(Closed):
             Hand nodes of the same mesh to the core as one draw. The picture is the same.
         transparent_outputs : bool
             Outputs other than ``color`` are of the nearest surface, even if it is blended; else of
-            the nearest that isn't. Modes other than "lit" and "unlit" show blended surfaces as
-            opaque ones anyway.
+            the nearest that isn't. ``radiance`` has all layers in any case. Modes other than "lit"
+            and "unlit" show blended surfaces as opaque ones anyway.
         tone_mapping : {"none", "neutral", "aces", "agx"}
             How light of any brightness becomes what a screen can show, in mode "lit": of lit
             surfaces and of an environment behind them. ``"none"`` shows what is above 1 as 1;
@@ -438,7 +438,7 @@ class Renderer(Closed):
             if by_mesh and not self._draw_list.may_cull(scene, view):
                 cull = "none"
                 frame_options = self._options.get(scene, with_both_sides(options), self._height)
-            if options.mode == "lit" and "color" in frame.outputs:
+            if options.mode == "lit" and shows_light(frame.outputs):
                 self._shadow_maps.update(scene, view, cull)
                 self._turn.check()
                 self._exact_shadows.update(scene)

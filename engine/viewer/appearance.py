@@ -6,7 +6,6 @@ In: option values. Out: the keyword arguments of one ``render`` call.
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass
 from typing import get_args
 
@@ -21,13 +20,10 @@ from ..choices import (
     Wireframe,
 )
 from ..environments.environment import Environment
-from ..errors import Engine3DWarning
 from ..geometry.mesh import Mesh
 from ..materials.colors import linear_color
-from ..materials.material import Material
 from ..scene.gradients import Gradient
 from ..scene.instances import InstancedMesh
-from ..scene.usage import uses_in
 
 MODES = (*get_args(Mode), *get_args(OutputMode))
 WIREFRAMES = (None, *get_args(Wireframe))
@@ -108,19 +104,6 @@ def contrasting(background) -> tuple[int, int, int]:
         for color in (background, DARK, LIGHT)
     )
     return DARK if here / dark > light / here else LIGHT
-
-
-def warn_of_blended(appearance: Appearance, scene) -> None:
-    """Warn where what is blended is missing in light that the picture shows."""
-    shows_light = appearance.bloom > 0.0 or appearance.mode == "radiance"
-    materials = (thing for thing in uses_in([scene]) if isinstance(thing, Material))
-    if shows_light and any(material.alpha_mode == "blend" for material in materials):
-        what = "mode radiance" if appearance.mode == "radiance" else "bloom"
-        warnings.warn(
-            f"{what}: what is blended does not count, only what is seen through it",
-            Engine3DWarning,
-            stacklevel=4,
-        )
 
 
 def point_size(count: int, size: tuple[int, int]) -> float:

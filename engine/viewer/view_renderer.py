@@ -17,7 +17,7 @@ from ..rendering.support_functions import support_of_scene
 from ..scene.cameras import PerspectiveCamera
 from ..scene.lights import DirectionalLight
 from ..spatial.rays import RayHit
-from .appearance import Appearance, count_points, point_size, warn_of_blended
+from .appearance import Appearance, count_points, point_size
 from .box_grid import BoxGrid
 from .debug_lines import Lines, box_lines, draw_lines, frustum_lines, tree_lines
 from .free_region import NOTHING, Taken, frame_beside
@@ -148,7 +148,6 @@ class ViewRenderer:
         if not keep_appearance:
             look = STUDIO if settings.look == "studio" and viewed.themed else {}
             self.appearance = Appearance(**(look | viewed.appearance | settings.appearance))
-            warn_of_blended(self.appearance, viewed.scene)
         self.bounds = viewed.bounds
         self._grid = None
         self._box = BoxGrid(viewed)

@@ -63,15 +63,3 @@ def test_fog_takes_the_middle_of_a_gradient(model):
 def test_what_is_no_value(capsys, model, options, told):
     assert main(["render", str(model), *options, "-o", str(model.with_name("no.png"))]) == 2
     assert told in capsys.readouterr().err
-
-
-def test_bloom_warns_of_what_is_blended(capsys, model):
-    mesh = e3d.icosphere(1.0, 1)
-    mesh.materials = [e3d.Material(color=(255, 0, 0, 128), alpha_mode="blend")]
-    path = model.with_name("glass.glb")
-    e3d.save_mesh(mesh, path)
-    capsys.readouterr()
-    picture(path, "--bloom", "1")
-    assert "bloom: what is blended does not count" in capsys.readouterr().err
-    picture(path)
-    assert "blended" not in capsys.readouterr().err

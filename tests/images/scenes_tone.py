@@ -46,6 +46,26 @@ def toned(mapping="none", background=(30, 38, 54), fog=None, **options):
     return Picture(scene, camera_at(target=(0, 0.6, 0)), options=options, **own)
 
 
+def glowing_glass(background=None, fog=None, **options):
+    """Bright things behind grey and clear glass, and glass that shines itself."""
+    scene = e3d.Scene(background, ambient=(0.1, 0.1, 0.12))
+    scene.fog = fog
+    for number in range(3):
+        lamp = with_material(e3d.icosphere(0.22, 2), color=SAND, emissive=(6.0, 4.0, 1.5))
+        scene.add(lamp, translation=(0.8 * number - 0.8, 0.4, -0.3))
+    grey = pane((0.1, 0.1, 0.1, 0.8), size=0.7, alpha_mode="blend")
+    scene.add(grey, translation=(0, 0.1, 0.2))
+    clear = {"metallic": 0.0, "roughness": 0.1, "transmission": 1.0}
+    scene.add(pane((0.3, 0.9, 0.4), size=0.7, **clear), translation=(0.8, 0.1, 0.2))
+    shine = {"alpha_mode": "blend", "emissive": (0.5, 2.5, 5.0)}
+    scene.add(pane((*TEAL, 0.6), size=0.5, **shine), translation=(-0.4, 0.8, 0.4))
+    scene.add(pane((*CORAL, 0.3), 1, size=0.5, **shine), translation=(0.5, 0.8, 0.3))
+    scene.add(e3d.DirectionalLight((-0.4, -0.8, -0.45), intensity=2.0))
+    names = ("samples", "antialias")
+    own = {key: options.pop(key) for key in names if key in options}
+    return Picture(scene, camera_at(target=(0, 0.6, 0)), options={"bloom": 1.0, **options}, **own)
+
+
 def behind(background, **options):
     """What the background shows: little stands before it."""
     scene = e3d.Scene(background, exposure=-0.5)
@@ -80,6 +100,9 @@ variant("bloom", toned, "neutral", SKY, bloom=0.4)
 variant("bloom_4", toned, background=None, samples=4, bloom=2.0)
 variant("bloom_sky", behind, e3d.Environment.sky(), tone_mapping="agx", bloom=1.0)
 variant("bloom_linear", toned, "aces", bloom=0.4, color_space="linear")
+variant("bloom_glass", glowing_glass, tone_mapping="neutral")
+variant("bloom_glass_4", glowing_glass, HAZE, FOGS["linear"], samples=4, tone_mapping="agx")
+variant("bloom_glass_msaa", glowing_glass, SKY, samples=4, antialias="msaa")
 variant("gradient", behind, SKY)
 variant("gradient_overdraw", behind, SKY, mode="overdraw")
 variant(

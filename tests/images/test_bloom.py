@@ -2,6 +2,9 @@
 
 import numpy as np
 import pytest
+from images.objects import with_material
+from images.scenes_alpha import pane, seen_through
+from images.scenes_glass import behind_glass
 from images.scenes_tone import lamps
 from kernels.test_encode import expected_bytes
 
@@ -107,6 +110,108 @@ def test_what_glows():
         assert glowing.outputs == ("color",)
         assert np.array_equal(glowing.color, expected(plain.radiance, plain.color, 0.5, True))
         assert (glowing.color >= plain.color).all() and (glowing.color != plain.color).any()
+
+
+BLACK = (0, 0, 0)
+LAMP, GLASS = (8.0, 4.0, 0.5), (0.0, 6.0, 3.0)
+
+
+def panes(*alphas, **material):
+    """Panes that shine, one before the other from behind: all of the picture."""
+    scene = e3d.Scene(BLACK, ambient=BLACK)
+    for number, alpha in enumerate(alphas):
+        shine = GLASS if number else LAMP
+        mode = "opaque" if alpha == 1 else "blend"
+        own = {"emissive": shine, "alpha_mode": mode, **(material if number else {})}
+        scene.add(pane((0, 0, 0, alpha), size=8, **own), translation=(0, -4, 0.2 * number))
+    return scene, (e3d.OrthographicCamera(1.0), e3d.look_at((0, 0, 3), (0, 0, 0)))
+
+
+def layers(light, *alphas):
+    for alpha in alphas:
+        light = F(GLASS) * F(alpha) + light * (F(1) - F(alpha))
+    return light
+
+
+@pytest.mark.parametrize("backend", e3d.backends())
+def test_radiance_of_layers(backend):
+    """Lights behind each other in any order, whatever samples, outputs and edges are asked for."""
+    for alphas, method in (
+        ((1, 0.25), {}),
+        ((1, 0.5, 0.75), {"hidden_surfaces": "painter"}),
+        ((0.5, 0.25), {"transparent_outputs": True}),
+        ((1, 0.5), {"wireframe": "only", "tone_mapping": "agx"}),
+    ):
+        scene, camera = panes(*alphas)
+        base = F(LAMP) if alphas[0] == 1 else F(LAMP) * F(alphas[0])
+        for samples, antialias in ((1, "ssaa"), (4, "ssaa"), (16, "ssaa"), (4, "msaa")):
+            with e3d.Renderer(
+                66, 20, backend=backend, threads=2, samples=samples, antialias=antialias
+            ) as renderer:
+                for outputs in (("radiance",), ("color", "radiance", "depth")):
+                    frame = renderer.render(scene, camera, outputs=outputs, **method)
+                    assert (frame.radiance == layers(base, *alphas[1:])).all()
+
+
+def test_radiance_is_what_shows():
+    """Dim scenes show it, layer by layer, whatever lets light through."""
+    for scene in (seen_through(BLACK), behind_glass(BLACK)):
+        scene.exposure = -5.0
+        for options in ({}, {"hidden_surfaces": "none"}, {"mode": "unlit"}):
+            if scene.fog is None and options:
+                scene.fog = e3d.ExponentialFog((90, 60, 30), 0.1)
+            outputs = ("color", "radiance")
+            frame = e3d.render(scene, size=(120, 90), outputs=outputs, **options)
+            planes = [np.ascontiguousarray(frame.radiance[..., k].ravel()) for k in range(3)]
+            shown = expected_bytes(planes, True).view(np.uint8).reshape(90, 120, 4)
+            off = np.abs(shown[..., :3].astype(int) - frame.color[..., :3])
+            assert off.max() <= 1 and (off > 0).mean() < 0.002
+
+
+def test_radiance_alone_has_shadows():
+    """What else is asked for changes nothing."""
+    scene = seen_through()
+    for kind in (True, "exact"):
+        scene.add(e3d.DirectionalLight((0.5, -1, -0.2), shadow=kind))
+    options = {"size": (100, 80), "ambient_occlusion": True}
+    both = e3d.render(scene, outputs=("color", "radiance"), **options)
+    alone = e3d.render(scene, outputs=("radiance",), **options)
+    assert np.array_equal(alone.radiance, both.radiance)
+
+
+def test_light_too_bright_to_add_up():
+    scene, camera = panes(1, 0.5, roughness=0.5, metallic=0.0, transmission=1.0)
+    for node in scene.nodes:
+        node.object.materials[0].emissive = (3e38, 3e38, 1.0)
+    for backend in e3d.backends():
+        frame = e3d.render(scene, camera, size=(9, 9), outputs=("radiance",), backend=backend)
+        assert np.isfinite(frame.radiance).all()
+
+
+def test_glass_glows_and_dims():
+    """Emissive glass glows; what shines behind dark glass glows less, the more so the darker."""
+
+    def glow(*alphas, emissive):
+        scene = e3d.Scene(BLACK, ambient=BLACK)
+        ball = with_material(e3d.icosphere(0.15, 2), color=BLACK, emissive=(9.0, 9.0, 9.0))
+        if not emissive:
+            scene.add(ball)
+        for alpha in alphas:
+            shine = (6.0, 6.0, 6.0) if emissive else BLACK
+            own = {"alpha_mode": "blend", "emissive": shine}
+            glass = pane((0, 0, 0, alpha), size=0.4, **own)
+            scene.add(glass, translation=(0, -0.2, 0.5))
+        camera = e3d.OrthographicCamera(1.0), e3d.look_at((0, 0, 3), (0, 0, 0))
+        plain, shown = (
+            e3d.render(scene, camera, size=(80, 80), bloom=bloom).color.astype(int)
+            for bloom in (0, 1)
+        )
+        return (shown - plain)[40, 20, 0]  # beside the glass
+
+    assert glow(emissive=True) == 0
+    assert glow(0.9, emissive=True) > glow(0.4, emissive=True) > 0
+    bare, grey, dark = (glow(*alphas, emissive=False) for alphas in ((), (0.4,), (0.4, 0.95)))
+    assert bare > grey > dark == 0
 
 
 def test_dark_scenes_and_other_modes_stay():

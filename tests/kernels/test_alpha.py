@@ -291,6 +291,42 @@ def test_blend(kernels, transmits):
         assert np.array_equal(bits(got), bits(expected))
 
 
+def lay_light(lit, light, through):
+    """R123: of one fragment."""
+    alpha = light[3] if light[3] >= LEAST_ALPHA else np.float32(0)
+    rest = ONE - alpha + (alpha * through[:3] if through[3] else np.float32(0))
+    return light[:3] * alpha + lit * rest
+
+
+@all_backends
+@pytest.mark.parametrize("axis", [1, 2, 4])
+def test_blend_lays_light(kernels, axis):
+    """Radiance, of any brightness, over that of the pixels whose samples these are."""
+    rng = np.random.default_rng(85)
+    counts = rng.integers(0, 4, SAMPLES)
+    first = np.concatenate([[0], np.cumsum(counts)]).astype(np.uint32)
+    total = int(first[-1])
+    depth = rng.choice(np.arange(2**20), total + PAD, False).astype(np.int32)
+    which = rng.permutation(total).astype(np.uint32)
+    color, through = rng.random((2, total, 4), np.float32)
+    through[:, 3] = rng.integers(0, 2, total)
+    light = (2.0 ** rng.uniform(-9, 9, (total, 4))).astype(np.float32)
+    light[:, 3] = rng.random(total, np.float32)
+    light[::5, 3] = 0
+    got = rng.random((SAMPLES, 3), np.float32)
+    expected = got.copy()
+    side = TILE // axis
+    for y, x in np.ndindex(side, side):
+        s = (y * axis + axis // 2) * TILE + x * axis + axis // 2
+        own, pixel = slice(first[s], first[s + 1]), y * TILE + x
+        for n in which[own][np.argsort(-depth[own])]:
+            expected[pixel] = lay_light(expected[pixel], light[n], through[n])
+    left = np.zeros(SAMPLES, np.uint16)
+    planes_of = random_planes(rng), left, through, light, got, axis
+    assert kernels.blend(first, depth, which, color, *planes_of) == 0
+    assert np.array_equal(bits(got), bits(expected))
+
+
 def _over_one(planes, color, sample):
     alpha = color[3] if color[3] >= LEAST_ALPHA else np.float32(0)
     rest = ONE - alpha

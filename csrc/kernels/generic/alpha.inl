@@ -311,6 +311,8 @@ static ALWAYS_INLINE void alpha_lay_all(const e3d_alpha_layers *layers, const ui
         e3d_lay_any(layers->color[order[i]], layers->through[order[i]], over);
     for (int k = 0; k < 4; k++)
         *planes[k] = over[k];
+    if (layers->light)
+        e3d_lay_light(layers, order, count, sample);
 }
 
 static int kernel_blend(const e3d_alpha_layers *layers, e3d_samples *samples, uint16_t *left)

@@ -34,6 +34,9 @@ typedef struct e3d_alpha_layers {
     const uint32_t *which; /* the number of a colour */
     const float (*color)[4]; /* clamped, and alpha */
     const float (*through)[4]; /* NULL, or of each colour: the shares of light that pass, and 1; 0 of what only has alpha */
+    const float (*light)[4];   /* NULL, or of each colour: its radiance, finite, and alpha */
+    float (*lit)[3];           /* the radiance of the tile's pixels, E3D_TILE to a row, over which that is laid; */
+    int axis;                  /* in the one sample of a pixel's axis x axis that stands for it */
 } e3d_alpha_layers;
 
 /* R84: lays a colour, which is clamped and followed by its alpha, over a sample; over[3] is the sum of alphas. */
@@ -68,6 +71,21 @@ static inline void e3d_lay_any(const float color[4], const float through[4], flo
         e3d_lay_transmitting(color, through, over);
     else
         e3d_lay_layer(color, over);
+}
+
+/* R123: lays the light of a sample's layers over the radiance of its pixel, if it stands for one. */
+static inline void e3d_lay_light(const e3d_alpha_layers *layers, const uint32_t *order, int count, int sample)
+{
+    int x = sample % E3D_TILE, y = sample / E3D_TILE, axis = layers->axis;
+    if (x % axis != axis / 2 || y % axis != axis / 2)
+        return;
+    float *over = layers->lit[y / axis * E3D_TILE + x / axis];
+    for (int i = 0; i < count; i++) {
+        const float *light = layers->light[order[i]], *through = layers->through ? layers->through[order[i]] : NULL;
+        float a = light[3] >= E3D_LEAST_ALPHA ? light[3] : 0.0f, rest = 1.0f - a;
+        for (int k = 0; k < 3; k++)
+            over[k] = light[k] * a + over[k] * (through && through[3] != 0.0f ? rest + a * through[k] : rest);
+    }
 }
 
 #endif

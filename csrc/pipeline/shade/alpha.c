@@ -1,4 +1,6 @@
 /* shade: the alphas of samples (R80), which are tested, kept with their colours to be sorted, or laid over the tile at once (R84). */
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 #include "core/limits.h"
@@ -88,6 +90,16 @@ static void keep_through(const e3d_map_batch *maps, int first, int end, float (*
     }
 }
 
+/* Likewise their radiance, with alpha. */
+static void keep_light(const e3d_lane_array *radiance, const float *alpha, int first, int end, float (*light)[4])
+{
+    for (int i = first; i < end; i++, light++) {
+        for (int k = 0; k < 3; k++)
+            (*light)[k] = fabsf(radiance[k][i]) <= FLT_MAX ? radiance[k][i] : 0.0f;
+        (*light)[3] = alpha[i];
+    }
+}
+
 static void keep(e3d_shade_memory *memory, int transmits, float sign, e3d_alpha_shading *alpha)
 {
     const e3d_batch *batch = &memory->batch;
@@ -98,6 +110,8 @@ static void keep(e3d_shade_memory *memory, int transmits, float sign, e3d_alpha_
         keep_run(batch, i, end, sign, alpha->color + place);
         if (alpha->through)
             keep_through(transmits ? &memory->maps.batch : NULL, i, end, alpha->through + place);
+        if (alpha->light)
+            keep_light(memory->light, batch->alpha, i, end, alpha->light + place);
         alpha->at = place + (end - i);
     }
 }

@@ -1,4 +1,6 @@
 /* shade, second half: visible samples, bucket by bucket and batch by batch, to colours and outputs (R20-R32). */
+#include <string.h>
+
 #include "core/grow.h"
 #include "core/limits.h"
 #include "core/srgb_tables.h"
@@ -264,12 +266,14 @@ static void shade_alpha(const e3d_shade_in *in, const e3d_bucket *bucket, int wa
     else if (use != E3D_ALPHA_TEST && e3d_plans(pass, E3D_PLAN_BASE_COLOR))
         find_albedo(pass->kernels, bucket, memory);
     if (use == E3D_ALPHA_OUTPUTS) {
-        put_outputs(in, bucket, out);
+        e3d_outputs_batch(in->store, bucket, memory, out->pixels);
         return;
     }
     if (use != E3D_ALPHA_TEST) {
         memory->shaded += memory->batch.count;
         find_radiance(pass, bucket, out);
+        if (out->alpha->light)
+            memcpy(memory->light, memory->batch.color, sizeof memory->light);
         map_tone(pass, bucket, &memory->batch);
     }
     e3d_alpha_batch(pass, bucket, out);

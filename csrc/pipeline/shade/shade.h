@@ -38,6 +38,7 @@ typedef struct e3d_shade_memory {
     e3d_runs_memory runs;
     _Alignas(64) e3d_shown shown;
     _Alignas(64) e3d_batch batch;
+    e3d_lane_array light[3]; /* its radiance, where blended samples are kept with theirs */
     _Alignas(64) e3d_surfaces surfaces; /* of the batch and its neighbours */
     e3d_map_memory maps;
     e3d_array pieces;                   /* e3d_visible_primitive */
@@ -51,7 +52,7 @@ typedef enum e3d_alpha_use {
     E3D_ALPHA_TEST = 0, /* their alphas are found */
     E3D_ALPHA_KEEP,     /* their alphas and colours are found */
     E3D_ALPHA_LAY,      /* they are laid over the tile's samples: each is in the list once */
-    E3D_ALPHA_OUTPUTS,  /* all but their colours is stored */
+    E3D_ALPHA_OUTPUTS,  /* all but their colours and their radiance is stored */
     E3D_SOLID_KEEP      /* their colours are found, whose alphas are 1 */
 } e3d_alpha_use;
 
@@ -61,6 +62,7 @@ typedef struct e3d_alpha_shading {
     float *alpha;       /* E3D_ALPHA_TEST */
     float (*color)[4];  /* E3D_ALPHA_KEEP: clamped colours, with alpha; -alpha of a face that a wireframe doesn't show */
     float (*through)[4]; /* E3D_ALPHA_KEEP: NULL, or the shares of light that pass (e3d_alpha_layers) */
+    float (*light)[4];   /* E3D_ALPHA_KEEP: NULL, or radiances, with alpha */
     int32_t piece, at;  /* the piece of the last sample, and the place behind it */
 } e3d_alpha_shading;
 

@@ -4,6 +4,8 @@
  * Out: the colours with these records laid over them, and the nearest fragment of each sample, if that is asked for.
  * Always: groups come from far to near, so that only the fragments of one are sorted, and only where a sample has several.
  */
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 #include "core/grow.h"
@@ -22,6 +24,7 @@
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/runs.h"
 #include "pipeline/shade/shade.h"
+#include "pipeline/store/outputs.h"
 #include "pipeline/tile/alpha.h"
 #include "pipeline/tile/piece.h"
 #include "pipeline/tile/tile.h"
@@ -166,6 +169,12 @@ int e3d_alpha_reserve_fragments(e3d_alpha_fragments *f, size_t count, size_t ids
 
 void e3d_alpha_clear_fragments(e3d_alpha_fragments *f) { f->z.count = f->ids.count = 0; }
 
+/* Where the radiance of the tile's pixels is gathered, over which that of fragments is laid; NULL where it isn't asked for. */
+static void *radiance_of(const e3d_tile_job *job)
+{
+    return e3d_outputs_gathered(job->in->shade->store, &job->memory->pixels, E3D_OUTPUT_RADIANCE);
+}
+
 /* Shades what is listed, and keeps it to be sorted. */
 static int keep_list(const e3d_tile_job *job)
 {
@@ -173,11 +182,13 @@ static int keep_list(const e3d_tile_job *job)
     const e3d_shown *shown = &job->memory->shade.shown;
     e3d_alpha_fragments *f = &job->memory->alpha.fragments;
     size_t first = f->z.count, count = (size_t)shown->count, ids = f->ids.count;
-    int transmits = job->in->pass->draws->any_transmits;
+    int transmits = job->in->pass->draws->any_transmits, lights = radiance_of(job) != NULL;
     if (!count)
         return 1;
     if (!e3d_alpha_reserve_fragments(f, first + count, ids + (size_t)shown->pieces, transmits) ||
-        !e3d_alpha_shade(job, E3D_ALPHA_KEEP, (float (*)[4])f->color.data + first, transmits ? (float (*)[4])f->through.data + first : NULL))
+        (lights && !e3d_array_reserve(&f->light, first + count, sizeof(float[4]))) ||
+        !e3d_alpha_shade(job, E3D_ALPHA_KEEP, (float (*)[4])f->color.data + first, transmits ? (float (*)[4])f->through.data + first : NULL,
+                         lights ? (float (*)[4])f->light.data + first : NULL))
         return 0;
     memcpy((float *)f->z.data + first, memory->z, count * sizeof(float));
     memcpy((int32_t *)f->sample.data + first, shown->sample, count * sizeof(int32_t));
@@ -271,6 +282,8 @@ static void blend_sample(const e3d_alpha_layers *layers, int32_t sample, const u
     for (int k = 0; k < 3; k++)
         samples->color[k][sample] = over[k];
     samples->counts[sample] = over[3];
+    if (layers->light)
+        e3d_lay_light(layers, which, (int)count, sample);
 }
 
 /* The nearest fragment of a sample that shows (a face that a wireframe leaves out does), of those that are sorted. */
@@ -310,8 +323,15 @@ int e3d_alpha_blend_fragments(const e3d_tile_job *job, e3d_samples *samples)
         return 1;
     if (!list_by_sample(f))
         return 0;
-    const e3d_alpha_layers layers = {f->first, f->depth.data, f->which.data, (const float (*)[4])f->color.data,
-                                     job->in->pass->draws->any_transmits ? (const float (*)[4])f->through.data : NULL};
+    float (*lit)[3] = radiance_of(job);
+    const e3d_alpha_layers layers = {.first = f->first,
+                                     .depth = f->depth.data,
+                                     .which = f->which.data,
+                                     .color = (const float (*)[4])f->color.data,
+                                     .through = job->in->pass->draws->any_transmits ? (const float (*)[4])f->through.data : NULL,
+                                     .light = lit ? (const float (*)[4])f->light.data : NULL,
+                                     .lit = lit,
+                                     .axis = job->in->pass->frame->samples_axis};
     if (e3d_plans(job->in->pass, E3D_PLAN_FRONT)) {
         for (int32_t s = 0; s < E3D_TILE_SAMPLES; s++)
             blend_slowly(job, &layers, s, samples);
@@ -335,6 +355,9 @@ static int32_t rows_of(const e3d_piece *pieces, int32_t count)
     return rows < 1 ? 1 : (int32_t)rows;
 }
 
+/* Whether fragments must be kept even where each sample has one. */
+static int keeps_all(const e3d_tile_job *job) { return e3d_plans(job->in->pass, E3D_PLAN_FRONT) || radiance_of(job); }
+
 /* Rows y .. end - 1 of records whose depths may interleave. Where no sample is met twice, there is nothing to sort. */
 static int blend_rows(const e3d_tile_job *job, const e3d_piece *pieces, int32_t count, int32_t y, int32_t end)
 {
@@ -348,8 +371,8 @@ static int blend_rows(const e3d_tile_job *job, const e3d_piece *pieces, int32_t 
         if (rows.y0 <= rows.y1 && !e3d_alpha_add(job, &rows, keep_list))
             return 0;
     }
-    if (!memory->fragments.z.count && !memory->list.met && !e3d_plans(job->in->pass, E3D_PLAN_FRONT))
-        return !job->memory->shade.shown.count || e3d_alpha_shade(job, E3D_ALPHA_LAY, NULL, NULL);
+    if (!memory->fragments.z.count && !memory->list.met && !keeps_all(job))
+        return !job->memory->shade.shown.count || e3d_alpha_shade(job, E3D_ALPHA_LAY, NULL, NULL, NULL);
     return keep_list(job) && e3d_alpha_blend_fragments(job, &job->memory->pixels.samples);
 }
 
@@ -395,8 +418,8 @@ static int lay_later(const e3d_tile_job *job)
     shown->count = left;
     if (!left)
         return 1;
-    if (!e3d_plans(job->in->pass, E3D_PLAN_FRONT))
-        return e3d_alpha_shade(job, E3D_ALPHA_LAY, NULL, NULL);
+    if (!keeps_all(job))
+        return e3d_alpha_shade(job, E3D_ALPHA_LAY, NULL, NULL, NULL);
     e3d_alpha_clear_fragments(&memory->fragments);
     return keep_list(job) && e3d_alpha_blend_fragments(job, &job->memory->pixels.samples);
 }
@@ -431,7 +454,7 @@ static int shade_front(const e3d_tile_job *job)
             runs->rows[count++] = (e3d_run){front[s], (uint16_t)s, 1};
     }
     e3d_show_runs(e3d_sort_runs(runs->rows, runs->spare, count), count, &job->memory->shade.shown);
-    return !count || e3d_alpha_shade(job, E3D_ALPHA_OUTPUTS, NULL, NULL);
+    return !count || e3d_alpha_shade(job, E3D_ALPHA_OUTPUTS, NULL, NULL, NULL);
 }
 
 void e3d_alpha_front(const e3d_tile_job *job)
@@ -446,6 +469,13 @@ void e3d_alpha_front(const e3d_tile_job *job)
         }
 }
 
+/* R123: where sums are too great for a number. */
+static void leave_finite(float *radiance)
+{
+    for (int i = 0; i < 3 * E3D_TILE_SAMPLES; i++)
+        radiance[i] = fabsf(radiance[i]) <= FLT_MAX ? radiance[i] : 0.0f;
+}
+
 int e3d_alpha_blend(const e3d_tile_job *job)
 {
     e3d_alpha_memory *memory = &job->memory->alpha;
@@ -456,5 +486,7 @@ int e3d_alpha_blend(const e3d_tile_job *job)
     if (!find_pieces(job))
         return 0;
     int done = e3d_plans(job->in->pass, E3D_PLAN_SORTS) ? blend_sequence(job) : blend_groups(job);
+    if (radiance_of(job))
+        leave_finite(radiance_of(job));
     return done && (!e3d_plans(job->in->pass, E3D_PLAN_FRONT) || shade_front(job));
 }

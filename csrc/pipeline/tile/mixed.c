@@ -187,7 +187,7 @@ int e3d_mixed_shade(const e3d_tile_job *job, int layered)
     for (int32_t first = 0, next, count; first < list->pixels; first = next) {
         next = list_pixels(job, first, job->memory->shade.runs.rows, &count, list);
         show(job, count, list);
-        if (count && !e3d_alpha_shade(job, E3D_SOLID_KEEP, list->color, NULL))
+        if (count && !e3d_alpha_shade(job, E3D_SOLID_KEEP, list->color, NULL, NULL))
             return 0;
         if (layered)
             keep_list(job, first, next);

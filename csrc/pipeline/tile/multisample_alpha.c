@@ -152,7 +152,7 @@ static int show_list(const e3d_tile_job *job, const e3d_planes_list *list)
     const e3d_prepared *pass = job->in->pass;
     const e3d_shade_memory *shade = &job->memory->shade;
     const float *alpha = job->memory->alpha.alpha;
-    if (!e3d_alpha_shade(job, E3D_ALPHA_TEST, NULL, NULL))
+    if (!e3d_alpha_shade(job, E3D_ALPHA_TEST, NULL, NULL, NULL))
         return 0;
     const e3d_visible_primitive *primitives = shade->pieces.data;
     const e3d_bucket *buckets = shade->buckets.data;
@@ -221,7 +221,7 @@ static int keep_list(const e3d_tile_job *job, const e3d_planes_list *list)
     if (!e3d_alpha_reserve_fragments(f, (size_t)list->shown->count, 0, transmits))
         return 0;
     float (*through)[4] = transmits ? f->through.data : NULL;
-    return e3d_alpha_shade(job, E3D_ALPHA_KEEP, f->color.data, through) && append_entries(job, list, f->color.data, through);
+    return e3d_alpha_shade(job, E3D_ALPHA_KEEP, f->color.data, through, NULL) && append_entries(job, list, f->color.data, through);
 }
 
 /* The kept entries that cover a sample become its plane's fragments. */

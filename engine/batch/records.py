@@ -10,9 +10,10 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+from collections.abc import Mapping
 from typing import Any
 
-from ..datasets.writer import DatasetWriter, Note
+from ..datasets.writer import Content, DatasetWriter, Note, contents, own_files
 from ..files.atomic_write import AtomicFiles
 from .file_digests import InputFiles, are_as_before
 from .task import Task
@@ -26,15 +27,15 @@ def record_path(task: Task) -> str:
 
 
 def write_picture(
-    out: str, task: Task, key: str, inputs: InputFiles, files: dict[str, bytes], said: Any
+    out: str, task: Task, key: str, inputs: InputFiles, files: Mapping[str, Content], said: Any
 ) -> None:
     """Write a picture's files and then its record: all of them, or none."""
-    hashes = {path: hashlib.sha256(data).hexdigest() for path, data in files.items()}
+    hashes = {path: hashlib.sha256(data).hexdigest() for path, data in own_files(files).items()}
     record = {"key": key, "inputs": inputs.digests(), "files": hashes, "said": said}
     text = json.dumps(record, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     with AtomicFiles() as parts:
-        for path, data in (*files.items(), (record_path(task), text.encode("utf-8"))):
-            target = os.path.join(out, path)
+        whole = {**files, record_path(task): text.encode("utf-8")}
+        for target, data in contents(out, whole):
             os.makedirs(os.path.dirname(target), exist_ok=True)
             parts.create(target).write(data)
 
@@ -63,4 +64,6 @@ def is_done(out: str, task: Task, writer: DatasetWriter) -> bool:
         data = writer.stored(out, note, path)
         if data is None or hashlib.sha256(data).hexdigest() != digest:
             return False
+    if not writer.is_whole(out, note):
+        return False
     return are_as_before(task.folder, record["inputs"])

@@ -1,7 +1,8 @@
 """Data sets as BOP has them: RGB, depth, masks, and the pose of each thing.
 
 Out: ``SPLIT/SCENE/rgb/IMAGE.png``, ``depth`` of 16 bits, ``mask`` and ``mask_visib``, one for each
-thing, and for each scene ``scene_camera.json``, ``scene_gt.json`` and ``scene_gt_info.json``.
+thing, and for each scene ``scene_camera.json``, ``scene_gt.json`` and ``scene_gt_info.json``;
+``camera.json``, and ``models`` where all things of a category have one shape (`bop_models`).
 Cameras look along +Z with +Y down, lengths are millimetres, the centre of the top left pixel is
 (0, 0). A thing's mask is what it would show alone; counts and boxes of its silhouette reach beyond
 the picture, to three times its size. Widths of boxes are, as bop_toolkit has them, the distance of
@@ -23,17 +24,20 @@ from .. import linalg
 from .._support.numbers import shown
 from .._support.validation import positive
 from ..errors import InvalidArgumentError
+from .bop_models import has_shapes, shape_of, write_models
 from .cameras import cv_from_camera, intrinsics_of, rigid_parts
 from .opaque_png import color_png, grey_png, mask_png
 from .samples import Sample, Thing, box_of
 from .silhouettes import Silhouette, silhouette_of
 from .writer import (
+    Content,
     DatasetWriter,
     JsonParts,
     Note,
     category_numbers,
     check_category,
     checked_categories,
+    compact,
 )
 
 _DEEPEST = 65535
@@ -83,14 +87,14 @@ class BopWriter(DatasetWriter):
         self.depth_scale = positive(depth_scale, "depth_scale")
         self.millimetres = positive(millimetres, "millimetres")
 
-    def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
+    def describe(self, sample: Sample) -> tuple[dict[str, Content], Any]:
         folder, image = self._place(sample.index)
         depth = sample.frame.depth
-        files = {
+        files: dict[str, Content] = {
             f"{folder}/rgb/{image:06d}.png": color_png(sample.frame),
             f"{folder}/depth/{image:06d}.png": grey_png(self._steps(depth)),
         }
-        truth, info = [], []
+        truth, info, shapes = [], [], []
         for number, thing in enumerate(sample.things()):
             check_category(self.categories, thing.category)
             truth.append([thing.category, *self._pose(thing, sample)])
@@ -99,7 +103,15 @@ class BopWriter(DatasetWriter):
             info.append(_counts(whole, visible, depth))
             files[f"{folder}/mask/{image:06d}_{number:06d}.png"] = mask_png(whole.mask)
             files[f"{folder}/mask_visib/{image:06d}_{number:06d}.png"] = mask_png(visible)
-        return files, {"camera": self._camera(sample), "truth": truth, "info": info}
+            shape, files_of_shape = shape_of(thing, self.millimetres)
+            shapes.append(shape)
+            files.update(files_of_shape)
+        size = [sample.frame.width, sample.frame.height]
+        said = {"camera": self._camera(sample), "size": size, "shapes": shapes}
+        return files, {**said, "truth": truth, "info": info}
+
+    def is_whole(self, folder: str, note: Note) -> bool:
+        return has_shapes(folder, note.said["shapes"])
 
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
         found = (category for note in notes for category, *_ in note.said["truth"])
@@ -117,6 +129,13 @@ class BopWriter(DatasetWriter):
                     parts.all(keyed, "{}", keys=True)
                     parts.text("\n")
                 yield path
+        yield from _camera_file(folder, notes)
+        shapes = (
+            (category, shape)
+            for note in notes
+            for (category, *_), shape in zip(note.said["truth"], note.said["shapes"], strict=True)
+        )
+        yield from write_models(folder, numbers, shapes)
 
     def _place(self, index: int) -> tuple[str, int]:
         """The folder of a picture's scene, and the picture's number there."""
@@ -147,6 +166,21 @@ class BopWriter(DatasetWriter):
             "cam_R_w2c": rotation,
             "cam_t_w2c": place,
         }
+
+
+def _camera_file(folder: str, notes: Iterable[Note]) -> Iterator[str]:
+    """Write what camera the data set has: that of its first picture."""
+    for note in notes:
+        (fx, _, cx, _, fy, cy, *_), (width, height) = (
+            note.said["camera"]["cam_K"],
+            note.said["size"],
+        )
+        said = {"cx": cx, "cy": cy, "depth_scale": note.said["camera"]["depth_scale"]}
+        said |= {"fx": fx, "fy": fy, "height": height, "width": width}
+        with JsonParts(folder, "camera.json") as parts:
+            parts.text(f"{compact(said)}\n")
+        yield "camera.json"
+        return
 
 
 def _truth(note: Note, numbers: dict[str, int]) -> list[dict[str, Any]]:

@@ -10,8 +10,8 @@ from __future__ import annotations
 import json
 import os
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, ClassVar, NamedTuple
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Any, ClassVar, NamedTuple, TypeAlias
 
 from ..errors import InvalidArgumentError
 from ..files.atomic_write import AtomicFiles
@@ -38,6 +38,25 @@ class Note(NamedTuple):
     said: Any
 
 
+#: What a file holds, or what makes it.
+Content: TypeAlias = bytes | Callable[[], bytes]
+
+
+def own_files(files: Mapping[str, Content]) -> dict[str, bytes]:
+    """Return those of a picture's files that belong to it alone."""
+    return {path: data for path, data in files.items() if isinstance(data, bytes)}
+
+
+def contents(folder: str, files: Mapping[str, Content]) -> Iterator[tuple[str, bytes]]:
+    """Yield what must be written of a picture's files to a folder: paths there, and bytes."""
+    for path, data in files.items():
+        target = os.path.join(folder, path)
+        if isinstance(data, bytes):
+            yield target, data
+        elif not os.path.exists(target):
+            yield target, data()
+
+
 class DatasetWriter(ABC):
     """Says which files a data set is made of.
 
@@ -55,8 +74,16 @@ class DatasetWriter(ABC):
     outputs: tuple[Output, ...] = ("color",)
 
     @abstractmethod
-    def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
-        """Return a picture's own files, by their paths in the data set, and a note for `finish`."""
+    def describe(self, sample: Sample) -> tuple[dict[str, Content], Any]:
+        """Return a picture's files, by their paths in the data set, and a note for `finish`.
+
+        Files that are functions belong to several pictures, and their paths tell what they hold:
+        they are made where they are not there yet.
+        """
+
+    def is_whole(self, folder: str, note: Note) -> bool:
+        """Return whether the files are there that a picture shares with others."""
+        return True
 
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
         """Write what belongs to the whole data set; yield the paths of these files in it.

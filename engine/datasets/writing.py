@@ -6,12 +6,12 @@ In: a folder, a writer, samples one after the other. Out: its files.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from ..errors import InvalidArgumentError
 from ..files.atomic_write import AtomicFiles
 from .samples import Sample
-from .writer import DatasetWriter, Note
+from .writer import Content, DatasetWriter, Note, contents, own_files
 
 
 def write_dataset(
@@ -42,15 +42,14 @@ def write_dataset(
             raise InvalidArgumentError(f"samples come in the order of their index: {sample.index}")
         files, said = writer.describe(sample)
         save_files(root, files)
-        notes.append(Note(sample.name, sample.index, list(files), said))
+        notes.append(Note(sample.name, sample.index, list(own_files(files)), said))
     written = [path for note in notes for path in note.files]
     return written + list(writer.finish(root, notes))
 
 
-def save_files(folder: str, files: dict[str, bytes]) -> None:
+def save_files(folder: str, files: Mapping[str, Content]) -> None:
     """Write a picture's files, which appear together, in a folder that is made for them."""
     with AtomicFiles() as parts:
-        for path, data in files.items():
-            target = os.path.join(folder, path)
+        for target, data in contents(folder, files):
             os.makedirs(os.path.dirname(target), exist_ok=True)
             parts.create(target).write(data)

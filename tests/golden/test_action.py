@@ -63,6 +63,18 @@ def test_a_difference_is_reported(start, tmp_path):
     assert "<b>" not in "".join(rows) and "`" not in "".join(rows)
 
 
+def test_results_of_an_earlier_run_do_not_count(start, tmp_path):
+    (tmp_path / "test_one.py").write_text(HEAD + "def test_a(golden): golden(picture(3))\n")
+    write_png(tmp_path / "golden" / "test_one" / "test_a.png", DRAWN)
+    _, outputs = start("-q -p no:cacheprovider")
+    assert outputs["changed"] == "1"
+    (tmp_path / "summary").unlink()
+    _, outputs = start("-q --no-such-option")
+    assert outputs == {"status": "4", "changed": "0"}
+    assert not (tmp_path / "summary").exists()
+    assert not list((tmp_path / "report folder").iterdir())
+
+
 def test_arguments_run_no_commands(start, tmp_path):
     done, outputs = start("--version $(touch a) `touch b` ; touch c")
     assert outputs["changed"] == "0" and outputs["status"] != ""

@@ -18,6 +18,8 @@ if [ -n "${GOLDEN_ARGUMENTS:-}" ]; then
 fi
 
 mkdir -p "$folder" || exit 1
+# Of an earlier step: pytest may end before it writes any.
+rm -f "$folder/report.html" "$folder/golden.json" "$folder/junit.xml"
 "$python" -m pytest --golden-report="$folder/report.html" --golden-json="$folder/golden.json" \
     --junitxml="$folder/junit.xml" ${arguments[@]+"${arguments[@]}"}
 status=$?

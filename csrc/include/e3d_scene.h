@@ -150,6 +150,10 @@ void e3d_tree_ray(const e3d_tree *tree, const double origin[3], const double dir
 typedef struct e3d_placed {
     e3d_draw draw;
     const e3d_tree *instances;
+    int32_t encloses;        /* a volume, but for holes; its fronts are outside */
+    int32_t holes;
+    const int32_t *rim_ends; /* (holes,) */
+    const double *rims;      /* (rim_ends[holes - 1], 3) points round one hole after the other, as the triangles run there */
 } e3d_placed;
 
 typedef struct e3d_node_rows {

@@ -317,6 +317,15 @@ cdef extern from "e3d.h" nogil:
     ctypedef enum e3d_point_shape:
         pass
 
+    enum:
+        E3D_MAX_WINDOWS
+
+    ctypedef struct e3d_window:
+        int32_t x0
+        int32_t y0
+        int32_t x1
+        int32_t y1
+
     ctypedef struct e3d_frame:
         int32_t width
         int32_t height
@@ -327,6 +336,8 @@ cdef extern from "e3d.h" nogil:
         int64_t view
         e3d_mode mode
         e3d_cull cull
+        const e3d_window *windows
+        int32_t window_count
         e3d_wireframe wireframe
         e3d_hidden hidden
         e3d_shading shading

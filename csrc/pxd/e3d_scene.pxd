@@ -2,7 +2,7 @@
 
 from libc.stdint cimport int32_t, int64_t, uint8_t, uint32_t, uint64_t
 
-from e3d cimport e3d_cull, e3d_draw, e3d_pose_kind
+from e3d cimport e3d_cull, e3d_draw, e3d_pose_kind, e3d_window
 
 
 cdef extern from "e3d_scene.h" nogil:
@@ -130,6 +130,10 @@ cdef extern from "e3d_scene.h" nogil:
     ctypedef struct e3d_placed:
         e3d_draw draw
         e3d_tree *instances
+        int32_t encloses
+        int32_t holes
+        const int32_t *rim_ends
+        const double *rims
 
     ctypedef struct e3d_node_rows:
         int32_t count
@@ -171,4 +175,17 @@ cdef extern from "e3d_scene.h" nogil:
     bint e3d_invert(const double *m, double *out)
     bint e3d_camera_view(
         const double *clip_from_view, const double *world_from_view, e3d_camera *out
+    )
+
+
+cdef extern from "e3d_windows.h" nogil:
+    ctypedef struct e3d_looking:
+        double clip_from_world[16]
+        double view_from_world[16]
+        int32_t width
+        int32_t height
+
+    int32_t e3d_find_windows(
+        const e3d_draw_list *list, const e3d_node_rows *rows, const double *bounds,
+        const e3d_placed *objects, const e3d_looking *looking, e3d_window *windows,
     )

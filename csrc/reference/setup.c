@@ -49,11 +49,28 @@ static int64_t double_area(const screen_corner v[3])
     return ax * cy - cx * ay;
 }
 
-static int is_culled(const ref_scene *scene, const ref_primitive *primitive, int front)
+/* Whether the box of a piece reaches into a window of the frame. */
+static int meets_window(const e3d_frame *frame, const ref_piece *piece)
 {
-    if (primitive->kind != REF_FACE || primitive->material->two_sided)
+    for (int32_t i = 0; i < frame->window_count; i++) {
+        const e3d_window *w = &frame->windows[i];
+        int32_t axis = frame->samples_axis;
+        if (piece->left < axis * (w->x1 + 1) && piece->right >= axis * w->x0 && piece->top < axis * (w->y1 + 1) &&
+            piece->bottom >= axis * w->y0)
+            return 1;
+    }
+    return 0;
+}
+
+/* R9, of a piece whose box is known. */
+static int is_culled(const ref_scene *scene, const ref_piece *piece)
+{
+    const e3d_frame *frame = scene->frame;
+    if (piece->primitive.kind != REF_FACE || piece->primitive.material->two_sided)
         return 0;
-    return scene->frame->cull == (front ? E3D_CULL_FRONT : E3D_CULL_BACK);
+    if (piece->front)
+        return frame->cull == E3D_CULL_FRONT;
+    return frame->cull == E3D_CULL_BACK && !meets_window(frame, piece);
 }
 
 static int32_t min3(const int32_t v[3])
@@ -164,7 +181,7 @@ static e3d_status setup_piece(ref_scene *scene, const ref_primitive *primitive, 
     int64_t area = double_area(corners);
     int faces_us = (area < 0) ^ scene->instances[primitive->instance].mirrored;
     ref_piece piece = {.primitive = *primitive, .front = primitive->kind != REF_FACE || faces_us};
-    if (area == 0 || is_culled(scene, primitive, piece.front))
+    if (area == 0)
         return E3D_OK;
     int swap = area < 0;
     screen_corner v[3] = {corners[0], corners[swap ? 2 : 1], corners[swap ? 1 : 2]};
@@ -173,7 +190,7 @@ static e3d_status setup_piece(ref_scene *scene, const ref_primitive *primitive, 
         piece.x[k] = v[k].x;
         piece.y[k] = v[k].y;
     }
-    if (!setup_box(scene, &piece) || !setup_depth(&piece, v, area))
+    if (!setup_box(scene, &piece) || is_culled(scene, &piece) || !setup_depth(&piece, v, area))
         return E3D_OK;
     setup_edges(&piece);
     setup_barycentrics(&piece, v, area);

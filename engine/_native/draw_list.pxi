@@ -56,6 +56,8 @@ cdef class NativeDrawList:
     cdef e3d_casters casters
     cdef int exact_light_count
     cdef e3d_totals totals
+    cdef e3d_window windows[E3D_MAX_WINDOWS]
+    cdef int32_t window_count
     cdef e3d_material *materials
     cdef e3d_material *casting_materials
     cdef e3d_light *lights
@@ -66,12 +68,12 @@ cdef class NativeDrawList:
     cdef e3d_ambient_light ambient_light
     cdef readonly int object_count, material_count, light_count
     cdef int object_capacity, material_capacity, light_capacity
-    cdef dict borrowed, trees  # by the number of the object
+    cdef dict borrowed, rims, trees  # by the number of the object
     cdef dict textures  # by that of the material
     cdef public int64_t node_boxes_tested  # for the selection that `place` was given last
 
     def __cinit__(self):
-        self.borrowed, self.trees = {}, {}
+        self.borrowed, self.rims, self.trees = {}, {}, {}
         self.textures = {}
         self.depths = []
 
@@ -91,7 +93,7 @@ cdef class NativeDrawList:
         self.casts_others = True
         self.clear_shadows()
         self.forget_places()
-        self.borrowed, self.trees = {}, {}
+        self.borrowed, self.rims, self.trees = {}, {}, {}
         self.textures = {}
 
     cdef void forget_places(self) noexcept:
@@ -110,11 +112,18 @@ cdef class NativeDrawList:
             for k in range(E3D_AMBIENT_TERMS):
                 copy_vector(self.ambient_light.terms[k], terms[k], 3)
 
-    def set_object(self, int index, NativeMesh mesh, int32_t material_base):
+    def set_object(
+        self, int index, NativeMesh mesh, int32_t material_base, bint encloses=False, const int32_t[::1] rim_ends=None,
+        const double[:, ::1] rims=None,
+    ):
         """Say what nodes refer to by a number, or by the next one; None is never drawn.
 
+        Of an object that encloses a volume but for holes, the points round these, and where the points of each end.
         Nothing is drawn until `place`.
         """
+        cdef Py_ssize_t holes = 0 if rim_ends is None else rim_ends.shape[0]
+        if holes:
+            require(rims is not None and rims.shape[1] == 3 and rims.shape[0] == rim_ends[holes - 1], "rims: (points, 3)")
         require(0 <= index <= self.object_count, "no such object")
         self.forget_places()
         if index == self.object_count:
@@ -128,6 +137,10 @@ cdef class NativeDrawList:
             entry.draw.mesh = mesh.handle
         entry.draw.instances = 1
         entry.draw.material_base = material_base
+        entry.encloses, entry.holes = encloses, <int32_t>holes
+        if holes:
+            entry.rim_ends, entry.rims = &rim_ends[0], &rims[0, 0]
+        self.rims[index] = rim_ends, rims
         self.borrowed[index] = mesh, None
         self.trees.pop(index, None)
 
@@ -172,6 +185,38 @@ cdef class NativeDrawList:
         if moved:
             self.totals = e3d_graph_totals(&rows, self.objects, self.object_count)
         self.list_draws(&self.placed, &rows, selection, view, batch)
+
+    def close_windows(self):
+        """Let no back show that is culled."""
+        self.window_count = 0
+
+    def open_windows(
+        self,
+        int32_t count,
+        dict columns not None,
+        const double[:, ::1] clip_from_world not None,
+        const double[:, ::1] view_from_world not None,
+        int width,
+        int height,
+    ):
+        """Let backs show where one may look into holes of what was placed last; return how many windows there are.
+
+        None if the near plane may cut what encloses a volume: backs may show anywhere then.
+        """
+        cdef e3d_node_rows rows
+        cdef e3d_looking looking
+        cdef const double[:, ::1] bounds = columns["bounds"]
+        cdef int32_t found
+        set_rows(&rows, count, columns, None)
+        require(bounds.shape[0] >= count and bounds.shape[1] == E3D_BOX, "bounds must be (nodes, 7)")
+        require(clip_from_world.shape[0] == 4 and clip_from_world.shape[1] == 4, "a matrix is 4x4")
+        require(view_from_world.shape[0] == 4 and view_from_world.shape[1] == 4, "a matrix is 4x4")
+        memcpy(looking.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
+        memcpy(looking.view_from_world, &view_from_world[0, 0], 16 * sizeof(double))
+        looking.width, looking.height = width, height
+        found = e3d_find_windows(&self.placed, &rows, &bounds[0, 0], self.objects, &looking, self.windows)
+        self.window_count = max(found, 0)
+        return None if found < 0 else found
 
     def place_casters(
         self,

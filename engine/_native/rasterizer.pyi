@@ -125,7 +125,25 @@ class NativeDrawList:
     def clear(self) -> None: ...
     def clear_lights(self) -> None: ...
     def set_ambient_light(self, terms: Sequence[Sequence[float]] | None) -> None: ...
-    def set_object(self, index: int, mesh: NativeMesh | None, material_base: int) -> None: ...
+    def set_object(
+        self,
+        index: int,
+        mesh: NativeMesh | None,
+        material_base: int,
+        encloses: bool = False,
+        rim_ends: _Integers | None = None,
+        rims: _Doubles | None = None,
+    ) -> None: ...
+    def close_windows(self) -> None: ...
+    def open_windows(
+        self,
+        count: int,
+        columns: dict[str, npt.NDArray],
+        clip_from_world: _Doubles,
+        view_from_world: _Doubles,
+        width: int,
+        height: int,
+    ) -> int | None: ...
     def set_meshes(self, numbers: _Integers, poses: list[NativePose]) -> None: ...
     def place(
         self,

@@ -398,6 +398,7 @@ cdef class NativeRenderer:
         frame.ambient_light = draw_list.ambient_light
         frame.depth_near = depth_near
         frame.depth_far = depth_far
+        frame.windows, frame.window_count = draw_list.windows, draw_list.window_count
         frame.materials = draw_list.materials
         frame.material_count = draw_list.material_count
         frame.lights = draw_list.lights

@@ -7,6 +7,7 @@ was closed.
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
 from collections.abc import Callable

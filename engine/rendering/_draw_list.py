@@ -21,13 +21,12 @@ from ..motion.posed_mesh import PosedMesh
 from ..scene.instances import MANY, InstancedMesh
 from ..scene.node_arrays import NodeArrays
 from ..scene.scene import Scene
-from ._enclosing import all_in_front, hole_looked_into, holes_of, is_in_front, plane_in_node
+from ._enclosing import Holes, holes_of
 from ._light_list import LightList
 from ._native_handles import MeshNeeds, native_mesh
 from ._native_materials import make_textures, set_material
 from ._view import View
 
-_FEW = 64  # meshes that are looked at vertex by vertex
 _SETTLED = 3  # frames in which they did not change
 
 
@@ -60,9 +59,8 @@ class DrawList:
         self._needs: MeshNeeds | None = None
         self._normals, self._by_mesh = "", False
         self._listed_for: tuple | None = None  # needs, normals and by_mesh
-        # Of objects that enclose a volume, by number: the rims of their holes.
-        self._closed: dict[int, tuple[np.ndarray, ...]] = {}
-        self._volumes: np.ndarray | None = None  # of each object: closed or not, with holes or not
+        # Numbers of the objects that enclose a volume.
+        self._closed: set[int] = set()
         self._watch = Watch()
         self._changed: list = []  # of what is watched, since the list was made
         # Where they are, as whose, and whether both sides show anyway.
@@ -157,38 +155,30 @@ class DrawList:
             self.native.set_instance_tree(number, None)
         self._trees, self._frames = False, 0
 
-    def may_cull(self, scene: Scene, view: View) -> bool:
-        """Whether back faces may be left out, of materials that do not show both sides anyway.
+    def open_windows(self, scene: Scene, view: View, size: tuple[int, int]) -> int | None:
+        """Let backs show where the camera may look into holes of meshes that enclose a volume.
 
-        They may if meshes that enclose a volume are listed, the near plane cuts none of them, so
-        that they are seen from outside, and no hole of them is looked into.
+        Elsewhere they may be left out, of materials that do not show both sides anyway.
+
+        Parameters
+        ----------
+        scene : Scene
+        view : View
+        size : (int, int)
+            Width and height of the picture in pixels.
+
+        Returns
+        -------
+        count : int or None
+            How many windows there are; None if backs may show anywhere, because the near plane may
+            cut such a mesh or no mesh encloses a volume.
         """
         if not self._closed:
-            return False
-        arrays, objects = scene._arrays, scene._objects.objects
-        columns, count = arrays.columns, arrays.count
-        if self._volumes is None:
-            self._volumes = np.zeros((2, len(objects) + 1), bool)  # nodes without object: the last
-            for number, holes in self._closed.items():
-                self._volumes[:, number] = True, len(holes) > 0
-        is_closed, has_holes = self._volumes
-        rows = np.flatnonzero(is_closed[columns["object"][:count]])
-        plane = view.clip_from_world[2] + view.clip_from_world[3]
-        is_near = ~all_in_front(plane, columns["bounds"][rows])
-        looked_at = rows[is_near | has_holes[columns["object"][rows]]]
-        if len(looked_at) > _FEW:
-            return False
-        for slot, world in zip(looked_at, arrays.world_poses(looked_at), strict=True):
-            number = int(columns["object"][slot])
-            mesh = objects[number]
-            rims = self._closed[number]
-            into = hole_looked_into(rims, view, world)
-            if into is not None:  # most likely it will be looked into in the next frame, too
-                self._closed[number] = (rims[into], *rims[:into], *rims[into + 1 :])
-                return False
-            if not (isinstance(mesh, Mesh) and is_in_front(plane_in_node(plane, world), mesh)):
-                return False
-        return True
+            return None
+        arrays = scene._arrays
+        return self.native.open_windows(
+            arrays.count, arrays.columns, view.clip_from_world, view.view_from_world, *size
+        )
 
     def shows(self, scene: Scene) -> bool:
         """Whether everything in the scene is still as and where it was at the last update."""
@@ -264,7 +254,7 @@ class DrawList:
 
     def _rebuild(self, scene: Scene) -> None:
         self._placed = None
-        self._closed, self._volumes = {}, None
+        self._closed = set()
         self.native.clear()
         self.lights.forget()
         self._watch, self._changed = Watch(), []
@@ -285,8 +275,7 @@ class DrawList:
     def _set_object(self, number: int, obj) -> None:
         """List a mesh, once or at many poses, or nothing, under a number or the next one."""
         self._many.pop(number, None)
-        self._closed.pop(number, None)
-        self._volumes = None
+        self._closed.discard(number)
         if obj is None:
             self.native.set_object(number, None, 0)
             self._note(number, (), (), [])
@@ -296,7 +285,10 @@ class DrawList:
         for thing in things:
             self._watch.add(thing)  # before it is read
         surfaces = tuple(map(id, mesh.materials))
-        both = self._by_mesh and not self._is_closed(number, obj)
+        holes = self._holes_of(obj)
+        both = self._by_mesh and holes is None
+        if holes is not None:
+            self._closed.add(number)
         if (surfaces, both) not in self._bases:
             self._bases[surfaces, both] = self._add_materials(mesh.materials, both)
         needs = _needs_of(mesh, self._needs, self._normals)
@@ -304,21 +296,21 @@ class DrawList:
             native = obj.handle(needs, self._threads)
         else:
             native = native_mesh(mesh, needs, self._threads)
-        self.native.set_object(number, native, self._bases[surfaces, both])
+        closed = () if holes is None else (True, holes.ends, holes.points)
+        self.native.set_object(number, native, self._bases[surfaces, both], *closed)
         self._marks = self._marks or len(mesh.lines) > 0 or len(mesh.points) > 0
         self._note(number, things, surfaces, mesh.materials)
         if isinstance(obj, InstancedMesh):
             self._set_instances(number, obj)
 
-    def _is_closed(self, number: int, obj) -> bool:
-        """Whether an object encloses a volume; its holes are remembered."""
-        if isinstance(obj, PosedMesh):
-            return False
+    def _holes_of(self, obj) -> Holes | None:
+        """The holes of an object that encloses a volume but for them."""
+        if not self._by_mesh or isinstance(obj, PosedMesh):
+            return None
         holes = holes_of(obj if isinstance(obj, Mesh) else obj.mesh)
-        if holes is None or (len(holes) and not isinstance(obj, Mesh)):
-            return False  # each instance would have to be looked at
-        self._closed[number] = holes
-        return True
+        if holes is not None and len(holes.ends) and not isinstance(obj, Mesh):
+            return None  # each instance would have to be looked at
+        return holes
 
     def _set_instances(self, number: int, obj: InstancedMesh) -> None:
         if len(obj) >= MANY:

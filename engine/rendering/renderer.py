@@ -434,10 +434,13 @@ class Renderer(Closed):
                 options.culling == "frustum",
                 by_mesh,
             )
-            cull = "back" if by_mesh else options.cull
-            if by_mesh and not self._draw_list.may_cull(scene, view):
-                cull = "none"
-                frame_options = self._options.get(scene, with_both_sides(options), self._height)
+            cull = options.cull
+            self._draw_list.native.close_windows()
+            if by_mesh:
+                windows = self._draw_list.open_windows(scene, view, (self._width, self._height))
+                cull = "none" if windows != 0 else "back"
+                if windows is None:
+                    frame_options = self._options.get(scene, with_both_sides(options), self._height)
             if options.mode == "lit" and shows_light(frame.outputs):
                 self._shadow_maps.update(scene, view, cull)
                 self._turn.check()

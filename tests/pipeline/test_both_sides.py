@@ -10,7 +10,7 @@ from engine3d.rendering._enclosing import holes_of
 
 def encloses(mesh):
     holes = holes_of(mesh)
-    return holes is not None and len(holes) == 0
+    return holes is not None and len(holes.ends) == 0
 
 
 def scene_of(*meshes):
@@ -151,12 +151,48 @@ def test_holes_matter_to_those_who_look_in(renderer, height):
     assert (auto[2]["triangles_setup"] == back[2]["triangles_setup"]) == (height < 0.5)
 
 
+def triangles(renderer, scene, camera):
+    return [
+        picture(renderer, scene, cull, camera)[2]["triangles_setup"]
+        for cull in ("back", "auto", "none")
+    ]
+
+
+def test_backs_are_drawn_only_where_a_hole_is(renderer):
+    camera = e3d.PerspectiveCamera(0.8, znear=0.1, zfar=50.0)
+    pose = e3d.linalg.look_at((0, 1.5, 4), (0, 0, 0), (0, 1, 0))
+    back, auto, none = triangles(renderer, scene_of(bowl()), (camera, pose))
+    assert back < auto < back + 0.7 * (none - back)
+    many = scene_of(*[bowl()] * 40)  # more holes than a frame has windows
+    pose = e3d.linalg.look_at((50, 60, 90), (50, 0, 0), (0, 1, 0))
+    auto, none = (
+        picture(renderer, many, cull, (e3d.PerspectiveCamera(0.8, znear=0.1, zfar=300.0), pose))
+        for cull in ("auto", "none")
+    )
+    assert (auto[0] == none[0]).all() and (auto[1] >= 0).sum() > 100
+
+
+@pytest.mark.parametrize("options", [{}, {"samples": 4}, {"samples": 4, "antialias": "msaa"}])
+def test_windows_are_the_same_on_all_backends(options):
+    plane = e3d.Mesh.concatenate([e3d.primitives.plane((1, 1)), icosphere(0.3, 1)])
+    scene = scene_of(bowl(), inside_out(plane), bowl())
+    camera = e3d.PerspectiveCamera(0.5, znear=0.1, zfar=50.0)
+    pose = e3d.linalg.look_at((2, 2.5, 7), (2, 0, 0), (0, 1, 0))
+    expected = None
+    for backend in ("scalar", *(name for name in e3d.backends() if name != "scalar")):
+        for culling in ("all", "none"):
+            with e3d.Renderer(150, 90, backend=backend, threads=2, **options) as one:
+                frame = one.render(scene, (camera, pose), cull="auto", culling=culling)
+                expected = frame.color.copy() if expected is None else expected
+                assert (frame.color == expected).all(), (backend, culling)
+
+
 @pytest.mark.parametrize("mirror", [1, -1])
 def test_a_jagged_rim(renderer, mirror):
     ball = icosphere(1.0, 3)
     low = ball.positions[ball.faces][..., 1].max(axis=1) < 0.6
     jagged = e3d.Mesh(ball.positions, ball.faces[low], position_ids=ball.position_ids)
-    (rim,) = holes_of(jagged)
+    assert len(holes_of(jagged).ends) == 1
     scene, culled = scene_of(jagged), 0
     next(iter(scene.nodes)).scale = (mirror, 1, 1)
     for height in np.linspace(-6, 6, 13):
@@ -177,7 +213,7 @@ def test_an_open_sheet_and_holes_that_meet_are_no_volume():
     around = np.flatnonzero((at == at[0, 0]).any(axis=1))
     holes = np.delete(ball.faces, around[[0, 2]], axis=0)  # two that touch at a point
     assert holes_of(e3d.Mesh(ball.positions, holes, position_ids=ball.position_ids)) is None
-    assert [len(rim) for rim in holes_of(bowl())] == [32]
+    assert holes_of(bowl()).ends.tolist() == [32] and holes_of(bowl()).points.shape == (32, 3)
     assert holes_of(inside_out(bowl())) is None
 
 

@@ -53,6 +53,7 @@ typedef struct walker {
     uint32_t number; /* of the instance */
     const e3d_view_instance *instance;
     uint32_t order; /* of the instance's first primitive */
+    int open;       /* the cluster may reach into a window, where backs are not culled */
     const e3d_cluster *next;      /* of the next candidate, */
     unsigned next_left;           /* and those of them that are to be fetched: a bit each */
 } walker;
@@ -62,8 +63,8 @@ typedef struct walker {
 static e3d_cull cull_of(const walker *w, int32_t face)
 {
     const e3d_frame *frame = w->pass->frame;
-    if (!w->draw->any_two_sided)
-        return frame->cull;
+    if (!w->draw->any_two_sided || w->draw->all_two_sided)
+        return w->draw->all_two_sided ? E3D_CULL_NONE : frame->cull;
     const e3d_mesh_desc *desc = &w->draw->mesh->desc;
     int32_t material = w->draw->draw->material_base + (desc->material_ids ? desc->material_ids[face] : 0);
     return frame->materials[material].two_sided ? E3D_CULL_NONE : frame->cull;
@@ -78,7 +79,7 @@ static int culled_sign(const walker *w)
 }
 
 /* The one that setup may drop, whatever the material. */
-static int drop_sign(const walker *w) { return w->draw->any_two_sided ? 0 : culled_sign(w); }
+static int drop_sign(const walker *w) { return w->draw->any_two_sided || w->open ? 0 : culled_sign(w); }
 
 static e3d_primitive face_primitive(const walker *w, int32_t face)
 {
@@ -156,9 +157,8 @@ static void draw_records(walker *w, const e3d_record_request *request, int alpha
         w->state->failed = 1;
 }
 
-/* Triangles of a cluster, a bit each, a vector at a time; tiny ones may be among them; those are dropped whose area has the sign
- * `cull`. */
-static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indices, uint64_t triangles, int tiny, int cull, int alpha)
+/* Triangles of a cluster, a bit each, a vector at a time; tiny ones may be among them. */
+static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t *indices, uint64_t triangles, int tiny, int alpha)
 {
     uint8_t list[E3D_CLUSTER_TRIANGLES + E3D_PAD];
     int count = 0;
@@ -169,26 +169,40 @@ static void draw_some(walker *w, const e3d_cluster *cluster, const uint8_t *indi
         list[count++] = (uint8_t)__builtin_ctzll(left);
     memset(list + count, 0, E3D_PAD);
     const e3d_record_request request = {.vertices = &w->state->vertices, .indices = indices, .triangles = list,
-                                        .count = count, .tiny = tiny, .cull = cull, .mirrored = w->instance->mirrored, .order = w->order,
+                                        .count = count, .tiny = tiny, .cull = drop_sign(w), .mirrored = w->instance->mirrored, .order = w->order,
                                         .faces = w->draw->mesh->faces + cluster->first, .viewport = &w->pass->view->viewport};
     draw_records(w, &request, alpha);
 }
 
-/* The triangles whose materials are two-sided: a bit each. */
-static uint64_t find_two_sided(const walker *w, const e3d_cluster *cluster, uint64_t triangles)
+/* Whether a triangle that setup kept, because both sides of others of its cluster show, is culled. */
+static int is_culled(const walker *w, const e3d_cluster *cluster, const uint8_t *indices, int triangle)
 {
-    uint64_t found = 0;
-    for (uint64_t left = triangles; left; left &= left - 1)
-        if (cull_of(w, w->draw->mesh->faces[cluster->first + __builtin_ctzll(left)]) == E3D_CULL_NONE)
-            found |= left & -left;
-    return found;
+    const e3d_vertices *v = &w->state->vertices;
+    int32_t x[3], y[3];
+    for (int k = 0; k < 3; k++) {
+        int i = indices[k * E3D_CLUSTER_TRIANGLES + triangle];
+        x[k] = v->sx[i];
+        y[k] = v->sy[i];
+    }
+    if ((e3d_doubled_area(x, y) < 0 ? -1 : 1) != culled_sign(w))
+        return 0;
+    const e3d_box box = e3d_sample_box(x, y, &w->pass->view->viewport);
+    return !(w->open && e3d_meets_window(w->pass->view, &box)) &&
+           cull_of(w, w->draw->mesh->faces[cluster->first + triangle]) != E3D_CULL_NONE;
 }
 
-static void draw_triangles(walker *w, const e3d_cluster *cluster, const uint8_t *indices, uint64_t draw, int tiny, int alpha)
+/* Takes the triangles that are culled from the survivors. */
+static void drop_culled(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
 {
-    uint64_t both = w->draw->any_two_sided ? find_two_sided(w, cluster, draw) : 0;
-    draw_some(w, cluster, indices, draw & ~both, tiny, culled_sign(w), alpha);
-    draw_some(w, cluster, indices, both, tiny, 0, alpha);
+    e3d_survivors *s = &w->state->survivors;
+    uint64_t culled = 0;
+    if (drop_sign(w) || !culled_sign(w) || w->draw->all_two_sided)
+        return; /* setup did, or none are */
+    for (uint64_t left = s->draw | s->small; left; left &= left - 1)
+        if (is_culled(w, cluster, indices, __builtin_ctzll(left)))
+            culled |= left & -left;
+    s->draw &= ~culled;
+    s->small &= ~culled;
 }
 
 /* Takes the triangles that have alpha from the survivors, small or not. They become records of their own lists: a fragment of a
@@ -205,30 +219,9 @@ static void draw_alpha(walker *w, const e3d_cluster *cluster, const uint8_t *ind
         draw_triangles(w, cluster, indices, of[kind], 1, kind);
 }
 
-/* The small triangles that are culled, where some materials are two-sided. */
-static uint64_t find_culled(const walker *w, const uint8_t *indices, uint64_t one_sided)
-{
-    const e3d_vertices *v = &w->state->vertices;
-    uint64_t found = 0;
-    for (uint64_t left = one_sided; left; left &= left - 1) {
-        int32_t x[3], y[3], triangle = __builtin_ctzll(left);
-        for (int k = 0; k < 3; k++) {
-            x[k] = v->sx[indices[k * E3D_CLUSTER_TRIANGLES + triangle]];
-            y[k] = v->sy[indices[k * E3D_CLUSTER_TRIANGLES + triangle]];
-        }
-        if ((e3d_doubled_area(x, y) < 0 ? -1 : 1) == culled_sign(w))
-            found |= left & -left;
-    }
-    return found;
-}
-
 static void draw_small(walker *w, const e3d_cluster *cluster, const uint8_t *indices)
 {
     uint64_t small = w->state->survivors.small;
-    if (w->draw->any_two_sided)
-        small &= ~find_culled(w, indices, small & ~find_two_sided(w, cluster, small));
-    if (!small)
-        return;
     e3d_drawn_cluster *drawn = e3d_fragments_cluster(&w->state->fragments);
     if (!drawn) {
         w->state->failed = 1;
@@ -276,6 +269,7 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
     e3d_survivors *s = &state->survivors;
     int count = kernels->setup(&state->vertices, indices, cluster->triangles, drop_sign(w), fragments, viewport, s);
     state->counters.triangles_rejected += cluster->triangles - count;
+    drop_culled(w, cluster, indices);
     fetch_records(w, __builtin_popcountll(s->draw));
     int sorts = e3d_plans(w->pass, E3D_PLAN_SORTS);
     if (w->draw->any_alpha && !sorts)
@@ -291,6 +285,33 @@ static void draw_cluster(walker *w, const e3d_cluster *cluster)
 }
 
 /* ---- candidates ---- */
+
+/* Whether what is in a box may reach into a window. */
+static int reaches_window(const walker *w, const float lo[3], const float hi[3])
+{
+    e3d_box_view box;
+    e3d_view_box(&w->pass->view->viewport, w->instance->clip, lo, hi, &box);
+    return box.state != E3D_BOX_OUTSIDE && e3d_meets_window(w->pass->view, &box.samples);
+}
+
+/* Whether what the cluster's vertices enclose may: less than its box does. */
+static int vertices_reach_window(const walker *w)
+{
+    e3d_box_view view;
+    return !e3d_view_vertices(&w->pass->view->viewport, &w->state->vertices, &view) || e3d_meets_window(w->pass->view, &view.samples);
+}
+
+/* The group's clusters that may reach into a window: a bit each. */
+static unsigned find_open(const walker *w, const e3d_group_box *group)
+{
+    const e3d_cluster *clusters = &w->draw->mesh->clusters[group->first_cluster];
+    unsigned open = 0;
+    if (!w->pass->view->window_count || w->draw->all_two_sided || !reaches_window(w, group->lo, group->hi))
+        return 0;
+    for (int k = 0; k < group->clusters; k++)
+        open |= (unsigned)reaches_window(w, clusters[k].lo, clusters[k].hi) << k;
+    return open;
+}
 
 /* A bit for each cluster. */
 static unsigned find_away(const walker *w, const e3d_group_box *group)
@@ -333,10 +354,10 @@ static e3d_cull_result tested_result_of(const walker *w, const e3d_candidate *ca
 
 /* The results of those of a group's clusters whose bits are set; a bit for each that is drawn. What was seen faced the viewer, and is
  * tested again in turn. */
-static unsigned find_results(const walker *w, const e3d_candidate *candidate, const e3d_group_box *group, unsigned asked,
+static unsigned find_results(const walker *w, const e3d_candidate *candidate, const e3d_group_box *group, unsigned asked, unsigned open,
                              e3d_cull_result results[E3D_GROUP_CLUSTERS])
 {
-    unsigned shown = 0, away = w->in->round.choice == E3D_SEEN_CANDIDATES ? 0 : find_away(w, group);
+    unsigned shown = 0, away = w->in->round.choice == E3D_SEEN_CANDIDATES ? 0 : find_away(w, group) & ~open;
     for (unsigned left = asked; left; left &= left - 1) {
         int k = __builtin_ctz(left);
         results[k] = tested_result_of(w, candidate, &w->draw->mesh->clusters[group->first_cluster + k], away >> k & 1);
@@ -426,7 +447,7 @@ static unsigned draw_group(walker *w, const e3d_candidate *candidate, const e3d_
 {
     const e3d_mesh *mesh = w->draw->mesh;
     const e3d_cluster *clusters = &mesh->clusters[group->first_cluster];
-    unsigned shown = asked;
+    unsigned shown = asked, open;
     e3d_cull_result results[E3D_GROUP_CLUSTERS] = {E3D_RESULT_DRAWN};
     if (is_hidden(w, &candidate->view)) {
         count_hidden(w, candidate, group, asked & wanted);
@@ -435,14 +456,17 @@ static unsigned draw_group(walker *w, const e3d_candidate *candidate, const e3d_
     w->order = w->pass->draws->instances[w->number].order;
     if (!w->instance->ready)
         e3d_view_finish_instance(w->out->view, w->out->draws, w->number);
+    w->open = 0; /* of none yet */
+    open = find_open(w, group);
     if (mesh->desc.components == 3 && e3d_culls_parts(w->pass->frame))
-        shown = find_results(w, candidate, group, asked, results);
+        shown = find_results(w, candidate, group, asked, open, results);
     int closely = w->in->round.tested && is_wide(&candidate->view.samples);
     unsigned left = !e3d_plans(w->pass, E3D_PLAN_FACES) ? 0 : closely ? shown : shown & wanted;
     for (; left; left &= left - 1) {
         int k = __builtin_ctz(left);
         fetch_next(w, clusters, left & (left - 1));
         transform_cluster(w, candidate, &clusters[k]);
+        w->open = open >> k & 1 && vertices_reach_window(w);
         if (closely && vertices_are_hidden(w)) {
             results[k] = E3D_RESULT_OCCLUDED;
             shown &= ~(1u << k);

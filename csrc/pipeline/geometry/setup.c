@@ -10,6 +10,7 @@
 #include "pipeline/geometry/records.h"
 #include "pipeline/geometry/setup.h"
 #include "pipeline/pass/prepared.h"
+#include "pipeline/pass/view.h"
 
 static float clamp(float v, float lo, float hi)
 {
@@ -80,9 +81,10 @@ int e3d_records_fit(e3d_record_set *set, int id_bits, size_t more)
            e3d_array_reserve(&set->records, set->records.count + more, sizeof(e3d_record));
 }
 
-static int is_culled(const e3d_primitive *primitive, int front)
+/* R9 */
+static int is_culled(const e3d_view *view, const e3d_primitive *primitive, int front, const e3d_box *box)
 {
-    return (primitive->cull == E3D_CULL_BACK && !front) || (primitive->cull == E3D_CULL_FRONT && front);
+    return (primitive->cull == E3D_CULL_BACK && !front && !e3d_meets_window(view, box)) || (primitive->cull == E3D_CULL_FRONT && front);
 }
 
 e3d_chains *e3d_chains_of(e3d_record_set *set, int alpha) { return alpha < E3D_ALPHA_KINDS ? &set->alpha[alpha] : &set->chains; }
@@ -93,7 +95,8 @@ void e3d_emit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_cor
     const int32_t y[3] = {corner[0].y, corner[1].y, corner[2].y};
     int64_t area = e3d_doubled_area(x, y);
     int front = (area < 0) != (primitive->mirrored != 0);
-    if (area == 0 || is_culled(primitive, front) || primitive->alpha == E3D_ALPHA_UNSEEN)
+    e3d_box box = e3d_sample_box(x, y, &pass->view->viewport);
+    if (area == 0 || is_culled(pass->view, primitive, front, &box) || primitive->alpha == E3D_ALPHA_UNSEEN)
         return;
     const e3d_corner *c[3] = {&corner[0], &corner[area < 0 ? 2 : 1], &corner[area < 0 ? 1 : 2]};
     e3d_record_set *set = &state->sets[primitive->set];
@@ -108,7 +111,6 @@ void e3d_emit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_cor
         record->y[k] = c[k]->y;
         record->iw[k] = c[k]->iw;
     }
-    e3d_box box = e3d_sample_box(record->x, record->y, &pass->view->viewport);
     if (box.x0 > box.x1 || box.y0 > box.y1 ||
         !depth_plane(c[0], c[1], c[2], area < 0 ? -area : area, &box, record))
         return;

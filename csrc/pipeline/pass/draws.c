@@ -10,12 +10,13 @@
 
 static int32_t units_of(int32_t count) { return (count + E3D_LINES_A_UNIT - 1) / E3D_LINES_A_UNIT; }
 
-static int has_two_sided(const e3d_frame *frame)
+/* How many materials of a draw are two-sided. */
+static int32_t count_two_sided(const e3d_frame *frame, const e3d_draw *draw)
 {
-    for (int32_t m = 0; m < frame->material_count; m++)
-        if (frame->materials[m].two_sided)
-            return 1;
-    return 0;
+    int32_t count = 0;
+    for (int32_t m = 0; m <= draw->mesh->material_most; m++)
+        count += frame->materials[draw->material_base + m].two_sided != 0;
+    return count;
 }
 
 /* Whether any material of a draw is masked or blended, or lets light pass. */
@@ -55,7 +56,6 @@ static e3d_draw_state state_of(const e3d_draw *draw, int edges, int faces_only)
 static e3d_status count_draws(e3d_draws *draws, const e3d_frame *frame, int edges, int alpha)
 {
     int64_t primitives = 0, instances = 0;
-    int two_sided = has_two_sided(frame);
     draws->units = draws->groups = 0;
     draws->any_transmits = 0;
     for (int32_t d = 0; d < frame->draw_count; d++) {
@@ -65,7 +65,9 @@ static e3d_status count_draws(e3d_draws *draws, const e3d_frame *frame, int edge
             return E3D_TOO_MANY_PRIMITIVES;
         e3d_draw_state *s = &draws->states[d];
         *s = state_of(draw, edges, frame->faces_only);
-        s->any_two_sided = two_sided;
+        const int32_t two_sided = frame->cull == E3D_CULL_NONE ? 0 : count_two_sided(frame, draw);
+        s->any_two_sided = two_sided > 0;
+        s->all_two_sided = two_sided > draw->mesh->material_most;
         s->any_alpha = alpha && has_alpha(frame, draw);
         draws->any_transmits |= s->any_alpha && has_transmission(frame, draw);
         s->instance_base = instances;

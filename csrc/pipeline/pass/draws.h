@@ -25,7 +25,7 @@ typedef struct e3d_draw_state {
     uint32_t order;      /* of the first primitive; of several nodes, each instance has its own */
     int32_t line_units, point_units, edge_units; /* an instance */
     int32_t units;       /* their sum */
-    int32_t any_two_sided, any_alpha; /* of the frame's materials, of its own */
+    int32_t any_two_sided, all_two_sided, any_alpha; /* of its materials; two-sided only where faces are culled */
 } e3d_draw_state;
 
 /* A place in the order of drawing: all instances of a draw, or one node of several. */

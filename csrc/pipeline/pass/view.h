@@ -7,6 +7,7 @@
 #include "core/grow.h"
 #include "core/limits.h"
 #include "e3d.h"
+#include "kernels/coverage.h"
 #include "kernels/types/fog.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/vertices.h"
@@ -30,6 +31,8 @@ typedef struct e3d_tile {
 typedef struct e3d_view {
     e3d_viewport viewport;
     int32_t tiles_x, tiles_y; /* the grid of tiles */
+    e3d_box windows[E3D_MAX_WINDOWS]; /* in samples: backs that reach into one are not culled (R9) */
+    int32_t window_count;
     float rows[12];           /* of view_from_world, f32 */
     int mirrors;              /* the camera does: R2 */
     e3d_lighting lighting, unshadowed; /* unshadowed: of what no shadow falls on */
@@ -50,6 +53,17 @@ void e3d_view_free(e3d_view *view);
 static inline const e3d_lighting *e3d_lighting_of(const e3d_view *view, int unshadowed)
 {
     return unshadowed ? &view->unshadowed : &view->lighting;
+}
+
+/* Whether a box of samples reaches into a window. */
+static inline int e3d_meets_window(const e3d_view *view, const e3d_box *box)
+{
+    for (int32_t i = 0; i < view->window_count; i++) {
+        const e3d_box *window = &view->windows[i];
+        if (box->x0 <= window->x1 && box->x1 >= window->x0 && box->y0 <= window->y1 && box->y1 >= window->y0)
+            return 1;
+    }
+    return 0;
 }
 
 static inline int64_t e3d_tile_count(const e3d_view *view) { return (int64_t)view->tiles_x * view->tiles_y; }

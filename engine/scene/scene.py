@@ -25,13 +25,13 @@ from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..motion.posing import Posing, check_morph_weights, check_skin, posed_for, set_weights
 from ._objects import ObjectTable
+from ._queries import SceneQueries
 from .cameras import Camera
 from .gradients import Gradient
 from .instances import InstancedMesh
 from .lights import LIGHTS
 from .node_arrays import NodeArrays
 from .nodes import Node, check_pose, check_rotation, check_scale
-from .queries import SceneQueries
 from .selection import NodeSelection
 from .surroundings import Surroundings
 

@@ -73,10 +73,6 @@ class Peer:
         pixels = getattr(self.frame, self.output)
         return pixels.view(np.uint32) if self.output == "instance_id" else pixels
 
-    def render_read(self):
-        self.render()
-        return self.read()
-
 
 class Crowd:
     """Skinned nodes: the joints' matrices are keys of clips, which a player plays."""

@@ -18,7 +18,8 @@ from ..materials.material import textures_of
 from ..scene.instances import InstancedMesh
 from ..scene.node_arrays import CASTS_NONE, RECEIVES_NONE
 from ..scene.placements import Placements
-from ..scene.scene import SCENE_VALUES, Scene
+from ..scene.scene import Scene
+from ..scene.surroundings import SCENE_VALUES
 from ..spatial.colliders import MeshCollider
 from .contents import contents, kept, put_contents, same
 from .selection import topmost

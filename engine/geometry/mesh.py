@@ -9,7 +9,6 @@ coordinates have their origin at the bottom left.
 
 from __future__ import annotations
 
-import operator
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, BinaryIO, TypeAlias
@@ -18,14 +17,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._native.loaders import exchange, frozen
-from .._native.rasterizer import bound_points
 from .._support.dirty_tracking import renew
 from .._support.validation import Closed, own
 from ..errors import InvalidArgumentError
 from ..materials.material import Material
 from . import movers as _movers
-from . import normals as _normals
-from . import topology as _topology
 from ._arrays import (
     ArrayAttribute,
     check_colors,
@@ -39,9 +35,11 @@ from ._arrays import (
     check_vectors4,
     require_range,
 )
+from ._derived import derive
+from ._fitting import check_fit
 from .creases import SMOOTH, check_crease_angle, mesh_with_creases
 from .morph_targets import MorphTarget
-from .vertex_attributes import VertexAttribute, vertex_attributes
+from .vertex_attributes import VertexAttribute
 
 _Floats: TypeAlias = ArrayAttribute[ArrayLike, NDArray[np.float32]]
 _Integers: TypeAlias = ArrayAttribute[ArrayLike, NDArray[np.int32]]
@@ -460,23 +458,13 @@ class Mesh(Closed):
         return f"Mesh({', '.join(parts)}, name={self.name!r})"
 
     def _derive(self, what: str, arrays: dict) -> Any:
-        """What follows from arrays, as they were at one moment: computed once for these."""
-        if what == "normals" and arrays["_given_normals"] is not None:
-            return arrays["_given_normals"]
-        compute, names = _DERIVED[what]
-        sources = [arrays[name] for name in names]
-        made_of, array = self._derived.get(what, (None, None))
-        if made_of is None or not all(map(operator.is_, made_of, sources)):
-            array = compute(*sources)
-            array.setflags(write=False)
-            self._derived[what] = sources, array
-        return array
+        return derive(self._derived, what, arrays)
 
     def _replace(self, what: str, array: np.ndarray | None) -> None:
         """Check an array against those that are there, and put it in its place."""
         while True:  # until nothing was assigned between the check and this
             others = dict(self._arrays)
-            self._check_new(what, array, others)
+            check_fit(self, what, array, others)
             fresh = {what: array}
             ids = others.get("material_ids")
             anew = what == "faces" and (ids is None or len(ids) != len(array))
@@ -508,22 +496,6 @@ class Mesh(Closed):
         self._derived.clear()
         renew(self)
 
-    def _check_new(self, what: str, array: np.ndarray | None, others: dict) -> None:
-        if what == "positions":
-            _check_new_positions(array, others)
-        elif what == "faces":
-            require_range(array, len(others["positions"]), what, "vertices")
-            _check_length(others.get("edge_visible"), len(array), "edge_visible", "faces")
-        elif what in ("lines", "points"):
-            require_range(array, len(others["positions"]), what, "vertices")
-        elif what in ("material_ids", "edge_visible"):
-            _check_length(array, len(others["faces"]), what, "faces")
-        else:
-            shown = what.removeprefix("_given_")
-            _check_length(array, len(others["positions"]), shown, "vertices")
-        if what == "material_ids":
-            require_range(array, len(self._materials), what, "materials")
-
     def _become(self, other: Mesh) -> None:
         """Take over everything of another mesh but its name."""
         gone = dict.fromkeys(_movers.VERTEX_AXES)
@@ -537,50 +509,6 @@ class Mesh(Closed):
         if self._tangent_uv_set != other._tangent_uv_set:
             self._tangent_uv_set = other._tangent_uv_set
         renew(self)
-
-
-def _check_new_positions(positions: np.ndarray, others: dict) -> None:
-    count = len(positions)
-    for what in ("_given_normals", *vertex_attributes(Mesh), "position_ids"):
-        other = others.get(what)
-        if other is not None and len(other) != count:
-            raise InvalidArgumentError(
-                f"positions has {count} rows, but {what.removeprefix('_given_')} {len(other)}"
-            )
-    for what, axis in _movers.VERTEX_AXES.items():
-        other = others.get(what)
-        if other is not None and other.shape[axis] != count:
-            raise InvalidArgumentError(
-                f"positions has {count} rows, but {what} {other.shape[axis]}: "
-                "take joints and morph targets away first"
-            )
-    for what in ("faces", "lines", "points"):
-        other = others.get(what)
-        if other is not None:
-            require_range(other, count, what, "vertices")
-
-
-def _face_normals(positions, faces, position_ids, edge_visible) -> np.ndarray:
-    polygons = _topology.polygon_ids(faces, edge_visible, position_ids)
-    return _normals.face_normals(positions, faces, polygons)
-
-
-def _bounds(positions: np.ndarray) -> np.ndarray:
-    return np.array(bound_points(positions), np.float64)
-
-
-_DERIVED = {  # how each is computed, and from which arrays
-    "normals": (_normals.vertex_normals, ("positions", "faces", "position_ids")),
-    "face_normals": (_face_normals, ("positions", "faces", "position_ids", "edge_visible")),
-    "polygons": (_topology.polygon_ids, ("faces", "edge_visible", "position_ids")),
-    "edges": (_topology.visible_edges, ("faces", "edge_visible", "position_ids")),
-    "bounds": (_bounds, ("positions",)),
-}
-
-
-def _check_length(array: np.ndarray | None, count: int, what: str, of_what: str) -> None:
-    if array is not None and len(array) != count:
-        raise InvalidArgumentError(f"{what} has {len(array)} rows for {count} {of_what}")
 
 
 def _check_materials(materials: Iterable[Material] | None) -> list[Material]:

@@ -14,18 +14,21 @@ import re
 
 import numpy as np
 
-from .._native import loaders as native
 from ..errors import FileFormatError
-from ..geometry.mesh import Mesh
-from ..geometry.topology import polygon_ids
-from ..materials.material import Material
-from .corner_mesh import Geometry, Triangles, Vertices, build_mesh
-from .documents import CameraRecord, Document, DocumentObject, LightRecord
-from .far_coordinates import moved_near
+from .asc_meshes import (
+    FACES,
+    MATERIAL,
+    SMOOTHING,
+    UNNAMED,
+    VERTICES,
+    MeshRecord,
+    material_of,
+    object_of,
+)
+from .documents import CameraRecord, Document, LightRecord
 from .linked_textures import give_companion_texture
 from .number_arrays import parse_float
 from .registry import Reader
-from .smoothing import FLAT, fill_normals
 from .sources import Source
 from .text import decoded, shown, text_lines
 from .warning_list import WarningList
@@ -39,15 +42,8 @@ _CORNERS = rf"A:{_NUMBER}\s+B:{_NUMBER}\s+C:{_NUMBER}"
 _FLAGS = rf"AB:{_NUMBER}\s+BC:{_NUMBER}\s+CA:{_NUMBER}"
 _FACE = re.compile(rf"Face\s+(\d+)\s*:\s*{_CORNERS}(?:\s+{_FLAGS})?\s*$")
 _TRI_MESH = re.compile(r"Tri-mesh,\s*Vertices:\s*(\S+)\s+Faces:\s*(\S+)\s*$")
-# What takes up most of a file, as native.FormReader reads it: the same, of a whole line.
-_VERTEX_FORM = b"Vertex #_:_X:%_Y:%_Z:%|_U:%_V:%"
-_FACE_FORM = b"Face #_:_A:@_B:@_C:@|_AB:?_BC:?_CA:?"
-_MARKS = (b"Material:", b"Smoothing:")
-_VERTICES, _FACES, _MATERIAL, _SMOOTHING = range(4)
-_UNNAMED = -1
 _PAGE = re.compile(r"Page\s+\d+$")
 _CAMERA = re.compile(r"Camera\s*\(\s*([^\s)]+)\s*mm\s*\)")
-_COLOR_NAME = re.compile(r"r(\d{1,3})g(\d{1,3})b(\d{1,3})a(\d{1,3})", re.IGNORECASE)
 
 # 3D Studio's lens table (15 mm: 115 degrees ... 50 mm: 46 degrees) is that of the diagonal of
 # 35 mm film, 43.27 mm, and was used for the width of its pictures, which were 4:3.
@@ -55,42 +51,6 @@ _FILM = 43.27
 _ASPECT = 4 / 3
 _UP = (0.0, 0.0, 1.0)
 _MAX_OBJECTS = 5000
-
-
-class _MeshRecord:
-    """A tri-mesh as it stands in the file.
-
-    Attributes
-    ----------
-    name : str
-    line : int
-    vertex_count, face_count : int
-        As announced.
-    is_mapped : bool
-    rows : native.FormReader
-        Of vertices X, Y, Z, U and V; of faces A, B and C, and whether AB, BC and CA are visible.
-    said : dict of int to ((N,) int64, (N,) int64)
-        Faces, and their materials' numbers, or the smoothing groups that they are in as bits.
-    """
-
-    def __init__(self, text: bytes, name: str, line: int, vertices: int, faces: int) -> None:
-        self.name, self.line = name, line
-        self.vertex_count, self.face_count = vertices, faces
-        self.is_mapped = False
-        self.rows = native.FormReader(
-            text,
-            (
-                (_VERTEX_FORM, native.ROW, 5, vertices, 0.0, 0),
-                (_FACE_FORM, native.ROW, 6, faces, 1.0, 0),
-                *((mark, native.MARKED, 0, 0, 0.0, _FACES) for mark in _MARKS),
-            ),
-        )
-        nothing = np.zeros(0, np.int64), np.zeros(0, np.int64)
-        self.said = {_MATERIAL: nothing, _SMOOTHING: nothing}
-
-    def count(self, form: int) -> int:
-        """Return how many vertices or faces were read."""
-        return self.rows.count(form)[0]
 
 
 def read_asc(source: Source, split: bool = False) -> Document:
@@ -110,9 +70,9 @@ def read_asc(source: Source, split: bool = False) -> Document:
     """
     parser = _Parser(source)
     parser.parse()
-    materials = [_material(name) for name in parser.material_names]
+    materials = [material_of(name) for name in parser.material_names]
     warnings = parser.warnings
-    objects = [_object(record, materials, split) for record in parser.meshes]
+    objects = [object_of(record, materials, split) for record in parser.meshes]
     meshes = [entry.mesh for entry in objects]
     if any(mesh.uvs is not None for mesh in meshes):
         painted = {id(m): m for mesh in meshes for m in mesh.materials}.values()
@@ -141,14 +101,14 @@ class _Parser:
         # The number of the line that holds the byte counted to.
         self._number, self._counted = 1, 0
         self._name = ""
-        self._mesh: _MeshRecord | None = None
+        self._mesh: MeshRecord | None = None
         self._item: LightRecord | CameraRecord | None = None
         # What lines about faces say, for each text; and the line last warned of, and its place.
         self._materials: dict[bytes, int] = {}
         self._groups: dict[bytes, int] = {}
         self._warned = 1, 0
         self.warnings = WarningList(source.path)
-        self.meshes: list[_MeshRecord] = []
+        self.meshes: list[MeshRecord] = []
         self.lights: list[LightRecord] = []
         self.cameras: list[CameraRecord] = []
         self.material_names: dict[str, int] = {}
@@ -182,11 +142,11 @@ class _Parser:
         mesh, match = self._open_mesh(line), _VERTEX.match(line)
         if match is None:
             self._fail(f"not a whole vertex: {shown(line)}")
-        count = mesh.count(_VERTICES)
+        count = mesh.count(VERTICES)
         self._check_number(match[1], count, mesh.vertex_count, "vertex", "vertices")
         has_uv = match[5] is not None
         numbers = [self._float(match[k]) for k in range(2, 7 if has_uv else 5)]
-        mesh.rows.add(_VERTICES, numbers if has_uv else [*numbers, 0, 0], has_uv)
+        mesh.rows.add(VERTICES, numbers if has_uv else [*numbers, 0, 0], has_uv)
 
     def _read_face(self, line: str) -> None:
         mesh = self._open_mesh(line)
@@ -195,9 +155,9 @@ class _Parser:
         match = _FACE.match(line)
         if match is None:
             self._fail(f"not a whole face: {shown(line)}")
-        self._check_number(match[1], mesh.count(_FACES), mesh.face_count, "face", "faces")
-        corners = [self._index(match[k], mesh.count(_VERTICES)) for k in (2, 3, 4)]
-        mesh.rows.add(_FACES, [*corners, *(match[k] != "0" for k in (5, 6, 7))])
+        self._check_number(match[1], mesh.count(FACES), mesh.face_count, "face", "faces")
+        corners = [self._index(match[k], mesh.count(VERTICES)) for k in (2, 3, 4)]
+        mesh.rows.add(FACES, [*corners, *(match[k] != "0" for k in (5, 6, 7))])
 
     def _read_other(self, line: str) -> bool:
         """Read a line that is no vertex and no face; False if it says nothing that is known."""
@@ -223,15 +183,15 @@ class _Parser:
         if match is None:
             self._fail(f"not a whole tri-mesh line: {shown(line)}")
         counts = [self._count(match[k]) for k in (1, 2)]
-        self._mesh = _MeshRecord(self._text, self._name, self._number, *counts)
+        self._mesh = MeshRecord(self._text, self._name, self._number, *counts)
 
     def _finish_mesh(self) -> None:
         mesh, self._mesh = self._mesh, None
         if mesh is None:
             return
         for found, announced, what in (
-            (mesh.count(_VERTICES), mesh.vertex_count, "vertices"),
-            (mesh.count(_FACES), mesh.face_count, "faces"),
+            (mesh.count(VERTICES), mesh.vertex_count, "vertices"),
+            (mesh.count(FACES), mesh.face_count, "faces"),
         ):
             if found != announced:
                 raise FileFormatError(
@@ -240,7 +200,7 @@ class _Parser:
                     mesh.line,
                 )
         self._take_marks(mesh)
-        mesh.is_mapped |= mesh.rows.count(_VERTICES)[1] > 0
+        mesh.is_mapped |= mesh.rows.count(VERTICES)[1] > 0
         if not mesh.face_count:
             self.warnings.add(f"tri-mesh {shown(mesh.name)} without faces is left out", mesh.line)
         elif len(self.meshes) >= _MAX_OBJECTS:
@@ -248,14 +208,14 @@ class _Parser:
         else:
             self.meshes.append(mesh)
 
-    def _take_marks(self, mesh: _MeshRecord) -> None:
+    def _take_marks(self, mesh: MeshRecord) -> None:
         """Take what was said about the faces of a mesh; most of it is said many times."""
         marks = mesh.rows.take_marks()
         if not len(marks):
             return
         for form, known, read in (
-            (_MATERIAL, self._materials, self._read_material),
-            (_SMOOTHING, self._groups, self._read_groups),
+            (MATERIAL, self._materials, self._read_material),
+            (SMOOTHING, self._groups, self._read_groups),
         ):
             chosen = marks[marks["form"] == form]
             places = zip(chosen["start"].tolist(), chosen["end"].tolist(), strict=True)
@@ -270,7 +230,7 @@ class _Parser:
     def _read_material(self, text: bytes, place: int) -> int:
         name = decoded(text).strip().strip('"')
         number = self.material_names.setdefault(name, len(self.material_names))
-        self._materials[text] = number if name else _UNNAMED
+        self._materials[text] = number if name else UNNAMED
         return self._materials[text]
 
     def _read_groups(self, text: bytes, place: int) -> int:
@@ -339,7 +299,7 @@ class _Parser:
             return keyword == "Hotspot size"
         return True
 
-    def _open_mesh(self, line: str) -> _MeshRecord:
+    def _open_mesh(self, line: str) -> MeshRecord:
         if self._mesh is None:
             self._fail(f"{shown(line)} outside a tri-mesh")
         return self._mesh
@@ -395,75 +355,6 @@ class _Parser:
 
     def _fail(self, message: str):
         raise FileFormatError(message, self._path, self._number)
-
-
-def _material(name: str) -> Material:
-    """A material of which only the name is known; the name may be a colour."""
-    match = _COLOR_NAME.fullmatch(name)
-    if match is None:
-        return Material(name=name)
-    color = tuple(min(int(match[k]), 255) / 255 for k in (1, 2, 3))
-    return Material(name=name, color=tuple(round(c * 255) for c in color))
-
-
-def _object(record: _MeshRecord, materials: list[Material], split: bool) -> DocumentObject:
-    vertices, faces = record.rows.take_rows(_VERTICES), record.rows.take_rows(_FACES)
-    positions, uvs = vertices[:, :3].copy(), vertices[:, 3:]
-    positions, pose = moved_near(positions) if split else (positions, None)
-    return DocumentObject(record.name, _mesh(record, materials, positions, uvs, faces), pose)
-
-
-def _mesh(
-    record: _MeshRecord,
-    materials: list[Material],
-    positions: np.ndarray,
-    uvs: np.ndarray,
-    faces: np.ndarray,
-) -> Mesh:
-    corners, edge_visible = faces[:, :3].astype(np.int32), faces[:, 3:] != 0
-    numbers = np.full(len(faces), _UNNAMED, np.int64)
-    given, named = record.said[_MATERIAL]
-    numbers[given] = named
-    found, first, of_face = np.unique(numbers, return_index=True, return_inverse=True)
-    order = np.argsort(first)
-    triangles = Triangles(
-        corners,
-        corners if record.is_mapped else None,
-        None,
-        np.argsort(order).astype(np.int32)[of_face.reshape(-1)],
-        polygon_ids(corners, edge_visible),
-        None if edge_visible.all() else edge_visible,
-    )
-    masks = np.full(len(faces), FLAT, np.int64)
-    np.bitwise_or.at(masks, *record.said[_SMOOTHING])
-    geometry = Geometry(
-        Vertices(positions, None, uvs, np.zeros((0, 3))),
-        triangles,
-        _smooth(positions, triangles, masks),
-        np.zeros((0, 2), np.int32),
-        np.zeros(0, np.int32),
-    )
-    chosen = [materials[k] if k >= 0 else Material() for k in found[order].tolist()]
-    mesh = build_mesh(geometry, chosen, record.name)
-    mesh._groups = {record.name: np.arange(len(corners), dtype=np.int32)}
-    return mesh
-
-
-def _smooth(positions: np.ndarray, triangles: Triangles, masks: np.ndarray) -> np.ndarray | None:
-    """Give the triangles normals by their smoothing groups; None leaves that to the mesh."""
-    filled = fill_normals(
-        positions,
-        triangles.positions,
-        None,
-        np.zeros((0, 3)),
-        masks,
-        triangles.polygons,
-        are_masks=True,
-    )
-    if filled is None:
-        return None
-    triangles.normals, normals = filled
-    return normals
 
 
 def _counts(parser: _Parser) -> dict:

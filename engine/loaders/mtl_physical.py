@@ -29,9 +29,8 @@ _SLOTS = {
     "map_Ke": "emissive_texture",
     "map_AO": "occlusion_texture",
 }
-#: All maps that are drawn of physically based materials, and of all materials.
+#: All maps that are drawn of physically based materials.
 PHYSICAL_MAPS = (*_ROUGHNESS, *_METALLIC, *_ALL_IN_ONE, *_SLOTS)
-NORMAL_MAPS = (*_NORMALS, *_BUMPS)
 _DEPTH = 1 / 64
 _MOST_NEUTRAL = 32  # how far the red and green of a map of normals are from the middle, on average
 

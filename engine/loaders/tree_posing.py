@@ -91,13 +91,6 @@ class RestPose:
         self.nodes = shown_nodes(tree)
         self._worlds = {shown.index: shown.world for shown in self.nodes}
 
-    def is_still(self, node: NodeRecord) -> bool:
-        """Return whether the mesh of a node stands as it is, at the node's own pose."""
-        if node.mesh is None:
-            return True
-        record = self._tree.meshes[node.mesh]
-        return not (self._weights(node, record).any() or self._skin(node, record))
-
     def posed(self, shown: ShownNode) -> Iterator[tuple[Mesh, np.ndarray]]:
         """Yield the meshes of a node with morph targets and skin applied, and where they stand."""
         node = self._tree.nodes[shown.index]

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.mesh import Mesh
 from .posed_mesh import PosedMesh
 
 if TYPE_CHECKING:
@@ -44,8 +43,3 @@ def placing_poses(arrays, slots: np.ndarray) -> NDArray[np.float64]:
 def placing_pose(node: Node) -> NDArray[np.float64]:
     """Return the world pose that places what a node draws."""
     return placing_poses(node._arrays, np.array([node._slot], np.int32))[0]
-
-
-def is_mesh(drawn: Any) -> bool:
-    """Whether a mesh is drawn, bent or not."""
-    return isinstance(drawn, (Mesh, PosedMesh))

@@ -18,7 +18,8 @@ from ..environments.environment import Environment
 from ..materials.display_colors import display_color, exact_display_color, shading_color
 from ..scene.fog import Fog
 from ..scene.gradients import Gradient
-from ..scene.scene import SCENE_VALUES, Scene
+from ..scene.scene import Scene
+from ..scene.surroundings import SCENE_VALUES
 from ._native_handles import MeshNeeds, native_environment
 from ._tone_inverse import light_that_shows
 from .options import RenderOptions, check_outputs, shows_light

@@ -22,7 +22,8 @@ from .instances import InstancedMesh
 from .motion_records import MOTION_KEYS, fill_animator
 from .nodes import Node
 from .object_kinds import KINDS
-from .scene import SCENE_VALUES, Scene
+from .scene import Scene
+from .surroundings import SCENE_VALUES
 
 _NODE_KEYS = {"name", "object", "translation", "rotation", "scale", "pose", "hidden", "static"}
 _SHADOW_KEYS = ("cast_shadows", "receive_shadows")

@@ -8,7 +8,6 @@ bounds of what changed; the scene counts its changes, so that a renderer renews 
 from __future__ import annotations
 
 import itertools
-import math
 import os
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
@@ -19,51 +18,34 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
 from .._native.scene_graph import OBJECT_BOX, union
-from .._support.numbers import real, shown
-from .._support.validation import Closed, finite, not_negative, vector3
-from ..choices import Color, ColorLike, Cull
+from .._support.validation import vector3
+from ..choices import ColorLike
 from ..environments.environment import Environment
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
-from ..materials.colors import check_color
 from ..motion.posing import Posing, check_morph_weights, check_skin, posed_for, set_weights
 from ._objects import ObjectTable
+from ._queries import SceneQueries
 from .cameras import Camera
-from .fog import ExponentialFog, Fog
 from .gradients import Gradient
 from .instances import InstancedMesh
 from .lights import LIGHTS
 from .node_arrays import NodeArrays
 from .nodes import Node, check_pose, check_rotation, check_scale
 from .selection import NodeSelection
+from .surroundings import Surroundings
 
 if TYPE_CHECKING:
     from ..motion.clips import AnimationClip
     from ..motion.skins import Skin
-    from ..rendering.frame import Frame
-    from ..spatial.colliders import ColliderHit
-    from ..spatial.rays import RayHit, RayHits
     from .animation import Animator
     from .nodes import SceneObject
 
-#: What pictures depend on besides nodes; frames, files and the editor go by this list.
-SCENE_VALUES = (
-    "background",
-    "ambient",
-    "light_clamp",
-    "exposure",
-    "environment",
-    "environment_intensity",
-    "environment_rotation",
-    "background_blur",
-    "fog",
-)
-MAX_EXPOSURE = 64
 _LEAST_REMOVED = 1024  # slots of removed nodes that are not worth packing
 _OBJECT_TYPES = (Mesh, InstancedMesh, Camera, *LIGHTS)
 
 
-class Scene(Closed):
+class Scene(Surroundings, SceneQueries):
     """A tree of nodes to draw, with a background and ambient light.
 
     Parameters
@@ -117,6 +99,7 @@ class Scene(Closed):
         light_clamp: Sequence[float] | None = None,
         exposure: float = 0.0,
     ) -> None:
+        super().__init__(background, ambient, light_clamp, exposure)
         self._arrays = NodeArrays()
         self._objects = ObjectTable()
         self._ids = itertools.count()
@@ -135,112 +118,6 @@ class Scene(Closed):
         self.animations = {}
         self._animator: Animator | None = None
         self.warnings = []
-        self.background = background
-        self.ambient = ambient
-        self.light_clamp = light_clamp
-        self.exposure = exposure
-        self.environment = None
-        self.environment_intensity = 1.0
-        self.environment_rotation = 0.0
-        self.background_blur = 0.0
-        self.fog = None
-
-    @property
-    def background(self) -> Color | Gradient | Environment | None:
-        return self._background
-
-    @background.setter
-    def background(self, value: ColorLike | Gradient | Environment | None) -> None:
-        if value is not None and not isinstance(value, (Environment, Gradient)):
-            value = check_color(value, "background")
-        self._background = value
-
-    @property
-    def environment(self) -> Environment | None:
-        return self._environment
-
-    @environment.setter
-    def environment(self, value: Environment | None) -> None:
-        if value is not None and not isinstance(value, Environment):
-            raise InvalidArgumentError(
-                "environment must be an Environment, such as Environment.studio(), or None, "
-                f"not {value!r}"
-            )
-        self._environment = value
-
-    @property
-    def environment_intensity(self) -> float:
-        return self._environment_intensity
-
-    @environment_intensity.setter
-    def environment_intensity(self, value: float) -> None:
-        self._environment_intensity = not_negative(value, "environment_intensity")
-
-    @property
-    def environment_rotation(self) -> float:
-        return self._environment_rotation
-
-    @environment_rotation.setter
-    def environment_rotation(self, value: float) -> None:
-        self._environment_rotation = finite(value, "environment_rotation")
-
-    @property
-    def background_blur(self) -> float:
-        return self._background_blur
-
-    @background_blur.setter
-    def background_blur(self, value: float) -> None:
-        blur = finite(value, "background_blur")
-        if not 0 <= blur <= 1:
-            raise InvalidArgumentError(f"background_blur must be in 0..1, not {value!r}")
-        self._background_blur = blur
-
-    @property
-    def fog(self) -> Fog | ExponentialFog | None:
-        return self._fog
-
-    @fog.setter
-    def fog(self, value: Fog | ExponentialFog | None) -> None:
-        if value is not None and not isinstance(value, (Fog, ExponentialFog)):
-            raise InvalidArgumentError(
-                f"fog must be a Fog, an ExponentialFog or None, not {value!r}"
-            )
-        self._fog = value
-
-    @property
-    def ambient(self) -> Color:
-        return self._ambient
-
-    @ambient.setter
-    def ambient(self, value: ColorLike) -> None:
-        self._ambient = check_color(value, "ambient")
-
-    @property
-    def light_clamp(self) -> tuple[float, float] | None:
-        return self._light_clamp
-
-    @light_clamp.setter
-    def light_clamp(self, value: Sequence[float] | None) -> None:
-        if value is None:
-            self._light_clamp = None
-            return
-        low, high = _pair(value, "light_clamp")
-        if not 0 <= low <= high:
-            raise InvalidArgumentError(f"light_clamp must be 0 <= low <= high, not {value!r}")
-        self._light_clamp = (low, high)
-
-    @property
-    def exposure(self) -> float:
-        return self._exposure
-
-    @exposure.setter
-    def exposure(self, value: float) -> None:
-        number = real(value)
-        if not abs(number) <= MAX_EXPOSURE:
-            raise InvalidArgumentError(
-                f"exposure must be from {-MAX_EXPOSURE} to {MAX_EXPOSURE} stops, not {shown(value)}"
-            )
-        self._exposure = number
 
     @property
     def animator(self) -> Animator | None:
@@ -511,153 +388,6 @@ class Scene(Closed):
             raise InvalidArgumentError(f"nodes must be an iterable of Node, not {nodes!r}")
         return NodeSelection(self, self.nodes if nodes is None else nodes)
 
-    def raycast(
-        self,
-        origin: ArrayLike,
-        direction: ArrayLike,
-        *,
-        max_distance: float = math.inf,
-        cull: Cull = "none",
-    ) -> RayHit | None:
-        """Return where a ray first meets a face of what is visible.
-
-        Parameters
-        ----------
-        origin, direction : (3,) float
-            World space; the direction may have any length but zero.
-        max_distance : float
-            World units.
-        cull : {"none", "back", "front"}
-            Which faces the ray passes through: none, or those that show it their back or front.
-
-        Returns
-        -------
-        hit : RayHit or None
-            Node, instance, face, distance, position, normal and barycentric coordinates. Of faces
-            at the same distance it is the first in the order of drawing.
-
-        Raises
-        ------
-        InvalidArgumentError
-        """
-        from ..spatial.rays import raycast
-
-        return raycast(self, origin, direction, max_distance, cull)
-
-    def raycast_many(
-        self,
-        origins: ArrayLike,
-        directions: ArrayLike,
-        *,
-        max_distance: float = math.inf,
-        cull: Cull = "none",
-    ) -> RayHits:
-        """Cast many rays at once, like `raycast`; the results have one row per ray.
-
-        Parameters
-        ----------
-        origins, directions : (N, 3) or (3,) float
-            World space. One origin may serve for many directions, and the other way round.
-        max_distance : float
-        cull : {"none", "back", "front"}
-
-        Returns
-        -------
-        hits : RayHits
-            Arrays: object_id, instance, face, distance, position, normal, barycentric.
-
-        Raises
-        ------
-        InvalidArgumentError
-        """
-        from ..spatial.rays import raycast_many
-
-        return raycast_many(self, origins, directions, max_distance, cull)
-
-    def pick(self, frame: Frame, x: int, y: int) -> RayHit | None:
-        """Return what a pixel of a frame of this scene shows.
-
-        A frame with the outputs ``object_id``, ``instance_id`` and ``triangle_id`` tells exactly.
-        Without these, the answer is what the ray through the pixel's centre meets in the scene as
-        it is now.
-
-        Parameters
-        ----------
-        frame : Frame
-        x, y : int
-            Column and row, from the top left.
-
-        Returns
-        -------
-        hit : RayHit or None
-            The distance is from the camera, or without perspective from the near plane. For a
-            line or a point, ``face`` is -1 and the position is unknown (NaN).
-
-        Raises
-        ------
-        InvalidArgumentError
-        """
-        from ..spatial.rays import pick
-
-        return pick(self, frame, x, y)
-
-    def overlap_box(self, low: ArrayLike, high: ArrayLike) -> tuple[Node, ...]:
-        """Return the visible nodes whose colliders have a point in a box.
-
-        Parameters
-        ----------
-        low, high : (3,) float
-            Corners in world space.
-
-        Returns
-        -------
-        nodes : tuple of Node
-            In the order in which they were added.
-
-        Raises
-        ------
-        InvalidArgumentError
-        """
-        from ..spatial.collider_queries import overlap_box
-
-        return overlap_box(self, low, high)
-
-    def overlap_sphere(self, center: ArrayLike, radius: float) -> tuple[Node, ...]:
-        """Return the visible nodes whose colliders have a point in a ball; as `overlap_box`.
-
-        Parameters
-        ----------
-        center : (3,) float
-        radius : float
-        """
-        from ..spatial.collider_queries import overlap_sphere
-
-        return overlap_sphere(self, center, radius)
-
-    def raycast_colliders(
-        self, origin: ArrayLike, direction: ArrayLike, *, max_distance: float = math.inf
-    ) -> ColliderHit | None:
-        """Return where a ray first meets the collider of a visible node.
-
-        Parameters
-        ----------
-        origin, direction : (3,) float
-            World space; the direction may have any length but zero.
-        max_distance : float
-
-        Returns
-        -------
-        hit : ColliderHit or None
-            Node, distance, position.
-
-        Raises
-        ------
-        InvalidArgumentError
-        """
-        from ..spatial.collider_queries import raycast_colliders
-
-        return raycast_colliders(self, origin, direction, max_distance)
-
     def _set_collider(self, node: Node) -> None:
         """Keep the nodes that have colliders, in the order of adding."""
         self._placed_colliders = None
@@ -711,11 +441,3 @@ def _check_object(obj) -> None:
         raise InvalidArgumentError(
             f"a scene holds {allowed} or None (a group), not {type(obj).__name__}"
         )
-
-
-def _pair(value, what: str) -> tuple[float, float]:
-    try:
-        low, high = value
-        return float(low), float(high)
-    except (TypeError, ValueError, OverflowError):
-        raise InvalidArgumentError(f"{what} must be two numbers, not {value!r}") from None

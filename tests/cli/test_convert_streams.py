@@ -33,8 +33,10 @@ def test_the_parser_knows_the_formats_without_importing_them():
     assert list(MODEL_FORMATS) == [item.name for item in formats()]
 
 
-@pytest.mark.parametrize("format", MODEL_FORMATS)
-@pytest.mark.parametrize("way", [("-",), ("-o", "-"), ("--output", "-")])
+@pytest.mark.parametrize(
+    ("format", "way"),
+    [*((name, ("-",)) for name in MODEL_FORMATS), ("ply", ("-o", "-")), ("stl", ("--output", "-"))],
+)
 def test_standard_output_gets_the_bytes_of_the_file(folder, format, way):
     status, out, _ = convert(*way, "--format", format)
     assert status == 0

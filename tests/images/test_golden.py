@@ -1,22 +1,7 @@
-"""The reference draws the pictures that were looked at: golden.json keeps their hashes."""
+"""What the reference draws of broken and of very large things holds numbers."""
 
 import numpy as np
-import pytest
-from images import golden
-from images.picture import digests
 from images.scenes import SCENES
-
-HOW = "to look: python tests/images/golden.py --pictures FOLDER; if it is meant: --update"
-
-
-def test_each_picture_has_its_hashes():
-    assert set(golden.load()) == set(SCENES), HOW
-
-
-@pytest.mark.parametrize("name", sorted(SCENES))
-def test_picture_is_as_before(name):
-    frame = SCENES[name]().draw("scalar")
-    assert digests(frame) == golden.load().get(name), f"the picture {name} has changed; {HOW}"
 
 
 def test_outputs_hold_numbers():

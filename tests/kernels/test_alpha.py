@@ -1,5 +1,7 @@
 """raster_alpha, alpha, lay and blend against R80, R83 and R84."""
 
+import functools
+
 import numpy as np
 import pytest
 from kernels.arithmetic import ONE, clamp
@@ -74,8 +76,9 @@ def through_one(planes, color, through, sample):
         planes[3, sample] = max(planes[3, sample], most)
 
 
-@all_backends
-def test_lay_through(kernels):
+@functools.cache  # for all backends
+def through_rounds():
+    """Batches, and of each of them its maps, the planes before it and those after it."""
     rng = np.random.default_rng(135)
     batches = random_batches(rng)
     random_samples(rng, batches)
@@ -84,18 +87,27 @@ def test_lay_through(kernels):
     fields["alpha"] = rng.choice(
         np.array([1, 1, 0, 0.5, 2.0**-25], np.float32), fields["alpha"].shape
     )
-    maps = np.zeros(1, MAP_BATCH)
-    for row, one in zip(batches.rows, fields, strict=True):
-        count, got = int(one["count"]), random_planes(rng)
+    rounds = []
+    for one in fields:
+        count, before, maps = int(one["count"]), random_planes(rng), np.zeros(1, MAP_BATCH)
         maps["through"] = rng.random(maps["through"].shape, np.float32)
         maps["through"][0, :, ::5], maps["through"][0, :, 1::7] = 1, 0
-        got[:, ::9] = 0
-        expected = got.copy()
+        before[:, ::9] = 0
+        expected = before.copy()
         color = np.concatenate([clamp(one["color"], 0, ONE), one["alpha"][np.newaxis]])
         for n in range(count):
             through_one(expected, color[:, n], maps["through"][0, :, n], one["sample"][n])
-        kernels.lay_through(row, maps.view(np.uint8), got)
-        assert np.array_equal(bits(got), bits(expected)), f"{count} samples"
+        rounds.append((maps.view(np.uint8), before, expected))
+    return batches, rounds
+
+
+@all_backends
+def test_lay_through(kernels):
+    batches, rounds = through_rounds()
+    for row, (maps, before, expected) in zip(batches.rows, rounds, strict=True):
+        got = before.copy()
+        kernels.lay_through(row, maps, got)
+        assert np.array_equal(bits(got), bits(expected))
         assert (got[:3] <= np.maximum(got[3], LEAST_ALPHA)).all()
         assert got.max() <= 1
 
@@ -110,10 +122,10 @@ def alphas_of(texture_alpha, base, surface, w, r, by_vertex, by_instance):
     return clamp(alpha, np.float32(0), ONE)
 
 
-@all_backends
-@pytest.mark.parametrize("by_vertex", [False, True])
-@pytest.mark.parametrize("by_instance", [False, True])
-def test_alpha_without_a_texture(kernels, by_vertex, by_instance):
+@functools.lru_cache(maxsize=1)  # the backends of a case follow each other
+def rounds_without_a_texture(by_vertex, by_instance):
+    """Batches, the bytes of their surfaces, what kernels take besides, and the alphas of it."""
+    made = []
     for seed in range(2):
         rng = np.random.default_rng(seed)
         surfaces, batches = random_surfaces(rng), random_batches(rng)
@@ -125,24 +137,29 @@ def test_alpha_without_a_texture(kernels, by_vertex, by_instance):
         fill(batches, "weight", w)
         fill(batches, "r", r)
         base = np.float32(rng.choice([0.3, 1.0, np.nan, 7.0]))
-        for row in batches.rows:
-            kernels.alpha(row, bytes_of(surfaces), None, base, by_vertex, by_instance)
         surface = at(surfaces, batches.fields["surface"])
         expected = alphas_of(None, base, surface, planes(w), r, by_vertex, by_instance)
+        made.append((batches, bytes_of(surfaces), base, expected))
+    return made
+
+
+@all_backends
+@pytest.mark.parametrize("by_vertex", [False, True])
+@pytest.mark.parametrize("by_instance", [False, True])
+def test_alpha_without_a_texture(kernels, by_vertex, by_instance):
+    for template, surfaces, base, expected in rounds_without_a_texture(by_vertex, by_instance):
+        batches = template.copy()
+        for row in batches.rows:
+            kernels.alpha(row, surfaces, None, base, by_vertex, by_instance)
         check_lanes("alpha", batches.fields["alpha"], expected, batches.fields["count"])
         check_poisoned(batches.fields, ["position", "normal", "uv", "lod", "energy", "shine"])
         batches.check_gaps()
 
 
-@all_backends
-@pytest.mark.parametrize("opaque", [False, True])
-@pytest.mark.parametrize("wrap", SIDE_WRAPS[::2], ids="-".join)
-@pytest.mark.parametrize(
-    ("filter_name", "width"),
-    [("nearest", 8), ("bilinear", 8), ("nearest", 16), ("bilinear", 16), ("trilinear", 16)],
-)
-def test_alpha_of_a_texture(kernels, filter_name, width, wrap, opaque):
-    unit = UNITS[filter_name == "nearest", width]
+@functools.lru_cache(maxsize=1)  # the backends of a case follow each other
+def rounds_of_a_texture(filter_name, width, wrap, opaque):
+    """As `rounds_without_a_texture`."""
+    unit, made = UNITS[filter_name == "nearest", width], []
     for seed in (3,) if opaque else (2, 7):
         rng = np.random.default_rng(seed)
         batches = random_batches(rng)
@@ -161,11 +178,26 @@ def test_alpha_of_a_texture(kernels, filter_name, width, wrap, opaque):
         given = stored(texels, sizes, wrap, width)
         texture = given, width, sizes, FILTERS[filter_name], numbers_of(wrap), opaque
         surfaces = bytes_of(random_surfaces(rng))
-        for row in batches.rows:
-            kernels.alpha(row, surfaces, texture, base, False, False)
         alpha_first = np.roll(texels, 1, axis=1)
         values = sampled(alpha_first, sizes, filter_name, wrap, planes(uv), lod, width)[..., 0]
         expected = clamp(values.astype(np.float32) * (base * unit), np.float32(0), ONE)
+        made.append((batches, surfaces, texture, base, expected))
+    return made
+
+
+@all_backends
+@pytest.mark.parametrize("opaque", [False, True])
+@pytest.mark.parametrize("wrap", SIDE_WRAPS[::2], ids="-".join)
+@pytest.mark.parametrize(
+    ("filter_name", "width"),
+    [("nearest", 8), ("bilinear", 8), ("nearest", 16), ("bilinear", 16), ("trilinear", 16)],
+)
+def test_alpha_of_a_texture(kernels, filter_name, width, wrap, opaque):
+    rounds = rounds_of_a_texture(filter_name, width, wrap, opaque)
+    for template, surfaces, texture, base, expected in rounds:
+        batches = template.copy()
+        for row in batches.rows:
+            kernels.alpha(row, surfaces, texture, base, False, False)
         check_lanes("alpha", batches.fields["alpha"], expected, batches.fields["count"])
 
 

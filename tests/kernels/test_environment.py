@@ -115,16 +115,24 @@ def check(got, expected, count):
     assert (got.view(np.uint32)[:, count + PAD :] == POISON).all()
 
 
-@all_backends
-def test_environment(kernels):
-    rng = np.random.default_rng(1)
+@functools.cache  # for all backends
+def lookups():
+    """Directions, levels, how many, and what shows there."""
+    rng, made = np.random.default_rng(1), []
     for count in (1, 2, 7, 16, 17, MOST):
         d = directions(rng, count)
         level = hostile(rng, count + PAD, 12.0)
         level[: count // 4] = rng.integers(0, 9, count // 4)
+        made.append((d, level, count, radiance(d[:, :count], level[:count])))
+    return made
+
+
+@all_backends
+def test_environment(kernels):
+    for d, level, count, expected in lookups():
         got = poisoned(3, count)
         kernels.environment(picture(), TURN, INTENSITY, d, level, count, got)
-        check(got, radiance(d[:, :count], level[:count]), count)
+        check(got, expected, count)
 
 
 @all_backends
@@ -137,9 +145,10 @@ def test_irradiance(kernels):
         check(got, of_level(8, places(d[:, :count])) * INTENSITY, count)
 
 
-@all_backends
-def test_backdrop(kernels):
-    rng = np.random.default_rng(3)
+@functools.cache  # for all backends
+def rows_of_pixels():
+    """A level, rays, the first pixel, how many, and what shows there."""
+    rng, made = np.random.default_rng(3), []
     for level in (0.0, 0.25, 1.0, 4.5, 8.0, 9.0, -1.0, np.nan):
         rays = rng.uniform(-1, 1, (3, 3)).astype(np.float32)
         rays[1:] *= np.float32(0.01)
@@ -147,9 +156,15 @@ def test_backdrop(kernels):
         column = np.arange(x, x + count).astype(np.float32) + np.float32(0.5)
         row = np.float32(y) + np.float32(0.5)
         d = [(rays[0, k] + column * rays[1, k]) + row * rays[2, k] for k in range(3)]
-        expected = radiance(d, np.full(count, level, np.float32))
+        made.append((level, rays, (x, y), count, radiance(d, np.full(count, level, np.float32))))
+    return made
+
+
+@all_backends
+def test_backdrop(kernels):
+    for level, rays, place, count, expected in rows_of_pixels():
         got = poisoned(3, count)
-        kernels.backdrop(picture(), TURN, INTENSITY, level, rays, x, y, count, got)
+        kernels.backdrop(picture(), TURN, INTENSITY, level, rays, *place, count, got)
         check(got, expected, count)
 
 

@@ -35,7 +35,7 @@ from kernels.test_record import (
     sample_span,
 )
 
-BATCHES = 700  # with four kinds: 500,000 triangles and more
+BATCHES = 350  # with four kinds: 250,000 triangles and more
 REACH = 16383
 SIDE = 4
 NO_BLOCK = 0xFFFFFFFF

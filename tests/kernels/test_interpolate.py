@@ -1,5 +1,7 @@
 """interpolate and tint against R19, R20, R22, R24 and R26."""
 
+import functools
+
 import numpy as np
 import pytest
 from kernels.arithmetic import ONE, ZERO, dot, greatest, unit
@@ -78,54 +80,65 @@ def check_components(name, got, expected, counts):
         check_lanes(f"{name}[{k}]", got[:, k], values, counts)
 
 
-@all_backends
-def test_interpolate(kernels):
-    for seed in range(ROUNDS):
-        rng = np.random.default_rng(seed)
-        surfaces, batches = random_surfaces(rng), random_batches(rng)
-        wanted = rng.choice(WANTED, len(batches.rows))
-        given = batches.fields["sample"].copy(), batches.fields["surface"].copy()
-        for row, want in zip(batches.rows, wanted, strict=True):
-            kernels.interpolate(row, bytes_of(surfaces), int(want))
-        check_interpolated(batches, at(surfaces, given[1]), given, wanted)
+@functools.lru_cache(maxsize=1)  # the backends of a seed follow each other
+def random_round(seed):
+    """Batches, the bytes of their surfaces, what is asked for of each, and what must come of it.
+
+    That is, fields by name: the rows that are asked for it, and their values of each component.
+    """
+    rng = np.random.default_rng(seed)
+    surfaces, batches = random_surfaces(rng), random_batches(rng)
+    wanted = rng.choice(WANTED, len(batches.rows))
+    surface = at(surfaces, batches.fields["surface"])
+    expected = expectation(surface, batches.fields["sample"], wanted)
+    return batches, bytes_of(surfaces), wanted, expected
 
 
-def check_interpolated(batches, surface, given, wanted):
-    fields, counts = batches.fields, batches.fields["count"]
-    assert np.array_equal(fields["sample"], given[0])
-    assert np.array_equal(fields["surface"], given[1])
-    w, r = weights(surface, given[0])
-    expected = {
+def expectation(surface, sample, wanted):
+    w, r = weights(surface, sample)
+    levels = level(surface, sample, r)
+    assert len(np.unique(levels)) > 100
+    values = {
+        "r": (WANT_WEIGHTS, [r]),
         "weight": (WANT_WEIGHTS, w),
         "position": (WANT_POSITION, [attribute(surface, "position", k, w, r) for k in range(3)]),
         "uv": (WANT_UV, [attribute(surface, "uv", k, w, r) for k in range(2)]),
+        "lod": (WANT_LEVEL, [levels]),
     }
-    kept = (wanted & WANT_WEIGHTS) != 0
-    check_lanes("r", fields["r"][kept], r[kept], counts[kept])
-    check_poisoned(fields[~kept], ["r"])
-    for name, (bit, values) in expected.items():
-        asked = (wanted & bit) != 0
-        check_components(name, fields[name][asked], [v[asked] for v in values], counts[asked])
+    asked = {name: (wanted & bit) != 0 for name, (bit, _) in values.items()}
+    expected = {name: (asked[name], [v[asked[name]] for v in values[name][1]]) for name in values}
+    facing = (wanted & WANT_NORMAL) != 0
+    of_face = (wanted & WANT_FLAT) != 0
+    smooth, flat = (normals(surface, w, is_flat) for is_flat in (0, WANT_FLAT))
+    both = [np.where(of_face[:, None], f, s)[facing] for f, s in zip(flat, smooth, strict=True)]
+    return {**expected, "normal": (facing, both)}
+
+
+@all_backends
+@pytest.mark.parametrize("seed", range(ROUNDS))
+def test_interpolate(kernels, seed):
+    template, surfaces, wanted, expected = random_round(seed)
+    batches = template.copy()
+    for row, want in zip(batches.rows, wanted, strict=True):
+        kernels.interpolate(row, surfaces, int(want))
+    fields = batches.fields
+    for name in ("sample", "surface"):
+        assert np.array_equal(fields[name], template.fields[name])
+    for name, (asked, values) in expected.items():
+        counts = fields["count"][asked]
+        if len(values) == 1:
+            check_lanes(name, fields[name][asked], values[0], counts)
+        else:
+            check_components(name, fields[name][asked], values, counts)
         check_poisoned(fields[~asked], [name])
-    for flat in (0, WANT_FLAT):
-        asked = (wanted & (WANT_NORMAL | WANT_FLAT)) == WANT_NORMAL | flat
-        chosen = {name: words[asked] for name, words in surface.items()}
-        values = normals(chosen, [v[asked] for v in w], flat)
-        check_components("normal", fields["normal"][asked], values, counts[asked])
-    check_poisoned(fields[(wanted & WANT_NORMAL) == 0], ["normal"])
-    asked = (wanted & WANT_LEVEL) != 0
-    levels = level(surface, given[0], r)
-    assert len(np.unique(levels)) > 100
-    check_lanes("lod", fields["lod"][asked], levels[asked], counts[asked])
-    check_poisoned(fields[~asked], ["lod"])
     check_poisoned(fields, ["color", "energy", "shine"])
     batches.check_gaps()
 
 
-@all_backends
-@pytest.mark.parametrize("by_vertex", [False, True])
-@pytest.mark.parametrize("by_instance", [False, True])
-def test_tint(kernels, by_vertex, by_instance):
+@functools.lru_cache(maxsize=1)  # the backends of a case follow each other
+def tint_rounds(by_vertex, by_instance):
+    """Batches, the bytes of their surfaces, and the colours of them."""
+    made = []
     for seed in range(ROUNDS // 3):
         rng = np.random.default_rng(seed)
         surfaces, batches = random_surfaces(rng), random_batches(rng)
@@ -135,8 +148,6 @@ def test_tint(kernels, by_vertex, by_instance):
         fill(batches, "color", color)
         fill(batches, "weight", w)
         fill(batches, "r", r)
-        for row in batches.rows:
-            kernels.tint(row, bytes_of(surfaces), by_vertex, by_instance)
         surface = at(surfaces, batches.fields["surface"])
         expected = planes(color)
         if by_vertex:
@@ -145,6 +156,18 @@ def test_tint(kernels, by_vertex, by_instance):
             ]
         if by_instance:
             expected = [c * surface["instance_color"][..., k] for k, c in enumerate(expected)]
+        made.append((batches, bytes_of(surfaces), expected))
+    return made
+
+
+@all_backends
+@pytest.mark.parametrize("by_vertex", [False, True])
+@pytest.mark.parametrize("by_instance", [False, True])
+def test_tint(kernels, by_vertex, by_instance):
+    for template, surfaces, expected in tint_rounds(by_vertex, by_instance):
+        batches = template.copy()
+        for row in batches.rows:
+            kernels.tint(row, surfaces, by_vertex, by_instance)
         check_components("color", batches.fields["color"], expected, batches.fields["count"])
         unused = ["position", "normal", "uv", "lod", "energy", "shine"]
         check_poisoned(batches.fields, unused)

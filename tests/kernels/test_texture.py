@@ -37,7 +37,6 @@ UNITS = {
 SIZES = [(1, 1), (2, 3), (16, 16), (37, 5), (1, 300), (256, 1), (1000, 3), (33, 64), (4099, 2)]
 #: Along u and along v.
 SIDE_WRAPS = list(itertools.product(WRAPS, repeat=2))
-LARGE_SIZES = [(32768, 32768), (32768, 1), (1, 16384), (512, 300)]
 
 
 def chain_sizes(width, height, levels=16):

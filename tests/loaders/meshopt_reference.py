@@ -21,10 +21,6 @@ def _zigzag(value: int, bits: int) -> int:
     return ((value << 1) ^ -(value >> (bits - 1) & 1)) & ((1 << bits) - 1)
 
 
-def _unzigzag(value: int, bits: int) -> int:
-    return (value >> 1) ^ -(value & 1) & ((1 << bits) - 1)
-
-
 def _block_size(stride: int) -> int:
     return min(8192 // stride & ~15, 256)
 

@@ -69,6 +69,8 @@ def needs_package(found):
 @pytest.mark.parametrize("case", cases("models", "generator", "own"))
 def test_sound_files(case):
     report = loaded(describe, case)
+    if case["file"].startswith(("models/", "own/")) and not isinstance(report, Engine3DError):
+        assert json.dumps(loaded(describe, case)) == json.dumps(report)  # the same each time
     expected = case.get("expect")
     if needs_package(report) or expected is None:
         return
@@ -158,10 +160,3 @@ def test_broken_files(case):
         assert not isinstance(found, Engine3DError), found
     if case["file"].startswith("hostile/") and case["outcome"] == "warn":
         assert found.warnings
-
-
-@pytest.mark.parametrize("case", cases("models", "own"))
-def test_reports_are_the_same_each_time(case):
-    reports = [loaded(describe, case) for _ in range(2)]
-    if not isinstance(reports[0], Engine3DError):
-        assert json.dumps(reports[0]) == json.dumps(reports[1])

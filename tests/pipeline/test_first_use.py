@@ -96,7 +96,7 @@ def ask_at_once(questions):
 @pytest.mark.parametrize("name", QUESTIONS)
 def test_threads_that_ask_at_once_get_what_one_gets(name):
     expected = QUESTIONS[name](fresh_scene())
-    for _ in range(25):
+    for _ in range(12):
         scene = fresh_scene()
         for answer in ask_at_once([lambda scene=scene: QUESTIONS[name](scene)] * THREADS):
             assert not isinstance(answer, Exception), repr(answer)

@@ -31,9 +31,9 @@ def area(angle, width, samples=1, backend="auto"):
 
 
 @pytest.mark.parametrize("width", [1.25, 2.0, 5.0, 40.0])
-@pytest.mark.parametrize("backend", ["scalar", "auto"])
-def test_a_wide_line_has_its_width_at_any_angle(backend, width):
-    for angle in np.radians(ANGLES):
+@pytest.mark.parametrize(("backend", "angles"), [("scalar", ANGLES[::5]), ("auto", ANGLES)])
+def test_a_wide_line_has_its_width_at_any_angle(backend, angles, width):
+    for angle in np.radians(angles):
         found = area(angle, width, 16, backend) / LENGTH
         assert found == pytest.approx(width, rel=0.02), np.degrees(angle)
 

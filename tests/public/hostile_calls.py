@@ -92,8 +92,13 @@ def playing(name):
 def lit_scene():
     """A scene in an environment, which shows."""
     lit = scene()
-    lit.environment = lit.background = e3d.Environment(np.ones((2, 4, 3)))
+    lit.environment = lit.background = white_environment()
     return lit
+
+
+@functools.cache  # finding the light of one takes longer than all else
+def white_environment():
+    return e3d.Environment(np.ones((2, 4, 3)))
 
 
 def camera():

@@ -61,10 +61,6 @@ class Files:
         """Ask for a file, and edit it."""
         self._unless_lost(lambda: self._dialog.ask("Open a file", _kinds(), self._workspace.open))
 
-    def open_path(self, path: str) -> None:
-        """Edit a file."""
-        self._unless_lost(lambda: self._workspace.open(path))
-
     def add(self) -> None:
         """Ask for a file, and add what it holds to the scene."""
         self._dialog.ask("Add a file", _kinds(), self._workspace.add_file)

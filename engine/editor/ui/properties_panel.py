@@ -22,7 +22,8 @@ from ...scene.cameras import Camera, OrthographicCamera, PerspectiveCamera
 from ...scene.instances import InstancedMesh
 from ...scene.lights import LIGHTS, DirectionalLight, Light, PointLight, SpotLight
 from ...scene.nodes import Node
-from ...scene.scene import MAX_EXPOSURE, Scene
+from ...scene.scene import Scene
+from ...scene.surroundings import MAX_EXPOSURE
 from ...spatial.colliders import BoxCollider, MeshCollider, SphereCollider
 from ..value_commands import SetValues
 from .files import Files

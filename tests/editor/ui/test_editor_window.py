@@ -452,8 +452,16 @@ def test_what_is_not_saved_is_kept_when_the_editor_fails(tmp_path):
     assert len(list((tmp_path / "engine3d" / "unsaved").glob("*.e3d.json"))) == 1
 
 
-@pytest.mark.parametrize("path", ["", "broken.obj"])
-@pytest.mark.parametrize("line", ["", "while True: pass", "import time; time.sleep(99)", STUBBORN])
+@pytest.mark.parametrize(
+    ("path", "line"),
+    [
+        ("broken.obj", ""),
+        ("", ""),
+        ("", "while True: pass"),
+        ("", "import time; time.sleep(99)"),
+        ("", STUBBORN),
+    ],
+)
 def test_sigterm_ends_the_editor_whatever_it_does(tmp_path, path, line):
     (tmp_path / "broken.obj").write_text("v 1 x\n")
     program = (

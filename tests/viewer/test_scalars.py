@@ -269,6 +269,10 @@ def test_colour_maps(tmp_path):
 TITLE = "temperature at the surface"
 
 
+def test_a_bar_has_more_than_one_number():
+    assert place_bar(320, 160, ScalarBar("x", -3.1, 3.4, GRAY)).labels == ["-2", "0", "2"]
+
+
 @pytest.mark.parametrize("size", [(300, 300), (90, 130)])
 def test_the_bar_has_all_colours_from_bottom_to_top_or_from_left_to_right(size):
     canvas = Canvas(*size)

@@ -189,6 +189,14 @@ def test_numbers_of_faces(tmp_path):
             open_model(path, scalars=ScalarColoring(GRAY, name, by_faces=True))
 
 
+def test_info_names_the_arrays(wind, heat, capsys):
+    assert main(["info", str(wind), "--json"]) == 0
+    names = ["_HEAT", "_ID", "_MATRIX", "_SHARE", "_WIND"]
+    assert json.loads(capsys.readouterr().out)["arrays"] == {"vertices": names}
+    assert main(["info", str(heat)]) == 0
+    assert "\narrays of vertices: heat, label\n" in capsys.readouterr().out
+
+
 def test_faces_without_numbers(heat):
     with pytest.raises(InvalidArgumentError, match="no array of faces; there are none"):
         open_model(heat, scalars=ScalarColoring(GRAY, by_faces=True))

@@ -136,12 +136,7 @@ class _Worker:
 
     def _do(self, future: Future, call: tuple) -> None:
         try:
-            if self.process is None or self.process.poll() is not None:
-                self.process = _started(self._idle)
-                if self._stopped:
-                    self.hang_up()
-            send(self.process.stdin, call)
-            returned, result = self._result(self.process)
+            returned, result = self._result(self._asked(call))
         except TimeLimitError as error:
             self._end(error)
             future.set_exception(error)
@@ -157,10 +152,25 @@ class _Worker:
         else:
             future.set_exception(result)
 
+    def _asked(self, call: tuple, again: bool = True) -> subprocess.Popen:
+        """The process, which has begun with a call."""
+        if self.process is None or self.process.poll() is not None:
+            self.process = _started(self._idle)
+            if self._stopped:
+                self.hang_up()
+        try:
+            send(self.process.stdin, call)
+            begun = receive(self.process.stdout)
+        except (EOFError, OSError) as error:
+            if self._idle is None or not again:
+                raise
+            self._end(error)  # it had waited long enough, and was about to end by itself
+            return self._asked(call, again=False)
+        assert begun == BEGUN
+        return self.process
+
     def _result(self, process: subprocess.Popen) -> tuple[bool, Any]:
         """What the process returns; it is ended if that takes too long."""
-        begun = receive(process.stdout)
-        assert begun == BEGUN
         if self._limit is None:
             return receive(process.stdout)
         is_over = threading.Event()

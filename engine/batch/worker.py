@@ -57,9 +57,12 @@ def main(idle: float | None = None) -> None:
     results = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     calls: queue.SimpleQueue = queue.SimpleQueue()
-    threading.Thread(target=_listen, args=(sys.stdin.buffer, calls), daemon=True).start()
     try:
-        while (call := calls.get(timeout=idle)) is not None:
+        # Whoever asks may be gone already: what listens stops this thread at once then.
+        threading.Thread(target=_listen, args=(sys.stdin.buffer, calls), daemon=True).start()
+        patience = None  # the first call is on its way
+        while (call := calls.get(timeout=patience)) is not None:
+            patience = idle
             send(results, BEGUN)
             send(results, _answer(*call))
     except (KeyboardInterrupt, BrokenPipeError, queue.Empty):

@@ -8,8 +8,8 @@ import sys
 from collections import Counter
 
 from ..errors import printable
+from ..files.making_folders import make_folder_of
 from ..golden import folders
-from ..golden.making_folders import make_folder_of
 from ..golden.report import Report
 from ..golden.result_files import read_json, write_json, write_junit
 from ..golden.results import CHANGED, DELETED, FAILED, NEW, PASSED, Result

@@ -55,7 +55,8 @@ def describe(path) -> dict:
         ``triangles`` (as drawn, each instance's counted),
         ``bounds`` (lowest and highest coordinates, at rest; None where there is no vertex),
         ``objects``, ``nodes`` and ``meshes`` (how many the file has), ``materials``, ``variants``,
-        ``lights``, ``cameras``, ``skins``, ``animations``, ``warnings``.
+        ``lights``, ``cameras``, ``skins``, ``animations``, ``arrays`` (what ``--coloring-array``
+        can name, of vertices and of faces), ``warnings``.
     """
     with LoadingBar() as progress, warnings.catch_warnings():
         warnings.simplefilter("ignore", Engine3DWarning)  # they are part of the report
@@ -77,6 +78,7 @@ def describe(path) -> dict:
             }
             for name, mesh, _ in document.objects
         ],
+        "arrays": {kind: names for kind, names in document.arrays.items() if names},
         "warnings": [str(warning) for warning in document.warnings],
     }
 
@@ -174,5 +176,6 @@ def report_lines(report: dict) -> list[str]:
     lines += [f"skin: {skin['joints']:,d} joints" for skin in report["skins"]]
     for number, clip in enumerate(report["animations"]):
         lines.append(f"animation {clip['name'] or number}: {clip['duration']:g} s")
+    lines += [f"arrays of {kind}: {', '.join(names)}" for kind, names in report["arrays"].items()]
     lines += [f"warning: {warning}" for warning in report["warnings"]]
     return lines

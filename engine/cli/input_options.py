@@ -10,6 +10,7 @@ import os
 from collections.abc import Sequence
 
 from ..errors import FileAccessError, FileFormatError
+from ..files.making_folders import make_folder_of
 from . import values
 from .inputs import STANDARD_INPUT
 from .output_templates import fill, names_the_model
@@ -84,7 +85,10 @@ def _job(
     job = args if configured is None else configured(models)
     job = argparse.Namespace(**vars(job))
     job.models = list(models)
-    job.output = fill(output or job.output, _title(job), taken)
+    template = output or job.output
+    job.output = fill(template, _title(job), taken)
+    if template is not None and os.path.dirname(template) != os.path.dirname(job.output):
+        make_folder_of(job.output)  # of a name with variables; other folders may be misspelt
     return job
 
 

@@ -18,10 +18,10 @@ import numpy as np
 
 from ..errors import Engine3DError, FileAccessError, FileFormatError
 from ..files.atomic_write import atomic_write
+from ..files.making_folders import make_folder_of
 from .comparison import Difference, compare
 from .difference_picture import difference_picture
 from .display import displayed
-from .making_folders import make_folder_of
 from .picture_files import SUFFIXES, Picture
 from .png_files import encode
 from .reading import read_picture

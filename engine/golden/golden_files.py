@@ -22,9 +22,9 @@ import numpy as np
 
 from ..errors import FileAccessError, FileFormatError
 from ..files.atomic_write import atomic_write
+from ..files.making_folders import make_folder_of
 from . import png_files
 from .display import displayed
-from .making_folders import make_folder_of
 from .picture_files import decode_picture
 from .pixel_hash import pixel_hash
 

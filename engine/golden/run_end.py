@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import FileAccessError
-from .making_folders import make_folder_of
+from ..files.making_folders import make_folder_of
 from .names import SUFFIX
 from .results import CHANGED, NEW, PASSED, TWO_PICTURES, UNUSED, UPDATED, Result
 from .runs import Run, folder_of

@@ -380,6 +380,8 @@ class Document:
         The tree of nodes, of another file that holds one; its objects then are what of it shows.
     unit : str
         The symbol of the coordinates' unit, such as ``"mm"``; empty where the format has none.
+    arrays : dict of str to list of str
+        Names of what ``scalars`` can hold, of ``"vertices"`` and of ``"faces"``.
     """
 
     format: str
@@ -391,6 +393,7 @@ class Document:
     scene: SceneRecord | None = None
     tree: TreeRecord | None = None
     unit: str = ""
+    arrays: dict[str, list[str]] = field(default_factory=dict)
 
     @property
     def scalars(self) -> list[dict[str, np.ndarray]]:

@@ -49,17 +49,24 @@ def read_gltf(source: Source, split: bool = False) -> Document:
     warnings = WarningList(source.path)
     check_extensions(file, warnings)
     buffers = GltfBuffers(file, source, warnings)
-    tree = _read_tree(file, buffers, warnings, source.scalars == "vertices")
+    tree, own = _read_tree(file, buffers, warnings, source.scalars == "vertices")
     objects = tree_objects(source, tree, buffers.limit, split)
     counts = tree_counts(tree, objects)
     return Document(
-        file.kind, objects, counts=counts, warnings=warnings.messages(), tree=tree, unit="m"
+        file.kind,
+        objects,
+        counts=counts,
+        warnings=warnings.messages(),
+        tree=tree,
+        unit="m",
+        arrays={"vertices": own, "faces": []},
     )
 
 
 def _read_tree(
     file: GltfFile, buffers: GltfBuffers, warnings: WarningList, scalars: bool
-) -> TreeRecord:
+) -> tuple[TreeRecord, list[str]]:
+    """Read the tree, and the names of the file's own attributes."""
     accessors = GltfAccessors(file, buffers)
     nodes = read_nodes(file, accessors)
     roots = read_roots(file, nodes, warnings)
@@ -85,7 +92,7 @@ def _read_tree(
     check_skins(file, tree)
     warn_of_unknown_attributes(file, warnings)
     warn_of_undrawn(map(undrawn_kinds, tree.materials), warnings)
-    return tree
+    return tree, sorted(primitives.own)
 
 
 def _resembles_gltf(head: bytes, size: int) -> bool:

@@ -78,6 +78,8 @@ class GltfPrimitives:
     ----------
     left_out : list of str
         Places of the primitives that have no positions.
+    own : set of str
+        Names of attributes that the file has for itself.
     """
 
     def __init__(
@@ -94,6 +96,7 @@ class GltfPrimitives:
         self._draco, self._warnings = draco, warnings
         self._told: set[str] = set()
         self.left_out: list[str] = []
+        self.own: set[str] = set()
 
     def read(self, entry: dict, where: str) -> Primitive | None:
         """Return a primitive, which ``where`` names in errors."""
@@ -119,8 +122,9 @@ class GltfPrimitives:
         primitive = Primitive(kind, elements, {}, material=material, uv_sets=uv_sets)
         self._add_arrays(primitive, vertices)
         self._add_influences(primitive, vertices, where)
+        own = [name for name in attributes if name.startswith("_")]
+        self.own.update(own)
         if self._scalars:
-            own = [name for name in attributes if name.startswith("_")]
             width_of = {name: self._accessors.width(attributes[name], where) for name in own}
             usable = [name for name in own if width_of[name] in _WIDTHS]
             primitive.scalars = {name: vertices.numbers(name) for name in usable}

@@ -15,11 +15,18 @@ from .documents import Document, DocumentObject
 from .far_coordinates import moved_near
 from .indexed_mesh import IndexedGeometry, build_indexed_mesh
 from .ply_body import open_body
-from .ply_faces import PlyFaces, read_edges, read_face_scalars, read_faces, read_strips
+from .ply_faces import (
+    PlyFaces,
+    face_scalar_names,
+    read_edges,
+    read_face_scalars,
+    read_faces,
+    read_strips,
+)
 from .ply_header import is_ply, read_header
 from .ply_materials import material_ids, read_materials
 from .ply_tables import PlyTable, read_tables
-from .ply_vertices import PlyVertices, read_scalars, read_vertices
+from .ply_vertices import PlyVertices, numbers_of, read_vertices, scalar_names
 from .registry import Reader
 from .sources import Source
 from .triangulation import WorkBudget
@@ -62,13 +69,15 @@ def read_ply(source: Source, split: bool = False) -> Document:
     has_uvs = vertices.uvs is not None or faces.uvs is not None
     positions, pose = moved_near(vertices.positions) if split else (vertices.positions, None)
     vertices = vertices._replace(positions=positions)
-    scalars = read_scalars(table) if source.scalars == "vertices" else {}
+    names = scalar_names(table)
+    scalars = numbers_of(table, names) if source.scalars == "vertices" else {}
     mesh = _mesh(vertices, faces, lines, source, scalars, face_scalars)
     mesh.materials = read_materials(source, header.textures, has_uvs, warnings)
     mesh.material_ids = material_ids(faces.textures, len(faces.corners), len(mesh.materials))
     counts = _counts(tables, vertices, faces, lines)
     entry = DocumentObject(source.stem, mesh, pose)
-    return Document("ply", [entry], counts=counts, warnings=warnings.messages())
+    arrays = {"vertices": names, "faces": face_scalar_names(tables.get("face"))}
+    return Document("ply", [entry], counts=counts, warnings=warnings.messages(), arrays=arrays)
 
 
 def _mesh(

@@ -12,7 +12,7 @@ import numpy as np
 
 from .._native import loaders as native
 from .ply_tables import PlyList, PlyTable
-from .ply_vertices import numbers_of, read_colors
+from .ply_vertices import names_but, numbers_of, read_colors
 from .triangulation import WorkBudget, triangulate
 from .vertex_values import finite_uvs
 from .warning_list import WarningList
@@ -86,11 +86,16 @@ def read_faces(
     )
 
 
+def face_scalar_names(table: PlyTable | None) -> list[str]:
+    """Return the names of the numbers of faces that `read_faces` does not read."""
+    return [] if table is None else names_but(table, {*_INDEX_LISTS, "texcoord", "texnumber"})
+
+
 def read_face_scalars(table: PlyTable | None, faces: PlyFaces) -> dict[str, np.ndarray]:
     """Read the numbers of faces that are nothing of what `read_faces` reads, by name: (T, ...)."""
     if table is None or not len(table):
         return {}
-    found = numbers_of(table, {*_INDEX_LISTS, "texcoord", "texnumber"})
+    found = numbers_of(table, face_scalar_names(table))
     if faces.polygons is None:
         return found
     return {name: values[faces.polygons] for name, values in found.items()}

@@ -7,7 +7,7 @@ colour by, if anybody asks for them.
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -61,22 +61,23 @@ def read_vertices(table: PlyTable) -> PlyVertices:
     return PlyVertices(positions, normals, read_colors(table), uvs, position_ids)
 
 
-def read_scalars(table: PlyTable) -> dict[str, np.ndarray]:
-    """Read the numbers of vertices that are neither of what `read_vertices` reads, by name."""
+def scalar_names(table: PlyTable) -> list[str]:
+    """Return the names of the numbers of vertices that `read_vertices` does not read."""
     uvs = next((names for names in _UVS if table.has(*names)), ())
-    return numbers_of(table, {"x", "y", "z", "nx", "ny", "nz", "position_id", *uvs})
+    return names_but(table, {"x", "y", "z", "nx", "ny", "nz", "position_id", *uvs})
 
 
-def numbers_of(table: PlyTable, taken: Collection[str]) -> dict[str, np.ndarray]:
-    """Read the numbers of an element but for its colours and those in ``taken``, by name.
-
-    They are (N,), or (N, K) of lists that all have K items.
-    """
+def names_but(table: PlyTable, taken: Collection[str]) -> list[str]:
+    """Return the names of an element's properties but for its colours and those in ``taken``."""
     colors = next((names for names in _COLORS if table.has(*names)), ())
-    taken, found = {*taken, *colors, *_ALPHAS}, {}
-    for name in table.element.properties:
-        if name in taken:
-            continue
+    taken = {*taken, *colors, *_ALPHAS}
+    return [name for name in table.element.properties if name not in taken]
+
+
+def numbers_of(table: PlyTable, names: Iterable[str]) -> dict[str, np.ndarray]:
+    """Read some properties: (N,), or (N, K) of lists that all have K items; no other lists."""
+    found = {}
+    for name in names:
         if table.has(name):
             found[name] = table.column(name).astype(np.dtype(table.type(name)), copy=False)
             continue

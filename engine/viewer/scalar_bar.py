@@ -91,6 +91,8 @@ def _upright(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
     thick, padding, margin = _edges(width, height, scale)
     length = max(int(height * _SHARE), 2)
     numbers, labels = _numbers(bar, length // (2 * cell_height))
+    if len(numbers) < 2:  # one alone says little: closer together, they still fit
+        numbers, labels = _numbers(bar, length // cell_height)
     columns = max(int(_MOST * width - margin - 2 * padding) // cell_width, 1)
     title = textwrap.wrap(bar.title, columns, break_long_words=False, break_on_hyphens=False)
     wide = thick + _TICK * scale + cell_width // 2 + cell_width * _longest(labels)

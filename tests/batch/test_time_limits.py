@@ -2,6 +2,8 @@
 
 import contextlib
 import os
+import subprocess
+import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 
@@ -13,7 +15,7 @@ from engine3d.batch.processes import ProcessPool, TimeLimitError, WorkerDiedErro
 from engine3d.cli import main
 
 SCRIPT = {"script": "script.py"}
-LIMIT = 3.0  # a busy machine loads the engine in less
+LIMIT = 5.0  # a busy machine loads the engine in less
 
 
 def is_running(process):
@@ -24,10 +26,10 @@ def is_running(process):
 
 
 def test_a_call_that_takes_too_long_ends_its_process_alone():
-    with ProcessPool(1, limit=0.5) as pool:
+    with ProcessPool(1, limit=2.0) as pool:
         assert pool.submit(abs, -3).result() == 3
         (first,) = pool.process_ids()
-        with pytest.raises(TimeLimitError, match="it took more than 0.5 s, and was ended"):
+        with pytest.raises(TimeLimitError, match="it took more than 2 s, and was ended"):
             pool.submit(time.sleep, 1000).result()
         assert pool.submit(abs, -4).result() == 4
         assert pool.process_ids() != [first]
@@ -46,6 +48,13 @@ def test_a_process_that_nobody_asks_ends():
         assert pool.submit(abs, -4).result() == 4
 
 
+def test_a_process_whose_pool_is_gone_before_it_begins_ends_without_a_word():
+    program = "from engine3d.batch.worker import main; main()"
+    command = [sys.executable, "-c", program]
+    ended = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=HUNG)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, b"", b"")
+
+
 @pytest.mark.parametrize("by_threads", [False, True])
 def test_a_slow_picture_fails_and_is_tried_again_by_resume(place, manifest, by_threads):
     entries = [{**SCRIPT, "name": f"t{n}", "seed": n} for n in range(4)]
@@ -55,7 +64,7 @@ def test_a_slow_picture_fails_and_is_tried_again_by_resume(place, manifest, by_t
         who = {"executor": executor} if by_threads else {"jobs": 1}
         summary = run(tasks, out, timeout=LIMIT, **who)
     assert [failure.name for failure in summary.failures] == ["t1"]
-    assert summary.failures[0].error == "it took more than 3 s, and was ended"
+    assert summary.failures[0].error == "it took more than 5 s, and was ended"
     assert summary.drawn == 3 and not list(out.rglob("*.part"))
     (other,) = place.glob("other*")
     assert not is_running(int(other.name.removeprefix("other")))

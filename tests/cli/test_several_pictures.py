@@ -52,6 +52,13 @@ def test_files_are_drawn_together_unless_the_output_names_them(model, tmp_path):
     assert names == {"all.png", "square_1.png", "other_1.png", time.strftime("%Y") + ".png"}
 
 
+def test_folders_with_variables_in_their_names_are_made(model, tmp_path):
+    assert main(["render", str(model), *FAST, "-o", "{model}/{date:%Y}/{n:3}.png"]) == 0
+    assert (tmp_path / "square" / time.strftime("%Y") / "001.png").exists()
+    assert main(["render", str(model), *FAST, "-o", "no/{model}.png"]) == 1
+    assert not (tmp_path / "no").exists()
+
+
 @pytest.mark.parametrize(
     ("options", "told"),
     [

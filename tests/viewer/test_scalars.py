@@ -189,6 +189,14 @@ def test_numbers_of_faces(tmp_path):
             open_model(path, scalars=ScalarColoring(GRAY, name, by_faces=True))
 
 
+def test_info_names_the_arrays(wind, heat, capsys):
+    assert main(["info", str(wind), "--json"]) == 0
+    names = ["_HEAT", "_ID", "_MATRIX", "_SHARE", "_WIND"]
+    assert json.loads(capsys.readouterr().out)["arrays"] == {"vertices": names}
+    assert main(["info", str(heat)]) == 0
+    assert "\narrays of vertices: heat, label\n" in capsys.readouterr().out
+
+
 def test_faces_without_numbers(heat):
     with pytest.raises(InvalidArgumentError, match="no array of faces; there are none"):
         open_model(heat, scalars=ScalarColoring(GRAY, by_faces=True))
@@ -267,6 +275,10 @@ def test_colour_maps(tmp_path):
 
 
 TITLE = "temperature at the surface"
+
+
+def test_a_bar_has_more_than_one_number():
+    assert place_bar(320, 160, ScalarBar("x", -3.1, 3.4, GRAY)).labels == ["-2", "0", "2"]
 
 
 @pytest.mark.parametrize("size", [(300, 300), (90, 130)])

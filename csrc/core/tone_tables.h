@@ -21,27 +21,29 @@ static const float E3D_ACES_OUT[3][3] = {
     {-0.10208f, 1.10813f, -0.00605f},
     {-0.00327f, -0.07276f, 1.07602f},
 };
+/* AgX, rearranged so that it takes few operations: rows of the first matrix are divided by their diagonal, the sigmoid is a polynomial of
+ * stops from its middle, divided by its first coefficient, and what was divided by is in the constants that follow. */
 static const float E3D_AGX_IN[3][3] = {
-    {0x1.16f19cp-1f, 0x1.7ec4c2p-2f, 0x1.4d5620p-4f},
-    {0x1.1f942ep-3f, 0x1.821a6ap-1f, 0x1.afb480p-4f},
-    {0x1.6bcb84p-4f, 0x1.6e4e06p-3f, 0x1.76f20cp-1f},
+    {1.0f, 0x1.5f48f4p-1f, 0x1.31eb32p-3f}, /* the diagonal isn't multiplied by */
+    {0x1.7d598ap-3f, 1.0f, 0x1.1e3c54p-3f},
+    {0x1.f0c60cp-4f, 0x1.f4336ap-3f, 1.0f},
 };
-static const float E3D_AGX_OUT[3][3] = {
-    {0x1.2089aap+0f, -0x1.c50b78p-4f, -0x1.0e3c98p-6f},
-    {-0x1.217180p-3f, 0x1.286722p+0f, -0x1.0e3c98p-6f},
-    {-0x1.217180p-3f, -0x1.c50b78p-4f, 0x1.407ee8p+0f},
-};
+static const float E3D_AGX_LEAST[3] = {0x1.52519ap-12f, 0x1.e8d7cep-13f, 0x1.f763dap-13f}; /* where the curve begins, */
+static const float E3D_AGX_MOST[3] = {0x1.de7464p+4f, 0x1.59a9f8p+4f, 0x1.63f346p+4f};     /* and ends */
+/* log2(m) - (m - 1) of m from 1 to 2, cubic, to 6.4e-4: its constant with what leads from the bits of a number to the middle of the curve. */
+static const float E3D_AGX_START[3] = {-0x1.3e6726p+9f, -0x1.3e2b1ep+9f, -0x1.3e3088p+9f};
+static const float E3D_AGX_LOG[3] = {0x1.062114p+1f, -0x1.0d47b0p+0f, 0x1.4417e6p-3f};
+static const float E3D_AGX_CURVE[6] = {0x1.729840p+18f, 0x1.0c3480p+17f, 0x1.6a3d42p+13f, -0x1.4984e0p+10f, -0x1.689978p+7f, 0x1.b14cf6p+2f};
+/* The matrix after the curve adds the same sum to each channel. */
+static const float E3D_AGX_OUT[3] = {-0x1.c86160p-4f, -0x1.652b6ep-4f, -0x1.aa18a2p-7f};
+/* w^2.2 as w^2 (c0 + c1 root(w) + c2 w), divided by c2: c0 = 0x1.930fbcp-2, c1 = 0x1.b7f576p-1, c2 = -0x1.065e02p-2, found with the cubic above for
+ * the least error of 8-bit sRGB codes over colours of all brightness: 0.41. */
+static const float E3D_AGX_POWER[2] = {-0x1.80f3ccp+20f, -0x1.a8b668p+11f};
 static const float E3D_AGX_SRGB[3][3] = {
-    {1.6605f, -0.5876f, -0.0728f},
-    {-0.1246f, 1.1329f, -0.0083f},
-    {-0.0182f, -0.1006f, 1.1187f},
+    {-0x1.d08cd8p-62f, 0x1.48c7b6p-63f, 0x1.45dedcp-66f},
+    {0x1.16deb8p-65f, -0x1.3cf230p-62f, 0x1.2938fcp-69f},
+    {0x1.45dedcp-68f, 0x1.c24f64p-66f, -0x1.38f92ep-62f},
 };
-/* The sigmoid's polynomial about the middle of the curve, where rounding does it less harm, from its constant on. */
-static const float E3D_AGX_CURVE[7] = {0x1.2a7d02p-2f, 0x1.bd8adap+0f, 0x1.364746p+1f, -0x1.23126ep+2f, -0x1.487ae2p+3f, 0x1.970a3ep+2f, 0x1.f00000p+3f};
-/* w^2.2 is w^2 times this polynomial of the root of w, from its constant on: to 2e-6 up to 1.1. */
-static const float E3D_AGX_POWER[7] = {0x1.04c578p-2f, 0x1.ca4ff4p+0f, -0x1.64fe5cp+1f, 0x1.d09d46p+1f, -0x1.7fcc04p+1f, 0x1.6250e6p+0f, -0x1.15e018p-2f};
-#define E3D_AGX_SCALE 0x1.f07c22p-5f  /* 1 over the 16.5 stops of the curve */
-#define E3D_AGX_OFFSET 0x1.0623c4p-2f /* where a light of 1 is along them, from their middle */
 
 #define E3D_MINUS_LOG2_E -0x1.715476p+0f
 

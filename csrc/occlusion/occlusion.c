@@ -25,7 +25,7 @@ enum { BAND = 64, /* rows that a thread takes at a time */
 
 /* A worker's rows: SPAN of each kind. */
 typedef enum row_kind { NEARNESS = 0,
-                        SHARES,
+                        MEANS,
                         DEPTH,
                         RESULT,
                         KINDS } row_kind;
@@ -37,6 +37,7 @@ typedef struct occlusion_job {
     float *scratch, *visibility;
     float *rows;   /* a worker's own: SPAN of each kind */
     size_t pitch;  /* of such a row */
+    uint8_t *some; /* of each row of the picture: whether anything of it is hidden */
     atomic_int next;
 } occlusion_job;
 
@@ -86,19 +87,25 @@ static float *own_row(const occlusion_job *job, int worker, row_kind kind, int32
     return job->rows + number * job->pitch + E3D_PAD;
 }
 
-static void take_row(const occlusion_job *job, const float *picture, int32_t y, float *out)
-{
-    size_t width = (size_t)job->plan->picture->width;
-    if (y < 0 || y >= job->plan->picture->height)
-        memset(out, 0, width * sizeof *out);
-    else
-        memcpy(out, picture + (size_t)y * width, width * sizeof *out);
-}
-
-/* Where the kernels write a row of a picture: to its place, if they write no pixel past its end, else to a worker's own row, which
- * is put there afterwards. */
+/* Whether kernels, which work on whole vectors, neither read nor write past the end of a row of a picture. */
 static int is_whole(const occlusion_job *job) { return job->plan->picture->width % E3D_PAD == 0; }
 
+/* Row y of a picture, as kernels may read it: where it lies, or a copy. Outside of the picture it is 0. */
+static const float *row_to_read(const occlusion_job *job, int worker, const float *picture, row_kind kind, int32_t y)
+{
+    size_t width = (size_t)job->plan->picture->width;
+    float *own = own_row(job, worker, kind, y);
+    int outside = y < 0 || y >= job->plan->picture->height;
+    if (!outside && is_whole(job))
+        return picture + (size_t)y * width;
+    if (outside)
+        memset(own, 0, width * sizeof *own);
+    else
+        memcpy(own, picture + (size_t)y * width, width * sizeof *own);
+    return own;
+}
+
+/* Where the kernels write a row of a picture: to its place, or to a worker's own row, which is put there afterwards. */
 static float *row_to_write(const occlusion_job *job, int worker, float *picture, int32_t y)
 {
     return is_whole(job) ? picture + (size_t)y * (size_t)job->plan->picture->width : own_row(job, worker, RESULT, 0);
@@ -111,63 +118,97 @@ static void put_row(const occlusion_job *job, const float *row, float *picture, 
         memcpy(picture + (size_t)y * width, row, width * sizeof *row);
 }
 
-/* What lies after the last pixel of a row of depths stays 0, and so does its nearness. */
-static void take_depths(const occlusion_job *job, int worker, int32_t y)
+/* What lies after the last pixel of a row stays 0, and so does its nearness. Returns the depths. */
+static const float *find_nearness(const occlusion_job *job, int worker, int32_t y)
 {
     const e3d_depth_picture *picture = job->plan->picture;
-    float *depth = own_row(job, worker, DEPTH, y);
-    take_row(job, picture->depth, y, depth);
+    const float *depth = row_to_read(job, worker, picture->depth, DEPTH, y);
     job->kernels->nearness(depth, picture->width, picture->is_perspective, own_row(job, worker, NEARNESS, y));
+    return depth;
 }
 
 static e3d_occlusion_rows rows_around(const occlusion_job *job, int worker, int32_t y)
 {
-    e3d_occlusion_rows rows = {.y = y, .depth = own_row(job, worker, DEPTH, y)};
-    for (int k = 0; k < SPAN; k++) {
+    e3d_occlusion_rows rows = {.y = y};
+    for (int k = 0; k < SPAN; k++)
         rows.nearness[k] = own_row(job, worker, NEARNESS, y + k - E3D_OCCLUSION_FILTER);
-        rows.share[k] = own_row(job, worker, SHARES, y + k - E3D_OCCLUSION_FILTER);
-    }
     return rows;
+}
+
+static int has_some(const float *row, int32_t width)
+{
+    uint32_t some = 0, bits[64];
+    for (int32_t x = 0; x < width && !some; x += 64) {
+        int32_t count = width - x < 64 ? width - x : 64;
+        memcpy(bits, row + x, (size_t)count * sizeof *bits);
+        for (int32_t i = 0; i < count; i++)
+            some |= bits[i];
+    }
+    return some != 0;
 }
 
 /* ---- the two passes ---- */
 
-/* The shares of a band, unfiltered. */
+/* The shares of a band, filtered along rows. */
 static void find_shares(const occlusion_job *job, int worker, int32_t first, int32_t end)
 {
-    take_depths(job, worker, first - 1);
-    take_depths(job, worker, first);
+    int32_t width = job->plan->picture->width;
+    float *shares = own_row(job, worker, RESULT, 1);
+    find_nearness(job, worker, first - 1);
+    const float *next = find_nearness(job, worker, first);
     for (int32_t y = first; y < end; y++) {
-        take_depths(job, worker, y + 1);
         e3d_occlusion_rows rows = rows_around(job, worker, y);
+        rows.depth = next;
+        next = find_nearness(job, worker, y + 1);
+        job->kernels->occlusion(job->plan, &rows, shares);
+        rows.share[E3D_OCCLUSION_FILTER] = shares;
+        job->some[y] = (uint8_t)has_some(shares, width);
+        if (!job->some[y]) { /* their means are 0, too */
+            memset(job->scratch + (size_t)y * (size_t)width, 0, (size_t)width * sizeof *job->scratch);
+            continue;
+        }
         float *out = row_to_write(job, worker, job->scratch, y);
-        job->kernels->occlusion(job->plan, &rows, out);
+        job->kernels->occlusion_across(job->plan, &rows, out);
         put_row(job, out, job->scratch, y);
     }
 }
 
-/* Row y with its neighbours to the left and right. */
-static void filter_across(const occlusion_job *job, int worker, int32_t y)
+/* Whether something is hidden in any of the rows around y. */
+static int has_some_around(const occlusion_job *job, int32_t y)
 {
-    e3d_occlusion_rows rows = rows_around(job, worker, y);
-    float *unfiltered = own_row(job, worker, RESULT, 1);
-    take_depths(job, worker, y);
-    take_row(job, job->scratch, y, unfiltered);
-    rows.share[E3D_OCCLUSION_FILTER] = unfiltered;
-    job->kernels->occlusion_across(job->plan, &rows, own_row(job, worker, SHARES, y));
+    for (int32_t row = y - E3D_OCCLUSION_FILTER; row <= y + E3D_OCCLUSION_FILTER; row++)
+        if (row >= 0 && row < job->plan->picture->height && job->some[row])
+            return 1;
+    return 0;
 }
 
+static void filter_row(const occlusion_job *job, int worker, int32_t y, const float *const *means)
+{
+    e3d_occlusion_rows rows = rows_around(job, worker, y);
+    float *out = row_to_write(job, worker, job->visibility, y);
+    for (int k = 0; k < SPAN; k++)
+        rows.share[k] = means[(y + k - E3D_OCCLUSION_FILTER + SPAN) % SPAN];
+    job->kernels->occlusion_down(job->plan, &rows, out);
+    put_row(job, out, job->visibility, y);
+}
+
+/* The means of a band, filtered down columns. Rows are found when they are asked for. */
 static void filter(const occlusion_job *job, int worker, int32_t first, int32_t end)
 {
-    for (int32_t y = first - E3D_OCCLUSION_FILTER; y < end + E3D_OCCLUSION_FILTER; y++) {
-        filter_across(job, worker, y);
-        int32_t middle = y - E3D_OCCLUSION_FILTER;
-        if (middle < first)
+    const float *means[SPAN];
+    int32_t known = first - E3D_OCCLUSION_FILTER, width = job->plan->picture->width;
+    for (int32_t y = first; y < end; y++) {
+        if (!has_some_around(job, y)) {
+            for (int32_t x = 0; x < width; x++)
+                job->visibility[(size_t)y * (size_t)width + (size_t)x] = 1.0f;
             continue;
-        e3d_occlusion_rows rows = rows_around(job, worker, middle);
-        float *out = row_to_write(job, worker, job->visibility, middle);
-        job->kernels->occlusion_down(job->plan, &rows, out);
-        put_row(job, out, job->visibility, middle);
+        }
+        known = known > y - E3D_OCCLUSION_FILTER ? known : y - E3D_OCCLUSION_FILTER;
+        for (; known <= y + E3D_OCCLUSION_FILTER; known++) {
+            find_nearness(job, worker, known);
+            means[(known + SPAN) % SPAN] = row_to_read(job, worker, job->scratch, MEANS, known);
+        }
+        filter_row(job, worker, y, means);
     }
 }
 
@@ -200,14 +241,17 @@ static e3d_status find(const e3d_kernels *kernels, int32_t threads, const e3d_de
     occlusion_job job = {.kernels = kernels, .plan = &plan, .scratch = scratch, .visibility = visibility};
     job.pitch = (size_t)picture->width + 2 * E3D_PAD;
     job.rows = calloc((size_t)threads * KINDS * SPAN * job.pitch, sizeof *job.rows);
-    if (!job.rows)
-        return E3D_OUT_OF_MEMORY;
-    fill_plan(picture, radius, &plan);
-    e3d_pool_run(threads, find_some, &job);
-    atomic_store(&job.next, 0);
-    e3d_pool_run(threads, filter_some, &job);
+    job.some = calloc((size_t)picture->height, sizeof *job.some);
+    if (job.rows && job.some) {
+        fill_plan(picture, radius, &plan);
+        e3d_pool_run(threads, find_some, &job);
+        atomic_store(&job.next, 0);
+        e3d_pool_run(threads, filter_some, &job);
+    }
+    e3d_status status = job.rows && job.some ? E3D_OK : E3D_OUT_OF_MEMORY;
     free(job.rows);
-    return E3D_OK;
+    free(job.some);
+    return status;
 }
 
 e3d_status e3d_find_occlusion(e3d_backend backend, int32_t threads, const e3d_depth_picture *picture, float radius, float *scratch,

@@ -4,6 +4,8 @@
  * Out: the colour that R33 and R84 clamp.
  * Rules: R117 … R121, and the colours of a gradient R122.
  */
+#include <string.h>
+
 #include "core/srgb_tables.h"
 #include "core/tone_tables.h"
 #include "reference/surface.h"
@@ -51,42 +53,61 @@ static void map_aces(float color[3])
     multiply(E3D_ACES_OUT, v, color);
 }
 
-static float polynomial(const float coefficients[7], float t)
+static float float_of(uint32_t bits)
 {
-    float sum = coefficients[6];
-    for (int k = 5; k >= 0; k--)
-        sum = sum * t + coefficients[k];
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* Stops from the middle of the curve. */
+static float agx_stops(float v, int channel)
+{
+    const float *k = E3D_AGX_LOG;
+    float limited = ref_clamp(v, E3D_AGX_LEAST[channel], E3D_AGX_MOST[channel]);
+    uint32_t bits;
+    memcpy(&bits, &limited, sizeof bits);
+    float stops = float_of(bits >> 9 | 0x44000000u), m = float_of((bits & 0x7FFFFFu) | 0x3F800000u);
+    return stops + (((k[2] * m + k[1]) * m + k[0]) * m + E3D_AGX_START[channel]);
+}
+
+static float agx_curve(float stops)
+{
+    float sum = stops + E3D_AGX_CURVE[5];
+    for (int k = 4; k >= 0; k--)
+        sum = sum * stops + E3D_AGX_CURVE[k];
     return sum;
 }
 
 /* R119 */
 static void map_agx(float color[3])
 {
-    float v[3], wide[3];
-    multiply(E3D_AGX_IN, color, v);
+    const float (*in)[3] = E3D_AGX_IN;
+    float r = color[0], g = color[1], b = color[2], power[3];
+    float v[3] = {(r + in[0][1] * g) + in[0][2] * b, (in[1][0] * r + g) + in[1][2] * b, (in[2][0] * r + in[2][1] * g) + b};
+    for (int c = 0; c < 3; c++)
+        v[c] = agx_curve(agx_stops(v[c], c));
+    float sum = ref_dot3(E3D_AGX_OUT, v);
     for (int c = 0; c < 3; c++) {
-        float stops = ref_log2(ref_max(v[c], 1e-10f));
-        v[c] = polynomial(E3D_AGX_CURVE, ref_clamp(stops * E3D_AGX_SCALE + E3D_AGX_OFFSET, -0.5f, 0.5f));
+        float w = ref_max(v[c] + sum, 0.0f);
+        power[c] = (w * w) * ((w + E3D_AGX_POWER[0]) + E3D_AGX_POWER[1] * sqrtf(w));
     }
-    multiply(E3D_AGX_OUT, v, wide);
-    for (int c = 0; c < 3; c++) {
-        float w = ref_max(wide[c], 0.0f);
-        wide[c] = (w * w) * polynomial(E3D_AGX_POWER, sqrtf(w));
-    }
-    multiply(E3D_AGX_SRGB, wide, color);
+    multiply(E3D_AGX_SRGB, power, color);
 }
 
 void ref_map_tone(e3d_tone_mapping mapping, float color[3])
 {
     if (mapping == E3D_TONE_NONE)
         return;
+    if (mapping == E3D_TONE_AGX) { /* which has limits of its own */
+        map_agx(color);
+        return;
+    }
     limit(color);
     if (mapping == E3D_TONE_NEUTRAL)
         map_neutral(color);
-    else if (mapping == E3D_TONE_ACES)
-        map_aces(color);
     else
-        map_agx(color);
+        map_aces(color);
 }
 
 /* R120 */

@@ -39,6 +39,9 @@ _AGX_SRGB = np.array(
 )
 _AGX_CURVE = (15.5, -40.14, 31.96, -6.868, 0.4298, 0.1191, -0.00232)  # from the highest power on
 _AGX_STOPS = 4.026069 + 12.47393
+# R119's own: log2(m) - (m - 1) of m from 1 to 2, and w**2.2 / w**2 of the root of w.
+_AGX_LOG = (-1.1536209, 2.04788446, -1.05187511, 0.158248708)
+_AGX_POWER = (0.393614709, 0.859294593, -0.256217986)
 
 
 def light_that_shows(
@@ -80,18 +83,36 @@ def _aces(shown: np.ndarray) -> np.ndarray:
 
 
 def _agx(shown: np.ndarray) -> np.ndarray:
-    wide = np.maximum(np.linalg.solve(_AGX_SRGB, shown), 0.0) ** (1.0 / 2.2)
-    places = [_agx_place(value) for value in np.linalg.solve(_AGX_OUT, wide).tolist()]
-    light = np.array([2.0 ** (place * _AGX_STOPS - 12.47393) for place in places])
-    return np.linalg.solve(_AGX_IN, light)
+    powers = np.maximum(np.linalg.solve(_AGX_SRGB, shown), 0.0).tolist()
+    wide = np.array([_where(_agx_power, value, 0.0, 1.2) for value in powers])
+    values = np.linalg.solve(_AGX_OUT, wide).tolist()
+    own = np.diag(_AGX_IN)  # by which R119 divides the rows
+    stops = [_agx_stops(v, first) for v, first in zip(values, np.log2(own).tolist(), strict=True)]
+    return np.linalg.solve(_AGX_IN / own[:, None], np.exp2(stops))
 
 
-def _agx_place(value: float) -> float:
-    """Where the curve, which rises, has a value; found by halving."""
-    low, high = 0.0, 1.0
+def _agx_power(w: float) -> float:
+    root = math.sqrt(w)
+    return w * w * ((_AGX_POWER[2] * root + _AGX_POWER[1]) * root + _AGX_POWER[0])
+
+
+def _agx_stops(value: float, first: float) -> float:
+    """Of which logarithm, plus ``first``, the curve makes a value: with the error of R119's."""
+
+    def curve(stops):
+        whole = math.floor(stops)
+        m = 2.0 ** (stops - whole)
+        more = ((_AGX_LOG[3] * m + _AGX_LOG[2]) * m + _AGX_LOG[1]) * m + _AGX_LOG[0]
+        return _horner((whole + m - 1.0 + more + first + 12.47393) / _AGX_STOPS)
+
+    return _where(curve, value, -12.47393 - first, 4.026069 - first)
+
+
+def _where(function, value: float, low: float, high: float) -> float:
+    """Where a function, which rises, has a value; found by halving."""
     for _ in range(50):
         middle = 0.5 * (low + high)
-        if _horner(middle) < value:
+        if function(middle) < value:
             low = middle
         else:
             high = middle

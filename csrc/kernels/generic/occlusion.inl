@@ -67,19 +67,31 @@ static ALWAYS_INLINE occlusion_lanes occlusion_surface(const e3d_occlusion_plan 
     return at;
 }
 
-/* R127: the square of the sine by which what shows at a place stands above the surface, and how much it counts at its distance. */
-static ALWAYS_INLINE vf32 occlusion_rise(const e3d_occlusion_plan *plan, const occlusion_lanes *at, vf32 away, vf32 step_x, vf32 step_y,
-                                         int is_perspective, vf32 *counts)
+/* Vectors are worked on side by side, in short steps: one after the other, most operations would wait for those before. */
+enum { OCCLUSION_SIDE = 2 };
+
+/* What a pixel sees at one place: how far that is to the right and down at a depth of 1, and its depth. */
+typedef struct occlusion_place {
+    vf32 right, down, depth;
+} occlusion_place;
+
+static ALWAYS_INLINE occlusion_place occlusion_look(const e3d_depth_picture *p, const occlusion_lanes *at, vf32 away, vf32 step_x, vf32 step_y)
 {
-    const e3d_depth_picture *p = plan->picture;
-    vf32 zero = v_setf(0.0f), one = v_setf(1.0f);
+    vf32 zero = v_setf(0.0f);
     vf32 x = v_min(v_max(v_add(at->x, v_mul(away, step_x)), zero), v_setf((float)(p->width - 1)));
     vf32 y = v_min(v_max(v_add(at->y, v_mul(away, step_y)), zero), v_setf((float)(p->height - 1)));
     vi32 column = v_rint(x), row = v_rint(y);
-    vf32 depth = v_asf(v_gatheri(p->depth, v_addi(v_muli(row, v_seti(p->width)), column)));
+    return (occlusion_place){v_mul(v_setf(p->across[0]), v_sub(v_float(column), at->x)), v_mul(v_setf(p->down[0]), v_sub(v_float(row), at->y)),
+                             v_asf(v_gatheri(p->depth, v_addi(v_muli(row, v_seti(p->width)), column)))};
+}
+
+/* R127: the square of the sine by which what shows at a place stands above the surface, and how much it counts at its distance. */
+static ALWAYS_INLINE vf32 occlusion_rise(const e3d_occlusion_plan *plan, const occlusion_lanes *at, const occlusion_place *place,
+                                         int is_perspective, vf32 *counts)
+{
+    vf32 zero = v_setf(0.0f), one = v_setf(1.0f), depth = place->depth;
     vf32 m = occlusion_scale(depth, is_perspective), change = v_sub(depth, at->depth);
-    vf32 right = v_mul(v_mul(v_setf(p->across[0]), v_sub(v_float(column), at->x)), m);
-    vf32 down = v_mul(v_mul(v_setf(p->down[0]), v_sub(v_float(row), at->y)), m);
+    vf32 right = v_mul(place->right, m), down = v_mul(place->down, m);
     if (is_perspective) {
         right = v_add(right, v_mul(at->ray[0], change));
         down = v_add(down, v_mul(at->ray[1], change));
@@ -89,24 +101,6 @@ static ALWAYS_INLINE vf32 occlusion_rise(const e3d_occlusion_plan *plan, const o
     vf32 rise = v_div(v_mul(v_mul(above, above), at->over_length2), v_max(square, v_setf(0x1p-126f)));
     *counts = v_min(v_max(v_sub(v_setf(E3D_OCCLUSION_FALL), v_mul(square, v_setf(plan->fall))), zero), one);
     return v_self(v_eq(depth, zero), zero, v_min(one, v_sub(rise, v_setf(E3D_OCCLUSION_SLACK))));
-}
-
-/* R127: how far the horizon rises from place to place, each as much as it counts. */
-static ALWAYS_INLINE vf32 occlusion_horizon(const e3d_occlusion_plan *plan, const e3d_occlusion_pattern *pattern, int lane,
-                                            const occlusion_lanes *at, vf32 near, int is_perspective)
-{
-    vf32 step_x = v_loadf(pattern->step[0] + lane), step_y = v_loadf(pattern->step[1] + lane), zero = v_setf(0.0f), horizon = zero, sum = zero;
-    vf32 reach = v_setf(plan->reach);
-    if (is_perspective)
-        reach = v_max(v_mul(reach, near), zero);
-    reach = v_min(reach, v_setf((float)E3D_OCCLUSION_REACH));
-    for (int tap = 0; tap < E3D_OCCLUSION_TAPS; tap++) {
-        vf32 away = v_add(v_mul(reach, v_loadf(pattern->share[tap] + lane)), v_setf(1.0f));
-        vf32 counts, rise = occlusion_rise(plan, at, away, step_x, step_y, is_perspective, &counts);
-        sum = v_add(sum, v_mul(v_max(v_sub(rise, horizon), zero), counts));
-        horizon = v_max(v_self(v_gt(counts, zero), rise, zero), horizon); /* what is too far in front hides nothing behind it */
-    }
-    return sum;
 }
 
 /* R127: the share of light from the direction's side that is hidden below a horizon. */
@@ -128,23 +122,79 @@ static ALWAYS_INLINE vf32 occlusion_share(const e3d_occlusion_pattern *pattern, 
     return v_min(v_max(v_mul(v_add(v_mul(facing, s2), v_mul(along, arc)), scale), zero), v_setf(E3D_OCCLUSION_MOST));
 }
 
-static ALWAYS_INLINE void occlusion_row(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out, int is_perspective)
+/* R127: what pixels see at their places. */
+static ALWAYS_INLINE void occlusion_look_around(const e3d_occlusion_plan *plan, const e3d_occlusion_pattern *pattern, int x, int side,
+                                                const occlusion_lanes *at, const vf32 *near, int is_perspective,
+                                                occlusion_place out[][OCCLUSION_SIDE])
+{
+    vf32 reach[OCCLUSION_SIDE];
+    for (int j = 0; j < side; j++) {
+        reach[j] = v_setf(plan->reach);
+        if (is_perspective)
+            reach[j] = v_max(v_mul(reach[j], near[j]), v_setf(0.0f));
+        reach[j] = v_min(reach[j], v_setf((float)E3D_OCCLUSION_REACH));
+    }
+    for (int tap = 0; tap < E3D_OCCLUSION_TAPS; tap++)
+        for (int j = 0; j < side; j++) {
+            int lane = (x + j * V_LANES) & (E3D_OCCLUSION_CELL - 1);
+            vf32 away = v_add(v_mul(reach[j], v_loadf(pattern->share[tap] + lane)), v_setf(1.0f));
+            out[tap][j] = occlusion_look(plan->picture, &at[j], away, v_loadf(pattern->step[0] + lane), v_loadf(pattern->step[1] + lane));
+        }
+}
+
+/* R127: how far the horizon rises from place to place, each as much as it counts. */
+static ALWAYS_INLINE void occlusion_horizon(const e3d_occlusion_plan *plan, int side, const occlusion_lanes *at,
+                                            occlusion_place places[][OCCLUSION_SIDE], int is_perspective, vf32 *sum)
+{
+    vf32 zero = v_setf(0.0f), horizon[OCCLUSION_SIDE];
+    for (int j = 0; j < side; j++)
+        horizon[j] = sum[j] = zero;
+    for (int tap = 0; tap < E3D_OCCLUSION_TAPS; tap++)
+        for (int j = 0; j < side; j++) {
+            vf32 counts, rise = occlusion_rise(plan, &at[j], &places[tap][j], is_perspective, &counts);
+            sum[j] = v_add(sum[j], v_mul(v_max(v_sub(rise, horizon[j]), zero), counts));
+            horizon[j] = v_max(v_self(v_gt(counts, zero), rise, zero), horizon[j]); /* what is too far in front hides nothing behind it */
+        }
+}
+
+/* Pixels x and so on of a row. */
+static ALWAYS_INLINE void occlusion_some(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, int x, int side, float *out,
+                                         int is_perspective)
 {
     const e3d_occlusion_pattern *pattern = &plan->rows[rows->y & (E3D_OCCLUSION_CELL - 1)];
-    vf32 zero = v_setf(0.0f);
-    for (int x = 0; x < plan->picture->width; x += V_LANES) {
-        int lane = x & (E3D_OCCLUSION_CELL - 1);
-        vf32 near = v_loadf(rows->nearness[OCCLUSION_MIDDLE] + x), share = zero;
-        vmask shows = v_mnot(v_eq(near, zero));
-        if (v_any(shows)) {
-            occlusion_lanes at = occlusion_surface(plan, rows, x, is_perspective);
-            vf32 horizon = occlusion_horizon(plan, pattern, lane, &at, near, is_perspective);
-            vmask some = v_mand(shows, v_gt(horizon, zero));
-            if (v_any(some))
-                share = v_self(some, occlusion_share(pattern, lane, &at, horizon, is_perspective), zero);
-        }
-        v_storef(out + x, share);
+    vf32 zero = v_setf(0.0f), near[OCCLUSION_SIDE], hidden[OCCLUSION_SIDE], any = zero;
+    occlusion_lanes at[OCCLUSION_SIDE];
+    occlusion_place places[E3D_OCCLUSION_TAPS][OCCLUSION_SIDE];
+    vmask shows = v_mnot(v_eq(zero, zero));
+    for (int j = 0; j < side; j++) {
+        near[j] = v_loadf(rows->nearness[OCCLUSION_MIDDLE] + x + j * V_LANES);
+        shows = v_mor(shows, v_mnot(v_eq(near[j], zero)));
+        v_storef(out + x + j * V_LANES, zero);
     }
+    if (!v_any(shows))
+        return;
+    for (int j = 0; j < side; j++)
+        at[j] = occlusion_surface(plan, rows, x + j * V_LANES, is_perspective);
+    occlusion_look_around(plan, pattern, x, side, at, near, is_perspective, places);
+    occlusion_horizon(plan, side, at, places, is_perspective, hidden);
+    for (int j = 0; j < side; j++)
+        any = v_max(any, v_self(v_eq(near[j], zero), zero, hidden[j]));
+    if (!v_any(v_gt(any, zero)))
+        return;
+    for (int j = 0; j < side; j++) {
+        vf32 share = occlusion_share(pattern, (x + j * V_LANES) & (E3D_OCCLUSION_CELL - 1), &at[j], hidden[j], is_perspective);
+        vmask some = v_mand(v_mnot(v_eq(near[j], zero)), v_gt(hidden[j], zero));
+        v_storef(out + x + j * V_LANES, v_self(some, share, zero));
+    }
+}
+
+static ALWAYS_INLINE void occlusion_row(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out, int is_perspective)
+{
+    int x = 0, width = plan->picture->width;
+    for (; x + (OCCLUSION_SIDE - 1) * V_LANES < width; x += OCCLUSION_SIDE * V_LANES)
+        occlusion_some(plan, rows, x, OCCLUSION_SIDE, out, is_perspective);
+    for (; x < width; x += V_LANES)
+        occlusion_some(plan, rows, x, 1, out, is_perspective);
 }
 
 static void kernel_occlusion(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, float *out)
@@ -157,10 +207,12 @@ static void kernel_occlusion(const e3d_occlusion_plan *plan, const e3d_occlusion
 
 /* ---- the filter (R128) ---- */
 
-/* Where nothing is hidden of any of them, the mean is 0. */
-static ALWAYS_INLINE int occlusion_has_some(const vf32 share[E3D_OCCLUSION_SPAN])
+/* Where nothing shows in the middle, the mean is never used; where nothing is hidden of any pixel, it is 0. */
+static ALWAYS_INLINE int occlusion_has_some(vf32 near, const vf32 share[E3D_OCCLUSION_SPAN])
 {
     vf32 most = share[0];
+    if (!v_any(v_mnot(v_eq(near, v_setf(0.0f)))))
+        return 0;
     for (int k = 1; k < E3D_OCCLUSION_SPAN; k++)
         most = v_max(most, share[k]);
     return v_any(v_gt(most, v_setf(0.0f)));
@@ -196,7 +248,7 @@ static ALWAYS_INLINE void occlusion_means_across(const e3d_occlusion_plan *plan,
             share[k] = v_loadf(rows->share[OCCLUSION_MIDDLE] + x + k - OCCLUSION_MIDDLE);
         for (int k = 0; k < E3D_OCCLUSION_SPAN; k++)
             near[k] = v_loadf(rows->nearness[OCCLUSION_MIDDLE] + x + k - OCCLUSION_MIDDLE);
-        if (occlusion_has_some(share))
+        if (occlusion_has_some(near[OCCLUSION_MIDDLE], share))
             mean = occlusion_mean(plan, near, share, is_perspective);
         v_storef(out + x, mean);
     }
@@ -211,7 +263,7 @@ static ALWAYS_INLINE void occlusion_means_down(const e3d_occlusion_plan *plan, c
             share[k] = v_loadf(rows->share[k] + x);
         for (int k = 0; k < E3D_OCCLUSION_SPAN; k++)
             near[k] = v_loadf(rows->nearness[k] + x);
-        if (occlusion_has_some(share))
+        if (occlusion_has_some(near[OCCLUSION_MIDDLE], share))
             hidden = v_self(v_eq(near[OCCLUSION_MIDDLE], zero), zero, occlusion_mean(plan, near, share, is_perspective));
         v_storef(out + x, v_max(v_sub(one, hidden), zero));
     }

@@ -2,8 +2,6 @@
 #ifndef E3D_KERNELS_MIXED_INL
 #define E3D_KERNELS_MIXED_INL
 
-#include <string.h>
-
 #include "core/always_inline.h"
 #include "core/limits.h"
 #include "core/sample_patterns.h"
@@ -19,10 +17,7 @@ static ALWAYS_INLINE int mixed_add(vi32 id, vi32 sample, vi32 number, uint32_t b
     int32_t owner[V_LANES], rest[V_LANES];
     int count = v_pack(owner, id, bits);
     v_pack(rest, v_ori(sample, v_shl(number, 16)), bits);
-    for (int i = 0; i < count; i++) {
-        out[i].owner = owner[i];
-        memcpy(&out[i].sample, &rest[i], sizeof rest[i]);
-    }
+    v_store_pairs(out, v_loadi(owner), v_loadi(rest)); /* a run's sample and length are one word */
     return count;
 }
 

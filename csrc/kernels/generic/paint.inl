@@ -118,6 +118,8 @@ static ALWAYS_INLINE void paint_pixels(e3d_batch *batch, const e3d_paint *paint,
 {
     if (paint->samples)
         paint_samples(batch, paint, colored, lit, shininess);
+    else if (!rgba)
+        paint_colors(batch, paint, colored, lit, shininess);
     else if (paint->srgb && V_LANES < 16)
         paint_in_turn(batch, paint, colored, lit, shininess, rgba);
     else if (paint->srgb)
@@ -145,7 +147,7 @@ static void paint_toned(e3d_batch *batch, const e3d_paint *paint, int colored, u
         kernel_tone(paint->tone, color, batch->count);
     if (paint->samples)
         paint_samples(batch, paint, 1, PAINT_UNLIT, 0.0f);
-    else
+    else if (rgba)
         paint_codes(batch, paint, 1, PAINT_UNLIT, 0.0f, paint->srgb, rgba);
 }
 

@@ -161,6 +161,12 @@ static inline void v_load_pairs(const float *base, const int32_t *at, vf32 *firs
     *second = base[at[0] + 1];
 }
 
+/* Stores the first lanes of a and b, then the second ones, and so on. */
+static inline void v_store_pairs(void *out, vi32 a, vi32 b) {
+    memcpy(out, &a, 4);
+    memcpy((char *)out + 4, &b, 4);
+}
+
 /* Of the lanes of a, then b: the first, third and so on; the others. */
 static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) { *even = a; *odd = b; }
 

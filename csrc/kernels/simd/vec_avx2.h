@@ -108,6 +108,12 @@ static inline vf32 v_pick(const void *base, vpick p) {
     return _mm256_permutevar8x32_ps(_mm256_loadu_ps((const float *)base), p);
 }
 
+static inline void v_store_pairs(void *out, vi32 a, vi32 b) { /* unpacking works within halves */
+    vi32 low = _mm256_unpacklo_epi32(a, b), high = _mm256_unpackhi_epi32(a, b);
+    v_storei(out, _mm256_permute2x128_si256(low, high, 0x20));
+    v_storei((int32_t *)out + 8, _mm256_permute2x128_si256(low, high, 0x31));
+}
+
 /* Puts quarters 0, 2, 1, 3 in order: a shuffle of two registers works within their halves. */
 static inline vf32 quarters_in_order(__m256 a) {
     return _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(a), _MM_SHUFFLE(3, 1, 2, 0)));

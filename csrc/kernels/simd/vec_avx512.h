@@ -185,6 +185,12 @@ static inline vf32 v_pick(const void *base, vpick p) {
     return _mm512_permutexvar_ps(p, _mm512_loadu_ps(base));
 }
 
+static inline void v_store_pairs(void *out, vi32 a, vi32 b) { /* lane 16 + n of two registers is lane n of the second */
+    vi32 at = v_ori(_mm512_srli_epi32(v_iota(), 1), _mm512_slli_epi32(_mm512_and_si512(v_iota(), _mm512_set1_epi32(1)), 4));
+    v_storei(out, _mm512_permutex2var_epi32(a, at, b));
+    v_storei((int32_t *)out + 16, _mm512_permutex2var_epi32(a, _mm512_add_epi32(at, _mm512_set1_epi32(8)), b));
+}
+
 static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     __m512i first = _mm512_slli_epi32(v_iota(), 1);
     *even = _mm512_permutex2var_ps(a, first, b);

@@ -192,6 +192,10 @@ static inline vpick v_picker(vi32 index) {
 }
 static inline vf32 v_pick(const void *base, vpick p) { return vreinterpretq_f32_u8(vqtbl1q_u8(vld1q_u8((const uint8_t *)base), p)); }
 
+static inline void v_store_pairs(void *out, vi32 a, vi32 b) {
+    v_storei(out, vzip1q_s32(a, b));
+    v_storei((int32_t *)out + 4, vzip2q_s32(a, b));
+}
 static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *even = vuzp1q_f32(a, b);
     *odd = vuzp2q_f32(a, b);

@@ -113,6 +113,10 @@ static inline vf32 v_pick(const void *base, vpick p) {
     return _mm_castsi128_ps(_mm_shuffle_epi8(_mm_loadu_si128((const __m128i *)base), p));
 }
 
+static inline void v_store_pairs(void *out, vi32 a, vi32 b) {
+    v_storei(out, _mm_unpacklo_epi32(a, b));
+    v_storei((int32_t *)out + 4, _mm_unpackhi_epi32(a, b));
+}
 static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *even = _mm_shuffle_ps(a, b, PAIRS_EVEN);
     *odd = _mm_shuffle_ps(a, b, PAIRS_ODD);

@@ -109,7 +109,7 @@ typedef struct e3d_lighting {
     int has_visibility;                       /* the batch's */
 } e3d_lighting;
 
-/* How the kernel `paint` turns the samples of a batch into pixels. */
+/* How the kernel `paint` turns the samples of a batch into pixels, or finds their colours. */
 typedef struct e3d_paint {
     int wanted;                      /* E3D_WANT_* */
     const e3d_texture_view *texture; /* may be NULL */
@@ -119,7 +119,7 @@ typedef struct e3d_paint {
     float shininess;
     const float *specular, *emissive; /* of lit samples; NULL where all are 0 */
     int srgb;
-    e3d_samples *samples; /* NULL: one sample a pixel; else colours go there */
+    e3d_samples *samples; /* NULL: one sample a pixel; else colours go there. Without either, they stay in the batch */
     const e3d_fog_view *fog; /* may be NULL */
     e3d_tone_mapping tone;
 } e3d_paint;

@@ -67,7 +67,7 @@ static inline void keep_four(const e3d_batch *batch, int i, float sign, float (*
     store4(color[3], LANES(high, high2, 2, 3, 6, 7));
 }
 
-/* Samples first to end - 1 of the batch, which are of one piece. */
+/* Samples first to end - 1 of the batch, which stand side by side in the list. */
 static void keep_run(const e3d_batch *batch, int first, int end, float sign, float (*color)[4])
 {
     float rest[4][4];
@@ -100,13 +100,28 @@ static void keep_light(const e3d_lane_array *radiance, const float *alpha, int f
     }
 }
 
+/* Where the samples end that stand side by side in the batch and in the list, from sample i and that place on. Mostly all of them do, of
+ * one piece or of several that follow each other in the list. */
+static int end_of_run(const e3d_shade_memory *memory, int i, int32_t place, e3d_alpha_shading *alpha)
+{
+    const e3d_batch *batch = &memory->batch;
+    const e3d_visible_primitive *pieces = memory->pieces.data;
+    int end = i + 1;
+    for (; end < batch->count; end++) {
+        int32_t piece = memory->surfaces.piece[batch->surface[end]];
+        if (piece != alpha->piece && pieces[piece].first != place + (end - i))
+            break;
+        alpha->piece = piece;
+    }
+    return end;
+}
+
 static void keep(e3d_shade_memory *memory, int transmits, float sign, e3d_alpha_shading *alpha)
 {
     const e3d_batch *batch = &memory->batch;
     for (int i = 0, end; i < batch->count; i = end) {
         int32_t place = next_place(memory->pieces.data, memory->surfaces.piece[batch->surface[i]], alpha);
-        for (end = i + 1; end < batch->count && batch->surface[end] == batch->surface[i];)
-            end++;
+        end = end_of_run(memory, i, place, alpha);
         keep_run(batch, i, end, sign, alpha->color + place);
         if (alpha->through)
             keep_through(transmits ? &memory->maps.batch : NULL, i, end, alpha->through + place);

@@ -219,6 +219,7 @@ static int is_painted(const e3d_prepared *pass, const e3d_bucket *bucket)
     return e3d_plans(pass, E3D_PLAN_PAINTS) && !bucket->mapped && !(bucket->face && pass->frame->wireframe == E3D_WIRE_ONLY);
 }
 
+/* To pixels, or, of a list, to colours that stay in the batch. */
 static void paint_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, const e3d_shade_out *out)
 {
     const e3d_material *m = bucket->material;
@@ -234,13 +235,13 @@ static void paint_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int 
         .specular = shiny ? m->specular : NULL,
         .emissive = e3d_adds(m->emissive) ? m->emissive : NULL,
         .srgb = e3d_plans(pass, E3D_PLAN_ENCODES_SRGB),
-        .samples = out->pixels->sampled ? &out->pixels->samples : NULL,
+        .samples = out->pixels->sampled && !out->alpha ? &out->pixels->samples : NULL,
         .fog = fog_of(pass, bucket),
         .tone = tone_of(pass, bucket),
     };
     if (lit)
         e3d_find_visibility(pass, out);
-    pass->kernels->paint(&out->memory->batch, &out->memory->surfaces, &paint, out->pixels->rgba);
+    pass->kernels->paint(&out->memory->batch, &out->memory->surfaces, &paint, out->alpha ? NULL : out->pixels->rgba);
 }
 
 /* The outputs beside colour. Afterwards the batch has its radiance, if that is one of them. */
@@ -259,6 +260,12 @@ static void shade_alpha(const e3d_shade_in *in, const e3d_bucket *bucket, int wa
     const e3d_prepared *pass = in->pass;
     e3d_shade_memory *memory = out->memory;
     e3d_alpha_use use = out->alpha->use;
+    if (use == E3D_SOLID_KEEP && is_painted(pass, bucket)) {
+        memory->shaded += memory->batch.count;
+        paint_batch(pass, bucket, wanted, out);
+        e3d_alpha_batch(pass, bucket, out);
+        return;
+    }
     if (wanted & E3D_WANT_SURFACE)
         pass->kernels->interpolate(&memory->batch, &memory->surfaces, wanted);
     if (bucket->mapped)

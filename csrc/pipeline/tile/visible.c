@@ -11,6 +11,8 @@
 #include "pipeline/pass/view.h"
 #include "pipeline/tile/visible.h"
 
+enum { FETCHED = 16 };
+
 void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile)
 {
     for (int b = 0; b < E3D_TILE_BLOCKS; b++) {
@@ -21,6 +23,13 @@ void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile)
     visible->stale = 0;
     visible->x = tile->x;
     visible->y = tile->y;
+}
+
+/* The first records of a block are in no near cache when they are drawn. */
+static ALWAYS_INLINE void fetch_records(const e3d_record_table *table, const e3d_bin_block *block)
+{
+    for (uint32_t i = 0; i < FETCHED && i < block->count; i++)
+        __builtin_prefetch(e3d_record_at(table, block->id[i]));
 }
 
 /* The next block of each thread in turn: all of them list records from near to far. */
@@ -38,11 +47,14 @@ static void draw_records(const e3d_prepared *pass, const e3d_bins *bins, int64_t
         for (int32_t t = 0; t < bins->threads; t++) {
             if (!next[t])
                 continue;
+            const e3d_bin_block *block = next[t];
+            next[t] = e3d_bin_block_at(&bins->of[t]->sets[E3D_SET_SCENE], block->next);
+            if (next[t])
+                fetch_records(table, next[t]);
             if (pass->pattern)
-                pass->kernels->raster_planes(out, pass->pattern, table, next[t]->id, (int)next[t]->count);
+                pass->kernels->raster_planes(out, pass->pattern, table, block->id, (int)block->count);
             else
-                pass->kernels->raster_visible(out, table, next[t]->id, (int)next[t]->count);
-            next[t] = e3d_bin_block_at(&bins->of[t]->sets[E3D_SET_SCENE], next[t]->next);
+                pass->kernels->raster_visible(out, table, block->id, (int)block->count);
             left += next[t] != NULL;
         }
     }

@@ -187,7 +187,9 @@ static void add_each(pyr_band *band, const shown at[E3D_PYR_PLACES], recent *las
         mask[k] |= 1u << p;
     }
     uint32_t samples = (1u << frame->samples) - 1;
-    band->differs[x] = (mask[0] & samples) != samples;
+    band->differs[x] = 1;
+    for (int k = 0; k < count; k++)
+        band->differs[x] &= (mask[k] & samples) != samples;
     if (band->differs[x] && !band->picture->keeps_samples)
         begin_sum(band, x, y, nothing);
     for (int k = 0; k < count; k++)

@@ -264,8 +264,10 @@ static void draw_point(const line_job *job, int32_t corner)
     int64_t low[2], high[2], half = (int64_t)rint(128.0 * frame->point_size);
     if (pyr_inside(p, 0) < 0 || pyr_inside(p, 1) < 0 || !(fabs(p[0]) <= p[3] && fabs(p[1]) <= p[3]))
         return; /* a point counts as outside when its middle is */
-    int64_t middle[2] = {(int64_t)rint((p[0] / p[3] + 1) * (128.0 * frame->width)),
-                         (int64_t)rint((1 - p[1] / p[3]) * (128.0 * frame->height))};
+    double across = p[0] / p[3], up = p[1] / p[3];
+    if (!(fabs(across) <= 1 && fabs(up) <= 1))
+        return; /* not a number: infinity by infinity */
+    int64_t middle[2] = {(int64_t)rint((across + 1) * (128.0 * frame->width)), (int64_t)rint((1 - up) * (128.0 * frame->height))};
     for (int c = 0; c < 2; c++)
         low[c] = middle[c] - half, high[c] = middle[c] + half;
     pyr_weights weights = {{corner, corner, corner}, {1, 0, 0}};

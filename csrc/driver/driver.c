@@ -14,6 +14,7 @@
 #include "driver/graph_scene.h"
 #include "driver/occlusion_scene.h"
 #include "driver/passes.h"
+#include "driver/pyrender_scene.h"
 #include "driver/ui_scene.h"
 
 typedef struct options {
@@ -96,6 +97,8 @@ int main(int count, char **arguments)
         failures += report("ui", i, compare_ui(r, &o.plan, title));
         snprintf(title, sizeof title, "occlusion %04ld", i);
         failures += report("occlusion", i, compare_occlusion(r, &o.plan, title));
+        snprintf(title, sizeof title, "pyrender %04ld", i);
+        failures += report("pyrender", i, compare_pyrender(r, &o.plan, title));
     }
     if (failures > 0)
         fprintf(stderr, "driver: %d scenes differ between runs\n", failures);

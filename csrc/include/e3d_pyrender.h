@@ -31,6 +31,7 @@ typedef enum e3d_pyr_wrap { E3D_PYR_REPEAT = 0,
 
 enum { E3D_PYR_LEVELS = 15,
        E3D_PYR_SAMPLES = 4,                 /* a pixel has this many, or one */
+       E3D_PYR_CENTRE = E3D_PYR_SAMPLES,
        E3D_PYR_PLACES = E3D_PYR_SAMPLES + 1 /* where visibility is known: the samples, then the pixel's centre */ };
 
 /* 8-bit texels, row 0 at the bottom; level k is max(1, size >> k) texels a side. */
@@ -56,6 +57,7 @@ typedef struct e3d_pyr_draw {
     const int32_t *indices;
     const float *positions;                /* (vertices, 3) */
     const float *normals, *uvs, *colors;   /* (vertices, 3), (vertices, 2), (vertices, 4), or NULL */
+    const uint8_t *calm;                   /* (count,) of triangles, what e3d_pyr_find_calm found */
     double world[16];                      /* world_from_object */
     int32_t culls_backs, is_wireframe, blends;
     float color[4];                        /* the base colour's factor, or of PLAIN the colour */
@@ -89,11 +91,12 @@ typedef struct e3d_pyr_step {
 } e3d_pyr_step;
 
 typedef struct e3d_pyr_frame {
-    int32_t width, height, samples;        /* samples: 1 or E3D_PYR_SAMPLES */
+    int32_t width, height, samples;        /* samples: E3D_PYR_SAMPLES, or 1: then the only place of a pixel is that of its depth */
     int32_t shading;
     double clip_from_world[16];
     float eye[3], ambient[3], background[4], point_size;
     double depth_near, depth_far;          /* depth_far: infinity for none */
+    int32_t depth_place;                   /* where depths are found: E3D_PYR_CENTRE, or the number of a sample */
     int32_t depth_is_straight;             /* depth rises with z_ndc in a straight line, as without perspective */
     const e3d_pyr_draw *draws;
     int32_t draw_count;
@@ -106,8 +109,16 @@ typedef struct e3d_pyr_frame {
     float *depth;                          /* (height, width) */
 } e3d_pyr_frame;
 
-/* Draw on up to `threads` threads (0: all). */
-e3d_status e3d_pyr_render(const e3d_pyr_frame *frame, int32_t threads);
+/* Which triangles of a draw differ little from corner to corner, so that neighbours may be lit together (R152). */
+void e3d_pyr_find_calm(const e3d_pyr_draw *draw, uint8_t *out);
+
+/* What stays from picture to picture; NULL when memory is out. */
+typedef struct e3d_pyr_memory e3d_pyr_memory;
+e3d_pyr_memory *e3d_pyr_memory_new(void);
+void e3d_pyr_memory_free(e3d_pyr_memory *memory);
+
+/* Draw on up to `threads` threads (0: all). One picture at a time may be drawn with a memory. */
+e3d_status e3d_pyr_render(const e3d_pyr_frame *frame, int32_t threads, e3d_pyr_memory *memory);
 
 #ifdef __cplusplus
 }

@@ -7,6 +7,7 @@ from libc.stdint cimport int32_t, uint8_t
 cdef extern from "e3d_pyrender.h" nogil:
     enum: E3D_PYR_LEVELS
     enum: E3D_PYR_SAMPLES
+    enum: E3D_PYR_CENTRE
     enum: E3D_PYR_PLACES
     enum: E3D_PYR_SLOTS
     enum: E3D_PYR_TRIANGLES
@@ -43,6 +44,7 @@ cdef extern from "e3d_pyrender.h" nogil:
         const float *normals
         const float *uvs
         const float *colors
+        const uint8_t *calm
         double world[16]
         int32_t culls_backs
         int32_t is_wireframe
@@ -86,6 +88,7 @@ cdef extern from "e3d_pyrender.h" nogil:
         float point_size
         double depth_near
         double depth_far
+        int32_t depth_place
         int32_t depth_is_straight
         const e3d_pyr_draw *draws
         int32_t draw_count
@@ -97,4 +100,10 @@ cdef extern from "e3d_pyrender.h" nogil:
         int32_t channels
         float *depth
 
-    e3d_status e3d_pyr_render(const e3d_pyr_frame *frame, int32_t threads)
+    ctypedef struct e3d_pyr_memory:
+        pass
+
+    void e3d_pyr_find_calm(const e3d_pyr_draw *draw, uint8_t *out)
+    e3d_pyr_memory *e3d_pyr_memory_new()
+    void e3d_pyr_memory_free(e3d_pyr_memory *memory)
+    e3d_status e3d_pyr_render(const e3d_pyr_frame *frame, int32_t threads, e3d_pyr_memory *memory)

@@ -3,19 +3,20 @@
 #define E3D_PYR_CLIP_H
 
 enum { PYR_CLIP_PLANES = 6,
-       PYR_MOST_CORNERS = 3 + PYR_CLIP_PLANES };
+       PYR_MOST_CORNERS = 3 + PYR_CLIP_PLANES,
+       PYR_SIDE = 64 /* times the picture to each side is kept */ };
 
-/* How far a point is inside: of the near plane, of w > 0, and of 64 times the picture to each side, so that what is left has coordinates
+/* How far a point is inside: of the near plane, of w > 0, and of PYR_SIDE times the picture to each side, so that what is left has coordinates
  * that 64 bits multiply. */
 static inline double pyr_inside(const double p[4], int plane)
 {
     switch (plane) {
     case 0: return p[2] + p[3];
     case 1: return p[3] - 0x1p-60;
-    case 2: return 64 * p[3] + p[0];
-    case 3: return 64 * p[3] - p[0];
-    case 4: return 64 * p[3] + p[1];
-    default: return 64 * p[3] - p[1];
+    case 2: return PYR_SIDE * p[3] + p[0];
+    case 3: return PYR_SIDE * p[3] - p[0];
+    case 4: return PYR_SIDE * p[3] + p[1];
+    default: return PYR_SIDE * p[3] - p[1];
     }
 }
 

@@ -9,6 +9,7 @@
 #include "pyrender/picture.h"
 
 #define MOST_PIXELS 0x1p30
+#define HALF_DEPTHS 8388607.5 /* of the 2^24 - 1 steps that Mesa has from -1 to 1: of edges that two triangles share, the first one drawn shows */
 
 /* A line in pixels, y up as OpenGL counts; z and 1/w at its ends. */
 typedef struct segment {
@@ -60,22 +61,46 @@ static int set_segment(const line_job *job, const int32_t corner[2], segment *ou
     return 1;
 }
 
+/* How far along a line a point is, where a perpendicular to the line meets it: 0 at its first end, 1 at its second. */
+static double share_at(const segment *line, double x, double y)
+{
+    double dx = line->end[1][0] - line->end[0][0], dy = line->end[1][1] - line->end[0][1];
+    return ((x - line->end[0][0]) * dx + (y - line->end[0][1]) * dy) / (dx * dx + dy * dy);
+}
+
+/* The same of each place of a pixel, row counted from below, and at last of the light. Mesa takes samples and light half a pixel to the right
+ * and above where they are. */
+static void find_shares(const pyr_picture *picture, const segment *line, int32_t x, double row, double out[E3D_PYR_PLACES + 1])
+{
+    double dx = line->end[1][0] - line->end[0][0], dy = line->end[1][1] - line->end[0][1];
+    int places = picture->places;
+    if (places == 1) {
+        out[0] = fabs(dx) >= fabs(dy) ? (x + 0.5 - line->end[0][0]) / (dx == 0 ? 1 : dx) : (row + 0.5 - line->end[0][1]) / dy;
+        out[1] = out[0];
+        return;
+    }
+    for (int p = 0; p + 1 < places; p++)
+        out[p] = share_at(line, x + 1 + picture->sample_x[p] / 256.0, row + 1 - picture->sample_y[p] / 256.0);
+    out[places - 1] = share_at(line, x + 0.5, row + 0.5);
+    out[places] = share_at(line, x + 1, row + 1);
+}
+
 /* Adds the fragment of a line at a pixel, row counted from below, of those places that a mask names. */
 static void add_pixel(const line_job *job, const segment *line, int32_t x, int64_t row, uint32_t mask)
 {
-    const e3d_pyr_frame *frame = job->band->picture->frame;
+    const pyr_picture *picture = job->band->picture;
+    const e3d_pyr_frame *frame = picture->frame;
     int64_t y = frame->height - 1 - row;
     if (x < 0 || x >= frame->width || y < job->band->top || y >= job->band->end)
         return;
-    double dx = line->end[1][0] - line->end[0][0], dy = line->end[1][1] - line->end[0][1];
-    double t = fabs(dx) >= fabs(dy) ? (x + 0.5 - line->end[0][0]) / (dx == 0 ? 1 : dx) : ((double)row + 0.5 - line->end[0][1]) / dy;
-    double z = line->z[0] + (line->z[1] - line->z[0]) * t;
-    double from = (1 - t) * line->inverse_w[0], to = t * line->inverse_w[1], sum = from + to, at[E3D_PYR_PLACES];
-    for (int p = 0; p < E3D_PYR_PLACES; p++)
-        at[p] = z;
-    mask = pyr_test_depths(job->band, x, (int32_t)y, mask, at) & ((1u << frame->samples) - 1);
+    double share[E3D_PYR_PLACES + 1], z[E3D_PYR_PLACES] = {0};
+    find_shares(picture, line, x, (double)row, share);
+    for (int p = 0; p < picture->places; p++)
+        z[p] = rint((line->z[0] + (line->z[1] - line->z[0]) * share[p]) * HALF_DEPTHS) / HALF_DEPTHS;
+    mask = pyr_test_depths(job->band, x, (int32_t)y, mask, z) & ((1u << frame->samples) - 1);
     if (!mask || frame->shading == E3D_PYR_DEPTH)
         return;
+    double t = share[picture->places], from = (1 - t) * line->inverse_w[0], to = t * line->inverse_w[1], sum = from + to;
     pyr_weights weights = line->weights[0];
     for (int k = 0; k < 3; k++)
         weights.weight[k] = (float)((from * line->weights[0].weight[k] + to * line->weights[1].weight[k]) / sum);
@@ -239,8 +264,10 @@ static void draw_point(const line_job *job, int32_t corner)
     int64_t low[2], high[2], half = (int64_t)rint(128.0 * frame->point_size);
     if (pyr_inside(p, 0) < 0 || pyr_inside(p, 1) < 0 || !(fabs(p[0]) <= p[3] && fabs(p[1]) <= p[3]))
         return; /* a point counts as outside when its middle is */
-    int64_t middle[2] = {(int64_t)rint((p[0] / p[3] + 1) * (128.0 * frame->width)),
-                         (int64_t)rint((1 - p[1] / p[3]) * (128.0 * frame->height))};
+    double across = p[0] / p[3], up = p[1] / p[3];
+    if (!(fabs(across) <= 1 && fabs(up) <= 1))
+        return; /* not a number: infinity by infinity */
+    int64_t middle[2] = {(int64_t)rint((across + 1) * (128.0 * frame->width)), (int64_t)rint((1 - up) * (128.0 * frame->height))};
     for (int c = 0; c < 2; c++)
         low[c] = middle[c] - half, high[c] = middle[c] + half;
     pyr_weights weights = {{corner, corner, corner}, {1, 0, 0}};

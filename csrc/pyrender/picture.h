@@ -14,7 +14,7 @@ enum { PYR_BATCH = 64,        /* fragments that are lit side by side */
 
 /* A vertex after its transformation. Clip space is f64: near planes of millimetres leave f32 few digits of depth. */
 typedef struct pyr_vertex {
-    double clip[4];
+    double clip[4]; /* a line of the cache each: triangles take vertices from anywhere */
     float world[3], normal[3];
 } pyr_vertex;
 
@@ -53,6 +53,7 @@ typedef struct pyr_picture {
     const e3d_pyr_frame *frame;
     pyr_vertex **vertices;                      /* of each draw, or NULL where it shows nowhere */
     int32_t places;                             /* 1, or the samples and the centre */
+    int32_t depth_place;                        /* which of them has the depth of the picture */
     int32_t keeps_samples;                      /* codes and depths of all places: a later step is hidden by an earlier one, or over it */
     uint8_t code_start[PYR_CODE_STARTS + 1];    /* of the square root of light, in steps: the code of which to begin the search */
     uint8_t background[4];

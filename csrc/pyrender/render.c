@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/fpenv.h"
+#include "core/large_pages.h"
 #include "core/pool.h"
 #include "core/sample_patterns.h"
 #include "e3d_renderer.h"
@@ -16,9 +17,16 @@
 
 enum { VERTICES_AT_A_TIME = 4096 };
 
+#define LITTLE ((size_t)1 << 20) /* bytes that are asked for as they are; more is rounded up, to fill large pages */
+
+struct e3d_pyr_memory {
+    pyr_vertex *vertices; /* fresh memory for each picture would take longer than their transformation */
+    size_t room;
+};
+
 typedef struct render_job {
     pyr_picture picture;
-    pyr_vertex *memory;
+    e3d_pyr_memory *memory;
     pyr_band *bands;   /* of each thread */
     int32_t *chunks;   /* where the chunks of vertices of each draw begin */
     int threads;
@@ -57,6 +65,28 @@ static void mark_shown(const pyr_picture *picture, uint8_t *shows)
 
 /* ---- vertices ---- */
 
+e3d_pyr_memory *e3d_pyr_memory_new(void) { return calloc(1, sizeof(e3d_pyr_memory)); }
+
+void e3d_pyr_memory_free(e3d_pyr_memory *memory)
+{
+    if (memory)
+        free(memory->vertices);
+    free(memory);
+}
+
+static int reserve_vertices(e3d_pyr_memory *memory, size_t count)
+{
+    size_t bytes = (count ? count : 1) * sizeof *memory->vertices;
+    if (count <= memory->room && memory->vertices)
+        return 1;
+    if (bytes > LITTLE)
+        bytes = (bytes + E3D_LARGE_ROOM - 1) / E3D_LARGE_ROOM * E3D_LARGE_ROOM;
+    free(memory->vertices);
+    memory->vertices = e3d_large_memory(bytes);
+    memory->room = memory->vertices ? bytes / sizeof *memory->vertices : 0;
+    return memory->vertices != NULL;
+}
+
 static int place_vertices(render_job *job, const uint8_t *shows)
 {
     const e3d_pyr_frame *frame = job->picture.frame;
@@ -67,10 +97,9 @@ static int place_vertices(render_job *job, const uint8_t *shows)
         count += (size_t)vertices;
         job->chunks[d + 1] = job->chunks[d] + (vertices + VERTICES_AT_A_TIME - 1) / VERTICES_AT_A_TIME;
     }
-    job->memory = malloc((count ? count : 1) * sizeof *job->memory);
-    if (!job->memory)
+    if (!reserve_vertices(job->memory, count))
         return 0;
-    pyr_vertex *next = job->memory;
+    pyr_vertex *next = job->memory->vertices;
     for (int32_t d = 0; d < frame->draw_count; d++) {
         job->picture.vertices[d] = shows[d] ? next : NULL;
         next += shows[d] ? frame->draws[d].vertices : 0;
@@ -136,7 +165,7 @@ static void resolve(const pyr_band *band)
     size_t first = (size_t)band->top * (size_t)frame->width, count = (size_t)(band->end - band->top) * (size_t)frame->width;
     int places = band->picture->places, samples = frame->samples;
     for (size_t i = 0; i < count; i++)
-        frame->depth[first + i] = pyr_metric_depth(frame, band->depth[i * (size_t)places + (size_t)places - 1]);
+        frame->depth[first + i] = pyr_metric_depth(frame, band->depth[i * (size_t)places + (size_t)band->picture->depth_place]);
     if (!frame->color)
         return;
     for (size_t i = 0; i < count; i++) {
@@ -186,10 +215,15 @@ static void set_code_starts(pyr_picture *picture)
 static void set_places(pyr_picture *picture)
 {
     const e3d_sample_pattern *pattern = e3d_sample_pattern_of(E3D_PYR_SAMPLES);
-    picture->places = picture->frame->samples == 1 ? 1 : E3D_PYR_PLACES;
-    for (int p = 0; p + 1 < picture->places; p++) {
-        picture->sample_x[p] = pattern->x[p];
-        picture->sample_y[p] = -pattern->y[p]; /* OpenGL counts rows from below */
+    int32_t asked = picture->frame->depth_place, one = picture->frame->samples == 1;
+    picture->places = one ? 1 : E3D_PYR_PLACES;
+    picture->depth_place = one ? 0 : asked;
+    for (int p = 0; p < picture->places; p++) {
+        int32_t sample = one ? asked : p;
+        if (sample == E3D_PYR_CENTRE)
+            continue;
+        picture->sample_x[p] = pattern->x[sample];
+        picture->sample_y[p] = -pattern->y[sample]; /* OpenGL counts rows from below */
     }
 }
 
@@ -240,16 +274,16 @@ static void release(render_job *job)
     }
     free(job->bands);
     free(job->chunks);
-    free(job->memory);
     free(job->picture.vertices);
 }
 
-e3d_status e3d_pyr_render(const e3d_pyr_frame *frame, int32_t threads)
+e3d_status e3d_pyr_render(const e3d_pyr_frame *frame, int32_t threads, e3d_pyr_memory *memory)
 {
-    if (frame->width <= 0 || frame->height <= 0 || (frame->samples != 1 && frame->samples != E3D_PYR_SAMPLES))
+    if (frame->width <= 0 || frame->height <= 0 || (frame->samples != 1 && frame->samples != E3D_PYR_SAMPLES) ||
+        frame->depth_place < 0 || frame->depth_place >= E3D_PYR_PLACES)
         return E3D_INVALID_ARGUMENT;
     size_t draws = (size_t)frame->draw_count;
-    render_job job = {.picture = {.frame = frame}};
+    render_job job = {.picture = {.frame = frame}, .memory = memory};
     job.threads = threads > 0 ? threads : e3d_thread_count();
     job.picture.keeps_samples = frame->step_count != 1 || !frame->steps[0].triangle_id[0];
     for (int c = 0; c < 4; c++)

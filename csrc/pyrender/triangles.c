@@ -24,10 +24,16 @@ static void set_edge(const int64_t from[2], const int64_t to[2], edge *out)
         out->c -= 1; /* neither top nor left: what lies on it is outside */
 }
 
-static void to_screen(const e3d_pyr_frame *frame, const double p[4], int64_t out[2])
+/* Where a corner is that was cut to the room before the viewer; 0 where it is no number. */
+static int to_screen(const e3d_pyr_frame *frame, const double p[4], int64_t out[2])
 {
-    out[0] = (int64_t)rint((p[0] / p[3] + 1) * (128.0 * frame->width));
-    out[1] = (int64_t)rint((1 - p[1] / p[3]) * (128.0 * frame->height));
+    double across = p[0] / p[3], up = p[1] / p[3];
+    out[0] = out[1] = 0;
+    if (!(fabs(across) < 2 * PYR_SIDE && fabs(up) < 2 * PYR_SIDE))
+        return 0;
+    out[0] = (int64_t)rint((across + 1) * (128.0 * frame->width));
+    out[1] = (int64_t)rint((1 - up) * (128.0 * frame->height));
+    return 1;
 }
 
 /* Which places of a pixel three edges enclose. */
@@ -127,13 +133,13 @@ void pyr_draw_triangles(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vert
         for (int k = 0; k < 3; k++)
             for (int c = 0; c < 4; c++)
                 p[k][c] = vertices[corner[k]].clip[c];
-        int count = pyr_clip_polygon(p, 3), above = 1, below = 1;
-        for (int i = 0; i < count; i++) {
-            to_screen(frame, p[i], corners[i]);
+        int count = pyr_clip_polygon(p, 3), above = 1, below = 1, known = 1;
+        for (int i = 0; i < count && known; i++) {
+            known = to_screen(frame, p[i], corners[i]);
             above &= corners[i][1] < 256 * (int64_t)band->top;
             below &= corners[i][1] >= 256 * (int64_t)band->end;
         }
-        if (count < 3 || above || below)
+        if (count < 3 || !known || above || below)
             continue;
         pyr_set_plane(frame, draw, vertices, t, &job.plane);
         draw_fan(&job, corners, count);

@@ -1,7 +1,7 @@
 /* Opaque triangles of which it is known what shows where.
  *
- * In: a step with IDs of each place. Out: a fragment for each triangle that shows in a pixel; but triangles that share a vertex with the
- * one at the pixel's centre, whose colours go over into one another, are one fragment with it (R152).
+ * In: a step with IDs of each place. Out: a fragment for each triangle that shows in a pixel; but calm triangles that share a vertex with
+ * the one at the pixel's centre, whose colours go over into one another, are one fragment with it (R152).
  */
 #include "pyrender/picture.h"
 
@@ -65,12 +65,15 @@ static shown shown_at(const row *row, int place, int32_t x)
 
 static int same(shown a, shown b) { return a.draw == b.draw && a.triangle == b.triangle; }
 
-/* Whether two triangles of a draw share a vertex. */
+/* Whether two triangles of a draw may be lit together: they are calm, and share a vertex. */
 static int meet(const e3d_pyr_frame *frame, shown a, shown b)
 {
     if (a.draw != b.draw || a.draw < 0)
         return 0;
-    const int32_t *indices = frame->draws[a.draw].indices;
+    const e3d_pyr_draw *draw = &frame->draws[a.draw];
+    if (!draw->calm[a.triangle] || !draw->calm[b.triangle])
+        return 0;
+    const int32_t *indices = draw->indices;
     const int32_t *p = indices + 3 * (size_t)a.triangle, *q = indices + 3 * (size_t)b.triangle;
     for (int k = 0; k < 3; k++)
         if (p[k] == q[0] || p[k] == q[1] || p[k] == q[2])
@@ -90,6 +93,11 @@ static const pyr_plane *plane_of(const pyr_picture *picture, shown what, recent 
     return &last->plane[slot];
 }
 
+static double depth_at_place(const pyr_picture *picture, const pyr_plane *plane, int place, int32_t x, int32_t y)
+{
+    return pyr_depth_at(plane, x + 0.5 + picture->sample_x[place] / 256.0, y + 0.5 + picture->sample_y[place] / 256.0);
+}
+
 /* The places of a mask at which a triangle isn't hidden by an earlier step. */
 static uint32_t nearer(const pyr_band *band, const pyr_plane *plane, int32_t x, int32_t y, uint32_t mask)
 {
@@ -97,8 +105,17 @@ static uint32_t nearer(const pyr_band *band, const pyr_plane *plane, int32_t x, 
     double z[E3D_PYR_PLACES] = {0};
     for (int p = 0; p < picture->places; p++)
         if (mask >> p & 1)
-            z[p] = pyr_depth_at(plane, x + 0.5 + picture->sample_x[p] / 256.0, y + 0.5 + picture->sample_y[p] / 256.0);
+            z[p] = depth_at_place(picture, plane, p, x, y);
     return pyr_test_depths(band, x, y, mask, z);
+}
+
+/* Where samples aren't kept: writes the depth of a pixel. `z`: that at its centre. */
+static void set_depth(const pyr_picture *picture, const pyr_plane *plane, double z, int32_t x, int32_t y)
+{
+    const e3d_pyr_frame *frame = picture->frame;
+    if (frame->depth_place != E3D_PYR_CENTRE)
+        z = depth_at_place(picture, plane, picture->depth_place, x, y);
+    frame->depth[(size_t)y * (size_t)frame->width + (size_t)x] = pyr_metric_depth(frame, z);
 }
 
 /* Adds what shows at some places of a pixel. */
@@ -113,8 +130,8 @@ static void add(pyr_band *band, shown what, recent *last, int32_t x, int32_t y, 
         weights.corner[k] = plane->corner[k];
     if (picture->keeps_samples)
         mask = nearer(band, plane, x, y, mask);
-    else if (mask >> (picture->places - 1) & 1)
-        frame->depth[(size_t)y * (size_t)frame->width + (size_t)x] = pyr_metric_depth(frame, z);
+    else if (mask >> picture->depth_place & 1)
+        set_depth(picture, plane, z, x, y);
     mask &= (1u << frame->samples) - 1;
     if (mask && frame->shading != E3D_PYR_DEPTH)
         pyr_add_fragment(band, &frame->draws[what.draw], picture->vertices[what.draw], &weights, plane, x, y, mask);
@@ -170,7 +187,9 @@ static void add_each(pyr_band *band, const shown at[E3D_PYR_PLACES], recent *las
         mask[k] |= 1u << p;
     }
     uint32_t samples = (1u << frame->samples) - 1;
-    band->differs[x] = (mask[0] & samples) != samples;
+    band->differs[x] = 1;
+    for (int k = 0; k < count; k++)
+        band->differs[x] &= (mask[k] & samples) != samples;
     if (band->differs[x] && !band->picture->keeps_samples)
         begin_sum(band, x, y, nothing);
     for (int k = 0; k < count; k++)

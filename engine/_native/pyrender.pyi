@@ -18,6 +18,7 @@ DIRECTIONAL: int
 POINT: int
 SPOT: int
 SAMPLES: int
+CENTRE: int
 PLACES: int
 LEVELS: int
 
@@ -93,6 +94,7 @@ class NativePicture:
         depth_near: float,
         depth_far: float,
         depth_is_straight: bool,
+        depth_place: int,
         threads: int,
         color: NDArray[np.uint8] | None,
         depth: NDArray[np.float32],

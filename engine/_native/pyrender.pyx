@@ -6,6 +6,7 @@ Out: colours and depths, in the caller's arrays.
 Always: what a picture points to is held by it until the next `clear`; the GIL is released while it is drawn.
 """
 
+from cpython.bytearray cimport PyByteArray_AS_STRING
 from libc.stdint cimport int32_t, uint8_t
 from libc.stdlib cimport free, realloc
 from libc.string cimport memset
@@ -20,7 +21,7 @@ LIT, FLAT, PLAIN, DEPTH = E3D_PYR_LIT, E3D_PYR_FLAT, E3D_PYR_PLAIN, E3D_PYR_DEPT
 REPEAT, CLAMP, MIRROR = E3D_PYR_REPEAT, E3D_PYR_CLAMP, E3D_PYR_MIRROR
 DIRECTIONAL, POINT, SPOT = E3D_PYR_DIRECTIONAL, E3D_PYR_POINT, E3D_PYR_SPOT
 SAMPLES = E3D_PYR_SAMPLES
-PLACES = E3D_PYR_PLACES
+CENTRE, PLACES = E3D_PYR_CENTRE, E3D_PYR_PLACES
 LEVELS = E3D_PYR_LEVELS
 
 
@@ -55,6 +56,7 @@ cdef class NativeShape:
 
     cdef e3d_pyr_draw draw
     cdef object held
+    cdef bytearray calm
 
     def __init__(self, int mode, const int32_t[::1] indices not None, const float[:, ::1] positions not None,
                  const float[:, ::1] normals=None, const float[:, ::1] uvs=None, const float[:, ::1] colors=None):
@@ -72,6 +74,10 @@ cdef class NativeShape:
         self.draw.uvs = rows_of(uvs, vertices, 2)
         self.draw.colors = rows_of(colors, vertices, 4)
         self.held = indices, positions, normals, uvs, colors
+        if mode == E3D_PYR_TRIANGLES:
+            self.calm = bytearray(self.draw.count)
+            self.draw.calm = <const uint8_t *>PyByteArray_AS_STRING(self.calm)
+            e3d_pyr_find_calm(&self.draw, <uint8_t *>PyByteArray_AS_STRING(self.calm))
 
 
 cdef class NativeTexture:
@@ -127,15 +133,20 @@ cdef class NativePicture:
     cdef readonly int draw_count, light_count, step_count
     cdef int number_count
     cdef list held
+    cdef e3d_pyr_memory *memory
 
     def __cinit__(self):
         self.held = []
+        self.memory = e3d_pyr_memory_new()
+        if self.memory == NULL:
+            raise OutOfMemoryError("no memory for pictures")
 
     def __dealloc__(self):
         free(self.draws)
         free(self.lights)
         free(self.light_numbers)
         free(self.steps)
+        e3d_pyr_memory_free(self.memory)
 
     def clear(self):
         self.draw_count = self.light_count = self.step_count = self.number_count = 0
@@ -233,7 +244,7 @@ cdef class NativePicture:
         self.held.append((places, draw_of_object))
 
     def render(self, int samples, int shading, const double[:, ::1] clip_from_world not None, eye, ambient, background,
-               float point_size, double depth_near, double depth_far, bint depth_is_straight, int threads,
+               float point_size, double depth_near, double depth_far, bint depth_is_straight, int depth_place, int threads,
                uint8_t[:, :, ::1] color, float[:, ::1] depth not None):
         """Draw into the arrays; `color` is None where there is none, with shading DEPTH."""
         cdef e3d_pyr_frame frame
@@ -253,13 +264,14 @@ cdef class NativePicture:
         copy_floats(frame.ambient, ambient, 3)
         copy_floats(frame.background, background, 4)
         frame.point_size = point_size
+        frame.depth_place = depth_place
         frame.depth_near, frame.depth_far, frame.depth_is_straight = depth_near, depth_far, depth_is_straight
         frame.draws, frame.draw_count = self.draws, self.draw_count
         frame.lights, frame.light_numbers = self.lights, self.light_numbers
         frame.steps, frame.step_count = self.steps, self.step_count
         with nogil:
-            status = e3d_pyr_render(&frame, threads)
+            status = e3d_pyr_render(&frame, threads, self.memory)
         if status == E3D_OUT_OF_MEMORY:
             raise OutOfMemoryError("no memory for the picture")
         if status != E3D_OK:
-            raise InvalidArgumentError("a picture has one sample a pixel or four")
+            raise InvalidArgumentError("a pixel has one sample or four, and its depth is at one of them or at the centre")

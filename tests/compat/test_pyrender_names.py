@@ -44,6 +44,9 @@ def test_shaders_are_refused_with_advice():
     ):
         with pytest.raises(NotImplementedError, match="normal"):
             make()
+    renderer = pyrender.renderer.Renderer(8, 8)  # where programs put a cache of their own shaders
+    with pytest.raises(NotImplementedError, match="normal"):
+        renderer._program_cache = pyrender.shader_program.ShaderProgramCache()
 
 
 def test_settings_refuse_other_values():
@@ -51,6 +54,8 @@ def test_settings_refuse_other_values():
         pyrender.settings.samples = 8
     with pytest.raises(InvalidArgumentError):
         pyrender.settings.orthographic_depth = "right"
+    with pytest.raises(ValueError, match='depth_place must be "centre" or "pyrender"'):
+        pyrender.settings.depth_place = "corner"
 
 
 def test_nodes_keep_poses_and_parts_in_step():

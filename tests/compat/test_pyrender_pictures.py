@@ -241,7 +241,7 @@ def test_pictures_do_not_depend_on_threads_renderers_and_what_was_drawn_before()
     scene = seen(ball(1.0, matte((0.7, 0.5, 0.3, 1.0))), (ball(0.4), pose(x=1.0, z=0.5)))
     scene.add(pyrender.DirectionalLight(intensity=2.0), pose=pose(z=3.0))
     color, depth = drawn(scene, size=(96, 72))
-    assert not color.flags.writeable and not depth.flags.writeable
+    assert not color.flags.writeable and depth.flags.writeable  # as pyrender's are
     first, second = pyrender.OffscreenRenderer(8, 8), pyrender.OffscreenRenderer(96, 72)
     first.render(scene)
     first.delete()  # leaves the other alone
@@ -275,6 +275,36 @@ def test_four_samples_smooth_edges_and_leave_depth_at_the_centres():
         pyrender.settings.samples = 4
     assert np.array_equal(depth, same)
     assert set(sharp[..., 0].ravel().tolist()) == {0, 255}
+
+
+def test_depth_is_at_the_centre_or_at_pyrenders_sample(monkeypatch):
+    slope = ramp()
+    depths = {}
+    for place in ("centre", "pyrender"):
+        monkeypatch.setattr(pyrender.settings, "depth_place", place)
+        depths[place] = drawn(slope, size=(24, 24))[1]
+        alone = drawn(slope, pyrender.RenderFlags.DEPTH_ONLY, size=(24, 24))
+        assert np.array_equal(alone, depths[place])
+        listed = dict.fromkeys(slope.mesh_nodes, 9)
+        segments = drawn(slope, pyrender.RenderFlags.SEG, (24, 24), seg_node_map=listed)
+        assert np.array_equal(segments[1], depths["centre"])
+    rows, columns = np.mgrid[:24, :24] + 0.5
+
+    def expected(across, down):  # of the plane z = x + y/2, from z = 3 with a field of view of 90°
+        x, y = (columns + across) / 12 - 1, 1 - (rows + down) / 12
+        return 3 / (1 + x + y / 2)
+
+    both = (depths["centre"] > 0) & (depths["pyrender"] > 0)
+    assert both.sum() > 60
+    for place, offset in (("centre", (0, 0)), ("pyrender", (-1 / 8, 3 / 8))):
+        assert np.allclose(depths[place][both], expected(*offset)[both], rtol=1e-5), place
+
+
+def ramp():
+    """A slope, z = x + y/2, seen from z = 3."""
+    corners = np.array([(x, y, x + y / 2) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+    primitive = pyrender.Primitive(corners, indices=[(0, 1, 2), (0, 2, 3)])
+    return seen(pyrender.Mesh([primitive]))
 
 
 def test_changes_of_a_scene_show_in_the_next_picture():

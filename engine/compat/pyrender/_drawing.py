@@ -8,6 +8,7 @@ pyrender's order: nodes from far to near, opaque ones first.
 from __future__ import annotations
 
 import threading
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -95,8 +96,9 @@ class _Pass:
         )
         view = np.linalg.inv(self._pose)
         self._engine = self._drawing._engine_of(width, height)
-        samples = 1 if self._shading in (_native.DEPTH, _native.PLAIN) else settings.samples
-        self._steps(_for_engine(projection), self._is_mirrored(self._pose), samples)
+        samples, depth_place = self._samples()
+        places = range(_native.PLACES) if samples > 1 else (depth_place,)
+        self._steps(_for_engine(projection), self._is_mirrored(self._pose), places)
         depth = np.empty((height, width), np.float32)
         color = None
         if self._shading != _native.DEPTH:
@@ -106,9 +108,17 @@ class _Pass:
         self._picture.render(
             *(samples, self._shading, np.ascontiguousarray(projection @ view)),
             *(self._pose[:3, 3], self._scene.ambient_light, self._background()),
-            *(point_size, near, far, straight, 0, color, depth),
+            *(point_size, near, far, straight, depth_place, 0, color, depth),
         )
         return color, depth
+
+    def _samples(self) -> tuple[int, int]:
+        """How many a pixel has, and the place where its depth is."""
+        moves = settings.samples > 1 and settings.depth_place == "pyrender"
+        if self._shading == _native.PLAIN:
+            return 1, _native.CENTRE
+        samples = 1 if self._shading == _native.DEPTH else settings.samples
+        return samples, 0 if moves else _native.CENTRE
 
     def _background(self):
         return (0.0, 0.0, 0.0, 1.0) if self._seg_node_map is not None else self._scene.bg_color
@@ -143,7 +153,7 @@ class _Pass:
         mirrored = (np.linalg.det(poses[:, :3, :3]) < 0).tolist()
         return [(nodes[k], poses[k], mirrored[k]) for k in order]
 
-    def _steps(self, projection: np.ndarray, mirrored: bool, samples: int) -> None:
+    def _steps(self, projection: np.ndarray, mirrored: bool, places: Sequence[int]) -> None:
         """List lights, draws and steps in the picture."""
         lights = None
         if self._shading == _native.LIT:
@@ -161,17 +171,17 @@ class _Pass:
                 self._list(groups, node, pose, number, primitive, mirrored != turned, listed)
         for number, group in enumerate(groups):
             if group.visible:
-                self._see(number, group.visible, projection, samples)
+                self._see(number, group.visible, projection, places)
             for first, count in group.drawn:
                 self._picture.add_drawn(first, count)
 
-    def _see(self, number: int, visible: list[Placed], projection, samples: int) -> None:
+    def _see(self, number: int, visible: list[Placed], projection, places) -> None:
         kept = self._drawing._visible
         while len(kept) <= number:
             kept.append(Visibility())
         draw_of_object = kept[number].place(visible)
-        places = kept[number].find(self._engine, projection, self._pose, samples)
-        self._picture.add_visible(places, draw_of_object)
+        shown = kept[number].find(self._engine, projection, self._pose, places)
+        self._picture.add_visible(shown, draw_of_object)
 
     def _list(self, groups, node, pose, number, primitive, turned, lights) -> None:
         """List a primitive: with what is seen, or with what is drawn one by one."""

@@ -6,6 +6,7 @@ centre and at its samples. Nodes and meshes stay from picture to picture.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -18,9 +19,8 @@ from ...scene.scene import Scene
 from ._shapes import mesh_of
 from .primitive import Primitive
 
-#: Of the samples from the pixel's centre, in pixels, y down, as Mesa has them.
-_OFFSETS = ((-0.125, 0.375), (0.375, 0.125), (-0.375, -0.125), (0.125, -0.375))
-_CENTRE = (0.0, 0.0)
+#: Of the samples from the pixel's centre, in pixels, y down, as Mesa has them; then of the centre.
+_OFFSETS = ((-0.125, 0.375), (0.375, 0.125), (-0.375, -0.125), (0.125, -0.375), (0.0, 0.0))
 _MANY = 1 << 16  # ids that a scene gives out before another takes its place
 
 
@@ -57,11 +57,11 @@ class Visibility:
     def _forget(self) -> None:
         self._scene = Scene()
         self._nodes: dict[tuple, tuple] = {}  # the node, what it shows, and where
-        self._cameras = [Camera(np.eye(4)) for _ in range(1 + len(_OFFSETS))]
+        self._cameras = [Camera(np.eye(4)) for _ in range(len(_OFFSETS))]
         self._most = 0
         self._changes = 0  # of what is placed
-        self._last: tuple | None = None  # of what picture the places are that were found last
-        self._found: list[tuple] = []
+        self._last: tuple | None = None  # of what picture they are
+        self._found: dict[int, tuple] = {}  # of places
         self._frames: tuple = ((), [])  # drawn into again: of what kind, and a frame of each place
 
     def place(self, things: list[Placed]) -> np.ndarray:
@@ -104,8 +104,8 @@ class Visibility:
         self._nodes[thing.key] = node, (mesh, poses), thing.pose
         return node
 
-    def find(self, renderer: Renderer, projection, pose, samples: int) -> list[tuple]:
-        """Return what shows at the samples, then at the centre.
+    def find(self, renderer: Renderer, projection, pose, places: Sequence[int]) -> list[tuple]:
+        """Return what shows at places of each pixel.
 
         Parameters
         ----------
@@ -114,48 +114,43 @@ class Visibility:
             clip-from-camera.
         pose : (4, 4) float64
             world-from-camera.
-        samples : {1, 4}
+        places : sequence of int
+            Of `CENTRE` and the numbers of the samples.
 
         Returns
         -------
-        places : list of (object_id, triangle_id, instance_id)
+        shown : list of (object_id, triangle_id, instance_id)
             Arrays (H, W) int32; the first is None where there is one object, the last where nothing
             has instances.
         """
         size = renderer.width, renderer.height
-        key = self._changes, size, samples, projection.tobytes(), pose.tobytes()
+        key = self._changes, size, projection.tobytes(), pose.tobytes()
         if key != self._last:
-            self._last = None
-            self._found = self._look(renderer, projection, pose, samples)
-            self._last = key
-        return self._found
+            self._last, self._found = key, {}
+        for place in places:
+            if place not in self._found:
+                self._found[place] = self._look(renderer, projection, pose, place)
+        return [self._found[place] for place in places]
 
-    def _look(self, renderer: Renderer, projection, pose, samples: int) -> list[tuple]:
-        """Find what `find` returns; the same is found once for pictures that follow one another."""
+    def _look(self, renderer: Renderer, projection, pose, place: int) -> tuple:
+        """Find what shows at a place; pictures that follow one another share it."""
         names = [
             *(["triangle_id"] if self._is_single else ["object_id", "triangle_id"]),
             *(["instance_id"] if self._has_instances else []),
         ]
-        kept = tuple(names), renderer.width, renderer.height, samples
-        if self._frames[0] != kept:
-            self._frames = kept, [None] * (1 if samples == 1 else 1 + len(_OFFSETS))
+        kind = tuple(names), renderer.width, renderer.height
+        if self._frames[0] != kind:
+            self._frames = kind, [None] * len(_OFFSETS)
+        frames, camera = self._frames[1], self._cameras[place]
+        matrix = _moved(projection, _OFFSETS[place], renderer.width, renderer.height)
+        if not np.array_equal(camera.matrix, matrix):
+            camera.matrix = matrix
         options = RenderOptions(outputs=names)
-        offsets = [_CENTRE] if samples == 1 else [*_OFFSETS, _CENTRE]
-        frames = self._frames[1]
-        for number, offset in enumerate(offsets):
-            camera = self._cameras[number - len(offsets)]
-            matrix = _moved(projection, offset, renderer.width, renderer.height)
-            if not np.array_equal(camera.matrix, matrix):
-                camera.matrix = matrix
-            place = camera, pose
-            frames[number] = renderer.render(
-                self._scene, place, out=frames[number], options=options
-            )
+        frames[place] = frame = renderer.render(
+            self._scene, (camera, pose), out=frames[place], options=options
+        )
         every = ("object_id", "triangle_id", "instance_id")
-        return [
-            tuple(getattr(frame, name) if name in names else None for name in every)
-            for frame in frames
-        ]
+        return tuple(getattr(frame, name) if name in names else None for name in every)
 
     def depths(self, renderer: Renderer, projection, pose) -> np.ndarray:
         """Return z_ndc of what shows at the centres, (H, W) float32, infinite for nothing."""

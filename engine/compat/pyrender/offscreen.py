@@ -71,9 +71,10 @@ class OffscreenRenderer:
         color : (H, W, 3) or, with ``RGBA``, (H, W, 4) uint8
             Not with ``DEPTH_ONLY``, of which the depth alone is returned.
         depth : (H, W) float32
-            Along the view axis, at the centres of the pixels; 0 where nothing is.
+            Along the view axis, at the centres of the pixels (see `settings.depth_place`); 0 where
+            nothing is.
 
-        Both arrays are read-only, as pyrender's are.
+        Colours are read-only, and depths are not, as pyrender's are.
 
         Raises
         ------

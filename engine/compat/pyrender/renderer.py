@@ -6,6 +6,7 @@ import numpy as np
 
 from ._drawing import Drawing
 from .constants import RenderFlags
+from .shader_program import ADVICE
 
 
 class GLError(Exception):
@@ -45,11 +46,19 @@ class Renderer:
             self._drawing = Drawing()
         size = int(self.viewport_width), int(self.viewport_height)
         color, depth = self._drawing.draw(scene, flags, seg_node_map, *size, self.point_size)
-        depth.flags.writeable = False
         if flags & RenderFlags.DEPTH_ONLY:
             return depth
         color.flags.writeable = False
         return color, depth
+
+    @property
+    def _program_cache(self) -> None:
+        """The cache of shaders that pyrender has here; programs put their own in its place."""
+        return None
+
+    @_program_cache.setter
+    def _program_cache(self, value) -> None:
+        raise NotImplementedError(ADVICE)
 
     def read_color_buf(self) -> np.ndarray:
         """Raise: there is no screen to read from."""

@@ -12,6 +12,7 @@ from ...errors import InvalidArgumentError
 
 _SAMPLES = (1, 4)
 _DEPTHS = ("metric", "pyrender")
+_PLACES = ("centre", "pyrender")
 
 
 class Settings:
@@ -26,6 +27,11 @@ class Settings:
         What depths of an `OrthographicCamera` are: distances along the view axis, or the numbers
         that pyrender's formula for perspectives makes of them.
         ``ENGINE3D_PYRENDER_ORTHOGRAPHIC_DEPTH``.
+    depth_place : {"centre", "pyrender"}
+        Where in a pixel of four samples its depth is found: at the centre, as programs take it, or
+        at the first sample, 1/8 pixel to the left and 3/8 below, as pyrender with EGL has it. With
+        one sample, and with ``SEG``, it is at the centre.
+        ``ENGINE3D_PYRENDER_DEPTH_PLACE``.
     """
 
     def __init__(self) -> None:
@@ -35,6 +41,7 @@ class Settings:
         self.orthographic_depth = (
             environment.get("ENGINE3D_PYRENDER_ORTHOGRAPHIC_DEPTH") or "metric"
         )
+        self.depth_place = environment.get("ENGINE3D_PYRENDER_DEPTH_PLACE") or "centre"
 
     @property
     def samples(self) -> int:
@@ -54,11 +61,22 @@ class Settings:
 
     @orthographic_depth.setter
     def orthographic_depth(self, value) -> None:
-        if value not in _DEPTHS:
-            raise InvalidArgumentError(
-                f'orthographic_depth must be "metric" or "pyrender", not {value!r}'
-            )
-        self._orthographic_depth = value
+        self._orthographic_depth = _one_of(_DEPTHS, "orthographic_depth", value)
+
+    @property
+    def depth_place(self) -> str:
+        """ "centre" or "pyrender"."""
+        return self._depth_place
+
+    @depth_place.setter
+    def depth_place(self, value) -> None:
+        self._depth_place = _one_of(_PLACES, "depth_place", value)
+
+
+def _one_of(known: tuple[str, str], name: str, value) -> str:
+    if value not in known:
+        raise InvalidArgumentError(f'{name} must be "{known[0]}" or "{known[1]}", not {value!r}')
+    return value
 
 
 settings = Settings()

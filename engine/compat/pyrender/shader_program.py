@@ -5,7 +5,7 @@ Programs that bring shaders of their own get an error that says what to do inste
 
 from __future__ import annotations
 
-_ADVICE = (
+ADVICE = (
     "shaders cannot run: engine3d draws without OpenGL. For normals, positions, uv and the like, "
     "ask engine3d.Renderer.render for outputs, such as outputs=('normal', 'depth')"
 )
@@ -15,7 +15,7 @@ class ShaderProgram:
     """Raises: GLSL cannot run here."""
 
     def __init__(self, *args, **kwargs):
-        raise NotImplementedError(_ADVICE)
+        raise NotImplementedError(ADVICE)
 
 
 class ShaderProgramCache:
@@ -29,11 +29,11 @@ class ShaderProgramCache:
 
     def __init__(self, shader_dir=None):
         if shader_dir is not None:
-            raise NotImplementedError(_ADVICE)
+            raise NotImplementedError(ADVICE)
 
     def get_program(self, *args, **kwargs):
         """Raise: GLSL cannot run here."""
-        raise NotImplementedError(_ADVICE)
+        raise NotImplementedError(ADVICE)
 
     def clear(self) -> None:
         """Do nothing: there is nothing to forget."""

@@ -21,9 +21,8 @@ def check(backend):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("backend", ["portable", "auto"])
-def test_pictures_are_what_the_engine_draws(backend):
-    run = check(backend)
+def test_pictures_are_what_the_engine_draws():
+    run = check("auto")
     assert run.returncode == 0, f"{run.stderr}\nto draw them again: python docs/pictures/make.py"
 
 

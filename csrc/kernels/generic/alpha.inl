@@ -50,7 +50,7 @@ static ALWAYS_INLINE void alpha_vector(const e3d_piece *p, int32_t x, int32_t y,
 {
     int32_t at = y * E3D_TILE + x;
     vf32 limit = v_loadf(end->list->limit + at);
-    uint32_t shown = v_bits(v_mand(inside, v_lt(z, limit))), equal = v_bits(v_mand(inside, v_eq(z, limit)));
+    uint32_t shown = v_bits(v_lt_in(inside, z, limit)), equal = v_bits(v_eq_in(inside, z, limit));
     if (__builtin_expect(equal != 0, 0))
         shown |= alpha_ties(equal, end->list->kept + at, p, end->table);
     uint64_t row = (uint64_t)shown << x;

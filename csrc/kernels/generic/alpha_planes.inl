@@ -23,7 +23,7 @@ static ALWAYS_INLINE uint32_t cover_plane(const e3d_piece *p, const float *limit
     alpha_column column = alpha_column_of(p, &c, x);
     vmask inside = alpha_inside(p, &column, y);
     vf32 z = raster_z(&c, column.z, y - p->base_y), limit = v_loadf(limits + at);
-    uint32_t shown = v_bits(v_mand(inside, v_lt(z, limit))), equal = v_bits(v_mand(inside, v_eq(z, limit)));
+    uint32_t shown = v_bits(v_lt_in(inside, z, limit)), equal = v_bits(v_eq_in(inside, z, limit));
     return equal ? shown | alpha_ties(equal, kept + at, p, table) : shown;
 }
 

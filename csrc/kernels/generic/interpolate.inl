@@ -257,8 +257,7 @@ static inline vf32 exp2_poly(vf32 y)
                                0x1.cb1d4cp-13f};
     vf32 one = v_setf(1.0f);
     y = v_min(v_max(y, v_setf(-126.0f)), v_setf(126.0f));
-    vi32 whole = v_trunc(y);
-    whole = v_subi(whole, v_seli(v_gt(v_float(whole), y), v_seti(1), v_seti(0)));
+    vi32 whole = v_floori(y);
     vf32 f = v_sub(y, v_float(whole)), sum = v_setf(c[4]);
     for (int k = 3; k >= 0; k--)
         sum = v_add(v_mul(sum, f), v_setf(c[k]));

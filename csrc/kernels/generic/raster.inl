@@ -62,8 +62,8 @@ static inline void raster_write(int use, vmask inside, vf32 z, int at, const ras
     int32_t *slot = tile->slot + at;
     vf32 old = v_loadf(depth);
     vf32 limit = use == RASTER_OVERWRITE ? v_setf(E3D_BEYOND_FAR) : old;
-    vmask pass = v_mand(inside, v_lt(z, limit));
-    vmask equal_lanes = v_mand(inside, v_eq(z, old));
+    vmask pass = v_lt_in(inside, z, limit);
+    vmask equal_lanes = v_eq_in(inside, z, old);
     if (!v_any(use == RASTER_DEPTH ? v_mor(pass, equal_lanes) : pass))
         return;
     vi32 before = v_loadi(slot);

@@ -100,8 +100,8 @@ static inline void visible_write(vmask inside, vf32 z, size_t at, const e3d_reco
     float *depth = tile->z + at;
     int32_t *kept = tile->id + at;
     vf32 old = rows_loadf(depth);
-    vmask pass = v_mand(inside, v_lt(z, old));
-    vmask equal = v_mand(inside, v_eq(z, old));
+    vmask pass = v_lt_in(inside, z, old);
+    vmask equal = v_eq_in(inside, z, old);
     rows_storef(depth, v_self(pass, z, old));
     rows_storei(kept, v_seli(pass, v_seti(id), rows_loadi(kept)));
     if (v_any(equal))

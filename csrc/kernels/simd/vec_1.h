@@ -55,6 +55,9 @@ static inline vmask v_lt(vf32 a, vf32 b) { return a < b; }
 static inline vmask v_gt(vf32 a, vf32 b) { return a > b; }
 static inline vmask v_ge(vf32 a, vf32 b) { return a >= b; }
 static inline vmask v_eq(vf32 a, vf32 b) { return a == b; }
+/* The same among the lanes of a mask. */
+static inline vmask v_lt_in(vmask m, vf32 a, vf32 b) { return m & (a < b); }
+static inline vmask v_eq_in(vmask m, vf32 a, vf32 b) { return m & (a == b); }
 
 static inline vi32 v_addi(vi32 a, vi32 b) { return (int32_t)((uint32_t)a + (uint32_t)b); }
 /* Each lane and all below it. */
@@ -104,6 +107,8 @@ static inline vf32 v_float(vi32 a) { return (float)a; }
 static inline vi32 v_rint(vf32 a) { return a >= -0x1p31f && a < 0x1p31f ? (int32_t)lrintf(a) : INT32_MIN; }
 static inline vi32 v_trunc(vf32 a) { return (int32_t)a; }
 static inline vf32 v_floor(vf32 a) { return floorf(a); }
+/* To the next whole number below, of values that fit int32. */
+static inline vi32 v_floori(vf32 a) { return (int32_t)a - ((float)(int32_t)a > a); }
 static inline vf32 v_asf(vi32 a) { float f; memcpy(&f, &a, 4); return f; }
 static inline vi32 v_asi(vf32 a) { int32_t i; memcpy(&i, &a, 4); return i; }
 

@@ -54,6 +54,8 @@ static inline vmask v_lt(vf32 a, vf32 b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ
 static inline vmask v_gt(vf32 a, vf32 b) { return _mm256_cmp_ps(a, b, _CMP_GT_OQ); }
 static inline vmask v_ge(vf32 a, vf32 b) { return _mm256_cmp_ps(a, b, _CMP_GE_OQ); }
 static inline vmask v_eq(vf32 a, vf32 b) { return _mm256_cmp_ps(a, b, _CMP_EQ_OQ); }
+static inline vmask v_lt_in(vmask m, vf32 a, vf32 b) { return v_mand(m, v_lt(a, b)); }
+static inline vmask v_eq_in(vmask m, vf32 a, vf32 b) { return v_mand(m, v_eq(a, b)); }
 
 static inline vi32 v_sums(vi32 a) {
     a = _mm256_add_epi32(a, _mm256_slli_si256(a, 4));
@@ -64,6 +66,7 @@ static inline vi32 v_sums(vi32 a) {
 static inline vi32 v_last(vi32 a) { return _mm256_permutevar8x32_epi32(a, _mm256_set1_epi32(7)); }
 
 static inline vf32 v_floor(vf32 a) { return _mm256_floor_ps(a); }
+static inline vi32 v_floori(vf32 a) { return v_trunc(v_floor(a)); }
 
 static inline int v_count(uint32_t bits) { return __builtin_popcount(bits); }
 

@@ -106,6 +106,8 @@ static inline vmask v_lt(vf32 a, vf32 b) { return _mm512_cmp_ps_mask(a, b, _CMP_
 static inline vmask v_gt(vf32 a, vf32 b) { return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ); }
 static inline vmask v_ge(vf32 a, vf32 b) { return _mm512_cmp_ps_mask(a, b, _CMP_GE_OQ); }
 static inline vmask v_eq(vf32 a, vf32 b) { return _mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ); }
+static inline vmask v_lt_in(vmask m, vf32 a, vf32 b) { return _mm512_mask_cmp_ps_mask(m, a, b, _CMP_LT_OQ); }
+static inline vmask v_eq_in(vmask m, vf32 a, vf32 b) { return _mm512_mask_cmp_ps_mask(m, a, b, _CMP_EQ_OQ); }
 
 static inline vi32 v_sums(vi32 a) {
     const __m512i none = _mm512_setzero_si512();
@@ -120,6 +122,7 @@ static inline vmask v_eqi(vi32 a, vi32 b) { return _mm512_cmpeq_epi32_mask(a, b)
 static inline vmask v_negi(vi32 a) { return _mm512_movepi32_mask(a); }
 
 static inline vf32 v_floor(vf32 a) { return _mm512_roundscale_ps(a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC); }
+static inline vi32 v_floori(vf32 a) { return _mm512_cvt_roundps_epi32(a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC); }
 
 static inline vf32 v_self(vmask m, vf32 a, vf32 b) { return _mm512_mask_blend_ps(m, b, a); }
 static inline vi32 v_seli(vmask m, vi32 a, vi32 b) { return _mm512_mask_blend_epi32(m, b, a); }

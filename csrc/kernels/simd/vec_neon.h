@@ -41,8 +41,7 @@ static inline vi32 v_gatheri(const void *base, vi32 i) {
 }
 /* Four registers hold all bytes; where an index's byte has all bits set, it finds 0. */
 static inline vi32 v_lookup8(const uint8_t bytes[64], vi32 i) {
-    uint8x16x4_t table = {{vld1q_u8(bytes), vld1q_u8(bytes + 16), vld1q_u8(bytes + 32), vld1q_u8(bytes + 48)}};
-    return vreinterpretq_s32_u8(vqtbl4q_u8(table, vreinterpretq_u8_s32(vorrq_s32(i, v_seti(~255)))));
+    return vreinterpretq_s32_u8(vqtbl4q_u8(vld1q_u8_x4(bytes), vreinterpretq_u8_s32(vorrq_s32(i, v_seti(~255)))));
 }
 
 static inline vf32 v_add(vf32 a, vf32 b) { return vaddq_f32(a, b); }
@@ -56,6 +55,10 @@ static inline vmask v_lt(vf32 a, vf32 b) { return vcltq_f32(a, b); }
 static inline vmask v_gt(vf32 a, vf32 b) { return vcgtq_f32(a, b); }
 static inline vmask v_ge(vf32 a, vf32 b) { return vcgeq_f32(a, b); }
 static inline vmask v_eq(vf32 a, vf32 b) { return vceqq_f32(a, b); }
+/* The other lanes become NaN, of which comparisons are false: two words about the same lanes share that. */
+static inline vf32 or_nan(vmask m, vf32 a) { return vreinterpretq_f32_u32(vornq_u32(vreinterpretq_u32_f32(a), m)); }
+static inline vmask v_lt_in(vmask m, vf32 a, vf32 b) { return vcltq_f32(or_nan(m, a), b); }
+static inline vmask v_eq_in(vmask m, vf32 a, vf32 b) { return vceqq_f32(or_nan(m, a), b); }
 
 static inline vi32 v_addi(vi32 a, vi32 b) { return vaddq_s32(a, b); }
 static inline vi32 v_sums(vi32 a) {
@@ -104,6 +107,7 @@ static inline vi32 v_rint(vf32 a) {
 }
 static inline vi32 v_trunc(vf32 a) { return vcvtq_s32_f32(a); }
 static inline vf32 v_floor(vf32 a) { return vrndmq_f32(a); }
+static inline vi32 v_floori(vf32 a) { return vcvtmq_s32_f32(a); }
 static inline vf32 v_asf(vi32 a) { return vreinterpretq_f32_s32(a); }
 static inline vi32 v_asi(vf32 a) { return vreinterpretq_s32_f32(a); }
 

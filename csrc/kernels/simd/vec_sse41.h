@@ -50,6 +50,8 @@ static inline vmask v_lt(vf32 a, vf32 b) { return _mm_cmplt_ps(a, b); }
 static inline vmask v_gt(vf32 a, vf32 b) { return _mm_cmpgt_ps(a, b); }
 static inline vmask v_ge(vf32 a, vf32 b) { return _mm_cmpge_ps(a, b); }
 static inline vmask v_eq(vf32 a, vf32 b) { return _mm_cmpeq_ps(a, b); }
+static inline vmask v_lt_in(vmask m, vf32 a, vf32 b) { return v_mand(m, v_lt(a, b)); }
+static inline vmask v_eq_in(vmask m, vf32 a, vf32 b) { return v_mand(m, v_eq(a, b)); }
 
 static inline vi32 v_sums(vi32 a) {
     a = _mm_add_epi32(a, _mm_slli_si128(a, 4));
@@ -58,6 +60,7 @@ static inline vi32 v_sums(vi32 a) {
 static inline vi32 v_last(vi32 a) { return _mm_shuffle_epi32(a, 0xFF); }
 
 static inline vf32 v_floor(vf32 a) { return _mm_floor_ps(a); }
+static inline vi32 v_floori(vf32 a) { return v_trunc(v_floor(a)); }
 
 static inline int v_count(uint32_t bits) { return pack_count(bits); }
 

@@ -45,6 +45,8 @@ VIEWPORT = np.dtype(
         ("guard_x", "f4"),
         ("guard_y", "f4"),
         ("reach", "i4"),
+        ("unused", "i4"),
+        ("pattern", "u8"),  # an address, or 0
     ]
 )
 CLUSTER = np.dtype(
@@ -249,4 +251,6 @@ def viewport_of(width, height):
     """A viewport record: sizes in samples, and the guard factors of section 2 of the rules; one
     sample a pixel."""
     guard_x, guard_y = (2.0 ** np.floor(np.log2(65536 / size)) for size in (width, height))
-    return np.array([(width, height, 128 * width, 128 * height, guard_x, guard_y, 0)], VIEWPORT)
+    return np.array(
+        [(width, height, 128 * width, 128 * height, guard_x, guard_y, 0, 0, 0)], VIEWPORT
+    )

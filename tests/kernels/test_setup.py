@@ -154,3 +154,42 @@ def test_wide_triangles_stay(kernels):
             )
             must_stay = np.flatnonzero((area != 0) & (np.sign(area) != (cull or 9)))
             assert set(must_stay) <= set(drawn)
+
+
+def pattern_of(reach, offsets):
+    """A sample pattern (R103); whoever passes its address keeps it."""
+    words, count = np.zeros(2 + 2 * 16, np.int32), len(offsets)
+    words[:2] = count, reach
+    words[2 : 2 + count], words[18 : 18 + count] = np.transpose(offsets)
+    return words
+
+
+@all_backends
+def test_boxes_between_samples(kernels):
+    """With multisampling, triangles stay whose box has a sample of any pixel, and no others."""
+    offsets = np.array([(-32, -96), (96, -32), (-96, 32), (32, 96)])
+    pattern = pattern_of(96, offsets)
+    viewport = viewport_of(64, 64)
+    viewport["reach"], viewport["pattern"] = 96, pattern.ctypes.data
+    indices = np.zeros((3, CLUSTER_TRIANGLES), np.uint8)
+    count = CLUSTER_VERTICES // 3
+    indices[:, :count] = np.arange(3 * count).reshape(count, 3).T
+    for seed in range(60):
+        rng = np.random.default_rng(seed)
+        x, y = rng.integers(512, 15000, (2, 1, count)) + rng.integers(0, 200, (2, 3, count))
+        vertices = np.zeros(1, VERTICES)
+        vertices["sx"][0, : 3 * count], vertices["sy"][0, : 3 * count] = x.T.ravel(), y.T.ravel()
+        vertices["count"], vertices["special"] = 3 * count, seed % 2  # by 16 bits, and by 32
+        out = Records(SURVIVORS, 1)
+        arguments = vertices.view(np.uint8), indices.ravel(), count, 0, False
+        kernels.setup(*arguments, viewport.view(np.uint8), out.rows[0])
+        inside = np.zeros(count, bool)
+        for u, v in offsets:
+            first = [-((128 + o - c.min(0)) // 256) for c, o in ((x, u), (y, v))]
+            last = [(c.max(0) - 128 - o) // 256 for c, o in ((x, u), (y, v))]
+            inside |= (first[0] <= last[0]) & (first[1] <= last[1])
+        area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
+        expected = inside & (area != 0)
+        assert 0 < expected.sum() < count
+        got = int(out.fields["draw"][0])
+        assert got == sum(1 << int(n) for n in np.flatnonzero(expected)), seed

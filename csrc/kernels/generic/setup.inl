@@ -57,6 +57,18 @@ static inline vmask setup_narrow(setup_span s, int32_t samples)
     return v_mnot(v_gti(v_subi(s.last, s.first), v_seti(samples - 1)));
 }
 
+/* Lanes whose box lies between the samples, whichever of a pixel (R104). Of micro-triangles that is the fate of many. */
+static inline vmask setup_between(vi32 xlo, vi32 xhi, vi32 ylo, vi32 yhi, const e3d_sample_pattern *pattern)
+{
+    vi32 between = v_seti(-1);
+    for (int s = 0; s < pattern->count; s++) {
+        vi32 across = v_subi(v_sra(v_subi(xhi, v_seti(128 + pattern->x[s])), 8), v_sra(v_addi(xlo, v_seti(127 - pattern->x[s])), 8));
+        vi32 down = v_subi(v_sra(v_subi(yhi, v_seti(128 + pattern->y[s])), 8), v_sra(v_addi(ylo, v_seti(127 - pattern->y[s])), 8));
+        between = v_andi(between, v_ori(across, down));
+    }
+    return v_negi(between);
+}
+
 /* Lanes that miss: their box has no sample, or they face the wrong way and 32 bits hold the area; lanes that are small. */
 typedef struct setup_boxes {
     vmask miss, small;
@@ -68,6 +80,8 @@ static inline setup_boxes setup_boxes_of(const vi32 x[3], const vi32 y[3], int c
     setup_span across = setup_samples(xlo, xhi, viewport->width, viewport->reach);
     setup_span down = setup_samples(ylo, yhi, viewport->height, viewport->reach);
     vmask empty = v_mor(v_gti(across.first, across.last), v_gti(down.first, down.last));
+    if (viewport->pattern)
+        empty = v_mor(empty, setup_between(xlo, xhi, ylo, yhi, viewport->pattern));
     vi32 size = v_maxi(v_subi(xhi, xlo), v_subi(yhi, ylo));
     vmask wide = v_gti(size, v_seti(32767)), large = v_gti(size, v_seti(E3D_SMALL_REACH));
     vmask narrow = v_mand(setup_narrow(across, E3D_SMALL), setup_narrow(down, E3D_SMALL));
@@ -129,9 +143,23 @@ static inline vmask setup_negative(vi32 a)
 /* A number in both halves of each word. */
 static inline vi32 setup_halves(int32_t n) { return v_seti((int32_t)(((uint32_t)n & 0xFFFF) * 0x10001u)); }
 
-/* setup_boxes_of in 16-bit halves, for packed vertices that are all inside the viewport. */
-static inline setup_boxes setup_boxes_near(const vi32 p[3], int cull, int32_t reach)
+/* setup_between in 16-bit halves. */
+static inline vmask setup_between_near(vi32 lo, vi32 hi, const e3d_sample_pattern *pattern)
 {
+    vi32 between = v_seti(-1);
+    for (int s = 0; s < pattern->count; s++) {
+        vi32 at = v_seti((int32_t)(((uint32_t)pattern->y[s] << 16) | ((uint32_t)pattern->x[s] & 0xFFFF)));
+        vi32 first = v_sra16(v_add16(lo, v_sub16(setup_halves(127), at)), 8), last = v_sra16(v_sub16(hi, v_add16(setup_halves(128), at)), 8);
+        vi32 more = v_sub16(last, first);
+        between = v_andi(between, v_ori(more, v_shl(more, 16)));
+    }
+    return v_negi(between);
+}
+
+/* setup_boxes_of in 16-bit halves, for packed vertices that are all inside the viewport. */
+static inline setup_boxes setup_boxes_near(const vi32 p[3], int cull, const e3d_viewport *viewport)
+{
+    const int32_t reach = viewport->reach;
     vi32 lo = v_min16(v_min16(p[0], p[1]), p[2]), hi = v_max16(v_max16(p[0], p[1]), p[2]);
     vi32 first = v_sra16(v_add16(lo, setup_halves(127 - reach)), 8), last = v_sra16(v_sub16(hi, setup_halves(128 - reach)), 8);
     vi32 more = v_sub16(last, first);
@@ -139,12 +167,15 @@ static inline setup_boxes setup_boxes_near(const vi32 p[3], int cull, int32_t re
                        v_sub16(v_seti(E3D_SMALL_REACH * 0x10001), v_sub16(hi, lo)));
     vi32 c = v_sub16(p[2], p[0]), turned = v_ori(v_shr(c, 16), v_shl(v_sub16(p[0], p[2]), 16));
     vi32 area = v_madd16(v_sub16(p[1], p[0]), turned);
-    return (setup_boxes){v_mor(setup_negative(more), setup_culled(area, cull)), v_mnot(setup_negative(spare))};
+    vmask empty = setup_negative(more);
+    if (viewport->pattern)
+        empty = v_mor(empty, setup_between_near(lo, hi, viewport->pattern));
+    return (setup_boxes){v_mor(empty, setup_culled(area, cull)), v_mnot(setup_negative(spare))};
 }
 
 /* With both coordinates in a word: half the look-ups, half the arithmetic. 0 if the vertices are too far apart for that. */
-static inline int setup_near(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull, int32_t reach, uint64_t *draw,
-                             uint64_t *small)
+static inline int setup_near(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull, const e3d_viewport *viewport,
+                             uint64_t *draw, uint64_t *small)
 {
     int32_t packed[E3D_CLUSTER_VERTICES + E3D_PAD];
     uint64_t shown = 0, narrow = 0;
@@ -156,7 +187,7 @@ static inline int setup_near(const e3d_vertices *v, const uint8_t *indices, int 
         vi32 p[3];
         for (int k = 0; k < 3; k++)
             p[k] = v_lookup(&table, v_loadu8(indices + k * E3D_CLUSTER_TRIANGLES + i));
-        setup_boxes boxes = setup_boxes_near(p, cull, reach);
+        setup_boxes boxes = setup_boxes_near(p, cull, viewport);
         shown |= (uint64_t)v_bits(v_mnot(boxes.miss)) << i;
         narrow |= (uint64_t)v_bits(boxes.small) << i;
     }
@@ -197,7 +228,7 @@ static int kernel_setup(const e3d_vertices *v, const uint8_t *indices, int trian
                         const e3d_viewport *viewport, e3d_survivors *out)
 {
     uint64_t draw = 0, small = 0, clip = 0, asked = triangles ? ~(uint64_t)0 >> (E3D_CLUSTER_TRIANGLES - triangles) : 0;
-    if (V_LANES == 1 || v->special || !setup_near(v, indices, triangles, cull, viewport->reach, &draw, &small))
+    if (V_LANES == 1 || v->special || !setup_near(v, indices, triangles, cull, viewport, &draw, &small))
         clip = setup_far(v, indices, triangles, cull, viewport, &draw, &small);
     small &= fragments ? draw & asked : 0;
     *out = (e3d_survivors){draw & asked & ~small, small, clip & asked};

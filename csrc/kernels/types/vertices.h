@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "core/limits.h"
+#include "core/sample_patterns.h"
 
 /* What tells which way the clusters of an instance face (facing.inl). */
 typedef struct e3d_facing {
@@ -36,6 +37,7 @@ typedef struct e3d_viewport {
     float scale_x, scale_y;  /* 128 * width, 128 * height */
     float guard_x, guard_y;
     int32_t reach;           /* of the samples from their pixel's centre, in 1/256 (R104); 0 without multisampling */
+    const e3d_sample_pattern *pattern; /* of these samples, or NULL */
 } e3d_viewport;
 
 /* A cluster's vertices in clip space and on the screen, as structure of arrays. Every array fills whole cache lines, since a vector

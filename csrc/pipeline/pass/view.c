@@ -38,7 +38,8 @@ static void find_viewport(e3d_view *view, const e3d_frame *frame)
     v->scale_y = 128.0f * (float)v->height;
     v->guard_x = guard_factor(v->width / 2.0);
     v->guard_y = guard_factor(v->height / 2.0);
-    v->reach = frame->msaa_samples ? e3d_sample_pattern_of(frame->msaa_samples)->reach : 0;
+    v->pattern = frame->msaa_samples ? e3d_sample_pattern_of(frame->msaa_samples) : NULL;
+    v->reach = v->pattern ? v->pattern->reach : 0;
     view->tiles_x = (v->width + E3D_TILE - 1) / E3D_TILE;
     view->tiles_y = (v->height + E3D_TILE - 1) / E3D_TILE;
 }

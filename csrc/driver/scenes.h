@@ -15,7 +15,7 @@ enum {
     SCENE_MAX_TEXTURES = 2,
     SCENE_MAX_LIGHTS = 24,
     SCENE_MAX_MATERIALS = 4,
-    SCENE_MAX_ARRAYS = 85
+    SCENE_MAX_ARRAYS = 85 + SCENE_MAX_LIGHTS
 };
 
 typedef struct scene {

@@ -36,7 +36,25 @@ static void fill_depths(float *depths, int32_t count, random_stream *r)
     }
 }
 
-static void add_map(e3d_light *light, const float *depths, e3d_shadow_map *maps, int32_t *count, random_stream *r)
+/* The ranges of a light's maps, as of maps that are kept. */
+static const uint32_t *ranges_of(scene *s, const e3d_light_shadow *shadow)
+{
+    size_t side = (size_t)e3d_shadow_ranges_side(shadow->size), texels = (size_t)shadow->size * (size_t)shadow->size;
+    uint32_t *ranges = kept_array(s, (size_t)shadow->count * side * side, sizeof *ranges);
+    for (size_t k = 0; k < (size_t)shadow->count; k++)
+        if (e3d_find_shadow_ranges(shadow->depths + k * texels, shadow->size, shadow->taps, shadow->step, ranges + k * side * side) != E3D_OK)
+            abort();
+    return ranges;
+}
+
+/* Sometimes all samples are compared at one depth, which is that of a patch: neither is the greater. */
+static void level_depths(e3d_light_shadow *shadow, random_stream *r)
+{
+    shadow->depth[0] = shadow->depth[1] = 0.0f;
+    shadow->bias = shadow->depths[random_below(r, shadow->size * shadow->size)];
+}
+
+static void add_map(scene *s, e3d_light *light, const float *depths, e3d_shadow_map *maps, int32_t *count, random_stream *r)
 {
     e3d_light_shadow *shadow = &light->shadow;
     int32_t taps = 1 + 2 * random_below(r, 3);
@@ -55,6 +73,10 @@ static void add_map(e3d_light *light, const float *depths, e3d_shadow_map *maps,
     for (int k = 0; k < 2; k++)
         shadow->depth[k] = number(r, -0.5f, 0.5f);
     shadow->depths = depths;
+    if (random_once_in(r, 4))
+        level_depths(shadow, r);
+    if (!random_once_in(r, 3))
+        shadow->ranges = ranges_of(s, shadow);
     for (int32_t k = 0; k < shadow->count; k++) {
         float scale = number(r, 1.0f, 20.0f), middle = 0.5f * (float)shadow->size;
         maps[(*count)++] = (e3d_shadow_map){scale, middle + number(r, -3.0f, 3.0f), middle + number(r, -3.0f, 3.0f), 1.0f / scale};
@@ -92,7 +114,7 @@ void scene_add_shadows(scene *s, random_stream *r)
         if (random_once_in(r, 3))
             add_exact(&s->lights[n], &exact);
         else if (!random_once_in(r, 4))
-            add_map(&s->lights[n], depths, maps, &count, r);
+            add_map(s, &s->lights[n], depths, maps, &count, r);
     s->frame.shadow_maps = maps;
     s->frame.shadow_map_count = count;
     s->frame.casters = casters_of(s, r);

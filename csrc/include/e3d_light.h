@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "e3d_options.h"
+#include "e3d_status.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -42,7 +43,14 @@ typedef struct e3d_light_shadow {
     float axes[3][3];        /* directional, spot: unit vectors to the right, down and ahead, as the light shines */
     float depth[2];          /* ndc depth of what is so far ahead: depth[0]*ahead + depth[1], or depth[0] + depth[1]/ahead */
     const float *depths;     /* (count, size, size) what the maps show: the output ndc_depth */
+    const uint32_t *ranges;  /* of the same maps, by e3d_find_shadow_ranges; NULL: all samples are compared with depths */
 } e3d_light_shadow;
+
+/* How many words of `ranges` a map of that size takes a side. */
+int32_t e3d_shadow_ranges_side(int32_t size);
+/* Finds between which depths of a map, (size, size), lies what comparisons may touch: (side, side). Most samples are before or behind all
+ * of that, and need no comparisons. */
+e3d_status e3d_find_shadow_ranges(const float *depths, int32_t size, int32_t taps, int32_t step, uint32_t *ranges);
 
 typedef struct e3d_light {
     e3d_light_kind kind;

@@ -1,6 +1,6 @@
 # The Cython mirror of csrc/include/e3d.h, and nothing else. The header explains every name.
 
-from libc.stdint cimport int32_t, int64_t, uint8_t, uint64_t
+from libc.stdint cimport int32_t, int64_t, uint8_t, uint32_t, uint64_t
 
 
 cdef extern from "e3d.h" nogil:
@@ -223,6 +223,10 @@ cdef extern from "e3d.h" nogil:
         float axes[3][3]
         float depth[2]
         const float *depths
+        const uint32_t *ranges
+
+    int32_t e3d_shadow_ranges_side(int32_t size)
+    e3d_status e3d_find_shadow_ranges(const float *depths, int32_t size, int32_t taps, int32_t step, uint32_t *ranges)
 
     ctypedef struct e3d_light:
         e3d_light_kind kind

@@ -433,9 +433,9 @@ cdef class NativeDrawList:
 
     def set_shadow(
         self, int number, const float[:, :, ::1] depths not None, list places not None, *, int taps, int step,
-        float margin, float bias, float normal_bias, axes, depth,
+        float margin, float bias, float normal_bias, axes, depth, const uint32_t[:, :, ::1] ranges=None,
     ):
-        """Give a light its maps: (maps, size, size), and the numbers of e3d_shadow_map of each."""
+        """Give a light its maps: (maps, size, size), the numbers of e3d_shadow_map of each, and their ranges, if these are found."""
         cdef e3d_light_shadow *shadow = &self.light_at(number).shadow
         cdef e3d_shadow_map *map
         require(depths.shape[0] == len(places) and depths.shape[1] == depths.shape[2] > 0, "maps are square")
@@ -455,6 +455,11 @@ cdef class NativeDrawList:
             self.shadow_map_count += 1
         self.depths.append(depths)
         shadow.depths = &depths[0, 0, 0]
+        if ranges is not None:
+            require_ranges(ranges[0], shadow.size)
+            require(ranges.shape[0] == depths.shape[0], "each map has its ranges")
+            self.depths.append(ranges)
+            shadow.ranges = &ranges[0, 0, 0]
         shadow.kind = E3D_SHADOW_MAP
 
     def set_exact_shadow(self, int number):

@@ -11,7 +11,7 @@ Always: a handle holds the arrays that the core borrows; the GIL is released for
 from cpython.exc cimport PyErr_CheckSignals
 from libc.math cimport INFINITY
 from cpython.ref cimport PyObject
-from libc.stdint cimport int32_t, int64_t, uint8_t, uint16_t, uint64_t
+from libc.stdint cimport int32_t, int64_t, uint8_t, uint16_t, uint32_t, uint64_t
 from libc.stdlib cimport calloc, free, realloc
 from libc.string cimport memcmp, memcpy, memset
 
@@ -93,6 +93,12 @@ cdef int require(bint condition, str message) except -1:
     if not condition:
         raise InvalidArgumentError(message)
     return 0
+
+
+cdef int require_ranges(const uint32_t[:, ::1] ranges, int size) except -1:
+    """Raise unless a map of that size has such ranges."""
+    cdef int side = e3d_shadow_ranges_side(size)
+    return require(ranges.shape[0] == side and ranges.shape[1] == side, f"ranges must be ({side}, {side})")
 
 
 def backend_available(int backend):
@@ -466,6 +472,23 @@ cdef class NativeRenderer:
         frame.order_count = draw_list.casting.order_count
         e3d_targets_set(&outputs, E3D_OUTPUT_NDC_DEPTH, floats_of(depths, frame.width, frame.height))
         self.draw(&frame, &outputs, &stats)
+
+
+def shadow_ranges_side(int size):
+    """How many words of ranges a map of that size has a side."""
+    return e3d_shadow_ranges_side(size)
+
+
+def find_shadow_ranges(const float[:, ::1] depths not None, int taps, int step, uint32_t[:, ::1] ranges not None):
+    """Find between which depths lies what comparisons touch, of a map that will be looked up again."""
+    cdef e3d_status status
+    cdef int size = <int>depths.shape[0]
+    require(depths.shape[1] == size > 0, "a map is a square")
+    require(taps in (1, 3, 5) and 0 <= step * (taps - 1) <= 256 * size - 512, "comparisons leave the map")
+    require_ranges(ranges, size)
+    with nogil:
+        status = e3d_find_shadow_ranges(&depths[0, 0], size, taps, step, &ranges[0, 0])
+    check(status)
 
 
 def bloom_scratch(int width, int height, int threads):

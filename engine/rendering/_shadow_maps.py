@@ -8,8 +8,9 @@ directional lights, the part of the world that it covers has changed.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from .._native.rasterizer import CULLS, NativeRenderer
+from .._native.rasterizer import CULLS, NativeRenderer, find_shadow_ranges, shadow_ranges_side
 from ..choices import Cull
 from ..scene.lights import DirectionalLight, SpotLight
 from ..scene.scene import Scene
@@ -26,22 +27,44 @@ from ._view import View
 
 
 class _LightMaps:
-    """The maps of one light: their depths, and of each what it was drawn of."""
+    """The maps of one light: their depths and ranges, and of each what it was drawn of."""
 
     def __init__(self, count: int, size: int) -> None:
+        side = shadow_ranges_side(size)
         self.depths = np.empty((count, size, size), np.float32)
+        self.ranges = np.empty((count, side, side), np.uint32)
         self.drawn = [_Drawn() for _ in range(count)]
 
     def fits(self, count: int, size: int) -> bool:
         return self.depths.shape == (count, size, size)
 
+    def find_ranges(self, taps: int, step: int) -> NDArray[np.uint32] | None:
+        """The ranges of all maps; None where one is new.
+
+        They are found when a map is looked up for the second time: to find them takes about as
+        long as they save in a frame.
+        """
+        for depths, ranges, drawn in zip(self.depths, self.ranges, self.drawn, strict=True):
+            if not drawn.is_new and drawn.compared != (taps, step):
+                find_shadow_ranges(depths, taps, step, ranges)
+                drawn.compared = taps, step
+        are_found = all(drawn.compared == (taps, step) for drawn in self.drawn)
+        for drawn in self.drawn:
+            drawn.is_new = False
+        return self.ranges if are_found else None
+
 
 class _Drawn:
-    """What a map was drawn of: first the moment of the scene, then the nodes themselves."""
+    """What a map was drawn of: first the moment of the scene, then the nodes themselves.
+
+    And by which comparisons it is looked up, if its ranges are found.
+    """
 
     clip = b""
     moment: tuple | None = None
     casters: tuple | None = None
+    is_new = True
+    compared: tuple[int, int] | None = None
 
 
 class ShadowMaps:
@@ -111,12 +134,14 @@ class ShadowMaps:
         for k, seen in enumerate(views.maps):
             self._update_map(kept.depths[k], kept.drawn[k], seen, moment)
         self.count += count
+        taps, step = light.shadow_taps, round(256 * light.shadow_radius)
         self._draw_list.native.set_shadow(
             number,
             kept.depths,
             views.places,
-            taps=light.shadow_taps,
-            step=round(256 * light.shadow_radius),
+            taps=taps,
+            step=step,
+            ranges=kept.find_ranges(taps, step),
             margin=views.margin,
             bias=2.0 * light.shadow_bias,  # depths are from -1 to 1
             normal_bias=light.shadow_normal_bias,
@@ -135,6 +160,7 @@ class ShadowMaps:
         casters = arrays, renewals, cull, placed_casters(arrays, selection)
         if clip != drawn.clip or casters != drawn.casters:
             drawn.clip, drawn.casters = b"", None  # for if anything below raises
+            drawn.is_new, drawn.compared = True, None
             native = self._draw_list.native
             native.place_casters(arrays.count, arrays.columns, selection, seen.clip_from_world)
             self._native.draw_shadow_map(native, depths, *seen, cull, id(drawn))

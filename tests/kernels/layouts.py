@@ -181,7 +181,8 @@ LIGHT_SHADOW = np.dtype(
         ("margin", "f4"),
         ("axes", "f4", (3, 3)),
         ("depth", "f4", 2),
-        ("depths", "u8"),  # an address
+        ("depths", "u8"),  # addresses
+        ("ranges", "u8"),
     ],
     align=True,
 )

@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 from kernels.arithmetic import ONE, ZERO, clamp, dot, greatest
 from kernels.harness import all_backends, check_lanes, hostile
-from kernels.layouts import SHADOW_MAP
+from kernels.layouts import LIGHT, SHADOW_MAP
 from kernels.surfaces import fill, planes, random_batches
 from kernels.test_light import DIRECTIONAL, POINT, random_lights, random_normals, reach_of, towards
+
+import engine3d as e3d
+from engine3d._native.rasterizer import find_shadow_ranges, shadow_ranges_side
 
 SPOT = 2
 CORNER, SLACK = np.float32(float.fromhex("0x1.6a09e6p+0")), np.float32(0.25)
@@ -151,6 +154,9 @@ def random_maps(rng, lights):
         shadow["bias"], shadow["normal_bias"] = rng.uniform(-0.1, 0.1, 2)
         shadow["margin"] = rng.choice([1.5, 4.0])
         shadow["axes"], shadow["depth"] = axes, rng.uniform(-0.5, 0.5, 2)
+        if number % 2:  # all at the depth of a patch, or the next beside it
+            near = np.nextafter(np.float32(0.3), np.float32(rng.choice([-1, 0.3, 1])))
+            shadow["depth"], shadow["bias"] = 0, near
         shadow["depths"] = depths.ctypes.data
         scale = rng.uniform(3, 9, count) * np.float32(2.0) ** np.arange(0, -count, -1)
         middle = np.float32(shadow["size"]) * np.float32(0.5) + rng.uniform(-2, 2, (2, count))
@@ -158,6 +164,21 @@ def random_maps(rng, lights):
         rows[:, 3] = ONE / rows[:, 0]
         maps += [tuple(row) for row in rows]
     return np.array(maps, SHADOW_MAP), depths
+
+
+def give_ranges(lights, depths):
+    """Gives the maps of lights their ranges, which are returned."""
+    held = []
+    for light in lights:
+        shadow = light["shadow"]
+        size, count = int(shadow["size"]), int(shadow["count"])
+        side = shadow_ranges_side(size)
+        ranges = np.empty((count, side, side), np.uint32)
+        for k, of in enumerate(depths[: count * size * size].reshape(count, size, size)):
+            find_shadow_ranges(of, int(shadow["taps"]), int(shadow["step"]), ranges[k])
+        shadow["ranges"] = ranges.ctypes.data
+        held.append(ranges)
+    return held
 
 
 @functools.lru_cache(maxsize=1)  # the backends of a case follow each other
@@ -195,12 +216,46 @@ def shadowed_batches(kind):
 
 @all_backends
 @pytest.mark.parametrize("kind", [DIRECTIONAL, POINT, SPOT])
-def test_shadow(kernels, kind):
-    for template, arguments, _, energy in shadowed_batches(kind):
+@pytest.mark.parametrize("ranged", [False, True])
+def test_shadow(kernels, kind, ranged):
+    for template, (lights, *arguments), depths, energy in shadowed_batches(kind):
         batches = template.copy()
+        if ranged:
+            lights = lights.copy()
+            held = give_ranges(lights.view(LIGHT), depths)
         for row in batches.rows:
-            kernels.light(row, *arguments)
+            kernels.light(row, lights, *arguments)
         for k in range(3):
             got = batches.fields["energy"][:, k]
             check_lanes(f"energy[{k}]", got, energy[k], batches.fields["count"])
         batches.check_gaps()
+        assert not ranged or len(held) == 3
+
+
+@pytest.mark.parametrize(
+    ("size", "taps", "step"), [(9, 1, 0), (16, 3, 256), (17, 5, 256), (13, 5, 300), (12, 3, 1279)]
+)
+def test_ranges(size, taps, step):
+    """A block's codes are those of the least and the greatest depth that is compared from it on."""
+    rng = np.random.default_rng(size)
+    depths = rng.choice([-0.5, 0.1, 0.1 + 1e-6, 0.9, 2.0, np.inf, -np.inf, np.nan], (size, size))
+    depths = depths.astype(np.float32)
+    side = shadow_ranges_side(size)
+    ranges = np.empty((side, side), np.uint32)
+    find_shadow_ranges(depths, taps, step, ranges)
+    limit = np.float32(32767)
+    codes = np.trunc(np.clip(depths * np.float32(32000), -limit, limit))
+    codes = np.where(np.isnan(depths), -32768, codes).astype(np.int64)
+    far = (255 + step * (taps - 1)) // 256 + 1  # texels from the first to the last
+    for (row, column), word in np.ndenumerate(ranges):
+        of = codes[2 * row : 2 * row + far + 2, 2 * column : 2 * column + far + 2]
+        assert np.int16(word & 0xFFFF) == of.min() and np.int16(word >> 16) == of.max()
+
+
+@pytest.mark.parametrize(
+    ("depths", "step", "side", "message"),
+    [((8, 8), 256, 3, "ranges"), ((8, 7), 256, 4, "square"), ((8, 8), 800, 4, "leave the map")],
+)
+def test_bad_ranges(depths, step, side, message):
+    with pytest.raises(e3d.InvalidArgumentError, match=message):
+        find_shadow_ranges(np.zeros(depths, np.float32), 3, step, np.empty((side, side), np.uint32))

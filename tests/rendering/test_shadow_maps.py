@@ -207,6 +207,39 @@ def test_kept_maps_show_what_new_ones_would(still):
         assert np.array_equal(other.render(scene, camera).color, before)
 
 
+@pytest.mark.parametrize("kind", ["sun", "spot", "point"])
+def test_the_ranges_of_kept_maps_change_no_pixel(kind):
+    """They are found when maps are looked up again, and for other comparisons anew."""
+    options = {"shadow": True, "shadow_map_size": 96}
+    light = {
+        "sun": e3d.DirectionalLight((1, -1, 0), shadow_cascades=2, **options),
+        "spot": e3d.SpotLight(intensity=30, outer_cone_angle=1.2, **options),
+        "point": e3d.PointLight(intensity=30, **options),
+    }[kind]
+    scene, _, box, lamp = stage(light)
+    if kind == "spot":
+        lamp.pose = e3d.look_at((-2, 4, 0), (0, 0, 0))
+    elif kind == "point":
+        lamp.translation = (-2, 4, 0)
+    camera = e3d.PerspectiveCamera(0.8), e3d.look_at((3, 4, 6), (0, 0.5, 0))
+    with e3d.Renderer(80, 60) as renderer:
+        for change in (
+            lambda: None,
+            lambda: setattr(light, "shadow_taps", 5),
+            lambda: setattr(light, "shadow_radius", 1.6),
+            lambda: setattr(box, "translation", (0.2, 1.5, 0.0)),
+        ):
+            change()
+            with e3d.Renderer(80, 60) as other:
+                expected = other.render(scene, camera).color
+            for frame in range(3):
+                assert np.array_equal(renderer.render(scene, camera).color, expected)
+                kept = renderer._shadow_maps._kept[0]
+                taps, step = light.shadow_taps, round(256 * light.shadow_radius)
+                found = [drawn.compared == (taps, step) for drawn in kept.drawn]
+                assert all(found) or frame == 0
+
+
 # Edges stay in place
 
 

@@ -97,14 +97,23 @@ static ALWAYS_INLINE void light_from(const e3d_light *light, const vf32 l[3], vf
 static ALWAYS_INLINE vf32 light_shadowed(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, const lit_lanes *lit,
                                          const vf32 l[3], vf32 attenuation)
 {
-    if (!lighting->shadows || !lighting->lights[n].shadow.kind || !v_any(v_gt(dot_three(lit->normal, l), v_setf(0.0f))))
+    if (!lighting->shadows || !lighting->lights[n].shadow.kind)
+        return attenuation;
+    const float *found = shadow_found(batch, n);
+    if (found)
+        return v_mul(attenuation, v_loadf(found + i));
+    if (!v_any(v_gt(dot_three(lit->normal, l), v_setf(0.0f))))
         return attenuation;
     return v_mul(attenuation, light_reached(lighting, n, batch, i, lit->position, l));
 }
 
+/* What differs from sample to sample, which is a constant for the compiler: nothing that isn't the surface's; how much of lights reaches
+ * samples; or the light from all around, too. */
+enum light_variety { LIGHT_ALIKE = 0, LIGHT_SHADOWED, LIGHT_VARIED };
+
 /* Adds a light to samples of the batch from i on. */
-static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, int varied, float shininess,
-                                    lit_lanes *lit)
+static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, enum light_variety varied,
+                                    float shininess, lit_lanes *lit)
 {
     const e3d_light *light = &lighting->lights[n];
     vf32 l[3], attenuation = v_setf(1.0f);
@@ -231,11 +240,15 @@ static ALWAYS_INLINE void ambient_light(const e3d_lighting *lighting, const vf32
 
 /* ---- the sums ---- */
 
-/* Whether shadows fall on what is lit, or ambient light isn't the same everywhere. */
-static inline int light_varies(const e3d_lighting *lighting) { return lighting->shadows || ambient_varies(lighting); }
+static inline enum light_variety light_varies(const e3d_lighting *lighting)
+{
+    return ambient_varies(lighting) ? LIGHT_VARIED : lighting->shadows ? LIGHT_SHADOWED
+                                                                        : LIGHT_ALIKE;
+}
 
 /* Loads one vector, which only the ambient light lights yet: the same everywhere, unless it is varied. */
-static ALWAYS_INLINE lit_lanes light_begin(const e3d_batch *batch, int i, const e3d_lighting *lighting, int varied, float shininess)
+static ALWAYS_INLINE lit_lanes light_begin(const e3d_batch *batch, int i, const e3d_lighting *lighting, enum light_variety varied,
+                                           float shininess)
 {
     lit_lanes lit;
     for (int k = 0; k < 3; k++) {
@@ -244,9 +257,9 @@ static ALWAYS_INLINE lit_lanes light_begin(const e3d_batch *batch, int i, const 
         lit.view[k] = lit.shine[k] = v_setf(0.0f);
         lit.energy[k] = v_setf(lighting->ambient[k]);
     }
-    if (varied)
+    if (varied == LIGHT_VARIED)
         ambient_light(lighting, lit.normal, lit.energy);
-    if (varied && lighting->has_visibility)
+    if (varied == LIGHT_VARIED && lighting->has_visibility)
         for (int k = 0; k < 3; k++)
             lit.energy[k] = v_mul(lit.energy[k], v_loadf(batch->visibility + i));
     if (shininess > 0.0f)
@@ -260,9 +273,8 @@ static inline vf32 light_clamp(const e3d_lighting *lighting, vf32 energy)
 }
 
 /* Adds the chosen ones of the lights from `first` on. */
-/* `varied`, a constant for the compiler: some lights have shadows, or ambient light isn't the same everywhere. */
-static ALWAYS_INLINE void light_add(e3d_batch *batch, const e3d_lighting *lighting, int first, const int32_t *chosen, int count, int varied,
-                                    float shininess)
+static ALWAYS_INLINE void light_add(e3d_batch *batch, const e3d_lighting *lighting, int first, const int32_t *chosen, int count,
+                                    enum light_variety varied, float shininess)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         lit_lanes lit = light_begin(batch, i, lighting, varied, shininess);
@@ -290,9 +302,9 @@ static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float s
         int rest = lighting->light_count - first, end = first + (rest < AT_ONCE ? rest : AT_ONCE);
         int count = light_choose(lighting, first, end, boxed ? &box : NULL, chosen);
         if (light_varies(lighting))
-            light_add(batch, lighting, first, chosen, count, 1, shininess);
+            light_add(batch, lighting, first, chosen, count, LIGHT_VARIED, shininess);
         else
-            light_add(batch, lighting, first, chosen, count, 0, shininess);
+            light_add(batch, lighting, first, chosen, count, LIGHT_ALIKE, shininess);
         first = end;
     } while (first < lighting->light_count);
     for (int k = 0; k < 3; k++)

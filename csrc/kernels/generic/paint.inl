@@ -18,10 +18,11 @@
 /* ---- light ---- */
 
 /* How samples are lit, which is a constant for the compiler. */
-enum paint_lit { PAINT_UNLIT = 0, PAINT_LIT, PAINT_VARIED };
+enum paint_lit { PAINT_UNLIT = 0, PAINT_LIT, PAINT_SHADOWED, PAINT_VARIED };
 
 /* R31 of all lights, which are few. Whether there are highlights is a constant for the compiler, too. */
-static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_paint *paint, int varied, float shininess, vf32 color[3])
+static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_paint *paint, enum light_variety varied, float shininess,
+                                      vf32 color[3])
 {
     const e3d_lighting *lighting = paint->lighting;
     lit_lanes lit = light_begin(batch, i, lighting, varied, shininess);
@@ -72,7 +73,7 @@ static ALWAYS_INLINE void paint_color(const e3d_batch *batch, int i, const e3d_p
     for (int k = 0; k < 3; k++)
         color[k] = colored ? v_loadf(batch->color[k] + i) : v_setf(paint->base[k]);
     if (lit)
-        paint_light(batch, i, paint, lit == PAINT_VARIED, shininess, color);
+        paint_light(batch, i, paint, (enum light_variety)(lit - PAINT_LIT), shininess, color);
 }
 
 /* Shades and encodes a batch to RGBA8. */
@@ -173,6 +174,8 @@ static void kernel_paint(e3d_batch *batch, const e3d_surfaces *surfaces, const e
         paint_toned(batch, paint, colored, rgba);
     else if (!paint->lighting)
         paint_pixels(batch, paint, colored, PAINT_UNLIT, 0.0f, rgba);
+    else if (light_varies(paint->lighting) == LIGHT_SHADOWED && !(paint->shininess > 0.0f))
+        paint_pixels(batch, paint, colored, PAINT_SHADOWED, 0.0f, rgba);
     else if (light_varies(paint->lighting))
         paint_pixels(batch, paint, colored, PAINT_VARIED, paint->shininess, rgba);
     else if (paint->shininess > 0.0f)

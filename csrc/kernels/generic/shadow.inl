@@ -4,8 +4,11 @@
 #ifndef E3D_KERNELS_SHADOW_INL
 #define E3D_KERNELS_SHADOW_INL
 
+#include <stddef.h>
+
 #include "core/always_inline.h"
 #include "core/limits.h"
+#include "core/shadow_ranges.h"
 #include "e3d.h"
 #include "kernels/types/shading.h"
 #include "kernels/generic/surface.inl"
@@ -22,10 +25,9 @@ typedef struct shadow_place {
     vmask inside;
 } shadow_place;
 
-/* R91: the sine of the angle at which light falls. */
-static ALWAYS_INLINE vf32 shadow_sine(const vf32 normal[3], const vf32 l[3])
+/* R91: the sine of the angle at which light falls, of its cosine. */
+static ALWAYS_INLINE vf32 shadow_sine(vf32 c)
 {
-    vf32 c = dot_three(normal, l);
     return v_sqrt(v_max(v_sub(v_setf(1.0f), v_mul(c, c)), v_setf(0.0f)));
 }
 
@@ -203,12 +205,13 @@ static ALWAYS_INLINE vf32 shadow_large_block(const e3d_light_shadow *shadow, vi3
     return shadow_share(shadow, sum);
 }
 
-/* R93: the column or row of the first tap in 1/256 texel, which lanes outside of the maps have somewhere inside. */
+/* R93: the column or row of the first tap in 1/256 texel, which lanes outside of the maps have somewhere inside. What is limited before
+ * it is rounded need not be limited then: both limits are integers, and inside of 0 and the size. */
 static ALWAYS_INLINE vi32 shadow_first(const e3d_light_shadow *shadow, vf32 at, int32_t across)
 {
-    vf32 within = v_min(v_max(at, v_setf(0.0f)), v_setf((float)shadow->size));
-    vi32 first = v_subi(v_rint(v_mul(within, v_setf(256.0f))), v_seti(128 + across / 2));
-    return v_mini(v_maxi(first, v_seti(0)), v_seti(256 * shadow->size - 257 - across));
+    int32_t least = 128 + across / 2, most = least + 256 * shadow->size - 257 - across;
+    vf32 within = v_min(v_max(v_mul(at, v_setf(256.0f)), v_setf((float)least)), v_setf((float)most));
+    return v_subi(v_rint(within), v_seti(least));
 }
 
 /* The first comparisons of samples: column and row in 1/256 texel, the first texel of the map, the depth to compare. */
@@ -240,26 +243,75 @@ static ALWAYS_INLINE vf32 shadow_blend(const e3d_light_shadow *shadow, const sha
     return shadow_share(shadow, sum);
 }
 
+/* ---- ranges (shadow_ranges.h) ---- */
+
+/* The code of a depth; a NaN, by which nothing is lit, has the greatest. */
+static ALWAYS_INLINE vi32 shadow_code(vf32 depth)
+{
+    vf32 limit = v_setf((float)E3D_SHADOW_CODE_LIMIT);
+    vf32 scaled = v_min(v_mul(depth, v_setf(E3D_SHADOW_CODE_SCALE)), limit);
+    return v_trunc(v_max(scaled, v_sub(v_setf(0.0f), limit)));
+}
+
+/* Which samples are before all that they would be compared with, and which are behind it. */
+typedef struct shadow_sides {
+    vmask before, behind;
+} shadow_sides;
+
+/* The block in which comparisons begin; `map` is the number of the map. */
+static ALWAYS_INLINE vi32 shadow_block_of(const e3d_light_shadow *shadow, vi32 map, vi32 x, vi32 y)
+{
+    enum { TO_BLOCK = 8 + E3D_SHADOW_BLOCK_SHIFT };
+    int32_t side = (shadow->size + (1 << E3D_SHADOW_BLOCK_SHIFT) - 1) >> E3D_SHADOW_BLOCK_SHIFT;
+    vi32 row = v_sra(y, TO_BLOCK);
+    if (shadow->count > 1)
+        row = v_addi(row, v_muli(map, v_seti(side)));
+    return v_addi(v_muli(row, v_seti(side)), v_sra(x, TO_BLOCK));
+}
+
+static ALWAYS_INLINE shadow_sides shadow_sides_of(const e3d_light_shadow *shadow, vi32 block, vi32 code)
+{
+    vi32 range = v_gatheri(shadow->ranges, block);
+    return (shadow_sides){v_gti(v_sra(v_shl(range, 16), 16), code), v_gti(code, v_sra(range, 16))};
+}
+
 /* ---- lights ---- */
+
+static ALWAYS_INLINE void shadow_turn(const e3d_light *light, const vf32 v[3], vf32 out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const float *a = light->shadow.axes[k];
+        const vf32 axis[3] = {v_setf(a[0]), v_setf(a[1]), v_setf(a[2])};
+        out[k] = light->kind == E3D_LIGHT_POINT ? v[k] : dot_three(v, axis);
+    }
+}
 
 /* Samples as a light sees them that has maps; `l` is towards it. */
 static ALWAYS_INLINE shadow_lanes shadow_lanes_of(const e3d_light *light, const vf32 position[3], const vf32 normal[3], const vf32 l[3])
 {
-    const e3d_light_shadow *shadow = &light->shadow;
     shadow_lanes s; /* not cleared first: what is written so cannot be loaded at once */
     vf32 p[3];
-    s.sine = shadow_sine(normal, l);
+    s.sine = shadow_sine(dot_three(normal, l));
     for (int k = 0; k < 3; k++) /* minus 0 is the position itself: a copy would take longer */
         p[k] = v_sub(position[k], v_setf(light->kind == E3D_LIGHT_DIRECTIONAL ? 0.0f : light->position[k]));
-    for (int k = 0; k < 3; k++) {
-        const vf32 axis[3] = {v_setf(shadow->axes[k][0]), v_setf(shadow->axes[k][1]), v_setf(shadow->axes[k][2])};
-        s.at[k] = light->kind == E3D_LIGHT_POINT ? p[k] : dot_three(p, axis);
-        s.along[k] = light->kind == E3D_LIGHT_POINT ? normal[k] : dot_three(normal, axis);
-    }
+    shadow_turn(light, p, s.at);
+    shadow_turn(light, normal, s.along);
     return s;
 }
 
-/* R91-R94 of a light that has maps; `l` is towards it. */
+/* R93 of the samples that are in a map; those of the others mean nothing. */
+static ALWAYS_INLINE vf32 shadow_share_of(const e3d_light_shadow *shadow, const shadow_place *place)
+{
+    shadow_taps taps = shadow_taps_of(shadow, place);
+    if (shadow->ranges) {
+        shadow_sides sides = shadow_sides_of(shadow, shadow_block_of(shadow, place->map, taps.x, taps.y), shadow_code(taps.depth));
+        if (!v_any(v_mandnot(place->inside, v_mor(sides.before, sides.behind))))
+            return v_self(sides.before, v_setf(1.0f), v_setf(0.0f));
+    }
+    return shadow_blend(shadow, &taps);
+}
+
+/* R91-R94 of a point or spot light that has maps; `l` is towards it. */
 static __attribute__((noinline)) vf32 shadow_map_reached(const e3d_lighting *lighting, int n, const vf32 position[3], const vf32 normal[3],
                                                          const vf32 l[3])
 {
@@ -270,18 +322,27 @@ static __attribute__((noinline)) vf32 shadow_map_reached(const e3d_lighting *lig
     shadow_place place = light->kind == E3D_LIGHT_DIRECTIONAL ? shadow_place_directional(shadow, maps, &s)
                          : light->kind == E3D_LIGHT_SPOT      ? shadow_place_spot(shadow, maps, &s)
                                                               : shadow_place_point(shadow, maps, &s);
-    if (!v_any(place.inside))
-        return v_setf(1.0f);
-    shadow_taps taps = shadow_taps_of(shadow, &place);
-    return v_self(place.inside, shadow_blend(shadow, &taps), v_setf(1.0f));
+    return v_any(place.inside) ? v_self(place.inside, shadow_share_of(shadow, &place), v_setf(1.0f)) : v_setf(1.0f);
 }
 
 /* ---- directional lights: a whole batch at a time, so that no vector waits for the one before ---- */
 
+/* Where vectors of samples are in the maps. */
 typedef struct shadow_batch {
-    int32_t x[E3D_BATCH + E3D_PAD], y[E3D_BATCH + E3D_PAD], map[E3D_BATCH + E3D_PAD], outside[E3D_BATCH + E3D_PAD];
+    int32_t x[E3D_BATCH + E3D_PAD], y[E3D_BATCH + E3D_PAD], map[E3D_BATCH + E3D_PAD];
     float depth[E3D_BATCH + E3D_PAD];
+    int32_t block[E3D_BATCH + E3D_PAD], code[E3D_BATCH + E3D_PAD]; /* where there are ranges */
+    int32_t at[E3D_BATCH + E3D_PAD];    /* of each vector: its first sample in the batch, */
+    uint32_t bits[E3D_BATCH + E3D_PAD]; /* and a bit for each sample that counts: it is in a map and faces the light */
+    int count;                          /* of vectors */
 } shadow_batch;
+
+/* Samples that are to be compared with texels, side by side; `at` is their place in the batch. */
+typedef struct shadow_open {
+    int32_t x[E3D_BATCH + 2 * E3D_PAD], y[E3D_BATCH + 2 * E3D_PAD], map[E3D_BATCH + 2 * E3D_PAD], at[E3D_BATCH + 2 * E3D_PAD];
+    float depth[E3D_BATCH + 2 * E3D_PAD];
+    int count;
+} shadow_open;
 
 static ALWAYS_INLINE void shadow_load(const e3d_lane_array *from, int i, vf32 out[3])
 {
@@ -289,25 +350,133 @@ static ALWAYS_INLINE void shadow_load(const e3d_lane_array *from, int i, vf32 ou
         out[k] = v_loadf(from[k] + i);
 }
 
-/* Where the samples of a batch are in the maps; what faces away from the light gets none of it anyway, and counts as outside. */
-static void shadow_find_batch(const e3d_light *light, const e3d_shadow_map *maps, const e3d_batch *batch, shadow_batch *out)
+/* What follows of samples' normals alone: mostly of a whole batch, as it is of few faces. */
+typedef struct shadow_normals {
+    vf32 normal[3], along[3], sine, cosine;
+    vf32 moved[3]; /* of the first map: by how many columns, by how many rows and how far ahead R91 moves them */
+} shadow_normals;
+
+/* Finds it, unless the normals are those of the vector before, to the bit. */
+static ALWAYS_INLINE void shadow_normals_at(const e3d_light *light, const e3d_shadow_map *map, const e3d_lane_array *from, int i,
+                                            const vf32 l[3], shadow_normals *out)
 {
-    const e3d_lane_array *normals = batch->unmapped_normal ? batch->unmapped_normal : batch->normal;
+    vf32 normal[3];
+    shadow_load(from, i, normal);
+    vmask same = v_eqi(v_asi(normal[0]), v_asi(out->normal[0]));
+    for (int k = 1; k < 3; k++)
+        same = v_mand(same, v_eqi(v_asi(normal[k]), v_asi(out->normal[k])));
+    if (i > 0 && !v_any(v_mnot(same)))
+        return;
+    for (int k = 0; k < 3; k++)
+        out->normal[k] = normal[k];
+    out->cosine = dot_three(normal, l);
+    out->sine = shadow_sine(out->cosine);
+    shadow_turn(light, normal, out->along);
+    vf32 shift = shadow_shift(&light->shadow, v_setf(map->texel), out->sine), scale = v_setf(map->scale);
+    for (int k = 0; k < 3; k++)
+        out->moved[k] = v_mul(out->along[k], shift);
+    for (int k = 0; k < 2; k++)
+        out->moved[k] = v_mul(out->moved[k], scale);
+}
+
+/* Of a light that has one map. */
+static ALWAYS_INLINE shadow_place shadow_place_single(const e3d_light_shadow *shadow, const e3d_shadow_map *map, const vf32 at[3],
+                                                      const vf32 moved[3])
+{
+    vf32 scale = v_setf(map->scale), x = v_add(v_mul(at[0], scale), v_setf(map->x)), y = v_add(v_mul(at[1], scale), v_setf(map->y));
+    vf32 ahead = v_mul(v_add(at[2], moved[2]), v_setf(shadow->depth[0]));
+    return (shadow_place){.x = v_add(x, moved[0]),
+                          .y = v_add(y, moved[1]),
+                          .depth = v_add(v_add(ahead, v_setf(shadow->depth[1])), v_setf(shadow->bias)),
+                          .map = v_seti(0),
+                          .inside = shadow_is_inside(shadow, x, y)};
+}
+
+static ALWAYS_INLINE void shadow_add_places(const e3d_light_shadow *shadow, const shadow_place *place, vmask faces, int i, shadow_batch *out)
+{
+    shadow_taps taps = shadow_taps_of(shadow, place);
+    vmask counts = v_mand(place->inside, faces);
+    int to = out->count * V_LANES;
+    v_storei(out->x + to, taps.x);
+    v_storei(out->y + to, taps.y);
+    v_storei(out->map + to, taps.map);
+    v_storef(out->depth + to, taps.depth);
+    out->at[out->count] = i;
+    out->bits[out->count++] = v_bits(counts);
+    if (!shadow->ranges)
+        return;
+    v_storei(out->block + to, shadow_block_of(shadow, place->map, taps.x, taps.y));
+    v_storei(out->code + to, v_seli(counts, shadow_code(taps.depth), v_seti(E3D_SHADOW_CODE_NONE - 1))); /* the others are before all */
+    __builtin_prefetch(shadow->ranges + out->block[to]);
+    __builtin_prefetch(shadow->ranges + out->block[to + V_LANES - 1]);
+}
+
+/* Where the samples of a batch are in the maps. Vectors that face away from the light are left out: they get none of it anyway. */
+static ALWAYS_INLINE void shadow_find_batch(const e3d_light *light, const e3d_shadow_map *maps, const e3d_batch *batch, int mapped,
+                                            shadow_batch *out)
+{
+    const e3d_lane_array *normals = mapped ? batch->unmapped_normal : batch->normal;
     const vf32 l[3] = {v_setf(light->to_light[0]), v_setf(light->to_light[1]), v_setf(light->to_light[2])};
+    shadow_normals of = {.cosine = v_setf(0.0f)};
+    out->count = 0;
     for (int i = 0; i < batch->count; i += V_LANES) {
-        vf32 position[3], normal[3], lit[3];
+        vf32 position[3], lit[3];
+        shadow_normals_at(light, maps, normals, i, l, &of);
+        if (mapped)
+            shadow_load(batch->normal, i, lit);
+        vmask faces = v_gt(mapped ? dot_three(lit, l) : of.cosine, v_setf(0.0f));
+        if (!v_any(faces))
+            continue;
+        shadow_lanes s = {.along = {of.along[0], of.along[1], of.along[2]}, .sine = of.sine};
         shadow_load(batch->position, i, position);
-        shadow_load(normals, i, normal);
-        shadow_load(batch->normal, i, lit);
-        shadow_lanes s = shadow_lanes_of(light, position, normal, l);
-        shadow_place place = shadow_place_directional(&light->shadow, maps, &s);
-        shadow_taps taps = shadow_taps_of(&light->shadow, &place);
-        vmask counts = v_mand(place.inside, v_gt(dot_three(lit, l), v_setf(0.0f)));
-        v_storei(out->x + i, taps.x);
-        v_storei(out->y + i, taps.y);
-        v_storei(out->map + i, taps.map);
-        v_storef(out->depth + i, taps.depth);
-        v_storei(out->outside + i, v_seli(counts, v_seti(0), v_seti(-1)));
+        shadow_turn(light, position, s.at);
+        shadow_place place = light->shadow.count == 1 ? shadow_place_single(&light->shadow, maps, s.at, of.moved)
+                                                      : shadow_place_directional(&light->shadow, maps, &s);
+        shadow_add_places(&light->shadow, &place, faces, i, out);
+    }
+}
+
+static ALWAYS_INLINE void shadow_add_open(const shadow_batch *places, int from, int i, uint32_t bits, shadow_open *out)
+{
+    int to = out->count;
+    out->count += v_pack(out->x + to, v_loadi(places->x + from), bits);
+    v_pack(out->y + to, v_loadi(places->y + from), bits);
+    v_pack(out->map + to, v_loadi(places->map + from), bits);
+    v_pack(out->depth + to, v_asi(v_loadf(places->depth + from)), bits);
+    v_pack(out->at + to, v_addi(v_iota(), v_seti(i)), bits);
+}
+
+/* What ranges tell: 1 and 0 where they do. The others are open. */
+static ALWAYS_INLINE void shadow_find_sides(const e3d_light_shadow *shadow, const shadow_batch *places, float *reached, shadow_open *open)
+{
+    open->count = 0;
+    for (int k = 0; k < places->count; k++) {
+        int from = k * V_LANES, i = places->at[k];
+        uint32_t left = places->bits[k];
+        if (shadow->ranges) {
+            shadow_sides sides = shadow_sides_of(shadow, v_loadi(places->block + from), v_loadi(places->code + from));
+            v_storef(reached + i, v_self(sides.behind, v_setf(0.0f), v_setf(1.0f)));
+            left = v_bits(v_mnot(v_mor(sides.before, sides.behind)));
+        }
+        if (left)
+            shadow_add_open(places, from, i, left, open);
+    }
+}
+
+/* Compares those that are open. */
+static ALWAYS_INLINE void shadow_compare_open(const e3d_light_shadow *shadow, shadow_open *open, float *reached)
+{
+    v_storei(open->x + open->count, v_seti(0)); /* a place for the rest of the last vector */
+    v_storei(open->y + open->count, v_seti(0));
+    v_storei(open->map + open->count, v_seti(0));
+    v_storef(open->depth + open->count, v_setf(0.0f));
+    for (int k = 0; k < open->count; k += V_LANES) {
+        shadow_taps taps = {v_loadi(open->x + k), v_loadi(open->y + k), v_loadi(open->map + k), v_loadf(open->depth + k)};
+        float share[V_LANES];
+        v_storef(share, shadow_blend(shadow, &taps));
+        int lanes = open->count - k < V_LANES ? open->count - k : V_LANES;
+        for (int lane = 0; lane < lanes; lane++)
+            reached[open->at[k + lane]] = share[lane];
     }
 }
 
@@ -315,17 +484,17 @@ static void shadow_find_batch(const e3d_light *light, const e3d_shadow_map *maps
 static __attribute__((noinline)) void shadow_find_reached(const e3d_light *light, const e3d_shadow_map *maps, const e3d_batch *batch,
                                                           float *reached)
 {
+    const e3d_light of = *light; /* a copy, which no store changes: its numbers stay in registers */
     shadow_batch places;
-    shadow_find_batch(light, maps, batch, &places);
-    for (int i = 0; i < batch->count; i += V_LANES) {
-        vmask outside = v_negi(v_loadi(places.outside + i));
-        vf32 share = v_setf(1.0f);
-        if (v_any(v_mnot(outside))) {
-            shadow_taps taps = {v_loadi(places.x + i), v_loadi(places.y + i), v_loadi(places.map + i), v_loadf(places.depth + i)};
-            share = v_self(outside, share, shadow_blend(&light->shadow, &taps));
-        }
-        v_storef(reached + i, share);
-    }
+    shadow_open open;
+    if (batch->unmapped_normal)
+        shadow_find_batch(&of, maps, batch, 1, &places);
+    else
+        shadow_find_batch(&of, maps, batch, 0, &places);
+    for (int i = 0; i < batch->count; i += V_LANES)
+        v_storef(reached + i, v_setf(1.0f));
+    shadow_find_sides(&of.shadow, &places, reached, &open);
+    shadow_compare_open(&of.shadow, &open, reached);
 }
 
 /* The first directional lights that have maps: what of them reaches the samples of a batch. */
@@ -343,6 +512,15 @@ static inline void shadow_suns(const e3d_lighting *lighting, e3d_batch *batch)
         batch->sun[found] = -1;
 }
 
+/* What of light n reaches the samples of a batch, if that is found; else NULL. */
+static ALWAYS_INLINE const float *shadow_found(const e3d_batch *batch, int n)
+{
+    for (int k = 0; k < E3D_SUNS; k++)
+        if (batch->sun[k] == n)
+            return batch->reached[k];
+    return NULL;
+}
+
 /* How much of light n, which has a shadow, reaches a vector of samples, from 0 to 1: those of the batch from i on, at these positions. */
 static ALWAYS_INLINE vf32 light_reached(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, const vf32 position[3],
                                         const vf32 l[3])
@@ -352,9 +530,9 @@ static ALWAYS_INLINE vf32 light_reached(const e3d_lighting *lighting, int n, con
         vi32 hidden = v_andi(v_loadi(batch->hidden_lights + i), v_seti((int32_t)(UINT32_C(1) << shadow->first)));
         return v_self(v_eqi(hidden, v_seti(0)), v_setf(1.0f), v_setf(0.0f));
     }
-    for (int k = 0; k < E3D_SUNS; k++)
-        if (batch->sun[k] == n)
-            return v_loadf(batch->reached[k] + i);
+    const float *found = shadow_found(batch, n);
+    if (found)
+        return v_loadf(found + i);
     const e3d_lane_array *normals = batch->unmapped_normal ? batch->unmapped_normal : batch->normal;
     vf32 normal[3];
     shadow_load(normals, i, normal);

@@ -60,14 +60,18 @@ static inline vf32 or_nan(vmask m, vf32 a) { return vreinterpretq_f32_u32(vornq_
 static inline vmask v_lt_in(vmask m, vf32 a, vf32 b) { return vcltq_f32(or_nan(m, a), b); }
 static inline vmask v_eq_in(vmask m, vf32 a, vf32 b) { return vceqq_f32(or_nan(m, a), b); }
 
-static inline vi32 v_addi(vi32 a, vi32 b) { return vaddq_s32(a, b); }
+/* Sums and products of signed numbers wrap around as those of unsigned ones do: arm_neon.h writes them as operators of C, by which
+ * signed ones must not. */
+static inline uint32x4_t words(vi32 a) { return vreinterpretq_u32_s32(a); }
+static inline vi32 of_words(uint32x4_t a) { return vreinterpretq_s32_u32(a); }
+static inline vi32 v_addi(vi32 a, vi32 b) { return of_words(vaddq_u32(words(a), words(b))); }
 static inline vi32 v_sums(vi32 a) {
-    a = vaddq_s32(a, vextq_s32(v_seti(0), a, 3));
-    return vaddq_s32(a, vextq_s32(v_seti(0), a, 2));
+    a = v_addi(a, vextq_s32(v_seti(0), a, 3));
+    return v_addi(a, vextq_s32(v_seti(0), a, 2));
 }
 static inline vi32 v_last(vi32 a) { return vdupq_laneq_s32(a, 3); }
-static inline vi32 v_subi(vi32 a, vi32 b) { return vsubq_s32(a, b); }
-static inline vi32 v_muli(vi32 a, vi32 b) { return vmulq_s32(a, b); }
+static inline vi32 v_subi(vi32 a, vi32 b) { return of_words(vsubq_u32(words(a), words(b))); }
+static inline vi32 v_muli(vi32 a, vi32 b) { return of_words(vmulq_u32(words(a), words(b))); }
 static inline vi32 v_andi(vi32 a, vi32 b) { return vandq_s32(a, b); }
 static inline vi32 v_ori(vi32 a, vi32 b) { return vorrq_s32(a, b); }
 static inline vi32 v_xori(vi32 a, vi32 b) { return veorq_s32(a, b); }
@@ -79,11 +83,13 @@ static inline vmask v_negi(vi32 a) { return vcltzq_s32(a); }
 
 static inline int16x8_t halves(vi32 a) { return vreinterpretq_s16_s32(a); }
 static inline vi32 of_halves(int16x8_t a) { return vreinterpretq_s32_s16(a); }
-static inline vi32 v_add16(vi32 a, vi32 b) { return of_halves(vaddq_s16(halves(a), halves(b))); }
-static inline vi32 v_sub16(vi32 a, vi32 b) { return of_halves(vsubq_s16(halves(a), halves(b))); }
+static inline uint16x8_t bare_halves(vi32 a) { return vreinterpretq_u16_s32(a); }
+static inline vi32 of_bare_halves(uint16x8_t a) { return vreinterpretq_s32_u16(a); }
+static inline vi32 v_add16(vi32 a, vi32 b) { return of_bare_halves(vaddq_u16(bare_halves(a), bare_halves(b))); }
+static inline vi32 v_sub16(vi32 a, vi32 b) { return of_bare_halves(vsubq_u16(bare_halves(a), bare_halves(b))); }
 static inline vi32 v_min16(vi32 a, vi32 b) { return of_halves(vminq_s16(halves(a), halves(b))); }
 static inline vi32 v_max16(vi32 a, vi32 b) { return of_halves(vmaxq_s16(halves(a), halves(b))); }
-static inline vi32 v_mul16(vi32 a, vi32 b) { return of_halves(vmulq_s16(halves(a), halves(b))); }
+static inline vi32 v_mul16(vi32 a, vi32 b) { return of_bare_halves(vmulq_u16(bare_halves(a), bare_halves(b))); }
 static inline vi32 v_madd16(vi32 a, vi32 b) {
     int32x4_t low = vmull_s16(vget_low_s16(halves(a)), vget_low_s16(halves(b)));
     return vpaddq_s32(low, vmull_high_s16(halves(a), halves(b)));

@@ -6,6 +6,7 @@
 #define E3D_KERNELS_SETUP_INL
 
 #include "core/limits.h"
+#include "core/sample_patterns.h"
 #include "kernels/types/records.h"
 #include "kernels/types/vertices.h"
 

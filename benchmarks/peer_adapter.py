@@ -73,6 +73,11 @@ class Peer:
         pixels = getattr(self.frame, self.output)
         return pixels.view(np.uint32) if self.output == "instance_id" else pixels
 
+    def render_read(self):
+        """Draw a frame and return it: what the harness times."""
+        self.render()
+        return self.read()
+
 
 class Crowd:
     """Skinned nodes: the joints' matrices are keys of clips, which a player plays."""

@@ -176,22 +176,9 @@ def lights(scene):
         direction = tuple(-float(c) for c in scene.light_dir)
         light = e3d.DirectionalLight(direction=direction, color=(strength,) * 3, intensity=1.0)
         if scene.mode == "shadow":
-            light.shadow, light.shadow_map_size = True, shadow_map_size(scene)
+            light.shadow, light.shadow_map_size = True, int(scene.shadow.size)
             light.shadow_cascades = 1  # one map, as the description has it
         yield light, None
-
-
-def shadow_map_size(scene):
-    """Texels a side of a map of the whole scene, so that they are as wide as the description's.
-
-    The description's map may show a part of the scene. Wider texels would not only blur edges:
-    samples are moved by as many texels before they are compared.
-    """
-    rows = np.asarray(scene.shadow.matrix, np.float64)[:2, :3]
-    lengths = np.linalg.norm(rows, axis=1)
-    points = np.concatenate([draw.mesh.pos for draw in scene.draws])
-    whole = np.abs(rows / lengths[:, None]) @ (points.max(0) - points.min(0))
-    return round(scene.shadow.size * whole.max() / (2.0 / lengths).max())
 
 
 def physical_lights(scene):

@@ -19,6 +19,14 @@ def pytest_configure(config):
     if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
         folder = os.environ["PYTHONPYCACHEPREFIX"] = tempfile.mkdtemp(prefix="engine3d-bytecode-")
         config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))
+    # pytest-xdist would begin with the files that hold the most tests.
+    config.option.loadscopereorder = False
+
+
+def pytest_collection_modifyitems(items):
+    # What waits for windows takes the longest, so it begins first: others compute meanwhile.
+    first = ("test_real_editor.py", "test_real_window.py")
+    items.sort(key=lambda item: item.path.name not in first)
 
 
 def pytest_collection_finish():

@@ -7,7 +7,9 @@
  * depth * SCALE within -LIMIT and LIMIT. It never falls as depths rise, so of two depths whose codes differ it tells which is the
  * greater; those whose codes are the same have to be compared. A NaN in a map has the code NONE, which is less than all others, since no
  * sample is lit by it. */
-enum { E3D_SHADOW_BLOCK_SHIFT = 1, E3D_SHADOW_CODE_LIMIT = 32767, E3D_SHADOW_CODE_NONE = -32768 };
+enum { E3D_SHADOW_BLOCK_SHIFT = 1,
+       E3D_SHADOW_CODE_LIMIT = 32767,
+       E3D_SHADOW_CODE_NONE = -32768 };
 #define E3D_SHADOW_CODE_SCALE 32000.0f
 
 #endif

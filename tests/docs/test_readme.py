@@ -54,7 +54,7 @@ def test_commands_parse(arguments):
 def test_the_first_commands_install_and_run():
     assert [block.strip() for block in blocks("sh")[:2]] == [
         "pip install . && engine3d run",
-        'pip install -e ".[test]" && pytest -n 2 --dist loadfile',
+        'pip install -e ".[test]" && pytest -n 3 --dist loadfile',
     ]
 
 

@@ -8,7 +8,7 @@ import random
 import pytest
 from loaders.fuzzing import Finding, check, make_case, seeds, write_companions
 
-from engine3d.loaders import asc
+from engine3d.loaders import asc_meshes
 
 CASES = 120
 # Time is bounded so that nothing hangs, here also where sanitizers slow everything down.
@@ -33,7 +33,7 @@ def test_the_check_finds_what_is_no_error_of_our_own(tmp_path, monkeypatch, harm
     def fail(*args):
         raise harm
 
-    monkeypatch.setattr(asc, "_mesh", fail)
+    monkeypatch.setattr(asc_meshes, "_mesh", fail)
     name, data = "case.asc", seeds(corpus=False)[".asc"][0]
     with pytest.raises((Finding, type(harm))):
         check(tmp_path, name, data)

@@ -61,6 +61,7 @@ class DrawList:
         self._listed_for: tuple | None = None  # needs, normals and by_mesh
         # Numbers of the objects that enclose a volume.
         self._closed: set[int] = set()
+        self._with_holes: set[int] = set()  # of these, those that have holes
         self._watch = Watch()
         self._changed: list = []  # of what is watched, since the list was made
         # Where they are, as whose, and whether both sides show anyway.
@@ -180,6 +181,11 @@ class DrawList:
             arrays.count, arrays.columns, view.clip_from_world, view.view_from_world, *size
         )
 
+    @property
+    def has_holes(self) -> bool:
+        """Whether a mesh that encloses a volume has holes, which a light may look into."""
+        return bool(self._with_holes)
+
     def shows(self, scene: Scene) -> bool:
         """Whether everything in the scene is still as and where it was at the last update."""
         return self._placed == (scene._arrays, scene._arrays.changes) and self._lists(scene)
@@ -254,7 +260,7 @@ class DrawList:
 
     def _rebuild(self, scene: Scene) -> None:
         self._placed = None
-        self._closed = set()
+        self._closed, self._with_holes = set(), set()
         self.native.clear()
         self.lights.forget()
         self._watch, self._changed = Watch(), []
@@ -276,6 +282,7 @@ class DrawList:
         """List a mesh, once or at many poses, or nothing, under a number or the next one."""
         self._many.pop(number, None)
         self._closed.discard(number)
+        self._with_holes.discard(number)
         if obj is None:
             self.native.set_object(number, None, 0)
             self._note(number, (), (), [])
@@ -289,6 +296,8 @@ class DrawList:
         both = self._by_mesh and holes is None
         if holes is not None:
             self._closed.add(number)
+            if len(holes.ends):
+                self._with_holes.add(number)
         if (surfaces, both) not in self._bases:
             self._bases[surfaces, both] = self._add_materials(mesh.materials, both)
         needs = _needs_of(mesh, self._needs, self._normals)

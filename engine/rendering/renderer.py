@@ -434,15 +434,15 @@ class Renderer(Closed):
                 options.culling == "frustum",
                 by_mesh,
             )
-            cull = options.cull
+            shadow_cull = options.cull
             self._draw_list.native.close_windows()
             if by_mesh:
                 windows = self._draw_list.open_windows(scene, view, (self._width, self._height))
-                cull = "none" if windows != 0 else "back"
+                shadow_cull = "none" if self._draw_list.has_holes else "back"
                 if windows is None:
                     frame_options = self._options.get(scene, with_both_sides(options), self._height)
             if options.mode == "lit" and shows_light(frame.outputs):
-                self._shadow_maps.update(scene, view, cull)
+                self._shadow_maps.update(scene, view, shadow_cull)
                 self._turn.check()
                 self._exact_shadows.update(scene)
             near, far = 0.0, 1.0

@@ -55,6 +55,24 @@ def test_without_shadow_nothing_changes():
     assert frame.stats["shadow_maps"] == 0
 
 
+def test_what_a_light_sees_does_not_depend_on_who_looks_into_holes():
+    """A cup throws the shadow of its inside, too, and its map stays as the camera turns."""
+    scene, _, box, _ = stage(shadow_cascades=1)
+    mesh = box.object
+    sides = mesh.faces[mesh.face_normals[:, 1] < 0.5]
+    cup = e3d.Mesh(mesh.positions, sides, position_ids=mesh.position_ids)
+    scene.remove(box)
+    scene.add(cup, translation=(0.0, 2.0, 0.0))
+    camera = e3d.PerspectiveCamera(0.8, znear=0.1, zfar=50.0)
+    drawn = []
+    with e3d.Renderer(64, 48) as renderer:
+        for eye in ((0, 1, 8), (0, 8, 4), (0, 1, 8)):
+            pose = e3d.look_at(eye, (0, 1, 0), (0, 1, 0))
+            frame = renderer.render(scene, (camera, pose), cull="auto")
+            drawn.append(frame.stats["shadow_maps_drawn"])
+    assert drawn == [1, 0, 0]
+
+
 @pytest.mark.parametrize("mode", ["unlit", "normal", "depth"])
 def test_other_modes_draw_no_maps(mode):
     scene, *_ = stage()

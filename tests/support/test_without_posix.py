@@ -127,4 +127,5 @@ def test_no_file_asks_for_what_windows_lacks():
         names = set(lacking_in(ast.parse(path.read_text("utf-8"))))
         if names:
             found[path.relative_to(PACKAGE).as_posix()] = names
-    assert found == KNOWN
+    lacking = set().union(*map(missing, PARTLY))  # Windows has more of them from version to version
+    assert found == {name: names & lacking for name, names in KNOWN.items() if names & lacking}

@@ -1,24 +1,72 @@
 /* Fragments: gathered until they are lit together, then written to the samples that they cover.
  *
- * In: fragments in the order in which they are drawn. Out: codes of 8 bits. Always: depths were tested before.
+ * In: fragments in the order in which they are drawn. Out: codes of 8 bits, and depths where no samples are kept.
+ * Always: where samples are kept, depths were tested before.
  */
 #include <math.h>
 
 #include "pyrender/picture.h"
 #include "pyrender/transfer_tables.h"
 
-void pyr_add_fragment(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, const pyr_weights *weights,
-                      const pyr_plane *plane, int32_t x, int32_t y, uint32_t mask)
+/* Returns the number in the batch. */
+static int add(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, int32_t x, int32_t y, uint32_t mask)
 {
     pyr_batch *batch = &band->batch;
     if (batch->count == PYR_BATCH || (batch->count && batch->draw != draw))
         pyr_flush(band);
-    batch->draw = draw;
+    if (!batch->count) {
+        batch->draw = draw;
+        batch->vertices = vertices;
+        pyr_begin_surfaces(band->picture->frame, batch);
+    }
     batch->x[batch->count] = x;
     batch->y[batch->count] = y;
     batch->mask[batch->count] = (uint8_t)mask;
-    pyr_find_surface(band, vertices, weights, plane);
-    batch->count++;
+    return batch->count++;
+}
+
+void pyr_add_fragment(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, const pyr_weights *weights,
+                      const pyr_plane *plane, int32_t x, int32_t y, uint32_t mask)
+{
+    int i = add(band, draw, vertices, x, y, mask);
+    band->batch.plane[i] = NULL;
+    pyr_find_surface(band, i, weights, plane);
+}
+
+void pyr_add_shown(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, const pyr_plane *plane, int32_t x, int32_t y,
+                   uint32_t mask)
+{
+    int i = add(band, draw, vertices, x, y, mask);
+    band->batch.plane[i] = plane;
+}
+
+/* The depth of a pixel, if that is where the fragment shows. `z`: that at its centre. */
+static void write_depth(const pyr_band *band, int i, double z)
+{
+    const pyr_picture *picture = band->picture;
+    const e3d_pyr_frame *frame = picture->frame;
+    const pyr_batch *batch = &band->batch;
+    if (!(batch->mask[i] >> picture->depth_place & 1))
+        return;
+    if (frame->depth_place != E3D_PYR_CENTRE)
+        z = pyr_depth_at_place(picture, batch->plane[i], picture->depth_place, batch->x[i], batch->y[i]);
+    frame->depth[(size_t)batch->y[i] * (size_t)frame->width + (size_t)batch->x[i]] = pyr_metric_depth(frame, z);
+}
+
+/* What pyr_add_shown left for later. */
+static void find_surfaces(pyr_band *band)
+{
+    pyr_batch *batch = &band->batch;
+    pyr_weights weights[PYR_BATCH];
+    for (int i = 0; i < batch->count; i++) {
+        const pyr_plane *plane = batch->plane[i];
+        if (!plane)
+            continue;
+        write_depth(band, i, pyr_weigh(plane, batch->x[i] + 0.5, batch->y[i] + 0.5, &weights[i]));
+    }
+    for (int i = 0; i < batch->count && band->picture->frame->shading != E3D_PYR_DEPTH; i++)
+        if (batch->plane[i])
+            pyr_find_surface(band, i, &weights[i], batch->plane[i]);
 }
 
 /* The code of light to the power of 1/2.2. */
@@ -75,15 +123,15 @@ static void write_pixel(const pyr_band *band, int i, const uint8_t code[4])
 {
     const pyr_batch *batch = &band->batch;
     const e3d_pyr_frame *frame = band->picture->frame;
-    uint32_t all = (1u << frame->samples) - 1;
-    if (batch->mask[i] == all) {
+    uint32_t all = (1u << frame->samples) - 1, mask = batch->mask[i] & all;
+    if (mask == all) {
         uint8_t *to = pyr_color_at(frame, batch->x[i], batch->y[i]);
         for (int c = 0; c < frame->channels; c++)
             to[c] = code[c];
         return;
     }
     uint16_t *sum = pyr_sums_at(band, batch->x[i], batch->y[i]);
-    for (uint32_t left = batch->mask[i]; left; left &= left - 1)
+    for (uint32_t left = mask; left; left &= left - 1)
         for (int c = 0; c < 4; c++)
             sum[c] = (uint16_t)(sum[c] + code[c]);
 }
@@ -91,10 +139,12 @@ static void write_pixel(const pyr_band *band, int i, const uint8_t code[4])
 void pyr_flush(pyr_band *band)
 {
     pyr_batch *batch = &band->batch;
+    const e3d_pyr_frame *frame = band->picture->frame;
     uint8_t code[4];
-    if (batch->count && band->picture->frame->shading == E3D_PYR_LIT)
-        pyr_light(band->picture->frame, batch);
-    for (int i = 0; i < batch->count; i++) {
+    find_surfaces(band);
+    if (batch->count && frame->shading == E3D_PYR_LIT)
+        pyr_light(frame, batch);
+    for (int i = 0; i < batch->count && frame->color; i++) {
         find_codes(band->picture, batch, i, code);
         if (band->picture->keeps_samples)
             write_samples(band, i, code);
@@ -102,4 +152,5 @@ void pyr_flush(pyr_band *band)
             write_pixel(band, i, code);
     }
     batch->count = 0;
+    batch->number++;
 }

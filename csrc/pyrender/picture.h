@@ -14,9 +14,11 @@ enum { PYR_BATCH = 64,        /* fragments that are lit side by side */
 
 /* A vertex after its transformation. Clip space is f64: near planes of millimetres leave f32 few digits of depth. */
 typedef struct pyr_vertex {
-    double clip[4]; /* a line of the cache each: triangles take vertices from anywhere */
-    float world[3], normal[3];
+    double clip[4];
+    float world[4], normal[4]; /* the fourth is 0 */
 } pyr_vertex;
+
+_Static_assert(sizeof(pyr_vertex) == 64, "a vertex is a cache line: triangles take vertices from anywhere");
 
 /* How perspective-correct weights of a triangle's corners change over the picture: at (x, y) in pixels, y down, weight k is
  * row[k][0]*x + row[k][1]*y + row[k][2], divided by the sum of the three. */
@@ -35,9 +37,13 @@ typedef struct pyr_weights {
 /* Fragments of one draw, as structure of arrays; those of which nothing is known have values that change nothing. */
 typedef struct pyr_batch {
     int32_t count;
+    uint32_t number;                            /* of batches before it */
     const e3d_pyr_draw *draw;
+    const pyr_vertex *vertices;
+    const e3d_pyr_draw *filled;                 /* whose values all fragments have, where no texture changes them */
     int32_t x[PYR_BATCH], y[PYR_BATCH];
-    uint8_t mask[PYR_BATCH];                    /* the samples that are covered and show */
+    uint8_t mask[PYR_BATCH];                    /* the places that are covered and show */
+    const pyr_plane *plane[PYR_BATCH];          /* of the triangle whose surface is yet to be found there, or NULL */
     _Alignas(16) float world[3][PYR_BATCH];
     _Alignas(16) float normal[3][PYR_BATCH];
     _Alignas(16) float base[4][PYR_BATCH];
@@ -122,8 +128,9 @@ void pyr_corners(const e3d_pyr_draw *draw, int32_t number, int32_t out[3]);
 void pyr_set_plane(const e3d_pyr_frame *frame, const e3d_pyr_draw *draw, const pyr_vertex *vertices, int32_t triangle,
                    pyr_plane *out);
 /* Weights at a point, and z_ndc there. */
-double pyr_weigh(const pyr_plane *plane, double x, double y, float weight[3]);
+double pyr_weigh(const pyr_plane *plane, double x, double y, pyr_weights *out);
 double pyr_depth_at(const pyr_plane *plane, double x, double y);
+double pyr_depth_at_place(const pyr_picture *picture, const pyr_plane *plane, int place, int32_t x, int32_t y);
 /* Whether a triangle shows its back; of what is partly behind the viewer, the homogeneous area tells. */
 int pyr_shows_back(const pyr_vertex *vertices, const int32_t corner[3]);
 /* Whether a primitive is sure to show nothing in a band, nor in a pixel above and below it. */
@@ -134,12 +141,19 @@ int pyr_misses_band(const pyr_band *band, const pyr_vertex *vertices, const int3
 /* Adds a fragment; with `plane`, it is of a triangle, and textures may be read at the detail that the plane tells. */
 void pyr_add_fragment(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, const pyr_weights *weights,
                       const pyr_plane *plane, int32_t x, int32_t y, uint32_t mask);
+/* Adds what a triangle shows at the centre of a pixel, where no samples are kept: its surface, and its depth if `mask` has the place of it,
+ * are found when the batch is lit, one fragment after the other, which a processor overlaps. Until then the plane must stay. */
+void pyr_add_shown(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, const pyr_plane *plane, int32_t x, int32_t y,
+                   uint32_t mask);
 /* Lights and writes what was added. */
 void pyr_flush(pyr_band *band);
 
 /* ---- surface.c ---- */
 
-void pyr_find_surface(pyr_band *band, const pyr_vertex *vertices, const pyr_weights *weights, const pyr_plane *plane);
+/* Gives all fragments of a batch that begins what is the same everywhere on the draw, but for textures. */
+void pyr_begin_surfaces(const e3d_pyr_frame *frame, pyr_batch *batch);
+/* Finds the surface of fragment `i` of the batch. */
+void pyr_find_surface(pyr_band *band, int i, const pyr_weights *weights, const pyr_plane *plane);
 
 /* ---- texels.c ---- */
 

@@ -47,11 +47,13 @@ static double weigh(const pyr_plane *plane, double x, double y, double out[3])
     return z / w;
 }
 
-double pyr_weigh(const pyr_plane *plane, double x, double y, float weight[3])
+double pyr_weigh(const pyr_plane *plane, double x, double y, pyr_weights *out)
 {
     double exact[3], z = weigh(plane, x, y, exact);
-    for (int k = 0; k < 3; k++)
-        weight[k] = (float)exact[k];
+    for (int k = 0; k < 3; k++) {
+        out->corner[k] = plane->corner[k];
+        out->weight[k] = (float)exact[k];
+    }
     return z;
 }
 
@@ -59,6 +61,11 @@ double pyr_depth_at(const pyr_plane *plane, double x, double y)
 {
     double weights[3];
     return weigh(plane, x, y, weights);
+}
+
+double pyr_depth_at_place(const pyr_picture *picture, const pyr_plane *plane, int place, int32_t x, int32_t y)
+{
+    return pyr_depth_at(plane, x + 0.5 + picture->sample_x[place] / 256.0, y + 0.5 + picture->sample_y[place] / 256.0);
 }
 
 int pyr_misses_band(const pyr_band *band, const pyr_vertex *vertices, const int32_t *corner, int count)

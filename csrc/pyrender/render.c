@@ -205,10 +205,10 @@ static void set_code_starts(pyr_picture *picture)
 {
     int code = 0;
     for (int i = 0; i <= PYR_CODE_STARTS; i++) {
-        float root = (float)i / PYR_CODE_STARTS;
-        while (code < 255 && E3D_PYR_POWER_THRESHOLDS[code] <= root * root)
+        float root = ((float)i - 0.01f) / PYR_CODE_STARTS; /* a little less: roots are rounded */
+        while (code < 255 && i > 0 && E3D_PYR_POWER_THRESHOLDS[code] <= root * root)
             code++;
-        picture->code_start[i] = (uint8_t)(code > 0 ? code - 1 : 0); /* one less: roots are rounded */
+        picture->code_start[i] = (uint8_t)code;
     }
 }
 

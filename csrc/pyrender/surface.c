@@ -1,12 +1,24 @@
 /* Surfaces: what is where a fragment lies, from its corners and textures.
  *
- * In: corners, their weights, the plane of the triangle. Out: the last row of a batch.
+ * In: corners, their weights, the plane of the triangle. Out: a row of a batch.
  * Always: textures are read at the detail of the 2x2 pixels that a fragment is one of, as graphics hardware does.
  */
 #include <math.h>
 
+#include "core/vectors.h"
 #include "pyrender/picture.h"
 #include "pyrender/transfer_tables.h"
+
+static void interpolate(const float *array, int channels, const pyr_weights *weights, float *out)
+{
+    for (int c = 0; c < channels; c++)
+        out[c] = 0;
+    for (int k = 0; k < 3; k++) {
+        const float *row = array + (size_t)channels * (size_t)weights->corner[k];
+        for (int c = 0; c < channels; c++)
+            out[c] += weights->weight[k] * row[c];
+    }
+}
 
 /* u, v and the position at a point of the triangle's plane. */
 typedef struct place {
@@ -16,15 +28,12 @@ typedef struct place {
 static place place_at(const e3d_pyr_draw *draw, const pyr_plane *plane, double x, double y)
 {
     place out = {{0}, {0}};
-    float weight[3];
-    pyr_weigh(plane, x, y, weight);
-    for (int k = 0; k < 3; k++) {
-        const float *uv = draw->uvs + 2 * (size_t)plane->corner[k];
-        for (int c = 0; c < 2; c++)
-            out.uv[c] += weight[k] * uv[c];
+    pyr_weights weights;
+    pyr_weigh(plane, x, y, &weights);
+    interpolate(draw->uvs, 2, &weights, out.uv);
+    for (int k = 0; k < 3; k++)
         for (int c = 0; c < 3; c++)
-            out.world[c] += weight[k] * plane->vertex[k]->world[c];
-    }
+            out.world[c] += weights.weight[k] * plane->vertex[k]->world[c];
     return out;
 }
 
@@ -82,9 +91,9 @@ static void cross(const float a[3], const float b[3], float out[3])
 }
 
 /* The normal that a map tells, in the frame of the texture's directions along the surface (Mikkelsen 2010, without vertex tangents). */
-static void map_normal(const e3d_pyr_texture *texture, const float uv[2], const slopes *change, float n[3])
+static void map_normal(const e3d_pyr_texture *texture, const float uv[2], const slopes *change, pyr_batch *batch, int i)
 {
-    float texel[4], t[3], b[3], out[3];
+    float texel[4], n[3] = {batch->normal[0][i], batch->normal[1][i], batch->normal[2][i]}, t[3], b[3];
     read(texture, uv, change, texel);
     float det = change->uv[0][0] * change->uv[1][1] - change->uv[1][0] * change->uv[0][1];
     for (int c = 0; c < 3; c++)
@@ -97,53 +106,58 @@ static void map_normal(const e3d_pyr_texture *texture, const float uv[2], const 
     cross(n, t, b);
     make_unit(b);
     for (int c = 0; c < 3; c++)
-        out[c] = (t[c] * (2 * texel[0] - 1) + b[c] * (2 * texel[1] - 1)) + n[c] * (2 * texel[2] - 1);
-    for (int c = 0; c < 3; c++)
-        n[c] = out[c];
+        batch->normal[c][i] = (t[c] * (2 * texel[0] - 1) + b[c] * (2 * texel[1] - 1)) + n[c] * (2 * texel[2] - 1);
 }
 
-static void interpolate(const float *array, int channels, const pyr_weights *weights, float *out)
+static void fill(float *out, float value)
 {
-    for (int c = 0; c < channels; c++)
-        out[c] = 0;
-    for (int k = 0; k < 3; k++) {
-        const float *row = array + (size_t)channels * (size_t)weights->corner[k];
-        for (int c = 0; c < channels; c++)
-            out[c] += weights->weight[k] * row[c];
-    }
+    for (int i = 0; i < PYR_BATCH; i++)
+        out[i] = value;
 }
 
-static void set_plain(pyr_batch *batch, int i, const e3d_pyr_draw *draw, const pyr_weights *weights)
+void pyr_begin_surfaces(const e3d_pyr_frame *frame, pyr_batch *batch)
 {
-    float color[4] = {1, 1, 1, 1};
-    if (draw->colors)
-        interpolate(draw->colors, 4, weights, color);
+    const e3d_pyr_draw *draw = batch->draw;
+    if (frame->shading == E3D_PYR_PLAIN || frame->shading == E3D_PYR_DEPTH || (batch->filled == draw && !draw->uvs))
+        return;
+    batch->filled = draw;
     for (int c = 0; c < 4; c++) {
-        batch->base[c][i] = draw->color[c];
-        batch->vertex_color[c][i] = color[c];
+        fill(batch->base[c], draw->color[c]);
+        fill(batch->vertex_color[c], 1);
     }
+    fill(batch->roughness, draw->roughness);
+    fill(batch->metallic, draw->metallic);
+    fill(batch->occlusion, 1);
+    for (int c = 0; c < 3; c++)
+        fill(batch->emissive[c], draw->emissive[c] * draw->emissive[c]);
 }
 
-static void set_geometry(const e3d_pyr_frame *frame, pyr_batch *batch, int i, const pyr_vertex *vertices, const pyr_weights *weights,
-                         float normal[3])
+static void set_vertex_color(pyr_batch *batch, int i, const pyr_weights *weights)
 {
-    for (int c = 0; c < 3; c++) {
-        float p = 0;
-        normal[c] = 0;
-        for (int k = 0; k < 3; k++) {
-            const pyr_vertex *vertex = &vertices[weights->corner[k]];
-            p += weights->weight[k] * vertex->world[c];
-            normal[c] += weights->weight[k] * vertex->normal[c];
-        }
-        batch->world[c][i] = p;
+    float color[4];
+    interpolate(batch->draw->colors, 4, weights, color);
+    for (int c = 0; c < 4; c++)
+        batch->vertex_color[c][i] = color[c];
+}
+
+static void set_geometry(const e3d_pyr_frame *frame, pyr_batch *batch, int i, const pyr_weights *weights)
+{
+    float4 world = splat(0), normal = splat(0);
+    for (int k = 0; k < 3; k++) {
+        const pyr_vertex *vertex = &batch->vertices[weights->corner[k]];
+        float4 weight = splat(weights->weight[k]);
+        world += weight * load4(vertex->world);
+        normal += weight * load4(vertex->normal);
     }
     if (!batch->draw->normals)
-        for (int c = 0; c < 3; c++)
-            normal[c] = frame->eye[c] - batch->world[c][i];
+        normal = (float4){frame->eye[0], frame->eye[1], frame->eye[2], 0} - world;
+    for (int c = 0; c < 3; c++) {
+        batch->world[c][i] = world[c];
+        batch->normal[c][i] = normal[c];
+    }
 }
 
-static void read_textures(const e3d_pyr_frame *frame, pyr_batch *batch, int i, const pyr_weights *weights, const pyr_plane *plane,
-                          float normal[3])
+static void read_textures(const e3d_pyr_frame *frame, pyr_batch *batch, int i, const pyr_weights *weights, const pyr_plane *plane)
 {
     const e3d_pyr_draw *draw = batch->draw;
     const e3d_pyr_texture *const *textures = draw->textures;
@@ -166,7 +180,7 @@ static void read_textures(const e3d_pyr_frame *frame, pyr_batch *batch, int i, c
         batch->metallic[i] *= texel[1];
     }
     if (textures[E3D_PYR_NORMAL] && draw->normals && plane)
-        map_normal(textures[E3D_PYR_NORMAL], uv, &change, normal);
+        map_normal(textures[E3D_PYR_NORMAL], uv, &change, batch, i);
     if (textures[E3D_PYR_OCCLUSION]) {
         read(textures[E3D_PYR_OCCLUSION], uv, &change, texel);
         batch->occlusion[i] = texel[0];
@@ -178,26 +192,16 @@ static void read_textures(const e3d_pyr_frame *frame, pyr_batch *batch, int i, c
     }
 }
 
-void pyr_find_surface(pyr_band *band, const pyr_vertex *vertices, const pyr_weights *weights, const pyr_plane *plane)
+void pyr_find_surface(pyr_band *band, int i, const pyr_weights *weights, const pyr_plane *plane)
 {
     const e3d_pyr_frame *frame = band->picture->frame;
     pyr_batch *batch = &band->batch;
-    const e3d_pyr_draw *draw = batch->draw;
-    int i = batch->count;
-    float normal[3] = {0, 0, 0};
     if (frame->shading == E3D_PYR_PLAIN)
         return;
-    set_plain(batch, i, draw, weights);
-    if (frame->shading == E3D_PYR_LIT) {
-        set_geometry(frame, batch, i, vertices, weights, normal);
-        batch->roughness[i] = draw->roughness;
-        batch->metallic[i] = draw->metallic;
-        batch->occlusion[i] = 1;
-        for (int c = 0; c < 3; c++)
-            batch->emissive[c][i] = draw->emissive[c] * draw->emissive[c];
-    }
-    if (draw->uvs)
-        read_textures(frame, batch, i, weights, plane, normal);
-    for (int c = 0; c < 3; c++)
-        batch->normal[c][i] = normal[c];
+    if (batch->draw->colors)
+        set_vertex_color(batch, i, weights);
+    if (frame->shading == E3D_PYR_LIT)
+        set_geometry(frame, batch, i, weights);
+    if (batch->draw->uvs)
+        read_textures(frame, batch, i, weights, plane);
 }

@@ -62,14 +62,12 @@ static void draw_pixel(triangle_job *job, int32_t x, int32_t y, uint32_t mask)
     const pyr_picture *picture = job->band->picture;
     double z[E3D_PYR_PLACES] = {0};
     for (int p = 0; p < picture->places; p++)
-        z[p] = pyr_depth_at(&job->plane, x + 0.5 + picture->sample_x[p] / 256.0, y + 0.5 + picture->sample_y[p] / 256.0);
+        z[p] = pyr_depth_at_place(picture, &job->plane, p, x, y);
     mask = pyr_test_depths(job->band, x, y, mask, z) & ((1u << picture->frame->samples) - 1);
     if (!mask || picture->frame->shading == E3D_PYR_DEPTH)
         return;
     pyr_weights weights;
-    pyr_weigh(&job->plane, x + 0.5, y + 0.5, weights.weight);
-    for (int k = 0; k < 3; k++)
-        weights.corner[k] = job->plane.corner[k];
+    pyr_weigh(&job->plane, x + 0.5, y + 0.5, &weights);
     pyr_add_fragment(job->band, job->draw, job->vertices, &weights, &job->plane, x, y, mask);
 }
 

@@ -54,6 +54,7 @@ void pyr_transform(const e3d_pyr_frame *frame, const e3d_pyr_draw *draw, int32_t
         double x = p[0], y = p[1], z = p[2];
         for (int r = 0; r < 4; r++)
             out[i].clip[r] = ((clip[4 * r] * x + clip[4 * r + 1] * y) + clip[4 * r + 2] * z) + clip[4 * r + 3];
+        memset(out[i].world, 0, sizeof out[i].world + sizeof out[i].normal);
         if (!is_lit)
             continue;
         const double *w = draw->world;

@@ -3,6 +3,7 @@
  * In: a step with IDs of each place. Out: a fragment for each triangle that shows in a pixel; but calm triangles that share a vertex with
  * the one at the pixel's centre, whose colours go over into one another, are one fragment with it (R152).
  */
+#include "core/vectors.h"
 #include "pyrender/picture.h"
 
 /* What shows at a place: nothing where the draw is negative. */
@@ -10,13 +11,16 @@ typedef struct shown {
     int32_t draw, triangle;
 } shown;
 
-/* The planes of triangles that showed last: neighbours often show the same. */
-enum { RECENT = 4 };
+/* The planes of triangles that showed last: neighbours often show the same, to the right and below. New ones take the places of the oldest. */
+enum { RECENT = 256,
+       RECENT_KEYS = 1024 };
 
 typedef struct recent {
+    uint16_t of_key[RECENT_KEYS]; /* the plane that may be of a triangle with such a number */
+    uint16_t next;
     shown of[RECENT];
+    uint32_t batch[RECENT]; /* the last one that needs it */
     pyr_plane plane[RECENT];
-    int next;
 } recent;
 
 /* Rows of a step. */
@@ -81,21 +85,46 @@ static int meet(const e3d_pyr_frame *frame, shown a, shown b)
     return 0;
 }
 
-static const pyr_plane *plane_of(const pyr_picture *picture, shown what, recent *last)
+/* Whether all samples of a pixel are one fragment with what its centre shows: mostly so within a surface, which is why this does not
+ * go from sample to sample. */
+static int all_meet(const e3d_pyr_frame *frame, const shown at[E3D_PYR_PLACES])
 {
-    for (int k = 0; k < RECENT; k++)
-        if (same(last->of[k], what))
-            return &last->plane[k];
-    int slot = last->next++ % RECENT;
-    const e3d_pyr_draw *draw = &picture->frame->draws[what.draw];
-    last->of[slot] = what;
-    pyr_set_plane(picture->frame, draw, picture->vertices[what.draw], what.triangle, &last->plane[slot]);
-    return &last->plane[slot];
+    shown centre = at[E3D_PYR_CENTRE];
+    int32_t other_draws = 0;
+    for (int s = 0; s < E3D_PYR_SAMPLES; s++)
+        other_draws |= at[s].draw ^ centre.draw;
+    if (other_draws || centre.draw < 0)
+        return 0;
+    const e3d_pyr_draw *draw = &frame->draws[centre.draw];
+    const int32_t *p = draw->indices + 3 * (size_t)centre.triangle, *q[E3D_PYR_SAMPLES];
+    int calm = draw->calm[centre.triangle];
+    int4 shared = {0};
+    for (int s = 0; s < E3D_PYR_SAMPLES; s++) {
+        calm &= draw->calm[at[s].triangle];
+        q[s] = draw->indices + 3 * (size_t)at[s].triangle;
+    }
+    for (int k = 0; k < 3; k++) {
+        int4 vertex = {q[0][k], q[1][k], q[2][k], q[3][k]};
+        shared |= (vertex == p[0]) | (vertex == p[1]) | (vertex == p[2]);
+    }
+    return calm && lanes_of(shared) == (1 << E3D_PYR_SAMPLES) - 1;
 }
 
-static double depth_at_place(const pyr_picture *picture, const pyr_plane *plane, int place, int32_t x, int32_t y)
+/* The number of a triangle's plane. The batch is flushed before a plane goes that it needs. */
+static int find_plane(pyr_band *band, shown what, recent *last)
 {
-    return pyr_depth_at(plane, x + 0.5 + picture->sample_x[place] / 256.0, y + 0.5 + picture->sample_y[place] / 256.0);
+    const pyr_picture *picture = band->picture;
+    uint32_t key = (uint32_t)(what.triangle + 31 * what.draw) % RECENT_KEYS;
+    int number = last->of_key[key];
+    if (same(last->of[number], what))
+        return number;
+    number = last->next++ % RECENT;
+    if (last->batch[number] == band->batch.number)
+        pyr_flush(band);
+    last->of_key[key] = (uint16_t)number;
+    last->of[number] = what;
+    pyr_set_plane(picture->frame, &picture->frame->draws[what.draw], picture->vertices[what.draw], what.triangle, &last->plane[number]);
+    return number;
 }
 
 /* The places of a mask at which a triangle isn't hidden by an earlier step. */
@@ -105,17 +134,8 @@ static uint32_t nearer(const pyr_band *band, const pyr_plane *plane, int32_t x, 
     double z[E3D_PYR_PLACES] = {0};
     for (int p = 0; p < picture->places; p++)
         if (mask >> p & 1)
-            z[p] = depth_at_place(picture, plane, p, x, y);
+            z[p] = pyr_depth_at_place(picture, plane, p, x, y);
     return pyr_test_depths(band, x, y, mask, z);
-}
-
-/* Where samples aren't kept: writes the depth of a pixel. `z`: that at its centre. */
-static void set_depth(const pyr_picture *picture, const pyr_plane *plane, double z, int32_t x, int32_t y)
-{
-    const e3d_pyr_frame *frame = picture->frame;
-    if (frame->depth_place != E3D_PYR_CENTRE)
-        z = depth_at_place(picture, plane, picture->depth_place, x, y);
-    frame->depth[(size_t)y * (size_t)frame->width + (size_t)x] = pyr_metric_depth(frame, z);
 }
 
 /* Adds what shows at some places of a pixel. */
@@ -123,18 +143,20 @@ static void add(pyr_band *band, shown what, recent *last, int32_t x, int32_t y, 
 {
     const pyr_picture *picture = band->picture;
     const e3d_pyr_frame *frame = picture->frame;
-    const pyr_plane *plane = plane_of(picture, what, last);
+    const pyr_vertex *vertices = picture->vertices[what.draw];
+    int number = find_plane(band, what, last);
+    const pyr_plane *plane = &last->plane[number];
+    if (!picture->keeps_samples) {
+        pyr_add_shown(band, &frame->draws[what.draw], vertices, plane, x, y, mask);
+        last->batch[number] = band->batch.number;
+        return;
+    }
+    mask = nearer(band, plane, x, y, mask) & ((1u << frame->samples) - 1);
+    if (!mask || frame->shading == E3D_PYR_DEPTH)
+        return;
     pyr_weights weights;
-    double z = pyr_weigh(plane, x + 0.5, y + 0.5, weights.weight);
-    for (int k = 0; k < 3; k++)
-        weights.corner[k] = plane->corner[k];
-    if (picture->keeps_samples)
-        mask = nearer(band, plane, x, y, mask);
-    else if (mask >> picture->depth_place & 1)
-        set_depth(picture, plane, z, x, y);
-    mask &= (1u << frame->samples) - 1;
-    if (mask && frame->shading != E3D_PYR_DEPTH)
-        pyr_add_fragment(band, &frame->draws[what.draw], picture->vertices[what.draw], &weights, plane, x, y, mask);
+    pyr_weigh(plane, x + 0.5, y + 0.5, &weights);
+    pyr_add_fragment(band, &frame->draws[what.draw], vertices, &weights, plane, x, y, mask);
 }
 
 /* Where samples aren't kept: a row of background. */
@@ -223,7 +245,12 @@ static void draw_row(pyr_band *band, const row *row, recent *last, int32_t y)
         if (band->differs[x]) {
             for (int p = 1; p < picture->places; p++)
                 at[p] = shown_at(row, p, x);
-            add_each(band, at, last, x, y);
+            if (picture->places > 1 && all_meet(picture->frame, at)) {
+                band->differs[x] = 0;
+                add(band, at[E3D_PYR_CENTRE], last, x, y, all);
+            } else {
+                add_each(band, at, last, x, y);
+            }
         } else if (at[0].draw >= 0) {
             add(band, at[0], last, x, y, all);
         }
@@ -236,10 +263,14 @@ static void draw_row(pyr_band *band, const row *row, recent *last, int32_t y)
 
 void pyr_draw_visible(pyr_band *band, const e3d_pyr_step *step)
 {
-    recent last = {.next = 0};
+    recent last;
     row row;
-    for (int k = 0; k < RECENT; k++)
+    memset(last.of_key, 0, sizeof last.of_key);
+    last.next = 0;
+    for (int k = 0; k < RECENT; k++) {
         last.of[k] = (shown){-2, -2};
+        last.batch[k] = band->batch.number - 1;
+    }
     for (int32_t y = band->top; y < band->end; y++) {
         set_row(band->picture, step, y, &row);
         draw_row(band, &row, &last, y);

@@ -62,9 +62,11 @@ cdef class NativeShape:
                  const float[:, ::1] normals=None, const float[:, ::1] uvs=None, const float[:, ::1] colors=None):
         cdef int32_t size = 3 if mode == E3D_PYR_TRIANGLES else 2 if mode == E3D_PYR_LINES else 1
         cdef int32_t vertices = <int32_t>positions.shape[0]
+        cdef bint in_range = True
         cdef Py_ssize_t i
         for i in range(indices.shape[0]):
-            require(0 <= indices[i] < vertices, "an index is out of range")
+            in_range &= 0 <= indices[i] < vertices
+        require(in_range, "an index is out of range")
         memset(&self.draw, 0, sizeof(e3d_pyr_draw))
         self.draw.mode, self.draw.vertices = mode, vertices
         self.draw.count = <int32_t>(indices.shape[0] // size)

@@ -15,9 +15,14 @@ def edit(args: argparse.Namespace) -> int:
     try:
         from ..editor.ui.editor_window import EditorWindow
     except ImportError as error:
-        if error.name != "imgui_bundle":
+        if (error.name or "").partition(".")[0] != "imgui_bundle":
             raise
-        raise Engine3DError("the editor needs Dear ImGui: pip install 'engine3d[editor]'") from None
+        lacks = "pip install 'engine3d[editor]'"
+        if not isinstance(
+            error, ModuleNotFoundError
+        ):  # it is there, but not a library of the system
+            lacks = f"it does not load: {error}"
+        raise Engine3DError(f"the editor needs Dear ImGui: {lacks}") from None
     size = {"size": args.resolution} if args.resolution else {}
     with EditorWindow(args.model or "", **size) as editor:
         return editor.run()

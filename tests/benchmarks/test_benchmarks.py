@@ -39,7 +39,9 @@ def test_batches():
 
 
 def test_user_interface():
-    pytest.importorskip("imgui_bundle", reason="it is an extra: pip install -e .[editor]")
+    pytest.importorskip(
+        "imgui_bundle", reason="it is an extra: pip install -e .[editor]", exc_type=ImportError
+    )
     rows = report("user_interface.py", "--repeats", "1")["rows"]
     assert [row["backend"] for row in rows] == e3d.backends()
     assert all(row["triangles"] > 5000 and row["milliseconds"] > 0 for row in rows)

@@ -11,7 +11,9 @@ import pytest
 import engine3d as e3d
 from engine3d import data, events
 
-pytest.importorskip("imgui_bundle", reason="it is an extra: pip install -e .[editor]")
+pytest.importorskip(
+    "imgui_bundle", reason="it is an extra: pip install -e .[editor]", exc_type=ImportError
+)
 
 from importlib.resources import files
 
@@ -574,13 +576,23 @@ def test_a_layout_that_cannot_be_kept_does_no_harm(editor, monkeypatch, tmp_path
     assert not layout_path().exists()
 
 
-def test_without_imgui_one_line_says_what_to_install(monkeypatch, capsys):
+@pytest.mark.parametrize("is_there", [False, True])
+def test_without_imgui_one_line_says_what_lacks(is_there, monkeypatch, capsys, tmp_path):
     from engine3d.cli import main
 
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
-    monkeypatch.setitem(sys.modules, "imgui_bundle", None)
-    for name in [name for name in sys.modules if name.startswith("engine3d.editor.ui")]:
-        monkeypatch.delitem(sys.modules, name)
+    for name in list(sys.modules):
+        if name.startswith(("engine3d.editor.ui", "imgui_bundle")):
+            monkeypatch.delitem(sys.modules, name)
+    if is_there:
+        (tmp_path / "imgui_bundle").mkdir()
+        (tmp_path / "imgui_bundle" / "__init__.py").write_text(
+            "raise ImportError('libX11.so.6: no such file', name='imgui_bundle._imgui_bundle')\n"
+        )
+        monkeypatch.syspath_prepend(tmp_path)
+    else:
+        monkeypatch.setitem(sys.modules, "imgui_bundle", None)
     assert main(["edit"]) == 1
     said = capsys.readouterr().err
-    assert said.count("\n") == 1 and "pip install 'engine3d[editor]'" in said
+    lacks = "it does not load: libX11.so.6" if is_there else "pip install 'engine3d[editor]'"
+    assert said.count("\n") == 1 and lacks in said

@@ -9,7 +9,9 @@ from desktop import MARKS, Desktop, processor_seconds, until, virtual_screen
 
 import engine3d as e3d
 
-pytest.importorskip("imgui_bundle", reason="it is an extra: pip install -e .[editor]")
+pytest.importorskip(
+    "imgui_bundle", reason="it is an extra: pip install -e .[editor]", exc_type=ImportError
+)
 pytestmark = MARKS
 
 RUNNING_COLOR = (150, 40, 40)  # behind what tells that Python runs

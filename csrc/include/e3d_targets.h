@@ -29,7 +29,7 @@ extern "C" {
     X(E3D_OUTPUT_WORLD_NORMAL, world_normal, float, 3, 0, NORMALS) \
     X(E3D_OUTPUT_WORLD_POSITION, world_position, float, 3, 0, POSITIONS) \
     X(E3D_OUTPUT_UV, uv, float, 2, 0, UVS) \
-    X(E3D_OUTPUT_BARYCENTRIC, barycentric, float, 3, 0, IDENTITIES) \
+    X(E3D_OUTPUT_BARYCENTRIC, barycentric, float, 3, 0, BARYCENTRIC) \
     X(E3D_OUTPUT_METALLIC_ROUGHNESS, metallic_roughness, float, 2, 0, MATERIALS) \
     X(E3D_OUTPUT_EMISSIVE, emissive, float, 3, 0, MATERIALS) /* working space */ \
     X(E3D_OUTPUT_TANGENT, tangent, float, 4, 0, TANGENTS) /* view space, and the sign of the bitangent */ \

@@ -17,6 +17,7 @@ from engine3d._native.rasterizer import BACKENDS
 from engine3d.rendering.frame import OUTPUTS
 
 THREADS = (2, 3, 8)
+IDS = tuple(name for name in OUTPUTS if name.endswith("_id"))
 NAMES = sorted(SCENES)
 HOW = "to look: python tests/images/golden.py --pictures FOLDER; if it is meant: --update"
 
@@ -54,7 +55,8 @@ def test_same_bytes(backend, name):
     several = THREADS[(NAMES.index(name) + list(BACKENDS).index(backend)) % len(THREADS)]
     for threads in (1, several):
         assert_same(picture.draw(backend, threads), expected)
-    assert_same(picture.draw(backend, several, ("color",)), expected, ("color",))
+    for outputs in (("color",), IDS):
+        assert_same(picture.draw(backend, several, outputs), expected, outputs)
 
 
 @functools.cache

@@ -22,7 +22,7 @@ OUTPUTS = {
     "object_id": "IDENTITIES",
     "instance_id": "IDENTITIES",
     "material_id": "IDENTITIES",
-    "barycentric": "IDENTITIES",
+    "barycentric": "BARYCENTRIC",
 }
 
 

@@ -17,7 +17,8 @@
     X(NORMALS, "an output of normals")                                                 \
     X(UVS, "the output uv")                                                            \
     X(ALBEDO, "the output albedo")                                                     \
-    X(IDENTITIES, "an output of IDs or barycentric coordinates")                       \
+    X(IDENTITIES, "an output of IDs")                                                  \
+    X(BARYCENTRIC, "the output barycentric")                                           \
     X(MATERIALS, "the outputs metallic_roughness or emissive")                         \
     X(TANGENTS, "the output tangent")                                                  \
     X(LIT, "mode lit")                                                                 \
@@ -51,6 +52,7 @@
 #define E3D_PLANNED(X)                                                                   \
     X(COLORS, "visible samples get colours")                                             \
     X(OUTPUTS, "visible samples get other outputs")                                      \
+    X(IDENTIFIES, "IDs are found straight from the visible samples, since depths are all else that is asked for") \
     X(SHADES, "visible samples are shaded at all")                                       \
     X(POSITION, "shading needs the position")                                            \
     X(NORMAL, "shading needs the normal")                                                \
@@ -86,6 +88,7 @@ typedef enum e3d_plan_item {
 
 /* A bit for each item. */
 typedef uint64_t e3d_plan;
+_Static_assert(E3D_PLAN_ITEMS <= 64, "each item has a bit");
 
 static inline int e3d_plan_has(e3d_plan plan, e3d_plan_item item) { return (int)(plan >> item & 1); }
 

@@ -16,53 +16,17 @@
 #include "pipeline/pass/transmits.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/maps.h"
+#include "pipeline/shade/primitive.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/shade/surface.h"
 
 /* ---- which primitive a piece is of ---- */
-
-/* The instance that was found last, and the order of its first primitive: mostly the next piece is of it, too. */
-typedef struct instance_finder {
-    const e3d_draw_state *draw;
-    uint32_t first;
-    int32_t instance;
-} instance_finder;
 
 static const float *corners_of(const e3d_shade_in *in, uint32_t id, const e3d_record *record)
 {
     if (!(record->meta & E3D_RECORD_CUT))
         return NULL;
     return in->corners[id & ((1u << in->table->bits) - 1)] + 9 * (size_t)(record->meta >> E3D_RECORD_SHIFT);
-}
-
-/* Finds the face of a micro-triangle, whose `local` is its number in the cluster so far. */
-static ALWAYS_INLINE void find_face(const e3d_draws *draws, instance_finder *finder, e3d_visible_primitive *piece)
-{
-    const e3d_drawn_cluster *drawn = piece->drawn;
-    finder->draw = &draws->states[drawn->draw];
-    finder->first = drawn->order;
-    finder->instance = drawn->instance - (int32_t)finder->draw->instance_base;
-    piece->local = drawn->faces[piece->local];
-}
-
-static void find_primitive(const e3d_shade_in *in, const e3d_draws *draws, uint32_t id, instance_finder *finder, e3d_visible_primitive *piece)
-{
-    uint32_t order = piece->record->order;
-    piece->corners = corners_of(in, id, piece->record);
-    if (!finder->draw || order - finder->first >= (uint32_t)finder->draw->primitives) {
-        const e3d_order_entry *entry = e3d_find_order_entry(draws, order);
-        const e3d_draw_state *draw = &draws->states[entry->draw];
-        uint32_t primitives = (uint32_t)draw->primitives, instances = (order - entry->order) / primitives;
-        finder->draw = draw;
-        finder->instance = entry->instance + (int32_t)instances;
-        finder->first = entry->order + instances * primitives;
-    }
-    piece->local = (int32_t)(order - finder->first);
-}
-
-int32_t e3d_face_of(const e3d_visible_primitive *piece)
-{
-    return piece->local < piece->draw->mesh->desc.faces_count ? piece->local : -1;
 }
 
 /* How many vertices the primitive has. */
@@ -90,9 +54,8 @@ static ALWAYS_INLINE void find_vertices(e3d_visible_primitive *piece)
 /* Material and kind of primitive: with the draw, all that the bucket depends on. */
 static int32_t bucket_id_of(const e3d_visible_primitive *piece)
 {
-    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
-    int32_t face = e3d_face_of(piece);
-    return face < 0 ? -1 : piece->draw->mesh->material_most ? mesh->material_ids[face] : 0;
+    int32_t face = e3d_face_of(piece->draw, piece->local);
+    return face < 0 ? -1 : e3d_material_of(piece->draw, face);
 }
 
 static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *state, int32_t id)
@@ -191,15 +154,17 @@ static void find_named(const e3d_record_table *table, const e3d_shown_piece *of,
 }
 
 /* The primitives, whose vertices are asked for. (Most are faces; what else is asked for does no harm.) */
-static void find_primitives(const e3d_shade_in *in, const e3d_shown_piece *of, piece_range range, instance_finder *finder,
+static void find_primitives(const e3d_shade_in *in, const e3d_shown_piece *of, piece_range range, e3d_instance_finder *finder,
                             e3d_visible_primitive *pieces)
 {
     const e3d_draws *draws = in->pass->draws;
     for (int32_t n = range.first; n < range.end; n++) {
-        if (pieces[n].drawn)
-            find_face(draws, finder, &pieces[n]);
-        else
-            find_primitive(in, draws, of[n].id, finder, &pieces[n]);
+        if (pieces[n].drawn) {
+            pieces[n].local = e3d_find_face(draws, pieces[n].drawn, pieces[n].local, finder);
+        } else {
+            pieces[n].local = e3d_find_primitive(draws, pieces[n].record->order, finder);
+            pieces[n].corners = corners_of(in, of[n].id, pieces[n].record);
+        }
         pieces[n].draw = finder->draw;
         pieces[n].instance = finder->instance;
         __builtin_prefetch((const void *)((uintptr_t)finder->draw->mesh->desc.faces + 12 * (uintptr_t)pieces[n].local));
@@ -230,7 +195,7 @@ int e3d_find_pieces(const e3d_shade_in *in, e3d_shade_memory *memory)
     enum { SOME = 32 };
     const e3d_record_table *table = in->table;
     e3d_shown *shown = &memory->shown;
-    instance_finder instance = {0};
+    e3d_instance_finder instance = {0};
     bucket_finder bucket = {0};
     int32_t all = shown->pieces;
     shown->piece[all].first = shown->count;
@@ -351,7 +316,7 @@ static void add_surface(const e3d_shade_in *in, const e3d_visible_primitive *pie
 {
     const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
     const int32_t *vertex = piece->vertex;
-    int32_t n = s->count++, face = e3d_face_of(piece);
+    int32_t n = s->count++, face = e3d_face_of(piece->draw, piece->local);
     int count = corners_count(piece);
     s->irregular += piece->corners || face < 0 || mesh->components == 4;
     add_matrices(in->pass, s, n, (int32_t)piece->draw->instance_base + piece->instance);
@@ -505,7 +470,7 @@ void e3d_find_surfaces(const e3d_prepared *pass, const e3d_tile *tile, const e3d
             cut_slopes(s, n);
         if (mesh->components == 4)
             clear_positions(s, n, 0);
-        else if (e3d_face_of(piece) < 0)
+        else if (e3d_face_of(piece->draw, piece->local) < 0)
             clear_positions(s, n, corners_count(piece));
     }
     if (bucket->mapped)

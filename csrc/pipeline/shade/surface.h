@@ -40,6 +40,5 @@ int e3d_find_pieces(const e3d_shade_in *in, e3d_shade_memory *memory);
 /* The surfaces of pieces of a bucket from `first` on, without what e3d_find_surfaces adds; the first piece that is left, or -1. */
 int32_t e3d_add_surfaces(const e3d_shade_in *in, const e3d_bucket *bucket, int32_t first, int wanted, e3d_shade_memory *memory);
 void e3d_find_surfaces(const e3d_prepared *pass, const e3d_tile *tile, const e3d_bucket *bucket, int wanted, e3d_shade_memory *memory);
-int32_t e3d_face_of(const e3d_visible_primitive *piece);
 
 #endif

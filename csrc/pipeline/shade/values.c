@@ -11,6 +11,7 @@
 #include "kernels/types/shading.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/shade/primitive.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/shade/surface.h"
 #include "pipeline/shade/values.h"
@@ -174,7 +175,7 @@ static void put_ids(const batch_place *place, const e3d_shade_memory *memory)
         const e3d_visible_primitive *piece = &pieces[memory->surfaces.piece[batch->surface[i]]];
         const e3d_draw *draw = piece->draw->draw;
         if (triangles)
-            put_id(triangles, at + i, end - i, e3d_face_of(piece));
+            put_id(triangles, at + i, end - i, e3d_face_of(piece->draw, piece->local));
         if (objects)
             put_id(objects, at + i, end - i, e3d_object_id(draw, piece->instance));
         if (instances)

@@ -14,6 +14,7 @@
 #include "pipeline/geometry/records.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/shade/identities.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/store/blank.h"
 #include "pipeline/store/queue.h"
@@ -185,22 +186,42 @@ static void raster_visible(const e3d_tile_job *job)
         kernels->raster_settle(job->visible, &bins->tables[E3D_SET_SCENE], 1);
 }
 
+static void identify(const e3d_tile_job *job, int spans)
+{
+    if (spans) {
+        begin(job, e3d_spans_cover_all(&job->memory->spans.cover));
+        e3d_identify_shown(job->in->shade, &job->shades);
+        return;
+    }
+    int gaps;
+    int32_t count = find_runs(job, &gaps);
+    e3d_identify_runs(job->in->shade, &job->tile, count, &job->shades);
+}
+
+/* Finds what is asked for of the samples that show; 0 when memory is out. */
+static int find_outputs(const e3d_tile_job *job, int spans)
+{
+    if (e3d_plans(job->in->pass, E3D_PLAN_SHADES))
+        return spans ? shade_spans(job) : shade_visible(job);
+    if (e3d_plans(job->in->pass, E3D_PLAN_IDENTIFIES))
+        identify(job, spans);
+    else
+        begin(job, 0);
+    return 1;
+}
+
 static int draw_visible(const e3d_tile_job *job)
 {
     e3d_tile_memory *memory = job->memory;
-    int spans = !has_alpha(job) && shows_spans(job), shaded = 1;
+    int spans = !has_alpha(job) && shows_spans(job);
     if (!spans)
         raster_visible(job);
     if (!e3d_alpha_cut(job))
         return 0;
     e3d_lap(memory, &memory->ns_raster);
-    if (!e3d_plans(job->in->pass, E3D_PLAN_SHADES))
-        begin(job, 0);
-    else
-        shaded = spans ? shade_spans(job) : shade_visible(job);
-    shaded = shaded && e3d_alpha_blend(job);
+    int found = find_outputs(job, spans) && e3d_alpha_blend(job);
     e3d_lap(memory, &memory->ns_shade);
-    return shaded;
+    return found;
 }
 
 /* To pixels, or samples that become pixels. */

@@ -106,7 +106,7 @@ def dfg_table(int kind):
     return [[E3D_DFG_TABLE[kind][E3D_DFG_SIZE * i + j] for j in range(E3D_DFG_SIZE)] for i in range(E3D_DFG_SIZE)]
 
 
-cdef class KeptEnvironment:
+cdef class _KeptEnvironment:
     """An environment of pixels, which takes a hundred times as long to make as to look up."""
 
     cdef e3d_environment *environment
@@ -122,14 +122,14 @@ cdef class KeptEnvironment:
         e3d_environment_destroy(self.environment)
 
 
-cdef KeptEnvironment last_environment = None
+cdef _KeptEnvironment last_environment = None
 
 
 cdef int fill_light(e3d_environment_light *light, const float[:, :, ::1] pixels, turn, float intensity) except -1:
     """Makes the environment, or takes the last one if it is of the same array, which must not have changed."""
     global last_environment
     if last_environment is None or last_environment.pixels is not pixels.base:
-        last_environment = KeptEnvironment(pixels)
+        last_environment = _KeptEnvironment(pixels)
     light.environment = last_environment.environment
     light.cosine, light.sine = turn
     light.intensity = intensity

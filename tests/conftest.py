@@ -4,6 +4,7 @@ import gc
 import os
 import shutil
 import signal
+import sys
 import tempfile
 
 
@@ -14,19 +15,34 @@ def pytest_configure(config):
         signal.signal(signal.SIGINT, signal.default_int_handler)
     # The options of whoever runs the tests are none of the tests'.
     os.environ["XDG_CONFIG_HOME"] = os.devnull
-    # Where Python may write no bytecode, each of the hundreds of processes that tests start would
-    # compile the package anew. They share what is compiled, outside the tree.
     if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
-        folder = os.environ["PYTHONPYCACHEPREFIX"] = tempfile.mkdtemp(prefix="engine3d-bytecode-")
-        config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))
+        _keep_bytecode(config)
     # pytest-xdist would begin with the files that hold the most tests.
     config.option.loadscopereorder = False
 
 
+def _keep_bytecode(config):
+    """Let Python write bytecode, which it may not, outside the tree: into the cache of pytest.
+
+    Else each process that pytest-xdist starts would rewrite the asserts of all tests anew, and each
+    of the hundreds that tests start compile the package.
+    """
+    if hasattr(config, "cache"):
+        folder = str(config.cache.mkdir("bytecode"))
+    else:
+        folder = tempfile.mkdtemp(prefix="engine3d-bytecode-")
+        config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))
+    os.environ["PYTHONPYCACHEPREFIX"] = sys.pycache_prefix = folder
+    sys.dont_write_bytecode = False
+
+
 def pytest_collection_modifyitems(items):
-    # What waits for windows takes the longest, so it begins first: others compute meanwhile.
-    first = ("test_real_editor.py", "test_real_window.py")
-    items.sort(key=lambda item: item.path.name not in first)
+    # What waits for windows takes the longest, so it begins first: others compute meanwhile. Of
+    # three processes, the one that has the few tests of the first file takes the fourth, too: were
+    # two of them waiting, a processor would have nothing to do.
+    first = ("test_real_editor.py", "test_backends.py", "test_build.py", "test_real_window.py")
+    places = {name: place for place, name in enumerate(first)}
+    items.sort(key=lambda item: places.get(item.path.name, len(places)))
 
 
 def pytest_collection_finish():

@@ -106,13 +106,31 @@ def dfg_table(int kind):
     return [[E3D_DFG_TABLE[kind][E3D_DFG_SIZE * i + j] for j in range(E3D_DFG_SIZE)] for i in range(E3D_DFG_SIZE)]
 
 
-cdef int fill_light(e3d_environment_light *light, const float[:, :, ::1] pixels, turn, float intensity) except -1:
-    """Makes the environment, which is the caller's to destroy."""
+cdef class _KeptEnvironment:
+    """An environment of pixels, which takes a hundred times as long to make as to look up."""
+
     cdef e3d_environment *environment
-    if e3d_environment_create(&pixels[0, 0, 0], <int32_t>pixels.shape[1], <int32_t>pixels.shape[0], 1,
-                              &environment) != E3D_OK:
-        raise MemoryError()
-    light.environment = environment
+    cdef object pixels
+
+    def __cinit__(self, const float[:, :, ::1] pixels):
+        self.pixels = pixels.base
+        if e3d_environment_create(&pixels[0, 0, 0], <int32_t>pixels.shape[1], <int32_t>pixels.shape[0], 1,
+                                  &self.environment) != E3D_OK:
+            raise MemoryError()
+
+    def __dealloc__(self):
+        e3d_environment_destroy(self.environment)
+
+
+cdef _KeptEnvironment last_environment = None
+
+
+cdef int fill_light(e3d_environment_light *light, const float[:, :, ::1] pixels, turn, float intensity) except -1:
+    """Makes the environment, or takes the last one if it is of the same array, which must not have changed."""
+    global last_environment
+    if last_environment is None or last_environment.pixels is not pixels.base:
+        last_environment = _KeptEnvironment(pixels)
+    light.environment = last_environment.environment
     light.cosine, light.sine = turn
     light.intensity = intensity
     return 0
@@ -479,7 +497,6 @@ cdef class Kernels:
             directions[k], colors[k] = &direction[k, 0], &color[k, 0]
         for _ in range(self.rounds):
             self.table.environment(&light, directions, &level[0], count, colors)
-        e3d_environment_destroy(<e3d_environment *>light.environment)
 
     def irradiance(self, const float[:, :, ::1] pixels, turn, float intensity, const float[:, ::1] normal,
                    int count, float[:, ::1] color):
@@ -491,7 +508,6 @@ cdef class Kernels:
             normals[k], colors[k] = &normal[k, 0], &color[k, 0]
         for _ in range(self.rounds):
             self.table.irradiance(&light, normals, count, colors)
-        e3d_environment_destroy(<e3d_environment *>light.environment)
 
     def backdrop(self, const float[:, :, ::1] pixels, turn, float intensity, float level, const float[:, ::1] rays,
                  int x, int y, int count, float[:, ::1] color):
@@ -505,7 +521,6 @@ cdef class Kernels:
             colors[k] = &color[k, 0]
         for _ in range(self.rounds):
             self.table.backdrop(&backdrop, x, y, count, colors)
-        e3d_environment_destroy(<e3d_environment *>backdrop.light.environment)
 
     def albedo(self, int kind, const float[::1] roughness, const float[::1] cosine, int count, float[::1] out):
         """``kind``: A, B or the sheen's."""

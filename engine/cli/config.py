@@ -96,7 +96,7 @@ def set_defaults(
     for path, number, name, value in _entries(args, models):
         place = f"[{number}].options.{name}"
         if name not in known:
-            hint = suggestions.meant(name, known)
+            hint = suggestions.meant(name, known) or "; engine3d COMMAND --help lists them"
             raise FileFormatError(f"{place}: there is no such option{hint}", path)
         if name in options and (models or options[name].dest not in OF_MODELS):
             said_at[options[name].dest] = number
@@ -108,7 +108,8 @@ def set_defaults(
         name, equals, value = text.partition("=")
         name = name.removeprefix("--")
         if not equals or name not in options:
-            hint = suggestions.meant(name, options)
+            listed = f" (engine3d {args.command} --help lists them)"
+            hint = suggestions.meant(name, options) or listed
             if not equals:
                 raise UsageError(f"-D {text}: NAME=VALUE is needed, such as grid=true")
             raise UsageError(f"-D {text}: there is no option {name!r}{hint}")

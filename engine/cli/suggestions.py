@@ -12,8 +12,8 @@ from collections.abc import Iterable
 
 from ..errors import printable
 
-#: How alike two words must be, 0 to 1, for one to be a slip for the other.
-LIKENESS = 0.6
+#: How alike two words must be, 0 to 1, for one to be compared letter by letter with the other.
+_LIKENESS = 0.6
 
 
 class Parser(argparse.ArgumentParser):
@@ -46,8 +46,19 @@ class Parser(argparse.ArgumentParser):
 
 def meant(word: str, known: Iterable[str]) -> str:
     """Return the end of a message that asks whether one of the known words was meant, or ``""``."""
-    similar = difflib.get_close_matches(word, list(known), 1, LIKENESS)
-    return f": did you mean {similar[0]}?" if similar else ""
+    similar = difflib.get_close_matches(word, list(known), 3, _LIKENESS)
+    close = [one for one in similar if _is_close(word, one)]
+    return f": did you mean {close[0]}?" if close else ""
+
+
+def _is_close(word: str, known: str) -> bool:
+    """Whether a word begins a known one, or shares two thirds of the longer one's letters with it.
+
+    The likeness alone takes ``nonsense`` for ``scene``: they share four letters of eight.
+    """
+    blocks = difflib.SequenceMatcher(None, word, known).get_matching_blocks()
+    shared = sum(block.size for block in blocks)
+    return known.startswith(word) or 3 * shared >= 2 * max(len(word), len(known))
 
 
 def option_strings(parser: argparse.ArgumentParser) -> list[str]:

@@ -101,12 +101,7 @@ def write_models(
     found: dict[str, set[str | None]] = {}
     for category, name in shapes:
         found.setdefault(category, set()).add(name)
-    several = sorted(category for category, names in found.items() if len(names) > 1)
-    if several:
-        warn(
-            f"the things of {', '.join(map(repr, several))} have several shapes each, but an "
-            "object of BOP has one: models lacks them"
-        )
+    _warn_of_lacking(found)
     infos = {}
     for category, names in sorted(found.items(), key=lambda one: numbers[one[0]]):
         (name, *others) = names
@@ -121,6 +116,22 @@ def write_models(
         lines = (f'  "{number}": {json.dumps(info)}' for number, info in infos.items())
         text = "{\n" + ",\n".join(lines) + "\n}\n"
         yield _written(folder, "models/models_info.json", text.encode())
+
+
+def _warn_of_lacking(found: dict[str, set[str | None]]) -> None:
+    """Warn of categories that get no model, each by its name."""
+    several = sorted(category for category, names in found.items() if len(names) > 1)
+    if several:
+        warn(
+            f"the things of {', '.join(map(repr, several))} have several shapes each, but an "
+            "object of BOP has one: models lacks them"
+        )
+    empty = sorted(category for category, names in found.items() if names == {None})
+    if empty:
+        warn(
+            f"the things of {', '.join(map(repr, empty))} have no triangles, which models of BOP "
+            "are made of: models lacks them"
+        )
 
 
 def _written(folder: str, path: str, data: bytes) -> str:

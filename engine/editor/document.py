@@ -210,10 +210,6 @@ class SceneDocument:
         self.console.write("action", f"Save {name}")
         return True
 
-    def changed_on_disk(self) -> bool:
-        """Whether another program wrote the document's file since it was opened or saved."""
-        return self._state is not None and self._state.changed()
-
     def _target(self, path: str | os.PathLike[str] | None) -> str:
         if path is None and self.path is None:
             raise InvalidArgumentError("the scene has no file yet: give a path")

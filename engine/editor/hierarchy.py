@@ -124,10 +124,6 @@ class Hierarchy:
         """Show or hide a node's children; with ``below``, those of all that is below it, too."""
         self._set_open(_below(node) if below else [node], is_open)
 
-    def set_all_open(self, is_open: bool) -> None:
-        """Show or hide everything but what stands at the top."""
-        self._set_open(self._scene.nodes, is_open)
-
     def reveal(self, node: Node) -> None:
         """Open all that is above a node."""
         self._set_open(_above(node), True)

@@ -1,7 +1,7 @@
 """Meshes and textures loaded again: from files that changed, or from where missing ones are now.
 
 In: things that came from files. Out: commands that load them again into the same objects, so that
-all nodes show it; which files were written meanwhile.
+all nodes show it.
 """
 
 from __future__ import annotations
@@ -9,14 +9,12 @@ from __future__ import annotations
 import os
 
 from ..errors import FileFormatError, InvalidArgumentError
-from ..files.stamps import FileState
 from ..geometry.mesh import Mesh
 from ..geometry.origins import FileOrigin
 from ..loaders import load_document, load_mesh, load_texture
 from ..materials.textures import Texture
 from .contents import contents, put_contents
 from .history import Command
-from .resource_list import Entry
 
 
 class Reload(Command):
@@ -73,29 +71,6 @@ class Reload(Command):
             if mesh._origin is not None and mesh._origin.origin.part == part:
                 return mesh
         raise FileFormatError(f"it has no part {part[0]!r} number {part[1]}", self._path)
-
-
-class FileChanges:
-    """Notices that files of things were written."""
-
-    def __init__(self) -> None:
-        self._states: dict[str, FileState] = {}
-
-    def changed(self, entries: tuple[Entry, ...]) -> tuple[Entry, ...]:
-        """Return those whose files were written, came or went since the last time; each once.
-
-        What is there the first time counts as not changed. To be asked about once a second.
-        """
-        paths = {entry.path for entry in entries if entry.path is not None}
-        written = {
-            path
-            for path in paths
-            if (state := self._states.get(path)) is not None and state.changed()
-        }
-        for path in paths:
-            if path in written or path not in self._states:
-                self._states[path] = FileState(path)
-        return tuple(entry for entry in entries if entry.path in written)
 
 
 def path_of(thing: Mesh | Texture) -> str | None:

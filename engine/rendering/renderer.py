@@ -32,9 +32,12 @@ from ..choices import (
     Wireframe,
 )
 from ..errors import InvalidArgumentError, SceneChangedError
+from ..geometry.mesh import Mesh
 from ..materials.colors import COLOR_SPACES
+from ..scene.instances import InstancedMesh
+from ..scene.nodes import Node
 from ..scene.scene import Scene
-from ..scene.trimesh_scenes import is_of_trimesh, scene_from_trimesh
+from ..scene.scenes_of_things import scene_of
 from ._ambient_occlusion import AmbientOcclusion, radius_of, shows_occlusion
 from ._bloom import Bloom
 from ._draw_list import DrawList
@@ -517,7 +520,7 @@ def _blame_change(scene: Scene, census: tuple[int, int], error: Exception) -> No
 
 
 def render(
-    scene: Scene | Any,
+    scene: Scene | Node | Mesh | InstancedMesh | Any,
     camera: CameraChoice = None,
     *,
     size: tuple[int, int] = (1280, 720),
@@ -528,11 +531,13 @@ def render(
     antialias: Antialias = "ssaa",
     **options: Unpack[RenderKeywords],
 ) -> Frame:
-    """Draw one frame of a scene.
+    """Draw one frame of a scene, of a part of one, or of a mesh alone.
 
     Parameters
     ----------
-    scene : Scene, or a scene or geometry of trimesh
+    scene : Scene, Node, Mesh, InstancedMesh, or a scene or geometry of trimesh
+        What is no scene is drawn before black. Of a node, all below it is drawn, where it is in the
+        world, in the light of those lights that are among it.
     camera : None, Node or (Camera, pose)
     size : (int, int)
         Width and height in pixels.
@@ -550,8 +555,11 @@ def render(
     InvalidArgumentError, BackendError, OutOfMemoryError
     """
     width, height = check_size(size)
-    if is_of_trimesh(scene):
-        scene = scene_from_trimesh(scene)
+    drawn = scene_of(scene)
+    if drawn is None:
+        raise InvalidArgumentError(
+            f"a scene, a node or a mesh can be drawn, not {type(scene).__name__}"
+        )
     with Renderer(
         width,
         height,
@@ -561,4 +569,4 @@ def render(
         samples=samples,
         antialias=antialias,
     ) as renderer:
-        return renderer.render(scene, camera, **options)
+        return renderer.render(drawn, camera, **options)

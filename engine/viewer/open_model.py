@@ -8,13 +8,16 @@ from __future__ import annotations
 
 import os
 import warnings
+from typing import NamedTuple
 
 from ..errors import Engine3DWarning, InvalidArgumentError, printable
 from ..geometry.creases import CREASE_ANGLE
 from ..loaders import load_document, load_texture
+from ..loaders.documents import Document
 from ..materials.material import says_something
 from ..scene.loading import scene_from_document
 from ..scene.scene import Scene
+from .scalars import ScalarColoring
 from .theme import DARK
 from .viewed_scene import ViewedScene
 from .visibility import DRAWABLE, mesh_of
@@ -23,7 +26,65 @@ from .visibility import DRAWABLE, mesh_of
 Z_UP_FORMATS = ("3mf", "asc", "iges", "step", "stl")
 
 
-def open_model(
+class OpenedModel(NamedTuple):
+    """A file that was read.
+
+    Attributes
+    ----------
+    viewed : ViewedScene
+    document : Document
+        What its scene is made of; both hold the same meshes.
+    """
+
+    viewed: ViewedScene
+    document: Document
+
+    def color(self, scalars: ScalarColoring) -> None:
+        """Colour the meshes by numbers, in the place of what colours them so far.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The file has no such numbers.
+        """
+        try:
+            self.viewed.bar = scalars.dress(self.document, self.viewed.up)
+        except InvalidArgumentError as error:
+            if self.viewed.path is None:
+                raise
+            raise InvalidArgumentError(f"{printable(self.viewed.path)}: {error}") from None
+
+
+def open_model(path, *, animation=None, **options) -> ViewedScene:
+    """Load a file to look at.
+
+    Parameters
+    ----------
+    path : path-like or binary file object
+        A file of any format that `engine3d.loaders` reads.
+    animation : callable, optional
+        Called with the `ViewedScene`, to let its animations play or stand at a time.
+    **options
+        Those of `read_model`.
+
+    Returns
+    -------
+    ViewedScene
+
+    Raises
+    ------
+    FileFormatError, FileAccessError
+        The file (or the texture asked for) cannot be read.
+    InvalidArgumentError
+        It has no such variant, numbers or animation.
+    """
+    viewed = read_model(path, **options).viewed
+    if animation is not None:
+        animation(viewed)
+    return viewed
+
+
+def read_model(
     path,
     *,
     texture=None,
@@ -31,12 +92,11 @@ def open_model(
     progress=None,
     companion=None,
     variant=None,
-    animation=None,
     crease_angle=CREASE_ANGLE,
     format=None,
     scalars=None,
-) -> ViewedScene:
-    """Load a file to look at.
+) -> OpenedModel:
+    """Load a file to look at, which may be coloured by other numbers later.
 
     Parameters
     ----------
@@ -57,19 +117,17 @@ def open_model(
         Colours the meshes by a number of their vertices or faces, whatever the file says.
     variant : str or int, optional
         As in `engine3d.load_scene`.
-    animation : callable, optional
-        Called with the `ViewedScene`, to let its animations play or stand at a time.
 
     Returns
     -------
-    ViewedScene
+    OpenedModel
 
     Raises
     ------
     FileFormatError, FileAccessError
         The file (or the texture asked for) cannot be read.
     InvalidArgumentError
-        It has no such variant or animation.
+        It has no such variant, or no such numbers.
     """
     image = None if texture is None else load_texture(texture)
     is_dressed = image is not None or color is not None
@@ -86,25 +144,12 @@ def open_model(
     path = None if hasattr(path, "read") else os.fspath(path)
     if is_dressed:
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
-    bar = None if scalars is None else _dressed_by_numbers(document, scalars, path)
-    viewed = view_document(document, path, variant)
+    opened = OpenedModel(view_document(document, path, variant), document)
     if scalars is not None:
-        viewed.bar = bar
+        opened.color(scalars)
         # Tone mapping would change the colours that the bar shows.
-        viewed.appearance = {**viewed.appearance, "tone_mapping": "none"}
-    if animation is not None:
-        animation(viewed)
-    return viewed
-
-
-def _dressed_by_numbers(document, scalars, path: str | None):
-    """Colour a document's meshes by numbers; what is wrong is told with its file."""
-    try:
-        return scalars.dress(document, usual_up(document))
-    except InvalidArgumentError as error:
-        if path is None:
-            raise
-        raise InvalidArgumentError(f"{printable(path)}: {error}") from None
+        opened.viewed.appearance = {**opened.viewed.appearance, "tone_mapping": "none"}
+    return opened
 
 
 def view_document(document, path: str | None, variant: str | int | None = None) -> ViewedScene:

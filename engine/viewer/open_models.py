@@ -6,7 +6,7 @@ In: paths. Out: a scene with all of the models, where their files place them or 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -19,7 +19,8 @@ from ..scene.instances import InstancedMesh
 from ..scene.lights import LIGHTS
 from ..scene.scene import Scene
 from .near_origin import moved_near
-from .open_model import open_model
+from .open_model import OpenedModel, read_model
+from .scalars import ScalarColoring
 from .viewed_scene import ViewedScene
 from .viewpoint import UP_DIRECTIONS, home_axes
 
@@ -31,9 +32,17 @@ _SHOWN = (Mesh, InstancedMesh, *LIGHTS)
 
 
 def open_models(
-    paths: Sequence, *, side_by_side: bool = False, up: str | None = None, **options
+    paths: Sequence,
+    *,
+    side_by_side: bool = False,
+    up: str | None = None,
+    animation: Callable[[ViewedScene], object] | None = None,
+    **options,
 ) -> ViewedScene:
     """Load files to look at together.
+
+    Each is read once. Until the last of them is, the meshes of all are held, which the scene holds
+    afterwards anyway, and what else each file says.
 
     Parameters
     ----------
@@ -44,8 +53,10 @@ def open_models(
         sizes. Otherwise each is where its file places it.
     up : str, optional
         A key of `UP_DIRECTIONS`: what is up in all of them, whatever is usual for their formats.
+    animation : callable, optional
+        As in `open_model`, for each of them.
     **options
-        Those of `open_model`, for each of them.
+        Those of `read_model`, for each of them.
 
     Returns
     -------
@@ -56,14 +67,15 @@ def open_models(
     FileFormatError, FileAccessError
         One of the files cannot be read.
     """
-    viewed_scenes = [open_model(path, **options) for path in paths]
+    opened = [read_model(path, **options) for path in paths]
+    if len(opened) > 1:
+        _share_range(opened, options.get("scalars"))
+    viewed_scenes = [one.viewed for one in opened]
+    if animation is not None:
+        for viewed in viewed_scenes:
+            animation(viewed)
     if len(viewed_scenes) == 1:
         return moved_near(viewed_scenes[0])
-    if len(ranges := {viewed.bar[1:3] for viewed in viewed_scenes if viewed.bar is not None}) > 1:
-        # One colour must mean one number in all of them, which is known only now.
-        lows, highs = zip(*ranges, strict=True)
-        options["scalars"] = replace(options["scalars"], range=(min(lows), max(highs)))
-        viewed_scenes = [open_model(path, **options) for path in paths]
     for viewed in viewed_scenes:
         viewed.up = up or viewed.up
     first = viewed_scenes[0]
@@ -83,6 +95,17 @@ def open_models(
         bar=first.bar,
     )
     return moved_near(viewed)
+
+
+def _share_range(opened: list[OpenedModel], scalars: ScalarColoring | None) -> None:
+    """Let one colour mean one number in all models; which, is known only when all were read."""
+    ranges = {one.viewed.bar[1:3] for one in opened if one.viewed.bar is not None}
+    if scalars is None or len(ranges) < 2:
+        return
+    lows, highs = zip(*ranges, strict=True)
+    shared = replace(scalars, range=(min(lows), max(highs)))
+    for one in opened:
+        one.color(shared)
 
 
 def _brightest(viewed_scenes: list[ViewedScene]) -> tuple[float, ...]:

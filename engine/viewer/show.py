@@ -13,11 +13,10 @@ from .._support.numbers import real, shown
 from ..choices import PixelFormat
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
-from ..motion.shown import placing_pose, shown_object
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.scene import Scene
-from ..scene.trimesh_scenes import is_of_trimesh, scene_from_trimesh
+from ..scene.scenes_of_things import scene_of
 from .clips import play_clips
 from .picture_window import PictureWindow, fitting_size
 from .pixels import Picture, as_pixels
@@ -51,7 +50,7 @@ def show(
 
     Parameters
     ----------
-    thing : Scene, Node, Mesh, InstancedMesh, Frame, Canvas, ndarray, or a scene of trimesh
+    thing : Scene, Node, Mesh, InstancedMesh, Frame, Canvas, ndarray, or what trimesh holds
         Of a node, its children show as well, and the lights among them. A scene with a camera is
         seen from there at first. Arrays are as for `Window.present`.
     size : (int, int), optional
@@ -98,9 +97,11 @@ def viewed_thing(
     period: float,
 ) -> ViewedScene | None:
     """Return what `show` shows of a scene, node or mesh; None for what is none of these."""
-    scene = _scene(thing)
+    scene = scene_of(thing)
     if scene is None:
         return None
+    if scene is not thing:
+        scene.background = DARK.background
     check_motion(update, "update")
     if up not in UP_DIRECTIONS:
         raise InvalidArgumentError(f"up must be one of {', '.join(UP_DIRECTIONS)}, not {up!r}")
@@ -128,32 +129,6 @@ def first_view(view_renderer: ViewRenderer) -> Viewpoint | None:
     view = view_renderer.view()
     look_through(view, node, view_renderer.bounds)
     return view
-
-
-def _scene(thing) -> Scene | None:
-    """Return a scene to show a thing in; None for what is none."""
-    if isinstance(thing, Scene):
-        return thing
-    if is_of_trimesh(thing):
-        return scene_from_trimesh(thing)
-    scene = Scene(DARK.background)
-    if isinstance(thing, Mesh | InstancedMesh):
-        scene.add(thing, name=getattr(thing, "name", "") or "mesh")
-    elif isinstance(thing, Node):
-        if thing._scene is not None:
-            thing._scene._update()
-        _add_branch(scene, thing)
-    else:
-        return None
-    return scene
-
-
-def _add_branch(scene: Scene, node: Node) -> None:
-    """Add what a node and those below it hold, where they are in the world."""
-    if node.visible:
-        scene.add(shown_object(node), name=node.name, pose=placing_pose(node))
-        for child in node.children:
-            _add_branch(scene, child)
 
 
 def _show_scene(viewed: ViewedScene, size: tuple[int, int] | None) -> None:

@@ -47,7 +47,7 @@ def test_what_was_probably_meant_is_named(model, capsys, arguments, meant):
 
 
 def test_what_resembles_nothing_gets_no_guess(model, capsys):
-    for arguments in (["zzzz"], ["run", "--zzzz"], ["run", "--mode", "zzzz"]):
+    for arguments in (["zzzz"], ["run", "--nonsense"], ["run", "--mode", "zzzz"]):
         assert main(arguments) == 2
         assert "did you mean" not in capsys.readouterr().err
 

@@ -10,7 +10,8 @@ from datasets.conftest import HEIGHT, WIDTH, sample
 import engine3d as e3d
 from engine3d.batch import read_manifest, run
 from engine3d.datasets import BopWriter, write_dataset
-from engine3d.datasets.bop_models import STORE, diameter
+from engine3d.datasets.bop_models import STORE, diameter, shape_of, write_models
+from engine3d.datasets.samples import Thing
 
 BOP = {"depth_scale": 0.5, "categories": ["ball", "box", "pair"]}
 SCRIPT = """
@@ -68,6 +69,15 @@ def test_each_object_with_one_shape_has_a_model(bop):
         assert ((np.cross(b - a, c - a) * normals[faces[:, 0]]).sum(axis=1) > 0).all()
     assert infos["2"]["size_x"] == pytest.approx(800.0)  # a box of 0.8 metres
     assert infos["3"]["size_y"] == pytest.approx(400.0)  # two boxes, one moved by 0.2 metres
+
+
+def test_what_has_no_triangles_is_told_of(tmp_path):
+    cloud = e3d.Scene().add(e3d.Mesh([(0, 0, 0), (1, 0, 0)], points=[0, 1]))
+    shape, files = shape_of(Thing(cloud, "cloud", (cloud,)), 1000.0)
+    assert shape is None and not files
+    with pytest.warns(e3d.Engine3DWarning, match="things of 'cloud' have no triangles") as told:
+        assert not list(write_models(tmp_path, {"cloud": 1}, [("cloud", shape)]))
+    assert len(told) == 1 and not (tmp_path / "models").exists()
 
 
 def test_models_in_their_poses_are_what_the_masks_show(bop):

@@ -119,15 +119,22 @@ def sources(tmp_path_factory):
     return folder
 
 
-def run_mypy(folder, monkeypatch):
+@pytest.fixture
+def cache(request, sources):
+    """A folder for what a checker knows of files that do not change, such as those of NumPy."""
+    kept = getattr(request.config, "cache", None)
+    return sources / "cache" if kept is None else kept.mkdir("mypy")
+
+
+def run_mypy(folder, monkeypatch, cache):
     if importlib.util.find_spec("mypy") is None:
         pytest.skip("mypy is not installed (pip install mypy)")
     monkeypatch.setenv("MYPYPATH", str(folder / "packages"))
     options = ["--follow-imports=silent", "--check-untyped-defs", "--hide-error-context"]
-    return [sys.executable, "-m", "mypy", *options, "--cache-dir", str(folder / "cache")]
+    return [sys.executable, "-m", "mypy", *options, "--cache-dir", str(cache)]
 
 
-def run_pyright(folder, monkeypatch):
+def run_pyright(folder, monkeypatch, cache):
     pyright = shutil.which("pyright", path=Path(sys.executable).parent) or shutil.which("pyright")
     if pyright is None:
         pytest.skip("pyright is not installed (pip install pyright)")
@@ -147,8 +154,8 @@ def run_pyright(folder, monkeypatch):
         pytest.param(run_pyright, id="pyright", marks=pytest.mark.slow),
     ],
 )
-def test_a_type_checker_reads_the_examples(run, sources, monkeypatch):
-    command = run(sources, monkeypatch)
+def test_a_type_checker_reads_the_examples(run, sources, monkeypatch, cache):
+    command = run(sources, monkeypatch, cache)
     files = sorted(path.name for path in sources.glob("*.py"))
     done = subprocess.run([*command, *files], cwd=sources, capture_output=True, text=True)
     found = re.findall(r"^.*?(\w+)\.py:(\d+).*\berror\b.*$", done.stdout, re.MULTILINE)

@@ -80,7 +80,9 @@ def closing_windows(monkeypatch):
 
     def events(window, timeout=0.0):
         times[id(window)] += 1
-        return [*take(window, timeout), *[CloseRequested()] * (times[id(window)] > 20)]
+        # Where nothing moves, windows wait for a quarter of a second and more.
+        received = take(window, min(timeout, 0.02))
+        return [*received, *[CloseRequested()] * (times[id(window)] > 20)]
 
     monkeypatch.setattr(Window, "events", events)
 

@@ -1,4 +1,4 @@
-"""Handles that are dragged: where rays meet axes and planes, steps, the ground."""
+"""Nodes that are moved: steps, turns and scales about a point, the ground."""
 
 import math
 
@@ -9,39 +9,6 @@ import engine3d as e3d
 from engine3d.editor import gizmo
 from engine3d.editor.document import SceneDocument
 from engine3d.editor.node_commands import MoveNodes, in_world
-
-
-def ray_through(eye, point):
-    return eye, np.subtract(point, eye)
-
-
-@pytest.mark.parametrize("seed", range(5))
-def test_a_ray_through_a_point_of_an_axis_finds_it(seed):
-    random = np.random.default_rng(seed)
-    origin, axis, eye = random.normal(size=(3, 3))
-    ray = ray_through(eye, origin + 2.5 * axis)
-    assert gizmo.along_axis(origin, axis, ray) == pytest.approx(2.5)
-    # of rays that pass by, the nearest point: the connection is perpendicular to the axis
-    direction = random.normal(size=3)
-    at = origin + gizmo.along_axis(origin, axis, (eye, direction)) * axis
-    d = direction / np.linalg.norm(direction)
-    nearest = eye + d * np.dot(at - eye, d)
-    assert np.dot(nearest - at, axis) == pytest.approx(0, abs=1e-9)
-
-
-def test_parallel_rays_find_nothing():
-    assert gizmo.along_axis((0, 0, 0), (0, 0, 2), ((1, 0, 0), (0, 0, -1))) is None
-    assert gizmo.in_plane((0, 0, 0), (0, 1, 0), ((0, 1, 0), (1, 0, 0))) is None
-    assert gizmo.in_plane((0, 0, 0), (0, 1, 0), ((0, 1, 0), (0, 1, 0))) is None
-    assert gizmo.in_plane((0, 0, 0), (0, 5, 0), ((1, 2, 3), (0, -1, 0))).tolist() == [1, 0, 3]
-
-
-def test_angles_are_measured_around_the_axis():
-    eye, center = (0, 5, 0), (0, 1, 0)
-    first, second = ray_through(eye, (1, 1, 0)), ray_through(eye, (0, 1, -2))
-    assert gizmo.around_axis(center, (0, 3, 0), first, second) == pytest.approx(math.pi / 2)
-    assert gizmo.around_axis(center, (0, -1, 0), first, second) == pytest.approx(-math.pi / 2)
-    assert gizmo.around_axis(center, (1, 0, 0), first, (eye, (0, 1, 0))) is None
 
 
 def test_steps():
@@ -60,7 +27,7 @@ def test_the_world_turns_and_grows_about_a_point():
     np.testing.assert_allclose(gizmo.scaled(2, point)[:3] @ (2, 2, 3, 1), (3, 2, 3))
 
 
-def test_nodes_move_to_the_grid_and_to_the_ground():
+def test_nodes_move_to_the_ground():
     document = SceneDocument()
     scene = document.scene
     table = scene.add(e3d.box((4, 1, 4)), translation=(0, 0.5, 0), name="table")
@@ -68,8 +35,6 @@ def test_nodes_move_to_the_grid_and_to_the_ground():
     cup = scene.add(e3d.box(0.5), parent=lift, translation=(0.26, 1.2, 0))
     far = scene.add(e3d.icosphere(1, 2), translation=(9, 3, 0))
     empty = scene.add(translation=(0, 7, 0))
-    document.do(MoveNodes(scene, [cup, far], gizmo.on_grid(0.5)))
-    assert cup.translation.tolist() == [0.5, 1, 0]
     document.do(MoveNodes(scene, [cup, lift, far, empty], gizmo.on_ground(scene)))
     assert cup.bounds[0, 1] == pytest.approx(1) and lift.translation[1] != 2
     assert far.bounds[0, 1] == pytest.approx(0, abs=1e-6) and far.translation[0] == 9

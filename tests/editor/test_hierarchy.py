@@ -105,7 +105,7 @@ def test_a_range_of_rows_is_selected():
     assert hierarchy.rows().between(hidden, hidden) == ()
     hierarchy.set_open(nodes[2], True, below=True)
     assert hidden in hierarchy.rows().between(nodes[0], nodes[4])
-    hierarchy.set_all_open(False)
+    hierarchy.set_open(nodes[2], False, below=True)
     assert hidden not in hierarchy.rows().between(nodes[0], nodes[4])
 
 
@@ -126,7 +126,8 @@ def test_a_scene_of_39304_nodes_stays_fluid():
     for k in range(34**3 - 34):
         scene.add(mesh, parent=groups[k % 34], name=f"node {k}")
     hierarchy = Hierarchy(scene)
-    hierarchy.set_all_open(True)
+    for group in groups:
+        hierarchy.set_open(group, True)
     assert len(hierarchy.rows()) == len(scene.nodes) == 39_304
 
     def look():

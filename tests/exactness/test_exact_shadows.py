@@ -55,7 +55,8 @@ def still_life(kind, shadow):
     scene.add(white(e3d.plane(6.0)))
     scene.add(white(e3d.box(0.8)), translation=(0, 0.4, 0), euler=(0, 0.6, 0))
     scene.add(white(e3d.icosphere(0.5, 2)), translation=(-0.9, 0.6, 0.5))
-    scene.add(white(e3d.torus()), translation=(0.9, 1.1, -0.4), euler=(0.9, 0.4, 0))
+    ring = white(e3d.torus(segments=(24, 12)))
+    scene.add(ring, translation=(0.9, 1.1, -0.4), euler=(0.9, 0.4, 0))
     add_light(scene, kind, shadow)
     return scene, e3d.look_at((1.2, 2.2, 3.2), (0, 0.3, 0))
 

@@ -7,6 +7,7 @@ rules drop. It must keep all that they keep.
 """
 
 import numpy as np
+import pytest
 from kernels import layouts
 from kernels.harness import Records, all_backends, every_count
 from kernels.layouts import CLUSTER_TRIANGLES, CLUSTER_VERTICES, SURVIVORS, VERTICES, viewport_of
@@ -75,25 +76,43 @@ def check_bits(name, got, expected):
     assert np.array_equal(got, bits), name
 
 
-@all_backends
-def test_setup(kernels):
-    for seed in range(ROUNDS):
-        rng = np.random.default_rng(seed)
-        sizes = np.array(SIZES)[rng.integers(0, len(SIZES), CALLS)]
-        viewport = np.concatenate([viewport_of(*size) for size in sizes])
-        vertices = np.zeros(CALLS, VERTICES)
-        vertices["sx"] = random_positions(rng, viewport["width"])
-        vertices["sy"] = random_positions(rng, viewport["height"])
-        vertices["code"] = random_codes(rng)
-        vertices["special"] = vertices["code"].any(axis=1)
-        keep_inside(vertices, viewport)
-        vertices["count"] = rng.choice([3, 31, 32, 33, 63, 64, 65, CLUSTER_VERTICES], CALLS)
-        shape = (CALLS, 3, CLUSTER_TRIANGLES)
-        indices = rng.integers(0, vertices["count"][:, None, None], shape).astype(np.uint8)
-        counts = every_count(rng, CLUSTER_TRIANGLES, CALLS)
-        cull = rng.integers(-1, 2, CALLS).astype(np.int32)
-        fragments = rng.random(CALLS) < 0.7
+@pytest.fixture(scope="module")
+def clusters():
+    """For all backends: of each round, what kernels are given, and what is to survive."""
+    return [random_clusters(np.random.default_rng(seed)) for seed in range(ROUNDS)]
 
+
+def random_clusters(rng):
+    """The arguments of each call, and a bit for each triangle: drawn, small, clipped."""
+    sizes = np.array(SIZES)[rng.integers(0, len(SIZES), CALLS)]
+    viewport = np.concatenate([viewport_of(*size) for size in sizes])
+    vertices = np.zeros(CALLS, VERTICES)
+    vertices["sx"] = random_positions(rng, viewport["width"])
+    vertices["sy"] = random_positions(rng, viewport["height"])
+    vertices["code"] = random_codes(rng)
+    vertices["special"] = vertices["code"].any(axis=1)
+    keep_inside(vertices, viewport)
+    vertices["count"] = rng.choice([3, 31, 32, 33, 63, 64, 65, CLUSTER_VERTICES], CALLS)
+    shape = (CALLS, 3, CLUSTER_TRIANGLES)
+    indices = rng.integers(0, vertices["count"][:, None, None], shape).astype(np.uint8)
+    counts = every_count(rng, CLUSTER_TRIANGLES, CALLS)
+    cull = rng.integers(-1, 2, CALLS).astype(np.int32)
+    fragments = rng.random(CALLS) < 0.7
+    fetched = [
+        np.stack([np.take_along_axis(vertices[name], plane, 1) for plane in indices.swapaxes(0, 1)])
+        for name in ("sx", "sy", "code")
+    ]
+    draw, clip, small = survivors(*fetched, viewport, cull)
+    small &= draw & fragments[:, None]
+    given = np.arange(CLUSTER_TRIANGLES) < counts[:, None]
+    assert min((some & given).sum() for some in (draw & ~small, small, clip)) > CALLS
+    expected = draw & ~small & given, small & given, clip & given
+    return (vertices, indices, counts, cull, fragments, viewport), expected
+
+
+@all_backends
+def test_setup(kernels, clusters):
+    for (vertices, indices, counts, cull, fragments, viewport), expected in clusters:
         out = Records(SURVIVORS, CALLS)
         survive = [
             kernels.setup(
@@ -107,20 +126,9 @@ def test_setup(kernels):
             )
             for number, row in enumerate(out.rows)
         ]
-        fetched = [
-            np.stack(
-                [np.take_along_axis(vertices[name], plane, 1) for plane in indices.swapaxes(0, 1)]
-            )
-            for name in ("sx", "sy", "code")
-        ]
-        draw, clip, small = survivors(*fetched, viewport, cull)
-        small &= draw & fragments[:, None]
-        given = np.arange(CLUSTER_TRIANGLES) < counts[:, None]
-        assert min((some & given).sum() for some in (draw & ~small, small, clip)) > CALLS
-        check_bits("draw", out.fields["draw"], draw & ~small & given)
-        check_bits("small", out.fields["small"], small & given)
-        check_bits("clip", out.fields["clip"], clip & given)
-        assert np.array_equal(survive, ((draw | small | clip) & given).sum(axis=1))
+        for name, bits in zip(("draw", "small", "clip"), expected, strict=True):
+            check_bits(name, out.fields[name], bits)
+        assert np.array_equal(survive, np.any(expected, axis=0).sum(axis=1))
         out.check_gaps()
 
 

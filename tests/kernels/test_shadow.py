@@ -181,7 +181,7 @@ def give_ranges(lights, depths):
     return held
 
 
-@functools.lru_cache(maxsize=1)  # the backends of a case follow each other
+@functools.lru_cache(maxsize=1)  # the backends follow each other, with ranges and without
 def shadowed_batches(kind):
     made = []
     for seed in range(2):
@@ -215,8 +215,8 @@ def shadowed_batches(kind):
 
 
 @all_backends
-@pytest.mark.parametrize("kind", [DIRECTIONAL, POINT, SPOT])
 @pytest.mark.parametrize("ranged", [False, True])
+@pytest.mark.parametrize("kind", [DIRECTIONAL, POINT, SPOT])
 def test_shadow(kernels, kind, ranged):
     for template, (lights, *arguments), depths, energy in shadowed_batches(kind):
         batches = template.copy()

@@ -56,9 +56,9 @@ def test_a_folder_of_files_is_drawn_and_forgotten():
     assert len(files) >= 100
     after = []
     with e3d.Renderer(SIZE, SIZE) as renderer:
-        for _ in range(3):
+        for chosen in (files, files[::2], files[::2]):
             held = []
-            for case in files:
+            for case in chosen:
                 shows, refs = draw(renderer, case)
                 held += refs
                 if not needs_package(shows):

@@ -114,12 +114,12 @@ def test_edited_gateway_is_translated_again(build, tiny_tree):
     assert build() == 43
 
 
-def test_other_flags_rebuild(build, tiny_tree):
+def test_other_flags_rebuild(run_python, tiny_tree):
     """The kind of build stays, so the objects lie where those of before lay."""
     before = made_at(tiny_tree)
     rules = tiny_tree / "setup.py"
     rules.write_text(rules.read_text("utf-8").replace('"-O3", "-g0"', '"-O2", "-g0"'), "utf-8")
-    build()
+    run_python("setup.py", "-q", "build_clib", cwd=tiny_tree)
     assert made_at(tiny_tree)["kernels/isa_avx2.o"] != before["kernels/isa_avx2.o"]
 
 
@@ -158,9 +158,8 @@ def test_deleted_modules_leave_the_build_folder(run_python, tiny_tree):
     assert modules_built() == before - {"gone"}
 
 
-@pytest.mark.parametrize("cflags", ["-Ofast -march=native -flto", "-ffast-math -O0"])
-def test_flags_of_the_user_cannot_change_results(build, cflags):
-    assert build(CFLAGS=cflags) == 42
+def test_flags_of_the_user_cannot_change_results(build):
+    assert build(CFLAGS="-O0 -ffast-math -march=native -flto -Ofast") == 42
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="sanitizers are set up for Linux only")

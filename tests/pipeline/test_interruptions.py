@@ -22,8 +22,8 @@ warnings.simplefilter("ignore")
 SIZE = (64, 48)
 
 def long_frame():
-    poses = np.zeros((120, 4))
-    poses[:, 3] = 1 + np.arange(120) * 1e-4
+    poses = np.zeros((90, 4))
+    poses[:, 3] = 1 + np.arange(90) * 1e-4
     scene = e3d.Scene()
     scene.add(e3d.InstancedMesh(e3d.uv_sphere(0.5, (64, 32)), poses))
     camera = e3d.OrthographicCamera(0.2, znear=-9, zfar=9), np.eye(4)
@@ -76,7 +76,7 @@ def handler(*_):
 
 renderer = e3d.Renderer(*SIZE, threads=1)
 every(0.0007, handler)
-end, step = time.monotonic() + 4, 0
+end, step = time.monotonic() + 2, 0
 while time.monotonic() < end:
     step += 1
     if step % 3:
@@ -118,7 +118,7 @@ def handler(*_):
             seen.append(str(error))
     seen.append(np.array_equal(small_frame(small), expected))
 
-every(0.15, handler)
+every(0.1, handler)
 whole = draw().color.tobytes()
 assert len(seen) == 4 and seen[3], seen
 assert all("signal handler" in text and "another Renderer" in text for text in seen[:3]), seen
@@ -129,7 +129,7 @@ FORK_BESIDE = """
 renderer, draw = long_frame()
 thread = threading.Thread(target=draw)
 thread.start()
-time.sleep(0.2)
+time.sleep(0.1)
 assert thread.is_alive()
 child = os.fork()
 if not child:
@@ -161,7 +161,7 @@ def handler(*_):
     no_more()
     children.append(os.fork())
 
-every(0.15, handler)
+every(0.1, handler)
 try:
     picture = draw().color
 except e3d.RendererBusyError as error:

@@ -119,7 +119,7 @@ def test_renderers_that_die_in_threads_leave_nothing():
             for thread in threads:
                 thread.join()
 
-    assert not grows(lambda: live(40), lambda: live(40))
+    assert not grows(lambda: live(40), lambda: live(20))
     assert kept[0].triangle_id.shape == (7, 9)
 
 

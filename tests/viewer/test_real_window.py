@@ -152,8 +152,8 @@ def test_a_number_of_frames_ends_though_nothing_moves(screen, tmp_path):
 
 
 STILL = [
-    ("city", ["--scene", "city", "--triangles", "100000", "--camera", "fps"]),
-    ("city", ["--scene", "city", "--triangles", "100000"]),
+    ("city", ["--scene", "city", "--triangles", "20000", "--camera", "fps"]),
+    ("city", ["--scene", "city", "--triangles", "20000"]),
     ("solar", ["--scene", "solar", "--no-animate"]),
     ("cube.obj", ["cube.obj", "--watch"]),
 ]

@@ -216,7 +216,8 @@ def test_normals_are_turned_with_their_mesh(tmp_path):
 def test_several_models_share_a_range(heat, tmp_path):
     other = tmp_path / "other.ply"
     other.write_text(heat.read_text().replace("0 0 0 10 1", "0 0 0 -30 1"))
-    viewed = open_models([heat, other], scalars=ScalarColoring(GRAY, "heat"))
+    with open(heat, "rb") as file:  # which can be read once only
+        viewed = open_models([file, other], scalars=ScalarColoring(GRAY, "heat"))
     assert viewed.bar[:3] == ("heat", -30, 30)
     meshes = [node.object for node in viewed.scene.nodes if isinstance(node.object, e3d.Mesh)]
     first, second = (mesh.uvs[mesh.positions[:, 0] == 2, 0].tolist() for mesh in meshes)

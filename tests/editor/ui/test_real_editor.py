@@ -44,11 +44,15 @@ class Editor(Desktop):
         homes = {name: str(folder / name) for name in ("XDG_STATE_HOME", "XDG_CACHE_HOME")}
         command = ["-m", "engine3d", "edit", *arguments, "--resolution", "1000x700"]
         super().__init__(screen, folder, command, **homes)
+        self._mouse = None
         place = self.do("getwindowgeometry", "--shell", self.window).split()
         self.corner = [int(line.partition("=")[2]) for line in place if line[:2] in ("X=", "Y=")]
 
     def move(self, x, y):
+        if (x, y) == self._mouse:  # xdotool would wait for 15 seconds for the mouse to leave
+            return
         self.do("mousemove", "--sync", self.corner[0] + x, self.corner[1] + y, "sleep", 0.1)
+        self._mouse = x, y
 
     def click(self, x, y):
         self.move(x, y)

@@ -71,8 +71,10 @@ def place_panels(space: int, size: tuple[int, int]) -> None:
     """Give the panels their usual places."""
     builder = imgui.internal
     builder.dock_builder_remove_node(space)
-    flags = builder.DockNodeFlagsPrivate_.dock_space | imgui.DockNodeFlags_.passthru_central_node
-    builder.dock_builder_add_node(space, flags)
+    # Numbers, as they are of two enumerations, whose sum Python before 3.11.4 cannot name.
+    is_space = int(builder.DockNodeFlagsPrivate_.dock_space)
+    is_seen_through = int(imgui.DockNodeFlags_.passthru_central_node)
+    builder.dock_builder_add_node(space, is_space | is_seen_through)
     builder.dock_builder_set_node_size(space, size)
     split = builder.dock_builder_split_node_py
     *_, left, rest = split(space, imgui.Dir.left, 0.2)

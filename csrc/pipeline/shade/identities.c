@@ -11,8 +11,10 @@
 #include "kernels/types/visible.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/prepared.h"
+#include "pipeline/pass/view.h"
 #include "pipeline/shade/identities.h"
 #include "pipeline/shade/primitive.h"
+#include "pipeline/shade/shade.h"
 #include "pipeline/store/outputs.h"
 #include "pipeline/store/store.h"
 

@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "pipeline/pass/view.h"
 #include "pipeline/shade/shade.h"
 
 /* Writes the IDs of all pixels of a tile. The first `count` of the memory's runs, which IDs own, are all that shows, row by row. */

@@ -116,6 +116,21 @@ def test_large_triangles(samples):
                 assert_same(draw(renderer, scene, eye, names), wanted, names)
 
 
+@pytest.mark.parametrize("backend", e3d.backends())
+def test_two_triangles_that_meet_between_blocks(backend):
+    """Whole blocks of 8 x 8 pixels show one of them, and their neighbours the other."""
+    scene = e3d.Scene()
+    corners = [(-16, -999, 0), (-16, 999, 0), (-999, 0, 0), (999, 0, 0)]
+    scene.add(e3d.Mesh(corners, [(0, 1, 2), (1, 0, 3)]))
+    for k in range(8):
+        scene.add(e3d.quad(), translation=(0, 0, -1 - k), scale=128)  # behind them
+    camera = e3d.OrthographicCamera(64), e3d.look_at((0, 0, 5), (0, 0, 0))
+    with e3d.Renderer(128, 128, backend=backend) as renderer:
+        frame = renderer.render(scene, camera, outputs=IDS, cull="none", culling="always")
+    assert (frame.triangle_id == np.where(np.arange(128) < 48, 0, 1)).all()
+    assert (frame.object_id == 0).all()
+
+
 @pytest.mark.parametrize("hidden_surfaces", ["zbuffer", "painter", "none"])
 @pytest.mark.parametrize("mode", ["lit", "overdraw"])
 def test_how_they_are_found_does_not_show(scene, mode, hidden_surfaces):

@@ -40,11 +40,15 @@ static inline int runs_of_blocks(const int32_t *ids, int width, int rows, int sa
         for (end = x + RASTER_BLOCK; end < width && ids[end / RASTER_BLOCK] == id;)
             end += RASTER_BLOCK;
         int length = (end < width ? end : width) - x;
-        for (int y = 0; y < rows && id >= 0; y++)
-            out[count++] = (e3d_run){id, (uint16_t)(sample + y * E3D_TILE + x), (uint16_t)length};
+        out[count] = (e3d_run){id, (uint16_t)(sample + x), (uint16_t)length};
+        count += id >= 0;
         *owners |= id;
     }
-    return count;
+    for (int n = count; n < rows * count; n++) {
+        out[n] = out[n - count];
+        out[n].sample += E3D_TILE;
+    }
+    return rows * count;
 }
 
 /* Finds the runs of at most a block's rows. How many a row has is often mispredicted, so the ends of all rows are found first:

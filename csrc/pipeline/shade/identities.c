@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/limits.h"
+#include "core/vectors.h"
 #include "e3d.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
@@ -118,8 +119,6 @@ static void fill(int32_t *pixels, int32_t first, int32_t end, int32_t value)
     for (int32_t i = first; i < end; i++)
         pixels[i] = value;
 }
-
-typedef int32_t int4 __attribute__((vector_size(16)));
 
 /* Writes runs that follow each other from pixel `end` on, and the background between them; returns where the last one ends. How long a run
  * is could not be foreseen, so whole vectors are written past its end, over which the next run is written. */

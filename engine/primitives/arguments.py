@@ -27,6 +27,8 @@ MAX_SEGMENTS = 8192
 def positive(name: str, value: Any) -> float:
     """Return a finite number greater than 0."""
     try:
+        if getattr(value, "ndim", 0):  # old NumPy makes numbers of arrays of one
+            raise TypeError
         number = float(value)
     except (TypeError, ValueError, OverflowError):
         raise InvalidArgumentError(f"{name} must be a number, not {value!r}") from None

@@ -50,8 +50,9 @@ typedef struct calm_job {
 static void find_some(void *argument, int chunk)
 {
     const calm_job *job = argument;
-    int32_t first = chunk * TRIANGLES_AT_A_TIME, left = job->draw->count - first;
-    for (int32_t t = first; t < first + (left < TRIANGLES_AT_A_TIME ? left : TRIANGLES_AT_A_TIME); t++)
+    int32_t first = chunk * TRIANGLES_AT_A_TIME, count = job->draw->count;
+    int32_t end = count - first < TRIANGLES_AT_A_TIME ? count : first + TRIANGLES_AT_A_TIME;
+    for (int32_t t = first; t < end; t++)
         job->out[t] = (uint8_t)is_calm(job->draw, t);
 }
 

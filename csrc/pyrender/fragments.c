@@ -33,6 +33,22 @@ void pyr_add_fragment(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex
     pyr_find_surface(band, i, weights, plane);
 }
 
+void pyr_add_nearer(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, const pyr_plane *plane, int32_t x, int32_t y,
+                    uint32_t mask)
+{
+    const pyr_picture *picture = band->picture;
+    double z[E3D_PYR_PLACES] = {0};
+    for (int p = 0; p < picture->places; p++)
+        if (mask >> p & 1)
+            z[p] = pyr_depth_at_place(picture, plane, p, x, y);
+    mask = pyr_test_depths(band, x, y, mask, z) & ((1u << picture->frame->samples) - 1);
+    if (!mask || picture->frame->shading == E3D_PYR_DEPTH)
+        return;
+    pyr_weights weights;
+    pyr_weigh(plane, x + 0.5, y + 0.5, &weights);
+    pyr_add_fragment(band, draw, vertices, &weights, plane, x, y, mask);
+}
+
 void pyr_add_shown(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, const pyr_plane *plane, int32_t x, int32_t y,
                    uint32_t mask)
 {

@@ -141,6 +141,9 @@ int pyr_misses_band(const pyr_band *band, const pyr_vertex *vertices, const int3
 /* Adds a fragment; with `plane`, it is of a triangle, and textures may be read at the detail that the plane tells. */
 void pyr_add_fragment(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, const pyr_weights *weights,
                       const pyr_plane *plane, int32_t x, int32_t y, uint32_t mask);
+/* Adds what a triangle shows at those places of a pixel where nothing is nearer, where samples are kept. */
+void pyr_add_nearer(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, const pyr_plane *plane, int32_t x, int32_t y,
+                    uint32_t mask);
 /* Adds what a triangle shows at the centre of a pixel, where no samples are kept: its surface, and its depth if `mask` has the place of it,
  * are found when the batch is lit, one fragment after the other, which a processor overlaps. Until then the plane must stay. */
 void pyr_add_shown(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, const pyr_plane *plane, int32_t x, int32_t y,

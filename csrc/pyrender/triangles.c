@@ -57,20 +57,6 @@ typedef struct triangle_job {
     pyr_plane plane;
 } triangle_job;
 
-static void draw_pixel(triangle_job *job, int32_t x, int32_t y, uint32_t mask)
-{
-    const pyr_picture *picture = job->band->picture;
-    double z[E3D_PYR_PLACES] = {0};
-    for (int p = 0; p < picture->places; p++)
-        z[p] = pyr_depth_at_place(picture, &job->plane, p, x, y);
-    mask = pyr_test_depths(job->band, x, y, mask, z) & ((1u << picture->frame->samples) - 1);
-    if (!mask || picture->frame->shading == E3D_PYR_DEPTH)
-        return;
-    pyr_weights weights;
-    pyr_weigh(&job->plane, x + 0.5, y + 0.5, &weights);
-    pyr_add_fragment(job->band, job->draw, job->vertices, &weights, &job->plane, x, y, mask);
-}
-
 /* A triangle on the screen, its corners in clockwise order (y down). */
 static void draw_piece(triangle_job *job, int64_t p[3][2])
 {
@@ -89,7 +75,7 @@ static void draw_piece(triangle_job *job, int64_t p[3][2])
         for (int32_t x = left; x <= right; x++) {
             uint32_t mask = covered(picture, edges, x, y);
             if (mask)
-                draw_pixel(job, x, y, mask);
+                pyr_add_nearer(job->band, job->draw, job->vertices, &job->plane, x, y, mask);
         }
 }
 

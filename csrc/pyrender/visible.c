@@ -127,36 +127,19 @@ static int find_plane(pyr_band *band, shown what, recent *last)
     return number;
 }
 
-/* The places of a mask at which a triangle isn't hidden by an earlier step. */
-static uint32_t nearer(const pyr_band *band, const pyr_plane *plane, int32_t x, int32_t y, uint32_t mask)
-{
-    const pyr_picture *picture = band->picture;
-    double z[E3D_PYR_PLACES] = {0};
-    for (int p = 0; p < picture->places; p++)
-        if (mask >> p & 1)
-            z[p] = pyr_depth_at_place(picture, plane, p, x, y);
-    return pyr_test_depths(band, x, y, mask, z);
-}
-
 /* Adds what shows at some places of a pixel. */
 static void add(pyr_band *band, shown what, recent *last, int32_t x, int32_t y, uint32_t mask)
 {
     const pyr_picture *picture = band->picture;
-    const e3d_pyr_frame *frame = picture->frame;
+    const e3d_pyr_draw *draw = &picture->frame->draws[what.draw];
     const pyr_vertex *vertices = picture->vertices[what.draw];
     int number = find_plane(band, what, last);
-    const pyr_plane *plane = &last->plane[number];
-    if (!picture->keeps_samples) {
-        pyr_add_shown(band, &frame->draws[what.draw], vertices, plane, x, y, mask);
-        last->batch[number] = band->batch.number;
+    if (picture->keeps_samples) {
+        pyr_add_nearer(band, draw, vertices, &last->plane[number], x, y, mask);
         return;
     }
-    mask = nearer(band, plane, x, y, mask) & ((1u << frame->samples) - 1);
-    if (!mask || frame->shading == E3D_PYR_DEPTH)
-        return;
-    pyr_weights weights;
-    pyr_weigh(plane, x + 0.5, y + 0.5, &weights);
-    pyr_add_fragment(band, &frame->draws[what.draw], vertices, &weights, plane, x, y, mask);
+    pyr_add_shown(band, draw, vertices, &last->plane[number], x, y, mask);
+    last->batch[number] = band->batch.number;
 }
 
 /* Where samples aren't kept: a row of background. */
@@ -194,6 +177,11 @@ static void add_each(pyr_band *band, const shown at[E3D_PYR_PLACES], recent *las
     shown of[E3D_PYR_PLACES];
     uint32_t mask[E3D_PYR_PLACES], nothing = 0;
     int count = 0;
+    if (all_meet(frame, at)) {
+        band->differs[x] = 0;
+        add(band, at[E3D_PYR_CENTRE], last, x, y, (1u << places) - 1);
+        return;
+    }
     for (int p = places - 1; p >= 0; p--) {
         int k = 0;
         if (at[p].draw < 0) {
@@ -245,12 +233,7 @@ static void draw_row(pyr_band *band, const row *row, recent *last, int32_t y)
         if (band->differs[x]) {
             for (int p = 1; p < picture->places; p++)
                 at[p] = shown_at(row, p, x);
-            if (picture->places > 1 && all_meet(picture->frame, at)) {
-                band->differs[x] = 0;
-                add(band, at[E3D_PYR_CENTRE], last, x, y, all);
-            } else {
-                add_each(band, at, last, x, y);
-            }
+            add_each(band, at, last, x, y);
         } else if (at[0].draw >= 0) {
             add(band, at[0], last, x, y, all);
         }

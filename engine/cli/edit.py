@@ -17,11 +17,9 @@ def edit(args: argparse.Namespace) -> int:
     except ImportError as error:
         if (error.name or "").partition(".")[0] != "imgui_bundle":
             raise
-        lacks = "pip install 'engine3d[editor]'"
-        if not isinstance(
-            error, ModuleNotFoundError
-        ):  # it is there, but not a library of the system
-            lacks = f"it does not load: {error}"
+        # Another error than this one: the package is there, but a library of the system is not.
+        is_there = not isinstance(error, ModuleNotFoundError)
+        lacks = f"it does not load: {error}" if is_there else "pip install 'engine3d[editor]'"
         raise Engine3DError(f"the editor needs Dear ImGui: {lacks}") from None
     size = {"size": args.resolution} if args.resolution else {}
     with EditorWindow(args.model or "", **size) as editor:

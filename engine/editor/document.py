@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import Engine3DError, InvalidArgumentError, printable
+from ..errors import Engine3DError, FileAccessError, InvalidArgumentError, printable
 from ..files.stamps import FileState
 from ..loaders import load_document
 from ..loaders.loading import document_of
@@ -27,6 +27,9 @@ from .history import Command, History
 from .prompt import Prompt
 from .resource_list import ResourceList
 from .selection import Selection
+
+#: Of files that hold scenes, which are saved as they were opened.
+SCENE_EXTENSION = ".e3d.json"
 
 
 class SceneDocument:
@@ -116,6 +119,26 @@ class SceneDocument:
         if loaded.scene is not None:
             document.path, document._state = name, state
         console.write("action", f"Open {name}")
+        return document
+
+    @classmethod
+    def begin(
+        cls, path: str | os.PathLike[str], *, console: Console | None = None
+    ) -> SceneDocument:
+        """Open a file as `open` does; a scene that is not there yet is an empty one, saved there.
+
+        Raises
+        ------
+        FileFormatError, FileAccessError
+        """
+        name = os.path.abspath(os.fspath(path))
+        if not name.lower().endswith(SCENE_EXTENSION) or os.path.lexists(name):
+            return cls.open(path, console=console)
+        if not os.path.isdir(os.path.dirname(name)):
+            raise FileAccessError("cannot begin a scene: its folder is not there", path)
+        document = cls(console=console)
+        document.path, document._state = name, FileState(name)
+        document.console.write("action", f"Begin {name}")
         return document
 
     @classmethod

@@ -77,11 +77,22 @@ def refresh_rate(sdl, window) -> int:
     return USUAL_REFRESH_RATE
 
 
-def usable_area(sdl) -> tuple[int, int] | None:
-    """Return how wide and high windows can be on the first screen; None where it is unknown."""
-    area = sdl.SDL_Rect()
-    known = sdl.SDL_GetDisplayUsableBounds(0, area) == 0 and area.w > 0 and area.h > 0
-    return (area.w, area.h) if known else None
+def fit_to_screen(sdl, window) -> None:
+    """Make a window smaller, where it is larger with its borders than its screen has room for."""
+    import ctypes
+
+    area, screen = sdl.SDL_Rect(), sdl.SDL_GetWindowDisplayIndex(window)
+    if sdl.SDL_GetDisplayUsableBounds(screen, area) != 0 or area.w <= 0 or area.h <= 0:
+        return
+    width, height, *borders = (ctypes.c_int() for _ in range(6))
+    sdl.SDL_GetWindowSize(window, ctypes.byref(width), ctypes.byref(height))
+    # It leaves zeros where it knows no borders.
+    sdl.SDL_GetWindowBordersSize(window, *map(ctypes.byref, borders))
+    top, left, bottom, right = (border.value for border in borders)
+    fitting = area.w - left - right, area.h - top - bottom
+    if width.value > fitting[0] or height.value > fitting[1]:
+        sdl.SDL_SetWindowSize(window, min(width.value, fitting[0]), min(height.value, fitting[1]))
+        sdl.SDL_SetWindowPosition(window, area.x + left, area.y + top)
 
 
 def screen_scale(sdl, window) -> int:

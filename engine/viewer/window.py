@@ -20,7 +20,14 @@ from .icon import set_icon
 from .input import Translator, window_number
 from .pixels import Picture, as_pixels
 from .presenter import Presenter
-from .sdl import close_video, last_error, open_video, refresh_rate, screen_scale
+from .sdl import (
+    close_video,
+    fit_to_screen,
+    last_error,
+    open_video,
+    refresh_rate,
+    screen_scale,
+)
 
 MIN_SIDE = 64
 #: How long a wait for events goes on before Ctrl-C is looked for.
@@ -302,6 +309,14 @@ class Window:
         self._opened()
         hidden = self._sdl.SDL_WINDOW_MINIMIZED | self._sdl.SDL_WINDOW_HIDDEN
         return bool(self._sdl.SDL_GetWindowFlags(self._window) & hidden)
+
+    def fit_to_screen(self) -> None:
+        """Make the window smaller, where it is larger than its screen has room for.
+
+        The title bar and the borders count. A window is as large as it was asked for otherwise.
+        """
+        self._opened()
+        fit_to_screen(self._sdl, self._window)
 
     def toggle_fullscreen(self) -> None:
         """Fill the screen, or go back to a window."""

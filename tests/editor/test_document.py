@@ -59,6 +59,28 @@ def test_a_model_is_opened_as_a_scene_without_a_file(folder):
         SceneDocument.open(folder / "none.obj")
 
 
+def test_a_scene_that_is_not_there_begins_empty_under_its_name(folder):
+    path = folder / "new.e3d.json"
+    document = SceneDocument.begin(path)
+    assert document.path == str(path) and document.title == "new.e3d.json"
+    assert not document.is_modified and document.scene.nodes == () and not path.exists()
+    change(document)
+    assert document.save_would_overwrite() is None and document.save()
+    assert len(SceneDocument.begin(path).scene.nodes) == 1
+    with pytest.raises(e3d.FileAccessError, match="none.obj"):
+        SceneDocument.begin(folder / "none.obj")
+    with pytest.raises(e3d.FileAccessError, match="its folder"):
+        SceneDocument.begin(folder / "none" / "new.e3d.json")
+
+
+def test_a_scene_that_another_program_made_meanwhile_is_asked_about(folder):
+    path = folder / "new.e3d.json"
+    document = SceneDocument.begin(path)
+    change(document)
+    path.write_bytes((folder / "a.e3d.json").read_bytes())
+    assert "changed by another program" in document.save_would_overwrite()
+
+
 def test_nothing_is_overwritten_unasked(folder):
     path = folder / "a.e3d.json"
     document = SceneDocument.open(folder / "house.obj")

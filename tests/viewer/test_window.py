@@ -430,3 +430,44 @@ def test_texts_and_lists_are_twice_as_large_on_a_fine_screen(fine_window):
     view_renderer.screen_scale = 1
     viewer.handle(events.Resized(400, 300))
     assert view_renderer.screen_scale == 2
+
+
+class FramedScreen:
+    """SDL, but that its screen has another size, a bar at the top, and frames windows."""
+
+    def __init__(self, sdl, bar, size, borders):
+        self._sdl, self._bar, self._size, self._borders = sdl, bar, size, borders
+
+    def __getattr__(self, name):
+        return getattr(self._sdl, name)
+
+    def SDL_GetDisplayUsableBounds(self, screen, area):
+        area.x, area.y, area.w, area.h = 0, self._bar, *self._size
+        return 0
+
+    def SDL_GetWindowBordersSize(self, window, *borders):
+        for pointer, border in zip(borders, self._borders, strict=True):
+            pointer._obj.value = border
+        return 0
+
+
+@pytest.mark.parametrize(
+    "asked, size",
+    [
+        ((640, 480), (592, 366)),
+        ((300, 480), (300, 366)),
+        ((640, 200), (592, 200)),
+        ((592, 366), (592, 366)),
+        ((100, 80), (100, 80)),
+    ],
+)
+def test_a_window_fits_the_screen_with_its_borders(asked, size, monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    with Window(*asked) as window:
+        window._sdl = FramedScreen(window._sdl, 10, (600, 400), (30, 4, 4, 4))
+        window.fit_to_screen()
+        assert window.size == size
+        if asked != size:
+            x, y = ctypes.c_int(), ctypes.c_int()
+            window._sdl.SDL_GetWindowPosition(window._window, x, y)
+            assert (x.value, y.value) == (4, 40)

@@ -16,7 +16,6 @@ from imgui_bundle import imgui, imguizmo
 from ... import events
 from ...canvas import Canvas
 from ...ui.imgui_painter import ImguiPainter
-from ...viewer.sdl import close_video, open_video, usable_area
 from ...viewer.window import Window
 from .console_panel import ConsolePanel
 from .files import Files
@@ -50,7 +49,7 @@ class EditorWindow:
     Parameters
     ----------
     path : str, optional
-        A file to edit.
+        A file to edit; a scene (``.e3d.json``) need not be there yet.
     size : (int, int)
         Of the window, in pixels; not more than the screen has room for.
 
@@ -58,6 +57,8 @@ class EditorWindow:
     ------
     DisplayError
         There is no screen.
+    FileFormatError, FileAccessError
+        The file cannot be read.
     """
 
     def __init__(self, path: str = "", *, size: tuple[int, int] = WINDOW_SIZE) -> None:
@@ -65,8 +66,9 @@ class EditorWindow:
         self._interrupts = Interrupts(self.workspace.keep_copy)
         self.workspace.guard = lambda: self._interrupts.stoppable(self._stops)
         if path:
-            self.workspace.open(path)
-        self.window = self._opened_window(size)
+            self.workspace.begin(path)
+        self.window = Window(*size, self._title(), wait=True)
+        self.window.fit_to_screen()
         self._context = imgui.create_context()
         io = imgui.get_io()
         io.config_flags |= imgui.ConfigFlags_.docking_enable
@@ -98,16 +100,6 @@ class EditorWindow:
         self._last = time.monotonic()
         self.workspace.wants_usual_places = not load_layout(self.workspace)
         self._pictures_due = SETTLING
-
-    def _opened_window(self, size: tuple[int, int]) -> Window:
-        video = open_video()
-        try:
-            room = usable_area(video)
-            if room is not None:
-                size = min(size[0], room[0]), min(size[1], room[1])
-            return Window(*size, self._title(), wait=True)
-        finally:
-            close_video(video)  # which the window keeps open
 
     def run(self) -> int:
         """Show the editor until the user closes it, or a signal ends it.

@@ -17,10 +17,11 @@ from ...materials.material import Material
 from ...scene.nodes import Node
 from ...ui.imgui_painter import ImguiPainter
 from ..autosave import Recovery, forget, left_behind
+from ..document import SCENE_EXTENSION
 from .file_dialog import FileDialog
 from .workspace import Workspace
 
-_SCENES = (".e3d.json",)
+_SCENES = (SCENE_EXTENSION,)
 
 
 def _kinds() -> dict[str, tuple[str, ...]]:
@@ -153,15 +154,34 @@ class Files:
         if self._opens:
             imgui.open_popup("Question")
             self._opens = False
+        middle = imgui.get_main_viewport().get_center()
+        imgui.set_next_window_pos(middle, imgui.Cond_.always, (0.5, 0.5))
         flags = imgui.WindowFlags_.always_auto_resize
         shown, _ = imgui.begin_popup_modal("Question", None, flags)
         if not shown:
             return
         imgui.text_unformatted(self._question)
         imgui.spacing()
-        for name, act in self._answers.items():
-            if imgui.button(name):
-                imgui.close_current_popup()
-                act()
-            imgui.same_line()
+        chosen = self._chosen_answer()
+        if chosen is not None:
+            imgui.close_current_popup()
+            self._answers[chosen]()
         imgui.end_popup()
+
+    def _chosen_answer(self) -> str | None:
+        """Lay the answers out; return the one that was given.
+
+        Enter and Space give the one that has the focus, at first the first one. Esc gives the last
+        one, which changes nothing.
+        """
+        first, *_, last = self._answers
+        chosen = last if imgui.is_key_pressed(imgui.Key.escape, False) else None
+        if imgui.is_window_appearing():
+            imgui.set_nav_cursor_visible(True)  # else Enter is heard only after an arrow key
+        for name in self._answers:
+            if imgui.button(name):
+                chosen = name
+            if name == first:
+                imgui.set_item_default_focus()
+            imgui.same_line()
+        return chosen

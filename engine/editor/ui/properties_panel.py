@@ -326,7 +326,8 @@ class PropertiesPanel:
         """Lay out how far a light reaches; one that reaches everywhere gets the scene's size."""
         if math.isfinite(light.range):
             self._number(light, "range", "Range", 0.1, 0.001)
-        imgui.begin_disabled(light.falloff == "window")  # which needs a range
+        # A window ends at the range, so it needs one; spot lights have no window.
+        imgui.begin_disabled(isinstance(light, PointLight) and light.falloff == "window")
         changed, endless = imgui.checkbox("Infinite range", not math.isfinite(light.range))
         imgui.end_disabled()
         if changed:

@@ -133,6 +133,15 @@ class Workspace:
         """Begin with an empty scene."""
         self._take(SceneDocument(console=self.console))
 
+    def begin(self, path: str) -> None:
+        """Edit a file's scene, or a new one where there is no such scene yet.
+
+        Raises
+        ------
+        FileFormatError, FileAccessError
+        """
+        self._edit(SceneDocument.begin(path, console=self.console), path)
+
     def open(self, path: str) -> bool:
         """Edit a file's scene; where that fails the console tells why."""
         try:
@@ -140,12 +149,16 @@ class Workspace:
         except Engine3DError as error:
             self.console.write("error", str(error))
             return False
+        self._edit(document, path)
+        return True
+
+    def _edit(self, document: SceneDocument, path: str) -> None:
         self._take(document)
-        self.recent.add(path)
+        if os.path.exists(path):
+            self.recent.add(path)
         if path.lower().endswith(_Z_UP):
             self.view.up = UP_DIRECTIONS["+Z"]
             self.frame(())
-        return True
 
     def recover(self, copy: Recovery) -> None:
         """Edit what an editor left behind when it ended without a word."""

@@ -1,5 +1,6 @@
 """The editor's window, driven by events: what one clicks and types changes the scene."""
 
+import functools
 import os
 import subprocess
 import sys
@@ -457,7 +458,7 @@ def test_what_is_not_saved_is_kept_when_the_editor_fails(tmp_path):
 @pytest.mark.parametrize(
     ("path", "line"),
     [
-        ("broken.obj", ""),
+        ("new.e3d.json", ""),
         ("", ""),
         ("", "while True: pass"),
         ("", "import time; time.sleep(99)"),
@@ -465,7 +466,6 @@ def test_what_is_not_saved_is_kept_when_the_editor_fails(tmp_path):
     ],
 )
 def test_sigterm_ends_the_editor_whatever_it_does(tmp_path, path, line):
-    (tmp_path / "broken.obj").write_text("v 1 x\n")
     program = (
         "import os, signal, sys, threading\n"
         "from engine3d.editor.ui.editor_window import EditorWindow\n"
@@ -548,10 +548,23 @@ def test_a_mesh_is_loaded_into_a_node_and_removed(editor, tmp_path):
     assert cab.object is old
 
 
-def test_a_window_is_not_larger_than_the_screen(editor, monkeypatch):
-    monkeypatch.setattr("engine3d.editor.ui.editor_window.usable_area", lambda sdl: (500, 400))
-    with editor._opened_window((1000, 300)) as window:
-        assert window.size == (500, 300)
+@pytest.mark.parametrize(
+    "name, why",
+    [
+        ("broken.obj", "broken.obj:1: "),
+        ("none.obj", "none.obj: cannot read: "),
+        ("none/scene.e3d.json", "its folder is not there"),
+    ],
+)
+def test_a_file_that_cannot_be_opened_ends_the_command(name, why, monkeypatch, tmp_path, capsys):
+    from engine3d.cli import main
+
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "broken.obj").write_text("v 1 x\n")
+    assert main(["edit", name]) == 1
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and said.startswith("engine3d: error: ") and why in said
 
 
 def test_the_bounds_hold_the_scene_without_a_look_at_each_node(editor, monkeypatch):
@@ -596,3 +609,27 @@ def test_without_imgui_one_line_says_what_lacks(is_there, monkeypatch, capsys, t
     said = capsys.readouterr().err
     lacks = "it does not load: libX11.so.6" if is_there else "pip install 'engine3d[editor]'"
     assert said.count("\n") == 1 and lacks in said
+
+
+@pytest.mark.parametrize(
+    "key, answer", [("Return", "one"), ("Keypad Enter", "one"), ("Escape", "three")]
+)
+def test_a_question_hears_keys(editor, key, answer):
+    given = []
+    answers = ("one", "two", "three")
+    editor._files._ask("Which?", {name: functools.partial(given.append, name) for name in answers})
+    settle(editor)
+    press(editor, key)
+    assert given == [answer]
+    press(editor, key)
+    assert given == [answer], "the question is closed"
+
+
+def test_a_question_hears_the_arrows(editor):
+    given = []
+    answers = ("one", "two", "three")
+    editor._files._ask("Which?", {name: functools.partial(given.append, name) for name in answers})
+    settle(editor)
+    press(editor, "Right")
+    press(editor, "Return")
+    assert given == ["two"]

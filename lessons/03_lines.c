@@ -72,28 +72,32 @@ WHOLE static void bresenham(int x0, int y0, int x1, int y1)
     }
 }
 
-/* The Line() of the tutorials of the 1990s. */
-WHOLE static void tutorial_line(int a, int b, int c, int d)
+/* The Line() of a tutorial of the 1990s: without the first pixel. */
+WHOLE static void tutorial_line(int x0, int y0, int x1, int y1)
 {
-    int u = c - a, v = d - b, m = abs(u), n = abs(v);
-    int d1x = (u > 0) - (u < 0), d1y = (v > 0) - (v < 0), d2x = d1x, d2y = 0;
-    if (m <= n) {
-        d2x = 0;
-        d2y = d1y;
-        m = abs(v);
-        n = abs(u);
-    }
-    int s = m / 2;
-    for (int i = 0; i <= m; i++) {
-        put(a, b);
-        s += n;
-        if (s >= m) {
-            s -= m;
-            a += d1x;
-            b += d1y;
-        } else {
-            a += d2x;
-            b += d2y;
+    int run = abs(x1 - x0), rise = abs(y1 - y0);
+    int step_x = x0 < x1 ? 1 : -1, step_y = y0 < y1 ? 1 : -1;
+    if (run > rise) {
+        int error = run / 2;
+        for (int k = 0, x = x0, y = y0; k < run; k++) {
+            x += step_x;
+            error += rise;
+            if (error > run) {
+                error -= run;
+                y += step_y;
+            }
+            put(x, y);
+        }
+    } else {
+        int error = rise / 2;
+        for (int k = 0, x = x0, y = y0; k < rise; k++) {
+            y += step_y;
+            error += run;
+            if (error > rise) {
+                error -= rise;
+                x += step_x;
+            }
+            put(x, y);
         }
     }
 }

@@ -77,28 +77,31 @@ def bresenham(x0, y0, x1, y1):
     return pixels
 
 
-def sign(value):
-    return (value > 0) - (value < 0)
-
-
-def tutorial_line(a, b, c, d):
-    """The Line() that the tutorials of the 1990s pass on, names as they are there."""
-    u, v = c - a, d - b
-    d1x, d1y, d2x, d2y = sign(u), sign(v), sign(u), 0
-    m, n = abs(u), abs(v)
-    if m <= n:
-        d2x, d2y = 0, sign(v)
-        m, n = abs(v), abs(u)
-    s = m // 2
+def tutorial_line(x0, y0, x1, y1):
+    """The Line() that a tutorial of the 1990s passes on: without the first pixel."""
+    run, rise = abs(x1 - x0), abs(y1 - y0)
+    step_x = 1 if x0 < x1 else -1
+    step_y = 1 if y0 < y1 else -1
+    x, y = x0, y0
     pixels = []
-    for _ in range(m + 1):
-        pixels.append((a, b))
-        s += n
-        if s >= m:
-            s -= m
-            a, b = a + d1x, b + d1y
-        else:
-            a, b = a + d2x, b + d2y
+    if run > rise:
+        error = run // 2
+        for _ in range(run):
+            x += step_x
+            error += rise
+            if error > run:
+                error -= run
+                y += step_y
+            pixels.append((x, y))
+    else:
+        error = rise // 2
+        for _ in range(rise):
+            y += step_y
+            error += run
+            if error > rise:
+                error -= rise
+                x += step_x
+            pixels.append((x, y))
     return pixels
 
 

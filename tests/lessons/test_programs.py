@@ -2,6 +2,7 @@
 
 import re
 import runpy
+import shutil
 import subprocess
 import sys
 from fnmatch import fnmatch
@@ -123,3 +124,55 @@ def test_lessons_build_on_earlier_ones_only():
         used = re.findall(r'earlier\("(\w+)"\)', text)
         assert all(other in NAMES and other < name for other in used), name
         assert "import engine3d._" not in text and "from engine3d" not in text, name
+
+
+def tutorial_pixels(x0, y0, x1, y1):
+    """The pixels of the tutorial's Line(), each by a formula of its own.
+
+    After i steps along the longer side, half of it and i times the shorter side have been added to
+    the error; the steps sideways took it down to at most the longer side.
+    """
+    dx, dy = abs(x1 - x0), abs(y1 - y0)
+    longer, shorter = max(dx, dy), min(dx, dy)
+    way_x, way_y = (1 if x0 < x1 else -1), (1 if y0 < y1 else -1)
+    for along in range(1, longer + 1):
+        aside = -(-(longer // 2 + along * shorter) // longer) - 1
+        aside = max(aside, 0)
+        moved = (along, aside) if dx > dy else (aside, along)
+        yield x0 + way_x * moved[0], y0 + way_y * moved[1]
+
+
+def test_the_tutorial_line_is_the_one_of_the_document(monkeypatch):
+    monkeypatch.syspath_prepend(str(LESSONS))
+    lesson = runpy.run_path(str(LESSONS / "03_lines.py"))
+    small = [(0, 0, x, y) for x in range(-4, 5) for y in range(-4, 5)]
+    for ends in (*small, *lesson["random_lines"](2000)):
+        assert lesson["tutorial_line"](*ends) == list(tutorial_pixels(*ends)), ends
+
+
+@pytest.mark.skipif(shutil.which("cc") is None, reason="needs a C compiler")
+def test_the_tutorial_line_in_c_is_the_one_in_python(tmp_path, monkeypatch):
+    """C counts as many pixels of the same lines, and puts them where Python does."""
+    monkeypatch.syspath_prepend(str(LESSONS))
+    lesson = runpy.run_path(str(LESSONS / "03_lines.py"))
+    source = (LESSONS / "03_lines.c").read_text().partition("int main(void)")[0]
+    lines = lesson["random_lines"](200)
+    rows = ", ".join("{%d, %d, %d, %d}" % tuple(ends) for ends in lines)
+    source += f"""int main(void)
+{{
+    static const int ends[][4] = {{{rows}}};
+    for (int i = 0; i < {len(lines)}; i++)
+        tutorial_line(ends[i][0], ends[i][1], ends[i][2], ends[i][3]);
+    fwrite(picture, 1, sizeof picture, stdout);
+    return 0;
+}}
+"""
+    (tmp_path / "lines.c").write_text(source)
+    program = tmp_path / "lines"
+    subprocess.run(["cc", "-w", "-o", program, tmp_path / "lines.c", "-lm"], check=True)
+    drawn = np.frombuffer(subprocess.check_output([program]), np.uint8).reshape(1024, 1036)
+    expected = np.zeros_like(drawn)
+    for ends in lines:
+        for x, y in lesson["tutorial_line"](*ends):
+            expected[y, x] += 1
+    assert np.array_equal(drawn, expected)

@@ -6,10 +6,12 @@ import engine3d as e3d
 from lesson import blank, earlier, main
 
 lines = earlier("03_lines")
+random_colors = earlier("06_random_colors")
 CELLS = 24  # buildings along each side of the town
 EYE, TARGET = (0.6, 2.4, 9.6), (5.5, 0.3, -4.0)
 CAMERA = e3d.PerspectiveCamera(0.7, znear=0.1, zfar=60.0)
 KEPT, LEFT_OUT, WRONG = (110, 190, 110), (75, 80, 92), (255, 70, 60)
+MOST_CHUNKS = 20000
 
 
 def buildings(seed=2):
@@ -40,8 +42,37 @@ def make_chunks(town, side):
     return [(mesh, *mesh.bounds) for mesh in meshes]
 
 
-def clip_from_world(width, height, camera=CAMERA):
-    pose = e3d.look_at(EYE, TARGET)
+def load(model):
+    """Load a model; return its mesh, as wide as the town and in its place, and the scale."""
+    mesh = e3d.load_mesh(model)
+    low, high = mesh.bounds
+    scale = CELLS / max(high[0] - low[0], high[2] - low[2], 1e-30)
+    middle = (low[0] + high[0]) / 2, low[1], (low[2] + high[2]) / 2
+    return e3d.Mesh((mesh.positions - middle) * scale, mesh.faces, normals=mesh.normals), scale
+
+
+def cut(mesh, side):
+    """Cut a mesh into chunks: the triangles whose middles lie in one side x side square each."""
+    middles = mesh.positions[mesh.faces].mean(axis=1, dtype=np.float64)
+    squares, chunk_of = np.unique(middles[:, ::2] // side, axis=0, return_inverse=True)
+    if len(squares) > MOST_CHUNKS:
+        raise e3d.InvalidArgumentError(
+            f"that makes more than {MOST_CHUNKS} chunks: take larger ones"
+        )
+    chunk_of = chunk_of.reshape(-1)
+    faces = mesh.faces[np.argsort(chunk_of, kind="stable")]
+    meshes = [part(mesh, some) for some in np.split(faces, np.bincount(chunk_of).cumsum()[:-1])]
+    return [(one, *one.bounds) for one in meshes]
+
+
+def part(mesh, faces):
+    """Return some faces of a mesh as a mesh that holds no other vertices."""
+    used, corners = np.unique(faces, return_inverse=True)
+    return e3d.Mesh(mesh.positions[used], corners.reshape(-1, 3), normals=mesh.normals[used])
+
+
+def clip_from_world(width, height, camera=CAMERA, eye=EYE):
+    pose = e3d.look_at(eye, TARGET)
     view = e3d.linalg.inverse(pose)
     return e3d.linalg.multiply(camera.projection(width, height), view)
 
@@ -84,13 +115,14 @@ def by_corners(planes, low, high):
     return False
 
 
-def draw(chunks, width, height):
+def draw(chunks, width, height, eye=EYE, color_of=lambda number: (255, 255, 255)):
     """Return the engine's picture of some chunks, and its counts."""
     scene = e3d.Scene(background=(30, 33, 40), ambient=(0.25, 0.25, 0.3))
     scene.add(e3d.DirectionalLight((-0.4, -0.8, -0.5), intensity=0.6))
-    for mesh, _, _ in chunks:
+    for number, (mesh, _, _) in enumerate(chunks):
+        mesh.materials = [e3d.Material(color=color_of(number))]
         scene.add(mesh)
-    camera = CAMERA, e3d.look_at(EYE, TARGET)
+    camera = CAMERA, e3d.look_at(eye, TARGET)
     frame = e3d.render(scene, camera, size=(width, height))
     return frame.color[:, :, :3], frame.stats
 
@@ -100,49 +132,64 @@ def to_map(point, height):
     return int(height / 2 + scale * point[0]), int(height / 2 + scale * point[2])
 
 
-def from_above(chunks, kept, needed, height, width):
+def from_above(chunks, kept, needed, height, width, eye=EYE):
     """Draw the chunks from above: kept, left out, or left out though they are needed."""
     picture = blank(height, height)
     for (_, low, high), keep, need in zip(chunks, kept, needed, strict=True):
         (left, top), (right, bottom) = to_map(low, height), to_map(high, height)
         color = KEPT if keep else WRONG if need else LEFT_OUT
         picture[top : bottom - 1, left : right - 1] = color
-    matrix = e3d.linalg.inverse(clip_from_world(width, height))
-    eye = to_map(EYE, height)
+    matrix = e3d.linalg.inverse(clip_from_world(width, height, eye=eye))
+    start = to_map(eye, height)
     for x in (-1.0, 1.0):
         far = e3d.linalg.transform_points(matrix, (x, 0.0, 0.98))
-        way = lines.bresenham(*eye, *to_map(far, height))
+        way = lines.bresenham(*start, *to_map(far, height))
         inside = [(x, y) for x, y in way if 0 <= x < height and 0 <= y < height]
         lines.draw(picture, inside, (255, 200, 0))
     return picture
 
 
-def steps(width=240, height=180):
-    town = buildings()
-    planes = planes_of(clip_from_world(width, height))
-    chunks_of = {side: make_chunks(town, side) for side in (8, 4, 2)}
-    everything, _ = draw(chunks_of[8], width, height)
+def steps(width=240, height=180, model=None, chunk=None):
+    """Cut the town, or a model, into chunks of three sizes.
+
+    chunk: the side of the smallest chunks of a model, in its units; a 24th of it if left out.
+    """
+    eye, scale = EYE, 1
+    if model is None:
+        town = buildings()
+        sides = [8, 4, 2]
+        chunks_of = {side: make_chunks(town, side) for side in sides}
+    else:
+        mesh, scale = load(model)
+        eye = EYE[0], max(EYE[1], 1.2 * mesh.bounds[1][1]), EYE[2]
+        smallest = CELLS / 24 if chunk is None else chunk * scale
+        sides = [4 * smallest, 2 * smallest, smallest]
+        chunks_of = {side: cut(mesh, side) for side in sides}
+    planes = planes_of(clip_from_world(width, height, eye=eye))
+    everything, _ = draw(chunks_of[sides[0]], width, height, eye)
     for side, test, name in (
-        (8, by_center, "the centre"),
-        (8, by_corners, "the corners"),
-        (8, by_p_vertex, "the p-vertex"),
-        (4, by_p_vertex, "the p-vertex"),
-        (2, by_p_vertex, "the p-vertex"),
+        (sides[0], by_center, "the centre"),
+        (sides[0], by_corners, "the corners"),
+        *((side, by_p_vertex, "the p-vertex") for side in sides),
     ):
         chunks = chunks_of[side]
         kept = [test(planes, low, high) for _, low, high in chunks]
         needed = [by_p_vertex(planes, low, high) for _, low, high in chunks]
         chosen = [chunk for chunk, keep in zip(chunks, kept, strict=True) if keep]
-        picture, _ = draw(chosen, width, height)
+        picture, _ = draw(chosen, width, height, eye)
         lost = int((picture != everything).any(axis=2).sum())
         triangles = sum(len(mesh.faces) for mesh, _, _ in chosen)
-        caption = f"chunks of {side} x {side} by {name}: {len(chosen)} of {len(chunks)}"
-        overview = from_above(chunks, kept, needed, height, width)
+        size = f"{side / scale:g} x {side / scale:g}"
+        caption = f"chunks of {size} by {name}: {len(chosen)} of {len(chunks)}"
+        overview = from_above(chunks, kept, needed, height, width, eye)
         yield f"{caption}, {triangles} triangles; {lost} pixels lost", picture, overview
-    picture, stats = draw(chunks_of[2], width, height)
-    found = f"{stats['nodes_in_frustum']} of {len(chunks_of[2])} chunks"
+    chunks = chunks_of[sides[-1]]
+    picture, stats = draw(chunks, width, height, eye)
+    found = f"{stats['nodes_in_frustum']} of {len(chunks)} chunks"
     yield f"the engine, too, finds {found} in the frustum", picture
+    picture, _ = draw(chunks, width, height, eye, random_colors.random_color)
+    yield f"cut into {len(chunks)} chunks of {size}, a colour each", picture
 
 
 if __name__ == "__main__":
-    main(__file__, steps)
+    main(__file__, steps, numbers={"chunk": "side of a model's chunks, in its units"})

@@ -125,11 +125,20 @@ def size(argument):
     return sides
 
 
-def main(file, steps, **others):
+def positive(argument):
+    """Return the number of an argument that must be above 0."""
+    number = float(argument)
+    if not 0 < number < float("inf"):
+        raise ValueError
+    return number
+
+
+def main(file, steps, numbers=None, **others):
     """Run a lesson: write its pictures to a folder, or do one of the other things it can do.
 
-    file: the lesson's `__file__`. others: a function for each further option, such as
-    `time=measure` for `--time`; it takes the model, too, if `steps` does.
+    file: the lesson's `__file__`. numbers: what those parameters of `steps` mean that are options,
+    such as `{"chunk": "side of a chunk"}` for `--chunk NUMBER`. others: a function for each further
+    option, such as `time=measure` for `--time`; it takes the model, too, if `steps` does.
     """
     name = Path(file).stem
     parser = argparse.ArgumentParser(prog=f"python lessons/{name}.py")
@@ -139,6 +148,8 @@ def main(file, steps, **others):
     takes_model = "model" in inspect.signature(steps).parameters
     if takes_model:
         parser.add_argument("--model", help="another model file")
+    for option, meaning in (numbers or {}).items():
+        parser.add_argument(f"--{option}", type=positive, metavar="NUMBER", help=meaning)
     for option, function in others.items():
         summary = inspect.getdoc(function).splitlines()[0].lower().rstrip(".")
         parser.add_argument(f"--{option}", action="store_true", help=summary)
@@ -150,7 +161,8 @@ def main(file, steps, **others):
             function(**model)
         if not chosen:
             path = given.out / f"{name}.png"
-            page = save(path, steps(*(given.size or ()), **model))
+            chosen_numbers = {n: getattr(given, n) for n in numbers or () if getattr(given, n)}
+            page = save(path, steps(*(given.size or ()), **model, **chosen_numbers))
             if given.window:
                 e3d.show(page, title=name)
     except (OSError, e3d.Engine3DError, subprocess.CalledProcessError) as error:

@@ -158,6 +158,8 @@ CAPTIONS = {
     "{} x {}, d'après le p-sommet : {} sur {}, {} triangles ; {} pixels perdus",
     "the engine, too, finds {} of {} chunks in the frustum": "le moteur aussi trouve {} blocs sur "
     "{} dans la pyramide de vue",
+    "cut into {} chunks of {} x {}, a colour each": "découpé en {} blocs de {} x {}, une couleur "
+    "chacun",
     "{} balls in an octree, from above": "{} boules dans un octree, vues de dessus",
     "time {}: {} seen by {} tests, the same as by {}; {} changes of cell": "instant {} : {} boules "
     "vues en {} tests, les mêmes qu'en {} ; {} changements de cellule",

@@ -157,7 +157,7 @@ def test_the_tutorial_line_in_c_is_the_one_in_python(tmp_path, monkeypatch):
     lesson = runpy.run_path(str(LESSONS / "03_lines.py"))
     source = (LESSONS / "03_lines.c").read_text().partition("int main(void)")[0]
     lines = lesson["random_lines"](200)
-    rows = ", ".join("{%d, %d, %d, %d}" % tuple(ends) for ends in lines)
+    rows = ", ".join(f"{{{', '.join(map(str, ends))}}}" for ends in lines)
     source += f"""int main(void)
 {{
     static const int ends[][4] = {{{rows}}};
@@ -176,3 +176,31 @@ def test_the_tutorial_line_in_c_is_the_one_in_python(tmp_path, monkeypatch):
         for x, y in lesson["tutorial_line"](*ends):
             expected[y, x] += 1
     assert np.array_equal(drawn, expected)
+
+
+@pytest.mark.parametrize("side", [0.37, 0.9, 40.0])
+def test_a_model_is_cut_into_chunks_of_any_size(side, monkeypatch):
+    monkeypatch.syspath_prepend(str(LESSONS))
+    lesson = runpy.run_path(str(LESSONS / "21_frustum.py"))
+    model = str(ROOT / "data" / "models" / "teapot.obj")
+    *steps, (told, _) = lesson["steps"](64, 48, model=model, chunk=side)
+    mesh, scale = lesson["load"](model)
+    chunks = lesson["cut"](mesh, side * scale)
+    assert told == f"cut into {len(chunks)} chunks of {side:g} x {side:g}, a colour each"
+    assert sum(len(part.faces) for part, _, _ in chunks) == len(mesh.faces)
+    corners = np.concatenate([part.positions[part.faces] for part, _, _ in chunks])
+    assert {c.tobytes() for c in corners} == {c.tobytes() for c in mesh.positions[mesh.faces]}
+    for part, _, _ in chunks:
+        middles = part.positions[part.faces].mean(axis=1, dtype=np.float64)[:, ::2]
+        assert len(np.unique(middles // (side * scale), axis=0)) == 1
+    assert all("0 pixels lost" in caption for caption, *_ in steps if "p-vertex" in caption)
+
+
+def test_chunks_that_are_too_small_are_told(monkeypatch):
+    monkeypatch.syspath_prepend(str(LESSONS))
+    lesson = runpy.run_path(str(LESSONS / "21_frustum.py"))
+    monkeypatch.setitem(lesson["cut"].__globals__, "MOST_CHUNKS", 99)
+    with pytest.raises(engine3d.InvalidArgumentError, match="more than 99 chunks: take larger"):
+        lesson["cut"](engine3d.icosphere(subdivisions=3), 1e-9)
+    with pytest.raises(SystemExit):
+        run("21_frustum", monkeypatch, "--chunk", "-1")

@@ -39,7 +39,7 @@ Cull = Literal["none", "back", "front"]
 #: What frames cull besides: back faces, mesh by mesh, where that does not show.
 FrameCull = Literal["none", "back", "front", "auto"]
 Shading = Literal["deferred", "forward"]
-Normals = Literal["auto", "smooth", "flat"]
+Normals = Literal["auto", "smooth", "flat", "facet"]
 HiddenSurfaces = Literal["zbuffer", "painter", "none"]
 LineShape = Literal["plain", "round"]
 PointShape = Literal["square", "round"]

@@ -87,13 +87,14 @@ def colored(point):
     return [encode(clamp(total, *CLAMP)) for total in sums]
 
 
-def engine_floor(width, height):
+def engine_floor(width, height, segments=1, normals="auto"):
     """Return the engine's picture of the floor under the white light."""
     scene = e3d.Scene(background=(0, 0, 0), ambient=(0, 0, 0), light_clamp=CLAMP)
-    scene.add(e3d.plane((SIDE * width / height, SIDE)))
+    scene.add(e3d.plane((SIDE * width / height, SIDE), segments))
     scene.add(e3d.PointLight(intensity=INTENSITY), translation=LIGHT)
     camera = e3d.OrthographicCamera(SIDE / 2), e3d.look_at((0, 5, 0), (0, 0, 0), (0, 0, -1))
-    frame = e3d.render(scene, camera, size=(width, height), color_space="linear")
+    how = {"color_space": "linear", "normals": normals}
+    frame = e3d.render(scene, camera, size=(width, height), **how)
     return frame.color[:, :, :3]
 
 
@@ -106,6 +107,8 @@ def steps(width=180, height=132):
     engine = engine_floor(width, height)
     off = np.abs(engine.astype(int) - picture).max()
     yield f"the engine's: off by {off} at most", engine
+    faceted = engine_floor(width, height, 6, "facet")
+    yield "the engine's, one E for each of 72 triangles", faceted
     yield "three lights add up", per_pixel(width, height, colored)
 
 

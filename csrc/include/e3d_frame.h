@@ -39,8 +39,17 @@ typedef enum e3d_hidden { E3D_EACH_HIDDEN(E3D_ENUMERATOR) } e3d_hidden;
 #define E3D_EACH_SHADING(X) X(E3D_SHADING_DEFERRED, deferred) X(E3D_SHADING_FORWARD, forward)
 typedef enum e3d_shading { E3D_EACH_SHADING(E3D_ENUMERATOR) } e3d_shading;
 
-#define E3D_EACH_NORMALS(X) X(E3D_NORMALS_AUTO, auto) X(E3D_NORMALS_SMOOTH, smooth) X(E3D_NORMALS_FLAT, flat)
+/* FACET: as FLAT, and a face is lit as it is in its middle. */
+#define E3D_EACH_NORMALS(X) \
+    X(E3D_NORMALS_AUTO, auto) \
+    X(E3D_NORMALS_SMOOTH, smooth) X(E3D_NORMALS_FLAT, flat) X(E3D_NORMALS_FACET, facet)
 typedef enum e3d_normals { E3D_EACH_NORMALS(E3D_ENUMERATOR) } e3d_normals;
+
+/* Whether faces of a material, flat or not, have one normal. */
+static inline int e3d_is_flat(e3d_normals normals, int flat)
+{
+    return normals == E3D_NORMALS_FLAT || normals == E3D_NORMALS_FACET || (normals == E3D_NORMALS_AUTO && flat);
+}
 
 /* What is left out before it is drawn; the picture is the same. ALL: what is outside the frustum, faces away or is behind
  * what is drawn already. ALWAYS: as ALL, and what is drawn already is tried against even where that cannot pay. NONE:

@@ -118,7 +118,7 @@ static plane plane_of(const ref_surface *s, const e3d_light *light)
         out.normal[c] = m[c] * i;
         out.slack[c] = ((most[c1] * sum[c2] + most[c2] * sum[c1]) * i) * E3D_PLANE_SLACK;
         share[c] = fabsf(out.normal[c]) * most[c];
-        towards[c] = light->kind == E3D_LIGHT_DIRECTIONAL ? light->to_light[c] : light->position[c] - s->world_position[c];
+        towards[c] = light->kind == E3D_LIGHT_DIRECTIONAL ? light->to_light[c] : light->position[c] - s->lit_position[c];
     }
     out.limit = ((share[0] + share[1]) + share[2]) * E3D_PLANE_SLACK;
     int away = ref_dot3(out.normal, towards) < 0.0f;
@@ -203,7 +203,7 @@ static int is_above(const eye *e, const plane *plane, const float p[3], const re
 int ref_is_hidden(const e3d_light *light, const ref_surface *surface)
 {
     const ref_casters *casters = surface->casters;
-    const float *p = surface->world_position;
+    const float *p = surface->lit_position;
     eye e = open_eye(light, p);
     plane plane = plane_of(surface, light);
     for (int64_t n = 0; n < casters->count; n++) {

@@ -52,7 +52,7 @@ void ref_direction_to_eye(const e3d_frame *frame, const ref_surface *surface, fl
 {
     int perspective = frame->eye[3] == 1.0f;
     for (int c = 0; c < 3; c++)
-        out[c] = perspective ? frame->eye[c] - surface->world_position[c] : frame->eye[c];
+        out[c] = perspective ? frame->eye[c] - surface->lit_position[c] : frame->eye[c];
     if (perspective)
         ref_normalize(out);
 }
@@ -93,7 +93,7 @@ void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3])
     for (int32_t n = 0; n < frame->light_count; n++) {
         const e3d_light *light = &frame->lights[n];
         float l[3], attenuation;
-        if (!ref_light_reach(light, surface->world_position, 0, l, &attenuation))
+        if (!ref_light_reach(light, surface->lit_position, 0, l, &attenuation))
             continue;
         float cosine = ref_dot3(surface->world_normal, l);
         cosine = cosine > 0.0f ? cosine : 0.0f;

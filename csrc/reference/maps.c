@@ -77,9 +77,7 @@ static const e3d_texture_use *tangent_slot(const e3d_material *m)
 
 static int is_flat(const ref_scene *scene, const ref_surface *s)
 {
-    e3d_normals wanted = scene->frame->normals;
-    int flat = wanted == E3D_NORMALS_FLAT || (wanted == E3D_NORMALS_AUTO && s->piece->primitive.material->flat);
-    return flat && s->instance->mesh->face_normals;
+    return e3d_is_flat(scene->frame->normals, s->piece->primitive.material->flat) && s->instance->mesh->face_normals;
 }
 
 /* The sign of the bitangent on the side of the winding. */

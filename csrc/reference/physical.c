@@ -131,7 +131,7 @@ static void add_light(const e3d_frame *frame, int32_t n, const ref_surface *s, c
     const e3d_light *light = &frame->lights[n];
     const e3d_material *material = s->piece->primitive.material;
     float l[3], attenuation;
-    if (!ref_light_reach(light, s->world_position, 1, l, &attenuation))
+    if (!ref_light_reach(light, s->lit_position, 1, l, &attenuation))
         return;
     float nl = ref_dot3(at->base.normal, l);
     if (!(nl > 0.0f))

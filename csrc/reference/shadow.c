@@ -145,7 +145,7 @@ float ref_light_reached(const e3d_frame *frame, int32_t n, const ref_surface *su
     if (light->shadow.kind == E3D_SHADOW_EXACT)
         return ref_is_hidden(light, surface) ? 0.0f : 1.0f;
     for (int k = 0; k < 3; k++)
-        p[k] = light->kind == E3D_LIGHT_DIRECTIONAL ? surface->world_position[k] : surface->world_position[k] - light->position[k];
+        p[k] = light->kind == E3D_LIGHT_DIRECTIONAL ? surface->lit_position[k] : surface->lit_position[k] - light->position[k];
     place at = light->kind == E3D_LIGHT_DIRECTIONAL ? place_directional(light, maps, p, normal, sine)
                : light->kind == E3D_LIGHT_SPOT      ? place_spot(light, maps, p, normal, sine)
                                                     : place_point(light, maps, p, normal, sine);

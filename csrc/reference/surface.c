@@ -64,6 +64,16 @@ static void find_position(const ref_scene *scene, ref_surface *s)
     s->metric_depth = 0.0f - s->view_position[2];
 }
 
+/* R153 */
+static void find_lit_position(const ref_scene *scene, ref_surface *s)
+{
+    int middle = scene->frame->normals == E3D_NORMALS_FACET && s->piece->primitive.kind == REF_FACE;
+    for (int c = 0; c < 3; c++) {
+        float sum = (s->corner_position[0][c] + s->corner_position[1][c]) + s->corner_position[2][c];
+        s->lit_position[c] = middle ? sum * (1.0f / 3.0f) : s->world_position[c];
+    }
+}
+
 /* In world space, towards the viewer's side. */
 static void turned_normal(const ref_surface *s, const float normal[3], float out[3])
 {
@@ -90,8 +100,7 @@ static void find_normal(const ref_scene *scene, ref_surface *s)
 {
     const e3d_mesh_desc *mesh = s->instance->mesh;
     const ref_primitive *primitive = &s->piece->primitive;
-    e3d_normals wanted = scene->frame->normals;
-    int flat = wanted == E3D_NORMALS_FLAT || (wanted == E3D_NORMALS_AUTO && primitive->material->flat);
+    int flat = e3d_is_flat(scene->frame->normals, primitive->material->flat);
     float *n = s->world_normal;
     n[0] = n[1] = n[2] = 0.0f;
     if (primitive->kind == REF_FACE && flat && mesh->face_normals)
@@ -179,6 +188,7 @@ void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_pl
     out->instance = &scene->instances[piece->primitive.instance];
     find_weights(scene, out, at);
     find_position(scene, out);
+    find_lit_position(scene, out);
     find_normal(scene, out);
     find_uv(out);
     find_albedo(scene, out);

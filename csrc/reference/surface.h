@@ -34,6 +34,7 @@ typedef struct ref_surface {
     float dx, dy, weight[3], r; /* of R19 */
     float barycentric[3];
     float world_position[3], view_position[3];
+    float lit_position[3]; /* R153: in world space, where light is found */
     float metric_depth;
     float corner_position[3][3];                 /* [vertex], in world space */
     float shading_normal[3];                     /* before it is mapped */

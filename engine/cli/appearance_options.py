@@ -62,6 +62,13 @@ def add_appearance(parser) -> None:
         help="shade with one normal per face",
     )
     normals.add_argument(
+        "--facets",
+        action="store_const",
+        const="facet",
+        dest="normals",
+        help="shade with one normal and one light per face: that of its middle",
+    )
+    normals.add_argument(
         "--smooth",
         action="store_const",
         const="smooth",

@@ -133,6 +133,8 @@ CAPTIONS = {
     "de zéro",
     "one E for each pixel, between {} and {}": "un E par pixel, entre {} et {}",
     "the engine's: off by {} at most": "celui du moteur : un écart d'au plus {}",
+    "the engine's, one E for each of {} triangles": "celui du moteur, un E pour chacun des {} "
+    "triangles",
     "three lights add up": "trois lumières s'additionnent",
     "a quad is two triangles: bent, they have two normals": "un quadrilatère, ce sont deux "
     "triangles : plié, il a deux normales",

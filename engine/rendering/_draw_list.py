@@ -107,7 +107,7 @@ class DrawList:
         needs : MeshNeeds
             Which derived arrays the picture reads; which of the two kinds of normals a mesh needs
             is decided for each mesh.
-        normals : {"auto", "smooth", "flat"}
+        normals : {"auto", "smooth", "flat", "facet"}
         headlight : tuple of three vectors, or None
             Colour, lux and direction towards the light, for a scene that has no light.
         frustum : (4, 4) float64 or None

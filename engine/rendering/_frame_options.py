@@ -160,7 +160,7 @@ class FrameOptions:
             reads_normals = "normal" in outputs or "world_normal" in outputs
             reads_normals = reads_normals or (shaded and options.mode in ("lit", "normal"))
             known = self._needs[outputs] = MeshNeeds(
-                vertex_normals=reads_normals and options.normals != "flat",
+                vertex_normals=reads_normals and options.normals not in ("flat", "facet"),
                 face_normals=reads_normals and options.normals != "smooth",
                 edges="color" in outputs and options.wireframe is not None,
             )

@@ -307,8 +307,9 @@ class Renderer(Closed):
         out : Frame, optional
             An earlier frame of the same size to draw into; its outputs are drawn, and it is
             returned.
-        normals : {"auto", "smooth", "flat"}
-            Vertex or face normals; ``"auto"`` follows each material's ``flat_shading``.
+        normals : {"auto", "smooth", "flat", "facet"}
+            Vertex or face normals; ``"auto"`` follows each material's ``flat_shading``. With
+            ``"facet"`` each triangle also has one light, that of its middle.
         hidden_surfaces : {"zbuffer", "painter", "none"}
             The method of hidden-surface removal: depth buffer, painter's algorithm (drawing from
             far to near), or none.

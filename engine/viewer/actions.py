@@ -86,9 +86,10 @@ def toggle_unlit(viewer, step: int) -> None:
 
 
 def toggle_flat(viewer, step: int) -> None:
-    """One normal per face, or smooth normals."""
+    """One normal per face, then one light per face too, or smooth normals."""
     appearance = viewer.view_renderer.appearance
-    appearance.normals = "smooth" if appearance.normals == "flat" else "flat"
+    following = {"flat": "facet", "facet": "smooth"}
+    appearance.normals = following.get(appearance.normals, "flat")
     viewer.say(f"normals: {appearance.normals}")
 
 

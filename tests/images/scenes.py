@@ -4,6 +4,7 @@ from images import (  # noqa: F401
     scenes_alpha,
     scenes_ambient,
     scenes_exact_shadows,
+    scenes_facets,
     scenes_filters,
     scenes_form,
     scenes_geometry,

@@ -34,7 +34,7 @@ RECORD_SHIFT = 5
 
 # What interpolation is asked for.
 WANT_POSITION, WANT_NORMAL, WANT_UV, WANT_FLAT, WANT_LEVEL = 1, 2, 4, 8, 16
-WANT_SURFACE, WANT_WEIGHTS = 32, 64
+WANT_SURFACE, WANT_WEIGHTS, WANT_FACET = 32, 64, 512
 
 VIEWPORT = np.dtype(
     [
@@ -143,6 +143,7 @@ BATCH_RECORD = np.dtype(
         ("normal", "f4", (3, _LANES)),
         ("uv", "f4", (2, _LANES)),
         ("color", "f4", (3, _LANES)),
+        ("place", "f4", (3, _LANES)),
         ("lod", "i4", _LANES),
         ("energy", "f4", (3, _LANES)),
         ("shine", "f4", (3, _LANES)),
@@ -152,6 +153,7 @@ BATCH_RECORD = np.dtype(
         ("reached", "f4", (2, _LANES)),
         ("sun", "i4", 2),
         ("count", "i4"),
+        ("facets", "i4"),
         ("unmapped_normal", "u8"),  # an address, or 0
         ("pattern", "u8"),  # likewise
         ("number", "i4", _LANES),

@@ -8,6 +8,7 @@ from kernels.arithmetic import ONE, ZERO, dot, greatest, unit
 from kernels.harness import all_backends, check_lanes, check_poisoned, hostile
 from kernels.layouts import (
     TILE,
+    WANT_FACET,
     WANT_FLAT,
     WANT_LEVEL,
     WANT_NORMAL,
@@ -30,6 +31,8 @@ WANTED = [
     WANT_NORMAL | WANT_WEIGHTS,
     WANT_POSITION | WANT_NORMAL | WANT_UV,
     WANT_POSITION | WANT_NORMAL | WANT_FLAT | WANT_UV | WANT_WEIGHTS,
+    WANT_POSITION | WANT_FACET,
+    WANT_POSITION | WANT_FACET | WANT_NORMAL | WANT_FLAT,
 ]
 LEAST_WEIGHT = np.float32(2.0**-64)
 
@@ -48,6 +51,12 @@ def weights(surface, sample):
 def attribute(surface, name, component, w, r):
     """R20"""
     return dot(w, planes_of(surface[name], component)) * r
+
+
+def middle(surface, component):
+    """R153"""
+    first, second, third = planes_of(surface["position"], component)
+    return ((first + second) + third) * np.float32(1 / 3)
 
 
 def normals(surface, w, flat):
@@ -98,10 +107,14 @@ def expectation(surface, sample, wanted):
     w, r = weights(surface, sample)
     levels = level(surface, sample, r)
     assert len(np.unique(levels)) > 100
+    faceted = ((wanted & WANT_FACET) != 0)[:, None]
+    places = [attribute(surface, "position", k, w, r) for k in range(3)]
+    lit = [np.where(faceted, middle(surface, k), places[k]) for k in range(3)]
     values = {
         "r": (WANT_WEIGHTS, [r]),
         "weight": (WANT_WEIGHTS, w),
-        "position": (WANT_POSITION, [attribute(surface, "position", k, w, r) for k in range(3)]),
+        "position": (WANT_POSITION, lit),
+        "place": (WANT_FACET, places),
         "uv": (WANT_UV, [attribute(surface, "uv", k, w, r) for k in range(2)]),
         "lod": (WANT_LEVEL, [levels]),
     }

@@ -293,6 +293,30 @@ def test_flat_and_smooth_normals(front):
     assert (e3d.render(scene_of(sphere), front, size=(64, 64)).color == picture["flat"]).all()
 
 
+@pytest.mark.parametrize("physical", [False, True])
+def test_each_facet_has_the_light_of_its_middle(front, physical):
+    """E = I / d² cos θ, in the middle of each triangle and with its normal."""
+    how = {"roughness": 0.4, "metallic": 0.0} if physical else {}
+    ball = e3d.icosphere(0.7, 2)
+    ball.materials = [e3d.Material(**how)]
+    place, intensity = np.array([0.9, 0.6, 1.2]), 1.3
+    scene = scene_of(ball, ambient=(0, 0, 0))
+    scene.add(e3d.PointLight(intensity=intensity), translation=place)
+    options = {"size": (96, 96), "normals": "facet", "outputs": ("radiance", "triangle_id")}
+    frame = e3d.render(scene, front, **options)
+    shown = frame.triangle_id
+    assert len(np.unique(shown)) > 50
+    middles = ball.positions[ball.faces].astype(np.float64).mean(axis=1)
+    to_light = place - middles
+    distance = np.linalg.norm(to_light, axis=1)
+    cosine = (ball.face_normals * to_light).sum(axis=1) / distance
+    expected = intensity * np.maximum(cosine, 0) / distance**2
+    for triangle in np.unique(shown[shown >= 0]):
+        radiance = frame.radiance[shown == triangle][:, :3]
+        assert len(np.unique(radiance, axis=0)) == 1
+        assert physical or radiance[0] == pytest.approx(expected[triangle], rel=2e-5, abs=1e-6)
+
+
 # ---- Options ------------------------------------------------------------------------------------
 
 

@@ -157,6 +157,16 @@ static ALWAYS_INLINE void interpolate_normal(e3d_batch *batch, const vf32 w[3], 
         v_storef(batch->normal[c] + v->i, n[c]);
 }
 
+/* R153 */
+static ALWAYS_INLINE void find_middle(e3d_batch *batch, const sample_vector *v)
+{
+    vf32 corner[3], third = v_setf(1.0f / 3.0f);
+    for (int c = 0; c < 3; c++) {
+        take_three(v->s->position[c], &v->elements, v->same, corner);
+        v_storef(batch->position[c] + v->i, v_mul(v_add(v_add(corner[0], corner[1]), corner[2]), third));
+    }
+}
+
 /* Divisions and roots have a long latency, so r is only found if something needs it. */
 static ALWAYS_INLINE void interpolate_vector(e3d_batch *batch, const sample_vector *v, int wanted, int placed)
 {
@@ -175,7 +185,9 @@ static ALWAYS_INLINE void interpolate_vector(e3d_batch *batch, const sample_vect
     if (wanted & E3D_WANT_LEVEL)
         v_storei(batch->lod + v->i, level_of(v->s->slope, &weights, v));
     if (wanted & E3D_WANT_POSITION)
-        interpolate_into(batch->position, 3, v->s->position, &weights, v);
+        interpolate_into(wanted & E3D_WANT_FACET ? batch->place : batch->position, 3, v->s->position, &weights, v);
+    if (wanted & E3D_WANT_FACET)
+        find_middle(batch, v);
     if (wanted & E3D_WANT_NORMAL)
         interpolate_normal(batch, w, wanted & E3D_WANT_FLAT, v);
 }
@@ -192,6 +204,7 @@ static ALWAYS_INLINE void stage_interpolate_placed(e3d_batch *batch, const sampl
 
 static void kernel_interpolate(e3d_batch *batch, const e3d_surfaces *surfaces, int wanted)
 {
+    batch->facets = (wanted & E3D_WANT_FACET) != 0;
     if (!(wanted & (E3D_WANT_WEIGHTS | E3D_WANT_UV | E3D_WANT_LEVEL | E3D_WANT_POSITION | E3D_WANT_NORMAL)))
         return;
     if (batch->pattern)

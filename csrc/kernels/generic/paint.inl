@@ -133,7 +133,8 @@ static ALWAYS_INLINE void paint_pixels(e3d_batch *batch, const e3d_paint *paint,
 static void paint_toned(e3d_batch *batch, const e3d_paint *paint, int colored, uint32_t *rgba)
 {
     float *const color[3] = {batch->color[0], batch->color[1], batch->color[2]};
-    const float *const position[3] = {batch->position[0], batch->position[1], batch->position[2]};
+    const e3d_lane_array *places = e3d_batch_places(batch);
+    const float *const position[3] = {places[0], places[1], places[2]};
     if (!paint->lighting)
         paint_colors(batch, paint, colored, PAINT_UNLIT, 0.0f);
     else if (light_varies(paint->lighting))

@@ -70,18 +70,22 @@ typedef struct e3d_batch {
     int32_t steps[E3D_BATCH + E3D_PAD];   /* scratch of take_runs: all 0 before and after */
     e3d_lane_array weight[3], r; /* P_k and r of R19 */
     e3d_lane_array position[3], normal[3], uv[2], color[3];
+    e3d_lane_array place[3]; /* where `facets`: where the samples are, and `position` is where light is found */
     int32_t lod[E3D_BATCH + E3D_PAD];
     e3d_lane_array energy[3], shine[3], alpha;
     uint32_t hidden_lights[E3D_BATCH + E3D_PAD]; /* where lights have exact shadows: a bit for each of them, set where it is hidden */
     e3d_lane_array visibility; /* R129, where the frame has it */
     e3d_lane_array reached[E3D_SUNS]; /* `reached` of R93 of the lights whose numbers are in `sun`, found by the kernels that light the batch */
     int32_t sun[E3D_SUNS];
-    int count;
+    int count, facets;
     const e3d_lane_array *unmapped_normal; /* where `normal` is mapped: what it was before; else NULL */
     const e3d_sample_pattern *pattern;     /* NULL: values are those of samples' centres; else R105 tells where they are found: */
     int32_t number[E3D_BATCH + E3D_PAD];   /* which sample of the pattern takes the place of the centre, where that won't do */
     e3d_lane_array shift[2];               /* from the centre, in samples: where they are found */
 } e3d_batch;
+
+/* Where samples are, in world space, whatever the place is where they are lit. */
+static inline const e3d_lane_array *e3d_batch_places(const e3d_batch *batch) { return batch->facets ? batch->place : batch->position; }
 
 /* What shading needs of a bucket's samples, and so what interpolation fills. */
 enum {
@@ -93,6 +97,7 @@ enum {
     E3D_WANT_SURFACE = 32, /* anything of the surface at all */
     E3D_WANT_WEIGHTS = 64, /* weight and r */
     E3D_WANT_ALPHA = 128,  /* the alphas of vertices and instances, if these have colours */
+    E3D_WANT_FACET = 512,  /* with E3D_WANT_POSITION: light is found in the middle of the face (R153) */
     E3D_WANT_MAPS = 256    /* all textures that count, of materials of more than a base colour; else of these only what alpha needs */
 };
 

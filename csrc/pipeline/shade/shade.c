@@ -174,7 +174,8 @@ static void find_radiance(const e3d_prepared *pass, const e3d_bucket *bucket, co
     const e3d_fog_view *fog = fog_of(pass, bucket);
     e3d_batch *batch = &out->memory->batch;
     float *const color[3] = {batch->color[0], batch->color[1], batch->color[2]};
-    const float *const position[3] = {batch->position[0], batch->position[1], batch->position[2]};
+    const e3d_lane_array *places = e3d_batch_places(batch);
+    const float *const position[3] = {places[0], places[1], places[2]};
     find_colors(pass, bucket, out);
     if (fog)
         pass->kernels->fog(fog, position, batch->count, color);
@@ -203,6 +204,8 @@ static int wanted_to_show(const e3d_prepared *pass, const e3d_bucket *bucket)
         wanted |= E3D_WANT_WEIGHTS;
     if (wanted || (colored && bucket->by_instance))
         wanted |= E3D_WANT_SURFACE;
+    if (pass->frame->normals == E3D_NORMALS_FACET && is_lit(pass, bucket) && wanted & E3D_WANT_POSITION)
+        wanted |= E3D_WANT_FACET;
     return bucket->flat ? wanted | E3D_WANT_FLAT : wanted;
 }
 
@@ -359,7 +362,7 @@ static void shade_pieces(const e3d_shade_in *in, const e3d_bucket *bucket, int32
 {
     e3d_batch *batch = &out->memory->batch;
     int32_t surface = 0;
-    batch->count = 0;
+    batch->count = batch->facets = 0;
     batch->pattern = out->memory->shown.pattern;
     for (int32_t p = first; p != end;) {
         stretch s;

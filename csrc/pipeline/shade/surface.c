@@ -67,9 +67,7 @@ static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *stat
                    .face = id >= 0,
                    .first = -1,
                    .last = -1};
-    int flat = frame->normals == E3D_NORMALS_FLAT ||
-               (frame->normals == E3D_NORMALS_AUTO && g.material->flat);
-    g.flat = g.face && flat && mesh->face_normals;
+    g.flat = g.face && e3d_is_flat(frame->normals, g.material->flat) && mesh->face_normals;
     g.mapped = g.face && e3d_needs_maps(g.material, pass->targets);
     g.textured = g.face && g.material->texture.texture && mesh->uvs;
     g.has_uvs = g.mapped && mesh->uvs;

@@ -93,7 +93,7 @@ static void put_view(const batch_place *place)
         put(place, E3D_OUTPUT_NORMAL, v);
     }
     if (t->position || t->depth) {
-        to_view(view, batch, batch->position, 1, v);
+        to_view(view, batch, e3d_batch_places(batch), 1, v);
         put(place, E3D_OUTPUT_POSITION, v);
         for (int i = 0; i < batch->count; i++)
             v[2][i] = 0.0f - v[2][i];
@@ -194,7 +194,7 @@ void e3d_outputs_batch(const e3d_store *store, const e3d_bucket *bucket, e3d_sha
     put_view(&place);
     put(&place, E3D_OUTPUT_ALBEDO, batch->color);
     put(&place, E3D_OUTPUT_WORLD_NORMAL, batch->normal);
-    put(&place, E3D_OUTPUT_WORLD_POSITION, batch->position);
+    put(&place, E3D_OUTPUT_WORLD_POSITION, e3d_batch_places(batch));
     put(&place, E3D_OUTPUT_UV, batch->uv);
     put_barycentric(&place);
     put_maps(&place, bucket, &memory->maps.batch);

@@ -53,6 +53,12 @@ def add_viewed_scene(parser) -> None:
         help="with --scene city: let the sun set, and lamps and windows shine",
     )
     group.add_argument(
+        "--subdivisions",
+        type=values.subdivisions,
+        metavar="N",
+        help="with --scene shapes: cut the edges of its sphere, box and floor into N parts",
+    )
+    group.add_argument(
         "--texture",
         metavar="FILE",
         help="texture for a model without materials; by default an image of the same name "
@@ -62,7 +68,8 @@ def add_viewed_scene(parser) -> None:
         "--color",
         type=values.color,
         metavar="COLOR",
-        help="colour for a model, or for what in a scene is, without materials",
+        help="colour for a model without materials, or for what in a scene has no texture and "
+        "does not glow",
     )
     group.add_argument(
         "--animation-index",
@@ -108,6 +115,8 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
         raise UsageError("--triangles goes with --scene city")
     if args.dusk and args.scene != "city":
         raise UsageError("--dusk goes with --scene city")
+    if args.subdivisions is not None and args.scene != "shapes":
+        raise UsageError("--subdivisions goes with --scene shapes")
     if not args.models:
         for option in OF_MODELS:
             given = getattr(args, option, None)
@@ -119,6 +128,7 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
 
         how = {} if args.triangles is None else {"triangles": args.triangles}
         how |= {"dusk": True} if args.dusk else {}
+        how |= {} if args.subdivisions is None else {"subdivisions": args.subdivisions}
         viewed = load_demo(args.scene or default_scene, **how)
         if args.color is not None:
             from ..viewer.open_model import dress_scene

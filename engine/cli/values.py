@@ -21,6 +21,7 @@ MAX_LOD_BIAS = 16
 MAX_EXPOSURE = 64  # stops
 MAX_BLOOM = 100
 CITY_TRIANGLES = 20_000, 50_000_000
+MAX_SUBDIVISIONS = 512
 
 
 def resolution(text: str) -> tuple[int, int]:
@@ -159,6 +160,14 @@ def city_triangles(text: str) -> int:
     value, (least, most) = count(text), CITY_TRIANGLES
     if not least <= value <= most:
         raise argparse.ArgumentTypeError(f"{text!r} is not from {least:,} to {most:,}")
+    return value
+
+
+def subdivisions(text: str) -> int:
+    """Parse into how many parts edges are cut."""
+    value = count(text)
+    if not 1 <= value <= MAX_SUBDIVISIONS:
+        raise argparse.ArgumentTypeError(f"{text!r} is not from 1 to {MAX_SUBDIVISIONS}")
     return value
 
 

@@ -38,6 +38,7 @@ def load_demo(name: str, **options):
         One of `DEMO_NAMES`.
     **options
         ``triangles`` : int, of ``"city"``: how many, about. ``dusk`` : bool, of the same.
+        ``subdivisions`` : int, of ``"shapes"``: into how many parts edges are cut.
 
     Returns
     -------

@@ -29,14 +29,23 @@ FLOOR_SIZE = 9.0
 FLOOR_SQUARES = 18
 
 
-def shapes() -> ViewedScene:
-    """Return the scene."""
+def shapes(subdivisions: int | None = None) -> ViewedScene:
+    """Return the scene.
+
+    Parameters
+    ----------
+    subdivisions : int, optional
+        Into how many parts the sphere's height and the edges of the box and of the floor are cut;
+        by default 32 and 1.
+    """
+    parts = subdivisions or 1
     scene = Scene(BACKGROUND, ambient=(0.04, 0.04, 0.05))
-    scene.add(floor(FLOOR_SIZE, FLOOR_SQUARES), name="floor")
-    ball = uv_sphere(0.6, (64, 32))
+    scene.add(floor(FLOOR_SIZE, FLOOR_SQUARES, segments=parts), name="floor")
+    bands = subdivisions or 32
+    ball = uv_sphere(0.6, (max(2 * bands, 3), max(bands, 2)))
     ball.materials = [glossy((0.9, 0.9, 0.9), 90.0)]
     scene.add(ball, name="sphere", translation=(-0.75, 0.6, 0.15))
-    cube = box((1.0, 1.0, 1.0))
+    cube = _cut_box(parts)
     cube.materials = [glossy((0.85, 0.82, 0.75), 40.0)]
     turned = linalg.quaternion_from_axis_angle((0, 1, 0), math.radians(28.0))
     scene.add(cube, name="box", translation=(0.8, 0.5, -0.1), rotation=turned)
@@ -69,9 +78,23 @@ def glossy(color, shininess: float) -> Material:
     return Material(color=color, specular=(0.5, 0.5, 0.5), shininess=shininess)
 
 
-def floor(size: float, squares: int, dark=(62, 66, 74), light=(118, 122, 130)) -> Mesh:
+def _cut_box(segments: int) -> Mesh:
+    """Return a cube with edges of 1, each of its faces cut into squares."""
+    if segments == 1:
+        return box()
+    top = plane(1.0, segments)
+    top.positions = top.positions + np.float32((0.0, 0.5, 0.0))
+    quarters = [((1, 0, 0), 0), ((1, 0, 0), 1), ((1, 0, 0), 2), ((1, 0, 0), 3)]
+    quarters += [((0, 0, 1), 1), ((0, 0, 1), 3)]
+    turns = [linalg.quaternion_from_axis_angle(axis, k * math.pi / 2) for axis, k in quarters]
+    return Mesh.concatenate([top] * 6, poses=[((0, 0, 0), turn, 1.0) for turn in turns])
+
+
+def floor(
+    size: float, squares: int, dark=(62, 66, 74), light=(118, 122, 130), segments: int = 1
+) -> Mesh:
     """Return a square floor at y = 0 with a checkerboard of ``squares`` a side (sRGB colours)."""
-    mesh = plane((size, size), 1)
+    mesh = plane((size, size), segments)
     board = np.array([[dark, light], [light, dark]], dtype=np.uint8)
     mesh.uvs = mesh.uvs * (squares / 2)
     texture = Texture(np.kron(board, np.ones((32, 32, 1), dtype=np.uint8)), name="checkerboard")

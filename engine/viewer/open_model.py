@@ -14,7 +14,7 @@ from ..errors import Engine3DWarning, InvalidArgumentError, printable
 from ..geometry.creases import CREASE_ANGLE
 from ..loaders import load_document, load_texture
 from ..loaders.documents import Document
-from ..materials.material import says_something
+from ..materials.material import Material, says_something, textures_of
 from ..scene.loading import scene_from_document
 from ..scene.scene import Scene
 from .scalars import ScalarColoring
@@ -201,15 +201,23 @@ def _dress(meshes, image, color) -> None:
 
 
 def dress_scene(scene: Scene, color) -> None:
-    """Give the meshes of a scene without materials a colour; warn if there are none."""
+    """Give a colour to what in a scene has no texture and does not glow; warn if all has."""
     things = [node.object for node in scene.nodes if isinstance(node.object, DRAWABLE)]
-    meshes = [mesh for mesh in map(mesh_of, things) if not has_materials(mesh)]
-    if not meshes:
-        _warn("all that the scene holds has materials of its own: it gets no other colour")
-    for mesh in meshes:
-        mesh.colors = None
-        for material in mesh.materials:
+    painted = False
+    for mesh in map(mesh_of, things):
+        plain = [material for material in mesh.materials if _is_plain(material)]
+        for material in plain:
             material.color = color
+        if len(plain) == len(mesh.materials):
+            mesh.colors = None
+        painted = painted or bool(plain)
+    if not painted:
+        _warn("all that the scene holds has textures or glows: it gets no other colour")
+
+
+def _is_plain(material: Material) -> bool:
+    """Whether a colour is all that a material shows."""
+    return not textures_of(material) and not any(material.emissive)
 
 
 def _warn(message: str) -> None:

@@ -10,6 +10,8 @@ from PIL import Image
 
 import engine3d as e3d
 from engine3d.cli import main
+from engine3d.cli.parser import parse
+from engine3d.cli.scene_options import viewed_scene
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 
@@ -103,11 +105,44 @@ def test_hidden_surfaces_flat_normals_and_points_change_a_solid(tmp_path):
 
     solid = ["--scene", "shapes"]
     assert draw(*solid) != draw(*solid, "--hidden-surfaces", "none", "--cull", "none")
-    assert draw(*solid) != draw(*solid, "--flat")
+    flat = draw(*solid, "--flat")
+    assert draw(*solid) != flat != draw(*solid, "--facets") != draw(*solid)
     lines = [*solid, "--wireframe", "only"]
     assert draw(*lines) != draw(*lines, "--hidden-lines")
     points = ["--scene", "vertices"]
     assert draw(*points) != draw(*points, "--point-size", "3")
+
+
+def test_a_built_in_scene_is_painted_where_it_is_plain():
+    def colors_of(scene):
+        held = [node.object for node in scene.nodes if isinstance(node.object, e3d.Mesh)]
+        return {m: tuple(m.rgb) for mesh in held for m in mesh.materials}
+
+    def opened(*options):
+        args = parse(["run", "--scene", "shapes", *options])
+        return viewed_scene(args).scene
+
+    before, after = colors_of(opened()), colors_of(opened("--color", "red"))
+    red = (255, 0, 0)
+    kept = [color for color in after.values() if color != red]
+    assert len(after) == len(before) == 6 and list(after.values()).count(red) == 2
+    assert all(color in before.values() for color in kept)
+
+
+def test_edges_of_shapes_are_cut_into_parts():
+    def counts(*options):
+        args = parse(["run", "--scene", "shapes", *options])
+        nodes = {node.name: node.object for node in viewed_scene(args).scene.nodes}
+        return [len(nodes[name].faces) for name in ("sphere", "box", "floor")]
+
+    assert counts() == [64 * 31 * 2, 12, 2]
+    assert counts("--subdivisions", "1") == [2 * 3, 12, 2]
+    assert counts("--subdivisions", "5") == [10 * 4 * 2, 6 * 50, 50]
+    args = parse(["run", "--scene", "shapes", "--subdivisions", "5"])
+    cube = next(node.object for node in viewed_scene(args).scene.nodes if node.name == "box")
+    middles = cube.positions[cube.faces].mean(axis=1)
+    assert ((middles * cube.face_normals).sum(axis=1) > 0.4).all(), "faces look outward"
+    assert np.allclose(np.abs(cube.positions).max(axis=1), 0.5, atol=1e-6)
 
 
 def test_a_texture_is_asked_for_or_found_beside_the_model(model, tmp_path):

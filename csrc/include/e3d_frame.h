@@ -42,7 +42,9 @@ typedef enum e3d_shading { E3D_EACH_SHADING(E3D_ENUMERATOR) } e3d_shading;
 /* FACET: as FLAT, and a face is lit as it is in its middle. */
 #define E3D_EACH_NORMALS(X) \
     X(E3D_NORMALS_AUTO, auto) \
-    X(E3D_NORMALS_SMOOTH, smooth) X(E3D_NORMALS_FLAT, flat) X(E3D_NORMALS_FACET, facet)
+    X(E3D_NORMALS_SMOOTH, smooth) \
+    X(E3D_NORMALS_FLAT, flat) \
+    X(E3D_NORMALS_FACET, facet)
 typedef enum e3d_normals { E3D_EACH_NORMALS(E3D_ENUMERATOR) } e3d_normals;
 
 /* Whether faces of a material, flat or not, have one normal. */

@@ -29,7 +29,7 @@ from .viewpoint import Sphere
 #: The square reaches so many radii from the middle of the model, in so many texels a side.
 REACH, SIDE = 2.0, 512
 #: How dark it is where none of the sky's light arrives, and none of the key light.
-_SKY, _KEY = 0.42, 0.26
+_SKY, _KEY = 0.46, 0.3
 #: How far both spread, and how far to the left and back the key light's shadow moves, in heights.
 _SKY_SPREAD, _KEY_SPREAD = 0.45, 0.18
 _LEFT, _BACK = 0.42, 0.5

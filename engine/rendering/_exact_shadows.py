@@ -14,9 +14,9 @@ import numpy as np
 
 from ..scene.node_arrays import NodeArrays
 from ..scene.scene import Scene
-from ._casters import placed_casters
 from ._draw_list import DrawList
 from ._lamps import lamp_slots
+from .casters import placed_casters
 
 _versions = itertools.count(1)
 

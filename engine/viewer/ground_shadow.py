@@ -18,7 +18,7 @@ import numpy as np
 
 from .. import linalg
 from ..geometry.mesh import Mesh
-from ..rendering._casters import placed_casters
+from ..rendering.casters import placed_casters
 from ..rendering.renderer import Renderer
 from ..scene.cameras import Camera
 from ..scene.instances import InstancedMesh

@@ -18,12 +18,12 @@ import numpy as np
 
 from .. import linalg
 from ..geometry.mesh import Mesh
+from ..materials.material import textures_of
 from ..rendering.casters import placed_casters
 from ..rendering.renderer import Renderer
 from ..scene.cameras import Camera
 from ..scene.instances import InstancedMesh
 from ..scene.orbiting import cosine, sine
-from ..scene.usage import made_of
 from .viewpoint import Sphere
 
 #: The square reaches so many radii from the middle of the model, in so many texels a side.
@@ -108,9 +108,16 @@ class GroundShadow:
         posing = None if scene._posing is None else scene._posing.moment
         versions = {}
         for shape in scene._objects.objects:
-            if shape is not None and shape is not self._ground:
-                things = (*made_of(shape), *((shape,) if isinstance(shape, InstancedMesh) else ()))
-                versions.update((thing, thing.version) for thing in things)
+            if shape is None or shape is self._ground:
+                continue
+            if isinstance(shape, InstancedMesh):
+                versions[shape] = shape.version
+            mesh = getattr(shape, "mesh", shape)
+            versions[mesh] = mesh.version
+            for material in mesh.materials:
+                versions[material] = material.version
+                if material.alpha_mode != "opaque":  # its textures have holes
+                    versions.update((t, t.version) for t in textures_of(material).values())
         return versions, posing, placed_casters(scene._arrays)
 
     def _heights(self, slant, lowest: float, sphere: Sphere, cull: str):

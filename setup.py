@@ -40,7 +40,9 @@ from build_rules import (
     static_libraries,
 )
 
-REQUIREMENTS = ["numpy>=1.23", "pillow>=12.3", "pysdl2>=0.9.16", "rich>=13"]
+# Before 11.2.1, Pillow wrote opaque GIFs wrong from the second frame on. Not those that mend holes,
+# since others hold back the newest: `engine3d info --system` names the holes.
+REQUIREMENTS = ["numpy>=1.23", "pillow>=11.2.1", "pysdl2>=0.9.16", "rich>=13"]
 # The window's SDL. There is none for musl: the window wants the system's there, all else nothing.
 SDL = "pysdl2-dll>=2.28"
 NATIVE = "engine3d._native"

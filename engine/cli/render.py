@@ -8,6 +8,7 @@ import time
 from ..files.animation_files import save_animation
 from ..files.making_folders import make_folder_of
 from ..viewer import headless
+from ..viewer.clips import NoSuchClipError
 from ..viewer.view_renderer import ViewRenderer
 from ..viewer.watch import CHECK_SECONDS, FileWatch
 from . import options, scene_options
@@ -128,7 +129,7 @@ def _write_pictures(args: argparse.Namespace, view_renderer: ViewRenderer, view)
     if args.turntable is not None:
         pictures = headless.turntable(view_renderer, view, count, args.animation_time or 0.0)
     elif view_renderer.viewed.update is None:
-        raise UsageError(f"--animation: {view_renderer.viewed.title} has no animation")
+        raise NoSuchClipError(f"--animation: {view_renderer.viewed.title} has no animation")
     else:
         pictures = headless.animation(view_renderer, view, count, args.animation_time or 0.0)
     pictures = with_progress(pictures, count, "rendering")

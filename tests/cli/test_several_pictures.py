@@ -78,6 +78,15 @@ def test_the_tree_of_models_becomes_a_tree_of_pictures(folder, tmp_path, capsys)
     ]
 
 
+def test_a_model_that_stands_still_does_not_stop_animations(folder, capsys):
+    turn = ["render", str(folder), *FAST, "--animation", "2", "-o", "{model}.gif"]
+    assert main(turn) == 1
+    told = capsys.readouterr().err.splitlines()
+    assert [line.endswith("has no animation") for line in told] == [True, True, False]
+    assert told[-1] == "engine3d: 0 drawn, 2 failed"
+    assert main([*turn[:1], str(folder / "b.obj"), *turn[2:]]) == 2
+
+
 def test_headless_runs_draw_what_can_be_drawn_too(folder, tmp_path, capsys):
     (folder / "a.obj").write_text("v 1\n")
     one = [

@@ -11,11 +11,15 @@ PATIENCE = 5.0  # seconds without a line
 
 
 def tracked(items, total, what):
-    """Yield the items; say how many of `total` are done, at most every PATIENCE seconds."""
+    """Yield the items; say how many of `total` are done, at most every PATIENCE seconds.
+
+    total: a number, or None where it is not known.
+    """
     start = said = time.monotonic()
     for done, item in enumerate(items, start=1):
         yield item
         now = time.monotonic()
-        if now - said >= PATIENCE and done < total:
+        if now - said >= PATIENCE and done != total:
             said = now
-            print(f"{what}: {done} of {total}, {now - start:.0f} s", file=sys.stderr, flush=True)
+            count = f"{done} of {total}" if total else f"{done} done"
+            print(f"{what}: {count}, {now - start:.0f} s", file=sys.stderr, flush=True)

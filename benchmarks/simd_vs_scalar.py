@@ -176,7 +176,8 @@ def main():
         print_head(arguments.backend)
     lists = {"kernels": KERNEL_WORKLOADS, "frames": FRAMES}
     total = sum(len(lists[what]) for what in arguments.what)
-    for row in tracked(measure(arguments), total, "measuring"):
+    measured = measure(arguments)
+    for row in tracked(measured, total, "measuring") if arguments.json else measured:
         rows.append(row)
         if not arguments.json:
             print_row(row, arguments.backend)

@@ -68,6 +68,8 @@ def test_progress_is_told_where_it_takes_long(monkeypatch, capsys):
     assert told.err.splitlines() == ["drawing: 3 of 7, 6 s", "drawing: 6 of 7, 12 s"]
     assert list(progress.tracked("ab", 2, "drawing")) == ["a", "b"]
     assert capsys.readouterr().err == ""
+    assert list(progress.tracked("abcd", None, "drawing")) == list("abcd")
+    assert capsys.readouterr().err == "drawing: 3 done, 6 s\n"
 
 
 def test_lines():

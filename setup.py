@@ -4,10 +4,8 @@ In:  csrc/ (the C core), engine/_native/*.pyx (its Python gateway), engine/ and 
 Out: static libraries, one for each instruction set; the extension engine3d._native._core, which
      holds the core and the modules engine3d._native.*; the packages engine3d.*.
 
-Every backend must give the same bytes, hence these rules. The flags below come after the user's
-CFLAGS. The baseline is plain x86-64, so that only the ISA files hold code that an old CPU lacks.
-A file is compiled again when its command has changed or a file that it includes, which the compiler
-lists beside the object.
+The flags and the core's files are in build_rules.py. A file is compiled again when its command has
+changed or a file that it includes, which the compiler lists beside the object.
 ENGINE3D_BUILD=release|debug|profile|asan|tsan chooses the kind of build, each in its own folder.
 Everything that is not a rule of the build (name, version, extras) is in pyproject.toml; what the
 package needs depends on the system, and is here.
@@ -15,13 +13,13 @@ package needs depends on the system, and is here.
 
 import json
 import os
-import re
 import shlex
 import subprocess
 import sys
 import sysconfig
+import tempfile
 import zlib
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from pathlib import Path
 
 from setuptools import Extension, setup
@@ -29,41 +27,22 @@ from setuptools.command.build import build
 from setuptools.command.build_clib import build_clib
 from setuptools.command.build_ext import build_ext
 
-# A release has nothing that only debuggers and profilers read: neither unwind tables nor symbols.
-BUILDS = {
-    "release": ["-O3", "-g0", "-DNDEBUG", "-fno-asynchronous-unwind-tables"],
-    "debug": ["-Og", "-g", "-UNDEBUG"],
-    "profile": ["-O3", "-g", "-DNDEBUG", "-fno-omit-frame-pointer"],
-    "asan": ["-O1", "-g", "-UNDEBUG", "-fno-omit-frame-pointer"],
-    "tsan": ["-O1", "-g", "-UNDEBUG", "-fno-omit-frame-pointer"],
-}
-# What Cython writes checks arguments and calls the core: optimised for speed, it would be little
-# faster and much larger.
-GATEWAY_FLAGS = {"release": ["-Os"], "profile": ["-Os"]}
-SANITIZERS = {
-    "asan": ["-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"],
-    "tsan": ["-fsanitize=thread"],
-}
-WARNINGS = ["-Wall", "-Wextra"]
-INCLUDE_DIRS = ["csrc/include", "csrc"]
-# What CFLAGS may hold that would change results is taken back: -ffast-math, -Ofast, -march=native,
-# contraction to FMA, and link-time optimisation (which mixes the ISAs).
-EXACT = ["-fno-fast-math", "-fno-unsafe-math-optimizations", "-ffp-contract=off", "-fno-math-errno"]
-# Python's own flags let signed numbers wrap around. Here they must not, which sanitizers check.
-HYGIENE = [
-    "-std=gnu11",
-    "-fstrict-overflow",
-    "-fPIC",
-    "-fvisibility=hidden",
-    "-fno-lto",
-    "-pthread",
-]
-# Outside the kernels, where files and callers' arrays are read.
-HARDENING = ["-fstack-protector-strong", "-U_FORTIFY_SOURCE", "-D_FORTIFY_SOURCE=2"]
-LINK_FLAGS = ["-pthread"]
-ELF_LINK_FLAGS = ["-Wl,-z,relro,-z,now"]
-STRIPPED = {"release": ["-s"]}
-REQUIREMENTS = ["numpy>=1.23", "pillow>=12.3", "pysdl2>=0.9.16", "rich>=13"]
+sys.path.append(os.path.dirname(os.path.abspath(__file__)))  # where pip builds, it isn't there
+from build_rules import (
+    BUILD,
+    GATEWAY_FLAGS,
+    INCLUDE_DIRS,
+    IS_WINDOWS,
+    SANITIZERS,
+    STRIPPED,
+    hardened_flags,
+    link_flags,
+    static_libraries,
+)
+
+# Before 11.2.1, Pillow wrote opaque GIFs wrong from the second frame on. Not those that mend holes,
+# since others hold back the newest: `engine3d info --system` names the holes.
+REQUIREMENTS = ["numpy>=1.23", "pillow>=11.2.1", "pysdl2>=0.9.16", "rich>=13"]
 # The window's SDL. There is none for musl: the window wants the system's there, all else nothing.
 SDL = "pysdl2-dll>=2.28"
 NATIVE = "engine3d._native"
@@ -74,45 +53,26 @@ COMMON_MODULE = f"{NATIVE}._common"
 TESTING_MODULE = f"{NATIVE}.kernels_testing"
 
 
-def isa_flags(machine):
-    """The flags of each set of SIMD kernels for `machine`, from the core's own list of backends.
-
-    machine: as in `MACHINE`.
-    """
-    header = Path(__file__).with_name("csrc") / "include" / "e3d_backends.h"
-    _, _, rows = header.read_text("utf-8").partition(f"#define E3D_EACH_{machine}_BACKEND(X)")
-    rows = rows.partition("\n\n")[0].split("X(E3D_BACKEND_")[1:]
-    flags = {}
-    for row in rows:
-        name = re.match(r"\w+, (\w+)", row)[1]
-        flags[name] = [f"-m{instructions}" for instructions in re.findall(r'HAS\("(.+?)"\)', row)]
-    return flags
-
-
-def machine_of(platform):
-    """X86 or AARCH64, as the core calls them, or an empty text: of a name of a platform."""
-    names = {"X86": r"x86_64|amd64", "AARCH64": r"aarch64(?!_be)|arm64"}
-    return next((name for name, pattern in names.items() if re.search(pattern, platform)), "")
-
-
-def is_windows(platform):
-    """Whether a name of a platform, as Python or a compiler has it, is one of Windows."""
-    return platform.startswith("win") or "windows" in platform or "mingw" in platform
-
-
 def requirements():
     """The packages that engine3d needs at run time, where it is built for."""
     names = [sysconfig.get_config_var(name) or "" for name in ("SOABI", "HOST_GNU_TYPE")]
     return REQUIREMENTS if "musl" in "".join(names) else [*REQUIREMENTS, SDL]
 
 
-BUILD = os.environ.get("ENGINE3D_BUILD") or "release"
-# What the built code runs on: of the rest, the kernels are portable only.
-MACHINE = machine_of(sysconfig.get_platform())
-IS_WINDOWS = is_windows(sysconfig.get_platform())
-
 # Untested: setuptools' own choice on Windows does not know the flags of gcc and clang.
 DEFAULT_COMPILER = "mingw32" if IS_WINDOWS else None
+
+# What to install, by the name of a system and by what is missing.
+COMPILERS = {
+    "linux": "Debian, Ubuntu: apt-get install gcc libc6-dev; Fedora: dnf install gcc; "
+    "Alpine: apk add gcc musl-dev",
+    "darwin": "xcode-select --install",
+    "win32": "MinGW-w64 (gcc), or pip install ziglang and see docs/hacking.md",
+}
+HEADERS = "Debian, Ubuntu: apt-get install python3-dev; Fedora: dnf install python3-devel; "
+HEADERS += "Alpine: apk add python3-dev"
+# Compiles where a compiler, the headers of C and those of Python are there.
+PROBE = "#include <Python.h>\n#include <math.h>\n"
 
 PACKAGE_DIR = {"engine3d": "engine", "engine3d.data": "data", "engine3d.lessons": "lessons"}
 DATA_PACKAGES = ["engine3d.data", "engine3d.lessons"]
@@ -121,77 +81,12 @@ DATA_SUFFIXES = ["obj", "mtl", "tga", "webp", "asc", "md"]
 SOURCE_ONLY = ["models/globe.obj", "models/globe.mtl", "models/globe_stand.*", "models/nautilus*"]
 
 
-def common_flags():
-    """The flags of every C file, the kernels too."""
-    if BUILD not in BUILDS:
-        raise SystemExit(f"ENGINE3D_BUILD={BUILD}: expected one of {', '.join(BUILDS)}")
-    baseline = ["-march=x86-64", "-mtune=generic"] if MACHINE == "X86" else []
-    if IS_WINDOWS:
-        baseline += ["-include", "csrc/windows/memory.h"]
-    return [*baseline, *BUILDS[BUILD], *EXACT, *HYGIENE, *SANITIZERS.get(BUILD, [])]
-
-
-def hardened_flags():
-    """The flags of what isn't a kernel; sanitizers watch the same and more by themselves."""
-    return [*common_flags(), *([] if BUILD in SANITIZERS else HARDENING)]
-
-
-def link_flags():
-    """The flags of the linker; those of ELF are for Linux."""
-    is_elf = sysconfig.get_platform().startswith("linux")
-    return [*LINK_FLAGS, *(ELF_LINK_FLAGS if is_elf else [])]
-
-
 def build_base():
     """The build folder of this kind of build and compiler: none reuses another's objects."""
     names = ("CC", "CFLAGS", "CPPFLAGS", "LDFLAGS", "ENGINE3D_TARGET")
     settings = [os.environ.get(name, "") for name in names]
     suffix = f"-{zlib.crc32(repr(settings).encode()):08x}" if any(settings) else ""
     return f"build/{BUILD}{suffix}"
-
-
-def static_libraries():
-    """The (name, build_info) pairs that `build_clib` compiles; the ISA files of one machine."""
-    sources = {
-        "e3d_core": [
-            "csrc/core/*.c",
-            "csrc/pipeline/*/*.c",
-            "csrc/kernels/dispatch.c",
-            "csrc/ui/*.c",
-            "csrc/posing/*.c",
-            "csrc/bloom/*.c",
-            "csrc/occlusion/*.c",
-        ],
-        "e3d_portable": ["csrc/kernels/isa_portable.c"],
-        "e3d_reference": ["csrc/reference/*.c"],
-        "e3d_canvas": ["csrc/canvas/*.c"],
-        "e3d_environment": ["csrc/environment/*.c"],
-        "e3d_images": ["csrc/images/*.c"],
-        "e3d_navigation": ["csrc/navigation/*.c"],
-        "e3d_pyrender": ["csrc/pyrender/*.c"],
-        "e3d_scene": ["csrc/scene/*.c"],
-        "e3d_loaders": ["csrc/loaders/*.c"],
-        "e3d_writers": ["csrc/writers/*.c"],
-    }
-    kernel_flags = {"e3d_portable": []}
-    for isa, flags in isa_flags(MACHINE).items():
-        sources[f"e3d_{isa}"] = [f"csrc/kernels/isa_{isa}.c"]
-        kernel_flags[f"e3d_{isa}"] = flags
-    libraries = []
-    for name, patterns in sources.items():
-        files = sorted(str(path) for pattern in patterns for path in Path().glob(pattern))
-        if not files:
-            continue
-        is_kernel = name in kernel_flags
-        flags = [*common_flags(), *kernel_flags[name]] if is_kernel else hardened_flags()
-        build_info = {
-            "sources": files,
-            "include_dirs": INCLUDE_DIRS,
-            "macros": [(f"E3D_HAVE_{MACHINE}", "1")] if MACHINE else [],
-            "cflags": [*WARNINGS, *flags],
-        }
-        libraries.append((name, build_info))
-    return libraries
 
 
 def extensions():
@@ -205,6 +100,7 @@ def extensions():
             name,
             sources,
             include_dirs=INCLUDE_DIRS,
+            define_macros=[("E3D_BUILD", f'"{BUILD}"')],
             # build_ext lists the static libraries once more after these, so their order is free.
             libraries=[*(library for library, _ in static_libraries()), "m"],
             extra_compile_args=[*hardened_flags(), *GATEWAY_FLAGS.get(BUILD, [])],
@@ -225,6 +121,48 @@ def packages():
     return [".".join(("engine3d", *folder.parts[1:])) for folder in folders] + DATA_PACKAGES
 
 
+class CompilerError(SystemExit):
+    """What ends a build, in one line."""
+
+    def __init__(self, text):
+        super().__init__(f"error: engine3d cannot be compiled: {text}")
+
+
+def no_compiler(name, error):
+    """Return the error that tells what to install where a program does not run."""
+    advice = COMPILERS.get(sys.platform, "cc of this system")
+    return CompilerError(f"{name!r}: {error.strerror}. Install gcc or clang ({advice})")
+
+
+def run_compiler(command, **_):
+    """Run a compiler, an archiver or a linker: prints what it says, and not the command."""
+    try:
+        done = subprocess.run(command, capture_output=True, encoding="utf-8", errors="replace")
+    except OSError as error:
+        raise no_compiler(command[0], error) from None
+    sys.stderr.write(done.stdout + done.stderr)
+    if done.returncode != 0:
+        if "Python.h" in done.stderr:
+            raise CompilerError(f"Python's header files are missing. {HEADERS}")
+        files = ", ".join(word for word in command if word.endswith((".c", ".a", ".so")))
+        raise CompilerError(f"{command[0]!r} failed at {files}; what it said stands above")
+
+
+def prepare(compiler):
+    """Let one of setuptools' compilers run its commands with `run_compiler`."""
+    compiler.call = compiler.spawn = run_compiler  # older ones say spawn
+
+
+def check_compiler(compiler):
+    """Raise `CompilerError` unless a file compiles that includes what all need."""
+    includes = {f"-I{sysconfig.get_path(name)}" for name in ("include", "platinclude")}
+    with tempfile.TemporaryDirectory() as folder:
+        source = Path(folder, "probe.c")
+        source.write_text(PROBE, "utf-8")
+        output = ["-o", os.path.join(folder, "probe.o")]
+        run_compiler([*compiler.compiler_so, *sorted(includes), "-c", str(source), *output])
+
+
 class Build(build):
     """Keeps each kind of build in its own folder, and nothing there of modules since deleted."""
 
@@ -238,6 +176,8 @@ class Build(build):
         super().finalize_options()
 
     def run(self):
+        # First, or a thousand lines about files that are copied would stand before what it says.
+        self.run_command("build_clib")
         super().run()
         # A wheel takes the whole folder, with what an earlier build left there.
         commands = [self.get_finalized_command(name) for name in ("build_py", "build_ext")]
@@ -254,7 +194,15 @@ class BuildStaticLibraries(build_clib):
         super().finalize_options()
         self.compiler = self.compiler or DEFAULT_COMPILER
 
+    def run(self):
+        try:
+            super().run()
+        except FileNotFoundError as error:  # MinGW is asked for its version at once
+            raise no_compiler(error.filename, error) from None
+
     def build_libraries(self, libraries):
+        prepare(self.compiler)
+        check_compiler(self.compiler)
         jobs = [(source, info) for _, info in libraries for source in info["sources"]]
         run_in_parallel(self.compile_one, sorted(jobs, key=lambda job: "kernels" not in job[0]))
         for name, build_info in libraries:
@@ -296,6 +244,7 @@ class BuildExtensions(build_ext):
         super().run()
 
     def build_extensions(self):
+        prepare(self.compiler)
         jobs = [(e, module_of(source), source) for e in self.extensions for source in e.sources]
         jobs.sort(key=lambda job: -os.path.getsize(job[2]))
         common = [(e, COMMON_MODULE, None) for e in self.extensions if e.name == CORE_MODULE]
@@ -327,17 +276,23 @@ class BuildExtensions(build_ext):
         ]
         module = self.get_ext_fullpath(extension.name)
         # The linker is called where an object is newer than the module, or there is no module.
-        if not is_newer(module, [*extension.extra_objects, *archives, "setup.py"]):
+        if not is_newer(
+            module, [*extension.extra_objects, *archives, "setup.py", "build_rules.py"]
+        ):
             Path(module).unlink(missing_ok=True)
         super().build_extension(extension)
 
 
 def run_in_parallel(function, jobs):
-    """Call `function(*job)` for each job, on all processors; raise what one of them raises."""
+    """Call `function(*job)` for each job, on all processors; raise what the first one raises."""
     affinity = getattr(os, "sched_getaffinity", None)
     with ThreadPoolExecutor(len(affinity(0)) if affinity else os.cpu_count()) as pool:
-        for done in [pool.submit(function, *job) for job in jobs]:
-            done.result()
+        jobs = [pool.submit(function, *job) for job in jobs]
+        done, others = wait(jobs, return_when=FIRST_EXCEPTION)
+        for job in others:
+            job.cancel()
+        for job in done:
+            job.result()
 
 
 def translate_changed(name, source, target):

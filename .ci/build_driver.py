@@ -2,8 +2,8 @@
 """Builds csrc/driver/ and the C core into one program, without Python's own flags.
 
 In:  --output FILE, --compiler CC (a cross compiler too), --static, and ENGINE3D_BUILD as in
-     setup.py, which also gives the libraries and the flags. With --fuzz, by clang only, the core
-     goes with each target of csrc/fuzz/ instead, and --output is their folder.
+     build_rules.py, which also gives the libraries and the flags. With --fuzz, by clang only, the
+     core goes with each target of csrc/fuzz/ instead, and --output is their folder.
 Out: the program, or the targets. Nothing is kept between runs.
 """
 
@@ -30,19 +30,19 @@ WRAPPED = ("malloc", "calloc", "realloc", "posix_memalign")
 
 
 def rules_for(compiler):
-    """The globals of setup.py, as if it were run on the processor that `compiler` compiles for."""
-    rules = runpy.run_path(str(ROOT / "setup.py"), run_name="rules")
+    """The globals of build_rules.py, as if run on the processor that `compiler` compiles for."""
+    rules = runpy.run_path(str(ROOT / "build_rules.py"), run_name="rules")
     machine = subprocess.run([compiler, "-dumpmachine"], capture_output=True, text=True, check=True)
-    # The functions of setup.py read these names from their own globals.
+    # The functions of build_rules.py read these names from their own globals.
     for name, tell in (("MACHINE", "machine_of"), ("IS_WINDOWS", "is_windows")):
         rules["static_libraries"].__globals__[name] = rules[tell](machine.stdout)
     return rules
 
 
-def compile_all(compiler, rules, fuzz, folder, more=()):
+def compile_all(compiler, rules, fuzz, folder, more=(), told=lambda made, total: made):
     """Compile the core and the driver, or the targets; return the object of each source.
 
-    more: flags for all of them.
+    more: flags for all of them. told: what goes through that which is made, to say how far it is.
     """
     driver = [str(path) for path in Path("csrc/driver").glob("*.c")]
     if fuzz:
@@ -65,7 +65,7 @@ def compile_all(compiler, rules, fuzz, folder, more=()):
         return source, target
 
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        return dict(pool.map(compile_one, jobs))
+        return dict(told(pool.map(compile_one, jobs), len(jobs)))
 
 
 def link(compiler, rules, objects, extra, output):

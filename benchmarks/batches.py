@@ -17,6 +17,8 @@ import tempfile
 import time
 from pathlib import Path
 
+from progress import tracked
+
 from engine3d.batch import Task, run
 from engine3d.batch.drawing import How, draw_chunk
 from engine3d.batch.processes import ProcessPool
@@ -157,7 +159,8 @@ def main():
         makes.append(Dask)
     ways, starts = zip(*map(started, makes), strict=True)
     waits = [waiting_of(way) for way in ways]
-    rounds = [one_round(ways, waits, arguments.pictures) for _ in range(arguments.rounds)]
+    turns = tracked(range(arguments.rounds), arguments.rounds, "drawing round by round")
+    rounds = [one_round(ways, waits, arguments.pictures) for _ in turns]
     for number, way in enumerate(ways):
         fastest = min(times[number] for times in rounds)
         more = fastest / min(times[0] for times in rounds) - 1.0

@@ -1,6 +1,6 @@
 """What -O0 to -O3, -march=native and the intrinsics each bring to the kernels.
 
-In:  the C files of this checkout, a compiler, this CPU; setuptools, since setup.py has the flags.
+In:  the C files of this checkout, a compiler, this CPU; the flags are those of build_rules.py.
 Out: two tables, or with --json one object: nanoseconds for each kernel and way to build it, and
      frames a second of a whole picture; how many times as fast each is as the plain C of -O3
      (backend portable).
@@ -22,10 +22,12 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from progress import tracked
+
 ROOT = Path(__file__).resolve().parents[1]
-SETUP = runpy.run_path(str(ROOT / "setup.py"), run_name="rules")
-MACHINE = SETUP["MACHINE"]
-ISA_FLAGS = SETUP["isa_flags"](MACHINE)
+RULES = runpy.run_path(str(ROOT / "build_rules.py"), run_name="rules")
+MACHINE = RULES["MACHINE"]
+ISA_FLAGS = RULES["isa_flags"](MACHINE)
 BACKENDS = ["portable", *ISA_FLAGS]
 LEVELS = ["-O0", "-O1", "-O2", "-O3"]
 BASELINE = ("portable", "-O3")
@@ -66,8 +68,8 @@ def builds(backends, levels):
 
 def common_flags():
     """Of all that is compiled."""
-    flags = [*SETUP["EXACT"], *SETUP["HYGIENE"], "-w", "-pthread"]
-    flags += [f"-I{ROOT / path}" for path in SETUP["INCLUDE_DIRS"]]
+    flags = [*RULES["EXACT"], *RULES["HYGIENE"], "-w", "-pthread"]
+    flags += [f"-I{ROOT / path}" for path in RULES["INCLUDE_DIRS"]]
     flags += ["-march=x86-64", "-mtune=generic"] if MACHINE == "X86" else []
     return [*flags, f"-DE3D_HAVE_{MACHINE}=1"] if MACHINE else flags
 
@@ -80,7 +82,8 @@ def build_core(compiler, folder, pool):
         subprocess.run([compiler, *common_flags(), "-O2", "-c", source, "-o", target], check=True)
         return target
 
-    return list(pool.map(compile_one, sorted(path for p in CORE for path in ROOT.glob(p))))
+    sources = sorted(path for p in CORE for path in ROOT.glob(p))
+    return list(tracked(pool.map(compile_one, sources), len(sources), "compiling the core"))
 
 
 def build_timers(compiler, backend, flags, core, folder):
@@ -133,9 +136,10 @@ def measure(compiler, backends, levels):
             pool.submit(build_timers, compiler, backend, flags, core, folder)
             for (backend, _, flags), folder in zip(rows, folders, strict=True)
         ]
-        programs = [job.result() for job in jobs]
+        programs = [job.result() for job in tracked(jobs, len(jobs), "compiling the kernels")]
         first_hash = None
-        for (backend, name, _), timers in zip(rows, programs, strict=True):
+        timed = tracked(zip(rows, programs, strict=True), len(rows), "measuring")
+        for (backend, name, _), timers in timed:
             outcome = run_timers(timers)
             if outcome is None:
                 print(f"this CPU lacks {backend}", file=sys.stderr)
@@ -201,4 +205,9 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except FileNotFoundError as error:
+        sys.exit(f"compiler_flags: {error.filename} is not installed")
+    except subprocess.CalledProcessError as error:
+        sys.exit(f"compiler_flags: {error}")

@@ -8,6 +8,7 @@ Out: a table of milliseconds a stage for each workload, and the functions that t
 """
 
 import argparse
+import functools
 import json
 import os
 import re
@@ -20,6 +21,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from progress import tracked
 from workloads import WORKLOADS
 
 import engine3d as e3d
@@ -108,12 +110,13 @@ def gprof_functions(backend, scenes):
     os.chdir(ROOT)
     with tempfile.TemporaryDirectory() as folder:
         rules = build["rules_for"](compiler)
-        objects = build["compile_all"](compiler, rules, False, folder, ["-pg"])
+        told = functools.partial(tracked, what="compiling the core and its driver")
+        objects = build["compile_all"](compiler, rules, False, folder, ["-pg"], told)
         program = f"{folder}/driver"
         linked = [compiler, "-pg", "-pthread", *objects.values(), "-lm", "-o", program]
         subprocess.run(linked, check=True)
         run = [program, "--scenes", str(scenes), "--threads", "1", "--backend", backend]
-        subprocess.run(run, cwd=folder, check=True, capture_output=True)
+        draw_scenes(run, scenes, folder)
         report = ["gprof", "-b", "-p", program, f"{folder}/gmon.out"]
         done = subprocess.run(report, check=True, capture_output=True, text=True)
         own = functions_of(o for source, o in objects.items() if source.startswith("csrc/driver/"))
@@ -121,6 +124,20 @@ def gprof_functions(backend, scenes):
     core = [(float(percent), function) for percent, function in found if function not in own]
     whole = sum(percent for percent, _ in core) or 1.0
     return [(100 * percent / whole, function) for percent, function in core]
+
+
+def draw_scenes(command, count, folder):
+    """Run the driver, whose lines begin with the kind and the number of what was drawn."""
+    with (
+        tempfile.TemporaryFile("w+", dir=folder) as said,
+        subprocess.Popen(command, cwd=folder, stdout=-1, stderr=said, text=True) as driver,
+    ):
+        scenes = (line for line in driver.stdout if line.startswith("scene "))
+        for _ in tracked(scenes, count, "drawing random scenes"):
+            pass
+        if driver.wait() != 0:
+            said.seek(0)
+            sys.exit(f"profile: the driver found a fault: {said.read().strip()}")
 
 
 def functions_of(objects):
@@ -135,7 +152,8 @@ def profile_functions(arguments, backend):
     if tool == "auto":
         tool = "perf" if perf_works() else "gprof" if shutil.which("gprof") else "none"
     if tool == "perf":
-        return {name: perf_functions(name, arguments)[:FUNCTIONS] for name in arguments.workload}
+        named = tracked(arguments.workload, len(arguments.workload), "drawing under perf")
+        return {name: perf_functions(name, arguments)[:FUNCTIONS] for name in named}
     if tool == "gprof":
         return {
             "random scenes of the C driver": gprof_functions(backend, arguments.scenes)[:FUNCTIONS]
@@ -173,6 +191,8 @@ def parse_arguments():
     arguments = parser.parse_args()
     arguments.workload = arguments.workload or list(WORKLOADS)
     arguments.frames = max(arguments.frames, 1)
+    if arguments.functions in ("perf", "gprof") and shutil.which(arguments.functions) is None:
+        parser.error(f"{arguments.functions} is not installed")
     return arguments
 
 
@@ -182,7 +202,8 @@ def main():
         for name in arguments.workload:
             draw(WORKLOADS[name][1](), arguments, arguments.frames)
         return
-    rows = [stage_row(name, arguments) for name in arguments.workload]
+    named = tracked(arguments.workload, len(arguments.workload), "drawing")
+    rows = [stage_row(name, arguments) for name in named]
     if not arguments.json:
         print(f"backend {rows[0]['backend']}, {rows[0]['threads']} threads\n")
         print_stages(rows)
@@ -195,4 +216,9 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except FileNotFoundError as error:
+        sys.exit(f"profile: {error.filename} is not installed")
+    except subprocess.CalledProcessError as error:
+        sys.exit(f"profile: {error}")

@@ -11,6 +11,7 @@ Backends take turns, and the fastest of the repetitions counts.
 """
 
 import argparse
+import importlib.util
 import json
 import math
 import platform
@@ -19,16 +20,17 @@ import time
 from pathlib import Path
 
 import bar_chart
-from kernel_workloads import KERNEL_WORKLOADS
+from progress import tracked
 from workloads import WORKLOADS
 
 import engine3d as e3d
 from engine3d._native import rasterizer
 
-try:
+KERNEL_WORKLOADS = {}
+if importlib.util.find_spec("engine3d._native.kernels_testing"):
+    from kernel_workloads import KERNEL_WORKLOADS
+
     from engine3d._native import kernels_testing
-except ImportError:
-    kernels_testing = None
 
 ENOUGH = 0.001  # seconds that one measurement of a kernel lasts at least
 REFERENCES = ("scalar", "portable")
@@ -159,7 +161,7 @@ def parse():
     arguments = parser.parse_args()
     arguments.backend = arguments.backend or e3d.backends()
     arguments.what = arguments.what or ["kernels", "frames"]
-    if "kernels" in arguments.what and kernels_testing is None:
+    if "kernels" in arguments.what and not KERNEL_WORKLOADS:
         print("kernels: not measured; `pip install -e .` builds what calls them", file=sys.stderr)
         arguments.what.remove("kernels")
     if arguments.plot and "portable" not in arguments.backend:
@@ -172,7 +174,10 @@ def main():
     rows = []
     if not arguments.json:
         print_head(arguments.backend)
-    for row in measure(arguments):
+    lists = {"kernels": KERNEL_WORKLOADS, "frames": FRAMES}
+    total = sum(len(lists[what]) for what in arguments.what)
+    measured = measure(arguments)
+    for row in tracked(measured, total, "measuring") if arguments.json else measured:
         rows.append(row)
         if not arguments.json:
             print_row(row, arguments.backend)

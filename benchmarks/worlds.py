@@ -24,6 +24,7 @@ from pathlib import Path
 
 import numpy as np
 from lights import resolution
+from progress import tracked
 
 import engine3d as e3d
 from engine3d import linalg
@@ -278,6 +279,7 @@ def main():
     if not arguments.json:
         print_table(rows)
         return
+    rows = tracked(rows, None, "measuring")
     machine = {"machine": platform.machine(), "python": platform.python_version()}
     settings = {"threads": arguments.threads, "culling": arguments.culling}
     result = {"engine3d": e3d.__version__, **machine, **settings, "rows": list(rows)}

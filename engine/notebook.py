@@ -30,7 +30,8 @@ try:
     from jupyter_rfb import RemoteFrameBuffer
 except ImportError as error:
     raise ImportError(
-        "engine3d.notebook needs the package jupyter_rfb: pip install 'engine3d[notebook]'"
+        "engine3d.notebook needs the package jupyter_rfb: pip install 'engine3d[notebook]'",
+        name=error.name,
     ) from error
 
 __all__ = ["View"]

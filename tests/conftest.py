@@ -6,6 +6,7 @@ import shutil
 import signal
 import sys
 import tempfile
+from pathlib import Path
 
 
 def pytest_configure(config):
@@ -17,8 +18,18 @@ def pytest_configure(config):
     os.environ["XDG_CONFIG_HOME"] = os.devnull
     if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
         _keep_bytecode(config)
+    # Taken away from runs of pytest that tests start.
+    config.list_of_skipped = os.environ.pop("ENGINE3D_SKIPPED", None)
     # pytest-xdist would begin with the files that hold the most tests.
     config.option.loadscopereorder = False
+
+
+def pytest_terminal_summary(terminalreporter, config):
+    """List the tests that were skipped, for .ci/run: with more installed, it runs them again."""
+    if config.list_of_skipped:
+        reports = terminalreporter.stats.get("skipped", [])
+        names = dict.fromkeys(report.nodeid for report in reports)
+        Path(config.list_of_skipped).write_text("".join(f"{name}\n" for name in names), "utf-8")
 
 
 def _keep_bytecode(config):

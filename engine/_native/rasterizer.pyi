@@ -28,6 +28,7 @@ TEXTURE_SLOTS: dict[str, int]
 NORMALS: dict[str, int]
 TONE_MAPPINGS: dict[str, int]
 BACKENDS: dict[str, int]
+BUILD: tuple[str, str]
 OUTPUTS: dict[str, tuple[str, int]]
 VERTEX_ATTRIBUTES: dict[str, tuple[str, int]]
 

@@ -54,6 +54,13 @@ WRAPS = values_of(E3D_OPTION_WRAP)
 # Every backend that the interface knows, whether this machine can run it or not.
 BACKENDS = values_of(E3D_OPTION_BACKEND)
 
+cdef extern from *:
+    const char *E3D_BUILD
+    const char *_compiler "__VERSION__"
+
+# How this was compiled: the kind of build, of those in build_rules.py, the compiler's version.
+BUILD = (E3D_BUILD.decode(), _compiler.decode())
+
 
 cdef dict formats_of(const e3d_array_format *formats, int count):
     """Of each array by its name the dtype and the number of channels."""

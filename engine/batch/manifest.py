@@ -116,7 +116,9 @@ def _values(entry: JsonValue, known: set[str], of_dataset: bool) -> dict[str, Va
     _check_keys(entry, known)
     members = entry.members()
     if of_dataset and "outputs" in members:
-        raise members["outputs"].error("a data set's writer says what is written")
+        raise members["outputs"].error(
+            "a data set's writer says what is written: see dataset.outputs"
+        )
     return {key: _value(key, member, 0) for key, member in members.items() if key != "matrix"}
 
 

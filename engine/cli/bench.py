@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from .._support.system import usable_processors
 from ..benchmarking import measuring, report, workloads
 from ..files.atomic_write import atomic_write
+from ..files.making_folders import make_folder_of
 from ..rendering.backend_selection import backends, resolve_backend
 from .outputs import STANDARD_OUTPUT, check_folder
 
@@ -74,5 +75,6 @@ def _write_json(args, rows) -> None:
     if args.json == STANDARD_OUTPUT:
         print(text)
     else:
+        make_folder_of(args.json)
         with atomic_write(args.json) as file:
             file.write(text.encode() + b"\n")

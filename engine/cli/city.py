@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 
+from ..files.making_folders import make_folder_of
 from ..worlds import city as make_city
 from ..writers import formats, save_mesh
 from .outputs import check_output
@@ -13,5 +14,7 @@ def city(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
     extensions = [extension for item in formats() for extension in item.extensions]
     check_output(args.output, extensions, "a model")
-    save_mesh(make_city(args.triangles, args.seed).mesh(), args.output)
+    mesh = make_city(args.triangles, args.seed).mesh()
+    make_folder_of(args.output)
+    save_mesh(mesh, args.output)
     return 0

@@ -6,6 +6,7 @@ import argparse
 import io
 
 from ..errors import printable
+from ..files.making_folders import make_folder_of
 from ..loaders import load_mesh
 from ..scene.loading import load_scene
 from ..writers import formats, save_mesh
@@ -43,6 +44,7 @@ def convert(args: argparse.Namespace) -> int:
         save(stream)
         write_standard_output(stream.getbuffer())
     else:
+        make_folder_of(output)
         save(output)
     return 0
 

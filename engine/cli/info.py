@@ -1,4 +1,7 @@
-"""``engine3d info``: the lists that a model file holds, its bounds and its warnings."""
+"""``engine3d info``: the lists that a model file holds, its bounds and its warnings.
+
+``--system`` reports of the machine and the installation instead.
+"""
 
 from __future__ import annotations
 
@@ -16,11 +19,16 @@ from ..loaders.tree_totals import rest_bounds, triangle_count
 from ..materials.material import Material, textures_of
 from .inputs import model_files
 from .loading_bar import LoadingBar
+from .usage import UsageError
 
 
 def info(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
     sys.stdout.reconfigure(errors="backslashreplace")
+    if args.system == bool(args.models):
+        raise UsageError("say which MODEL, or --system alone")
+    if args.system:
+        return _info_of_system(args.json)
     reports, failures = [], 0
     for file in model_files(args.models):
         try:
@@ -38,6 +46,14 @@ def info(args: argparse.Namespace) -> int:
     if args.json:
         print(json.dumps(reports if len(args.models) > 1 else reports[0], indent=2))
     return 1 if failures else 0
+
+
+def _info_of_system(as_json: bool) -> int:
+    from .system_report import describe_system, system_lines
+
+    report = describe_system()
+    print(json.dumps(report, indent=2) if as_json else "\n".join(system_lines(report)))
+    return 0
 
 
 def describe(path) -> dict:

@@ -10,7 +10,6 @@ import os
 from collections.abc import Sequence
 
 from ..errors import FileAccessError, FileFormatError
-from ..files.making_folders import make_folder_of
 from . import values
 from .inputs import STANDARD_INPUT
 from .output_templates import fill, names_the_model
@@ -59,13 +58,35 @@ def jobs(args: argparse.Namespace) -> list[argparse.Namespace]:
         return [_job(args, models, output)]
     if len(models) > 1 and output is not None and not names_the_model(output):
         raise UsageError("-o for several models needs a variable, as in -o '{model}.png'")
+    top = _common_folder(args.models)
     found: list[argparse.Namespace] = []
     for name in models:
-        job = _job(args, [name], output, [other.output for other in found])
-        if job.output is not None and any(job.output == other.output for other in found):
-            raise UsageError(f"-o {output}: {job.output} would be written twice; add {{n}}")
+        taken = [other.output for other in found]
+        job = _job(args, [name], output, taken, _folder_below(top, name))
+        if job.output is not None and job.output in taken:
+            raise UsageError(
+                f"-o {output}: {job.output} would be written twice; add {{folder}} or {{n}}"
+            )
         found.append(job)
     return found
+
+
+def _common_folder(names: Sequence[str]) -> str:
+    """The innermost folder that holds all that was given; "" where there is none."""
+    paths = [os.path.abspath(name) for name in names if name != STANDARD_INPUT]
+    folders = [path if os.path.isdir(path) else os.path.dirname(path) for path in paths]
+    try:
+        return os.path.commonpath(folders)
+    except ValueError:  # nothing but standard input, or several drives
+        return ""
+
+
+def _folder_below(top: str, name: str) -> str:
+    """The folder of a model, as a path from `top` on; "" in that folder itself."""
+    if not top or name == STANDARD_INPUT:
+        return ""
+    folder = os.path.relpath(os.path.dirname(os.path.abspath(name)), top)
+    return "" if folder == os.curdir else folder
 
 
 def _is_one_by_one(args: argparse.Namespace, has_folder: bool) -> bool:
@@ -79,16 +100,17 @@ def _is_one_by_one(args: argparse.Namespace, has_folder: bool) -> bool:
 
 
 def _job(
-    args: argparse.Namespace, models: Sequence[str], output: str | None, taken: Sequence = ()
+    args: argparse.Namespace,
+    models: Sequence[str],
+    output: str | None,
+    taken: Sequence = (),
+    folder: str = "",
 ) -> argparse.Namespace:
     configured = getattr(args, "configured", None)
     job = args if configured is None else configured(models)
     job = argparse.Namespace(**vars(job))
     job.models = list(models)
-    template = output or job.output
-    job.output = fill(template, _title(job), taken)
-    if template is not None and os.path.dirname(template) != os.path.dirname(job.output):
-        make_folder_of(job.output)  # of a name with variables; other folders may be misspelt
+    job.output = fill(output or job.output, _title(job), taken, folder)
     return job
 
 

@@ -74,4 +74,5 @@ def settings(args: argparse.Namespace):
         **scalar_options.shown(args),
         metadata=args.metadata,
         ui_scale=args.ui_scale,
+        **picture_options.theme(args),
     )

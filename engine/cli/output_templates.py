@@ -16,7 +16,7 @@ from .usage import UsageError
 
 _MODEL = ("model", "model.ext", "model_ext")
 #: All variables; some take more behind a colon.
-VARIABLES = ("app", "version", *_MODEL, "date", "n")
+VARIABLES = ("app", "version", *_MODEL, "folder", "date", "n")
 _FIELD = re.compile(r"\{\{|\}\}|\{(?P<name>[^{}:]+)(?::(?P<more>[^{}]*))?\}")
 _MOST_NUMBERS = 1_000_000
 
@@ -24,11 +24,11 @@ _MOST_NUMBERS = 1_000_000
 def names_the_model(output: str | None) -> bool:
     """Return whether a name is another one for each model."""
     return output is not None and any(
-        match["name"] in (*_MODEL, "n") for match in _FIELD.finditer(output)
+        match["name"] in (*_MODEL, "folder", "n") for match in _FIELD.finditer(output)
     )
 
 
-def fill(output: str | None, model: str, taken: Sequence = ()) -> str | None:
+def fill(output: str | None, model: str, taken: Sequence = (), folder: str = "") -> str | None:
     """Return a name whose variables are filled in.
 
     Parameters
@@ -39,6 +39,8 @@ def fill(output: str | None, model: str, taken: Sequence = ()) -> str | None:
         Path of the model, or what is shown instead.
     taken : sequence of str
         Names that are not free though no file bears them yet.
+    folder : str
+        The model's folder, relative to the one that was given; empty in that folder itself.
 
     Raises
     ------
@@ -48,6 +50,8 @@ def fill(output: str | None, model: str, taken: Sequence = ()) -> str | None:
     if output is None or not {"{", "}"} & set(output):
         return output
     _check_braces(output)
+    if not folder:
+        output = output.replace("{folder}/", "")  # without its slash, which begins the root
     stem, extension = os.path.splitext(os.path.basename(model))
     said = {
         "app": "engine3d",
@@ -55,6 +59,7 @@ def fill(output: str | None, model: str, taken: Sequence = ()) -> str | None:
         "model": stem,
         "model.ext": stem + extension,
         "model_ext": extension.removeprefix("."),
+        "folder": folder,
     }
     number = None
 

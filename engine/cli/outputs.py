@@ -1,6 +1,7 @@
-"""Checks of an output's name before any work, and the progress bar of long work.
+"""Checks of an output's name before any work, its folder, and the progress bar of long work.
 
-In: what ``-o`` was given. Out: its extension, or a usage error that lists those that work.
+In: what ``-o`` was given. Out: its extension, or a usage error that lists those that work; the
+folder that it names, made when the first file is written there.
 """
 
 from __future__ import annotations
@@ -18,12 +19,14 @@ STANDARD_OUTPUT = "-"
 TERMINAL = "terminal:"
 #: Shorter work gets no progress bar.
 FEW_FRAMES = 8
+#: Bytes of a GIF that is larger than somebody may have thought.
+LARGE_GIF = 4_000_000
 
 
 def check_output(output: str, formats: Iterable[str], what: str) -> str:
     """Return the extension of ``output``.
 
-    Raises `UsageError` if it names no format, `FileAccessError` if there is no folder for it.
+    Raises `UsageError` if it names no format, `FileAccessError` if its folder cannot be made.
     """
     extension = os.path.splitext(output)[1]
     if extension.lower() not in tuple(formats):
@@ -48,12 +51,12 @@ def check_animation(output: str, *, transparent: bool = False) -> None:
         extension = check_output(output, PICTURE_SUFFIXES, "a numbered picture").lower()
     else:
         extension = check_output(output, ANIMATION_SUFFIXES, "an animation").lower()
-    if extension == VIDEO_SUFFIX:
+    if transparent and extension in (*OPAQUE_SUFFIXES, VIDEO_SUFFIX):
+        raise UsageError(f"--no-background needs transparency, which {extension} lacks")
+    if extension == VIDEO_SUFFIX:  # last: nobody installs ffmpeg to be refused afterwards
         from ..files.video_files import find_ffmpeg
 
         find_ffmpeg(output)
-    if transparent and extension in (*OPAQUE_SUFFIXES, VIDEO_SUFFIX):
-        raise UsageError(f"--no-background needs transparency, which {extension} lacks")
 
 
 def check_picture(output: str, *, transparent: bool = False, series: str) -> None:
@@ -68,9 +71,28 @@ def check_picture(output: str, *, transparent: bool = False, series: str) -> Non
 
 
 def check_folder(output: str) -> None:
-    """Raise `FileAccessError` if there is no folder for ``output``."""
-    if not os.path.isdir(os.path.dirname(output) or os.curdir):
-        raise FileAccessError(f"cannot write: {os.strerror(errno.ENOENT)}", output)
+    """Raise `FileAccessError` if ``output`` has no folder and none can be made.
+
+    `make_folder_of` makes it when something is written, so that failures leave no empty folder.
+    """
+    folder = wanted = os.path.dirname(os.path.abspath(output))
+    while not os.path.lexists(folder):
+        folder = os.path.dirname(folder)
+    number = 0
+    if not os.path.isdir(folder):
+        number = errno.ENOENT if os.path.islink(folder) else errno.ENOTDIR
+    elif folder != wanted and not os.access(folder, os.W_OK | os.X_OK):
+        number = errno.EACCES
+    if number:
+        raise FileAccessError(f"cannot write: {os.strerror(number)}", output)
+
+
+def remark_on_size(output: str) -> None:
+    """Say what would be smaller than a large GIF that was written."""
+    if not output.lower().endswith(".gif") or os.path.getsize(output) < LARGE_GIF:
+        return
+    size = os.path.getsize(output) / 1e6
+    quietness.remark(f"{output} has {size:.1f} MB: as .webp it would be many times smaller")
 
 
 def not_the_output(output: str | None) -> Callable[[str], bool]:

@@ -154,11 +154,18 @@ def _add_info(commands) -> None:
     command = _add(
         commands,
         "info",
-        help="print what model files hold",
-        description="Print the lists that model files hold, their bounds and their warnings.",
+        help="print what model files hold, or what a report of a bug should say",
+        description="Print the lists that model files hold, their bounds and their warnings; or, "
+        "with --system, what a report of a bug should say of the machine and the installation.",
     )
     command.add_argument(
-        "models", metavar="MODEL", nargs="+", help="the files; - for standard input"
+        "models", metavar="MODEL", nargs="*", help="the files; - for standard input"
+    )
+    command.add_argument(
+        "--system",
+        action="store_true",
+        help="print the processor, backends, versions of packages, SDL and the locale instead; "
+        "names of users and machines, and paths, are not in it",
     )
     command.add_argument(
         "--json", action="store_true", help="print JSON: a list where there are several files"

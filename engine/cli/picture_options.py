@@ -49,6 +49,13 @@ def add_picture(parser) -> None:
     antialiasing.add(group)
     add_drawing(group)
     group.add_argument(
+        "--theme",
+        choices=("auto", "dark", "light"),
+        default="auto",
+        help="what models stand before, and texts are written in; auto: whichever a model of the "
+        "look studio stands out from, which may differ from model to model",
+    )
+    group.add_argument(
         "--background-color",
         type=values.color,
         metavar="COLOR",
@@ -69,3 +76,11 @@ def add_picture(parser) -> None:
         help="how many times larger texts are, 1 to 8; by default as the screen and the picture "
         "want it",
     )
+
+
+def theme(args) -> dict:
+    """Return the fields of `Settings` that ``--theme`` names."""
+    from ..viewer.theme import THEMES
+
+    named = {theme.name: theme for theme in THEMES}.get(args.theme)
+    return {} if named is None else {"theme": named, "keeps_theme": True}

@@ -5,9 +5,10 @@ from __future__ import annotations
 import argparse
 import time
 
-from ..errors import Engine3DError
 from ..files.animation_files import save_animation
+from ..files.making_folders import make_folder_of
 from ..viewer import headless
+from ..viewer.clips import NoSuchClipError
 from ..viewer.view_renderer import ViewRenderer
 from ..viewer.watch import CHECK_SECONDS, FileWatch
 from . import options, scene_options
@@ -15,12 +16,14 @@ from .antialiasing import PICTURES, antialiasing
 from .camera_options import place_view
 from .input_options import jobs
 from .inputs import STANDARD_INPUT
+from .one_by_one import draw_each, tried
 from .outputs import (
     STANDARD_OUTPUT,
     TERMINAL,
     check_animation,
     check_picture,
     check_standard_output,
+    remark_on_size,
     with_progress,
     write_standard_output,
 )
@@ -43,19 +46,10 @@ def render(args: argparse.Namespace) -> int:
         return _render(found[0])
     # Files are watched from before they are read: what changes meanwhile is drawn again.
     files = [[FileWatch(name) for name in job.models] for job in found] if args.watch else None
-    status = max([_tried(job) for job in found])
+    status = draw_each(_render, found)
     if files is not None:
         _watch(list(zip(found, files, strict=True)))
     return status
-
-
-def _tried(job: argparse.Namespace) -> int:
-    """Draw what a job says; tell what is wrong, so that others go on."""
-    try:
-        return _render(job)
-    except (Engine3DError, OSError) as error:
-        say(f"error: {error}")
-        return 1
 
 
 def _watch(watched: list[tuple[argparse.Namespace, list[FileWatch]]]) -> None:
@@ -65,7 +59,7 @@ def _watch(watched: list[tuple[argparse.Namespace, list[FileWatch]]]) -> None:
         for job, files in watched:
             changed = [file.changed() for file in files]  # all of them: each tells it once
             if any(changed) and not any(file.missing for file in files):
-                if not _tried(job) and job.output is not None:
+                if not tried(_render, job) and job.output is not None:
                     remark(f"wrote {job.output}")
 
 
@@ -135,11 +129,13 @@ def _write_pictures(args: argparse.Namespace, view_renderer: ViewRenderer, view)
     if args.turntable is not None:
         pictures = headless.turntable(view_renderer, view, count, args.animation_time or 0.0)
     elif view_renderer.viewed.update is None:
-        raise UsageError(f"--animation: {view_renderer.viewed.title} has no animation")
+        raise NoSuchClipError(f"--animation: {view_renderer.viewed.title} has no animation")
     else:
         pictures = headless.animation(view_renderer, view, count, args.animation_time or 0.0)
     pictures = with_progress(pictures, count, "rendering")
+    make_folder_of(args.output)
     save_animation(pictures, args.output, headless.seconds_a_frame(view_renderer, count))
+    remark_on_size(args.output)
 
 
 def _print_picture(view_renderer: ViewRenderer, view) -> None:
@@ -157,6 +153,7 @@ def _write_picture(args: argparse.Namespace, frame) -> None:
     if args.output == STANDARD_OUTPUT:
         write_standard_output(frame.encode("png"))
     elif args.output is not None:
+        make_folder_of(args.output)
         frame.save(args.output)
 
 

@@ -13,8 +13,8 @@ def add_render(parser) -> None:
         "--output",
         metavar="FILE",
         help=".png, .jpg, .tga, .webp; - writes PNG to standard output, terminal: shows it there. "
-        "{model}, {model.ext}, {model_ext}, {date}, {n} (the first number that is free; {n:3} has "
-        "three digits), {app} and {version} are filled in; {{ is a brace",
+        "{model}, {model.ext}, {model_ext}, {folder}, {date}, {n} (the first number that is free; "
+        "{n:3} has three digits), {app} and {version} are filled in; {{ is a brace",
     )
     group.add_argument(
         "--turntable",

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import argparse
 import math
+import os
 from pathlib import Path
 
 from ..errors import DisplayError
 from ..files.animation_files import numbered_path, save_animation
+from ..files.making_folders import make_folder_of
 from ..viewer import headless
 from ..viewer.view_renderer import ViewRenderer
 from ..viewer.walking import GroundController, controller
@@ -16,7 +18,8 @@ from .antialiasing import WINDOW, antialiasing
 from .camera_options import place_view
 from .input_options import jobs
 from .inputs import STANDARD_INPUT
-from .outputs import check_animation, check_picture, with_progress
+from .one_by_one import draw_each
+from .outputs import check_animation, check_picture, remark_on_size, with_progress
 from .quietness import remark
 from .report import Report
 from .usage import UsageError
@@ -35,7 +38,7 @@ def run(args: argparse.Namespace) -> int:
         _check(job)
     reason = None if args.headless or args.terminal else _missing_screen()
     if args.headless and len(found) > 1:
-        return max([_run(job, found, reason) for job in found])
+        return draw_each(lambda job: _run(job, found, reason), found)
     return _run(found[0], found, reason)
 
 
@@ -173,13 +176,16 @@ def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report)
         if count == 1:
             if walks:
                 controller(view_renderer, view).place(view)
+            make_folder_of(path)
             view_renderer.draw(view).save(path)
         else:
             start = () if walks else (args.animation_time or 0.0,)
             draw = headless.walk if walks else headless.animation
             pictures = draw(view_renderer, view, count, *start)
             pictures = with_progress(pictures, count, "rendering")
+            make_folder_of(path)
             save_animation(pictures, path, headless.seconds_a_frame(view_renderer, count))
+            remark_on_size(os.fspath(path))
     if reason is None and args.output is None:
         remark(f"wrote {path}")
     return 0

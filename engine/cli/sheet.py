@@ -7,6 +7,7 @@ import os
 
 from ..errors import InvalidArgumentError
 from ..files.atomic_write import atomic_write
+from ..files.making_folders import make_folder_of
 from ..sheet.sheet import Sheet, contact_sheet
 from ..sheet.views import DEFAULT_VIEWS, check_views
 from .inputs import model_files
@@ -73,6 +74,9 @@ def _check(args: argparse.Namespace) -> str | None:
 
 
 def _write(output: str | None, report: str | None, drawn: Sheet) -> None:
+    for path in (output, report):
+        if path not in (None, STANDARD_OUTPUT):
+            make_folder_of(path)
     if output not in (None, STANDARD_OUTPUT):
         drawn.save(output, None if report == STANDARD_OUTPUT else report)
     elif output == STANDARD_OUTPUT:

@@ -13,6 +13,7 @@ is visible is exact here, and needs no tolerance.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import Any
@@ -57,7 +58,7 @@ class BopWriter(DatasetWriter):
     scene_size : int
         Pictures in a scene's folder.
     depth_scale : float
-        Millimetres of one step of the depth pictures.
+        Millimetres of one step of the depth pictures, which reach to 65,535 steps.
     millimetres : float
         How long the scene's own unit is; 1000 where scenes are in metres.
 
@@ -74,7 +75,7 @@ class BopWriter(DatasetWriter):
         split: str = "train",
         categories: Sequence[str] | None = None,
         scene_size: int = 1000,
-        depth_scale: float = 0.1,
+        depth_scale: float = 1.0,
         millimetres: float = 1000.0,
     ) -> None:
         if not (isinstance(split, str) and split.isidentifier()):
@@ -149,7 +150,7 @@ class BopWriter(DatasetWriter):
             farthest = float(depth.max()) * self.millimetres
             raise InvalidArgumentError(
                 f"depths of up to {farthest:g} mm do not fit 16 bits with depth_scale "
-                f"{self.depth_scale:g}: {1.5 * farthest / _DEEPEST:.1g} is enough"
+                f"{self.depth_scale:g}: {_round_above(1.5 * farthest / _DEEPEST):g} is enough"
             )
         return steps.astype(np.uint16)
 
@@ -181,6 +182,12 @@ def _camera_file(folder: str, notes: Iterable[Note]) -> Iterator[str]:
             parts.text(f"{compact(said)}\n")
         yield "camera.json"
         return
+
+
+def _round_above(value: float) -> float:
+    """Return the next of 1, 2, 5, 10, 20 … above a value: one for most pictures of a scene."""
+    unit = 10.0 ** math.floor(math.log10(value))
+    return unit * next(step for step in (1, 2, 5, 10) if unit * step >= value)
 
 
 def _truth(note: Note, numbers: dict[str, int]) -> list[dict[str, Any]]:

@@ -1,6 +1,7 @@
 """Data sets as COCO has them: pictures, and one file of boxes, categories and masks.
 
-Out: ``images/NAME.png`` and ``annotations.json``. Each thing of which at least one pixel shows is
+Out: ``images/NAME.png`` and ``annotations.json``, and other outputs that are asked for as
+``depth/NAME.npy`` …, which COCO's tools pass over. Each thing of which at least one pixel shows is
 an annotation: its mask as run lengths, its area in pixels, its box. A pixel belongs to what its
 sample near the centre shows: masks never overlap.
 Source: the format of COCO's object detection, cocodataset.org.
@@ -11,6 +12,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
+from ..rendering.frame import Output
+from ..rendering.options import check_outputs
+from .folders import encoded
 from .opaque_png import color_png
 from .rle import encode_rle
 from .samples import Sample, box_of
@@ -34,6 +38,8 @@ class CocoWriter(DatasetWriter):
     categories : sequence of str, optional
         The categories, numbered from 1 on in this order; others are errors. Left out, they are
         those that the pictures show, sorted by name.
+    outputs : sequence of str
+        As of `Renderer.render`: those besides color get a folder each.
 
     Raises
     ------
@@ -41,13 +47,21 @@ class CocoWriter(DatasetWriter):
     """
 
     kind = "coco"
-    outputs = ("color", "object_id")
 
-    def __init__(self, categories: Sequence[str] | None = None) -> None:
+    def __init__(
+        self, categories: Sequence[str] | None = None, outputs: Sequence[Output] = ("color",)
+    ) -> None:
         self.categories = checked_categories(categories)
+        self.written = check_outputs(outputs)
+        # What annotations are made of is drawn in any case.
+        self.outputs = tuple(dict.fromkeys(("color", "object_id", *self.written)))
 
     def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
-        path = f"images/{sample.name}.png"
+        files = {f"images/{sample.name}.png": color_png(sample.frame)}
+        for output in self.written:
+            if output != "color":
+                suffix, data = encoded(sample.frame, output)
+                files[f"{output}/{sample.name}.{suffix}"] = data
         found = []
         for thing in sample.things():
             check_category(self.categories, thing.category)
@@ -58,7 +72,7 @@ class CocoWriter(DatasetWriter):
                 box = list(box_of(mask))
                 found.append([thing.category, run_lengths, area, box])
         size = [sample.frame.width, sample.frame.height]
-        return {path: color_png(sample.frame)}, {"size": size, "things": found}
+        return files, {"size": size, "things": found}
 
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
         shown = (thing[0] for note in notes for thing in note.said["things"])

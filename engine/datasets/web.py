@@ -70,6 +70,8 @@ class WebDatasetWriter(DatasetWriter):
             shard.append(note)
         if shard:
             yield self._pack(folder, shard)
+        with contextlib.suppress(OSError):  # missing, or of pictures that have come since
+            os.rmdir(os.path.join(folder, UNPACKED))
 
     def beside(self, sample: Sample, end: str) -> str:
         return f"{UNPACKED}/{sample.index:09d}.{end}"

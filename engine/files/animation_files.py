@@ -121,7 +121,7 @@ def _with_palette(image):
     colors = _dithered(image.convert("RGB"), TRANSPARENT_INDEX)
     indices = np.array(colors)
     indices[np.asarray(image)[..., 3] < 128] = TRANSPARENT_INDEX
-    result = Image.fromarray(indices, "P")
+    result = Image.frombytes("P", image.size, indices.tobytes())
     result.putpalette(colors.getpalette())
     result.info["transparency"] = TRANSPARENT_INDEX
     return result

@@ -7,7 +7,7 @@ import os
 from ..errors import FileAccessError
 
 
-def make_folder_of(path: str) -> None:
+def make_folder_of(path: str | os.PathLike[str]) -> None:
     """Make the folder that a file will be in, and those above it. Raises `FileAccessError`."""
     try:
         os.makedirs(os.path.dirname(path) or os.curdir, exist_ok=True)

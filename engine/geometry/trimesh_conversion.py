@@ -180,7 +180,8 @@ def mesh_to_trimesh(mesh: Mesh):
     try:
         import trimesh
     except ImportError as error:
-        raise ImportError("to_trimesh needs the package trimesh: engine3d[formats]") from error
+        message = "to_trimesh needs the package trimesh: engine3d[formats]"
+        raise ImportError(message, name=error.name) from error
     if not len(mesh.faces):
         colors = None if mesh.colors is None else srgb_bytes(mesh.colors)[mesh.points]
         return trimesh.PointCloud(mesh.positions[mesh.points].astype(np.float64), colors=colors)

@@ -81,7 +81,7 @@ def _simplified(positions: np.ndarray, faces: np.ndarray, ratio: float):
         import fast_simplification
     except ImportError as error:
         raise ImportError(
-            "simplify needs the package fast-simplification: engine3d[detail]"
+            "simplify needs the package fast-simplification: engine3d[detail]", name=error.name
         ) from error
 
     used, faces = np.unique(faces, return_inverse=True)

@@ -64,6 +64,8 @@ class Settings:
         Factor on the size of texts; None chooses by the screen and the picture.
     theme : Theme
         Dark or light.
+    keeps_theme : bool
+        Whether models in the look "studio" do not choose the theme that they stand out from.
     """
 
     appearance: dict
@@ -93,3 +95,4 @@ class Settings:
     bar: bool = False
     ui_scale: int | None = None
     theme: Theme = DARK
+    keeps_theme: bool = False

@@ -229,7 +229,8 @@ class ViewRenderer:
             return
         if self._chooses_theme:
             stage.show_shadow(False)
-            self.theme = theme_for(self._picture_alone(view))
+            kept = self.settings.keeps_theme
+            self.theme = self.theme if kept else theme_for(self._picture_alone(view))
         is_plain = appearance.mode in ("lit", "unlit") and appearance.wireframe is None
         if is_plain and not self.split and not self._transparent:
             stage.lay_shadow(self.bounds, view.azimuth, appearance.cull, view.eye())

@@ -136,7 +136,7 @@ def test_errors_name_the_place(manifest, task, message):
         ({"dataset": {"writer": "webdataset", "shard": 0}}, "dataset.shard: shard must be a whole"),
         (
             {"dataset": {"writer": "coco"}, "defaults": {"outputs": ["color"]}},
-            "defaults.outputs: a data set's writer says what is written",
+            "defaults.outputs: a data set's writer says what is written: see dataset.outputs",
         ),
     ],
 )

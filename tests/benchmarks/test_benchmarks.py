@@ -1,6 +1,6 @@
 """The benchmarks run and report what they say; how fast anything is is not tested."""
 
-import importlib
+import importlib.util
 import json
 import os
 import shutil
@@ -16,13 +16,60 @@ import engine3d as e3d
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 
-def report(name, *arguments, **environment):
+# Runs scripts as where nothing but `pip install .` was run: without what only developers have.
+PLAINLY = """
+import runpy, sys
+for name in ("pytest", "setuptools", "Cython", "engine3d._native.kernels_testing"):
+    sys.modules[name] = None
+script, *sys.argv[1:] = sys.argv[1:]
+sys.path[0] = script.rpartition("/")[0]
+sys.argv[0] = script
+runpy.run_path(script, run_name="__main__")
+"""
+
+
+def report(name, *arguments, plainly=False, **environment):
     """The JSON object that a benchmark prints, with variables of the environment set."""
-    command = [sys.executable, str(BENCHMARKS / name), "--json", *arguments]
+    start = ["-c", PLAINLY] if plainly else []
+    command = [sys.executable, *start, str(BENCHMARKS / name), "--json", *arguments]
     environment = {**os.environ, **environment}
     done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=HUNG)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
+
+
+def test_scripts_load_after_a_plain_installation():
+    """Each with what it imports of the others, and of the tests."""
+    texts = {path: path.read_text("utf-8") for path in sorted(BENCHMARKS.glob("*.py"))}
+    scripts = [str(path) for path, text in texts.items() if '__name__ == "__main__"' in text]
+    if importlib.util.find_spec("imgui_bundle") is None:
+        scripts.remove(str(BENCHMARKS / "user_interface.py"))
+    assert len(scripts) > 15
+    each = PLAINLY.partition("script, *")[0] + "for script in sys.argv[1:]:\n"
+    for line in (
+        'sys.argv, sys.path[0] = [script, "--help"], script.rpartition("/")[0]',
+        "try: runpy.run_path(script, run_name='__main__')",
+        "except SystemExit as end: assert not end.code, script",
+    ):
+        each += f"    {line}\n"
+    done = subprocess.run([sys.executable, "-c", each, *scripts], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.count("usage: ") == len(scripts)
+
+
+def test_progress_is_told_where_it_takes_long(monkeypatch, capsys):
+    monkeypatch.syspath_prepend(str(BENCHMARKS))
+    progress = importlib.import_module("progress")
+    clock = iter(range(0, 1000, 2))
+    monkeypatch.setattr(progress.time, "monotonic", lambda: next(clock))
+    assert list(progress.tracked("abcdefg", 7, "drawing")) == list("abcdefg")
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert told.err.splitlines() == ["drawing: 3 of 7, 6 s", "drawing: 6 of 7, 12 s"]
+    assert list(progress.tracked("ab", 2, "drawing")) == ["a", "b"]
+    assert capsys.readouterr().err == ""
+    assert list(progress.tracked("abcd", None, "drawing")) == list("abcd")
+    assert capsys.readouterr().err == "drawing: 3 done, 6 s\n"
 
 
 def test_lines():
@@ -57,13 +104,15 @@ def test_loaders():
     assert all(row["milliseconds"] > 0 for row in rows)
 
 
-def test_simd_vs_scalar(tmp_path):
+@pytest.mark.parametrize("plainly", [True, False])
+def test_simd_vs_scalar(tmp_path, plainly):
+    if not plainly:
+        pytest.importorskip("engine3d._native.kernels_testing", reason="it is built in place only")
     chart = tmp_path / "chart.svg"
     quick = ["--repeats", "1", "--resolution", "32x18", "--plot", str(chart)]
     backends = ["--backend", "scalar", "--backend", "portable"]
-    pytest.importorskip("engine3d._native.kernels_testing", reason="it is built in place only")
-    rows = report("simd_vs_scalar.py", *quick, *backends)["rows"]
-    assert len(rows) > 15 and chart.stat().st_size > 1000
+    rows = report("simd_vs_scalar.py", *quick, *backends, plainly=plainly)["rows"]
+    assert len(rows) == (7 if plainly else 20) and chart.stat().st_size > 1000
     for row in rows:
         assert all(taken > 0 for taken in row["time"].values())
         assert row["over"]["portable"]["portable"] == 1
@@ -74,10 +123,11 @@ def test_simd_vs_scalar(tmp_path):
 @pytest.mark.skipif(shutil.which("cc") is None, reason="needs a C compiler")
 def test_compiler_flags():
     """Every instruction set has the bytes of plain C, which only fused operations change."""
-    pytest.importorskip("setuptools")
     vectors = [name for name in ("sse41", "avx2", "neon") if name in e3d.backends()]
     chosen = [word for name in ("portable", *vectors) for word in ("--backend", name)]
-    rows = report("compiler_flags.py", *chosen, "--level", "O0", "--compiler", "cc")["rows"]
+    rows = report("compiler_flags.py", *chosen, "--level", "O0", "--compiler", "cc", plainly=True)[
+        "rows"
+    ]
     fused = "... and fused a*b + c"
     flags = ["-O0", "-O3 -march=native", *["-O0"] * len(vectors), fused]
     assert [row["flags"] for row in rows] == flags
@@ -100,9 +150,9 @@ def test_profile():
 @pytest.mark.skipif(shutil.which("gprof") is None, reason="needs gprof")
 def test_profile_by_gprof():
     """Of a build for a debugger, which is compiled in a third of the time."""
-    pytest.importorskip("setuptools")
     small = ["--frames", "1", "--resolution", "64x36", "--workload", "lights", "--scenes", "40"]
-    functions = report("profile.py", *small, "--functions", "gprof", ENGINE3D_BUILD="debug")
+    gprof = ["--functions", "gprof"]
+    functions = report("profile.py", *small, *gprof, plainly=True, ENGINE3D_BUILD="debug")
     functions = functions["functions"]
     (found,) = functions.values()
     assert len(found) > 3 and 0 < sum(percent for percent, _ in found) < 100.5

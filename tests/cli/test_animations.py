@@ -37,6 +37,26 @@ def test_numbered_pictures_of_a_turntable(model, tmp_path):
     assert (pixels("run00.png") != pixels("run01.png")).any()
 
 
+def test_transparency_is_refused_before_ffmpeg_is_asked_for(model, capsys, monkeypatch):
+    """Or somebody would install ffmpeg, and be refused afterwards."""
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    monkeypatch.setenv("PATH", "")
+    turn = ["render", str(model), *SMALL, "--turntable", "3", "--no-background", "-o", "a.mp4"]
+    assert main(turn) == 2
+    assert "--no-background needs transparency, which .mp4 lacks" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("name", "most", "told"), [("a.gif", 100, 1), ("a.gif", 10**9, 0), ("a.webp", 100, 0)]
+)
+def test_a_large_gif_says_so(model, capsys, monkeypatch, name, most, told):
+    monkeypatch.setattr("engine3d.cli.outputs.LARGE_GIF", most)
+    for command in (["render", str(model), "--turntable"], ["run", "--headless", "--frames"]):
+        assert main([*command, "3", *SMALL, "-o", name]) == 0
+        said = capsys.readouterr().err
+        assert said.count(f"{name} has 0.0 MB: as .webp it would be many times smaller") == told
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

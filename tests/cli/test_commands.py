@@ -21,7 +21,7 @@ pytestmark = pytest.mark.usefixtures("no_screen")
         (["square.obj", "--texture", "broken.obj"], "broken.obj"),
         (["square.obj", "--reference", "missing.png"], "missing.png"),
         (["square.obj", "--reference", "broken.obj"], "broken.obj"),
-        (["square.obj", "-o", "no/folder/out.png"], "no/folder"),
+        (["square.obj", "-o", "square.obj/no/out.png"], "square.obj/no"),
         (["square.obj", "--camera-position", "0.5,0.5,0"], "same"),
         (["square.obj", "--camera-position", "1e300,0,0"], "too far apart"),
         (["empty"], "empty: there is no model in this folder"),
@@ -111,17 +111,52 @@ def test_wrong_usage_is_status_2_and_writes_nothing(tmp_path, capsys, arguments)
         (["bench", "--json", "no/a.json"], "bench.workloads.make"),
     ],
 )
-def test_a_folder_that_is_not_there_is_found_before_any_work(
+def test_a_folder_that_cannot_be_made_is_found_before_any_work(
     model, capsys, monkeypatch, arguments, work
 ):
     def begin(*arguments, **options):
         raise AssertionError("the work has begun")
 
     monkeypatch.setattr(f"engine3d.cli.{work}", begin)
-    assert main(arguments) == 1
     path = arguments[-1]
-    expected = f"engine3d: error: {path}: cannot write: No such file or directory\n"
-    assert capsys.readouterr() == ("", expected)
+    for name, place, reason in (
+        ("a file", "square.obj/below", "Not a directory"),
+        ("a link to nothing", "link/below", "No such file or directory"),
+    ):
+        model.with_name("link").unlink(missing_ok=True)
+        model.with_name("link").symlink_to("nothing")
+        output = path.replace("no/", f"{place}/")
+        assert main([*arguments[:-1], output]) == 1, name
+        expected = f"engine3d: error: {output}: cannot write: {reason}\n"
+        assert capsys.readouterr() == ("", expected)
+
+
+QUICK_BENCH = ["--workloads", "textured", "--seconds", "0.01", "--resolution", "32x24"]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["render", "square.obj", "--resolution", "32x24", "-o", "new/a b/a.png"],
+        ["render", "square.obj", "--resolution", "32x24", "--turntable", "2", "-o", "new/b/a.gif"],
+        ["render", "square.obj", "--resolution", "32x24", "--turntable", "2", "-o", "n/b/%d.png"],
+        ["run", "square.obj", "--headless", "--frames", "1", "-o", "new/b/a.png"],
+        ["run", "square.obj", "--headless", "--frames", "2", "-o", "new/b/a.webp"],
+        ["sheet", "square.obj", "--json", "-o", "new/b/a.png"],
+        ["convert", "square.obj", "new/b/a.ply"],
+        ["city", "--triangles", "20000", "new/b/a.obj"],
+        ["bench", *QUICK_BENCH, "--json", "new/b/a.json"],
+    ],
+    ids=lambda arguments: f"{arguments[0]} {arguments[-1]}",
+)
+def test_folders_of_outputs_are_made_when_something_is_written(model, arguments):
+    broken = [word.replace("square.obj", "none.obj") for word in arguments]
+    if broken != arguments:
+        assert main(broken) == 1
+        assert not list(model.parent.glob("n*"))  # a failure leaves no folder
+    assert main(arguments) == 0
+    made = [path for path in model.parent.rglob("n*/*/*") if path.is_file()]
+    assert made and all(path.stat().st_size for path in made)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from cli.conftest import OBJ, SMALL, pixels
 
 from engine3d.cli import main, render
 from engine3d.cli.output_templates import fill
+from engine3d.cli.parser import make_parser
 from engine3d.cli.usage import UsageError
 
 pytestmark = pytest.mark.usefixtures("no_screen")
@@ -55,8 +56,77 @@ def test_files_are_drawn_together_unless_the_output_names_them(model, tmp_path):
 def test_folders_with_variables_in_their_names_are_made(model, tmp_path):
     assert main(["render", str(model), *FAST, "-o", "{model}/{date:%Y}/{n:3}.png"]) == 0
     assert (tmp_path / "square" / time.strftime("%Y") / "001.png").exists()
-    assert main(["render", str(model), *FAST, "-o", "no/{model}.png"]) == 1
-    assert not (tmp_path / "no").exists()
+
+
+def test_the_tree_of_models_becomes_a_tree_of_pictures(folder, tmp_path, capsys):
+    """`{folder}` is empty in the innermost folder that holds all that was given."""
+    (folder / "below" / "b.obj").write_text(OBJ)  # another of that name
+    (folder / "bad.obj").write_text("v 1\n")
+    tree = ["render", str(folder), *FAST, "--recursive-dir-add"]
+    assert main([*tree, "-o", "{model}.png"]) == 2
+    assert "b.png would be written twice; add {folder} or {n}" in capsys.readouterr().err
+    assert main([*tree, "-o", "small/{folder}/{model}.png"]) == 1
+    drawn = {path.relative_to(tmp_path / "small").as_posix() for path in tmp_path.rglob("*.png")}
+    assert drawn == {"A.png", "b.png", "below/b.png", "below/c.png"}
+    told = capsys.readouterr().err.splitlines()
+    assert "bad.obj:1" in told[0] and told[1:] == ["engine3d: 4 drawn, 1 failed"]
+    files = ["models/b.obj", "models/below/c.obj", *FAST, "-o"]
+    assert main(["render", *files, "{folder}/x_{model}.png"]) == 0
+    assert capsys.readouterr().err == "engine3d: 2 drawn\n"
+    assert sorted(path.as_posix() for path in tmp_path.rglob("x_*.png")) == [
+        (tmp_path / name).as_posix() for name in ("below/x_c.png", "x_b.png")
+    ]
+
+
+def test_a_model_that_stands_still_does_not_stop_animations(folder, capsys):
+    turn = ["render", str(folder), *FAST, "--animation", "2", "-o", "{model}.gif"]
+    assert main(turn) == 1
+    told = capsys.readouterr().err.splitlines()
+    assert [line.endswith("has no animation") for line in told] == [True, True, False]
+    assert told[-1] == "engine3d: 0 drawn, 2 failed"
+    assert main([*turn[:1], str(folder / "b.obj"), *turn[2:]]) == 2
+
+
+def test_headless_runs_draw_what_can_be_drawn_too(folder, tmp_path, capsys):
+    (folder / "a.obj").write_text("v 1\n")
+    one = [
+        "run",
+        str(folder),
+        *FAST,
+        "--headless",
+        "--frames",
+        "1",
+        "-o",
+        "{model_ext}/{model}.png",
+    ]
+    assert main(one) == 1
+    assert sorted(path.name for path in tmp_path.rglob("*.png")) == ["A.png", "b.png"]
+    assert capsys.readouterr().err.splitlines()[-1] == "engine3d: 2 drawn, 1 failed"
+    assert main([*one, "--quiet"]) == 1
+    assert "drawn" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("look", ["studio", "plain"])
+def test_one_theme_is_one_ground_for_all(folder, tmp_path, look):
+    """Before which auto puts a dark model on light, and a light one on dark."""
+    corners = {}
+    for theme in ("auto", "dark", "light"):
+        for color in ("black", "white"):
+            options = [*SMALL, "--look", look, "--theme", theme, "--color", color, "--unlit"]
+            assert main(["render", str(folder / "b.obj"), *options, "-o", "a.png"]) == 0
+            corners[theme, color] = tuple(pixels("a.png")[0, 0])
+    for theme in ("dark", "light"):
+        assert corners[theme, "black"] == corners[theme, "white"]
+    assert corners["dark", "black"] != corners["light", "black"]
+    assert (corners["auto", "black"] != corners["auto", "white"]) == (look == "studio")
+
+
+def test_the_themes_are_the_viewers():
+    from engine3d.viewer.theme import THEMES
+
+    actions = make_parser().commands["render"]._actions
+    (option,) = (action for action in actions if "--theme" in action.option_strings)
+    assert option.choices == ("auto", *(theme.name for theme in THEMES))
 
 
 @pytest.mark.parametrize(
@@ -73,7 +143,7 @@ def test_folders_with_variables_in_their_names_are_made(model, tmp_path):
             "-o: '{' without '}' in '{model.png': a variable is {model}",
         ),
         (["-o", "{n}model}.png"], "-o: '}' without '{' in '{n}model}.png': a variable is {model}"),
-        (["-o", "{model_ext}.png"], "obj.png would be written twice; add {n}"),
+        (["-o", "{model_ext}.png"], "obj.png would be written twice; add {folder} or {n}"),
         (["-o", "{n}.png", "--side-by-side", "--multi-file-mode", "single"], "does not go with"),
         (["-o", "a.png", "--force-reader", "tga"], "'tga' is not one of 3mf, asc"),
     ],

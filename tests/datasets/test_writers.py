@@ -61,6 +61,20 @@ def test_coco_tells_what_shows(make_samples, tmp_path):
     assert np.array_equal(pixels(tmp_path / "images" / "p0.png"), first.frame.color[..., :3])
 
 
+def test_coco_has_other_outputs_beside_its_own(make_samples, tmp_path):
+    """As webdataset and folders; the annotations and pictures stay what they are without them."""
+    plain, writer = CocoWriter(), CocoWriter(outputs=["depth", "object_id"])
+    write_dataset(tmp_path / "plain", plain, make_samples(plain, 1))
+    paths = write_dataset(tmp_path / "more", writer, make_samples(writer, 1))
+    own = ["images/p0.png", "annotations.json"]
+    assert paths == [own[0], "depth/p0.npy", "object_id/p0.npy", own[1]]
+    for path in own:
+        assert (tmp_path / "more" / path).read_bytes() == (tmp_path / "plain" / path).read_bytes()
+    frame = drawn(make_samples, writer)[0].frame
+    for name in ("depth", "object_id"):
+        assert np.array_equal(np.load(tmp_path / "more" / name / "p0.npy"), getattr(frame, name))
+
+
 def test_coco_as_its_own_library_reads_it(make_samples, tmp_path):
     coco = pytest.importorskip("pycocotools.coco", reason="pip install pycocotools")
     writer = CocoWriter(["pair", "box", "ball"])
@@ -208,6 +222,15 @@ def test_depths_that_do_not_fit_say_which_scale_would(make_samples):
     BopWriter(depth_scale=enough).describe(sample)
 
 
+def test_the_usual_depth_scale_holds_for_scenes_in_metres():
+    """Up to 65 metres; beyond, scenes of about one size are told one number."""
+    writer = BopWriter()
+    assert writer._steps(np.float32([[0.0, 0.25, 65.5]])).tolist() == [[0, 250, 65500]]
+    for farthest in (66.0, 70.0, 80.0, 85.0):
+        with pytest.raises(e3d.InvalidArgumentError, match="depth_scale 1: 2 is enough"):
+            writer._steps(np.float32([[farthest]]))
+
+
 # ---- folders and WebDataset ----
 
 
@@ -238,7 +261,7 @@ def test_tars_hold_the_pictures(make_samples, tmp_path):
     writer = WebDatasetWriter(["color", "depth"], shard=2)
     paths = write_dataset(tmp_path, writer, make_samples(writer, 3))
     assert paths[-2:] == ["shard-000000.tar", "shard-000001.tar"]
-    assert {path.name for path in tmp_path.rglob("*") if path.is_file()} == set(paths[-2:])
+    assert {path.name for path in tmp_path.rglob("*")} == set(paths[-2:])  # and no empty folder
     with tarfile.open(tmp_path / paths[-2]) as tar:
         names = tar.getnames()
         assert names[:3] == ["000000000.depth.npy", "000000000.json", "000000000.png"]
@@ -280,6 +303,7 @@ def test_samples_come_in_order(make_samples, tmp_path):
     [
         lambda: FolderWriter(["colour"]),
         lambda: FolderWriter([]),
+        lambda: CocoWriter(outputs=["colour"]),
         lambda: WebDatasetWriter(shard=0),
         lambda: BopWriter(split="a/b"),
         lambda: BopWriter(scene_size=True),

@@ -1,11 +1,15 @@
 """The pages of the documentation name files and links that exist."""
 
 import re
+import shlex
 from collections import Counter
 from pathlib import Path
 
 import pytest
 
+from engine3d import box, save_mesh
+from engine3d.cli import main
+from engine3d.cli.parser import make_parser
 from engine3d.events import CloseRequested
 from engine3d.viewer.window import Window
 
@@ -70,6 +74,31 @@ def test_the_architecture_names_every_file(pattern):
     missing = [path.name for path in paths if f"{path.name}`" not in text]
     assert paths
     assert missing == [], "say in docs/architecture.md what these are for"
+
+
+def commands(page):
+    """The engine3d commands of a page's indented lines, without comments, as lists of words."""
+    lines = re.findall(r"^    (engine3d [^|\n]+)", page.read_text(encoding="utf-8"), re.M)
+    return [shlex.split(line, comments=True)[1:] for line in lines]
+
+
+@pytest.mark.parametrize("page", PAGES[1:], ids=page_id)
+def test_commands_parse(page):
+    for words in commands(page):
+        make_parser().parse_args(words)
+
+
+def test_the_recipe_for_thumbnails_draws_them(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    for folder in ("", "a", "a/b"):
+        (tmp_path / "models" / folder).mkdir(parents=True, exist_ok=True)
+        save_mesh(box(), tmp_path / "models" / folder / "box.ply")
+    (words,) = (
+        w for w in commands(ROOT / "docs" / "recipes.md") if w[0] == "render" and "models/" in w
+    )
+    assert main(words) == 0 and capsys.readouterr().err == "engine3d: 3 drawn\n"
+    drawn = sorted(path.as_posix() for path in Path("thumbnails").rglob("*.*"))
+    assert drawn == [f"thumbnails/{folder}box.webp" for folder in ("a/b/", "a/", "")]
 
 
 @pytest.fixture

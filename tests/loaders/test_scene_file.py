@@ -52,7 +52,7 @@ def test_the_seed_is_whole(folder):
 ARRAYS = ("objects", 3, "arrays")
 WRONG = [
     ("{", r"case\.json:1: not JSON"),
-    ('{"format": "engine3d scene",\n"version": 1,\n}', r"case\.json:3: not JSON"),
+    ('{"format": "engine3d scene",\n"version": 1\n"nodes": []}', r"case\.json:3: not JSON"),
     ("[" * 100_000, "nested too deeply"),
     ('{"format": "engine3d scene", "version": ' + "9" * 5000 + "}", "case.json"),
     ('{"format": "other"}', "not a scene of engine3d"),

@@ -1,6 +1,9 @@
 """The build's own promises, tried with the real setup.py on a tree of a few tiny C files."""
 
+import os
 import shutil
+import stat
+import subprocess
 import sys
 
 import pytest
@@ -27,7 +30,8 @@ cdef extern from *:
 def number():
     return e3d_number()
 """
-REAL_FILES = ("setup.py", "pyproject.toml", "engine/version.py", "csrc/include/e3d_backends.h")
+REAL_FILES = ("setup.py", "build_rules.py", "pyproject.toml", "engine/version.py")
+REAL_FILES += ("csrc/include/e3d_backends.h",)
 # Prints the number that the one module of the core gives.
 PROBE = """
 from glob import glob
@@ -117,7 +121,7 @@ def test_edited_gateway_is_translated_again(build, tiny_tree):
 def test_other_flags_rebuild(run_python, tiny_tree):
     """The kind of build stays, so the objects lie where those of before lay."""
     before = made_at(tiny_tree)
-    rules = tiny_tree / "setup.py"
+    rules = tiny_tree / "build_rules.py"
     rules.write_text(rules.read_text("utf-8").replace('"-O3", "-g0"', '"-O2", "-g0"'), "utf-8")
     run_python("setup.py", "-q", "build_clib", cwd=tiny_tree)
     assert made_at(tiny_tree)["kernels/isa_avx2.o"] != before["kernels/isa_avx2.o"]
@@ -175,3 +179,68 @@ def test_kinds_of_build_share_no_object(run_python, tiny_tree):
 def test_unknown_kind_of_build_is_refused(run_python, tiny_tree):
     with pytest.raises(AssertionError, match="expected one of release, debug"):
         run_python("setup.py", "-q", "build_clib", cwd=tiny_tree, ENGINE3D_BUILD="fast")
+
+
+BUILDERS = {
+    "wheel": ["-c", "from setuptools.build_meta import build_wheel; build_wheel('dist')"],
+    "editable": ["-c", "from setuptools.build_meta import build_editable; build_editable('dist')"],
+    "in place": ["setup.py", "build_ext", "--inplace"],
+    "MinGW": ["setup.py", "build_clib", "--compiler", "mingw32"],
+}
+
+
+def failed(tree, command, **environment):
+    """The lines that a build which must fail prints."""
+    done = subprocess.run(
+        [sys.executable, *command],
+        cwd=tree,
+        env={**os.environ, **environment},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    assert done.returncode != 0
+    return done.stdout.splitlines()
+
+
+def compiler_that(tree, says):
+    """A program that fails at every file, as a compiler does, and says why."""
+    program = tree / "broken-cc"
+    program.write_text(f"#!/bin/sh\necho '{says}' >&2\nexit 1\n")
+    program.chmod(program.stat().st_mode | stat.S_IXUSR)
+    return str(program)
+
+
+@pytest.mark.parametrize(
+    ("builder", "compiler"),
+    [
+        ("wheel", "no-such-compiler"),
+        ("editable", "/etc/passwd"),
+        ("in place", "no-such-compiler -m64"),
+        ("MinGW", "no-such-compiler"),
+    ],
+)
+def test_a_missing_compiler_is_one_line_that_says_what_to_install(tiny_tree, builder, compiler):
+    lines = failed(tiny_tree, BUILDERS[builder], CC=compiler)
+    assert len(lines) < 20 and not [line for line in lines if "Traceback" in line]
+    assert lines[-1].startswith(f"error: engine3d cannot be compiled: {compiler.split()[0]!r}: ")
+    assert "Install gcc or clang (Debian, Ubuntu: apt-get install gcc libc6-dev" in lines[-1]
+
+
+def test_a_compiler_that_fails_has_the_first_word(tiny_tree):
+    lines = failed(tiny_tree, BUILDERS["wheel"], CC=compiler_that(tiny_tree, "out of cheese"))
+    assert len(lines) < 20 and lines[-2] == "out of cheese"
+    assert "broken-cc' failed at " in lines[-1] and "stands above" in lines[-1]
+
+
+def test_missing_headers_of_python_are_named(tiny_tree):
+    says = "fatal error: Python.h: No such file or directory"
+    lines = failed(tiny_tree, BUILDERS["in place"], CC=compiler_that(tiny_tree, says))
+    assert lines[-2] == says and "apt-get install python3-dev" in lines[-1]
+
+
+def test_an_error_in_a_file_is_the_compilers_and_ends_the_build(tiny_tree):
+    (tiny_tree / "csrc/core/number.c").write_text("int e3d_number(void) { return gone; }\n")
+    lines = failed(tiny_tree, BUILDERS["in place"])
+    assert any("gone" in line and "number.c:1:" in line for line in lines)
+    assert "failed at csrc/core/number.c" in lines[-1] and "Traceback" not in "".join(lines)

@@ -1,7 +1,13 @@
 """`import engine3d` is light: NumPy and the core, and nothing that only some of its users need."""
 
+import importlib
 import json
 import sys
+
+import pytest
+
+import engine3d
+from engine3d.lod import simplify
 
 # Prints the modules that engine3d adds to NumPy's own, and the seconds that they take.
 PROBE = """
@@ -47,6 +53,11 @@ def test_import_loads_only_numpy_and_the_core(run_python, tmp_path):
 
 PICTURE = """
 import sys
+
+import pytest
+
+import engine3d
+from engine3d.lod import simplify
 from importlib.resources import files
 from engine3d.cli import main
 model = files("engine3d.data") / "models" / "teapot.obj"
@@ -68,6 +79,11 @@ def test_a_picture_imports_what_it_needs(run_python, tmp_path):
 def test_package_refuses_another_name(run_python, source_tree, tmp_path):
     code = f"""
 import sys
+
+import pytest
+
+import engine3d
+from engine3d.lod import simplify
 sys.path.insert(0, {str(source_tree)!r})
 try:
     import engine
@@ -75,3 +91,20 @@ except ImportError as error:
     print(error)
 """
     assert "engine3d" in run_python("-c", code, cwd=tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("package", "extra", "use"),
+    [
+        ("jupyter_rfb", "notebook", lambda: importlib.import_module("engine3d.notebook")),
+        ("trimesh", "formats", lambda: engine3d.box().to_trimesh()),
+        ("fast_simplification", "detail", lambda: simplify(engine3d.box(), 0.5)),
+    ],
+)
+def test_a_missing_extra_is_named(monkeypatch, package, extra, use):
+    """By the package in `name`, too, which tells it from a fault of engine3d's own imports."""
+    monkeypatch.delitem(sys.modules, "engine3d.notebook", raising=False)
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(ImportError, match=rf"engine3d\[{extra}\]") as told:
+        use()
+    assert told.value.name == package

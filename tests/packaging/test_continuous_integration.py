@@ -1,0 +1,48 @@
+"""The scripts of .ci: which Python they take, and in which order .ci/run installs and tests."""
+
+import subprocess
+import sys
+
+import pytest
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="they are for bash")
+
+
+@pytest.mark.parametrize(
+    ("there", "wanted", "found"),
+    [
+        (["3.10", "3.11", "3.13"], [], "3.13"),
+        (["3.9", "3.12", "3.10"], [], "3.12"),
+        (["3.12", "3.13"], ["3.12"], "3.12"),
+        (["3.9"], [], None),
+    ],
+)
+def test_the_newest_python_is_taken(source_tree, tmp_path, there, wanted, found):
+    for version in there:
+        python = tmp_path / "versions" / f"{version}.1" / "bin" / "python"
+        python.parent.mkdir(parents=True)
+        # Of what it is asked for, it says its version and its path; the old one refuses.
+        python.write_text(f"#!/bin/sh\n[ {version} != 3.9 ] && echo {version} {python}\n")
+        python.chmod(0o755)
+    command = ["bash", source_tree / ".ci" / "find_python", *wanted]
+    # Of the system's own commands, none is a Python.
+    tools = tmp_path / "tools"
+    tools.mkdir()
+    for name in ("bash", "ls", "echo"):
+        (tools / name).symlink_to(f"/bin/{name}")
+    environment = {"PATH": str(tools), "PYENV_ROOT": str(tmp_path)}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    assert (done.returncode == 0) == (found is not None), done.stderr
+    assert (f"/versions/{found}.1/" in done.stdout) == (found is not None)
+
+
+def test_nothing_is_installed_between_the_halves_of_readmes_commands(source_tree):
+    """What a newcomer lacks would be there, and hide tests that need it."""
+    lines = (source_tree / ".ci" / "run").read_text("utf-8").splitlines()
+    (install,) = (k for k, line in enumerate(lines) if line == 'eval "$install --quiet"')
+    (test,) = (
+        k for k, line in enumerate(lines) if line.startswith("time timeout") and "$test" in line
+    )
+    between = [line for line in lines[:test] if line.lstrip().startswith("pip install")]
+    assert install < test and not between
+    assert any("-r tests/requirements.txt" in line for line in lines[test:])

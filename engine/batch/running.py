@@ -262,8 +262,9 @@ class _Notes:
     def records(self) -> Iterator[tuple[Task, dict[str, Any]]]:
         """The pictures that are there, each with its record."""
         for task in self._tasks:
-            record = read_record(self._how.out, task)
-            if record is not None and record["key"] == task.key(writer_of(task, self._how.writer)):
+            writer = writer_of(task, self._how.writer)
+            record = read_record(self._how.out, task, writer)
+            if record is not None and record["key"] == task.key(writer):
                 yield task, record
 
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
+from ..files import json_records as records
 from .opaque_png import color_png
 from .rle import encode_rle
 from .samples import Sample, box_of
@@ -24,6 +25,10 @@ from .writer import (
 )
 
 ANNOTATIONS = "annotations.json"
+_SIZE = records.row(records.count, records.count)
+_MASK = records.members({"size": _SIZE, "counts": records.sound_text})
+_BOX = records.listed(records.count, 4)
+_THING = records.row(records.sound_text, _MASK, records.count, _BOX)
 
 
 class CocoWriter(DatasetWriter):
@@ -42,6 +47,9 @@ class CocoWriter(DatasetWriter):
 
     kind = "coco"
     outputs = ("color", "object_id")
+    note_shape = staticmethod(
+        records.members({"size": _SIZE, "things": records.listed(_THING)}),
+    )
 
     def __init__(self, categories: Sequence[str] | None = None) -> None:
         self.categories = checked_categories(categories)

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from ..files import json_records as records
 from ..files.atomic_write import atomic_write
 from ..rendering.frame import Frame, Output
 from ..rendering.options import check_outputs
@@ -21,6 +22,18 @@ from .samples import Sample
 from .writer import DatasetWriter, Note, compact
 
 PICTURES = "pictures.jsonl"
+_MATRIX = records.listed(records.listed(records.number, 4), 4)
+_THING = {
+    "category": records.sound_text,
+    "ids": records.listed(records.count),
+    "world_from_object": _MATRIX,
+}
+_NOTE = {
+    "size": records.row(records.count, records.count),
+    "seed": records.anything,
+    "camera": records.members({"world_from_camera": _MATRIX, "clip_from_camera": _MATRIX}),
+    "things": records.listed(records.members(_THING)),
+}
 
 
 class FolderWriter(DatasetWriter):
@@ -37,6 +50,7 @@ class FolderWriter(DatasetWriter):
     """
 
     kind = "folders"
+    note_shape = staticmethod(records.members(_NOTE))
 
     def __init__(self, outputs: Sequence[Output] = ("color", "depth", "object_id")) -> None:
         self.outputs = check_outputs(outputs)

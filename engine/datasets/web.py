@@ -19,6 +19,7 @@ from typing import Any
 
 from .._support.numbers import shown
 from ..errors import InvalidArgumentError
+from ..files import json_records as records
 from ..files.atomic_write import atomic_write
 from ..rendering.frame import Output
 from ..rendering.options import check_outputs
@@ -45,6 +46,7 @@ class WebDatasetWriter(DatasetWriter):
     """
 
     kind = "webdataset"
+    note_shape = staticmethod(records.one_of(None))
 
     def __init__(self, outputs: Sequence[Output] = ("color",), shard: int = 1000) -> None:
         self.outputs = check_outputs(outputs)

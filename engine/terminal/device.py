@@ -24,7 +24,7 @@ USUAL_CELL = (8, 16)
 #: Pixels along a side of a cell, at most.
 LARGEST_CELL = 1000
 #: Columns and rows that are used, at most; no screen has as many.
-MOST_CELLS = (1000, 500)
+MOST_CELLS = (640, 256)
 #: Bytes of an answer.
 _LONGEST_ANSWER = 1 << 16
 _ASK_KITTY = b"\x1b_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\"

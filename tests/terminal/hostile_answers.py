@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import random
+import re
 import sys
 import time
 from pathlib import Path
@@ -80,6 +81,7 @@ def main() -> int:
         choice = random.Random(f"{given.seed} {tried}")
         size = choice.choice(((20, 60), (1, 1), (0, 0), (65535, 65535), (2, 65535), (65535, 1)))
         terminal = FakeTerminal(answer(choice), "run", "MODEL", "--terminal", size=size)
+        terminal.wait_for(re.escape(b"\x1b[?1049h"))
         status = terminal.endures([keys(choice) for _ in range(5)])
         tried += 1
         if status != 0:

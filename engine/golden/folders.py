@@ -10,12 +10,12 @@ import dataclasses
 import os
 import shutil
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from .._support.side_by_side import side_by_side
 from ..errors import Engine3DError, FileAccessError, FileFormatError
 from ..files.atomic_write import atomic_write
 from ..files.making_folders import make_folder_of
@@ -26,6 +26,8 @@ from .picture_files import SUFFIXES, Picture
 from .png_files import encode
 from .reading import read_picture
 from .results import CHANGED, DELETED, FAILED, NEW, PASSED, Result
+
+_AT_ONCE = 16  # pairs of a thread, between two steps of the progress that is shown
 
 
 @dataclass(frozen=True)
@@ -103,8 +105,9 @@ def compare_all(
     found: list[Pair], rules: Rules, threads: int, *, keep_going: bool
 ) -> Iterator[Result]:
     """Yield what came of each pair, in their order; see `compare_files`."""
-    with ThreadPoolExecutor(threads) as pool:
-        yield from pool.map(lambda pair: compare_files(pair, rules, keep_going), found)
+    for start in range(0, len(found), _AT_ONCE * threads):
+        some = found[start : start + _AT_ONCE * threads]
+        yield from side_by_side(lambda pair: compare_files(pair, rules, keep_going), some, threads)
 
 
 def compare_files(pair: Pair, rules: Rules, keep_going: bool = False) -> Result:

@@ -16,6 +16,7 @@ from ..datasets.writer import Content, DatasetWriter, Note, contents, own_files
 from ..errors import FileAccessError, FileFormatError, warn
 from ..files import json_records as shapes
 from ..files.atomic_write import AtomicFiles
+from ..files.making_folders import make_folder_of
 from .file_digests import InputFiles, are_as_before
 from .task import Task
 
@@ -36,7 +37,7 @@ def write_picture(
     with AtomicFiles() as parts:
         whole = {**files, record_path(task): shapes.sealed(record)}
         for target, data in contents(out, whole):
-            os.makedirs(os.path.dirname(target), exist_ok=True)
+            make_folder_of(target)
             parts.create(target).write(data)
 
 

@@ -273,12 +273,19 @@ def _finish(tasks: Sequence[Task], how: How) -> str:
     notes, whole = _Notes(tasks, how), []
     if how.writer is not None:
         whole = list(how.writer.finish(how.out, notes))
-    hashes = {p: hash_of_file(f"{how.out}/{p}", hashlib.sha256()) for p in whole}
+    hashes = {p: _digest(f"{how.out}/{p}") for p in whole}
     for _, record in notes.records():
         files = record["files"].items()
         # What is not there is within one of the files of the whole.
         hashes.update((p, digest) for p, digest in files if os.path.exists(f"{how.out}/{p}"))
     return write_sums(how.out, hashes.items())
+
+
+def _digest(path: str) -> str:
+    try:
+        return hash_of_file(path, hashlib.sha256())
+    except OSError as error:
+        raise FileAccessError(f"cannot read: {error.strerror}", path) from error
 
 
 def _remove_left_behind(folder: str) -> None:

@@ -26,6 +26,7 @@ from ..errors import FileAccessError, FileFormatError, warn
 from ..files import json_records
 from ..files.atomic_write import atomic_write
 from ..files.hashing import hash_of_file
+from ..files.making_folders import make_folder_of
 from ..files.stamps import FileStamp, file_stamp
 from ..geometry.mesh import Mesh
 from ..scene.instances import InstancedMesh
@@ -192,7 +193,7 @@ def _warn_of_lacking(found: dict[str, set[str | None]]) -> None:
 
 def _written(folder: str, path: str, data: bytes) -> str:
     target = os.path.join(folder, path)
-    os.makedirs(os.path.dirname(target), exist_ok=True)
+    make_folder_of(target)
     with atomic_write(target) as file:
         file.write(data)
     return path

@@ -16,6 +16,7 @@ import numpy as np
 
 from ..files import json_records as records
 from ..files.atomic_write import atomic_write
+from ..files.making_folders import make_folder_of
 from ..rendering.frame import Frame, Output
 from ..rendering.options import check_outputs
 from .samples import Sample
@@ -63,8 +64,9 @@ class FolderWriter(DatasetWriter):
         return files, said_of(sample)
 
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
-        os.makedirs(folder, exist_ok=True)
-        with atomic_write(os.path.join(folder, PICTURES)) as file:
+        target = os.path.join(folder, PICTURES)
+        make_folder_of(target)
+        with atomic_write(target) as file:
             for note in notes:
                 said = {"name": note.name, "files": note.files, **note.said}
                 file.write(f"{compact(said)}\n".encode())

@@ -16,6 +16,7 @@ from typing import Any, ClassVar, NamedTuple, TypeAlias
 from ..errors import InvalidArgumentError
 from ..files.atomic_write import AtomicFiles
 from ..files.json_records import Shape, anything
+from ..files.making_folders import make_folder_of
 from ..rendering.frame import Output
 from .samples import Sample
 
@@ -156,7 +157,7 @@ class JsonParts:
 
     def __init__(self, folder: str, path: str) -> None:
         target = os.path.join(folder, path)
-        os.makedirs(os.path.dirname(target), exist_ok=True)
+        make_folder_of(target)
         self._files = AtomicFiles()
         self._file = self._files.create(target)
 

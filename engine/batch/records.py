@@ -37,8 +37,8 @@ def write_picture(
     with AtomicFiles() as parts:
         whole = {**files, record_path(task): shapes.sealed(record)}
         for target, data in contents(out, whole):
-            make_folder_of(target)
-            parts.create(target).write(data)
+            make_folder_of(target, below=out)
+            parts.create(target, below=out).write(data)
 
 
 def read_record(

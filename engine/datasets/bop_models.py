@@ -193,8 +193,8 @@ def _warn_of_lacking(found: dict[str, set[str | None]]) -> None:
 
 def _written(folder: str, path: str, data: bytes) -> str:
     target = os.path.join(folder, path)
-    make_folder_of(target)
-    with atomic_write(target) as file:
+    make_folder_of(target, below=folder)
+    with atomic_write(target, below=folder) as file:
         file.write(data)
     return path
 

@@ -66,7 +66,7 @@ class FolderWriter(DatasetWriter):
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
         target = os.path.join(folder, PICTURES)
         make_folder_of(target)
-        with atomic_write(target) as file:
+        with atomic_write(target, below=folder) as file:
             for note in notes:
                 said = {"name": note.name, "files": note.files, **note.said}
                 file.write(f"{compact(said)}\n".encode())

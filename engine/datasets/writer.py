@@ -157,9 +157,9 @@ class JsonParts:
 
     def __init__(self, folder: str, path: str) -> None:
         target = os.path.join(folder, path)
-        make_folder_of(target)
+        make_folder_of(target, below=folder)
         self._files = AtomicFiles()
-        self._file = self._files.create(target)
+        self._file = self._files.create(target, below=folder)
 
     def __enter__(self) -> JsonParts:
         return self

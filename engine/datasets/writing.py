@@ -52,5 +52,5 @@ def save_files(folder: str, files: Mapping[str, Content]) -> None:
     """Write a picture's files, which appear together, in a folder that is made for them."""
     with AtomicFiles() as parts:
         for target, data in contents(folder, files):
-            make_folder_of(target)
-            parts.create(target).write(data)
+            make_folder_of(target, below=folder)
+            parts.create(target, below=folder).write(data)

@@ -14,10 +14,10 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from .._support.system import READ_WRITE, locked
+from .._support.system import NO_LINK, READ_WRITE, locked
 from ..errors import FileAccessError, FileFormatError, warn
 from ..files import json_records
-from ..files.atomic_write import atomic_write
+from ..files.atomic_write import LEFT_BEHIND, atomic_write
 from ..writers.scene import scene_text
 from .user_folders import cache_folder
 
@@ -106,7 +106,7 @@ class Autosave:
             path = self._owned_path()
             content, _ = scene_text(document.scene, _ROOT)
             saying = {"document": document.path, "time": time.time()}
-            with atomic_write(path) as file:
+            with atomic_write(path, below=self._folder) as file:
                 file.write(b'{"autosave": ' + json.dumps(saying).encode("ascii") + b",\n")
                 file.write(content.removeprefix(b"{\n"))
         except (OSError, FileAccessError) as error:
@@ -128,7 +128,7 @@ class Autosave:
         if self._path is None:
             self._folder.mkdir(mode=0o700, parents=True, exist_ok=True)
             path = self._folder / f"{os.urandom(8).hex()}.e3d.json"
-            flags = READ_WRITE | os.O_CREAT
+            flags = READ_WRITE | os.O_CREAT | NO_LINK
             self._lock = os.open(_lock_of(path), flags, 0o600)
             if not locked(self._lock):
                 raise OSError("another process has locked a name drawn at random")
@@ -143,12 +143,22 @@ def left_behind(folder: str | os.PathLike | None = None) -> tuple[Recovery, ...]
     What editors were about to write when they ended is removed.
     """
     place = _folder() if folder is None else Path(folder)
+    _remove_half_written(place)
     found = []
     for path in sorted(place.glob("*.e3d.json")):
         saying = None if _is_locked(path) else _saying(path)
         if saying is not None:
             found.append(Recovery(str(path), *saying))
     return tuple(sorted(found, key=lambda copy: -copy.time))
+
+
+def _remove_half_written(place: Path) -> None:
+    """Remove what editors were writing when they ended, whoever may still be found by its lock."""
+    for path in place.glob(".*.part"):
+        match = LEFT_BEHIND.fullmatch(path.name)
+        if match is not None and not _is_locked(place / match["name"]):
+            with contextlib.suppress(OSError):
+                path.unlink()
 
 
 def forget(copy: Recovery) -> None:

@@ -94,13 +94,13 @@ def is_golden_file(path: str | os.PathLike) -> bool:
     return start.startswith(png_files.SIGNATURE) and start[_PLACE:] == _IDENTITY
 
 
-def write_golden(path: str, pixels: np.ndarray) -> None:
-    """Write a golden file whole or not at all, with the folders above it.
+def write_golden(path: str, pixels: np.ndarray, *, below: str | None = None) -> None:
+    """Write a golden file whole or not at all, with the folders above it, as `atomic_write`.
 
     Raises `FileAccessError`.
     """
-    make_folder_of(path)
-    with atomic_write(path) as file:
+    make_folder_of(path, below=below)
+    with atomic_write(path, below=below) as file:
         file.write(encode_golden(pixels))
 
 

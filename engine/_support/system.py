@@ -15,6 +15,7 @@ from collections.abc import Callable
 _BINARY = getattr(os, "O_BINARY", 0)  # or else Windows changes the ends of lines
 _OWN = getattr(os, "O_CLOEXEC", getattr(os, "O_NOINHERIT", 0))
 _TAKEN = (errno.EAGAIN, errno.EACCES, errno.EDEADLK)  # what says that another has locked a file
+_NO_SYNC = (errno.EINVAL, errno.ENOSYS, errno.EBADF, errno.EACCES)  # of file systems without it
 
 #: Flags of `os.open`: read bytes, in this process alone.
 READ = os.O_RDONLY | _BINARY | _OWN
@@ -90,6 +91,23 @@ def _lock(handle: int) -> None:
         msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
     else:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+def sync_folder(path: str | None) -> None:
+    """See that the names in a folder are on the disk, where the system can say so."""
+    if path is None or not hasattr(os, "O_DIRECTORY"):
+        return
+    try:
+        handle = os.open(path or os.curdir, os.O_RDONLY | os.O_DIRECTORY | _OWN)
+    except OSError:
+        return  # a folder that may be written to, but not read
+    try:
+        os.fsync(handle)
+    except OSError as error:
+        if error.errno not in _NO_SYNC:
+            raise
+    finally:
+        os.close(handle)
 
 
 def set_mode(handle: int, path: str, mode: int) -> None:

@@ -10,7 +10,7 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from .._support.system import READ_WRITE, locked
+from .._support.system import NO_LINK, READ_WRITE, locked
 from ..errors import FileAccessError
 
 
@@ -25,7 +25,7 @@ def locked_folder(folder: str) -> Iterator[None]:
     """
     path = os.path.join(folder, "lock")
     try:
-        handle = os.open(path, READ_WRITE | os.O_CREAT, 0o666)
+        handle = os.open(path, READ_WRITE | os.O_CREAT | NO_LINK, 0o666)
     except OSError as error:
         raise FileAccessError(f"cannot write: {error.strerror}", path) from error
     try:

@@ -45,7 +45,7 @@ def value_of(key: str, value: Any, number: int) -> Value:
         Its place among the key's values.
     """
     text = str(number)
-    if key in ("model", "script"):
+    if key in ("model", "script") and value is not None:
         text = os.path.splitext(os.path.basename(value))[0]
     elif isinstance(value, Mapping) and isinstance(value.get("name"), str):
         text = value["name"]

@@ -11,6 +11,7 @@ from typing import Any
 from ..datasets.folders import encoded
 from ..datasets.samples import Sample
 from ..datasets.writer import DatasetWriter
+from ..files import json_records as records
 from ..rendering.frame import Frame
 
 
@@ -24,6 +25,7 @@ class PlainWriter(DatasetWriter):
     """
 
     kind = "plain"
+    note_shape = staticmethod(records.one_of(None))
 
     def __init__(self, names: Sequence[str]) -> None:
         self.formats = {name.partition(".")[0]: name.partition(".")[2] for name in names}

@@ -20,6 +20,7 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any
 
+from .._support.side_by_side import Thread
 from .._support.system import kill_group
 from .worker import BEGUN, receive, send
 
@@ -107,7 +108,7 @@ class _Worker:
         self._limit, self._idle = limit, idle
         self._stopped = False
         self.process: subprocess.Popen | None = None
-        self._thread = threading.Thread(target=self._serve, daemon=True)
+        self._thread = Thread(target=self._serve, daemon=True)
         self._thread.start()
 
     def hang_up(self) -> None:
@@ -173,18 +174,19 @@ class _Worker:
         """What the process returns; it is ended if that takes too long."""
         if self._limit is None:
             return receive(process.stdout)
-        is_over = threading.Event()
+        has_answered, is_over = threading.Event(), threading.Event()
 
         def end() -> None:
-            is_over.set()
-            kill_group(process.pid)
+            if not has_answered.wait(self._limit):
+                is_over.set()
+                kill_group(process.pid)
 
-        timer = threading.Timer(self._limit, end)
+        timer = Thread(target=end, daemon=True)
         timer.start()
         try:
             return receive(process.stdout)
         finally:
-            timer.cancel()
+            has_answered.set()
             timer.join()
             if is_over.is_set():
                 raise TimeLimitError(self._limit)

@@ -8,13 +8,15 @@ inputs still hold what the record says.
 from __future__ import annotations
 
 import hashlib
-import json
 import os
 from collections.abc import Mapping
 from typing import Any
 
 from ..datasets.writer import Content, DatasetWriter, Note, contents, own_files
+from ..errors import FileAccessError, FileFormatError, warn
+from ..files import json_records as shapes
 from ..files.atomic_write import AtomicFiles
+from ..files.making_folders import make_folder_of
 from .file_digests import InputFiles, are_as_before
 from .task import Task
 
@@ -32,21 +34,41 @@ def write_picture(
     """Write a picture's files and then its record: all of them, or none."""
     hashes = {path: hashlib.sha256(data).hexdigest() for path, data in own_files(files).items()}
     record = {"key": key, "inputs": inputs.digests(), "files": hashes, "said": said}
-    text = json.dumps(record, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     with AtomicFiles() as parts:
-        whole = {**files, record_path(task): text.encode("utf-8")}
+        whole = {**files, record_path(task): shapes.sealed(record)}
         for target, data in contents(out, whole):
-            os.makedirs(os.path.dirname(target), exist_ok=True)
-            parts.create(target).write(data)
+            make_folder_of(target, below=out)
+            parts.create(target, below=out).write(data)
 
 
-def read_record(out: str, task: Task) -> dict[str, Any] | None:
-    """Return a task's record; None where there is none."""
-    try:
-        with open(os.path.join(out, record_path(task)), encoding="utf-8") as file:
-            return json.load(file)
-    except (OSError, ValueError):
+def read_record(
+    out: str, task: Task, writer: DatasetWriter, *, tell: bool = False
+) -> dict[str, Any] | None:
+    """Return a task's record; None where there is none, or a damaged one: a warning can tell."""
+    path = os.path.join(out, record_path(task))
+    if not os.path.lexists(path):
         return None
+    try:
+        return shapes.read_sealed(path, _record(writer.note_shape))
+    except (FileAccessError, FileFormatError) as error:
+        if tell:
+            warn(f"{error}: the picture is drawn again")
+        return None
+
+
+_DIGEST = shapes.sound_text
+
+
+def _record(said: shapes.Shape) -> shapes.Shape:
+    """The shape of records of pictures of which a writer says something of this shape."""
+    return shapes.members(
+        {
+            "key": shapes.text,
+            "inputs": shapes.mapped(shapes.path_text, shapes.maybe(_DIGEST)),
+            "files": shapes.mapped(shapes.path_inside, _DIGEST),
+            "said": said,
+        }
+    )
 
 
 def note_of(task: Task, record: dict[str, Any]) -> Note:
@@ -56,7 +78,7 @@ def note_of(task: Task, record: dict[str, Any]) -> Note:
 
 def is_done(out: str, task: Task, writer: DatasetWriter) -> bool:
     """Return whether a picture is there, made of what there is now."""
-    record = read_record(out, task)
+    record = read_record(out, task, writer, tell=True)
     if record is None or record["key"] != task.key(writer):
         return False
     note = note_of(task, record)

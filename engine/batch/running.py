@@ -13,7 +13,6 @@ import hashlib
 import math
 import os
 import queue
-import re
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -24,7 +23,9 @@ from .._support.numbers import real, shown
 from ..choices import Backend
 from ..datasets.writer import DatasetWriter, Note
 from ..errors import FileAccessError, InvalidArgumentError, warn
+from ..files.atomic_write import LEFT_BEHIND
 from ..files.hashing import hash_of_file
+from ..files.making_folders import make_folder_of
 from ..rendering.backend_selection import resolve_backend
 from ..version import __version__
 from .drawing import How, Outcome, draw_chunk, writer_of
@@ -39,7 +40,6 @@ from .task import Task
 _MOST_IN_CHUNK = 256
 _TRIES = 3
 _NAMED = 4  # of the pictures that a process may have been drawing when it died
-_LEFT_BEHIND = re.compile(r"\..*\.[0-9a-f]{16}\.part")
 
 
 def run(
@@ -135,10 +135,9 @@ def _numbered(tasks: Iterable[Task]) -> list[Task]:
 
 
 def _make(folder: str) -> None:
-    try:
-        os.makedirs(os.path.join(folder, FOLDER), exist_ok=True)
-    except OSError as error:
-        raise FileAccessError(f"cannot write: {error.strerror}", folder) from error
+    lock = os.path.join(folder, FOLDER, "lock")
+    make_folder_of(folder)
+    make_folder_of(lock, below=folder)
 
 
 class _Run:
@@ -262,8 +261,9 @@ class _Notes:
     def records(self) -> Iterator[tuple[Task, dict[str, Any]]]:
         """The pictures that are there, each with its record."""
         for task in self._tasks:
-            record = read_record(self._how.out, task)
-            if record is not None and record["key"] == task.key(writer_of(task, self._how.writer)):
+            writer = writer_of(task, self._how.writer)
+            record = read_record(self._how.out, task, writer)
+            if record is not None and record["key"] == task.key(writer):
                 yield task, record
 
 
@@ -272,7 +272,7 @@ def _finish(tasks: Sequence[Task], how: How) -> str:
     notes, whole = _Notes(tasks, how), []
     if how.writer is not None:
         whole = list(how.writer.finish(how.out, notes))
-    hashes = {p: hash_of_file(f"{how.out}/{p}", hashlib.sha256()) for p in whole}
+    hashes = {p: _digest(f"{how.out}/{p}") for p in whole}
     for _, record in notes.records():
         files = record["files"].items()
         # What is not there is within one of the files of the whole.
@@ -280,9 +280,16 @@ def _finish(tasks: Sequence[Task], how: How) -> str:
     return write_sums(how.out, hashes.items())
 
 
+def _digest(path: str) -> str:
+    try:
+        return hash_of_file(path, hashlib.sha256())
+    except OSError as error:
+        raise FileAccessError(f"cannot read: {error.strerror}", path) from error
+
+
 def _remove_left_behind(folder: str) -> None:
     """Remove what processes that were killed were writing."""
     for place, _, names in os.walk(folder):
-        for name in filter(_LEFT_BEHIND.fullmatch, names):
+        for name in filter(LEFT_BEHIND.fullmatch, names):
             with contextlib.suppress(OSError):
                 os.unlink(os.path.join(place, name))

@@ -64,6 +64,6 @@ def write_sums(folder: str, hashes: Iterable[tuple[str, str]]) -> str:
     """
     lines = [f"{digest}  {path}\n" for path, digest in hashes]
     data = "".join(sorted(lines, key=lambda line: line[66:])).encode("utf-8")
-    with atomic_write(os.path.join(folder, SUMS)) as file:
+    with atomic_write(os.path.join(folder, SUMS), below=folder) as file:
         file.write(data)
     return hashlib.sha256(data).hexdigest()

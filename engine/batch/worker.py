@@ -17,8 +17,9 @@ import queue
 import signal
 import struct
 import sys
-import threading
 from typing import Any, BinaryIO
+
+from .._support.side_by_side import Thread
 
 LENGTH = struct.Struct("<Q")
 BEGUN = "begun"
@@ -59,7 +60,7 @@ def main(idle: float | None = None) -> None:
     calls: queue.SimpleQueue = queue.SimpleQueue()
     try:
         # Whoever asks may be gone already: what listens stops this thread at once then.
-        threading.Thread(target=_listen, args=(sys.stdin.buffer, calls), daemon=True).start()
+        Thread(target=_listen, args=(sys.stdin.buffer, calls), daemon=True).start()
         patience = None  # the first call is on its way
         while (call := calls.get(timeout=patience)) is not None:
             patience = idle

@@ -12,7 +12,7 @@ import os
 import sys
 from collections.abc import Iterator, Sequence
 
-from ..errors import FileAccessError, FileFormatError
+from ..errors import FileFormatError
 from . import suggestions
 from .scene_options import OF_MODELS
 from .usage import UsageError
@@ -224,22 +224,9 @@ def _counts(patterns, models: Sequence[str], place: str, path: str) -> bool:
 
 
 def _read(path: str) -> list:
-    import json
+    from ..files.json_records import parsed, read_small
 
-    try:
-        with open(path, "rb") as file:
-            data = file.read(_LARGEST + 1)
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise FileAccessError(f"cannot read: {reason}", path) from error
-    if len(data) > _LARGEST:
-        raise FileFormatError(f"larger than {_LARGEST} bytes", path)
-    try:
-        tree = json.loads(data)
-    except json.JSONDecodeError as error:
-        raise FileFormatError(f"not JSON: {error.msg}", path, error.lineno) from error
-    except (ValueError, RecursionError) as error:
-        raise FileFormatError("not JSON", path) from error
+    tree = parsed(read_small(path, _LARGEST, regular=False), path)
     if not isinstance(tree, list):
         raise FileFormatError("a list of entries is needed", path)
     return tree

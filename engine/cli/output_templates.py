@@ -1,7 +1,9 @@
 """Names of outputs with variables in them, such as ``{model}_{n}.png``.
 
 In: what ``-o`` was given, and the model's name. Out: the name of a file. Places for the numbers of
-frames, ``%04d`` and ``{:04}``, stay. Variables follow f3d.
+frames, ``%04d`` and ``{:04}``, stay; ``{{``, ``}}`` and ``%%04d`` stand for ``{``, ``}`` and
+``%04d``. What variables stand for is never a pattern, whatever letters it has. The variables are
+those of f3d.
 """
 
 from __future__ import annotations
@@ -11,30 +13,35 @@ import re
 import time
 from collections.abc import Sequence
 
+from ..files.frame_names import FRAME_NUMBER, FrameName, joined_name
 from ..version import __version__
 from .usage import UsageError
 
 _MODEL = ("model", "model.ext", "model_ext")
 #: All variables; some take more behind a colon.
 VARIABLES = ("app", "version", *_MODEL, "folder", "date", "n")
-_FIELD = re.compile(r"\{\{|\}\}|\{(?P<name>[^{}:]+)(?::(?P<more>[^{}]*))?\}")
+_BRACES = re.compile(r"\{\{|\}\}")
+_FIELD = re.compile(r"\{(?P<name>[^{}:]+)(?::(?P<more>[^{}]*))?\}")
+_DIGITS = re.compile(r"[0-9]{0,2}")
+_WIDE = re.compile(r"%[^a-zA-Z%]*[0-9]{3}")  # fields of dates that are filled up without an end
 _MOST_NUMBERS = 1_000_000
 
 
 def names_the_model(output: str | None) -> bool:
     """Return whether a name is another one for each model."""
-    return output is not None and any(
-        match["name"] in (*_MODEL, "folder", "n") for match in _FIELD.finditer(output)
-    )
+    fields = () if output is None else (p for p in _pieces(output) if not isinstance(p, str))
+    return any(_name_of(match) in (*_MODEL, "folder", "n") for match in fields)
 
 
-def fill(output: str | None, model: str, taken: Sequence = (), folder: str = "") -> str | None:
+def fill(
+    output: str | None, model: str, taken: Sequence = (), folder: str = ""
+) -> FrameName | None:
     """Return a name whose variables are filled in.
 
     Parameters
     ----------
     output : str or None
-        What has none stays, and so does None.
+        None stays.
     model : str
         Path of the model, or what is shown instead.
     taken : sequence of str
@@ -45,13 +52,13 @@ def fill(output: str | None, model: str, taken: Sequence = (), folder: str = "")
     Raises
     ------
     UsageError
-        There is no such variable, or a brace stands alone.
+        There is no such variable, or a brace stands alone; or no number is left.
     """
-    if output is None or not {"{", "}"} & set(output):
-        return output
-    _check_braces(output)
+    if output is None:
+        return None
     if not folder:
         output = output.replace("{folder}/", "")  # without its slash, which begins the root
+    pieces = _pieces(output)
     stem, extension = os.path.splitext(os.path.basename(model))
     said = {
         "app": "engine3d",
@@ -61,39 +68,79 @@ def fill(output: str | None, model: str, taken: Sequence = (), folder: str = "")
         "model_ext": extension.removeprefix("."),
         "folder": folder,
     }
-    number = None
-
-    def value(match: re.Match) -> str:
-        name, more = match["name"], match["more"]
-        if name is None:
-            return match[0][0]
-        if name in said and more is None:
-            return said[name]
-        if name == "date":
-            return time.strftime(more or "%Y%m%d")
-        if name == "n" and (more or "0").isdigit():
-            return "{n}" if number is None else f"{number:0{int(more or 0)}d}"
-        known = ", ".join(f"{{{known}}}" for known in VARIABLES)
-        raise UsageError(f"-o: there is no variable {match[0]}; there are {known}")
-
-    filled = _FIELD.sub(value, output)
-    if "{n}" not in filled:
-        return filled
-    for number in range(1, _MOST_NUMBERS):  # noqa: B007 - `value` reads it
-        filled = _FIELD.sub(value, output)
+    if not any(_name_of(piece) == "n" for piece in pieces):
+        return _filled(pieces, said, 0)
+    for number in range(1, _MOST_NUMBERS):
+        filled = _filled(pieces, said, number)
         if filled not in taken and not os.path.exists(filled):
-            break
-    return filled
+            return filled
+    raise UsageError(f"-o {output}: there are files of all numbers up to {_MOST_NUMBERS - 1:,}")
 
 
-def _check_braces(output: str) -> None:
+def _pieces(output: str) -> list[str | re.Match]:
+    """A name as texts, variables and places for a frame's number, in their order."""
+    pieces: list[str | re.Match] = []
+    place = 0
+    while place < len(output):
+        braces, frame, field = (
+            pattern.match(output, place) for pattern in (_BRACES, FRAME_NUMBER, _FIELD)
+        )
+        if braces is not None:
+            pieces.append(braces[0][0])
+            place = braces.end()
+        elif frame is not None and frame["escaped"] is not None:
+            pieces.append(frame[0][1:])
+            place = frame.end()
+        elif (match := frame or field) is not None:
+            pieces.append(match)
+            place = match.end()
+        else:
+            _check_brace(output, place)
+            pieces.append(output[place])
+            place += 1
+    return pieces
+
+
+def _check_brace(output: str, place: int) -> None:
     """Raise `UsageError` if a brace neither belongs to a variable nor is written twice."""
-    from ..files.animation_files import FRAME_NUMBER
+    brace = output[place]
+    if brace in "{}":
+        other = "}" if brace == "{" else "{"
+        raise UsageError(
+            f"-o: {brace!r} without {other!r} in {output!r}: a variable is {{model}}, and "
+            f"{2 * brace} stands for {brace}"
+        )
 
-    rest = FRAME_NUMBER.sub("", _FIELD.sub("", output))
-    for brace, other in ("{}", "}{"):
-        if brace in rest:
-            raise UsageError(
-                f"-o: {brace!r} without {other!r} in {output!r}: a variable is {{model}}, and "
-                f"{2 * brace} stands for {brace}"
-            )
+
+def _name_of(piece: str | re.Match) -> str | None:
+    """The name of a variable; None of what is none."""
+    return piece.groupdict().get("name") if isinstance(piece, re.Match) else None
+
+
+def _filled(pieces: list[str | re.Match], said: dict[str, str], number: int) -> FrameName:
+    return joined_name(
+        [piece if _name_of(piece) is None else _value(piece, said, number) for piece in pieces]
+    )
+
+
+def _value(match: re.Match, said: dict[str, str], number: int) -> str:
+    """What a variable stands for."""
+    name, more = match["name"], match["more"]
+    if name in said and more is None:
+        return said[name]
+    if name == "date":
+        return _date(more or "%Y%m%d", match)
+    if name == "n" and _DIGITS.fullmatch(more or ""):
+        return f"{number:0{int(more or 0)}d}"
+    known = ", ".join(f"{{{known}}}" for known in VARIABLES)
+    digits = "; behind {n: stand up to two digits" if name == "n" else ""
+    raise UsageError(f"-o: there is no variable {match[0]}; there are {known}{digits}")
+
+
+def _date(form: str, match: re.Match) -> str:
+    try:
+        if _WIDE.search(form):
+            raise ValueError("its fields have up to two digits")
+        return time.strftime(form)
+    except ValueError as error:  # of which kind are those of texts that cannot be encoded
+        raise UsageError(f"-o: {match[0]} is no date: {error}") from None

@@ -44,10 +44,10 @@ def check_animation(output: str, *, transparent: bool = False) -> None:
         OPAQUE_SUFFIXES,
         PICTURE_SUFFIXES,
         VIDEO_SUFFIX,
-        is_numbered,
     )
+    from ..files.frame_names import frame_name
 
-    if is_numbered(output):
+    if frame_name(output).place is not None:
         extension = check_output(output, PICTURE_SUFFIXES, "a numbered picture").lower()
     else:
         extension = check_output(output, ANIMATION_SUFFIXES, "an animation").lower()
@@ -61,9 +61,10 @@ def check_animation(output: str, *, transparent: bool = False) -> None:
 
 def check_picture(output: str, *, transparent: bool = False, series: str) -> None:
     """Raise, before any work, if a picture cannot be written; ``series`` makes several."""
-    from ..files.animation_files import OPAQUE_SUFFIXES, PICTURE_SUFFIXES, is_numbered
+    from ..files.animation_files import OPAQUE_SUFFIXES, PICTURE_SUFFIXES
+    from ..files.frame_names import frame_name
 
-    if is_numbered(output):
+    if frame_name(output).place is not None:
         raise UsageError(f"{output!r} has a place for numbers: several pictures come of {series}")
     extension = check_output(output, PICTURE_SUFFIXES, "a picture").lower()
     if transparent and extension in OPAQUE_SUFFIXES:

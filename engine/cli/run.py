@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ..errors import DisplayError
 from ..files.animation_files import numbered_path, save_animation
+from ..files.frame_names import literal_name
 from ..files.making_folders import make_folder_of
 from ..viewer import headless
 from ..viewer.view_renderer import ViewRenderer
@@ -167,7 +168,7 @@ def _window(args: argparse.Namespace, viewed):
 def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report) -> int:
     """Write an animation instead, and say where; ``reason`` tells why no window opened."""
     count = args.frames or FILE_FRAMES
-    path = Path(args.output) if args.output else _new_path(viewed, count)
+    path = args.output or literal_name(_new_path(viewed, count))
     if reason is not None:
         remark(f"{reason}: rendering a turntable to {path} instead")
     with _view_renderer(args, viewed, FILE_SIZE, "msaa", FILE_SAMPLES, report) as view_renderer:

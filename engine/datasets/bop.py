@@ -25,7 +25,8 @@ from .. import linalg
 from .._support.numbers import shown
 from .._support.validation import positive
 from ..errors import InvalidArgumentError
-from .bop_models import has_shapes, shape_of, write_models
+from ..files import json_records as records
+from .bop_models import has_shapes, shape_name, shape_of, write_models
 from .cameras import cv_from_camera, intrinsics_of, rigid_parts
 from .opaque_png import color_png, grey_png, mask_png
 from .samples import Sample, Thing, box_of
@@ -43,6 +44,39 @@ from .writer import (
 
 _DEEPEST = 65535
 _NOWHERE = [-1, -1, -1, -1]
+_ROTATION, _PLACE = records.listed(records.number, 9), records.listed(records.number, 3)
+_BOX = records.listed(records.whole, 4)
+_CAMERA = {
+    "cam_K": records.listed(records.number, 9),
+    "depth_scale": records.number,
+    "cam_R_w2c": _ROTATION,
+    "cam_t_w2c": _PLACE,
+}
+_INFO = {
+    "bbox_obj": _BOX,
+    "bbox_visib": _BOX,
+    "px_count_all": records.count,
+    "px_count_valid": records.count,
+    "px_count_visib": records.count,
+    "visib_fract": records.number,
+}
+_NOTE = records.members(
+    {
+        "camera": records.members(_CAMERA),
+        "size": records.row(records.count, records.count),
+        "shapes": records.listed(records.maybe(shape_name)),
+        "truth": records.listed(records.row(records.sound_text, _ROTATION, _PLACE)),
+        "info": records.listed(records.members(_INFO)),
+    }
+)
+
+
+def _note_shape(value: Any) -> str | None:
+    """A note of a picture: as many shapes as poses and counts."""
+    where = _NOTE(value)
+    if where is None and len({len(value[key]) for key in ("shapes", "truth", "info")}) > 1:
+        return ""
+    return where
 
 
 class BopWriter(DatasetWriter):
@@ -69,6 +103,7 @@ class BopWriter(DatasetWriter):
 
     kind = "bop"
     outputs = ("color", "depth", "object_id")
+    note_shape = staticmethod(_note_shape)
 
     def __init__(
         self,

@@ -10,25 +10,40 @@ Source: docs/bop_datasets_format.md and scripts/calc_model_info.py of bop_toolki
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import io
 import json
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .. import linalg
-from ..errors import warn
+from ..errors import FileAccessError, FileFormatError, warn
+from ..files import json_records
 from ..files.atomic_write import atomic_write
+from ..files.hashing import hash_of_file
+from ..files.making_folders import make_folder_of
+from ..files.stamps import FileStamp, file_stamp
 from ..geometry.mesh import Mesh
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..writers.rows import write_float_rows, write_integers
 from .samples import Thing
+from .writer import Shared
 
 STORE = ".models"  # shapes by their hashes: what finished pictures rely on when a batch is resumed
+_HEXADECIMAL, _DIGITS = "0123456789abcdef", 32
+_SIZES = tuple(f"{what}_{axis}" for axis in "xyz" for what in ("min", "size"))
+_RECORD = json_records.members(
+    {
+        "ply": json_records.sound_text,
+        "info": json_records.members(dict.fromkeys(("diameter", *_SIZES), json_records.number)),
+    }
+)
 _BLOCK = 256  # points whose distances are found together
 _HEADER = """ply
 format ascii 1.0
@@ -46,7 +61,13 @@ end_header
 """
 
 
-def shape_of(thing: Thing, millimetres: float) -> tuple[str | None, dict[str, Callable[[], bytes]]]:
+def shape_name(value: Any) -> str | None:
+    """The shape of a shape's name, as `json_records` has shapes."""
+    is_name = isinstance(value, str) and len(value) == _DIGITS and set(value) <= set(_HEXADECIMAL)
+    return None if is_name else ""
+
+
+def shape_of(thing: Thing, millimetres: float) -> tuple[str | None, dict[str, Shared]]:
     """Return the hash of a thing's shape, None without triangles, and the files of that shape.
 
     Parameters
@@ -59,7 +80,7 @@ def shape_of(thing: Thing, millimetres: float) -> tuple[str | None, dict[str, Ca
     placed = [(mesh, pose) for mesh, pose in placed if len(mesh.faces)]
     if not placed:
         return None, {}
-    digest = hashlib.blake2b(repr(millimetres).encode(), digest_size=16)
+    digest = hashlib.blake2b(repr(millimetres).encode(), digest_size=_DIGITS // 2)
     for mesh, pose in placed:
         arrays = (pose, mesh.positions, mesh.faces, *([mesh.normals] * mesh.has_normals))
         for array in arrays:
@@ -71,17 +92,51 @@ def shape_of(thing: Thing, millimetres: float) -> tuple[str | None, dict[str, Ca
         meshes, poses = zip(*placed, strict=True)
         return Mesh.concatenate(meshes, poses=poses).with_creases()
 
+    @functools.cache
+    def ply() -> bytes:
+        return _ply(joined(), millimetres)
+
+    def record() -> bytes:
+        said = {"ply": hashlib.sha256(ply()).hexdigest(), "info": _info(joined(), millimetres)}
+        return json_records.sealed(said)
+
     path = f"{STORE}/{name}"
     return name, {
-        f"{path}.ply": lambda: _ply(joined(), millimetres),
-        f"{path}.json": lambda: json.dumps(_info(joined(), millimetres)).encode(),
+        f"{path}.ply": Shared(ply, lambda target: _info_of(target) is not None),
+        f"{path}.json": Shared(record, lambda target: _info_of(target) is not None),
     }
 
 
 def has_shapes(folder: str, names: Iterable[str | None]) -> bool:
-    """Return whether these shapes are in a data set's folder."""
+    """Return whether these shapes are in a data set's folder, whole."""
     paths = (os.path.join(folder, STORE, f"{name}.json") for name in set(names) - {None})
-    return all(map(os.path.exists, paths))
+    return all(_info_of(path) is not None for path in paths)
+
+
+def _info_of(path: str) -> dict[str, float] | None:
+    """What is known of a shape, either of whose files this is; None if one of them is not whole."""
+    stem = os.path.splitext(path)[0]
+    stamps = file_stamp(f"{stem}.json"), file_stamp(f"{stem}.ply")
+    return None if None in stamps else _checked_info(stem, stamps)
+
+
+@functools.lru_cache(256)
+def _checked_info(stem: str, stamps: tuple[FileStamp | None, ...]) -> dict[str, float] | None:
+    path = f"{stem}.json"
+    try:
+        record = json_records.read_sealed(path, _RECORD)
+        if hash_of_file(f"{stem}.ply", hashlib.sha256()) == record["ply"]:
+            return record["info"]
+        path, error = f"{stem}.ply", "damaged: not what its record says"
+    except (FileAccessError, FileFormatError) as problem:
+        return _damaged(str(problem))
+    except OSError as problem:
+        error = f"cannot read: {problem.strerror}"
+    return _damaged(f"{path}: {error}")
+
+
+def _damaged(reason: str) -> None:
+    warn(f"{reason}: the shape is written again")
 
 
 def write_models(
@@ -108,8 +163,10 @@ def write_models(
         if name is None or others:
             continue
         number, store = numbers[category], os.path.join(folder, STORE, name)
-        with open(f"{store}.json", encoding="utf-8") as file:
-            infos[str(number)] = json.load(file)
+        info = _info_of(f"{store}.json")
+        if info is None:
+            raise FileFormatError("damaged while the data set was made", f"{store}.json")
+        infos[str(number)] = info
         with open(f"{store}.ply", "rb") as file:
             yield _written(folder, f"models/obj_{number:06d}.ply", file.read())
     if infos:
@@ -136,8 +193,8 @@ def _warn_of_lacking(found: dict[str, set[str | None]]) -> None:
 
 def _written(folder: str, path: str, data: bytes) -> str:
     target = os.path.join(folder, path)
-    os.makedirs(os.path.dirname(target), exist_ok=True)
-    with atomic_write(target) as file:
+    make_folder_of(target, below=folder)
+    with atomic_write(target, below=folder) as file:
         file.write(data)
     return path
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
+from ..files import json_records as records
 from ..rendering.frame import Output
 from ..rendering.options import check_outputs
 from .folders import encoded
@@ -28,6 +29,10 @@ from .writer import (
 )
 
 ANNOTATIONS = "annotations.json"
+_SIZE = records.row(records.count, records.count)
+_MASK = records.members({"size": _SIZE, "counts": records.sound_text})
+_BOX = records.listed(records.count, 4)
+_THING = records.row(records.sound_text, _MASK, records.count, _BOX)
 
 
 class CocoWriter(DatasetWriter):
@@ -47,6 +52,9 @@ class CocoWriter(DatasetWriter):
     """
 
     kind = "coco"
+    note_shape = staticmethod(
+        records.members({"size": _SIZE, "things": records.listed(_THING)}),
+    )
 
     def __init__(
         self, categories: Sequence[str] | None = None, outputs: Sequence[Output] = ("color",)

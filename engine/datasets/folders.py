@@ -14,13 +14,27 @@ from typing import Any
 
 import numpy as np
 
+from ..files import json_records as records
 from ..files.atomic_write import atomic_write
+from ..files.making_folders import make_folder_of
 from ..rendering.frame import Frame, Output
 from ..rendering.options import check_outputs
 from .samples import Sample
 from .writer import DatasetWriter, Note, compact
 
 PICTURES = "pictures.jsonl"
+_MATRIX = records.listed(records.listed(records.number, 4), 4)
+_THING = {
+    "category": records.sound_text,
+    "ids": records.listed(records.count),
+    "world_from_object": _MATRIX,
+}
+_NOTE = {
+    "size": records.row(records.count, records.count),
+    "seed": records.anything,
+    "camera": records.members({"world_from_camera": _MATRIX, "clip_from_camera": _MATRIX}),
+    "things": records.listed(records.members(_THING)),
+}
 
 
 class FolderWriter(DatasetWriter):
@@ -37,6 +51,7 @@ class FolderWriter(DatasetWriter):
     """
 
     kind = "folders"
+    note_shape = staticmethod(records.members(_NOTE))
 
     def __init__(self, outputs: Sequence[Output] = ("color", "depth", "object_id")) -> None:
         self.outputs = check_outputs(outputs)
@@ -49,8 +64,9 @@ class FolderWriter(DatasetWriter):
         return files, said_of(sample)
 
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
-        os.makedirs(folder, exist_ok=True)
-        with atomic_write(os.path.join(folder, PICTURES)) as file:
+        target = os.path.join(folder, PICTURES)
+        make_folder_of(target)
+        with atomic_write(target, below=folder) as file:
             for note in notes:
                 said = {"name": note.name, "files": note.files, **note.said}
                 file.write(f"{compact(said)}\n".encode())

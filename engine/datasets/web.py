@@ -19,7 +19,8 @@ from typing import Any
 
 from .._support.numbers import shown
 from ..errors import InvalidArgumentError
-from ..files.atomic_write import atomic_write
+from ..files import json_records as records
+from ..files.atomic_write import atomic_write, path_below
 from ..rendering.frame import Output
 from ..rendering.options import check_outputs
 from .folders import encoded, json_line, said_of
@@ -45,6 +46,7 @@ class WebDatasetWriter(DatasetWriter):
     """
 
     kind = "webdataset"
+    note_shape = staticmethod(records.one_of(None))
 
     def __init__(self, outputs: Sequence[Output] = ("color",), shard: int = 1000) -> None:
         self.outputs = check_outputs(outputs)
@@ -96,7 +98,7 @@ class WebDatasetWriter(DatasetWriter):
         """Write the tar file of some pictures, whose loose files then go."""
         path = self._shard_of(notes[0])
         paths = [(note, name) for note in notes for name in sorted(note.files)]
-        with atomic_write(os.path.join(folder, path)) as file:
+        with atomic_write(os.path.join(folder, path), below=folder) as file:
             with tarfile.open(fileobj=file, mode="w", format=tarfile.USTAR_FORMAT) as tar:
                 for note, name in paths:
                     data = self.stored(folder, note, name) or b""
@@ -105,7 +107,7 @@ class WebDatasetWriter(DatasetWriter):
                     tar.addfile(entry, io.BytesIO(data))
         for _, name in paths:
             with contextlib.suppress(FileNotFoundError):
-                os.unlink(os.path.join(folder, name))
+                os.unlink(path_below(os.path.join(folder, name), folder))
         return path
 
 

@@ -15,6 +15,8 @@ from typing import Any, ClassVar, NamedTuple, TypeAlias
 
 from ..errors import InvalidArgumentError
 from ..files.atomic_write import AtomicFiles
+from ..files.json_records import Shape, anything
+from ..files.making_folders import make_folder_of
 from ..rendering.frame import Output
 from .samples import Sample
 
@@ -38,8 +40,23 @@ class Note(NamedTuple):
     said: Any
 
 
-#: What a file holds, or what makes it.
-Content: TypeAlias = bytes | Callable[[], bytes]
+class Shared(NamedTuple):
+    """A file that belongs to several pictures, and whose path tells what it holds.
+
+    Attributes
+    ----------
+    make : callable
+        Returns the bytes.
+    is_whole : callable
+        Returns whether a path holds them.
+    """
+
+    make: Callable[[], bytes]
+    is_whole: Callable[[str], bool]
+
+
+#: What a file holds, or what makes it where it is not there yet.
+Content: TypeAlias = bytes | Shared
 
 
 def own_files(files: Mapping[str, Content]) -> dict[str, bytes]:
@@ -53,8 +70,8 @@ def contents(folder: str, files: Mapping[str, Content]) -> Iterator[tuple[str, b
         target = os.path.join(folder, path)
         if isinstance(data, bytes):
             yield target, data
-        elif not os.path.exists(target):
-            yield target, data()
+        elif not data.is_whole(target):
+            yield target, data.make()
 
 
 class DatasetWriter(ABC):
@@ -68,17 +85,20 @@ class DatasetWriter(ABC):
         Its name in manifests.
     outputs : tuple of str
         What frames must hold.
+    note_shape : callable
+        The shape of what `describe` says of a picture (`engine3d.files.json_records`), by which a
+        note that was stored is known to be whole.
     """
 
     kind: ClassVar[str]
+    note_shape: ClassVar[Shape] = staticmethod(anything)
     outputs: tuple[Output, ...] = ("color",)
 
     @abstractmethod
     def describe(self, sample: Sample) -> tuple[dict[str, Content], Any]:
         """Return a picture's files, by their paths in the data set, and a note for `finish`.
 
-        Files that are functions belong to several pictures, and their paths tell what they hold:
-        they are made where they are not there yet.
+        Those that are `Shared` are made where they are not there yet, or are damaged.
         """
 
     def is_whole(self, folder: str, note: Note) -> bool:
@@ -137,9 +157,9 @@ class JsonParts:
 
     def __init__(self, folder: str, path: str) -> None:
         target = os.path.join(folder, path)
-        os.makedirs(os.path.dirname(target), exist_ok=True)
+        make_folder_of(target, below=folder)
         self._files = AtomicFiles()
-        self._file = self._files.create(target)
+        self._file = self._files.create(target, below=folder)
 
     def __enter__(self) -> JsonParts:
         return self

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping
 
 from ..errors import InvalidArgumentError
 from ..files.atomic_write import AtomicFiles
+from ..files.making_folders import make_folder_of
 from .samples import Sample
 from .writer import Content, DatasetWriter, Note, contents, own_files
 
@@ -51,5 +52,5 @@ def save_files(folder: str, files: Mapping[str, Content]) -> None:
     """Write a picture's files, which appear together, in a folder that is made for them."""
     with AtomicFiles() as parts:
         for target, data in contents(folder, files):
-            os.makedirs(os.path.dirname(target), exist_ok=True)
-            parts.create(target).write(data)
+            make_folder_of(target, below=folder)
+            parts.create(target, below=folder).write(data)

@@ -12,11 +12,12 @@ import json
 import os
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from .._support.system import READ_WRITE, locked
-from ..errors import FileAccessError
-from ..files.atomic_write import atomic_write
+from .._support.system import NO_LINK, READ_WRITE, locked
+from ..errors import FileAccessError, FileFormatError, warn
+from ..files import json_records
+from ..files.atomic_write import LEFT_BEHIND, atomic_write
 from ..writers.scene import scene_text
 from .user_folders import cache_folder
 
@@ -25,6 +26,16 @@ if TYPE_CHECKING:
 
 #: Seconds between two copies of a scene that goes on changing.
 PERIOD = 30.0
+_HEAD = json_records.members(
+    {
+        "autosave": json_records.members(
+            {
+                "document": json_records.maybe(json_records.path_text),
+                "time": json_records.time_of_day,
+            }
+        )
+    }
+)
 _ROOT = "/"  # what a copy names is named from here, so that it may stand anywhere
 
 
@@ -95,7 +106,7 @@ class Autosave:
             path = self._owned_path()
             content, _ = scene_text(document.scene, _ROOT)
             saying = {"document": document.path, "time": time.time()}
-            with atomic_write(path) as file:
+            with atomic_write(path, below=self._folder) as file:
                 file.write(b'{"autosave": ' + json.dumps(saying).encode("ascii") + b",\n")
                 file.write(content.removeprefix(b"{\n"))
         except (OSError, FileAccessError) as error:
@@ -117,7 +128,7 @@ class Autosave:
         if self._path is None:
             self._folder.mkdir(mode=0o700, parents=True, exist_ok=True)
             path = self._folder / f"{os.urandom(8).hex()}.e3d.json"
-            flags = READ_WRITE | os.O_CREAT
+            flags = READ_WRITE | os.O_CREAT | NO_LINK
             self._lock = os.open(_lock_of(path), flags, 0o600)
             if not locked(self._lock):
                 raise OSError("another process has locked a name drawn at random")
@@ -127,14 +138,27 @@ class Autosave:
 
 
 def left_behind(folder: str | os.PathLike | None = None) -> tuple[Recovery, ...]:
-    """Return the copies of editors that ended without saving or discarding, the latest first."""
+    """Return the copies of editors that ended without saving or discarding, the latest first.
+
+    What editors were about to write when they ended is removed.
+    """
     place = _folder() if folder is None else Path(folder)
+    _remove_half_written(place)
     found = []
     for path in sorted(place.glob("*.e3d.json")):
         saying = None if _is_locked(path) else _saying(path)
         if saying is not None:
             found.append(Recovery(str(path), *saying))
     return tuple(sorted(found, key=lambda copy: -copy.time))
+
+
+def _remove_half_written(place: Path) -> None:
+    """Remove what editors were writing when they ended, whoever may still be found by its lock."""
+    for path in place.glob(".*.part"):
+        match = LEFT_BEHIND.fullmatch(path.name)
+        if match is not None and not _is_locked(place / match["name"]):
+            with contextlib.suppress(OSError):
+                path.unlink()
 
 
 def forget(copy: Recovery) -> None:
@@ -147,12 +171,9 @@ def content_of(copy: Recovery) -> tuple[str, bytes]:
 
     Raises
     ------
-    FileAccessError
+    FileAccessError, FileFormatError
     """
-    try:
-        data = Path(copy.path).read_bytes()
-    except OSError as error:
-        raise FileAccessError(f"cannot read: {error.strerror}", copy.path) from error
+    data = json_records.read_small(copy.path)
     return os.path.join(_ROOT, os.path.basename(copy.path)), b"{" + data.partition(b"\n")[2]
 
 
@@ -177,15 +198,17 @@ def _is_locked(path: Path) -> bool:
 
 
 def _saying(path: Path) -> tuple[str | None, float] | None:
-    """What the first line of a copy says: which document it is of, and when it was made."""
+    """What the first line of a copy says: which document it is of, and when it was made.
+
+    None for a copy that cannot be read, of which a warning tells.
+    """
     try:
-        with open(path, "rb") as file:
-            line = file.readline(1 << 16)
-        saying: Any = json.loads(line.removesuffix(b",\n") + b"}")["autosave"]
-        document, made = saying["document"], float(saying["time"])
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        line = json_records.read_small(path).partition(b"\n")[0]
+        head = json_records.parsed(line.removesuffix(b",") + b"}", str(path), _HEAD)["autosave"]
+    except (FileAccessError, FileFormatError) as error:
+        warn(f"{error}: this copy of what was not saved is passed over")
         return None
-    return document if isinstance(document, str) else None, made
+    return head["document"], float(head["time"])
 
 
 def _remove(path: Path) -> None:

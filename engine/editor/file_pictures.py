@@ -15,6 +15,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from .._support.side_by_side import Thread
 from ..loaders import formats
 from ..loaders.loading import document_of, texture_of
 from ..loaders.sources import read_source, stem_and_extension
@@ -46,7 +47,7 @@ class FilePictures:
         self._pictures: OrderedDict[tuple, NDArray[np.uint8] | None] = OrderedDict()
         self._wanted: tuple | None = None
         self._changed = threading.Condition()
-        self._thread: threading.Thread | None = None
+        self._thread: Thread | None = None
 
     def get(self, path: str) -> tuple[NDArray[np.uint8] | None, bool]:
         """Return the picture of a file, (size, size, 4) uint8, and whether it is still to come."""
@@ -59,7 +60,7 @@ class FilePictures:
                 return self._pictures[key], False
             self._wanted = key
             if self._thread is None:
-                self._thread = threading.Thread(target=self._work, daemon=True)
+                self._thread = Thread(target=self._work, daemon=True)
                 self._thread.start()
             self._changed.notify()
         return None, True

@@ -1,7 +1,7 @@
 """The files that were opened lately, over all runs of the editor.
 
 In: paths. Out: the same, the latest first, of those that are still there. What is stored is only
-for convenience: a list that is damaged or cannot be written is no error.
+for convenience: a list that is damaged is a warning, one that cannot be written nothing at all.
 """
 
 from __future__ import annotations
@@ -11,11 +11,13 @@ import json
 import os
 from pathlib import Path
 
-from ..errors import FileAccessError
+from ..errors import FileAccessError, FileFormatError, warn
+from ..files import json_records
 from ..files.atomic_write import atomic_write
 from .user_folders import state_folder
 
 MOST = 20
+_LIST = json_records.listed(json_records.path_text)
 
 
 class RecentFiles:
@@ -29,6 +31,7 @@ class RecentFiles:
 
     def __init__(self, path: str | os.PathLike[str] | None = None) -> None:
         self._path = state_folder() / "recent.json" if path is None else Path(path)
+        self._told = False
 
     def paths(self) -> tuple[str, ...]:
         """Return the paths of the files that are there, the latest first."""
@@ -44,12 +47,15 @@ class RecentFiles:
         self._store([])
 
     def _stored(self) -> list[str]:
-        try:
-            paths = json.loads(self._path.read_text(encoding="utf-8"))
-        except (OSError, ValueError, RecursionError):
+        if not os.path.lexists(self._path):
             return []
-        is_list = isinstance(paths, list)
-        return [path for path in paths if isinstance(path, str)][:MOST] if is_list else []
+        try:
+            return json_records.read_json(self._path, _LIST)[:MOST]
+        except (FileAccessError, FileFormatError) as error:
+            if not self._told:
+                warn(f"{error}: the list of recent files begins anew")
+            self._told = True
+            return []
 
     def _store(self, paths: list[str]) -> None:
         with contextlib.suppress(OSError, FileAccessError):

@@ -8,7 +8,6 @@ encodes; it loads when something is written. Single pictures are written by `Fra
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
@@ -16,6 +15,7 @@ import numpy as np
 
 from ..rendering.frame import Frame
 from .atomic_write import atomic_write
+from .frame_names import frame_name
 from .video_files import save_video
 
 if TYPE_CHECKING:
@@ -32,8 +32,6 @@ WEBP_QUALITY = 90
 TRANSPARENT_INDEX = 255
 #: Viewers of GIF take anything shorter for a mistake and show a tenth of a second.
 SHORTEST_MILLISECONDS = 20
-#: Where a frame's number goes into a name: ``%04d``, ``{:04}``, ``{:04d}``, ``{}``.
-FRAME_NUMBER = re.compile(r"%(0?\d?)d|\{(?::(0?\d?)d?)?\}")
 
 
 def save_animation(pictures: Iterable[np.ndarray], path, seconds_a_frame: float) -> None:
@@ -45,7 +43,7 @@ def save_animation(pictures: Iterable[np.ndarray], path, seconds_a_frame: float)
         At least one; drawn as they are asked for.
     path : path-like
         Ends in one of `ANIMATION_SUFFIXES`; or the name of a picture with a place for the frame's
-        number (`is_numbered`): then each frame is a file, from number 0.
+        number (`frame_name`): then each frame is a file, from number 0.
     seconds_a_frame : float
         How long each picture shows.
 
@@ -54,28 +52,17 @@ def save_animation(pictures: Iterable[np.ndarray], path, seconds_a_frame: float)
     FileAccessError
         A file cannot be written, or MP4 lacks what it needs.
     """
-    if is_numbered(path):
+    path = frame_name(path)
+    if path.place is not None:
         for number, pixels in enumerate(pictures):
             height, width = pixels.shape[:2]
-            Frame(width, height, {"color": pixels}).save(frame_path(path, number))
+            Frame(width, height, {"color": pixels}).save(path.of_frame(number))
         return
     suffix = os.path.splitext(path)[1].lower()
     if suffix == VIDEO_SUFFIX:
         save_video(pictures, path, seconds_a_frame)
     else:
         _save_images(pictures, path, ANIMATION_FORMATS[suffix], seconds_a_frame)
-
-
-def is_numbered(path) -> bool:
-    """Return whether a name has one place for a frame's number, such as ``%04d`` or ``{:04}``."""
-    return len(FRAME_NUMBER.findall(os.path.basename(path))) == 1
-
-
-def frame_path(path, number: int) -> str:
-    """Return a name with the number where `is_numbered` found its place."""
-    folder, name = os.path.split(path)
-    width = next(group for group in (*FRAME_NUMBER.search(name).groups(), "") if group is not None)
-    return os.path.join(folder, FRAME_NUMBER.sub(format(number, width + "d"), name))
 
 
 def _save_images(

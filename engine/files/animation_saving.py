@@ -18,6 +18,7 @@ from ..errors import InvalidArgumentError
 from ..rendering.frame import Frame
 from . import animation_files
 from .atomic_write import checked_path
+from .frame_names import frame_name
 
 
 def save_animation(
@@ -37,7 +38,8 @@ def save_animation(
         The suffix decides the format: .gif, .webp and .apng repeat without end; .mp4 needs
         ``pip install engine3d[video]``, leaves out alpha, and has even sides (a warning says so
         where a row or column is doubled). A picture's name with a place for a number, such as
-        ``frame_{:04}.png`` or ``frame_%04d.png``, gives a picture for each frame, from number 0.
+        ``frame_{:04}.png`` or ``frame_%04d.png``, gives a picture for each frame, from number 0;
+        ``{{:04}}`` and ``%%04d`` stand for these letters themselves.
     fps : float
         Frames per second, greater than 0 and at most 50, since viewers of GIF files show nothing
         faster; at most 240 for .mp4.
@@ -49,8 +51,8 @@ def save_animation(
     FileAccessError
         The file cannot be written, or MP4 lacks what it needs.
     """
-    path = checked_path(path)
-    numbered = animation_files.is_numbered(path)
+    path = frame_name(checked_path(path))
+    numbered = path.place is not None
     formats = animation_files.PICTURE_SUFFIXES if numbered else animation_files.ANIMATION_SUFFIXES
     suffix = os.path.splitext(path)[1].lower()
     if suffix not in formats:

@@ -3,8 +3,13 @@
 In: the paths of output files. Out: binary file objects to write to. The bytes go to a temporary
 name in the same folder, which takes the target's name only when everything was written; whatever
 stood there before stays untouched until then, and a failure, or a signal that Python turns into an
-exception, leaves nothing behind. The bytes are on the disk before the name is: after a power cut
-there is the old file or the new one. Files that belong together appear one right after the other.
+exception, leaves nothing behind. The bytes are on the disk before the name is, and the name is when
+the block ends: after a power cut there is the old file or the new one. Files that belong together
+appear one right after the other.
+
+What may be replaced: a path that somebody named may be a symbolic link, and what it leads to is
+replaced. Where somebody named a folder, and engine3d the files in it, nothing outside of that
+folder is: a link in a file's place is itself replaced, and folders that lead out are an error.
 """
 
 from __future__ import annotations
@@ -12,16 +17,22 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import re
 import stat
 from collections.abc import Iterator
 from typing import BinaryIO
 
-from .._support.system import AT_ONCE, READ_WRITE, WRITE, set_mode
+from .._support.system import AT_ONCE, READ_WRITE, WRITE, set_mode, sync_folder
 from ..errors import FileAccessError, InvalidArgumentError
+
+#: What stays where a process was killed while it wrote.
+LEFT_BEHIND = re.compile(r"\.(?P<name>.*)\.[0-9a-f]{16}\.part", re.DOTALL)
 
 
 @contextlib.contextmanager
-def atomic_write(path: str | os.PathLike) -> Iterator[BinaryIO]:
+def atomic_write(
+    path: str | os.PathLike, *, below: str | os.PathLike | None = None
+) -> Iterator[BinaryIO]:
     """Open ``path`` for writing; it appears when the ``with`` block ends without an exception.
 
     Parameters
@@ -30,6 +41,9 @@ def atomic_write(path: str | os.PathLike) -> Iterator[BinaryIO]:
         The output file. An existing file is replaced and its permissions are kept, but for bits
         that let it run as another user. What is not a regular file (a device such as
         ``/dev/stdout``, a FIFO that somebody reads) is written to directly.
+    below : str or path-like, optional
+        The folder that somebody named, where the name of the file is engine3d's own: no link leads
+        out of it.
 
     Yields
     ------
@@ -38,11 +52,11 @@ def atomic_write(path: str | os.PathLike) -> Iterator[BinaryIO]:
     Raises
     ------
     FileAccessError
-        The folder does not exist, cannot be written to, the disk is full, the path is none, or is
-        a FIFO that nobody reads.
+        The folder does not exist, cannot be written to, the disk is full, the path is none, is a
+        FIFO that nobody reads, or leads out of ``below``.
     """
     with AtomicFiles() as files:
-        yield files.create(path)
+        yield files.create(path, below=below)
 
 
 def checked_path(path: str | bytes | os.PathLike) -> str:
@@ -64,12 +78,14 @@ class AtomicFiles:
     def __init__(self) -> None:
         self._parts: list[_Part] = []
 
-    def create(self, path: str | os.PathLike) -> BinaryIO:
-        """Begin the next file; the one before is whole, and closed."""
+    def create(
+        self, path: str | os.PathLike, *, below: str | os.PathLike | None = None
+    ) -> BinaryIO:
+        """Begin the next file, as `atomic_write`; the one before is whole, and closed."""
         if self._parts:
             with _named(self._parts[-1].path):
                 self._parts[-1].finish()
-        part = _Part(checked_path(path))
+        part = _Part(checked_path(path), None if below is None else checked_path(below))
         self._parts.append(part)
         with _named(part.path):
             part.open()
@@ -89,6 +105,9 @@ class AtomicFiles:
                 for part in self._parts:
                     with _named(part.path):
                         part.appear()
+                for folder, path in {part.folder: part.path for part in self._parts}.items():
+                    with _named(path):
+                        sync_folder(folder)
         finally:
             for part in self._parts:
                 part.discard()
@@ -106,7 +125,7 @@ class StreamFiles:
     def __init__(self, stream: BinaryIO) -> None:
         self._stream = stream
 
-    def create(self, path: str) -> BinaryIO:
+    def create(self, path: str, **_: object) -> BinaryIO:
         """Return the stream, whatever the path."""
         return self._stream
 
@@ -127,23 +146,32 @@ class _Part:
     ----------
     path : str
         As the caller gave it.
+    folder : str or None
+        Where its name is new, once it appeared.
     file : binary file object
     """
 
     file: BinaryIO
 
-    def __init__(self, path: str) -> None:
+    def __init__(self, path: str, below: str | None) -> None:
         self.path = path
+        self.folder: str | None = None
+        self._below = below
         self._temporary: str | None = None
         self._mode: int | None = None
 
     def open(self) -> None:
-        self._target = os.path.realpath(self.path)
-        if os.path.exists(self.path) and not os.path.isfile(self.path):
-            self.file = os.fdopen(_opened_device(self.path), "wb")
-            return
+        if self._below is not None:
+            self._target = path_below(self.path, self._below)
+        else:
+            self._target = os.path.realpath(self.path)
+            if os.path.exists(self.path) and not os.path.isfile(self.path):
+                self.file = os.fdopen(_opened_device(self.path), "wb")
+                return
         with contextlib.suppress(FileNotFoundError):
-            self._mode = stat.S_IMODE(os.stat(self._target).st_mode) & 0o777
+            status = os.stat(self._target, follow_symlinks=self._below is None)
+            mode = status.st_mode
+            self._mode = stat.S_IMODE(mode) & 0o777 if stat.S_ISREG(mode) else None
         folder, name = os.path.split(self._target)
         # Some letters of the name, which take at most 128 of the 255 bytes that a name may have.
         self._temporary = os.path.join(folder, f".{name[:32]}.{os.urandom(8).hex()}.part")
@@ -164,6 +192,7 @@ class _Part:
         if self._temporary is not None:
             os.replace(self._temporary, self._target)
             self._temporary = None
+            self.folder = os.path.dirname(self._target)
 
     def discard(self) -> None:
         """Close the file, and remove it if it did not appear."""
@@ -172,6 +201,17 @@ class _Part:
         if self._temporary is not None:
             with contextlib.suppress(OSError):
                 os.unlink(self._temporary)
+
+
+def path_below(path: str, folder: str) -> str:
+    """Return a path without links, but for its last part, which is in a folder or below it.
+
+    Raises `FileAccessError` where links lead out of the folder.
+    """
+    root, parent = os.path.realpath(folder), os.path.realpath(os.path.dirname(path))
+    if parent != root and not parent.startswith(os.path.join(root, "")):
+        raise FileAccessError(f"cannot write: a link leads out of {folder}", path)
+    return os.path.join(parent, os.path.basename(path))
 
 
 def _opened_device(path: str) -> int:

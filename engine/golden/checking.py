@@ -181,7 +181,7 @@ class Golden:
         result = case.result
         if self._written.setdefault(case.path, result.digest) != result.digest:
             raise AssertionError(f"{result.name}: {TWO_PICTURES}: {case.path}")
-        write_golden(case.path, case.pixels)
+        write_golden(case.path, case.pixels, below=self._place.folder)
         result.status, result.expected = UPDATED, case.path
 
 

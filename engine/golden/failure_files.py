@@ -29,8 +29,8 @@ def write_failure(
     """Write what was drawn and, where something was expected, the picture of the difference."""
     stem = os.path.join(folder, *result.name.split("/"))
     result.actual = f"{stem}.png"
-    write_golden(result.actual, pixels)
+    write_golden(result.actual, pixels, below=folder)
     if expected is not None and difference is not None:
         result.difference = f"{stem}.difference.png"
-        with atomic_write(result.difference) as file:
+        with atomic_write(result.difference, below=folder) as file:
             file.write(encode(difference_picture(displayed(expected), difference)))

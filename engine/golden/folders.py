@@ -10,12 +10,12 @@ import dataclasses
 import os
 import shutil
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from .._support.side_by_side import side_by_side
 from ..errors import Engine3DError, FileAccessError, FileFormatError
 from ..files.atomic_write import atomic_write
 from ..files.making_folders import make_folder_of
@@ -26,6 +26,8 @@ from .picture_files import SUFFIXES, Picture
 from .png_files import encode
 from .reading import read_picture
 from .results import CHANGED, DELETED, FAILED, NEW, PASSED, Result
+
+_AT_ONCE = 16  # pairs of a thread, between two steps of the progress that is shown
 
 
 @dataclass(frozen=True)
@@ -57,12 +59,21 @@ class Rules:
 
 @dataclass(frozen=True)
 class Pair:
-    """Two files to compare, one of which may not be there."""
+    """Two files to compare, one of which may not be there.
+
+    Attributes
+    ----------
+    name : str
+    actual, expected, difference : str or None
+    folder : str or None
+        Of the differences, which ``difference`` does not leave; None where somebody named that.
+    """
 
     name: str
     actual: str | None
     expected: str | None
     difference: str | None
+    folder: str | None = None
 
 
 def pairs(actual: str, expected: str, differences: str | None = None) -> list[Pair]:
@@ -85,7 +96,7 @@ def pairs(actual: str, expected: str, differences: str | None = None) -> list[Pa
             for folder, held in zip((actual, expected), names, strict=True)
         )
         place = None if differences is None else os.path.join(differences, _as_png(name))
-        found.append(Pair(name.replace(os.sep, "/"), drawn, wanted, place))
+        found.append(Pair(name.replace(os.sep, "/"), drawn, wanted, place, differences))
     return found
 
 
@@ -103,8 +114,9 @@ def compare_all(
     found: list[Pair], rules: Rules, threads: int, *, keep_going: bool
 ) -> Iterator[Result]:
     """Yield what came of each pair, in their order; see `compare_files`."""
-    with ThreadPoolExecutor(threads) as pool:
-        yield from pool.map(lambda pair: compare_files(pair, rules, keep_going), found)
+    for start in range(0, len(found), _AT_ONCE * threads):
+        some = found[start : start + _AT_ONCE * threads]
+        yield from side_by_side(lambda pair: compare_files(pair, rules, keep_going), some, threads)
 
 
 def compare_files(pair: Pair, rules: Rules, keep_going: bool = False) -> Result:
@@ -142,8 +154,8 @@ def _judge(result: Result, pair: Pair, pictures: tuple[Picture, Picture], rules:
     result.status, result.message = CHANGED, _what_differs(*pictures, result, difference)
     if pair.difference is not None:
         result.difference = pair.difference
-        make_folder_of(pair.difference)
-        with atomic_write(pair.difference) as file:
+        make_folder_of(pair.difference, below=pair.folder)
+        with atomic_write(pair.difference, below=pair.folder) as file:
             file.write(encode(difference_picture(displayed(shown[1]), difference)))
 
 
@@ -217,9 +229,11 @@ def update(results: list[Result], actual: str, expected: str) -> list[Result]:
             if result.status == DELETED and result.expected is not None:
                 os.remove(result.expected)
             elif result.status in (CHANGED, NEW, FAILED) and result not in left:
-                is_folder = os.path.isdir(actual)
-                name = os.path.join(expected, *result.name.split("/"))
-                _copy(result.actual, name if is_folder else expected)
+                if os.path.isdir(actual):
+                    name = os.path.join(expected, *result.name.split("/"))
+                    _copy(result.actual, name, below=expected)
+                else:
+                    _copy(result.actual, expected)
     except FileAccessError:
         raise
     except OSError as error:
@@ -235,7 +249,7 @@ def _is_readable(path: str) -> bool:
     return True
 
 
-def _copy(source: str, target: str) -> None:
-    make_folder_of(target)
-    with open(source, "rb") as data, atomic_write(target) as file:
+def _copy(source: str, target: str, below: str | None = None) -> None:
+    make_folder_of(target, below=below)
+    with open(source, "rb") as data, atomic_write(target, below=below) as file:
         shutil.copyfileobj(data, file)

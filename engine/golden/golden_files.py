@@ -21,6 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import FileAccessError, FileFormatError
+from ..files import json_records as shapes
 from ..files.atomic_write import atomic_write
 from ..files.making_folders import make_folder_of
 from . import png_files
@@ -31,6 +32,14 @@ from .pixel_hash import pixel_hash
 _IDENTITY, _NUMBERS = b"goLD", b"daTA"
 _PLACE = 37  # of the first one's name: after the signature, the header and a length
 MAX_BYTES = 1 << 31  # of the numbers of one array
+_SHAPE = shapes.members(
+    {
+        "dtype": shapes.one_of(*(np.dtype(kind).name for kind in "?bBhHiIqQefd")),
+        "shape": shapes.listed(shapes.count),
+        "sha256": shapes.sound_text,
+        "seal": shapes.sound_text,
+    }
+)
 
 
 @dataclass(frozen=True)
@@ -52,7 +61,7 @@ class GoldenFile:
 
     def pixels(self) -> np.ndarray:
         """Decode the exact pixels. Raises `FileFormatError`."""
-        exact = exact_pixels(self.data) if self.digest is not None else None
+        exact = exact_pixels(self.data, self.path) if self.digest is not None else None
         return decode_picture(self.data, self.path).frames[0] if exact is None else exact
 
 
@@ -69,7 +78,7 @@ def read_golden(path: str) -> GoldenFile | None:
     except OSError as error:
         raise FileAccessError(f"cannot read: {error.strerror}", path) from error
     try:
-        identity = _identity(png_files.split_chunks(data))
+        identity = _identity(png_files.split_chunks(data), path)
     except png_files.DamagedPng as error:
         raise FileFormatError(str(error), path) from error
     return GoldenFile(path, data, identity["sha256"] if identity else None)
@@ -85,13 +94,13 @@ def is_golden_file(path: str | os.PathLike) -> bool:
     return start.startswith(png_files.SIGNATURE) and start[_PLACE:] == _IDENTITY
 
 
-def write_golden(path: str, pixels: np.ndarray) -> None:
-    """Write a golden file whole or not at all, with the folders above it.
+def write_golden(path: str, pixels: np.ndarray, *, below: str | None = None) -> None:
+    """Write a golden file whole or not at all, with the folders above it, as `atomic_write`.
 
     Raises `FileAccessError`.
     """
-    make_folder_of(path)
-    with atomic_write(path) as file:
+    make_folder_of(path, below=below)
+    with atomic_write(path, below=below) as file:
         file.write(encode_golden(pixels))
 
 
@@ -118,42 +127,61 @@ def needs_numbers(pixels: np.ndarray) -> bool:
     return pixels.dtype not in (np.bool_, np.uint8, np.uint16)
 
 
-def exact_pixels(data: bytes) -> np.ndarray | None:
+def exact_pixels(data: bytes, path: str) -> np.ndarray | None:
     """Return the pixels of a golden file as they were given; None if it is not sealed, or none.
 
-    Raises `FileFormatError` where a sealed file does not hold what it should.
+    Raises `FileFormatError`, which names the path, where a sealed file is not what it says.
     """
     try:
         chunks = png_files.split_chunks(data)
     except png_files.DamagedPng:
         return None
-    identity = _identity(chunks)
+    identity = _identity(chunks, path)
     if identity is None:
         return None
     dtype, shape = np.dtype(identity["dtype"]), tuple(identity["shape"])
     numbers = next((content for name, content in chunks if name == _NUMBERS), None)
-    if numbers is None:
-        pixels = decode_picture(data, "golden picture").frames[0]
-        return (pixels > 0 if dtype == np.bool_ else pixels).reshape(shape)
+    pixels = _decoded(data, path, dtype) if numbers is None else _unpacked(numbers, dtype, shape)
+    if pixels is None or pixels.size != math.prod(shape):
+        raise FileFormatError("the golden picture does not hold the numbers that it should", path)
+    pixels = pixels.reshape(shape)
+    if pixel_hash(pixels) != identity["sha256"]:
+        raise FileFormatError("damaged: the golden picture is not what its own hash says", path)
+    return pixels
+
+
+def _decoded(data: bytes, path: str, dtype: np.dtype) -> np.ndarray:
+    """The pixels that the picture shows."""
+    pixels = decode_picture(data, path).frames[0]
+    return pixels > 0 if dtype == np.bool_ else pixels
+
+
+def _unpacked(numbers: bytes, dtype: np.dtype, shape: tuple[int, ...]) -> np.ndarray | None:
+    """The numbers beside the picture; None if they are damaged, or too few or many."""
     size = math.prod(shape) * dtype.itemsize
-    places = zlib.decompressobj().decompress(numbers, size) if 0 < size <= MAX_BYTES else b""
+    if not 0 < size <= MAX_BYTES:
+        return None
+    try:
+        places = zlib.decompressobj().decompress(numbers, size)
+    except zlib.error:
+        return None
     if len(places) != size:
-        raise FileFormatError("the golden picture does not hold the numbers that it should")
+        return None
     columns = np.frombuffer(places, np.uint8).reshape(dtype.itemsize, -1)
-    return np.ascontiguousarray(columns.T).view(dtype.newbyteorder("<")).reshape(shape)
+    return np.ascontiguousarray(columns.T).view(dtype.newbyteorder("<")).astype(dtype)
 
 
-def _identity(chunks: list[tuple[bytes, bytes]]) -> dict | None:
-    """Return what a sealed file says of its pixels, None of any other."""
+def _identity(chunks: list[tuple[bytes, bytes]], path: str) -> dict | None:
+    """Return what a sealed file says of its pixels, None of any other.
+
+    Raises `FileFormatError` where a file says it in no way that it is written in.
+    """
     text = next((content for name, content in chunks if name == _IDENTITY), None)
     if text is None:
         return None
-    try:
-        identity = json.loads(text)
-        fits = identity["seal"] == _seal([c for c in chunks if c[0] not in (_IDENTITY, b"IEND")])
-    except (ValueError, KeyError, TypeError):
-        return None
-    return identity if fits else None
+    identity = shapes.parsed(text, path, _SHAPE)
+    is_whole = identity["seal"] == _seal([c for c in chunks if c[0] not in (_IDENTITY, b"IEND")])
+    return identity if is_whole else None
 
 
 def _seal(chunks: list[tuple[bytes, bytes]]) -> str:

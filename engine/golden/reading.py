@@ -22,5 +22,5 @@ def read_picture(path: str | os.PathLike) -> Picture:
             data = file.read()
     except OSError as error:
         raise FileAccessError(f"cannot read: {error.strerror}", path) from error
-    pixels = exact_pixels(data)
+    pixels = exact_pixels(data, path)
     return decode_picture(data, path) if pixels is None else Picture([pixels])

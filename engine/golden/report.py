@@ -113,7 +113,7 @@ class Report:
 
 def _read(path: str | None, frame: int):
     """Return a picture as it is shown; None if there is none that can be read."""
-    if path is None or not os.path.exists(path):
+    if path is None or not os.path.isfile(path):  # a FIFO would be waited for
         return None
     try:
         frames = read_picture(path).frames

@@ -6,7 +6,8 @@ import json
 from typing import Any
 from xml.etree import ElementTree
 
-from ..errors import FileAccessError, FileFormatError, printable
+from ..errors import printable
+from ..files import json_records as shapes
 from ..files.atomic_write import atomic_write
 from .results import CHANGED, DELETED, FAILED, NEW, PASSED, UNUSED, UPDATED, Result
 
@@ -16,6 +17,25 @@ _LISTS = {
     "deletedItems": (DELETED, UNUSED),
     "passedItems": (PASSED, UPDATED),
 }
+_PATH = shapes.maybe(shapes.path_text)
+_PICTURE = shapes.members(
+    {"name": shapes.text, "status": shapes.one_of(*(s for held in _LISTS.values() for s in held))},
+    {
+        **dict.fromkeys(("message", "test", "digest"), shapes.text),
+        **dict.fromkeys(("expected", "actual", "difference"), _PATH),
+        **dict.fromkeys(("different", "total", "frame"), shapes.count),
+        **dict.fromkeys(("largest", "flip"), shapes.maybe(shapes.number)),
+        "box": shapes.maybe(shapes.listed(shapes.count, 4)),
+    },
+)
+_OURS = shapes.members({"pictures": shapes.listed(_PICTURE)}, more=True)
+_OF_REG_CLI = shapes.members(
+    {
+        **dict.fromkeys(_LISTS, shapes.listed(shapes.path_text)),
+        **dict.fromkeys(("actualDir", "expectedDir", "diffDir"), shapes.path_text),
+    },
+    more=True,
+)
 
 
 def write_json(path: str, results: list[Result], folders: dict[str, str] | None = None) -> None:
@@ -57,19 +77,12 @@ def read_json(path: str) -> list[Result]:
 
     Raises `FileAccessError`, or `FileFormatError` where the file is no such list.
     """
-    try:
-        with open(path, encoding="utf-8") as file:
-            document = json.load(file)
-    except OSError as error:
-        raise FileAccessError(f"cannot read: {error.strerror}", path) from error
-    except ValueError as error:
-        raise FileFormatError(f"no JSON: {error}", path) from error
-    try:
-        if "pictures" in document:
-            return [Result(**picture) for picture in document["pictures"]]
-        return list(_of_reg_cli(document))
-    except (TypeError, KeyError, AttributeError) as error:
-        raise FileFormatError("no results of pictures that were compared", path) from error
+    document = shapes.read_json(path, shapes.members({}, more=True), regular=False)
+    if "pictures" in document:
+        shapes.checked(document, path, _OURS)
+        return [Result(**picture) for picture in document["pictures"]]
+    shapes.checked(document, path, _OF_REG_CLI)
+    return list(_of_reg_cli(document))
 
 
 def _of_reg_cli(document: dict[str, Any]):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -63,7 +64,7 @@ class Result:
     def measure(self, difference) -> None:
         """Take over the numbers of a `Difference`."""
         self.different, self.total = difference.different, difference.total
-        self.largest = None if difference.largest == float("inf") else difference.largest
+        self.largest = difference.largest if math.isfinite(difference.largest) else None
         self.box = None if difference.box is None else list(difference.box)
 
     def as_dict(self) -> dict[str, Any]:

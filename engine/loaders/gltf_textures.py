@@ -7,13 +7,12 @@ is a warning, and materials have none then. Images are decoded side by side.
 
 from __future__ import annotations
 
-import contextvars
 import os
 import warnings as python_warnings
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
+from .._support.side_by_side import side_by_side
 from ..errors import Engine3DError
 from ..materials.textures import PlacedTexture, Texture
 from . import gltf_basisu
@@ -56,13 +55,8 @@ class GltfTextures:
         images = [image for image in wanted if image is not None and image not in self._images]
         if not images:
             return
-        with python_warnings.catch_warnings(), ThreadPoolExecutor(_threads(images)) as pool:
-            contexts = [contextvars.copy_context() for _ in images]
-            calls = [
-                pool.submit(context.run, self._decoded, image)
-                for context, image in zip(contexts, images, strict=True)
-            ]
-            results = [call.result() for call in calls]
+        with python_warnings.catch_warnings():
+            results = side_by_side(self._decoded, images, _threads(images))
         for image, result in zip(images, results, strict=True):
             if isinstance(result, str):
                 self._warnings.add(f"images[{image}] is left out: {result}")

@@ -7,16 +7,14 @@ names the place: ``nodes[3].rotation``.
 from __future__ import annotations
 
 import base64
-import binascii
-import json
 import math
-from collections import Counter
 from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
 
 from ..errors import FileFormatError
+from ..files.json_records import parsed
 from .sources import Source
 from .text import checked_text, shown
 
@@ -129,6 +127,13 @@ class JsonValue:
             raise self.wrong(f"{count} finite numbers")
         return [float(number) for number in value]
 
+    def base64(self) -> bytes:
+        """Return the bytes that a text holds as base64."""
+        try:
+            return base64.b64decode(self.text(), validate=True)
+        except ValueError:  # which `binascii.Error` is one of
+            raise self.error("is not base64") from None
+
     def array(self) -> np.ndarray:
         """Return an array: its type, its shape and its bytes as base64."""
         kind, shape = self.need("type").text(), self.need("shape")
@@ -138,25 +143,13 @@ class JsonValue:
         if not (len(axes) <= _MAX_AXES and all(type(n) is int and 0 <= n < 2**31 for n in axes)):
             raise shape.wrong(f"up to {_MAX_AXES} counts")
         data = self.need("base64")
-        try:
-            content = base64.b64decode(data.text(), validate=True)
-        except (binascii.Error, ValueError):
-            raise data.error("is not base64") from None
+        content = data.base64()
         dtype = np.dtype(ARRAY_TYPES[kind])
         if len(content) != math.prod(axes) * dtype.itemsize:
             raise self.error(f"{len(content)} bytes do not fill an array of shape {axes}")
         if dtype.kind == "b" and content.strip(b"\0\1"):
             raise data.error("holds bytes that are neither true nor false")
         return np.frombuffer(content, dtype).reshape(axes)
-
-
-def _object(members: list[tuple[str, Any]]) -> dict[str, Any]:
-    """An object, none of whose members is there twice: which one counts would be a guess."""
-    found = dict(members)
-    if len(found) < len(members):
-        (name, _), *_ = Counter(name for name, _ in members).most_common(1)
-        raise ValueError(f"an object has {shown(name)} twice")
-    return found
 
 
 def parsed_json(source: Source) -> JsonValue:
@@ -167,18 +160,7 @@ def parsed_json(source: Source) -> JsonValue:
     FileFormatError
         It is not JSON; the message names the line.
     """
-    try:
-        text = checked_text(source).decode("utf-8")
-        value = json.loads(text, object_pairs_hook=_object)
-    except UnicodeDecodeError:
-        raise FileFormatError("not JSON: it is not in UTF-8", source.path) from None
-    except RecursionError:
-        raise FileFormatError("not read: its JSON is nested too deeply", source.path) from None
-    except json.JSONDecodeError as error:
-        raise FileFormatError(f"not JSON: {error.msg}", source.path, error.lineno) from None
-    except ValueError as error:  # a number of more digits than Python reads
-        raise FileFormatError(f"not read: {error}", source.path) from None
-    return JsonValue(value, source.path)
+    return JsonValue(parsed(checked_text(source), source.path), source.path)
 
 
 def _is_number(value: Any) -> bool:

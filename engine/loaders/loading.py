@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import warnings
 from collections.abc import Callable
@@ -176,7 +177,8 @@ def load_texture(
 
 def texture_of(source: Source, format: str | None = None, **options) -> Texture:
     """Return the texture of an open image; as `load_texture` otherwise."""
-    reader = find_reader(source, "image", format)
+    with _memory_of(source):
+        reader = find_reader(source, "image", format)
     with _faults_of(source):
         pixels = reader.read(source)
     options.setdefault("name", os.path.basename(source.path) if source.has_name else "")
@@ -199,7 +201,8 @@ def _read_document(
 
 def document_of(source: Source, format: str | None, *, split: bool) -> Document:
     """Return what an open model file holds, without warning of anything."""
-    reader = find_reader(source, "mesh", format)
+    with _memory_of(source):
+        reader = find_reader(source, "mesh", format)
     source.progress(0.0)
     # What is beyond the range of numbers becomes infinite, and is dealt with as such.
     with _faults_of(source), np.errstate(all="ignore"), images_of_one_model():
@@ -210,11 +213,27 @@ def document_of(source: Source, format: str | None, *, split: bool) -> Document:
 
 
 @contextlib.contextmanager
+def _memory_of(source: Source):
+    """Name the file where there is no memory for it, or for the library that reads it."""
+    try:
+        yield
+    except (MemoryError, ImportError, OSError) as error:
+        # The loader of libraries has no type of error for this.
+        is_of_loader = isinstance(error, ImportError) and "failed to map" in str(error)
+        if isinstance(error, MemoryError) or is_of_loader or _is_lack(error):
+            raise FileFormatError("needs more memory than there is", source.path) from error
+        raise
+
+
+def _is_lack(error: Exception) -> bool:
+    return getattr(error, "errno", None) == errno.ENOMEM
+
+
+@contextlib.contextmanager
 def _faults_of(source: Source):
     """Name the file in errors of what is made of its content."""
     try:
-        yield
-    except MemoryError as error:
-        raise FileFormatError("needs more memory than there is", source.path) from error
+        with _memory_of(source):
+            yield
     except InvalidArgumentError as error:  # more of something than a mesh can hold
         raise FileFormatError(str(error), source.path) from error

@@ -7,8 +7,6 @@ the document are what shows, with the nodes' poses. docs/formats.md has the form
 
 from __future__ import annotations
 
-import base64
-import binascii
 import copy
 import math
 import os
@@ -189,12 +187,11 @@ class _Reading:
         try:
             if png is None:
                 return self._texture_of_file(entry.need("file"), options)
-            content = base64.b64decode(png.text(), validate=True)
             name = f"{self._source.path}: {png.where}"
-            pixels = read_image(Source(name, content))
+            pixels = read_image(Source(name, png.base64()))
             return Texture(pixels, **options)
-        except binascii.Error:
-            raise png.error("is not base64") from None
+        except FileFormatError:
+            raise
         except (InvalidArgumentError, TypeError) as error:
             raise entry.error(str(error)) from None
 

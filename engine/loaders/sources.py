@@ -203,7 +203,12 @@ def _read_path(path: str) -> Source:
         handle = os.open(path, READING)
     except (OSError, ValueError) as error:
         raise unreadable(path, error) from error
-    return opened_source(path, handle)
+    try:
+        return opened_source(path, handle)
+    except MemoryError as error:
+        raise FileAccessError(
+            "cannot read: it is larger than the memory that there is", path
+        ) from error
 
 
 def opened_source(path: str, handle: int) -> Source:

@@ -12,6 +12,7 @@ from typing import Any
 
 from .. import linalg
 from .._native.rasterizer import ALPHA_MODES, NativeDrawList, NativeTexture
+from .._support.side_by_side import side_by_side
 from ..materials.display_colors import shading_color
 from ..materials.material import Material, placed_textures_of
 from ..materials.textures import PlacedTexture
@@ -89,11 +90,7 @@ def make_textures(materials: Iterable[Material], color_space: str, threads: int)
     )
     count = min(len(wanted), threads or os.cpu_count() or 1)
     if count > 1:
-        from concurrent.futures import ThreadPoolExecutor
-
-        with ThreadPoolExecutor(count) as pool:
-            for _ in pool.map(native_texture, *zip(*wanted, strict=True)):
-                pass
+        side_by_side(lambda one: native_texture(*one), list(wanted), count)
 
 
 def _space(slot: str, color_space: str) -> str:

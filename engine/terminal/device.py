@@ -1,11 +1,13 @@
 """The terminal: bytes in and out, its size, and what it answers when it is asked.
 
 In: the process's terminal, whatever standard input and output are. Out: `Device`, in raw mode for
-as long as it is open; `ask` tells how pictures can be shown.
+as long as it is open; `ask` tells how pictures can be shown. Answers are input like any other, and
+may come from the other end of a line: sizes that no terminal has count as not told.
 """
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import select
@@ -19,13 +21,19 @@ from ..errors import DisplayError
 PATIENCE = 2.0
 #: Pixels of a cell where the terminal does not tell.
 USUAL_CELL = (8, 16)
+#: Pixels along a side of a cell, at most.
+LARGEST_CELL = 1000
+#: Columns and rows that are used, at most; no screen has as many.
+MOST_CELLS = (640, 256)
+#: Bytes of an answer.
+_LONGEST_ANSWER = 1 << 16
 _ASK_KITTY = b"\x1b_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\"
 _ASK_CELL = b"\x1b[16t"
 _ASK_PIXEL_MOUSE = b"\x1b[?1016$p"
 #: Every terminal answers this, so that its answer ends the wait.
 _ASK_ATTRIBUTES = b"\x1b[c"
-_ATTRIBUTES = re.compile(rb"\x1b\[\?([0-9;]*)c")
-_CELL = re.compile(rb"\x1b\[6;(\d+);(\d+)t")
+_ATTRIBUTES = re.compile(rb"\x1b\[\?([0-9;]{0,256})c")
+_CELL = re.compile(rb"\x1b\[6;(\d{1,4});(\d{1,4})t")
 _SIXEL = b"4"
 
 
@@ -73,7 +81,8 @@ class Device:
         import termios
 
         if self._file >= 0:
-            termios.tcsetattr(self._file, termios.TCSAFLUSH, self._before)
+            with contextlib.suppress(termios.error):  # it was hung up
+                termios.tcsetattr(self._file, termios.TCSAFLUSH, self._before)
             os.close(self._file)
             self._file = -1
 
@@ -97,7 +106,7 @@ class Device:
     def cells(self) -> tuple[int, int]:
         """Return columns and rows."""
         columns, rows = os.get_terminal_size(self._file)
-        return max(columns, 1), max(rows, 2)
+        return min(max(columns, 1), MOST_CELLS[0]), min(max(rows, 2), MOST_CELLS[1])
 
     def ask(self) -> Answers:
         """Ask the terminal what it can do; one that is silent can show half blocks."""
@@ -105,21 +114,30 @@ class Device:
         said, ends = b"", time.monotonic() + PATIENCE
         while not _ATTRIBUTES.search(said) and (left := ends - time.monotonic()) > 0:
             said += self.read(left)
+            if len(said) > _LONGEST_ANSWER:
+                break
         cell = _CELL.search(said)
-        measured = (int(cell[2]), int(cell[1])) if cell else self._cell_by_system()
+        told = None if cell is None else _sensible(int(cell[2]), int(cell[1]))
         pixel_mouse = re.search(rb"\x1b\[\?1016;[123]\$y", said) is not None
-        return Answers(_graphics(said), measured, pixel_mouse and cell is not None)
+        measured = told or self._cell_by_system() or USUAL_CELL
+        return Answers(_graphics(said), measured, pixel_mouse and told is not None)
 
-    def _cell_by_system(self) -> tuple[int, int]:
-        """Return the size of a cell as the system knows it."""
+    def _cell_by_system(self) -> tuple[int, int] | None:
+        """Return the size of a cell as the system knows it; None if it does not."""
         import fcntl
         import termios
 
         size = fcntl.ioctl(self._file, termios.TIOCGWINSZ, bytes(8))
         rows, columns, width, height = struct.unpack("4H", size)
         if not (rows and columns and width and height):
-            return USUAL_CELL
-        return max(width // columns, 1), max(height // rows, 1)
+            return None
+        return _sensible(max(width // columns, 1), max(height // rows, 1))
+
+
+def _sensible(width: int, height: int) -> tuple[int, int] | None:
+    """A cell's size, unless no terminal's cells have it."""
+    is_sensible = all(1 <= side <= LARGEST_CELL for side in (width, height))
+    return (width, height) if is_sensible else None
 
 
 def _graphics(said: bytes) -> str:

@@ -1,7 +1,9 @@
 """What a terminal sends, as events: keys, the mouse, whether the terminal has the focus.
 
-In: bytes. Out: values of `engine3d.events`. Terminals say when a key goes down, not when it comes
-up: who needs that waits a moment (window.py). The codes are xterm's, of its "Control Sequences".
+In: bytes, which whoever is at the other end of the line chooses: sequences that are unknown, or
+longer than any that is known, are passed over. Out: values of `engine3d.events`. Terminals say when
+a key goes down, not when it comes up: who needs that waits a moment (window.py). The codes are
+xterm's, of its "Control Sequences".
 """
 
 from __future__ import annotations
@@ -20,14 +22,16 @@ from ..events import (
 )
 
 _SEQUENCE = re.compile(
-    rb"\x1b\[<(?P<button>\d+);(?P<x>-?\d+);(?P<y>-?\d+)(?P<end>[Mm])"
-    rb"|\x1b\[(?P<numbers>[0-9;]*)(?P<letter>[A-Za-z~])"
+    rb"\x1b\[<(?P<button>\d{1,4});(?P<x>-?\d{1,6});(?P<y>-?\d{1,6})(?P<end>[Mm])"
+    rb"|\x1b\[(?P<numbers>[0-9;]{0,16})(?P<letter>[A-Za-z~])"
     rb"|\x1bO(?P<function>[A-Z])"
     rb"|\x1b_[^\x1b]*\x1b\\"  # an answer that came late
-    rb"|\x1b\[\?[0-9;]*\$?[a-z]"
+    rb"|\x1b\[[0-?]*[ -/]*[@-~]"  # whatever else has the form of a sequence
 )
 #: What could still become a sequence.
-_BEGUN = re.compile(rb"\x1b(\[[<?]?[0-9;]*|O|_[^\x1b]*\x1b?)?$")
+_BEGUN = re.compile(rb"\x1b(\[[0-?]*[ -/]*|O|_[^\x1b]*\x1b?)?\Z")
+#: Of a longer one nothing is kept but how it begins.
+_LONGEST = 4096
 _LETTERS = {b"A": "Up", b"B": "Down", b"C": "Right", b"D": "Left", b"H": "Home", b"F": "End"}
 _FUNCTIONS = {b"P": "F1", b"Q": "F2", b"R": "F3", b"S": "F4"}
 _NUMBERS = {
@@ -79,23 +83,31 @@ class Decoder:
         """Return the events of some bytes; ``ended``: no more come soon, so Escape was a key."""
         data, self._rest = self._rest + data, b""
         happened: list = []
-        while data:
-            if data[0] != 0x1B:
-                data = self._plain(data, happened)
-            elif match := _SEQUENCE.match(data):
+        place = 0
+        while place < len(data):
+            if data[place] != 0x1B:
+                place += self._plain(data, place, happened)
+            elif match := _SEQUENCE.match(data, place):
                 happened += self._sequence(match)
-                data = data[match.end() :]
-            elif not ended and _BEGUN.match(data):
-                self._rest = data
+                place = match.end()
+            elif _BEGUN.match(data, place) and self._waits_for(data[place:], ended):
                 break
             else:
                 happened += _pressed("Escape")
-                data = data[1:]
+                place += 1
         return happened
 
-    def _plain(self, data: bytes, happened: list) -> bytes:
-        """Take in a byte, or a character of several; return what follows."""
-        first = data[0]
+    def _waits_for(self, begun: bytes, ended: bool) -> bool:
+        """Keep the beginning of a sequence, unless it was an Escape key and what was typed then."""
+        if ended and len(begun) < 3:
+            return False
+        if not ended:
+            self._rest = begun if len(begun) <= _LONGEST else begun[:2]
+        return True
+
+    def _plain(self, data: bytes, place: int, happened: list) -> int:
+        """Take in a byte, or a character of several; return how many bytes it has."""
+        first = data[place]
         if first == _CONTROL_C:
             happened.append(CloseRequested())
         elif first in _BYTES:
@@ -106,11 +118,11 @@ class Decoder:
             happened += _pressed(chr(first + 0x40), control=True)
         else:
             size = 1 + (first >= 0xC0) + (first >= 0xE0) + (first >= 0xF0)
-            text = data[:size].decode("utf-8", "replace")
+            text = data[place : place + size].decode("utf-8", "replace")
             happened += _pressed(text.upper(), shift=text.isupper())
             happened.append(TextEntered(text))
-            return data[size:]
-        return data[1:]
+            return size
+        return 1
 
     def _sequence(self, match: re.Match) -> list:
         if match["button"] is not None:

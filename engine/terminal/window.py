@@ -166,16 +166,19 @@ class TerminalWindow:
         return followed
 
     def _place(self, x: int, y: int) -> tuple[int, int]:
-        """Return the pixel of the picture where the terminal has the mouse, counted from 1."""
+        """Return the pixel of the picture where the terminal has the mouse, counted from 1.
+
+        Beside the picture it is the next one to it, however far the mouse is said to be.
+        """
         (columns, rows), (width, height) = self._room(), self.size
         if self.answers.graphics == "sixel":
             across, down = self.answers.cell
         else:
             across, down = width / columns, height / rows
         if self.answers.pixel_mouse:
-            cell = self.answers.cell
-            return int((x - 0.5) * across / cell[0]), int((y - 0.5) * down / cell[1])
-        return int((x - 0.5) * across), int((y - 0.5) * down)
+            across, down = across / self.answers.cell[0], down / self.answers.cell[1]
+        left, top = int((x - 0.5) * across), int((y - 0.5) * down)
+        return min(max(left, -1), width), min(max(top, -1), height)
 
     def _size_changed(self, number, frame) -> None:
         self._resized = True

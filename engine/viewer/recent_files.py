@@ -11,10 +11,12 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..errors import FileAccessError
+from ..errors import FileAccessError, FileFormatError
 from ..files.atomic_write import atomic_write
+from ..files.json_records import read_small
 
 MOST = 12
+_LARGEST = 1 << 20  # bytes
 NAME = "recent-files"
 
 
@@ -32,8 +34,8 @@ def state_folder() -> Path:
 def recent_files() -> list[str]:
     """Return the paths of the last files that are still there, the last one first."""
     try:
-        text = (state_folder() / NAME).read_bytes()
-    except (OSError, RuntimeError):
+        text = read_small(state_folder() / NAME, _LARGEST)
+    except (RuntimeError, FileAccessError, FileFormatError):
         return []
     paths = [os.fsdecode(line) for line in text.splitlines()]
     return [path for path in paths if os.path.isfile(path)][:MOST]

@@ -15,6 +15,7 @@ import numpy as np
 from .. import events
 from ..errors import Engine3DError
 from ..files.animation_files import save_animation
+from ..files.frame_names import literal_name
 from . import headless
 
 if TYPE_CHECKING:
@@ -37,7 +38,7 @@ def record(viewer: Viewer, path: Path) -> str:
     view_renderer.resize(*(max(1, round(side * shrunk)) for side in size))
     view_renderer.samples = viewer.sampling.at_rest()
     try:
-        save_animation(_pictures(viewer, path.name), path, seconds)
+        save_animation(_pictures(viewer, path.name), literal_name(path), seconds)
     except _GivenUp:
         return "given up"
     except (Engine3DError, OSError) as error:

@@ -72,7 +72,9 @@ class Library:
             for material, name in zip(materials, names, strict=True)
             for line in [*self._statements(material, name), ""]
         )
-        self._files.create(self._side_files.library).write(LIBRARY_MARK + encoded(text))
+        self._files.create(self._side_files.library, below=self._side_files.folder).write(
+            LIBRARY_MARK + encoded(text)
+        )
 
     def _statements(self, material: Material, name: str) -> list[str]:
         specular = linear_color(material.specular)
@@ -138,7 +140,9 @@ class Library:
         name = self._image_names.get(id(texture))
         if name is None:
             path = self._side_files.next_image()
-            self._files.create(path).write(encode_png(texture.pixels))
+            self._files.create(path, below=self._side_files.folder).write(
+                encode_png(texture.pixels)
+            )
             name = self._image_names[id(texture)] = os.path.basename(path)
         return name
 

@@ -30,10 +30,13 @@ class SideFiles:
     ----------
     library : str
         The path of the material library.
+    folder : str
+        What the files are in.
     """
 
     def __init__(self, path: str) -> None:
         self._folder = os.path.dirname(path)
+        self.folder = self._folder or os.curdir
         self._stem = linkable_stem(path)
         self._next = 0
         self._old_images: set[str] = set()

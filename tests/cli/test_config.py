@@ -116,8 +116,8 @@ def test_files_that_cannot_be_read(tmp_path, capsys, monkeypatch):
         (b'[\n{"options"]', "a.json:2: not JSON"),
         (b"{}", "a.json: a list of entries is needed"),
         (b"\xff", "a.json: not JSON"),
-        (b"[" * 100_000, "a.json: not JSON"),
-        (b" " * (1 << 21), "a.json: larger than 1048576 bytes"),
+        (b"[" * 100_000, "a.json: not read: its JSON is nested too deeply"),
+        (b" " * (1 << 21), "a.json: not read: larger than 1048576 bytes"),
     ]:
         if content is not None:
             (tmp_path / "a.json").write_bytes(content)

@@ -10,6 +10,7 @@ from engine3d.cli import main, render
 from engine3d.cli.output_templates import fill
 from engine3d.cli.parser import make_parser
 from engine3d.cli.usage import UsageError
+from engine3d.files.frame_names import frame_name, literal_name
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 FAST = [*SMALL, "--look", "plain"]
@@ -170,6 +171,75 @@ def test_variables(tmp_path):
     assert fill("{app}{n:3}.png", "c.obj", ["engine3d001.png"]) == "engine3d002.png"
     with pytest.raises(UsageError, match="no variable {Model}"):
         fill("{Model}.png", "x")
+
+
+@pytest.mark.parametrize(
+    ("template", "told"),
+    [
+        ("{n:²}.png", "up to two digits"),
+        ("{n:999999999}.png", "up to two digits"),
+        ("{n:-1}.png", "up to two digits"),
+        ("{n:d}.png", "up to two digits"),
+        ("{date:%999999999d}.png", "is no date"),
+        ("{date:\ud800\0}.png", "is no date"),
+        ("{a!r}.png", "no variable"),
+        ("{0.__class__}.png", "no variable"),
+        ("{.png", "without '}'"),
+        ("a}.png", "without '{'"),
+    ],
+)
+def test_patterns_that_are_none(template, told):
+    with pytest.raises(UsageError, match=told):
+        fill(template, "x.obj")
+
+
+ODD = [
+    "%04d",
+    "{:04}",
+    "{}",
+    "{model}",
+    "{n}",
+    "{{",
+    "}}",
+    "%%d",
+    "%s",
+    "{0!r:^999}",
+    "[a-z]*",
+    "%",
+]
+
+
+@pytest.mark.parametrize("stem", ODD)
+def test_what_variables_stand_for_is_no_pattern(stem):
+    assert fill("{model}.png", f"a/{stem}.obj") == f"{stem}.png"
+    assert fill("{model}.png", f"a/{stem}.obj").place is None
+    name = fill("{model}_%03d_{model_ext}.png", f"{stem}.{stem}")
+    assert name.of_frame(7) == f"{stem}_007_{stem}.png"
+    assert fill("{model}d.png", "%04.obj").place is None
+
+
+def test_escapes():
+    assert fill("%%04d{{:04}}.png", "x").place is None
+    assert fill("%%04d{{:04}}.png", "x") == "%04d{:04}.png"
+    assert fill("{{}}_{:02}%%d.png", "x").of_frame(3) == "{}_03%d.png"
+    assert frame_name("a/{{:04}}_%%d.png") == "a/{:04}_%d.png"
+    assert frame_name("%04d/a.png").place is None
+    assert frame_name("%04d/a_{}.png").of_frame(5) == "%04d/a_5.png"
+    assert frame_name("%d%d.png").place is None
+    assert literal_name("%04d.png").place is None
+
+
+@pytest.mark.parametrize("stem", ["m%04d", "m{:04}", "m{}", "m{model}", "m{n}", "m%s%n"])
+def test_models_of_any_name_are_drawn(stem, tmp_path, capsys):
+    (tmp_path / f"{stem}.obj").write_text(OBJ)
+    assert main(["render", f"{stem}.obj", *SMALL, "-o", "{model}.png"]) == 0
+    assert (tmp_path / f"{stem}.png").exists()
+    assert main(["render", f"{stem}.obj", *SMALL, "-o", "{model}.gif", "--turntable", "2"]) == 0
+    assert (tmp_path / f"{stem}.gif").exists()
+    assert main(["render", f"{stem}.obj", *SMALL, "-o", "{model}_%d.png", "--turntable", "2"]) == 0
+    assert (tmp_path / f"{stem}_1.png").exists()
+    assert main(["run", f"{stem}.obj", *SMALL, "--headless", "--frames", "2"]) == 0
+    assert (tmp_path / f"{stem}-turntable-001.gif").exists()
 
 
 def test_large_files_and_other_readers(model, tmp_path, capsys):

@@ -2,6 +2,8 @@
 
 import os
 
+import pytest
+
 from engine3d.editor.recent_files import MOST, RecentFiles
 from engine3d.files.folder_listing import list_folder
 
@@ -25,6 +27,7 @@ def test_recent_files_are_kept_the_latest_first(tmp_path):
     assert recent.paths() == ()
 
 
+@pytest.mark.filterwarnings("ignore:.*begins anew")
 def test_a_damaged_list_is_an_empty_one(tmp_path):
     store = tmp_path / "recent.json"
     for text in ("", "{", "3", "[" * 100_000, '[1, null, "/none"]', "\xff"):

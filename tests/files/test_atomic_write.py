@@ -1,12 +1,16 @@
 """Files appear whole or not at all, and keep their permissions."""
 
+import ast
 import os
 import stat
+from pathlib import Path
 
 import pytest
 
 from engine3d.errors import FileAccessError
+from engine3d.files import atomic_write as module
 from engine3d.files.atomic_write import atomic_write
+from engine3d.files.making_folders import make_folder_of
 
 
 def test_the_file_appears_whole(tmp_path):
@@ -66,3 +70,114 @@ def test_a_device_is_written_to_directly():
 def test_an_exception_of_the_caller_passes_through(tmp_path):
     with pytest.raises(ZeroDivisionError), atomic_write(tmp_path / "x"):
         raise ZeroDivisionError
+
+
+def outside_of(tmp_path):
+    """A folder, and a file and a folder beside it that must stay as they are."""
+    folder, other = tmp_path / "folder", tmp_path / "other"
+    folder.mkdir()
+    other.mkdir()
+    (other / "victim").write_bytes(b"before")
+    return folder, other
+
+
+def test_below_a_folder_a_link_is_replaced_not_followed(tmp_path):
+    folder, other = outside_of(tmp_path)
+    (folder / "a").symlink_to(other / "victim")
+    (folder / "b").symlink_to(other / "new")
+    (folder / "inside").mkdir()
+    (folder / "link").symlink_to("inside")
+    for name in ("a", "b", "link/c"):
+        with atomic_write(folder / name, below=folder) as file:
+            file.write(b"x")
+        assert not (folder / name).is_symlink() and (folder / name).read_bytes() == b"x"
+    assert (other / "victim").read_bytes() == b"before"
+    assert os.listdir(other) == ["victim"]
+
+
+@pytest.mark.parametrize("name", ["out/victim", "out/deep/new", "inside/../out/victim", "../x"])
+def test_below_a_folder_nothing_leads_out_of_it(name, tmp_path):
+    folder, other = outside_of(tmp_path)
+    (folder / "inside").mkdir()
+    (folder / "out").symlink_to(other)
+    (other / "deep").mkdir()
+    with pytest.raises(FileAccessError, match="leads out of") as caught:
+        make_folder_of(str(folder / name), below=str(folder))
+    assert str(folder / name) in str(caught.value)
+    with (
+        pytest.raises(FileAccessError, match="leads out of"),
+        atomic_write(folder / name, below=folder),
+    ):
+        pass
+    assert (other / "victim").read_bytes() == b"before"
+    assert sorted(os.listdir(other)) == ["deep", "victim"] and not os.listdir(other / "deep")
+    assert not (tmp_path / "x").exists()
+
+
+def test_the_folder_itself_may_be_a_link(tmp_path):
+    folder, other = outside_of(tmp_path)
+    (tmp_path / "link").symlink_to(other)
+    with atomic_write(tmp_path / "link" / "victim", below=tmp_path / "link") as file:
+        file.write(b"x")
+    assert (other / "victim").read_bytes() == b"x"
+
+
+def test_names_are_on_the_disk_when_the_block_ends(tmp_path, monkeypatch):
+    synced, replaced = [], []
+    monkeypatch.setattr(module, "sync_folder", lambda path: synced.append((path, len(replaced))))
+    replace = os.replace
+    monkeypatch.setattr(os, "replace", lambda *names: (replaced.append(1), replace(*names)))
+    (tmp_path / "b").mkdir()
+    with module.AtomicFiles() as files:
+        for name in ("1", "2", "b/3"):
+            files.create(tmp_path / name).write(b"x")
+    assert sorted(synced) == [(str(tmp_path), 3), (str(tmp_path / "b"), 3)]
+
+
+@pytest.mark.skipif(not hasattr(os, "O_DIRECTORY"), reason="no folder can be opened")
+def test_folders_are_synced(tmp_path, monkeypatch):
+    synced = []
+    fsync = os.fsync
+    monkeypatch.setattr(os, "fsync", lambda fd: (synced.append(os.fstat(fd).st_ino), fsync(fd)))
+    make_folder_of(str(tmp_path / "a" / "b" / "c"))
+    with atomic_write(tmp_path / "a" / "b" / "c") as file:
+        file.write(b"x")
+    expected = {place.stat().st_ino for place in (tmp_path, tmp_path / "a", tmp_path / "a" / "b")}
+    assert expected <= set(synced)
+
+
+#: Modules whose files somebody else names, one by one: what they give is followed where it leads.
+NAMED_BY_OTHERS = {
+    "cli/bench.py", "cli/sheet.py", "compat/pyrender/viewer.py", "editor/recent_files.py",
+    "editor/ui/layout.py", "files/animation_files.py", "files/video_files.py", "golden/report.py",
+    "golden/result_files.py", "rendering/frame.py", "sheet/sheet.py", "viewer/recent_files.py",
+    "writers/gltf.py", "writers/obj.py", "writers/ply.py", "writers/scene.py", "writers/stl.py",
+}  # fmt: skip
+
+
+def test_every_file_is_written_by_this_module_and_below_its_folder():
+    followed, direct = set(), set()
+    engine = Path(module.__file__).parents[1]
+    for path in engine.rglob("*.py"):
+        name = path.relative_to(engine).as_posix()
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if not isinstance(node, ast.Call):
+                continue
+            called = getattr(node.func, "attr", getattr(node.func, "id", ""))
+            owner = getattr(getattr(node.func, "value", None), "id", "")
+            owner = owner or getattr(getattr(node.func, "value", None), "attr", "")
+            writes = called == "atomic_write" or (called == "create" and "iles" in owner)
+            if writes and not any(word.arg == "below" for word in node.keywords):
+                followed.add(name)
+            modes = [a.value for a in node.args[1:2] if isinstance(a, ast.Constant)]
+            if (
+                called == "open"
+                and owner == ""
+                and str(modes[:1]).strip("[']")[:1] in "wxa"
+                and modes
+            ):
+                direct.add(name)
+            if called in ("write_bytes", "write_text"):
+                direct.add(name)
+    assert followed - {"files/atomic_write.py"} == NAMED_BY_OTHERS
+    assert direct == {"cli/__init__.py"}  # which opens what leads nowhere

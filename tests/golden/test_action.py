@@ -1,5 +1,7 @@
 """The GitHub Action: its shell runs here, its description names what the scripts take."""
 
+import html
+import json
 import os
 import re
 import shutil
@@ -56,11 +58,67 @@ def test_a_difference_is_reported(start, tmp_path):
     assert files == {"report.html", "golden.json", "junit.xml"}
     lines = (tmp_path / "summary").read_text().splitlines()
     assert lines[0] == "### Golden pictures: 1 changed, 1 new"
-    rows = [line for line in lines if line.startswith("| test_one/")]
+    rows = [line for line in lines if html.unescape(line).startswith("| test_one/")]
     message = "1 of 48 pixels differ by up to 3, within (3, 2) to (3, 2)"
-    assert f"| test_one/test_a | changed | {message} | test_one.py::test_a |" in rows
+    shown = [html.unescape(row) for row in rows]
+    assert f"| test_one/test_a | changed | {message} | test_one.py::test_a |" in shown
     assert len(rows) == 2 and all(len(re.findall(r"\|", row)) == 5 for row in rows)
     assert "<b>" not in "".join(rows) and "`" not in "".join(rows)
+
+
+HOSTILE = [
+    "![x](https://example.org/x.png)",
+    "<img src=https://example.org/x.png>",
+    "https://example.org www.example.org a@example.org",
+    "[a]: https://example.org",
+    "` `` ``` ~~~ | || \\\\| &lt;img&gt; &#60;",
+    "**a** _b_ ~c~ # d\n\n# e\r- f",
+    "\u202egnp.exe\x1b[31m\0",
+    "x" * 100_000,
+]
+
+
+@pytest.mark.parametrize("name", HOSTILE, ids=lambda name: ascii(name[:12]))
+def test_names_are_text_in_the_summary(name, tmp_path):
+    picture = {"name": name, "status": "changed", "message": name, "test": name}
+    (tmp_path / "golden.json").write_text(json.dumps({"pictures": [picture]}))
+    files = [str(tmp_path / "golden.json"), str(tmp_path / "summary.md")]
+    subprocess.run([sys.executable, ACTION / "summary.py", *files], check=True)
+    row = next(r for r in Path(files[1]).read_text("utf-8").splitlines() if "changed |" in r)
+    cells = row.removeprefix("| ").removesuffix(" |").split(" | ")
+    assert len(cells) == 4 and len(row) < 10_000
+    for cell in (cells[0], *cells[2:]):
+        assert re.fullmatch(r"(?:[\w /,()-]|&#[0-9]+;)*", cell) and "_" not in cell
+        assert html.unescape(cell)[:20].split() == " ".join(printed(name).split())[:20].split()
+
+
+def printed(text):
+    return "".join(c if c.isprintable() or c.isspace() else ascii(c)[1:-1] for c in text)
+
+
+@pytest.mark.parametrize("text", ["[]", "{}", "1", '{"pictures": [1]}', "[" * 100_000, ""])
+def test_results_that_are_none_are_told(text, tmp_path):
+    (tmp_path / "golden.json").write_text(text)
+    files = [str(tmp_path / "golden.json"), str(tmp_path / "summary.md")]
+    done = subprocess.run(
+        [sys.executable, ACTION / "summary.py", *files], capture_output=True, text=True
+    )
+    assert done.returncode == 1 and done.stderr.startswith("golden: no results of pytest")
+    assert not (tmp_path / "summary.md").exists()
+
+
+def test_actions_are_named_by_their_commits():
+    """Whoever owns a tag can move it to other code."""
+    root = ACTION.parents[2]
+    pages = [*root.rglob(".github/**/*.yml"), *root.glob("docs/*.md"), root / "README.md"]
+    found = [
+        (path.name, name)
+        for path in pages
+        for name in re.findall(r"uses: +(\S+)", path.read_text("utf-8"))
+        if not name.startswith("./")
+    ]
+    assert len(found) >= 6
+    assert not [one for one in found if not re.fullmatch(r"[\w/-]+@[0-9a-f]{40}", one[1])]
 
 
 def test_results_of_an_earlier_run_do_not_count(start, tmp_path):

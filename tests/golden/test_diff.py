@@ -201,7 +201,7 @@ def test_animations_are_compared_frame_by_frame(folders, capsys):
         (["new", "old/same.png"], "new: one is a folder and the other is none: old/same.png"),
         (["old/same.png", "new/notes.txt"], "new/notes.txt: not an image of a known format"),
         (["new", "old", "-R", "new/notes.txt/r"], "new/notes.txt/r: cannot write: "),
-        (["-F", "new/notes.txt", "-R", "r.html"], "new/notes.txt: no JSON: "),
+        (["-F", "new/notes.txt", "-R", "r.html"], "new/notes.txt:1: not JSON: "),
     ],
 )
 def test_errors_are_one_line_and_status_1(folders, capsys, arguments, message):

@@ -74,6 +74,28 @@ def test_escape_alone_is_a_key_once_nothing_follows():
     assert keys.decode(b"", ended=True) == [KeyDown("Escape", "Escape")]
 
 
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"\x1b[" + b"9" * 5000 + b"~",
+        b"\x1b[<0;" + b"9" * 5000 + b";5M",
+        b"\x1b[<" + b"1;" * 3000 + b"M",
+        b"\x1b_" + b"a" * 300_000,
+        b"\x1b[?" + b"1;" * 200_000 + b"c",
+        b"\x1b[38:2:1:2:3m",
+    ],
+    ids=lambda data: repr(data[:8]),
+)
+def test_sequences_that_nobody_knows_are_passed_over(data):
+    keys = decoder()
+    happened = []
+    for place in range(0, len(data), 4096):
+        happened += keys.decode(data[place : place + 4096])
+        assert len(keys._rest) < 10_000
+    assert happened + keys.decode(b"", ended=True) == []
+    assert keys.decode(b"w") == [KeyDown("W", "W"), TextEntered("w")]
+
+
 def test_two_quick_clicks_are_a_double_click():
     keys = decoder()
     presses = [keys.decode(b"\x1b[<0;3;4M\x1b[<0;3;4m") for _ in range(2)]

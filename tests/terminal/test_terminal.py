@@ -1,6 +1,8 @@
 """The commands in a terminal: one made of a pty that answers as kinds of terminals do, and tmux."""
 
+import contextlib
 import os
+import random
 import re
 import shutil
 import signal
@@ -18,9 +20,11 @@ import struct
 import termios
 
 from patience import HUNG
+from terminal import hostile_answers
 
-from engine3d.terminal.device import Answers
-from engine3d.terminal.window import picture_size
+from engine3d.terminal.device import LARGEST_CELL, MOST_CELLS, Answers, Device
+from engine3d.terminal.keys import Decoder
+from engine3d.terminal.window import TerminalWindow, picture_size
 
 COMMAND = (
     "import sys; from importlib.resources import files;"
@@ -42,13 +46,13 @@ SHOWS = {"kitty": b"\x1b_Ga=T", "sixel": b'\x1bP0;1;0q"', "blocks": "\N{UPPER HA
 class FakeTerminal:
     """A pty with a command in it, and a thread that reads what it writes and answers questions."""
 
-    def __init__(self, kind, *arguments):
+    def __init__(self, kind, *arguments, size=(ROWS, COLUMNS)):
         self.written = b""
         self.pid, self.file = pty.fork()
         if self.pid == 0:
             os.execv(sys.executable, [sys.executable, "-c", COMMAND, *arguments])
-        fcntl.ioctl(self.file, termios.TIOCSWINSZ, struct.pack("4H", ROWS, COLUMNS, 0, 0))
-        self.answer = KINDS[kind]
+        fcntl.ioctl(self.file, termios.TIOCSWINSZ, struct.pack("4H", *size, 0, 0))
+        self.answer = KINDS.get(kind, kind)
         self.status = None
         self.thread = threading.Thread(target=self._read, daemon=True)
         self.thread.start()
@@ -62,7 +66,7 @@ class FakeTerminal:
                 return
             if not data:
                 return
-            self.written += data
+            self.written = (self.written + data)[-(1 << 20) :]
             if self.written.count(b"\x1b[c") > asked:
                 asked += 1
                 self.type(self.answer)
@@ -78,6 +82,15 @@ class FakeTerminal:
             time.sleep(0.01)
         found, self.written = self.written[: match.end()], self.written[match.end() :]
         return found
+
+    def endures(self, pieces):
+        """Type pieces of anything, then that the viewer is to end; return its exit status."""
+        with contextlib.suppress(OSError):  # it has ended already
+            for piece in (*pieces, b"\x03"):
+                for place in range(0, len(piece), 2048):
+                    self.type(piece[place : place + 2048])
+                time.sleep(0.1)
+        return self.ends()
 
     def ends(self):
         """Wait for the command's end and return its exit status."""
@@ -143,6 +156,59 @@ def test_a_picture_fills_its_cells(graphics, size):
 def test_pictures_for_large_terminals_have_a_limit():
     assert picture_size(Answers("kitty", (20, 40), False), (200, 60)) == (1280, 768)
     assert picture_size(Answers("sixel", (20, 40), False), (200, 60)) == (640, 480)
+
+
+@pytest.mark.parametrize(
+    "size", [(ROWS, COLUMNS), (0, 0), pytest.param((65535, 65535), marks=pytest.mark.slow)]
+)
+def test_the_viewer_goes_on_whatever_the_terminal_says(size):
+    choice = random.Random(str(size))
+    terminal = FakeTerminal(hostile_answers.answer(choice), "run", "MODEL", "--terminal", size=size)
+    terminal.wait_for(re.escape(b"\x1b[?1049h"))
+    assert terminal.endures([hostile_answers.keys(choice) for _ in range(4)]) == 0
+
+
+class SilentDevice(Device):
+    """A terminal without a system: what it is asked for comes in pieces."""
+
+    def __init__(self, said, size):
+        self._pieces = [said[place : place + 4096] for place in range(0, len(said), 4096)]
+        self._size = size
+
+    def write(self, data):
+        pass
+
+    def read(self, timeout):
+        return self._pieces.pop(0) if self._pieces else b"\x1b[?62;c"
+
+    def cells(self):
+        return self._size
+
+    def _cell_by_system(self):
+        return None
+
+
+def test_sizes_that_no_terminal_has_count_as_not_told():
+    for number in range(100):
+        choice = random.Random(number)
+        size = choice.choice([(60, 19), (1, 2), MOST_CELLS])
+        device = SilentDevice(hostile_answers.answer(choice), size)
+        answers = device.ask()
+        assert all(1 <= side <= LARGEST_CELL for side in answers.cell)
+        width, height = picture_size(answers, size)
+        assert 1 <= width <= 1280 and 1 <= height <= 1000
+        window = TerminalWindow.__new__(TerminalWindow)
+        window.answers, window._device = answers, device
+        events = Decoder(window._place).decode(hostile_answers.keys(choice), ended=True)
+        width, height = window.size
+        places = [(event.x, event.y) for event in events if hasattr(event, "x")]
+        assert all(-1 <= x <= width and -1 <= y <= height for x, y in places)
+
+
+def test_an_endless_answer_is_not_waited_for():
+    begun = time.monotonic()
+    answers = SilentDevice(b"\x1b[?" + b"1;" * 10_000_000, (60, 19)).ask()
+    assert answers.graphics == "blocks" and time.monotonic() - begun < 1.0
 
 
 @pytest.mark.skipif(shutil.which("tmux") is None, reason="needs tmux")

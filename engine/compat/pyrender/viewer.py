@@ -12,6 +12,7 @@ import threading
 import numpy as np
 
 from ... import events
+from ..._support.side_by_side import Thread
 from ...files.atomic_write import atomic_write
 from ._drawing import Drawing
 from ._viewer_lights import direct_light, raymond_lights
@@ -257,7 +258,7 @@ class Viewer:
             finally:
                 opened.set()
 
-        self._thread = threading.Thread(target=run, daemon=True)
+        self._thread = Thread(target=run, daemon=True)
         self._opened = opened
         self._thread.start()
         opened.wait()

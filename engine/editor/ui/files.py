@@ -102,7 +102,8 @@ class Files:
 
     def offer_recovery(self) -> None:
         """Ask about the latest scene that an editor left behind, if there is one."""
-        copies = left_behind()
+        with self._workspace.console.warnings_noted():
+            copies = left_behind()
         if copies:
             self._offer(copies[0])
 

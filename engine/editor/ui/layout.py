@@ -9,16 +9,19 @@ from __future__ import annotations
 import configparser
 import contextlib
 import math
+import os
 from pathlib import Path
 
 from imgui_bundle import imgui
 
-from ...errors import FileAccessError
+from ...errors import FileAccessError, FileFormatError, warn
 from ...files.atomic_write import atomic_write
+from ...files.json_records import read_small
 from ..user_folders import state_folder
 from .workspace import PANELS, Workspace
 
 _HEAD = "[engine3d][Editor]"
+_LARGEST = 1 << 20  # bytes
 
 
 def layout_path() -> Path:
@@ -29,8 +32,13 @@ def layout_path() -> Path:
 def load_layout(workspace: Workspace) -> bool:
     """Take over what was kept; return whether there was something."""
     try:
-        text = layout_path().read_text("utf-8")
-    except (OSError, UnicodeError):
+        text = read_small(layout_path(), _LARGEST).decode("utf-8")
+    except UnicodeError:
+        warn(f"{layout_path()}: not in UTF-8: panels have their usual places")
+        return False
+    except (FileAccessError, FileFormatError) as error:
+        if os.path.lexists(layout_path()):
+            warn(f"{error}: panels have their usual places")
         return False
     imgui.load_ini_settings_from_memory(text)
     _read_settings(workspace, text.partition(_HEAD)[2].partition("\n[")[0])

@@ -1,0 +1,126 @@
+"""What engine3d writes and reads again: damaged in whatever way, it ends in no traceback."""
+
+import ast
+import json
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("resource", reason="FIFOs and alarms are POSIX's")
+from files.json_damage import DEPTH
+from files.own_files import KINDS, Batch, try_kind
+
+import engine3d as e3d
+from engine3d.datasets import CocoWriter
+from engine3d.editor.recent_files import RecentFiles
+from engine3d.errors import FileAccessError, FileFormatError
+from engine3d.files import json_records
+from engine3d.golden.result_files import read_json
+
+ENGINE = Path(e3d.__file__).parent
+#: Modules that write JSON: which of `KINDS` reads it again, or why nothing does.
+WRITERS = {
+    "batch/bytes_of.py": "what scripts want beside their pictures",
+    "batch/task.py": "for a hash",
+    "cli/bench.py": "for people and programs",
+    "cli/info.py": "for people and programs",
+    "datasets/bop_models.py": "bop-shapes",
+    "datasets/folders.py": "the data set itself",
+    "datasets/writer.py": "the data set itself",
+    "editor/autosave.py": "copies",
+    "editor/recent_files.py": "recent",
+    "files/json_records.py": "batch-plain",
+    "golden/golden_files.py": "golden",
+    "golden/result_files.py": "results",
+    "sheet/report.py": "for people and programs",
+    "writers/gltf.py": "gltf",
+    "writers/scene.py": "scene",
+}
+#: Modules that read JSON without `json_records`, and why.
+READERS = {
+    "batch/task.py": "what it just wrote, in memory",
+    "files/json_records.py": "the one place",
+    "loaders/gltf_file.py": "files of others, with errors of its own",
+}
+COUNTS = {"golden": 60, "results": 100, "copies": 100, "recent": 60, "config": 10}
+COUNTS |= {"scene": 60, "gltf": 60, "manifest": 100}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.filterwarnings("ignore::engine3d.Engine3DWarning")
+def test_damaged_files_are_told_or_done_without(kind, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    counts, findings = try_kind(kind, tmp_path / "files", 7, COUNTS.get(kind, 4))
+    assert not findings
+    assert not {"finding", "slow"} & set(counts)
+
+
+def test_every_writer_and_reader_of_json_is_known():
+    found = {"dumps": set(), "loads": set()}
+    for path in ENGINE.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.Attribute) and getattr(node.value, "id", "") == "json":
+                name = {"dump": "dumps", "load": "loads"}.get(node.attr, node.attr)
+                found.get(name, set()).add(path.relative_to(ENGINE).as_posix())
+    assert found == {"dumps": set(WRITERS), "loads": set(READERS)}
+    assert {said for said in WRITERS.values() if " " not in said} <= set(KINDS)
+
+
+@pytest.mark.parametrize("text", ["[]", "{}", "1", "[" * DEPTH, "", '{"seal":"","key":1}'])
+def test_a_damaged_record_is_named_and_its_picture_drawn_again(text, tmp_path):
+    case = Batch(tmp_path, CocoWriter(), ".batch/p0.json")
+    (path,) = case._files
+    path.write_text(text)
+    with pytest.warns(e3d.Engine3DWarning, match=r"\.batch/p0\.json.*: the picture is drawn again"):
+        assert case._run(True) == case._hash
+    assert path.read_bytes() == case._files[path]
+
+
+def test_a_letter_that_was_changed_does_not_fit_the_seal(tmp_path):
+    path = tmp_path / "a.json"
+    path.write_bytes(json_records.sealed({"number": 1}))
+    assert json_records.read_sealed(path, json_records.anything) == {"number": 1}
+    path.write_bytes(path.read_bytes().replace(b":1", b":2"))
+    with pytest.raises(FileFormatError, match=r"a\.json: damaged: its content"):
+        json_records.read_sealed(path, json_records.anything)
+
+
+def test_errors_name_file_and_place(tmp_path):
+    path = tmp_path / "results.json"
+    whole = {"name": "a", "status": "passed"}
+    path.write_text(json.dumps({"pictures": [whole, {**whole, "name": 1}]}))
+    with pytest.raises(FileFormatError, match=r"results\.json: pictures\[1\]\.name: not what"):
+        read_json(str(path))
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ('{"a": 1, "a": 2}', "an object has 'a' twice"),
+        ("[NaN]", "NaN is no number of JSON"),
+        ("[" * DEPTH, "nested too deeply"),
+        ("[\n1,]", ":2: not JSON"),
+        ("1" * 5000, "not JSON"),
+        (b'"\xe9"', "not in UTF-8"),
+        ("[1e999]", r"\[0\]: not what"),
+    ],
+)
+def test_texts_that_are_no_json(text, told):
+    with pytest.raises(FileFormatError, match=told):
+        json_records.parsed(text, "a.json", json_records.listed(json_records.number))
+
+
+def test_what_is_no_file_is_not_waited_for(tmp_path):
+    import os
+
+    os.mkfifo(tmp_path / "fifo")
+    for path in (tmp_path, tmp_path / "fifo", tmp_path / "none", "a\0b"):
+        with pytest.raises(FileAccessError):
+            json_records.read_json(path)
+
+
+def test_a_damaged_list_of_recent_files_is_told(tmp_path):
+    path = tmp_path / "recent.json"
+    path.write_text('{"a": 1}')
+    with pytest.warns(e3d.Engine3DWarning, match=r"recent\.json: .* begins anew"):
+        assert RecentFiles(path).paths() == ()

@@ -1,0 +1,134 @@
+"""Work shared out among threads: it ends, however many threads there can be."""
+
+import _thread
+import contextvars
+import os
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+import engine3d as e3d
+from engine3d._support import side_by_side as module
+from engine3d._support.side_by_side import Thread, side_by_side
+from engine3d.errors import OutOfMemoryError
+
+ENGINE = Path(e3d.__file__).parent
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3, 8])
+@pytest.mark.parametrize("count", [0, 1, 2, 50])
+def test_results_are_in_the_order_of_the_items(threads, count):
+    assert side_by_side(lambda one: one * one, range(count), threads) == [
+        n * n for n in range(count)
+    ]
+
+
+def test_several_threads_work():
+    meeting = threading.Barrier(3, timeout=30)
+    assert sorted(side_by_side(lambda _: meeting.wait(), range(3), 3)) == [0, 1, 2]
+
+
+def test_the_first_error_is_raised_and_nothing_more_is_begun():
+    begun = []
+
+    def work(one):
+        begun.append(one)
+        if one >= 5:
+            raise ValueError(one)
+
+    with pytest.raises(ValueError, match="5"):
+        side_by_side(work, range(1000), 2)
+    assert len(begun) < 1000
+
+
+def test_helpers_find_the_variables_of_the_caller():
+    variable = contextvars.ContextVar("variable")
+    variable.set(3)
+    meeting = threading.Barrier(2, timeout=30)
+
+    def work(_):
+        meeting.wait()
+        return variable.get()
+
+    assert side_by_side(work, range(2), 2) == [3, 3]
+
+
+@pytest.mark.parametrize("how", ["refused", "never begins", "dies"])
+def test_without_threads_the_caller_does_all(how, monkeypatch):
+    def start(function, arguments):
+        if how == "refused":
+            raise RuntimeError("can't start new thread")
+        return 0  # and nothing is run: a thread that has no memory to begin ends in silence
+
+    monkeypatch.setattr(_thread, "start_new_thread", start)
+    if how == "dies":
+        monkeypatch.setattr(module._Helper, "_run", lambda self: 1 / 0)
+        monkeypatch.undo()
+        monkeypatch.setattr(module._Helper, "start", lambda self: None)
+    assert side_by_side(lambda one: one, range(9), 4) == list(range(9))
+
+
+def test_a_thread_that_does_not_begin_is_an_error(monkeypatch):
+    monkeypatch.setattr(module, "PATIENCE", 0.05)
+    monkeypatch.setattr(Thread, "_bootstrap", lambda self: None)
+    with pytest.raises(OutOfMemoryError, match="did not begin"):
+        Thread(target=print, daemon=True).start()
+
+
+def test_threads_run():
+    done = []
+    thread = Thread(target=lambda: done.append(1), daemon=True)
+    thread.start()
+    thread.join(30)
+    assert done == [1]
+
+
+def test_nothing_waits_for_threads_that_may_not_begin():
+    """Pools and threads of Python's own wait for ever when memory is gone."""
+    for path in ENGINE.rglob("*.py"):
+        text = path.read_text("utf-8")
+        code = "\n".join(line for line in text.splitlines() if not line.lstrip().startswith("#"))
+        for name in ("ThreadPoolExecutor(", "threading.Thread(", "threading.Timer("):
+            assert name not in code, path
+
+
+LITTLE = """
+import resource, sys, numpy as np, engine3d as e3d
+from PIL import Image
+size = [int(line.split()[1]) for line in open("/proc/self/status") if line.startswith("VmSize")][0]
+e3d.Scene(), e3d.load_scene(b"v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3\\n", format="obj")
+try:
+    resource.setrlimit(resource.RLIMIT_AS, ((size << 10) + int(sys.argv[2]),) * 2)
+    e3d.load_scene(sys.argv[1])
+except e3d.Engine3DError as error:
+    assert "memory" in str(error), error
+"""
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/status"), reason="needs Linux's limits")
+def test_a_model_is_loaded_or_refused_when_memory_is_nearly_gone(tmp_path):
+    import numpy as np
+
+    scene, box = e3d.Scene(), e3d.icosphere(subdivisions=3)
+    images = [np.full((64, 64, 3), n, np.uint8) for n in range(2)]
+    box.materials = [e3d.Material(texture=e3d.Texture(images[0]))]
+    scene.add(box)
+    other = e3d.box()
+    other.materials = [e3d.Material(texture=e3d.Texture(images[1]))]
+    scene.add(other)
+    path = tmp_path / "a.glb"
+    e3d.save_scene(scene, path)
+    for extra in (0, 300_000, 2_000_000):
+        begun = time.monotonic()
+        done = subprocess.run(
+            [sys.executable, "-c", LITTLE, str(path), str(extra)],
+            capture_output=True,
+            text=True,
+            timeout=100,
+        )
+        assert done.returncode == 0, done.stderr
+        assert time.monotonic() - begun < 50

@@ -20,6 +20,7 @@ from .documents import Document, DocumentObject
 from .far_coordinates import moved_near
 from .registry import Reader
 from .sources import Source
+from .stl_spelling import has_more_vertices, usual_spelling
 from .text import decoded, shown, text_lines
 from .triangulation import WorkBudget, triangulate
 from .warning_list import WarningList
@@ -29,7 +30,9 @@ _HEADER = 84
 # A facet is a normal, three corners, and two bytes of attributes.
 _FACET_SIZE, _CORNERS_AT = 50, 12
 _SKIPPED = (b"facet", b"outer", b"endfacet", b"endsolid")
-_TEXT = re.compile(rb"(?:\xef\xbb\xbf)?\s*solid\b", re.IGNORECASE)
+_TEXT = re.compile(rb"(?:\xef\xbb\xbf)?\s*(?:solid(?![A-Za-z])|facet[ \t_]*normal)", re.IGNORECASE)
+# What some programs write behind a text.
+_PADDING, _ENDINGS = b"\0\x1a", (b"\0", b"\x1a")
 _MAX_OBJECTS = 1000
 _MOST = 2**31 - 1
 _FORMS = (
@@ -116,7 +119,7 @@ def _is_text(source: Source) -> bool:
     head = source.head(_SNIFFED)
     if _TEXT.match(head) is None and (head.strip() or _TEXT.match(source.data) is None):
         return False
-    return not _has_binary_length(head, source.size) and b"\0" not in source.data
+    return not _has_binary_length(head, source.size) and b"\0" not in source.data.rstrip(_PADDING)
 
 
 def _has_binary_length(head: bytes, size: int) -> bool:
@@ -151,26 +154,11 @@ def _require_facets(count: int, source: Source) -> None:
 
 
 def _read_text(source: Source, warnings: WarningList, split: bool) -> _Facets:
-    """Read the text form: what counts are the lines of vertices and of loops' ends."""
+    """Read the text form."""
+    if source.data.endswith(_ENDINGS):
+        source = source._replace(content=source.data.rstrip(_PADDING))
     text = text_lines(source)
-    reader = native.FormReader(text, _FORMS, True)
-    solids: list[tuple[str, int]] = []
-    ends = [np.zeros(1, np.int64)]
-    count, place = 0, reader.read(0)
-    while place < len(text):
-        end = text.index(b"\n", place)
-        words = text[place:end].split(None, 1)
-        if words[0].lower() != b"solid":
-            _fail_at(source.path, text, place)
-        ends.append(reader.take_marks()["rows"])
-        name = decoded(words[1].strip()) if len(words) > 1 else ""
-        count += len(ends[-1])
-        solids.append((name, count))
-        place = reader.read(end + 1)
-    ends = np.concatenate([*ends, reader.take_marks()["rows"]])
-    corners = reader.take_rows(0)
-    if ends[-1] != len(corners):
-        raise FileFormatError("the file ends within a facet", source.path, text.count(b"\n"))
+    corners, ends, solids = _rows_of_any(text, source.path, warnings)
     corners, pose = moved_near(corners) if split else (corners, None)
     with np.errstate(over="ignore"):
         corners = corners.astype(np.float32)
@@ -189,6 +177,64 @@ def _read_text(source: Source, warnings: WarningList, split: bool) -> _Facets:
     return _Facets(count, corners[first], faces, cut.polygons, visible, len(corners), solids, pose)
 
 
+class _Rows(NamedTuple):
+    """The lines of a text: corners (C, 3), the first one of each facet and their number, solids."""
+
+    corners: np.ndarray
+    ends: np.ndarray
+    solids: list[tuple[str, int]]
+
+
+def _rows_of_any(text: bytes, path: str, warnings: WarningList) -> _Rows:
+    """Read a text as it stands or, where that fails, in the usual spelling."""
+    problem = rows = None
+    try:
+        rows = _rows(text, path)
+    except FileFormatError as error:
+        problem = error
+    if rows is not None and not _lacks_vertices(text, rows):
+        return rows
+    spelling = usual_spelling(text)
+    try:
+        rows = _rows(spelling.text, path)
+    except FileFormatError:
+        if problem is not None:
+            raise problem from None
+        return rows
+    if spelling.left_out:
+        warnings.add(f"{spelling.left_out} lines that are no part of STL are left out")
+    return rows
+
+
+def _lacks_vertices(text: bytes, rows: _Rows) -> bool:
+    """Whether some facets share a line, of which only the first word was read."""
+    usual = len(rows.corners) + 4 * (len(rows.ends) - 1) + 2 * len(rows.solids)
+    return text.count(b"\n") != usual and has_more_vertices(text, len(rows.corners))
+
+
+def _rows(text: bytes, path: str) -> _Rows:
+    """Read lines: what counts are those of vertices and of loops' ends."""
+    reader = native.FormReader(text, _FORMS, True)
+    solids: list[tuple[str, int]] = []
+    ends = [np.zeros(1, np.int64)]
+    count, place = 0, reader.read(0)
+    while place < len(text):
+        end = text.index(b"\n", place)
+        words = text[place:end].split(None, 1)
+        if words[0].lower() != b"solid":
+            _fail_at(path, text, place)
+        ends.append(reader.take_marks()["rows"])
+        name = decoded(words[1].strip()) if len(words) > 1 else ""
+        count += len(ends[-1])
+        solids.append((name, count))
+        place = reader.read(end + 1)
+    ends = np.concatenate([*ends, reader.take_marks()["rows"]])
+    corners = reader.take_rows(0)
+    if ends[-1] != len(corners):
+        raise FileFormatError("the file ends within a facet", path, text.count(b"\n"))
+    return _Rows(corners, ends, solids)
+
+
 def _fail_at(path: str, text: bytes, place: int):
     """Raise an error about the line that begins there, which has no form."""
     line = text[place : text.index(b"\n", place)]
@@ -200,6 +246,8 @@ def _fail_at(path: str, text: bytes, place: int):
 
 def _groups(solids: list[tuple[str, int]], facets: np.ndarray) -> list[tuple[str, np.ndarray]]:
     """The triangles of each solid; facets before the first ``solid`` belong to none."""
+    if not solids:
+        return []
     begins = np.searchsorted(facets, [start for _, start in solids])
     ends = np.append(begins[1:], len(facets))
     groups: dict[str, list[np.ndarray]] = {}

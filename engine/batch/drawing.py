@@ -196,7 +196,8 @@ class Drawer:
 
     def _scene(self, task: Task, inputs: InputFiles) -> tuple[Scene, Said]:
         """The scene of a task, and what its script says of it."""
-        scene = Scene() if task.model is None else self._files.scene(task.path(task.model))
+        path, root = task.model, task.root_path
+        scene = Scene() if path is None else self._files.scene(task.path(path), root)
         for key, value in task.scene.items():
             setattr(scene, key, value)
         if task.script is None:

@@ -36,7 +36,7 @@ def draw_look(
     ------
     FileFormatError, FileAccessError
     """
-    viewed = open_models([task.path(task.model)], companion=companion)
+    viewed = open_models([task.path(task.model)], companion=companion, root=task.root_path)
     for text in viewed.warnings:
         warnings.warn(f"{task.model}: {text}", Engine3DWarning, stacklevel=2)
     with ViewRenderer(

@@ -24,7 +24,7 @@ def info(args: argparse.Namespace) -> int:
     reports, failures = [], 0
     for file in model_files(args.models):
         try:
-            report = describe(file)
+            report = describe(file, args.root)
         except Engine3DError as error:
             if len(args.models) == 1:
                 raise
@@ -40,13 +40,15 @@ def info(args: argparse.Namespace) -> int:
     return 1 if failures else 0
 
 
-def describe(path) -> dict:
+def describe(path, root: str | None = None) -> dict:
     """Return what a file holds, in types that JSON knows.
 
     Parameters
     ----------
     path : path-like or binary file object
         A file of any format that `engine3d.loaders` reads.
+    root : str, optional
+        As in `load_mesh`.
 
     Returns
     -------
@@ -60,7 +62,7 @@ def describe(path) -> dict:
     """
     with LoadingBar() as progress, warnings.catch_warnings():
         warnings.simplefilter("ignore", Engine3DWarning)  # they are part of the report
-        document = load_document(path, progress=progress)
+        document = load_document(path, progress=progress, root=root)
     return {
         "file": path.name if hasattr(path, "read") else str(path),
         "format": document.format,

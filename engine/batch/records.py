@@ -11,12 +11,16 @@ import hashlib
 import json
 import os
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..datasets.writer import Content, DatasetWriter, Note, contents, own_files
+from ..errors import warn
 from ..files.atomic_write import AtomicFiles
 from .file_digests import InputFiles, are_as_before
 from .task import Task
+
+if TYPE_CHECKING:
+    from ..viewer.blank import Reason
 
 FOLDER = ".batch"
 
@@ -27,11 +31,23 @@ def record_path(task: Task) -> str:
 
 
 def write_picture(
-    out: str, task: Task, key: str, inputs: InputFiles, files: Mapping[str, Content], said: Any
+    out: str,
+    task: Task,
+    key: str,
+    inputs: InputFiles,
+    files: Mapping[str, Content],
+    said: Any,
+    blank: Reason | None = None,
 ) -> None:
-    """Write a picture's files and then its record: all of them, or none."""
+    """Write a picture's files and then its record: all of them, or none.
+
+    The record, and a warning, say why a picture shows nothing.
+    """
     hashes = {path: hashlib.sha256(data).hexdigest() for path, data in own_files(files).items()}
     record = {"key": key, "inputs": inputs.digests(), "files": hashes, "said": said}
+    if blank is not None:
+        record |= {"blank": True, "why": blank.word}
+        warn(f"{task.name}: nothing shows: {blank.sentence}")
     text = json.dumps(record, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     with AtomicFiles() as parts:
         whole = {**files, record_path(task): text.encode("utf-8")}

@@ -18,7 +18,7 @@ from .input_options import jobs
 from .inputs import STANDARD_INPUT
 from .outputs import check_animation, check_picture, with_progress
 from .quietness import remark
-from .report import Report
+from .report import Report, warn_of_nothing
 from .usage import UsageError
 
 WINDOW_SIZE = (1280, 720)
@@ -146,7 +146,20 @@ def _show(
             viewer.say("H: help" + ("; Space: play" if still else ""))
         elif isinstance(viewer.walker, GroundController):
             report.line(told(viewer.walker.grid))
-        viewer.run(args.frames)
+        _run_viewer(viewer, args)
+
+
+def _run_viewer(viewer, args: argparse.Namespace) -> None:
+    """Show frames; say why the first one shows nothing, if it does not."""
+    if args.frames == 0:
+        return
+    viewer.run(1)
+    reason = viewer.view_renderer.why_blank()
+    if reason is not None:
+        viewer.say(f"nothing shows: {reason.sentence}")
+        if not args.terminal:  # which takes no other lines meanwhile
+            warn_of_nothing(viewer.view_renderer)
+    viewer.run(None if args.frames is None else args.frames - 1)
 
 
 def _window(args: argparse.Namespace, viewed):
@@ -180,6 +193,7 @@ def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report)
             pictures = draw(view_renderer, view, count, *start)
             pictures = with_progress(pictures, count, "rendering")
             save_animation(pictures, path, headless.seconds_a_frame(view_renderer, count))
+        warn_of_nothing(view_renderer)
     if reason is None and args.output is None:
         remark(f"wrote {path}")
     return 0

@@ -20,7 +20,7 @@ from .documents import Document, DocumentObject
 from .far_coordinates import moved_near
 from .registry import Reader
 from .sources import Source
-from .stl_spelling import has_more_vertices, usual_spelling
+from .stl_spelling import usual_spelling
 from .text import decoded, shown, text_lines
 from .triangulation import WorkBudget, triangulate
 from .warning_list import WarningList
@@ -40,6 +40,7 @@ _FORMS = (
     (b"endloop ", native.MARKED, 0, 0, 0.0, 0),
     *((word + b" ", native.SKIPPED, 0, 0, 0.0, 0) for word in _SKIPPED),
 )
+_FACET_FORM = 2  # the first of what is skipped
 _SNIFFED = 4096
 
 
@@ -158,7 +159,7 @@ def _read_text(source: Source, warnings: WarningList, split: bool) -> _Facets:
     if source.data.endswith(_ENDINGS):
         source = source._replace(content=source.data.rstrip(_PADDING))
     text = text_lines(source)
-    corners, ends, solids = _rows_of_any(text, source.path, warnings)
+    corners, ends, solids, _ = _rows_of_any(text, source.path, warnings)
     corners, pose = moved_near(corners) if split else (corners, None)
     with np.errstate(over="ignore"):
         corners = corners.astype(np.float32)
@@ -178,11 +179,33 @@ def _read_text(source: Source, warnings: WarningList, split: bool) -> _Facets:
 
 
 class _Rows(NamedTuple):
-    """The lines of a text: corners (C, 3), the first one of each facet and their number, solids."""
+    """The lines of a text.
+
+    Attributes
+    ----------
+    corners : (C, 3) float64
+    ends : (F + 1,) int64
+        The first corner of each facet, and their number.
+    solids : list of (str, int)
+    facet_lines : int
+        Lines that begin a facet: more than there are facets if some hold all of theirs.
+    """
 
     corners: np.ndarray
     ends: np.ndarray
     solids: list[tuple[str, int]]
+    facet_lines: int
+
+    @property
+    def polygons(self) -> int:
+        """How many facets have at least three corners."""
+        return int((np.diff(self.ends) >= 3).sum())
+
+    @property
+    def may_lack_facets(self) -> bool:
+        """Whether lines of facets, or of solids, may hold more than was read of them."""
+        is_less = not self.polygons or self.facet_lines >= len(self.ends)
+        return is_less or any("facet" in name.lower() for name, _ in self.solids)
 
 
 def _rows_of_any(text: bytes, path: str, warnings: WarningList) -> _Rows:
@@ -192,24 +215,20 @@ def _rows_of_any(text: bytes, path: str, warnings: WarningList) -> _Rows:
         rows = _rows(text, path)
     except FileFormatError as error:
         problem = error
-    if rows is not None and not _lacks_vertices(text, rows):
+    if rows is not None and not rows.may_lack_facets:
         return rows
     spelling = usual_spelling(text)
     try:
-        rows = _rows(spelling.text, path)
+        again = _rows(spelling.text, path)
     except FileFormatError:
-        if problem is not None:
-            raise problem from None
+        again = None
+    if problem is not None and again is None:
+        raise problem
+    if again is None or (rows is not None and again.polygons <= rows.polygons):
         return rows
     if spelling.left_out:
         warnings.add(f"{spelling.left_out} lines that are no part of STL are left out")
-    return rows
-
-
-def _lacks_vertices(text: bytes, rows: _Rows) -> bool:
-    """Whether some facets share a line, of which only the first word was read."""
-    usual = len(rows.corners) + 4 * (len(rows.ends) - 1) + 2 * len(rows.solids)
-    return text.count(b"\n") != usual and has_more_vertices(text, len(rows.corners))
+    return again
 
 
 def _rows(text: bytes, path: str) -> _Rows:
@@ -232,7 +251,7 @@ def _rows(text: bytes, path: str) -> _Rows:
     corners = reader.take_rows(0)
     if ends[-1] != len(corners):
         raise FileFormatError("the file ends within a facet", path, text.count(b"\n"))
-    return _Rows(corners, ends, solids)
+    return _Rows(corners, ends, solids, reader.lines(_FACET_FORM))
 
 
 def _fail_at(path: str, text: bytes, place: int):

@@ -25,7 +25,6 @@ _OTHER = re.compile(
     rb"^[ \t]*end[ \t]*$",
     re.IGNORECASE | re.MULTILINE,
 )
-_VERTEX = re.compile(rb"(?<![A-Za-z_])vertex" + _NUMBER, re.IGNORECASE)
 
 
 class Spelling(NamedTuple):
@@ -40,11 +39,6 @@ class Spelling(NamedTuple):
 
     text: bytes
     left_out: int
-
-
-def has_more_vertices(text: bytes, count: int) -> bool:
-    """Whether a text holds more vertices than were read of it."""
-    return sum(1 for _ in _VERTEX.finditer(text)) > count
 
 
 def usual_spelling(text: bytes) -> Spelling:

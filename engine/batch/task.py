@@ -75,12 +75,12 @@ class Task:
         Of the generator that the script gets.
     inputs : sequence of str
         Further files that the picture follows from: what scripts read.
-    root : str, optional
-        A folder that files named in the model may be in, besides the model's own.
     index : int
         Its place in the batch.
     folder : str
         What paths are relative to; by default the current one.
+    root : str, optional
+        A folder that files named in the model may be in, besides the model's own.
 
     Raises
     ------
@@ -102,9 +102,9 @@ class Task:
     outputs: Sequence[str] = ("color",)
     seed: int = 0
     inputs: Sequence[str] = ()
-    root: str | None = None
     index: int = 0
     folder: str = field(default_factory=os.getcwd)
+    root: str | None = None
 
     def __post_init__(self) -> None:
         for one in fields(self):

@@ -154,11 +154,11 @@ def _run_viewer(viewer, args: argparse.Namespace) -> None:
     if args.frames == 0:
         return
     viewer.run(1)
-    reason = viewer.view_renderer.why_blank()
+    # A terminal takes no other lines meanwhile.
+    ask = ViewRenderer.why_blank if args.terminal else warn_of_nothing
+    reason = ask(viewer.view_renderer)
     if reason is not None:
         viewer.say(f"nothing shows: {reason.sentence}")
-        if not args.terminal:  # which takes no other lines meanwhile
-            warn_of_nothing(viewer.view_renderer)
     viewer.run(None if args.frames is None else args.frames - 1)
 
 

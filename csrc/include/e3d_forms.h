@@ -42,6 +42,7 @@ typedef struct e3d_form_rows {
     double *values;      /* [rows * width] */
     size_t rows, whole; /* those that lack nothing */
     size_t room;
+    size_t lines; /* that were read, of whatever kind the form is */
 } e3d_form_rows;
 
 /* What was read of a text whose lines are of some forms. */

@@ -143,6 +143,7 @@ bool e3d_read_forms(e3d_form_text *text, const uint8_t *bytes, size_t size, size
             const size_t number = find_form(text, end, &m);
             if (number == text->form_count)
                 break;
+            text->rows[number].lines++;
             const e3d_form *const form = &text->forms[number];
             const uint8_t *const line_end = e3d_line_end(m.at, end);
             if (form->kind == E3D_FORM_ROW)

@@ -1,8 +1,8 @@
 /* Lines of an OBJ file: see obj_lines.h.
  *
- * A '\' at the end of a line continues it, but not that of a comment (a path, say). A '#' begins a
- * comment where a word would begin; within a word, too, in statements of numbers, but for numbers such
- * as 1.#QNAN: names may hold one.
+ * A '\' at the end of a line continues it, but not that of a comment (a path, say), nor one that is half
+ * of a character of two bytes. A '#' begins a comment where a word would begin; within a word, too, in
+ * statements of numbers, but for numbers such as 1.#QNAN: names may hold one.
  */
 #include "obj_lines.h"
 
@@ -84,6 +84,35 @@ static bool append(e3d_array *scratch, const uint8_t *bytes, size_t size)
     return true;
 }
 
+/* The length of the UTF-8 character that a byte beyond ASCII begins; 0 if it begins none. */
+static size_t utf8_length(uint8_t byte)
+{
+    if (byte >= 0xF0)
+        return byte < 0xF5 ? 4 : 0;
+    if (byte >= 0xE0)
+        return 3;
+    return byte >= 0xC2 ? 2 : 0;
+}
+
+/* Whether the byte at `at` is the second one of a character: in Shift-JIS, GBK and Big5 it may be a '\'.
+ * The bytes beyond ASCII before it then are no UTF-8. */
+static bool ends_character(const uint8_t *start, const uint8_t *at)
+{
+    const uint8_t *first = at;
+    while (first > start && first[-1] >= 0x80)
+        first--;
+    while (first < at) {
+        const size_t length = utf8_length(*first);
+        if (length == 0 || (size_t)(at - first) < length)
+            return true;
+        for (size_t i = 1; i < length; i++)
+            if ((first[i] & 0xC0) != 0x80)
+                return true;
+        first += length;
+    }
+    return false;
+}
+
 /* Copies a line, and those that continue it, to `scratch`. */
 static obj_step join_line(obj_lines *lines, obj_line *line)
 {
@@ -96,7 +125,7 @@ static obj_step join_line(obj_lines *lines, obj_line *line)
         lines->next = behind_line_end(end, lines->end);
         while (last > start && (last[-1] == ' ' || last[-1] == '\t'))
             last--;
-        continues = last > start && last[-1] == '\\' && *first != '#';
+        continues = last > start && last[-1] == '\\' && *first != '#' && !ends_character(start, last - 1);
         if (continues)
             end = last - 1;
         if (is_empty)

@@ -108,18 +108,23 @@ bool obj_convert_colors(e3d_obj *obj)
     if (!colors->data)
         return true;
     const double(*rows)[4] = colors->data;
-    double largest = 0;
-    for (size_t i = 0; i < colors->count; i++)
-        for (int channel = 0; channel < 4 && !isnan(rows[i][0]); channel++)
-            largest = rows[i][channel] > largest ? rows[i][channel] : largest;
-    const double scale = largest <= 1 ? 255 : 1;
+    /* Alphas have a range of their own. */
+    double largest = 0, largest_alpha = 0;
+    for (size_t i = 0; i < colors->count; i++) {
+        const double *row = rows[i];
+        for (int channel = 0; channel < 3 && !isnan(row[0]); channel++)
+            largest = row[channel] > largest ? row[channel] : largest;
+        if (!isnan(row[0]) && row[3] > largest_alpha)
+            largest_alpha = row[3];
+    }
+    const double scale = largest <= 1 ? 255 : 1, alpha_scale = largest_alpha <= 1 ? 255 : 1;
     obj->colors = malloc(4 * colors->count);
     if (!obj->colors)
         return obj_fail(obj, E3D_OBJ_NO_MEMORY);
     for (size_t i = 0; i < 4 * colors->count; i++) {
         const double *row = rows[i / 4];
         const double value = row[i % 4];
-        obj->colors[i] = isnan(row[0]) || isnan(value) ? 255 : color_byte(value, scale);
+        obj->colors[i] = isnan(row[0]) || isnan(value) ? 255 : color_byte(value, i % 4 == 3 ? alpha_scale : scale);
     }
     e3d_array_free(colors);
     return true;

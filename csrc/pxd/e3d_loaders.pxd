@@ -263,6 +263,7 @@ cdef extern from "e3d_loaders.h" nogil:
     ctypedef struct e3d_form_rows:
         double *values
         size_t rows, whole, room
+        size_t lines
 
     ctypedef struct e3d_form_text:
         const e3d_form *forms

@@ -165,6 +165,12 @@ cdef class FormReader:
             raise InvalidArgumentError("there is no such form")
         return self.read_text.rows[form].rows, self.read_text.rows[form].whole
 
+    def lines(self, size_t form):
+        """Return how many lines of a form were read."""
+        if form >= self.read_text.form_count:
+            raise InvalidArgumentError("there is no such form")
+        return self.read_text.rows[form].lines
+
     def take_rows(self, size_t form):
         """Hand over the rows of a form, once: (N, width) float64."""
         rows, _ = self.count(form)

@@ -10,7 +10,7 @@ import threading
 import time
 import warnings
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from ..datasets.samples import Sample
 from ..datasets.writer import DatasetWriter
 from ..errors import Engine3DError, Engine3DWarning, InvalidArgumentError
 from ..loaders.linked_files import found_files
+from ..rendering.frame import Frame
 from ..rendering.options import RenderOptions
 from ..rendering.renderer import Renderer
 from ..scene.cameras import Camera
@@ -33,6 +34,9 @@ from .plain import PlainWriter
 from .records import is_done, write_picture
 from .scripts import Said, Scripts
 from .task import Task
+
+if TYPE_CHECKING:
+    from ..viewer.blank import Reason
 
 
 class How(NamedTuple):
@@ -162,6 +166,7 @@ class Drawer:
         renderer = self._sized_renderer(task)
         options = RenderOptions(**{"cull": "auto", **task.render}, outputs=writer.outputs)
         frame = renderer.render(scene, (camera, pose), options=options)
+        blank = self._why_blank(task, frame, scene, camera, pose, options)
         sample = Sample(
             task.name,
             task.index,
@@ -180,7 +185,20 @@ class Drawer:
             if path in files:
                 raise InvalidArgumentError(f"{path} is written twice: it is an output")
             files[path] = data
-        write_picture(out, task, task.key(writer), inputs, files, note)
+        write_picture(out, task, task.key(writer), inputs, files, note, blank)
+
+    def _why_blank(
+        self, task: Task, frame: Frame, scene: Scene, camera: Camera, pose, options: RenderOptions
+    ) -> Reason | None:
+        """Why a picture shows nothing, if it does not."""
+        from ..viewer.blank import Sight, may_be_blank, why_blank
+
+        if not may_be_blank(frame.stats, scene):
+            return None
+        ids = np.array([node.id for node in scene.nodes], np.int64)
+        look = {name: getattr(options, name) for name in ("cull", "point_size", "size_unit")}
+        drawing = {"backend": self._backend, "threads": self._threads}
+        return why_blank(Sight(scene, camera, pose, tuple(task.size), ids, look, drawing))
 
     def _draw_look(self, task: Task, out: str, writer: DatasetWriter, inputs: InputFiles) -> None:
         """Draw a model as ``engine3d render`` does."""
@@ -190,13 +208,14 @@ class Drawer:
             raise InvalidArgumentError("a look is for pictures, not for data sets")
         inputs.note(task.path(task.model))
         with found_files(inputs.note):
-            frame = draw_look(task, self._threads, self._backend, not_written_to(out))
+            frame, blank = draw_look(task, self._threads, self._backend, not_written_to(out))
         files = writer.files(task.name, frame)
-        write_picture(out, task, task.key(writer), inputs, files, None)
+        write_picture(out, task, task.key(writer), inputs, files, None, blank)
 
     def _scene(self, task: Task, inputs: InputFiles) -> tuple[Scene, Said]:
         """The scene of a task, and what its script says of it."""
-        scene = Scene() if task.model is None else self._files.scene(task.path(task.model))
+        path, root = task.model, task.root_path
+        scene = Scene() if path is None else self._files.scene(task.path(path), root)
         for key, value in task.scene.items():
             setattr(scene, key, value)
         if task.script is None:

@@ -60,14 +60,14 @@ class LoadedFiles:
         """Return the texture of a file, as `Resources.load_texture` shares it."""
         return self._shared("texture", self._resources.load_texture, path, options)
 
-    def scene(self, path: str) -> Scene:
+    def scene(self, path: str, root: str | None = None) -> Scene:
         """Return a scene of its own of what a file holds, with the meshes that are loaded."""
         path = os.path.realpath(path)
-        key = "scene", path, self.out
+        key = "scene", path, root, self.out
         held = self._kept.get(key)
         if held is None or _changed(held.thing):
             with _found(path) as files:
-                document = load_document(path, companion=not_written_to(self.out))
+                document = load_document(path, companion=not_written_to(self.out), root=root)
             held = Held((document, _versions(document)), files)
         self._keep(key, held)
         document = held.thing[0]

@@ -1,6 +1,7 @@
 """Pictures of models as ``engine3d render`` draws them: in soft light, on their shadow.
 
-In: a task with a look. Out: a frame; its bytes are those of the command with the same options.
+In: a task with a look. Out: a frame, and why it shows nothing, if that is so; its bytes are those
+of the command with the same options.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from typing import Any
 from ..choices import Backend
 from ..errors import Engine3DWarning
 from ..rendering.frame import Frame
+from ..viewer.blank import Reason
 from ..viewer.open_models import open_models
 from ..viewer.settings import Settings
 from ..viewer.view_renderer import ViewRenderer
@@ -21,8 +23,8 @@ from .task import Task
 
 def draw_look(
     task: Task, threads: int, backend: Backend, companion: Callable[[str], bool]
-) -> Frame:
-    """Draw a task's model in its look.
+) -> tuple[Frame, Reason | None]:
+    """Draw a task's model in its look; return also why nothing shows, if that is so.
 
     Parameters
     ----------
@@ -36,7 +38,7 @@ def draw_look(
     ------
     FileFormatError, FileAccessError
     """
-    viewed = open_models([task.path(task.model)], companion=companion)
+    viewed = open_models([task.path(task.model)], companion=companion, root=task.root_path)
     for text in viewed.warnings:
         warnings.warn(f"{task.model}: {text}", Engine3DWarning, stacklevel=2)
     with ViewRenderer(
@@ -48,7 +50,8 @@ def draw_look(
         samples=task.samples,
         antialias=task.antialias,
     ) as view_renderer:
-        return view_renderer.draw(_view(task.camera or {}, view_renderer))
+        frame = view_renderer.draw(_view(task.camera or {}, view_renderer))
+        return frame, view_renderer.why_blank()
 
 
 def _view(said: Any, view_renderer: ViewRenderer):

@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 import os
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..datasets.writer import Content, DatasetWriter, Note, contents, own_files
 from ..errors import FileAccessError, FileFormatError, warn
@@ -19,6 +19,9 @@ from ..files.atomic_write import AtomicFiles
 from ..files.making_folders import make_folder_of
 from .file_digests import InputFiles, are_as_before
 from .task import Task
+
+if TYPE_CHECKING:
+    from ..viewer.blank import Reason
 
 FOLDER = ".batch"
 
@@ -29,11 +32,23 @@ def record_path(task: Task) -> str:
 
 
 def write_picture(
-    out: str, task: Task, key: str, inputs: InputFiles, files: Mapping[str, Content], said: Any
+    out: str,
+    task: Task,
+    key: str,
+    inputs: InputFiles,
+    files: Mapping[str, Content],
+    said: Any,
+    blank: Reason | None = None,
 ) -> None:
-    """Write a picture's files and then its record: all of them, or none."""
+    """Write a picture's files and then its record: all of them, or none.
+
+    The record, and a warning, say why a picture shows nothing.
+    """
     hashes = {path: hashlib.sha256(data).hexdigest() for path, data in own_files(files).items()}
     record = {"key": key, "inputs": inputs.digests(), "files": hashes, "said": said}
+    if blank is not None:
+        record |= {"blank": True, "why": blank.word}
+        warn(f"{task.name}: nothing shows: {blank.sentence}")
     with AtomicFiles() as parts:
         whole = {**files, record_path(task): shapes.sealed(record)}
         for target, data in contents(out, whole):
@@ -67,7 +82,8 @@ def _record(said: shapes.Shape) -> shapes.Shape:
             "inputs": shapes.mapped(shapes.path_text, shapes.maybe(_DIGEST)),
             "files": shapes.mapped(shapes.path_inside, _DIGEST),
             "said": said,
-        }
+        },
+        {"blank": shapes.one_of(True), "why": shapes.text},
     )
 
 

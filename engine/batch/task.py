@@ -79,6 +79,8 @@ class Task:
         Its place in the batch.
     folder : str
         What paths are relative to; by default the current one.
+    root : str, optional
+        A folder that files named in the model may be in, besides the model's own.
 
     Raises
     ------
@@ -102,6 +104,7 @@ class Task:
     inputs: Sequence[str] = ()
     index: int = 0
     folder: str = field(default_factory=os.getcwd)
+    root: str | None = None
 
     def __post_init__(self) -> None:
         for one in fields(self):
@@ -114,6 +117,11 @@ class Task:
     def path(self, name: str) -> str:
         """Return the path of a file that the task names."""
         return os.path.join(self.folder, name)
+
+    @property
+    def root_path(self) -> str | None:
+        """The path of the folder that files named in the model may be in."""
+        return None if self.root is None else self.path(self.root)
 
     def key(self, writer: DatasetWriter) -> str:
         """Return a hash of all that the task says, of the writer and of engine3d's version."""
@@ -292,6 +300,7 @@ _CHECKS = {
     "outputs": _outputs,
     "seed": _whole("seed"),
     "inputs": _texts("inputs"),
+    "root": _optional_text("root"),
     "index": _whole("index"),
     "folder": _text("folder"),
 }

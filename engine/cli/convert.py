@@ -38,7 +38,8 @@ def convert(args: argparse.Namespace) -> int:
         raise UsageError(f"{printable(output)} is the model itself")
     convert = _scene if extension in SCENE_FORMATS else _mesh
     with LoadingBar() as progress:
-        save = convert(model_file(args.model), progress, args.format, extension, options)
+        how = {"progress": progress, "root": args.root}
+        save = convert(model_file(args.model), how, args.format, extension, options)
     if output == STANDARD_OUTPUT:
         stream = io.BytesIO()
         save(stream)
@@ -49,15 +50,15 @@ def convert(args: argparse.Namespace) -> int:
     return 0
 
 
-def _mesh(model, progress, format: str | None, extension: str, options: dict):
+def _mesh(model, how: dict, format: str | None, extension: str, options: dict):
     """What saves the one mesh that a model is."""
-    mesh = load_mesh(model, progress=progress)
+    mesh = load_mesh(model, **how)
     return lambda output: save_mesh(mesh, output, format=format, **options)
 
 
-def _scene(model, progress, format: str | None, extension: str, options: dict):
+def _scene(model, how: dict, format: str | None, extension: str, options: dict):
     """What saves all that a model holds: its nodes, cameras, lights, skins and animations."""
-    scene = load_scene(model, progress=progress)
+    scene = load_scene(model, **how)
     return lambda output: save_scene_as(scene, output, extension)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from .input_options import add_root
+
 MODEL_FORMATS = ("glb", "gltf", "obj", "ply", "stl")
 
 
@@ -22,4 +24,5 @@ def add(command) -> None:
         help="what to write whatever the extension; OBJ with materials is several files, and does "
         "not go to standard output",
     )
+    add_root(command)
     command.add_argument("--ascii", action="store_true", help="write PLY and STL as text")

@@ -32,7 +32,7 @@ def info(args: argparse.Namespace) -> int:
     reports, failures = [], 0
     for file in model_files(args.models):
         try:
-            report = describe(file)
+            report = describe(file, args.root)
         except Engine3DError as error:
             if len(args.models) == 1:
                 raise
@@ -56,13 +56,15 @@ def _info_of_system(as_json: bool) -> int:
     return 0
 
 
-def describe(path) -> dict:
+def describe(path, root: str | None = None) -> dict:
     """Return what a file holds, in types that JSON knows.
 
     Parameters
     ----------
     path : path-like or binary file object
         A file of any format that `engine3d.loaders` reads.
+    root : str, optional
+        As in `load_mesh`.
 
     Returns
     -------
@@ -76,7 +78,7 @@ def describe(path) -> dict:
     """
     with LoadingBar() as progress, warnings.catch_warnings():
         warnings.simplefilter("ignore", Engine3DWarning)  # they are part of the report
-        document = load_document(path, progress=progress)
+        document = load_document(path, progress=progress, root=root)
     return {
         "file": path.name if hasattr(path, "read") else str(path),
         "format": document.format,

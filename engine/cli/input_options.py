@@ -44,6 +44,17 @@ def add_inputs(group) -> None:
         metavar="MIB",
         help="refuse files of more mebibytes than this",
     )
+    add_root(group)
+
+
+def add_root(group) -> None:
+    """Add where files that models name may be."""
+    group.add_argument(
+        "--root",
+        metavar="FOLDER",
+        help="read files that a model names, such as images in ../images, from this folder, too; "
+        "by default they may be in the model's own folder alone",
+    )
 
 
 def jobs(args: argparse.Namespace) -> list[argparse.Namespace]:

@@ -19,6 +19,7 @@ from . import (
     config,
     convert_options,
     diff_options,
+    input_options,
     learn_options,
     options,
     render_options,
@@ -170,6 +171,7 @@ def _add_info(commands) -> None:
     command.add_argument(
         "--json", action="store_true", help="print JSON: a list where there are several files"
     )
+    input_options.add_root(command)
 
 
 def _add_diff(commands) -> None:

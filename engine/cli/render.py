@@ -28,7 +28,7 @@ from .outputs import (
     write_standard_output,
 )
 from .quietness import remark
-from .report import Report
+from .report import Report, warn_of_nothing
 from .said import say
 from .usage import UsageError
 
@@ -83,12 +83,15 @@ def _render(args: argparse.Namespace) -> int:
         view = place_view(args, view_renderer, turns=args.turntable is not None)
         if _count(args) is not None:
             _write_pictures(args, view_renderer, view)
+            warn_of_nothing(view_renderer)
             return 0
         if args.output == TERMINAL:
             _print_picture(view_renderer, view)
+            warn_of_nothing(view_renderer)
             return 0
         frame = view_renderer.draw(view)
         report.drawn(view_renderer, frame)
+        warn_of_nothing(view_renderer)
     _write_picture(args, frame)
     return _compare(args, frame.color)
 

@@ -5,8 +5,17 @@ from __future__ import annotations
 import sys
 import time
 
-from ..errors import printable
+from ..errors import printable, warn
+from ..viewer.blank import Reason
 from ..viewer.draw_counts import count_line
+
+
+def warn_of_nothing(view_renderer) -> Reason | None:
+    """Say, and return, why no picture has shown anything, if that is so."""
+    reason = view_renderer.why_blank()
+    if reason is not None:
+        warn(f"{view_renderer.viewed.title}: nothing shows: {reason.sentence}")
+    return reason
 
 
 class Report:

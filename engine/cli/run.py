@@ -22,7 +22,7 @@ from .inputs import STANDARD_INPUT
 from .one_by_one import draw_each
 from .outputs import check_animation, check_picture, remark_on_size, with_progress
 from .quietness import remark
-from .report import Report
+from .report import Report, warn_of_nothing
 from .usage import UsageError
 
 WINDOW_SIZE = (1280, 720)
@@ -150,7 +150,20 @@ def _show(
             viewer.say("H: help" + ("; Space: play" if still else ""))
         elif isinstance(viewer.walker, GroundController):
             report.line(told(viewer.walker.grid))
-        viewer.run(args.frames)
+        _run_viewer(viewer, args)
+
+
+def _run_viewer(viewer, args: argparse.Namespace) -> None:
+    """Show frames; say why the first one shows nothing, if it does not."""
+    if args.frames == 0:
+        return
+    viewer.run(1)
+    # A terminal takes no other lines meanwhile.
+    ask = ViewRenderer.why_blank if args.terminal else warn_of_nothing
+    reason = ask(viewer.view_renderer)
+    if reason is not None:
+        viewer.say(f"nothing shows: {reason.sentence}")
+    viewer.run(None if args.frames is None else args.frames - 1)
 
 
 def _window(args: argparse.Namespace, viewed):
@@ -187,6 +200,7 @@ def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report)
             make_folder_of(path)
             save_animation(pictures, path, headless.seconds_a_frame(view_renderer, count))
             remark_on_size(os.fspath(path))
+        warn_of_nothing(view_renderer)
     if reason is None and args.output is None:
         remark(f"wrote {path}")
     return 0

@@ -18,7 +18,7 @@ SCENES = (
 #: Options that say how models are read or dressed; built-in scenes are neither.
 OF_MODELS = (
     *("texture", "variant", "animation_index", "animation_time", "crease_angle"),
-    *("force_reader", "max_size", *scalar_options.COLORING),
+    *("force_reader", "max_size", "root", *scalar_options.COLORING),
 )
 
 
@@ -148,6 +148,7 @@ def opening(args: argparse.Namespace) -> dict:
     return {
         **creases,
         "format": args.force_reader,
+        "root": args.root,
         "scalars": scalar_options.coloring(args),
         "side_by_side": args.side_by_side,
         "up": args.up,

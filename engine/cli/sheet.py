@@ -32,6 +32,7 @@ def sheet(args: argparse.Namespace) -> int:
         size=args.size,
         up=args.up,
         unit=args.unit,
+        root=args.root,
         backend=args.backend,
         threads=args.threads,
     )

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from . import values
 from .camera_options import add_up
+from .input_options import add_root
 from .picture_options import add_drawing
 
 
@@ -55,5 +56,6 @@ def add(parser) -> None:
     group.add_argument(
         "--unit", metavar="NAME", help="unit of lengths, where the file's format has none"
     )
+    add_root(group)
     add_up(group)
     add_drawing(parser.add_argument_group("drawing"))

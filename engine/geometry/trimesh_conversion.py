@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import InvalidArgumentError
 from ..loaders.far_coordinates import moved_near
-from ..loaders.images import check_image_size, rgba_pixels
+from ..loaders.images import check_image_size, made_pixels
 from ..loaders.indexed_mesh import IndexedGeometry, build_indexed_mesh
 from ..loaders.posed_parts import PosedPart
 from ..loaders.warning_list import WarningList
@@ -165,7 +165,7 @@ class _Textures:
         name = str(getattr(image, "name", None) or "")
         try:
             check_image_size(*image.size, "texture")
-            return Texture(rgba_pixels(image, "texture"), name=name)
+            return Texture(made_pixels(image, "texture"), name=name)
         # Pillow decodes an image only now, and raises what damaged ones lead it to.
         except Exception as error:
             if self._warnings is None:

@@ -40,7 +40,7 @@ class GltfBuffers:
 
     def __init__(self, file: GltfFile, source: Source, warnings: WarningList) -> None:
         self._file, self._warnings = file, warnings
-        self._files = LinkedFiles(source.folder)
+        self._files = LinkedFiles.of(source, warnings)
         self._buffers: dict[int, memoryview] = {}
         self._unpacked: dict[int, memoryview] = {}
         self._given = 0

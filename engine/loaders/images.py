@@ -147,8 +147,40 @@ def rgba_pixels(image, path: str) -> np.ndarray:
     return pixels
 
 
+def made_pixels(image, path: str) -> np.ndarray:
+    """Convert an image of Pillow's that a program made; otherwise as `rgba_pixels`.
+
+    Integers and floats without a range of their own are of 0 to 255 where a conversion made them.
+    Other integers are of 0 to 65535, and floats of 0 to 1.
+    """
+    if image.mode == "F":
+        values = np.asarray(image)
+        scale = 255.0 if values.max(initial=0) <= 1 else 1.0
+        codes = np.clip(np.nan_to_num(values * scale), 0, 255).astype(np.uint8)
+        return np.stack([codes, codes, codes, np.full_like(codes, 255)], axis=-1)
+    if image.mode == "I" and image.getextrema()[1] <= 255:
+        image = image.convert("L")
+    return rgba_pixels(image, path)
+
+
+# Modes that Pillow does not convert to RGBA, or not as they look -> the one on the way.
+_THROUGH = {"HSV": "RGB", "YCbCr": "RGB", "RGBX": "RGB", "CMYK": "RGB", "La": "LA", "PA": "RGBA"}
+
+
 def _converted(image, strip, pixels: np.ndarray, path: str) -> None:
+    if strip.mode == "LAB":
+        strip = _of_lab(strip)
+    elif strip.mode in _THROUGH:
+        strip = strip.convert(_THROUGH[strip.mode])
     pixels[:] = np.asarray(strip.convert("RGBA"))
+
+
+def _of_lab(strip):
+    """CIE Lab under D50 as sRGB."""
+    from PIL import ImageCms
+
+    profiles = ImageCms.createProfile("LAB"), ImageCms.createProfile("sRGB")
+    return ImageCms.profileToProfile(strip, *profiles, outputMode="RGB")
 
 
 def _wide_grey(image, strip, pixels: np.ndarray, path: str) -> None:

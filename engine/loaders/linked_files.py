@@ -1,29 +1,33 @@
 """Finding the files that a file names, without ever leaving the folder of the model.
 
-In: a name as it stands in a file (``mtllib``, ``map_Kd``), written on any system. Out: the path of
-a regular file inside the folder, or the reason why there is none. Absolute names, ``..`` and
-symbolic links that lead out are refused; devices and FIFOs are never read. Whatever becomes of the
-folder meanwhile, what is read is a regular file that was inside it when it was opened.
+In: a name as it stands in a file (``mtllib``, ``map_Kd``, a URI), written on any system. Out: the
+path of a regular file inside the folder, or the reason why there is none. Absolute names, ``..``
+and symbolic links that lead out are refused, unless the caller named a root that they stay in;
+devices and FIFOs are never read. Whatever becomes of the folder meanwhile, what is read is a
+regular file that was inside it when it was opened. How a name may be written is in
+linked_names.py.
 """
 
 from __future__ import annotations
 
 import os
-import re
 import stat
 from collections.abc import Callable, Iterable
 from contextlib import contextmanager
 from contextvars import ContextVar
-from urllib.parse import unquote
 
+from .._support.numbers import shown as shown_value
 from .._support.system import FOLDER, NO_LINK
-from ..errors import FileAccessError
+from ..errors import FileAccessError, InvalidArgumentError
+from .linked_names import ends, is_absolute, match_key, spellings
 from .open_files import unreadable
 from .sources import READING, Source, opened_source, unpacked
+from .text import shown
+from .warning_list import WarningList
 
 _MAX_NAME = 4096
-# A file that names more missing ones than this only wants to keep the disk busy.
-_MAX_FAILURES = 2000
+# A file that looks in vain for more places than this only wants to keep the disk busy.
+_MAX_FAILURES = 16_000
 
 _listeners: ContextVar[tuple[Callable[[str], object], ...]] = ContextVar("listeners", default=())
 
@@ -45,6 +49,29 @@ def tell_found(paths: Iterable[str]) -> None:
             note(path)
 
 
+def checked_root(root: str | os.PathLike[str] | None) -> str | None:
+    """Return the path of a folder that files named in a model may be in.
+
+    Raises
+    ------
+    InvalidArgumentError
+        It is no path.
+    FileAccessError
+        There is no such folder.
+    """
+    if root is None:
+        return None
+    try:
+        path = os.fspath(root)
+    except TypeError:
+        path = None
+    if not isinstance(path, str):
+        raise InvalidArgumentError(f"root must be the path of a folder, not {shown_value(root)}")
+    if not os.path.isdir(path):
+        raise FileAccessError("root: there is no such folder", path)
+    return path
+
+
 class LinkedFileError(Exception):
     """The reason, in a few words, why a named file is not read."""
 
@@ -54,15 +81,29 @@ class LinkedFiles:
 
     Parameters
     ----------
-    root : str or None
+    folder : str or None
         The model's folder, which no name may leave; None if it has none, being no file.
+    root : str, optional
+        Another folder that names may lead into.
+    warnings : WarningList, optional
+        What `find_uri` tells of a file that stands in for another.
     """
 
-    def __init__(self, root: str | None) -> None:
-        self.root = root
-        self._real_root = None if root is None else os.path.realpath(root)
+    def __init__(
+        self, folder: str | None, root: str | None = None, warnings: WarningList | None = None
+    ) -> None:
+        places = [place for place in (folder, root) if place is not None]
+        self._places = list(dict.fromkeys(places))
+        self._has_root = root is not None
+        self._roots = [os.path.realpath(place) for place in self._places]
+        self._warnings = warnings
         self._listings: dict[str, dict[str, str]] = {}
         self._failures = 0
+
+    @classmethod
+    def of(cls, source: Source, warnings: WarningList | None = None) -> LinkedFiles:
+        """Return the files that a model may name."""
+        return cls(source.folder, source.root, warnings)
 
     def find(self, name: str, folder: str | None = None) -> str:
         """Return the path of the file that ``name`` means.
@@ -70,26 +111,78 @@ class LinkedFiles:
         Parameters
         ----------
         name : str
-            Relative name; backslashes count as slashes. Where the letter case differs from that
-            of the one on disk, the file is still found.
+            Backslashes count as slashes. Where the letter case differs from that of the one on
+            disk, or the name is in another encoding, the file is still found.
         folder : str, optional
-            The folder that the name is relative to; the model's if left out.
+            The folder that the name is relative to first; then the model's, then the root.
 
         Raises
         ------
         LinkedFileError
         """
-        if self.root is None:
-            raise LinkedFileError("not looked for, the model is in no folder")
-        if self._failures >= _MAX_FAILURES:
-            raise LinkedFileError("not looked for, too many files are missing")
+        places = self._places_from(folder)
+        path = self._first_found(spellings(name), places)
+        tell_found([path])
+        return path
+
+    def find_near(self, name: str, folder: str | None = None) -> tuple[str, str]:
+        """Return the path of what ``name`` means or else of what stands in for it.
+
+        Files name others by paths of another machine. What has the last parts of such a path, as
+        many as possible, is taken for what was meant.
+
+        Returns
+        -------
+        path : str
+        note : str
+            What to say of a file that stands in for another; empty for one that was found as named.
+
+        Raises
+        ------
+        LinkedFileError
+        """
         try:
-            path = self._find(name, self.root if folder is None else folder)
-            tell_found([path])
-            return path
+            return self.find(name, folder), ""
+        except LinkedFileError as error:
+            reason = error
+        try:
+            path = self._first_found(ends(name), self._places_from(folder))
         except LinkedFileError:
-            self._failures += 1
-            raise
+            raise reason from None
+        tell_found([path])
+        return path, f"{reason}; {path} is used"
+
+    def find_uri(self, uri: str) -> str:
+        """Return the path of the file that a URI, or a plain name, means, as `find_near`.
+
+        Raises
+        ------
+        LinkedFileError
+        """
+        path, note = self.find_near(uri)
+        if note and self._warnings is not None:
+            self._warnings.add(f"{shown(uri)}: {note}")
+        return path
+
+    def _places_from(self, folder: str | None) -> list[str]:
+        """The folders that a name may be relative to, the likeliest first."""
+        if not self._places:
+            raise LinkedFileError("not looked for, the model is in no folder")
+        return self._places if folder is None else list(dict.fromkeys([folder, *self._places]))
+
+    def _first_found(self, names: Iterable[str], places: list[str]) -> str:
+        """The first file that any of the names means in any of the folders."""
+        reason = None
+        for name in names:
+            for place in places:
+                if self._failures >= _MAX_FAILURES:
+                    raise LinkedFileError("not looked for, too many files are missing")
+                try:
+                    return self._found(name, place)
+                except LinkedFileError as error:
+                    self._failures += 1
+                    reason = reason or error
+        raise reason or LinkedFileError("not a file name")
 
     def read(self, path: str) -> Source:
         """Read a file that `find` returned.
@@ -110,12 +203,13 @@ class LinkedFiles:
         return unpacked(opened_source(path, handle))
 
     def _opened(self, path: str) -> int:
-        """Go from the root to the file, folder by folder, following no link."""
+        """Go from the folder that holds it to the file, folder by folder, following no link."""
         real = self._real_path(path)
         if not FOLDER:  # a system that opens no folders
             return os.open(real, READING)
-        *folders, name = os.path.relpath(real, self._real_root).split(os.sep)
-        handle = os.open(self._real_root, FOLDER)
+        root = next(root for root in self._roots if _is_inside(real, root))
+        *folders, name = os.path.relpath(real, root).split(os.sep)
+        handle = os.open(root, FOLDER)
         try:
             for folder in folders:
                 outer, handle = handle, os.open(folder, FOLDER | NO_LINK, dir_fd=handle)
@@ -127,35 +221,22 @@ class LinkedFiles:
     def _real_path(self, path: str) -> str:
         """The path without links, which must be inside."""
         real = os.path.realpath(path)
-        if os.path.commonpath([self._real_root, real]) != self._real_root:
-            raise LinkedFileError("a path that leaves the model's folder is refused")
+        if not any(_is_inside(real, root) for root in self._roots):
+            raise LinkedFileError(
+                "a path that leaves the model's folder is refused; root=FOLDER allows another"
+            )
         return real
 
-    def find_uri(self, uri: str) -> str:
-        """Return the path of the file beside the model that a URI, or a plain name, means.
-
-        Raises
-        ------
-        LinkedFileError
-        """
-        try:
-            return self.find(uri)
-        except LinkedFileError:
-            plain = unquote(uri)
-            if plain == uri:
-                raise
-            return self.find(plain)
-
-    def _find(self, name: str, folder: str) -> str:
-        name = name.strip().strip('"').replace("\\", "/")
+    def _found(self, name: str, folder: str) -> str:
+        """The path of the file of one name in one folder."""
         if not name or "\0" in name or len(name) > _MAX_NAME:
             raise LinkedFileError("not a file name")
-        if name.startswith(("/", "~")) or re.match(r"[A-Za-z]:", name):
+        if is_absolute(name) and not (self._has_root and os.path.isabs(name)):
             raise LinkedFileError("an absolute path is refused")
         path = os.path.join(folder, name)
         try:
             if not os.path.lexists(path):
-                path = self._with_other_case(path)
+                path = self._as_on_disk(folder, name)
             mode = os.stat(self._real_path(path)).st_mode
         except FileNotFoundError:
             raise LinkedFileError("not found") from None
@@ -165,13 +246,29 @@ class LinkedFiles:
             raise LinkedFileError("not a regular file")
         return path
 
-    def _with_other_case(self, path: str) -> str:
-        """The path with the last part as the folder spells it, if only letter case differs."""
-        folder, name = os.path.split(path)
+    def _as_on_disk(self, folder: str, name: str) -> str:
+        """The path with its parts as folders spell them, where `match_key` is the same."""
+        path = folder
+        for part in name.split("/"):
+            inner = os.path.join(path, part)
+            if part not in ("", ".", "..") and not os.path.lexists(inner):
+                self._real_path(path)  # nothing is listed outside
+                inner = os.path.join(path, self._listing(path).get(match_key(part), part))
+            path = inner
+        return path
+
+    def _listing(self, folder: str) -> dict[str, str]:
         if folder not in self._listings:
             try:
                 entries = sorted(os.listdir(folder or "."), reverse=True)
             except OSError:
                 entries = []
-            self._listings[folder] = {entry.casefold(): entry for entry in entries}
-        return os.path.join(folder, self._listings[folder].get(name.casefold(), name))
+            self._listings[folder] = {match_key(entry): entry for entry in entries}
+        return self._listings[folder]
+
+
+def _is_inside(path: str, root: str) -> bool:
+    try:
+        return os.path.commonpath([root, path]) == root
+    except ValueError:  # on another drive
+        return False

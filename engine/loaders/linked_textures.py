@@ -12,7 +12,8 @@ from ..errors import Engine3DError
 from ..materials.material import Material
 from ..materials.textures import Texture
 from .companion_textures import companion_texture
-from .linked_files import LinkedFileError, LinkedFiles
+from .linked_files import LinkedFiles
+from .radiance_pictures import LIGHT_EXTENSIONS
 from .sources import Source
 from .text import shown
 from .warning_list import WarningList
@@ -29,9 +30,11 @@ class TextureCache:
 
     def __init__(self, files: LinkedFiles) -> None:
         self._files = files
-        self._textures: dict[tuple[str, str], Texture] = {}
+        self._textures: dict[tuple[str, str, bool], Texture] = {}
 
-    def get(self, name: str, folder: str, wrap: str) -> tuple[Texture, str]:
+    def get(
+        self, name: str, folder: str | None, wrap: str, is_data: bool = False
+    ) -> tuple[Texture, str]:
         """Return the texture that a name means, and what to say of it ("" for nothing).
 
         Parameters
@@ -40,38 +43,20 @@ class TextureCache:
         folder : str
             Where it is looked for first, before the model's folder.
         wrap : {"repeat", "clamp"}
+        is_data : bool
+            Whether its codes are numbers, not colours: of images whose pixels are light.
 
         Raises
         ------
         LinkedFileError, Engine3DError
             There is no such image, or it is damaged.
         """
-        path, note = self._find(name, folder)
-        key = (os.path.realpath(path), wrap)
+        path, note = self._files.find_near(name, folder)
+        is_data = is_data and path.lower().endswith(LIGHT_EXTENSIONS)  # others are read alike
+        key = (os.path.realpath(path), wrap, is_data)
         if key not in self._textures:
-            self._textures[key] = _read_texture(self._files, path, wrap)
+            self._textures[key] = _read_texture(self._files, path, wrap, is_data)
         return self._textures[key], note
-
-    def _find(self, name: str, folder: str) -> tuple[str, str]:
-        """Materials made elsewhere name images by paths of another machine.
-
-        An image of the same name beside the model is taken for the one that was meant.
-        """
-        try:
-            return self._files.find(name, folder), ""
-        except LinkedFileError as error:
-            first_reason = str(error)
-        bare = name.replace("\\", "/").rpartition("/")[2]
-        candidates = dict.fromkeys([(name, self._files.root), (bare, folder)])
-        candidates[bare, self._files.root] = None
-        candidates.pop((name, folder), None)
-        for candidate, place in candidates:
-            try:
-                path = self._files.find(candidate, place)
-            except LinkedFileError:
-                continue
-            return path, f"{first_reason}; {path} is used" if candidate != name else ""
-        raise LinkedFileError(first_reason)
 
 
 def give_companion_texture(
@@ -83,7 +68,7 @@ def give_companion_texture(
         return
     name = shown(os.path.basename(path))
     try:
-        texture = _read_texture(LinkedFiles(source.folder), path, "repeat")
+        texture = _read_texture(LinkedFiles.of(source), path, "repeat")
     except Engine3DError as error:
         warnings.add(f"texture {name} beside the model left out: {error}")
         return
@@ -92,8 +77,8 @@ def give_companion_texture(
         material.texture = texture
 
 
-def _read_texture(files: LinkedFiles, path: str, wrap: str) -> Texture:
+def _read_texture(files: LinkedFiles, path: str, wrap: str, is_data: bool = False) -> Texture:
     from .loading import texture_of
 
     with files.read(path) as source:
-        return texture_of(source, wrap=wrap)
+        return texture_of(source, is_data=is_data, wrap=wrap)

@@ -19,6 +19,7 @@ from ..materials.textures import Texture
 from .documents import Document
 from .extents import extent_warnings
 from .images import images_of_one_model
+from .linked_files import checked_root
 from .registry import find_reader
 from .sources import File, Source, read_source
 
@@ -38,6 +39,7 @@ def load_mesh(
     format: str | None = None,
     progress: Progress | None = None,
     crease_angle: float = CREASE_ANGLE,
+    root: str | os.PathLike[str] | None = None,
 ) -> Mesh:
     """Load a model as one mesh with its materials, in the file's coordinates.
 
@@ -57,6 +59,11 @@ def load_mesh(
         Radians, 0 to pi, for files that have neither normals nor smoothing groups: edges whose
         triangles meet at more than this are drawn sharp, others smooth. 35 degrees if left out; pi
         makes all smooth, 0 all flat.
+    root : path-like, optional
+        A folder that files named in the model may be in, besides the model's own folder, which
+        they may otherwise not leave: images in ``../images``, say. Names that are relative are
+        looked for there, too, and the only folder that files are looked for in if the model is
+        bytes.
 
     Returns
     -------
@@ -74,8 +81,9 @@ def load_mesh(
     InvalidArgumentError
         There is no such ``format``, or ``path`` is none of these things.
     """
+    root = checked_root(root)
     with read_source(path) as source:
-        source = source._replace(crease_angle=check_crease_angle(crease_angle))
+        source = source._replace(crease_angle=check_crease_angle(crease_angle), root=root)
         document = _read_document(source, format, progress, split=False)
     return whole_mesh(document, source, format)
 
@@ -88,6 +96,7 @@ def load_document(
     companion: Callable[[str], bool] | None = None,
     crease_angle: float = CREASE_ANGLE,
     scalars: Literal["vertices", "faces"] | None = None,
+    root: str | os.PathLike[str] | None = None,
 ) -> Document:
     """Load everything that a model file holds: its objects one by one, lights and cameras.
 
@@ -102,8 +111,11 @@ def load_document(
         Read also numbers of vertices, or of faces, that have no meaning of their own:
         `Document.scalars`. Vertices are split where their faces have different numbers.
     """
+    root = checked_root(root)
     with read_source(path) as source:
-        source = source._replace(crease_angle=check_crease_angle(crease_angle), scalars=scalars)
+        source = source._replace(
+            crease_angle=check_crease_angle(crease_angle), scalars=scalars, root=root
+        )
         if companion is not None:
             source = source._replace(companion=companion)
         document = _read_document(source, format, progress, split=True)
@@ -139,8 +151,12 @@ def parts_of(document: Document, source: Source, format: str | None) -> dict[tup
 
 
 def _remember(mesh: Mesh, document: Document, source: Source, format: str | None, part) -> None:
-    """Note which part of a file a mesh is; of a scene's file, it is no part to be named."""
-    if source.has_name and document.scene is None:
+    """Note which part of a file a mesh is, unless that file alone would not give it again.
+
+    A scene's file has no parts to be named, and what was read from another root could only be read
+    from there.
+    """
+    if source.has_name and document.scene is None and source.root is None:
         origin = FileOrigin(
             os.path.abspath(source.path), format, part, crease_angle=source.crease_angle
         )
@@ -175,12 +191,19 @@ def load_texture(
         return texture_of(source, format, **options)
 
 
-def texture_of(source: Source, format: str | None = None, **options) -> Texture:
-    """Return the texture of an open image; as `load_texture` otherwise."""
+def texture_of(
+    source: Source, format: str | None = None, *, is_data: bool = False, **options
+) -> Texture:
+    """Return the texture of an open image; as `load_texture` otherwise.
+
+    Where pixels are light, codes are proportional to it if they are data, or linear colours.
+    """
     with _memory_of(source):
         reader = find_reader(source, "image", format)
+    is_data = is_data or options.get("color_space") == "linear"
     with _faults_of(source):
-        pixels = reader.read(source)
+        read = (reader.read_linear if is_data else None) or reader.read
+        pixels = read(source)
     options.setdefault("name", os.path.basename(source.path) if source.has_name else "")
     texture = Texture(pixels, **options)
     if source.has_name:

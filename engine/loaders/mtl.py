@@ -18,14 +18,20 @@ from .linked_files import LinkedFileError
 from .linked_textures import TextureCache
 from .mtl_alpha import OPACITY_MAPS, set_alpha
 from .mtl_physical import PHYSICAL_MAPS, physical_fields
+from .mtl_statements import (
+    COLORS,
+    SCALARS,
+    color_of,
+    is_map,
+    keyword_of,
+    looks_like_a_look,
+    parse_map,
+    scalar_of,
+)
 from .sources import Source
 from .text import decoded, shown, text_lines
 from .warning_list import WarningList
 
-_COLORS = {"Ka", "Kd", "Ks", "Ke", "Tf"}
-_SCALARS = {"Ns", "Ni", "d", "Tr", "illum", "sharpness", "Pr", "Pm", "Ps", "Pc", "Pcr"}
-_SCALARS |= {"aniso", "anisor", "Pcor"}
-_MAPS = {"bump", "disp", "decal", "refl", "norm"}
 _UNDRAWN_NUMBERS = ("aniso", "anisor")
 # What is said of maps that are not drawn, by their keywords in lower case.
 _UNDRAWN_MAPS = {
@@ -44,23 +50,6 @@ _UNDRAWN_MAPS = {
 }
 # Keys of ``extras`` that are ours: no statement's.
 _RESERVED = {"maps", "opacity"}
-# The words that follow each option of a map; the last three of -s, -o and -t may be left out.
-_OPTIONS = {
-    "-blendu": 1,
-    "-blendv": 1,
-    "-boost": 1,
-    "-bm": 1,
-    "-cc": 1,
-    "-clamp": 1,
-    "-colorspace": 1,
-    "-imfchan": 1,
-    "-mm": 2,
-    "-o": 3,
-    "-s": 3,
-    "-t": 3,
-    "-texres": 1,
-    "-type": 1,
-}
 
 
 def read_mtl(source: Source, textures: TextureCache, warnings: WarningList) -> dict[str, Material]:
@@ -84,24 +73,14 @@ def read_mtl(source: Source, textures: TextureCache, warnings: WarningList) -> d
     FileFormatError
         The library is not text.
     """
-    materials: dict[str, Material] = {}
-    current: dict | None = None
+    library = _Library(source, textures, warnings)
     for number, line in enumerate(text_lines(source).split(b"\n"), 1):
         keyword, _, rest = line.strip().partition(b" ")
         if b"\t" in keyword:
             keyword, _, rest = line.strip().partition(b"\t")
-        if not keyword or keyword.startswith(b"#"):
-            continue
-        rest = _without_comment(rest)
-        if keyword == b"newmtl":
-            _finish(current, materials, textures, warnings, source)
-            current = {"name": decoded(rest), "line": number, "maps": {}, "values": {}}
-        elif current is None:
-            warnings.add(f"{shown(keyword)} before any newmtl", number, source.path)
-        else:
-            _read_statement(current, decoded(keyword), rest, number, warnings, source.path)
-    _finish(current, materials, textures, warnings, source)
-    return materials
+        if keyword and not keyword.startswith(b"#"):
+            library.read(keyword_of(decoded(keyword)), _without_comment(rest), number)
+    return library.finished()
 
 
 def _without_comment(rest: bytes) -> bytes:
@@ -110,94 +89,77 @@ def _without_comment(rest: bytes) -> bytes:
     return b"" if rest.startswith(b"#") else rest.strip()
 
 
-def _read_statement(current, keyword, rest, line, warnings, path) -> None:
-    if keyword in _COLORS or keyword in _SCALARS:
-        value = _color(rest) if keyword in _COLORS else _scalar(rest)
-        if value is None:
-            warnings.add(f"{keyword} {shown(rest)} is left out", line, path)
+class _Library:
+    """Takes the statements of a library, and makes materials of them."""
+
+    def __init__(self, source: Source, textures: TextureCache, warnings: WarningList) -> None:
+        self._source, self._textures, self._warnings = source, textures, warnings
+        self._materials: dict[str, Material] = {}
+        self._current: dict | None = None
+        self._unknown: set[str] = set()
+        self._clear: list[int] = []  # the lines of materials that would not show
+
+    def read(self, keyword: str, rest: bytes, line: int) -> None:
+        """Take a statement."""
+        if keyword == "newmtl":
+            self._finish()
+            self._current = {"name": decoded(rest), "line": line, "maps": {}, "values": {}}
+        elif self._current is None:
+            self._warn(f"{shown(keyword)} before any newmtl", line)
+        elif keyword in COLORS or keyword in SCALARS:
+            value = color_of(rest) if keyword in COLORS else scalar_of(rest)
+            if value is None:
+                self._warn(f"{keyword} {shown(rest)} is left out", line)
+            else:
+                self._current["values"][keyword] = value
+        elif is_map(keyword):
+            self._read_map(keyword, rest, line)
+        elif keyword in _RESERVED:
+            self._warn(f"{keyword} is left out", line)
         else:
-            current["values"][keyword] = value
-    elif keyword.startswith("map_") or keyword in _MAPS:
+            self._current["values"].setdefault(keyword, decoded(rest))
+            self._warn_of_unknown(keyword, line)
+
+    def finished(self) -> dict[str, Material]:
+        """Return the materials."""
+        self._finish()
+        if self._clear:
+            count = len(self._clear)
+            what = "1 material" if count == 1 else f"{count} materials"
+            self._warn(f"Tr 1 of {what}, which would not show, counts as opaque", self._clear[0])
+        return self._materials
+
+    def _read_map(self, keyword: str, rest: bytes, line: int) -> None:
         entry = parse_map(decoded(rest))
         if entry["name"]:
             entry["line"] = line
-            current["maps"][keyword] = entry
+            self._current["maps"][keyword] = entry
+            self._warn_of_unknown(keyword, line)
         else:
-            warnings.add(f"{keyword} without a file name", line, path)
-    elif keyword in _RESERVED:
-        warnings.add(f"{keyword} is left out", line, path)
-    else:
-        current["values"].setdefault(keyword, decoded(rest))
+            self._warn(f"{keyword} without a file name", line)
+
+    def _warn_of_unknown(self, keyword: str, line: int) -> None:
+        if looks_like_a_look(keyword) and keyword not in self._unknown:
+            self._unknown.add(keyword)
+            self._warn(f"{shown(keyword)} is not understood, and not drawn", line)
+
+    def _warn(self, message: str, line: int) -> None:
+        self._warnings.add(message, line, self._source.path)
+
+    def _finish(self) -> None:
+        """Turn what was gathered of one material into a `Material`."""
+        current = self._current
+        if current is None or current["name"] in self._materials:
+            return
+        if current["values"].get("Tr", 0.0) >= 1 and "d" not in current["values"]:
+            self._clear.append(current["line"])
+        name, how = current["name"], (self._textures, self._warnings, self._source)
+        self._materials[name] = _material(name, current["values"], current["maps"], *how)
 
 
-def _color(rest: bytes) -> tuple[float, float, float] | None:
-    """Three numbers, or one for all channels; None for anything else (``spectral``, ``xyz``)."""
-    numbers = _numbers(rest.split()[:3])
-    if numbers is None or len(numbers) not in (1, 3):
-        return None
-    numbers = numbers * 3 if len(numbers) == 1 else numbers
-    return tuple(max(0.0, number) for number in numbers)
-
-
-def _scalar(rest: bytes) -> float | None:
-    words = [word for word in rest.split() if word != b"-halo"]
-    numbers = _numbers(words[:1])
-    return numbers[0] if numbers else None
-
-
-def _numbers(words: list[bytes]) -> list[float] | None:
-    """Finite floats that float32 can hold, or None."""
-    try:
-        numbers = [float(word) for word in words]
-    except ValueError:
-        return None
-    return numbers if all(math.isfinite(n) and abs(n) < 3e38 for n in numbers) else None
-
-
-def parse_map(text: str) -> dict:
-    """Take the arguments of a map statement apart.
-
-    Returns
-    -------
-    entry : dict
-        ``name`` (the file's, which may hold blanks; "" if there is none), and each option without
-        its dash: a list of words.
-    """
-    entry: dict = {"name": ""}
-    words = text.split()
-    position = 0
-    while position < len(words) and words[position] in _OPTIONS:
-        option = words[position]
-        position += 1
-        values = []
-        while len(values) < _OPTIONS[option] and position < len(words):
-            if option in ("-s", "-o", "-t", "-mm") and not _is_number(words[position]):
-                break
-            values.append(words[position])
-            position += 1
-        entry[option[1:]] = values
-    if position < len(words):
-        # The rest as it was written: blanks in a name count.
-        entry["name"] = text.split(None, position)[-1].strip()
-    return entry
-
-
-def _is_number(word: str) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True
-
-
-def _finish(current, materials, textures, warnings, source) -> None:
-    """Turn what was gathered of one material into a `Material`."""
-    if current is None or current["name"] in materials:
-        return
-    values, maps = current["values"], current["maps"]
-
-    def load(entry):
-        return _texture(entry, textures, warnings, source)
+def _material(name: str, values: dict, maps: dict, textures, warnings, source) -> Material:
+    def load(entry, is_data=False):
+        return _texture(entry, textures, warnings, source, is_data)
 
     texture = load(maps.get("map_Kd"))
     color = values.get("Kd", (1.0, 1.0, 1.0))
@@ -206,13 +168,12 @@ def _finish(current, materials, textures, warnings, source) -> None:
         color = (1.0, 1.0, 1.0)
     extras = {key: value for key, value in values.items() if key not in ("Kd", "Ks", "Ke", "Ns")}
     if "d" in values or "Tr" in values:
-        opacity = values.get("d", 1.0 - values.get("Tr", 0.0))
-        extras["opacity"] = min(max(opacity, 0.0), 1.0)
+        extras["opacity"] = _opacity(values)
     if maps:
         extras["maps"] = {
             key: {k: v for k, v in entry.items() if k != "line"} for key, entry in maps.items()
         }
-    material = Material._plain(current["name"])
+    material = Material._plain(name)
     given = {
         "color": color if color != (1.0, 1.0, 1.0) else None,
         "texture": texture,
@@ -223,17 +184,24 @@ def _finish(current, materials, textures, warnings, source) -> None:
         "extras": extras or None,
         **physical_fields(values, maps, load, _scale_and_offset),
     }
-    for name, value in given.items():
+    for field, value in given.items():
         if value is not None:
-            setattr(material, name, value)
-    _finish_alpha(material, maps, textures, warnings, source)
-    materials[current["name"]] = material
+            setattr(material, field, value)
+    _finish_alpha(material, maps, load)
+    return material
 
 
-def _finish_alpha(material, maps, textures, warnings, source) -> None:
+def _opacity(values: dict) -> float:
+    """d, or 1 - Tr; Tr 1 alone is of programs that mean opaque by it."""
+    transparency = values.get("Tr", 0.0)
+    opacity = values.get("d", 1.0 if transparency >= 1 else 1.0 - transparency)
+    return min(max(opacity, 0.0), 1.0)
+
+
+def _finish_alpha(material, maps, load) -> None:
     entries = {key.lower(): entry for key, entry in maps.items()}
     keyword = next((key for key in OPACITY_MAPS if key in entries), None)
-    opacity_map = _texture(entries.get(keyword), textures, warnings, source)
+    opacity_map = load(entries.get(keyword), True)
     if opacity_map is not None or material.texture is not None or "opacity" in material.extras:
         opacity = material.extras.get("opacity", 1.0)
         set_alpha(material, opacity, opacity_map, OPACITY_MAPS.get(keyword, False))
@@ -245,13 +213,15 @@ def _specular(values: dict) -> tuple[float, float, float]:
     return values.get("Ks", (0.0, 0.0, 0.0)) if has_highlight else (0.0, 0.0, 0.0)
 
 
-def _texture(entry: dict | None, textures: TextureCache, warnings, source) -> Texture | None:
+def _texture(
+    entry: dict | None, textures: TextureCache, warnings, source, is_data: bool
+) -> Texture | None:
     if entry is None:
         return None
     name, line = entry["name"], entry["line"]
     wrap = "clamp" if entry.get("clamp", ["off"])[:1] == ["on"] else "repeat"
     try:
-        texture, note = textures.get(name, source.folder, wrap)
+        texture, note = textures.get(name, source.folder, wrap, is_data)
         if note:
             warnings.add(f"texture {shown(name)}: {note}", line, source.path)
         return texture

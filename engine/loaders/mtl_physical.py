@@ -29,6 +29,7 @@ _SLOTS = {
     "map_Ke": "emissive_texture",
     "map_AO": "occlusion_texture",
 }
+_COLOR_MAPS = ("map_Ps", "map_Ke")
 #: All maps that are drawn of physically based materials.
 PHYSICAL_MAPS = (*_ROUGHNESS, *_METALLIC, *_ALL_IN_ONE, *_SLOTS)
 _DEPTH = 1 / 64
@@ -44,7 +45,7 @@ def is_physical(values: dict[str, Any], maps: dict[str, dict]) -> bool:
 def physical_fields(
     values: dict[str, Any],
     maps: dict[str, dict],
-    load: Callable[[dict], Texture | None],
+    load: Callable[[dict, bool], Texture | None],
     place: Callable[[dict], tuple[float, float, float, float]],
 ) -> dict[str, Any]:
     """Return what a material's statements mean, by the names of `Material`'s fields.
@@ -54,9 +55,10 @@ def physical_fields(
     values : dict of str to object
         Numbers and colours by their keywords.
     maps : dict of str to dict
-        As `mtl.parse_map` returns them.
+        As `mtl_statements.parse_map` returns them.
     load : callable
-        The image of a map, or None where it is left out.
+        ``load(map, is_data)``: the image of a map, or None where it is left out; with ``is_data``
+        codes are numbers, not colours.
     place : callable
         Scale and offset of a map (u, then v of each).
     """
@@ -89,7 +91,7 @@ def _map_fields(values: dict[str, Any], maps: dict[str, dict], load) -> dict[str
     """The maps of a physical material; the numbers beside them are their factors."""
     fields: dict[str, Any] = {}
     for key, slot in _SLOTS.items():
-        if (texture := _loaded(maps, (key,), load)) is not None:
+        if (texture := _loaded(maps, (key,), load, key not in _COLOR_MAPS)) is not None:
             fields[slot] = texture
     if "emissive_texture" in fields and not any(values.get("Ke", (0.0,))):
         fields["emissive"] = (1.0, 1.0, 1.0)
@@ -184,10 +186,12 @@ def _holds_normals(pixels: np.ndarray) -> bool:
     return neutral and blue > max(red, green) + _MOST_NEUTRAL
 
 
-def _loaded(maps: dict[str, dict], keys: tuple[str, ...], load) -> tuple[Texture, dict] | None:
+def _loaded(
+    maps: dict[str, dict], keys: tuple[str, ...], load, is_data: bool = True
+) -> tuple[Texture, dict] | None:
     """The first of some maps that a material has: its image, and its options."""
     for key in keys:
-        if key in maps and (texture := load(maps[key])) is not None:
+        if key in maps and (texture := load(maps[key], is_data)) is not None:
             return texture, maps[key]
     return None
 

@@ -16,7 +16,7 @@ from .documents import Document
 from .linked_textures import give_companion_texture
 from .mtl import undrawn_kinds
 from .obj_file import Elements, ObjFile, read_obj_file
-from .obj_materials import read_library, used_materials
+from .obj_materials import only_material, read_library, used_materials
 from .obj_parts import ObjParts
 from .obj_states import ObjStates, run_lengths
 from .registry import Reader
@@ -71,18 +71,20 @@ def _materials(source, file: ObjFile, states: ObjStates, cut: Triangulation | No
 
     Without any there is one without a name; so there is for triangles before the first ``usemtl``.
     """
-    library = read_library(source, states.libraries, warnings)
+    library = read_library(source, states.libraries, len(states.materials) > 0, warnings)
     materials, material_of_use = used_materials(states.materials, library, warnings)
-    if library:
-        warn_of_undrawn(map(undrawn_kinds, materials), warnings)
+    only = None if materials else only_material(library, warnings)
+    is_of_library = only is not None or any(m.name in library for m in materials)
+    if is_of_library:
+        warn_of_undrawn(map(undrawn_kinds, [only] if only else materials), warnings)
     faces = len(file.faces.sizes)
     lengths = run_lengths(states.materials, faces)
     ids = np.repeat(np.array([len(materials), *material_of_use], np.int32), lengths)
     ids = ids if cut is None else ids[cut.polygons]
     ids.setflags(write=False)
     if not materials or (lengths[0] > 0 and (ids == len(materials)).any()):
-        materials.append(Material())
-    if not library and len(file.vertices.uvs):
+        materials.append(Material() if only is None else only)
+    if not is_of_library and len(file.vertices.uvs):
         give_companion_texture(source, materials, warnings)
     return materials, ids
 

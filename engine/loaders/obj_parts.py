@@ -17,6 +17,7 @@ from .far_coordinates import moved_near
 from .obj_file import Elements, ObjFile
 from .obj_states import ObjStates
 from .smoothing import join_seams
+from .text import words_of
 from .warning_list import WarningList
 
 # No model has more; files that do are taken as one object, and a group name beyond is left out.
@@ -52,7 +53,7 @@ class ObjParts(NamedTuple):
     def counts(self) -> dict:
         """Return the lists of the file, as `Document.counts` shows them."""
         file, states = self.file, self.states
-        groups = [name for names in states.groups.names() for name in names.split()]
+        groups = [name for names in states.groups.names() for name in words_of(names)]
         colors = file.vertices.colors
         return {
             "vertices": len(file.vertices.positions),
@@ -156,7 +157,7 @@ class ObjParts(NamedTuple):
         names = self.states.groups.names()
         for number in np.flatnonzero(starts[:-1] < starts[1:]).tolist():
             triangles = np.arange(starts[number], starts[number + 1], dtype=np.int32)
-            for name in _unique(names[number].split())[:_MAX_GROUPS_OF_A_FACE]:
+            for name in _unique(words_of(names[number]))[:_MAX_GROUPS_OF_A_FACE]:
                 ranges.setdefault(name, []).append(triangles)
         return {name: np.concatenate(parts) for name, parts in ranges.items()}
 

@@ -11,10 +11,12 @@ import numpy as np
 
 from ..errors import FileFormatError
 from ..geometry.mesh import Mesh
+from ..materials.material import Material
 from .documents import Document, DocumentObject
 from .far_coordinates import moved_near
 from .indexed_mesh import IndexedGeometry, build_indexed_mesh
 from .ply_body import open_body
+from .ply_colors import is_splats
 from .ply_faces import (
     PlyFaces,
     face_scalar_names,
@@ -54,8 +56,9 @@ def read_ply(source: Source, split: bool = False) -> Document:
     if table is None or not len(table):
         raise FileFormatError("no vertices in this PLY file", source.path)
     if not table.has("x", "y", "z"):
-        raise FileFormatError("the vertices have no x, y and z", source.path)
-    vertices = read_vertices(table)
+        packed = ": compressed splats are not read" if table.has("packed_position") else ""
+        raise FileFormatError(f"the vertices have no x, y and z{packed}", source.path)
+    vertices = read_vertices(table, warnings, header.is_own)
     count = len(table)
     budget = WorkBudget.for_file(source.size)
     faces = read_faces(tables.get("face"), vertices.positions, budget, warnings)
@@ -73,6 +76,8 @@ def read_ply(source: Source, split: bool = False) -> Document:
     scalars = numbers_of(table, names) if source.scalars == "vertices" else {}
     mesh = _mesh(vertices, faces, lines, source, scalars, face_scalars)
     mesh.materials = read_materials(source, header.textures, has_uvs, warnings)
+    if is_splats(table):
+        mesh.materials = [Material(alpha_mode="blend")]
     mesh.material_ids = material_ids(faces.textures, len(faces.corners), len(mesh.materials))
     counts = _counts(tables, vertices, faces, lines)
     entry = DocumentObject(source.stem, mesh, pose)

@@ -11,8 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from .._native import loaders as native
+from .ply_colors import read_colors
 from .ply_tables import PlyList, PlyTable
-from .ply_vertices import names_but, numbers_of, read_colors
+from .ply_vertices import names_but, numbers_of
 from .triangulation import WorkBudget, triangulate
 from .vertex_values import finite_uvs
 from .warning_list import WarningList
@@ -65,7 +66,7 @@ def read_faces(
     short = 0 if are_triangles else int((outlines.sizes < 3).sum())
     if short:
         warnings.add(f"{short} faces of fewer than three corners are left out")
-    colors = read_colors(table)
+    colors = read_colors(table, warnings)
     textures = None
     if table.has("texnumber"):
         textures = np.nan_to_num(table.column("texnumber").astype(np.float64))

@@ -40,6 +40,8 @@ TYPES = {
 #: The names of encodings -> the byte order of numbers, "" for text.
 ENCODINGS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 
+#: What our own writer says in its files.
+OWN_COMMENT = b"comment written by engine3d"
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 _MAGIC = re.compile(rb"ply[ \t]*(\r\n|\n|\r)")
 _END = re.compile(rb"(?:^|(?<=[\r\n]))[ \t]*end_header[ \t]*(?:\r\n|\n|\r|$)")
@@ -99,6 +101,8 @@ class PlyHeader:
         Offset of the body's first byte.
     body_line : int
         The number of its first line, from 1.
+    is_own : bool
+        Whether our own writer made the file.
     """
 
     byte_order: str
@@ -106,6 +110,7 @@ class PlyHeader:
     textures: list[str]
     body_start: int
     body_line: int
+    is_own: bool = False
 
 
 def is_ply(head: bytes) -> bool:
@@ -155,6 +160,7 @@ class _HeaderParser:
         self._current: PlyElement | None = None
         self._textures: list[str] = []
         self._number = 1
+        self._is_own = False
 
     def read(self, line: bytes, number: int) -> None:
         self._number = number
@@ -175,9 +181,11 @@ class _HeaderParser:
     def header(self, body_start: int, body_line: int) -> PlyHeader:
         if self._byte_order is None:
             raise FileFormatError("the header has no format line", self._path)
-        return PlyHeader(self._byte_order, self._elements, self._textures, body_start, body_line)
+        found = self._elements, self._textures
+        return PlyHeader(self._byte_order, *found, body_start, body_line, self._is_own)
 
     def _comment(self, line: bytes) -> None:
+        self._is_own |= line.strip() == OWN_COMMENT
         words = line.split(None, 2)
         if len(words) == 3 and words[1].lower() == b"texturefile":
             self._textures.append(decoded(words[2].strip()))

@@ -32,7 +32,7 @@ def read_materials(
         return materials
     if len(names) > _MAX_TEXTURES:
         warnings.add(f"{len(names)} textures, {_MAX_TEXTURES} are the limit")
-    textures = TextureCache(LinkedFiles(source.folder))
+    textures = TextureCache(LinkedFiles.of(source))
     return [
         Material(name=name, texture=_texture(name, textures, source, warnings))
         for name in names[:_MAX_TEXTURES]

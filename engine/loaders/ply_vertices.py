@@ -12,15 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .ply_colors import color_names, is_splats, read_colors, splat_colors
 from .ply_tables import PlyTable
 from .vertex_values import finite_uvs
+from .warning_list import WarningList
 
-_COLORS = (
-    ("red", "green", "blue"),
-    ("r", "g", "b"),
-    ("diffuse_red", "diffuse_green", "diffuse_blue"),
-)
-_ALPHAS = ("alpha", "a", "diffuse_alpha")
 _WIDEST = 16  # lists of more items are no vectors
 _UVS = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "texture_t"))
 
@@ -45,8 +41,11 @@ class PlyVertices(NamedTuple):
     position_ids: np.ndarray | None
 
 
-def read_vertices(table: PlyTable) -> PlyVertices:
-    """Read the vertices; the table has ``x``, ``y`` and ``z``."""
+def read_vertices(table: PlyTable, warnings: WarningList, is_own: bool = False) -> PlyVertices:
+    """Read the vertices; the table has ``x``, ``y`` and ``z``.
+
+    Other parameters are those of `read_colors`.
+    """
     positions = table.columns("x", "y", "z")
     normals = None
     if table.has("nx", "ny", "nz"):
@@ -58,7 +57,11 @@ def read_vertices(table: PlyTable) -> PlyVertices:
             uvs = finite_uvs(table.columns(*names))
             break
     position_ids = table.column("position_id") if table.has("position_id") else None
-    return PlyVertices(positions, normals, read_colors(table), uvs, position_ids)
+    if is_splats(table):
+        colors = splat_colors(table, warnings)
+    else:
+        colors = read_colors(table, warnings, is_own)
+    return PlyVertices(positions, normals, colors, uvs, position_ids)
 
 
 def scalar_names(table: PlyTable) -> list[str]:
@@ -69,8 +72,7 @@ def scalar_names(table: PlyTable) -> list[str]:
 
 def names_but(table: PlyTable, taken: Collection[str]) -> list[str]:
     """Return the names of an element's properties but for its colours and those in ``taken``."""
-    colors = next((names for names in _COLORS if table.has(*names)), ())
-    taken = {*taken, *colors, *_ALPHAS}
+    taken = {*taken, *color_names(table)}
     return [name for name in table.element.properties if name not in taken]
 
 
@@ -87,34 +89,3 @@ def numbers_of(table: PlyTable, names: Iterable[str]) -> dict[str, np.ndarray]:
             values = items.values.astype(np.dtype(table.type(name)), copy=False)
             found[name] = values.reshape(-1, width)
     return found
-
-
-def read_colors(table: PlyTable) -> np.ndarray | None:
-    """Read the colours of an element.
-
-    Returns
-    -------
-    colors : (N, 4) uint8 or float32, or None
-        Integers are display values and become sRGB bytes (16-bit ones are scaled), floats are
-        linear light. None if there are no colours.
-    """
-    names = next((names for names in _COLORS if table.has(*names)), None)
-    if names is None:
-        return None
-    alpha = next((name for name in _ALPHAS if table.has(name)), None)
-    values = table.columns(*names, *([alpha] if alpha else []))
-    kinds = {table.type(name) for name in names}
-    if any(kind.startswith("f") for kind in kinds):
-        with np.errstate(over="ignore"):
-            colors = np.ones((len(values), 4), np.float32)
-            colors[:, : values.shape[1]] = np.nan_to_num(values, nan=1.0)
-        return np.clip(colors, 0, np.finfo(np.float32).max, out=colors)
-    colors = np.full((len(values), 4), 255, np.uint8)
-    if values.dtype == np.uint8:
-        colors[:, : values.shape[1]] = values
-        return colors
-    if kinds == {"u2"}:
-        values = values / 257
-    scaled = np.clip(np.nan_to_num(values, nan=255.0), 0, 255)
-    colors[:, : values.shape[1]] = np.floor(scaled + 0.5)
-    return colors

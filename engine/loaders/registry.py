@@ -38,6 +38,8 @@ class Reader(NamedTuple):
     resembles : callable, optional
         ``resembles(head, size) -> bool``: whether the first bytes of a file of so many bytes look
         like this format.
+    read_linear : callable, optional
+        Of images whose pixels are light: as ``read``, with codes proportional to it.
     """
 
     name: str
@@ -47,6 +49,7 @@ class Reader(NamedTuple):
     read: Callable
     signature: Callable[[bytes], bool] | None = None
     resembles: Callable[[bytes, int], bool] | None = None
+    read_linear: Callable | None = None
 
 
 class Format(NamedTuple):

@@ -117,7 +117,7 @@ class _Reading:
 
     def __init__(self, source: Source, root: JsonValue, warnings: WarningList) -> None:
         self._source, self._root, self._warnings = source, root, warnings
-        self._files = LinkedFiles(source.folder)
+        self._files = LinkedFiles.of(source)
         self._images: dict[str, Texture] = {}
         self._meshes: dict[tuple, dict[Any, Mesh] | Exception] = {}
         self._primitives: dict[tuple[str, str], Mesh] = {}
@@ -362,7 +362,7 @@ class _Reading:
         self, name: str, format: str | None, split: bool, crease_angle: float
     ) -> dict[Any, Mesh]:
         with self._files.read(self._files.find(name)) as source:
-            source = source._replace(crease_angle=crease_angle)
+            source = source._replace(crease_angle=crease_angle, root=self._source.root)
             if find_reader(source, "mesh", format).read is read_scene_file:
                 raise FileFormatError("a scene within a scene is not read", source.path)
             document = document_of(source, format, split=split)

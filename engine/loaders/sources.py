@@ -72,6 +72,8 @@ class Source(NamedTuple):
         Radians, of normals that the file lacks.
     scalars : {"vertices", "faces"} or None
         Of which of these meshes are to carry the numbers that have no meaning of their own.
+    root : str or None
+        A folder besides the model's own that files named in the model may be in.
     """
 
     path: str
@@ -80,6 +82,7 @@ class Source(NamedTuple):
     companion: Callable[[str], bool] = _any_image
     crease_angle: float = CREASE_ANGLE
     scalars: str | None = None
+    root: str | None = None
 
     def __enter__(self) -> Source:
         return self

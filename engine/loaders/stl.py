@@ -20,6 +20,7 @@ from .documents import Document, DocumentObject
 from .far_coordinates import moved_near
 from .registry import Reader
 from .sources import Source
+from .stl_spelling import usual_spelling
 from .text import decoded, shown, text_lines
 from .triangulation import WorkBudget, triangulate
 from .warning_list import WarningList
@@ -29,7 +30,9 @@ _HEADER = 84
 # A facet is a normal, three corners, and two bytes of attributes.
 _FACET_SIZE, _CORNERS_AT = 50, 12
 _SKIPPED = (b"facet", b"outer", b"endfacet", b"endsolid")
-_TEXT = re.compile(rb"(?:\xef\xbb\xbf)?\s*solid\b", re.IGNORECASE)
+_TEXT = re.compile(rb"(?:\xef\xbb\xbf)?\s*(?:solid(?![A-Za-z])|facet[ \t_]*normal)", re.IGNORECASE)
+# What some programs write behind a text.
+_PADDING, _ENDINGS = b"\0\x1a", (b"\0", b"\x1a")
 _MAX_OBJECTS = 1000
 _MOST = 2**31 - 1
 _FORMS = (
@@ -37,6 +40,7 @@ _FORMS = (
     (b"endloop ", native.MARKED, 0, 0, 0.0, 0),
     *((word + b" ", native.SKIPPED, 0, 0, 0.0, 0) for word in _SKIPPED),
 )
+_FACET_FORM = 2  # the first of what is skipped
 _SNIFFED = 4096
 
 
@@ -116,7 +120,7 @@ def _is_text(source: Source) -> bool:
     head = source.head(_SNIFFED)
     if _TEXT.match(head) is None and (head.strip() or _TEXT.match(source.data) is None):
         return False
-    return not _has_binary_length(head, source.size) and b"\0" not in source.data
+    return not _has_binary_length(head, source.size) and b"\0" not in source.data.rstrip(_PADDING)
 
 
 def _has_binary_length(head: bytes, size: int) -> bool:
@@ -151,26 +155,11 @@ def _require_facets(count: int, source: Source) -> None:
 
 
 def _read_text(source: Source, warnings: WarningList, split: bool) -> _Facets:
-    """Read the text form: what counts are the lines of vertices and of loops' ends."""
+    """Read the text form."""
+    if source.data.endswith(_ENDINGS):
+        source = source._replace(content=source.data.rstrip(_PADDING))
     text = text_lines(source)
-    reader = native.FormReader(text, _FORMS, True)
-    solids: list[tuple[str, int]] = []
-    ends = [np.zeros(1, np.int64)]
-    count, place = 0, reader.read(0)
-    while place < len(text):
-        end = text.index(b"\n", place)
-        words = text[place:end].split(None, 1)
-        if words[0].lower() != b"solid":
-            _fail_at(source.path, text, place)
-        ends.append(reader.take_marks()["rows"])
-        name = decoded(words[1].strip()) if len(words) > 1 else ""
-        count += len(ends[-1])
-        solids.append((name, count))
-        place = reader.read(end + 1)
-    ends = np.concatenate([*ends, reader.take_marks()["rows"]])
-    corners = reader.take_rows(0)
-    if ends[-1] != len(corners):
-        raise FileFormatError("the file ends within a facet", source.path, text.count(b"\n"))
+    corners, ends, solids, _ = _rows_of_any(text, source.path, warnings)
     corners, pose = moved_near(corners) if split else (corners, None)
     with np.errstate(over="ignore"):
         corners = corners.astype(np.float32)
@@ -189,6 +178,82 @@ def _read_text(source: Source, warnings: WarningList, split: bool) -> _Facets:
     return _Facets(count, corners[first], faces, cut.polygons, visible, len(corners), solids, pose)
 
 
+class _Rows(NamedTuple):
+    """The lines of a text.
+
+    Attributes
+    ----------
+    corners : (C, 3) float64
+    ends : (F + 1,) int64
+        The first corner of each facet, and their number.
+    solids : list of (str, int)
+    facet_lines : int
+        Lines that begin a facet: more than there are facets if some hold all of theirs.
+    """
+
+    corners: np.ndarray
+    ends: np.ndarray
+    solids: list[tuple[str, int]]
+    facet_lines: int
+
+    @property
+    def polygons(self) -> int:
+        """How many facets have at least three corners."""
+        return int((np.diff(self.ends) >= 3).sum())
+
+    @property
+    def may_lack_facets(self) -> bool:
+        """Whether lines of facets, or of solids, may hold more than was read of them."""
+        is_less = not self.polygons or self.facet_lines >= len(self.ends)
+        return is_less or any("facet" in name.lower() for name, _ in self.solids)
+
+
+def _rows_of_any(text: bytes, path: str, warnings: WarningList) -> _Rows:
+    """Read a text as it stands or, where that fails, in the usual spelling."""
+    problem = rows = None
+    try:
+        rows = _rows(text, path)
+    except FileFormatError as error:
+        problem = error
+    if rows is not None and not rows.may_lack_facets:
+        return rows
+    spelling = usual_spelling(text)
+    try:
+        again = _rows(spelling.text, path)
+    except FileFormatError:
+        again = None
+    if problem is not None and again is None:
+        raise problem
+    if again is None or (rows is not None and again.polygons <= rows.polygons):
+        return rows
+    if spelling.left_out:
+        warnings.add(f"{spelling.left_out} lines that are no part of STL are left out")
+    return again
+
+
+def _rows(text: bytes, path: str) -> _Rows:
+    """Read lines: what counts are those of vertices and of loops' ends."""
+    reader = native.FormReader(text, _FORMS, True)
+    solids: list[tuple[str, int]] = []
+    ends = [np.zeros(1, np.int64)]
+    count, place = 0, reader.read(0)
+    while place < len(text):
+        end = text.index(b"\n", place)
+        words = text[place:end].split(None, 1)
+        if words[0].lower() != b"solid":
+            _fail_at(path, text, place)
+        ends.append(reader.take_marks()["rows"])
+        name = decoded(words[1].strip()) if len(words) > 1 else ""
+        count += len(ends[-1])
+        solids.append((name, count))
+        place = reader.read(end + 1)
+    ends = np.concatenate([*ends, reader.take_marks()["rows"]])
+    corners = reader.take_rows(0)
+    if ends[-1] != len(corners):
+        raise FileFormatError("the file ends within a facet", path, text.count(b"\n"))
+    return _Rows(corners, ends, solids, reader.lines(_FACET_FORM))
+
+
 def _fail_at(path: str, text: bytes, place: int):
     """Raise an error about the line that begins there, which has no form."""
     line = text[place : text.index(b"\n", place)]
@@ -200,6 +265,8 @@ def _fail_at(path: str, text: bytes, place: int):
 
 def _groups(solids: list[tuple[str, int]], facets: np.ndarray) -> list[tuple[str, np.ndarray]]:
     """The triangles of each solid; facets before the first ``solid`` belong to none."""
+    if not solids:
+        return []
     begins = np.searchsorted(facets, [start for _, start in solids])
     ends = np.append(begins[1:], len(facets))
     groups: dict[str, list[np.ndarray]] = {}

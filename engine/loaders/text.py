@@ -7,11 +7,13 @@ mark. Line numbers stay those of the file.
 from __future__ import annotations
 
 import codecs
+import re
 
 from ..errors import FileFormatError
 from .sources import Source
 
 _SHOWN = 40
+_BLANKS = re.compile(r"[ \t\r\n\v\f]+")
 
 
 def text_lines(source: Source) -> bytes:
@@ -55,6 +57,14 @@ def decoded(name: bytes) -> str:
         return name.decode("utf-8")
     except UnicodeDecodeError:
         return name.decode("latin-1")
+
+
+def words_of(text: str) -> list[str]:
+    """Return the words of a decoded text, with no letter beyond ASCII between them.
+
+    Names in other encodings hold bytes that Python counts as blanks.
+    """
+    return [word for word in _BLANKS.split(text) if word]
 
 
 def shown(text: str | bytes) -> str:

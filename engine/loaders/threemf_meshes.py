@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import FileFormatError
+from ..errors import Engine3DError
 from ..geometry.mesh import Mesh
 from ..materials.material import Material
 from ..materials.textures import Texture
@@ -20,12 +20,11 @@ from .registry import find_reader
 from .sources import Source
 from .text import shown
 from .threemf_model import ModelPart, ObjectRecord
-from .threemf_properties import Color, PropertyGroup
+from .threemf_properties import WHITE, Color, PropertyGroup
 from .vertex_values import finite_uvs
 from .warning_list import WarningList
 from .zip_archives import ZipArchive
 
-_WHITE = (255, 255, 255, 255)
 # Of the layers of a triangle the first of these kinds is shown.
 _LAYERS = ("texture", "color", "base")
 
@@ -37,6 +36,10 @@ class _Corners:
     materials: np.ndarray
     colors: np.ndarray | None = None
     uvs: np.ndarray | None = None
+
+
+class _NoLookError(Exception):
+    """Why triangles do not look as they say."""
 
 
 class MeshBuilder:
@@ -108,7 +111,11 @@ class MeshBuilder:
     def _give(self, found: _Corners, triangles, said, materials, numbers) -> None:
         """Give one triangle, or all of them, a property."""
         group, *indices = said
-        kind, entries, material = self._resolved(group, tuple(indices))
+        try:
+            kind, entries, material = self._resolved(group, tuple(indices))
+        except _NoLookError as problem:
+            self._warnings.add_once(f"{problem}; triangles are drawn without it")
+            return
         number = numbers.setdefault(id(material), len(materials))
         if number == len(materials):
             materials.append(material)
@@ -119,7 +126,7 @@ class MeshBuilder:
                 found.colors = np.full((count, 3, 4), 255, np.uint8)
             found.colors[triangles] = entries
         elif found.colors is not None:
-            found.colors[triangles] = _WHITE
+            found.colors[triangles] = WHITE
         if kind == "texture":
             if found.uvs is None:
                 found.uvs = np.zeros((count, 3, 2))
@@ -136,32 +143,29 @@ class MeshBuilder:
             return "texture", entries, self._textured(group)
         if group.kind == "color":
             is_clear = any(color[3] < 255 for color in entries)
-            return "color", entries, self._material(_WHITE, is_clear=is_clear)
+            return "color", entries, self._material(WHITE, is_clear=is_clear)
         if group.kind != "base":
-            raise FileFormatError(f"property group {number} is none", self._source.path)
+            raise _NoLookError(f"resource {number} is no property group")
         return "base", entries, self._base(group, indices[0])
 
     def _group(self, number: int) -> PropertyGroup:
         group = self._part.groups.get(number)
         if group is None:
-            raise FileFormatError(f"there is no property group {number}", self._source.path)
+            raise _NoLookError(f"there is no property group {number}")
         return group
 
     def _entries(self, group: PropertyGroup, number: int, indices: tuple) -> list:
         if max(indices) >= len(group.entries):
-            raise FileFormatError(
-                f"property {max(indices)} of group {number}, which has {len(group.entries)}",
-                self._source.path,
-            )
+            raise _NoLookError(f"a property of group {number} beyond its {len(group.entries)}")
         return [group.entries[index] for index in indices]
 
     def _layer(self, group: PropertyGroup, corners: list[tuple]) -> tuple[int, tuple]:
         """The layer that shows of several, and the indices in it; the first where one says none."""
-        layers = [self._group(number) for number in group.layers]
-        kinds = [layer.kind for layer in layers]
+        layers = [self._part.groups.get(number) for number in group.layers]
+        kinds = ["" if layer is None else layer.kind for layer in layers]
         shown_kind = next((kind for kind in _LAYERS if kind in kinds), None)
         if shown_kind is None:
-            raise FileFormatError("multi-properties of no properties", self._source.path)
+            raise _NoLookError("multi-properties of no properties")
         if len(layers) > 1:
             self._warnings.add_once(
                 f"of properties in several layers the {shown_kind} is drawn alone"
@@ -206,13 +210,15 @@ class MeshBuilder:
 
     def _texture(self, number: int) -> Texture | None:
         """The texture of an image; one that cannot be read is warned of, and left out."""
-        image = self._group(number).image
+        group = self._part.groups.get(number)
+        image = None if group is None else group.image
         if image is None:
-            raise FileFormatError(f"resource {number} is no texture", self._source.path)
+            self._warnings.add_once(f"resource {number} is no texture; left out")
+            return None
         try:
             source = Source(image.path, self._archive.read(image.path))
             pixels = find_reader(source, "image").read(source)
-        except FileFormatError as error:
+        except Engine3DError as error:
             self._warnings.add(f"texture {shown(image.path)} is left out: {error.message}")
             return None
         name = image.path.rpartition("/")[2]

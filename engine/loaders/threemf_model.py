@@ -177,11 +177,13 @@ class ModelParser:
 
     def _begin_object(self, attributes: Attributes) -> None:
         number = whole(attributes, "id")
-        if number in self.part.objects or number in self.part.groups:
+        if number in self.part.objects:
             raise XmlFault(f"id {number} is given twice")
+        if number in self.part.groups:
+            self._warnings.add_once(f"id {number} is of an object and of properties")
         name = attributes.get("name") or attributes.get("partnumber") or f"object {number}"
-        group = whole(attributes, "pid", -1)
-        self._object = ObjectRecord(name, group, whole(attributes, "pindex", 0))
+        group = self._property(attributes, "pid", -1)
+        self._object = ObjectRecord(name, group, self._property(attributes, "pindex", 0))
         self.part.objects[number] = self._object
 
     def _current(self, what: str) -> ObjectRecord:
@@ -226,11 +228,21 @@ class ModelParser:
         known = {"v1", "v2", "v3", "pid", "p1", "p2", "p3"}
         for key in attributes.keys() - known:
             self._warnings.add_once(f"{key.rpartition(SEPARATOR)[2]!r} of triangles is left out")
-        group = whole(attributes, "pid", record.group)
-        first = whole(attributes, "p1", record.index if group == record.group else 0)
-        others = (whole(attributes, key, first) for key in ("p2", "p3"))
+        group = self._property(attributes, "pid", record.group)
+        first = self._property(attributes, "p1", record.index if group == record.group else 0)
+        others = (self._property(attributes, key, first) for key in ("p2", "p3"))
+        if group < 0 and "p1" in attributes:
+            self._warnings.add_once("properties of triangles without a group are left out")
         if "p1" in attributes or "pid" in attributes:
             record.properties[len(record.corners) // 3] = group, first, *others
+
+    def _property(self, attributes: Attributes, key: str, default: int) -> int:
+        """The index or id of a property, which a model can do without."""
+        try:
+            return whole(attributes, key, default)
+        except XmlFault as fault:
+            self._warnings.add_once(f"{fault}; left out")
+            return default
 
     def _component(self, attributes: Attributes) -> None:
         self._current("component").components.append(_placement(attributes))

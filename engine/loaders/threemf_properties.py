@@ -1,6 +1,8 @@
 """Property groups of 3MF files: base materials, colours, texture coordinates, and mixtures.
 
 In: elements of the XML. Out: `PropertyGroup` records, by id. Colours are sRGB with alpha, 0 to 255.
+All of it only says how triangles look: what makes no sense is a warning, and keeps its place in the
+order, white or at the origin, so that others keep theirs.
 """
 
 from __future__ import annotations
@@ -8,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +21,7 @@ from .xml_events import SEPARATOR, Attributes, XmlFault
 
 _MATERIALS = "http://schemas.microsoft.com/3dmanufacturing/material/2015/02"
 Color = tuple[int, int, int, int]
+WHITE: Color = (255, 255, 255, 255)
 _TILES = {"wrap": "repeat", "mirror": "mirror", "clamp": "clamp", "none": "clamp"}
 
 
@@ -74,7 +78,7 @@ class PropertyParser:
     def __init__(self, groups: dict[int, PropertyGroup], warnings: WarningList) -> None:
         self._groups, self._warnings = groups, warnings
         self._group = PropertyGroup("")
-        self._bases: tuple[PropertyGroup, tuple[int, ...]] | None = None
+        self._bases: tuple[list[Color], tuple[int, ...]] = [], ()
 
     def handlers(self, core: str) -> dict[str, Callable[[Attributes], None]]:
         """Return what is to be called for which element."""
@@ -97,33 +101,51 @@ class PropertyParser:
             found[f"{_MATERIALS}{SEPARATOR}{name}"] = handler
         return found
 
+    def _sensible(self, read: Callable[..., Any], *words: Any, default: Any) -> Any:
+        """What a reader makes of words; the default, and a warning, where it makes no sense."""
+        try:
+            return read(*words)
+        except XmlFault as fault:
+            self._warnings.add_once(f"{fault}; left out")
+            return default
+
+    def _number_of(self, attributes: Attributes, key: str) -> int:
+        """The id in an attribute; that of nothing where it makes no sense."""
+        return self._sensible(_index, attributes.get(key, ""), key, default=-1)
+
     def _open(self, kind: str, attributes: Attributes) -> PropertyGroup:
-        number = _index(attributes.get("id", ""), "id")
+        number = self._number_of(attributes, "id")
+        self._group = PropertyGroup(kind)
         if number in self._groups:
-            raise XmlFault(f"id {number} is given twice")
-        self._group = self._groups[number] = PropertyGroup(kind)
+            self._warnings.add_once(f"id {number} is given twice; the first counts")
+        elif number >= 0:
+            self._groups[number] = self._group
         return self._group
 
     def _add(self, kind: str, entry, name: str = "") -> None:
         if self._group.kind != kind:
-            raise XmlFault("a property outside of its group")
+            self._warnings.add_once(f"a property outside of its group: {kind}; left out")
+            return
         self._group.entries.append(entry)
         self._group.names.append(name)
 
     def _base_materials(self, attributes: Attributes) -> None:
         group = self._open("base", attributes)
         if "displaypropertiesid" in attributes:
-            group.display = _index(attributes["displaypropertiesid"], "displaypropertiesid")
+            group.display = self._number_of(attributes, "displaypropertiesid")
 
     def _base(self, attributes: Attributes) -> None:
-        name, color = attributes.get("name", ""), _color(attributes.get("displaycolor", ""))
+        name, color = attributes.get("name", ""), self._color_of(attributes, "displaycolor")
         if color[3] == 0:  # some programs write so what is opaque
             self._warnings.add(f"material {shown(name)}, which would not show, is drawn opaque")
             color = (*color[:3], 255)
         self._add("base", color, name)
 
     def _color(self, attributes: Attributes) -> None:
-        self._add("color", _color(attributes.get("color", "")))
+        self._add("color", self._color_of(attributes, "color"))
+
+    def _color_of(self, attributes: Attributes, key: str) -> Color:
+        return self._sensible(_color, attributes.get(key, ""), default=WHITE)
 
     def _image(self, attributes: Attributes) -> None:
         group = self._open("image", attributes)
@@ -136,47 +158,56 @@ class PropertyParser:
 
     def _texture_group(self, attributes: Attributes) -> None:
         group = self._open("texture", attributes)
-        group.texture = _index(attributes.get("texid", ""), "texid")
+        group.texture = self._number_of(attributes, "texid")
 
     def _coordinates(self, attributes: Attributes) -> None:
-        self._add("texture", (_number(attributes, "u"), _number(attributes, "v")))
+        place = (self._sensible(_number, attributes, key, default=0.0) for key in "uv")
+        self._add("texture", tuple(place))
 
     def _composites(self, attributes: Attributes) -> None:
-        bases = self._groups.get(_index(attributes.get("matid", ""), "matid"))
-        if bases is None or bases.kind != "base":
-            raise XmlFault("composite materials of no base materials")
-        indices = _indices(attributes.get("matindices", ""), "matindices")
-        if not indices or max(indices) >= len(bases.entries):
-            raise XmlFault("'matindices' names base materials that are not there")
-        self._bases = bases, indices
+        bases = self._groups.get(self._number_of(attributes, "matid"))
+        colors = bases.entries if bases is not None and bases.kind == "base" else []
+        text = attributes.get("matindices", "")
+        indices = self._sensible(_indices, text, "matindices", default=())
+        if not indices or max(indices) >= len(colors):
+            self._warnings.add_once("composite materials of what is not there; left out")
+            colors, indices = [], ()
+        self._bases = colors, indices
         self._open("base", attributes)
 
     def _composite(self, attributes: Attributes) -> None:
-        if self._bases is None:
-            raise XmlFault("a property outside of its group")
-        bases, indices = self._bases
-        shares = [_float(word, "values") for word in attributes.get("values", "").split()]
+        mixed = self._sensible(self._mixed, attributes.get("values", ""), default=WHITE)
+        self._add("base", mixed)
+
+    def _mixed(self, values: str) -> Color:
+        """The colour of a composite: its parts' in their shares, in linear light."""
+        entries, indices = self._bases
+        shares = [_float(word, "values") for word in values.split()]
         shares = [max(share, 0.0) for share in shares[: len(indices)]]
         total = sum(shares)
         if not total > 0.0:
             raise XmlFault("a composite of nothing")
-        colors = [bases.entries[index] for index in indices]
+        colors = [entries[index] for index in indices]
         parts = [(*linear_color(color[:3]).tolist(), color[3] / 255) for color in colors]
         mixed = [
             sum(share * part[k] for share, part in zip(shares, parts, strict=False)) / total
             for k in range(4)
         ]
-        self._add("base", tuple(srgb_bytes(np.array([mixed]))[0].tolist()))
+        return tuple(srgb_bytes(np.array([mixed]))[0].tolist())
 
     def _multi_properties(self, attributes: Attributes) -> None:
         group = self._open("multi", attributes)
-        group.layers = _indices(attributes.get("pids", ""), "pids")
+        group.layers = self._indices_of(attributes, "pids")
 
     def _multi(self, attributes: Attributes) -> None:
-        self._add("multi", _indices(attributes.get("pindices", ""), "pindices"))
+        self._add("multi", self._indices_of(attributes, "pindices"))
+
+    def _indices_of(self, attributes: Attributes, key: str) -> tuple[int, ...]:
+        return self._sensible(_indices, attributes.get(key, ""), key, default=())
 
     def _metallic(self, attributes: Attributes) -> None:
-        values = _number(attributes, "metallicness", 0.0), _number(attributes, "roughness", 1.0)
+        usual = (("metallicness", 0.0), ("roughness", 1.0))
+        values = (self._sensible(_number, attributes, *one, default=one[1]) for one in usual)
         self._add("display", tuple(min(max(value, 0.0), 1.0) for value in values))
 
 

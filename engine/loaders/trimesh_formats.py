@@ -130,7 +130,7 @@ def _check_beginning(source: Source, kind: str) -> None:
 
 def _resolver(trimesh, source: Source, warnings: WarningList):
     """Gives trimesh the images beside the model, and nothing else."""
-    files = LinkedFiles(source.folder)
+    files = LinkedFiles.of(source, warnings)
 
     class FolderResolver(trimesh.resolvers.Resolver):
         def __init__(self):

@@ -7,6 +7,7 @@ terms than ours (lights without falloff, camera rolls) is translated here.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 
 import numpy as np
@@ -30,6 +31,7 @@ def load_scene(
     progress: Callable[[float], object] | None = None,
     variant: str | int | None = None,
     crease_angle: float = CREASE_ANGLE,
+    root: str | os.PathLike[str] | None = None,
 ) -> Scene:
     """Read a file with all its objects, lights, cameras, skins and animations.
 
@@ -46,6 +48,8 @@ def load_scene(
         (KHR_materials_variants); the usual one if left out.
     crease_angle : float, optional
         As in `load_mesh`.
+    root : path-like, optional
+        As in `load_mesh`.
 
     Returns
     -------
@@ -56,7 +60,9 @@ def load_scene(
     ------
     FileFormatError, FileAccessError, InvalidArgumentError
     """
-    document = load_document(path, format=format, progress=progress, crease_angle=crease_angle)
+    document = load_document(
+        path, format=format, progress=progress, crease_angle=crease_angle, root=root
+    )
     return scene_from_document(document, variant)
 
 

@@ -15,7 +15,7 @@ from ..canvas import Canvas
 from ..rendering.frame import Frame
 from ..scene.cameras import Camera
 from ..scene.nodes import Node
-from .blank import SAME_COLOUR, Reason, contrast, why_blank
+from ..viewer.blank import Reason, covered, reason_of
 from .caps import Caps, find_caps, paint_caps
 from .cutting import Plane
 from .hidden import AloneScene
@@ -24,7 +24,7 @@ from .outlines import draw_outlines
 from .placing import Extent, Matrices, cut, cut_obliquely, find_matrices, place_camera
 from .studio import Studio
 from .views import ViewSpec
-from .visible import box_of, covered
+from .visible import SAME_COLOUR, box_of, contrast
 
 #: In place of the number of an instance: no other thing has that.
 _CUT = 0x7FFFFFFF
@@ -161,7 +161,7 @@ def _look_for_reasons(panel: Panel, studio: Studio) -> None:
     """Find out whether anything is to be seen, and if not, why."""
     panel.contrast = _contrast(studio, panel)
     if not panel.shown.any():
-        panel.reason = why_blank(studio, panel.camera, panel.pose, panel.rectangle)
+        panel.reason = reason_of(studio.sight(panel.camera, panel.pose, panel.rectangle))
     elif panel.contrast <= SAME_COLOUR:
         panel.reason = Reason("same_colour", "what shows has the colour of the ground")
 

@@ -190,6 +190,7 @@ def contact_sheet(
     size: tuple[int, int] | None = None,
     up: str | None = None,
     unit: str | None = None,
+    root: str | os.PathLike[str] | None = None,
     backend: Backend = "auto",
     threads: int = 0,
 ) -> Sheet:
@@ -215,6 +216,8 @@ def contact_sheet(
         What is up; by default what is usual for the file's format.
     unit : str, optional
         What lengths are written in; by default the file's unit, where its format has one.
+    root : path-like, optional
+        As for `load_mesh`, of models that are files.
     backend, threads
         As for `Renderer`; the bytes are the same.
 
@@ -232,7 +235,7 @@ def contact_sheet(
     >>> sheet.save("part.png", report="part.json")
     """
     specs = check_views(views, sections)
-    opened = open_sources(models)
+    opened = open_sources(models, root=root)
     drawing = {"backend": backend, "threads": threads}
     pages = draw_pages(opened, specs, size, up, unit, drawing)
     report = {

@@ -18,6 +18,7 @@ from ..rendering.renderer import Renderer
 from ..scene.cameras import Camera
 from ..scene.usage import uses_in
 from ..viewer.appearance import count_points, point_size
+from ..viewer.blank import Sight
 from ..viewer.lighting import Lighting
 from ..viewer.scene_bounds import sphere_of_box
 from ..viewer.stage import Stage, theme_for
@@ -156,6 +157,12 @@ class Studio:
 
     def _point_size(self, rectangle: Rectangle) -> float:
         return point_size(self._points, (rectangle.width, rectangle.height))
+
+    def sight(self, camera: Camera, pose: np.ndarray, rectangle: Rectangle) -> Sight:
+        """Return what a camera looks at, to ask why it sees nothing."""
+        size = rectangle.width, rectangle.height
+        options = {"cull": self._cull, "point_size": self._point_size(rectangle)}
+        return Sight(self.scene, camera, pose, size, self.own_ids, options, self._options)
 
     def render(
         self, camera: Camera, pose: np.ndarray, rectangle: Rectangle, **options: Any

@@ -17,6 +17,9 @@ from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.scene import Scene
 
+#: Colours that differ by no more codes of 255 cannot be told from the ground.
+SAME_COLOUR = 6
+
 
 class Shown(NamedTuple):
     """Pixels of one kind.
@@ -34,12 +37,14 @@ class Shown(NamedTuple):
     box: tuple[int, int, int, int]
 
 
-def covered(frame: Frame, own_ids: np.ndarray) -> np.ndarray:
-    """Return which pixels show nodes of the scene's own, (H, W) bool."""
-    ids = frame.object_id
-    known = np.zeros(max(int(ids.max()), int(own_ids.max(initial=-1))) + 2, bool)
-    known[own_ids] = True  # the last one is of the background's -1
-    return known[ids]
+def contrast(frame: Frame, shown: np.ndarray, ground: tuple[int, int, int]) -> int:
+    """Return by how many codes of 255 what shows differs from the ground, at most."""
+    most = 0
+    for channel, code in enumerate(ground):
+        codes = frame.color[..., channel][shown]
+        if len(codes):
+            most = max(most, int(codes.max()) - code, code - int(codes.min()))
+    return most
 
 
 def box_of(mask: np.ndarray) -> tuple[int, int, int, int] | None:

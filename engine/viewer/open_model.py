@@ -95,6 +95,7 @@ def read_model(
     crease_angle=CREASE_ANGLE,
     format=None,
     scalars=None,
+    root=None,
 ) -> OpenedModel:
     """Load a file to look at, which may be coloured by other numbers later.
 
@@ -111,7 +112,7 @@ def read_model(
     companion : callable, optional
         As in `engine3d.loaders.load_document`; with a texture or a colour, no image is taken.
 
-    crease_angle, format
+    crease_angle, format, root
         As in `engine3d.load_mesh`.
     scalars : ScalarColoring, optional
         Colours the meshes by a number of their vertices or faces, whatever the file says.
@@ -140,6 +141,7 @@ def read_model(
         companion=companion,
         crease_angle=crease_angle,
         scalars=None if scalars is None else scalars.kind,
+        root=root,
     )
     path = None if hasattr(path, "read") else os.fspath(path)
     if is_dressed:

@@ -16,8 +16,10 @@ from ..rendering.renderer import Renderer
 from ..rendering.support_functions import support_of_scene
 from ..scene.cameras import PerspectiveCamera
 from ..scene.lights import DirectionalLight
+from ..scene.nodes import Node
 from ..spatial.rays import RayHit
 from .appearance import Appearance, count_points, point_size
+from .blank import Reason, Sight, may_be_blank, why_blank
 from .box_grid import BoxGrid
 from .debug_lines import Lines, box_lines, draw_lines, frustum_lines, tree_lines
 from .free_region import NOTHING, Taken, frame_beside
@@ -42,7 +44,7 @@ from .theme import Theme
 from .untextured import Textures
 from .viewed_scene import ViewedScene
 from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint, with_clip_planes
-from .visibility import Visibility
+from .visibility import DRAWABLE, Visibility
 
 #: What the look "studio" draws with unless the scene or the user says otherwise.
 STUDIO = {"tone_mapping": "neutral", "ambient_occlusion": True}
@@ -137,6 +139,7 @@ class ViewRenderer:
         """
         settings = self.settings
         self.viewed = viewed
+        self._has_shown, self._doubtful, self._alone = False, None, None
         settings.filtering.put(viewed.scene)
         self._textures = Textures(viewed.scene)
         self.show_textures(settings.textures)
@@ -230,7 +233,8 @@ class ViewRenderer:
         if self._chooses_theme:
             stage.show_shadow(False)
             kept = self.settings.keeps_theme
-            self.theme = self.theme if kept else theme_for(self._picture_alone(view))
+            self._alone = None if kept else self._picture_alone(view)
+            self.theme = self.theme if self._alone is None else theme_for(self._alone)
         is_plain = appearance.mode in ("lit", "unlit") and appearance.wireframe is None
         if is_plain and not self.split and not self._transparent:
             stage.lay_shadow(self.bounds, view.azimuth, appearance.cull, view.eye())
@@ -311,8 +315,11 @@ class ViewRenderer:
 
     def _added(self) -> tuple:
         """What is drawn that was added to the scene: the grids and the shadow."""
-        grid = self._box.nodes if self._grid is None else (self._grid, *self._box.nodes)
-        return grid if self._stage is None else (*grid, *self._stage.nodes)
+        grids = self._grids()
+        return grids if self._stage is None else (*grids, *self._stage.nodes)
+
+    def _grids(self) -> tuple:
+        return self._box.nodes if self._grid is None else (self._grid, *self._box.nodes)
 
     def _lowest(self) -> float:
         """Return how low the scene reaches along the up direction, however it moves."""
@@ -414,7 +421,31 @@ class ViewRenderer:
         )
         if mode in OUTPUT_MODES and not self.split and "color" in outputs:
             paint(frame, mode, self.bounds)
+        if not self._has_shown:
+            self._look_for_something(frame, camera, pose)
         return frame
+
+    def _look_for_something(self, frame, camera, pose: np.ndarray) -> None:
+        """Note whether a frame certainly shows something; else keep the first such sight."""
+        scene, added = self.viewed.scene, self._added()
+        if not any(_is_drawn(node) for node in added):
+            self._has_shown = not may_be_blank(frame.stats, scene)
+        elif self._alone is not None and not any(map(_is_drawn, self._grids())):
+            self._has_shown = bool(self._alone[..., 3].any())
+        self._alone = None
+        if self._has_shown or self._doubtful is not None:
+            return
+        ids = np.array([node.id for node in scene.nodes if node not in added], np.int64)
+        look = self._appearance()
+        look = {name: look[name] for name in ("cull", "point_size", "size_unit") if name in look}
+        drawing = {name: self._options[name] for name in ("backend", "threads")}
+        self._doubtful = Sight(scene, camera, pose, self.size, ids, look, drawing)
+
+    def why_blank(self) -> Reason | None:
+        """Return why no frame so far has shown anything of the scene; None if one has."""
+        if self._has_shown or self._doubtful is None:
+            return None
+        return why_blank(self._doubtful)
 
     def _appearance(self) -> dict:
         """Return the drawing options of a frame."""
@@ -521,3 +552,7 @@ class ViewRenderer:
 
     def __exit__(self, *exception) -> None:
         self.close()
+
+
+def _is_drawn(node: Node) -> bool:
+    return node.shown and isinstance(node.object, DRAWABLE)

@@ -12,8 +12,8 @@ import re
 
 from .._native.images import encode_png
 from ..files.atomic_write import AtomicFiles
-from ..loaders.mtl import parse_map
 from ..loaders.mtl_alpha import OPACITY_MAPS
+from ..loaders.mtl_statements import parse_map
 from ..materials.colors import linear_color
 from ..materials.material import Material, says_something, textures_of
 from .names import encoded, line_text, unique

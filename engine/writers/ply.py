@@ -10,6 +10,7 @@ import numpy as np
 
 from ..files.atomic_write import Files
 from ..geometry.mesh import Mesh
+from ..loaders.ply_header import OWN_COMMENT
 from .losses import lost_parts, not_held
 from .outlines import Outlines, polygon_outlines
 from .registry import Writer
@@ -57,7 +58,7 @@ def _columns(mesh: Mesh) -> list[tuple[str, str, np.ndarray]]:
 
 
 def _header(mesh: Mesh, columns, outlines: Outlines, encoding: str) -> str:
-    lines = ["ply", f"format {encoding} 1.0", "comment written by engine3d"]
+    lines = ["ply", f"format {encoding} 1.0", OWN_COMMENT.decode()]
     lines.append(f"element vertex {len(columns[0][2])}")
     lines += [f"property {_TYPES[code]} {name}" for name, code, _ in columns]
     if len(outlines.sizes):

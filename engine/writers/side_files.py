@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 
 from ..errors import Engine3DError
-from ..loaders.mtl import parse_map
+from ..loaders.mtl_statements import parse_map
 from ..loaders.sources import read_source
 from .names import linkable_stem
 

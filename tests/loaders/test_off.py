@@ -1,5 +1,8 @@
 """OFF: its prefixes, counts wherever they stand, colours, and damaged files."""
 
+import itertools
+import warnings
+
 import pytest
 
 from engine3d.errors import FileFormatError
@@ -10,6 +13,12 @@ ROWS = ["0 0 0", "1 0 0", "1 1 0", "0 1 0"]
 
 def off(head="OFF\n4 1 0", rows=ROWS, faces=("4 0 1 2 3",)):
     return "\n".join([head, *rows, *faces, ""])
+
+
+def quietly(data):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return load_mesh(data, format="off")
 
 
 @pytest.fixture
@@ -87,3 +96,66 @@ def test_the_format_is_recognised_by_its_first_word(write):
 def test_errors_name_file_and_place(load, content, message):
     with pytest.raises(FileFormatError, match=message):
         load(content)
+
+
+SQUARE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+FACES = [(0, 1, 2), (0, 2, 3)]
+PREFIXES = [
+    "".join(parts) for parts in itertools.product(*[("", p) for p in ("ST", "C", "N", "4", "n")])
+]
+
+
+def written(prefix, behind_keyword, between_counts, edges, line_end):
+    """A square with all that the prefix announces, counts and lines as asked for."""
+    rows = []
+    for x, y, z in SQUARE:
+        row = [2 * x, 2 * y, 2 * z, 2] if "4" in prefix else [x, y, z]
+        row += [0, 0, 1] * ("N" in prefix) + [255, 0, 0, 255] * ("C" in prefix)
+        rows.append(row + [x, y] * ("ST" in prefix))
+    rows += [(3, *face) for face in FACES]
+    head = f"{prefix}OFF"
+    if prefix.endswith("n"):
+        head, behind_keyword = f"{head}{behind_keyword}3", behind_keyword or " "
+    counts = between_counts.join(["4", "2", *["0"] * edges])
+    lines = [" ".join(map(str, row)) for row in rows]
+    return f"{head}{behind_keyword}{counts}\n{line_end.join(lines)}\n".encode()
+
+
+@pytest.mark.parametrize("prefix", PREFIXES)
+@pytest.mark.parametrize("behind_keyword", ["", " ", "\n", "\t", "\r\n", "\n# why\n\n"])
+def test_headers_in_whatever_lines(prefix, behind_keyword):
+    for between, edges, end in itertools.product(" \n", (0, 1), ("\n", "\r\n", "\n\n", " ")):
+        if end == " " and not edges:
+            continue  # the first number would be that of edges
+        mesh = load_mesh(written(prefix, behind_keyword, between, edges, end), format="off")
+        assert mesh.positions.tolist() == [list(place) for place in SQUARE]
+        assert mesh.faces.tolist() == [list(face) for face in FACES]
+        assert (mesh.colors is not None) == ("C" in prefix)
+        assert (mesh.uvs is not None) == ("ST" in prefix)
+
+
+@pytest.mark.parametrize(
+    ("colors", "expected"),
+    [
+        ("255 51 0 1", [255, 51, 0, 255]),
+        ("255 51 0 0.2", [255, 51, 0, 51]),
+        ("255 51 0 51", [255, 51, 0, 51]),
+        ("1 0.2 0 0.2", [255, 51, 0, 51]),
+        ("1 0.2 0 255", [255, 51, 0, 255]),
+    ],
+)
+def test_alphas_have_a_range_of_their_own(colors, expected):
+    rows = "".join(f"{x} {y} {z} {colors}\n" for x, y, z in SQUARE)
+    mesh = load_mesh(f"COFF\n4 1 0\n{rows}3 0 1 2\n".encode())
+    assert mesh.colors[0].tolist() == expected
+
+
+def test_what_is_no_colour_of_a_face_is_told():
+    rows = "".join(f"{x} {y} {z}\n" for x, y, z in SQUARE)
+    mesh = quietly(f"OFF\n4 1 0\n{rows}3 0 1 2 7\n".encode())
+    assert mesh.warnings[0].endswith("what stands behind the corners of 1 faces is left out")
+
+
+def test_four_dimensions_are_refused():
+    with pytest.raises(FileFormatError, match="only three-dimensional OFF files"):
+        load_mesh(b"nOFF 4\n1 0 0\n0 0 0 0\n")

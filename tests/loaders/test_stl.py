@@ -138,3 +138,48 @@ def test_more_facets_than_there_are_numbers(tmp_path):
             pytest.skip(f"no file of 100 GB fits here: {error}")
     with pytest.raises(FileFormatError, match=r"a\.stl: more rows than 32 bits number"):
         load_mesh(path)
+
+
+FACETS = TRIANGLE.format(x=1) + TRIANGLE.format(x=2)
+USUAL = f"solid part\n{FACETS}endsolid part\n"
+SPELLINGS = {
+    "end solid": lambda text: text.replace("endsolid", "end solid"),
+    "end_solid": lambda text: text.replace("endsolid", "END_SOLID"),
+    "endsolid of no name": lambda text: text.replace("endsolid part", "endsolid"),
+    "endsolid of a joined name": lambda text: text.replace("endsolid part", "endsolidpart"),
+    "endsolid;": lambda text: text.replace("endsolid part", "endsolid;"),
+    "end": lambda text: text.replace("endsolid part", "end"),
+    "no endsolid": lambda text: text.replace("endsolid part\n", ""),
+    "end facet": lambda text: text.replace("endfacet", "end facet"),
+    "no endfacet": lambda text: text.replace("endfacet\n", "\n"),
+    "end loop": lambda text: text.replace("endloop", "end  loop"),
+    "no endloop": lambda text: text.replace("endloop\n", "\n"),
+    "outerloop": lambda text: text.replace("outer loop", "outerloop"),
+    "facetnormal": lambda text: text.replace("facet normal", "FacetNormal"),
+    "vertex1": lambda text: text.replace("vertex ", "vertex"),
+    "solid1": lambda text: text.replace("solid part", "solid1", 1),
+    "no solid": lambda text: text.replace("solid part\n", "", 1),
+    "one line": lambda text: text.replace("\n", " "),
+    "a facet in a line": lambda text: text.replace("\n  ", " ").replace(" facet", "\nfacet"),
+    "some facets in a line": lambda text: text.replace("\n  ", " ", 5),
+    "a comment": lambda text: text.replace("outer", "# of no use\nouter", 1),
+    "a colour": lambda text: text.replace("outer", "color 0.5 0.5 1\nouter"),
+    "padding": lambda text: text + "\0\0\0",
+    "ctrl-Z": lambda text: text + "\x1a",
+    "as usual": lambda text: text,
+}
+
+
+@pytest.mark.parametrize("change", SPELLINGS.values(), ids=SPELLINGS.keys())
+@pytest.mark.parametrize("letters", [str, str.upper])
+@pytest.mark.parametrize("line_end", ["\n", "\r\n", "\r"])
+@pytest.mark.filterwarnings("ignore:.*lines that are no part of STL")
+def test_text_in_other_spellings(load, change, letters, line_end):
+    mesh = load(letters(change(USUAL)).replace("\n", line_end))
+    np.testing.assert_array_equal(mesh.positions, load(USUAL).positions)
+    np.testing.assert_array_equal(mesh.faces, load(USUAL).faces)
+
+
+def test_names_that_hold_keywords(load):
+    text = USUAL.replace("part", "vertex 1 facet normal 0 outer loop")
+    assert list(load(text).groups) == ["vertex 1 facet normal 0 outer loop"]

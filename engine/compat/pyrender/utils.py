@@ -56,7 +56,7 @@ def format_texture_source(texture, target_channels: str = "RGB") -> np.ndarray |
     Parameters
     ----------
     texture : (H, W), (H, W, C) array, or image of Pillow
-        Floats are of 0 to 1.
+        Floats are of 0 to 1. Images are of any mode.
     target_channels : {"R", "RG", "GB", "RGB", "RGBA"}
 
     Raises
@@ -66,9 +66,9 @@ def format_texture_source(texture, target_channels: str = "RGB") -> np.ndarray |
     if texture is None:
         return None
     if hasattr(texture, "convert") and hasattr(texture, "mode"):  # Pillow's
-        if texture.mode == "P" and target_channels in ("RGB", "RGBA"):
-            texture = texture.convert(target_channels)
-        texture = np.array(texture)
+        from ...loaders.images import made_pixels
+
+        texture = made_pixels(texture, "texture")
     if not isinstance(texture, np.ndarray) or texture.dtype.kind not in "fiu":
         raise TypeError(f"Invalid type {type(texture)} for texture")
     scale = 255.0 if texture.dtype.kind == "f" else 1

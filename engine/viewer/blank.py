@@ -1,0 +1,227 @@
+"""Why a picture shows nothing, or nothing that could be seen.
+
+In: a scene, a camera, and what was drawn. Out: a word that a program can test, and a sentence.
+Reasons are tried from what the file holds to how it is looked at. `may_be_blank` tells at next to
+no cost which pictures certainly show something; only the others are looked into.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .. import linalg
+from ..geometry.mesh import Mesh
+from ..materials.material import Material
+from ..motion.shown import placing_pose, shown_object
+from ..rendering.frame import Frame
+from ..rendering.renderer import Renderer
+from ..scene.cameras import Camera
+from ..scene.instances import InstancedMesh
+from ..scene.nodes import Node
+from ..scene.scene import Scene
+from .visibility import DRAWABLE, mesh_of
+
+_MANY = 1024
+_SMALL = 240  # pixels of the longer side of a first look
+
+
+class Reason(NamedTuple):
+    """Why nothing is seen: a word of the list in docs/sheet.md, and a sentence."""
+
+    word: str
+    sentence: str
+
+
+@dataclass
+class Sight:
+    """What a camera looks at.
+
+    Attributes
+    ----------
+    scene : Scene
+    camera, pose
+    size : (int, int)
+        Of the picture, in pixels.
+    own_ids : ndarray of int
+        The ids of the nodes that count.
+    options : Mapping
+        ``cull`` and ``point_size`` of `Renderer.render`.
+    drawing : Mapping
+        ``backend`` and ``threads`` of `Renderer`.
+    """
+
+    scene: Scene
+    camera: Camera
+    pose: np.ndarray
+    size: tuple[int, int]
+    own_ids: np.ndarray
+    options: Mapping[str, Any]
+    drawing: Mapping[str, Any] = field(default_factory=dict)
+
+    def shows(self, size: tuple[int, int], **options: Any) -> bool:
+        """Whether any pixel of a picture of a size shows something that counts."""
+        with Renderer(*size, **self.drawing) as renderer:
+            frame = renderer.render(
+                self.scene,
+                (self.camera, self.pose),
+                outputs=("object_id",),
+                transparent_outputs=True,
+                **{**self.options, **options},
+            )
+        return bool(covered(frame, self.own_ids).any())
+
+
+def covered(frame: Frame, own_ids: np.ndarray) -> np.ndarray:
+    """Return which pixels show nodes of the scene's own, (H, W) bool."""
+    ids = frame.object_id
+    known = np.zeros(max(int(ids.max()), int(own_ids.max(initial=-1))) + 2, bool)
+    known[own_ids] = True  # the last one is of the background's -1
+    return known[ids]
+
+
+def may_be_blank(stats: Mapping[str, Any], scene: Scene) -> bool:
+    """Whether a picture of nothing but a scene's own nodes may show nothing: mostly it may not.
+
+    Parameters
+    ----------
+    stats : Mapping
+        Of the frame.
+    scene : Scene
+    """
+    if not stats["pixels_shaded"]:
+        return True
+    opaque = False
+    for node in scene.nodes:
+        if isinstance(node.object, DRAWABLE):
+            for material in mesh_of(node.object).materials:
+                if material.alpha_mode == "opaque":
+                    opaque = opaque or node.shown
+                elif material.alpha == 0:
+                    return True
+    return not opaque
+
+
+def why_blank(sight: Sight) -> Reason | None:
+    """Return why a picture shows nothing of a scene; None if it shows something."""
+    width, height = sight.size
+    scale = max(width, height) / _SMALL
+    small = max(1, round(width / scale)), max(1, round(height / scale))
+    if (scale > 1 and sight.shows(small)) or sight.shows(sight.size):
+        return None
+    return reason_of(sight)
+
+
+def reason_of(sight: Sight) -> Reason:
+    """Return why a picture of which no pixel shows anything is so."""
+    nodes = _drawables(sight)
+    return _of_content(sight, nodes) or _of_place(sight, nodes) or _of_surface(sight, nodes)
+
+
+def _drawables(sight: Sight) -> list[Node]:
+    """The nodes of the scene's own that hold something to draw."""
+    wanted = set(sight.own_ids.tolist())
+    return [n for n in sight.scene.nodes if n.id in wanted and isinstance(n.object, DRAWABLE)]
+
+
+def _of_content(sight: Sight, nodes: list[Node]) -> Reason | None:
+    if not nodes:
+        return Reason("no_geometry", "there is no mesh in the scene")
+    meshes = [mesh_of(node.object) for node in nodes]
+    if not any(len(m.faces) or len(m.lines) or len(m.points) for m in meshes):
+        return Reason("no_faces", "the meshes have neither faces nor lines nor points")
+    if not any(node.shown for node in nodes):
+        return Reason("hidden_nodes", "all nodes with meshes are switched off")
+    if not any(map(_has_finite, meshes)):
+        return Reason("not_finite", "no vertex has finite coordinates, or no face, line or point")
+    if any(len(mesh.faces) for mesh in meshes) and all(map(_is_one_point, meshes)):
+        if _is_one_place(_points(sight, nodes)):
+            return Reason("zero_size", "all vertices are at one point")
+    return None
+
+
+def _has_finite(mesh: Mesh) -> bool:
+    """Whether any face, line or point of a mesh has finite corners alone."""
+    finite = np.isfinite(mesh.positions).all(axis=1)
+    if finite.all():
+        return True
+    elements = (mesh.faces, mesh.lines, mesh.points)
+    return any(bool(finite[e.reshape(len(e), -1)].all(axis=1).any()) for e in elements if len(e))
+
+
+def _is_one_point(mesh: Mesh) -> bool:
+    """Whether the finite vertices of a mesh are all at one place."""
+    return _is_one_place(mesh.positions[np.isfinite(mesh.positions).all(axis=1)])
+
+
+def _is_one_place(points: np.ndarray) -> bool:
+    return not len(points) or not np.ptp(points, axis=0).any()
+
+
+def _of_place(sight: Sight, nodes: list[Node]) -> Reason | None:
+    points, (width, height) = _points(sight, nodes), sight.size
+    projection = np.array(sight.camera.projection(width, height), np.float64)
+    clip = linalg.multiply(projection, linalg.inverse(sight.pose))
+    x, y, z, w = (linalg.dot(points, row[:3]) + row[3] for row in clip)
+    if (z < -w).all():
+        return Reason("behind_camera", "all of it is behind the camera or before its near plane")
+    if (z > w).all():
+        return Reason("beyond_far", "all of it is beyond the camera's far plane")
+    if (x < -w).all() or (x > w).all() or (y < -w).all() or (y > w).all():
+        return Reason("outside", "all of it is outside of the picture")
+    with np.errstate(all="ignore"):
+        columns, rows = x / w * (0.5 * width), y / w * (0.5 * height)
+    if np.ptp(columns) < 1.0 and np.ptp(rows) < 1.0:
+        return Reason("far_away", "it is smaller than a pixel")
+    return None
+
+
+def _points(sight: Sight, nodes: list[Node]) -> np.ndarray:
+    """Corners of the boxes of instances, and all finite vertices of other meshes.
+
+    Of very many nodes, their boxes must do.
+    """
+    found = [np.zeros((0, 3))]
+    if len(nodes) > _MANY:
+        bounds = sight.scene.select(nodes).bounds
+        bounds = bounds[np.isfinite(bounds).all(axis=(1, 2))]
+        return bounds[:, [[i & 1, i >> 1 & 1, i >> 2] for i in range(8)], [0, 1, 2]].reshape(-1, 3)
+    for node in nodes:
+        thing = shown_object(node)
+        if isinstance(thing, InstancedMesh):
+            box = thing.bounds_in_node()
+            if box is None:
+                continue
+            points = np.array([[box[i >> k & 1][k] for k in range(3)] for i in range(8)])
+        else:
+            points = thing.positions if isinstance(thing, Mesh) else np.zeros((0, 3))
+        with np.errstate(all="ignore"):
+            points = linalg.transform_points(placing_pose(node), points)
+        found.append(points[np.isfinite(points).all(axis=1)])
+    return np.concatenate(found)
+
+
+def _of_surface(sight: Sight, nodes: list[Node]) -> Reason:
+    if sight.shows(sight.size, cull="none", mode="object_id"):
+        return Reason("all_culled", "all faces show their backs, which are left out")
+    with _opaque([m for node in nodes for m in mesh_of(node.object).materials]):
+        if sight.shows(sight.size, cull="none"):
+            return Reason("transparent", "what is there is transparent or cut out")
+    return Reason("edge_on", "its faces are seen edge on, or are thinner than a pixel")
+
+
+@contextlib.contextmanager
+def _opaque(materials: Iterable[Material]) -> Iterator[None]:
+    """Let no material have holes or let anything through, for a while."""
+    modes = [(m, m.alpha_mode) for m in materials if m.alpha_mode != "opaque"]
+    try:
+        for material, _ in modes:
+            material.alpha_mode = "opaque"
+        yield
+    finally:
+        for material, mode in modes:
+            material.alpha_mode = mode

@@ -22,6 +22,7 @@ from .open_files import unreadable
 from .sources import READING, Source, opened_source, unpacked
 
 _MAX_NAME = 4096
+_LONGEST_ESCAPE = 3  # letters
 # A file that names more missing ones than this only wants to keep the disk busy.
 _MAX_FAILURES = 2000
 
@@ -141,6 +142,8 @@ class LinkedFiles:
         try:
             return self.find(uri)
         except LinkedFileError:
+            if len(uri) > _LONGEST_ESCAPE * _MAX_NAME:
+                raise  # taking the escapes apart takes many times its memory
             plain = unquote(uri)
             if plain == uri:
                 raise

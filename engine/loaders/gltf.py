@@ -22,6 +22,7 @@ from .gltf_motion import read_clips, read_skins
 from .gltf_nodes import read_nodes, read_roots, with_fitting
 from .gltf_primitives import GltfPrimitives
 from .gltf_textures import GltfTextures
+from .gltf_vrm import facing_forward
 from .registry import Reader
 from .sources import Source
 from .tree_objects import tree_counts, tree_objects
@@ -89,15 +90,16 @@ def _read_tree(file: GltfFile, buffers: GltfBuffers, scalars: bool) -> tuple[Tre
         roots=roots,
         meshes=meshes,
         skins=lists["skins"].records,
-        clips=read_clips(file, accessors, nodes, meshes),
+        clips=read_clips(file, accessors, nodes, meshes, lists),
         cameras=lists["cameras"].records,
         lights=lists["lights"].records,
         materials=materials.all(),
+        made_materials=materials.made(),
         variants=materials.variant_names(),
         extras=file.tree.get("extras"),
     )
     warn_of_undrawn(map(undrawn_kinds, tree.materials), file.warnings)
-    return tree, sorted(primitives.own)
+    return facing_forward(file, tree), sorted(primitives.own)
 
 
 def _draws(tree: TreeRecord) -> Iterator[bool]:

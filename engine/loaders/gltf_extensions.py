@@ -11,16 +11,19 @@ from . import (
     gltf_materials,
     gltf_meshopt,
     gltf_nodes,
+    gltf_pointers,
     gltf_primitives,
     gltf_textures,
+    gltf_vrm,
 )
 from .gltf_file import GltfFile
 from .text import shown
 
-_MODULES = (gltf_draco, gltf_materials, gltf_meshopt, gltf_nodes, gltf_primitives, gltf_textures)
+_MODULES = (gltf_draco, gltf_materials, gltf_meshopt, gltf_nodes, gltf_pointers, gltf_primitives)
+_MODULES += (gltf_textures, gltf_vrm)
 READ = frozenset().union(*(module.READ for module in _MODULES))
 # What changes only how surfaces look or move: the rest of the file is right without it.
-_OF_LOOKS = ("KHR_materials_", "KHR_animation_pointer", "KHR_xmp")
+_OF_LOOKS = ("KHR_materials_", "KHR_xmp")
 
 
 def check_extensions(file: GltfFile) -> None:

@@ -133,6 +133,14 @@ class GltfMaterials:
         """Return all materials of the file, for meshes with normals."""
         return tuple(self.get(index, "") for index in range(len(self._file.entries("materials"))))
 
+    def made(self) -> dict[int, tuple[Material, ...]]:
+        """Return all that each material of the file became so far."""
+        found: dict[int, tuple[Material, ...]] = {}
+        for (index, *_), material in self._made.items():
+            if index is not None:
+                found[index] = (*found.get(index, ()), material)
+        return found
+
     def get(
         self,
         index: int | None,

@@ -9,18 +9,27 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
-from .documents import ChannelRecord, ClipRecord, MeshRecord, NodeRecord, SkinRecord
+from .documents import (
+    ChannelRecord,
+    ClipRecord,
+    MeshRecord,
+    NodeRecord,
+    PropertyRecord,
+    SkinRecord,
+)
 from .gltf_accessors import GltfAccessors
 from .gltf_file import DamagedError, GltfFile, once
 from .gltf_lists import SoundList, sound_list
+from .gltf_pointers import POINTER, target_of
 from .text import shown
 
 _INTERPOLATIONS = ("LINEAR", "STEP", "CUBICSPLINE")
 _WIDTHS = {"translation": 3, "rotation": 4, "scale": 3}
-_POINTER = "KHR_animation_pointer"
+_MOST_TOLD = 200
 # Parts of a key of a spline: the tangent towards it, its value, the tangent away from it.
 _SPLINE = 3
 
@@ -57,20 +66,58 @@ def read_clips(
     accessors: GltfAccessors,
     nodes: tuple[NodeRecord, ...],
     meshes: tuple[MeshRecord, ...],
+    lists: dict[str, SoundList],
 ) -> tuple[ClipRecord, ...]:
-    """Return the animations, without the channels that make no sense."""
-    reading = _Clips(file, accessors, nodes, meshes)
+    """Return the animations, without the channels that make no sense.
+
+    Parameters
+    ----------
+    file : GltfFile
+    accessors : GltfAccessors
+    nodes : tuple of NodeRecord
+    meshes : tuple of MeshRecord
+    lists : dict of str to SoundList
+        Cameras and lights.
+    """
+    reading = _Clips(file, accessors, nodes, meshes, lists)
     return sound_list(file, "animations", file.entries("animations"), reading.clip).records
+
+
+def _named(pointer: str) -> str:
+    """A pointer as it is told, whole unless it is very long."""
+    return repr(pointer if len(pointer) <= _MOST_TOLD else f"{pointer[:_MOST_TOLD]}...")
+
+
+def _later(
+    channel: ChannelRecord | PropertyRecord, seconds: float
+) -> ChannelRecord | PropertyRecord:
+    """A channel whose keys come later; of those that fall together the last one is left."""
+    times = channel.times + np.float32(seconds)
+    is_later = np.append(np.diff(times) > 0, True)
+    return replace(channel, times=times[is_later], values=channel.values[is_later])
+
+
+class _Sampled(NamedTuple):
+    """What a sampler holds; ``is_later``: which times differ from the next one, None for all."""
+
+    times: np.ndarray
+    values: np.ndarray
+    is_later: np.ndarray | None
+    interpolation: str
 
 
 class _Clips:
     """Reads animations; the values that several channels name are read once."""
 
-    def __init__(self, file, accessors, nodes, meshes) -> None:
+    def __init__(self, file, accessors, nodes, meshes, lists) -> None:
         self._file, self._accessors = file, accessors
-        self._nodes, self._meshes = nodes, meshes
+        self._nodes, self._meshes, self._lists = nodes, meshes, lists
         self._times: dict[int, tuple[np.ndarray, np.ndarray | None] | DamagedError] = {}
         self._values: dict[int, np.ndarray | DamagedError] = {}
+        self._shown_by: dict[int, list[int]] = {}  # the nodes of each mesh
+        for index, node in enumerate(nodes):
+            if node.mesh is not None and node.weights is None:
+                self._shown_by.setdefault(node.mesh, []).append(index)
 
     def clip(self, entry: dict, where: str) -> ClipRecord | None:
         """Return a clip; None if none of its channels makes sense, each of which was told."""
@@ -80,54 +127,96 @@ class _Clips:
                 raise file.damaged(f"{where} has no {name}")
         samplers = file.entries("samplers", entry, f"{where}.")
         entries = file.entries("channels", entry, f"{where}.")
-        channels, first, last, is_sound = [], 0.0, 0.0, not entries
+        made: list[ChannelRecord | PropertyRecord] = []
+        first, last, is_sound = 0.0, 0.0, not entries
         for number, channel in enumerate(entries):
             place = f"{where}.channels[{number}]"
             read = file.sound(place, self._channel, channel, samplers, where, place)
             if read is not None:
-                times, made = read
+                times, moved = read
                 is_sound = True
                 first, last = min(first, float(times[0])), max(last, float(times[-1]))
-                channels += [] if made is None else [made]
+                made += moved
         if not is_sound:
             return None
         if first < 0:
             file.warnings.add(f"{where} begins at {first:g} s: it is moved to begin at 0")
-            channels = [replace(made, times=made.times - np.float32(first)) for made in channels]
-        name = file.name(entry, where)
-        return ClipRecord(name, last - first, tuple(channels), entry.get("extras"))
+            made = [_later(one, -first) for one in made]
+        return ClipRecord(
+            file.name(entry, where),
+            last - first,
+            tuple(one for one in made if isinstance(one, ChannelRecord)),
+            entry.get("extras"),
+            tuple(one for one in made if isinstance(one, PropertyRecord)),
+        )
 
     def _channel(
         self, channel: dict, samplers: list[dict], clip: str, where: str
-    ) -> tuple[np.ndarray, ChannelRecord | None]:
-        """The times of a channel, and the channel; None for one that moves no node."""
+    ) -> tuple[np.ndarray, list[ChannelRecord | PropertyRecord]]:
+        """The times of a channel, and what it moves."""
         file = self._file
         number = file.index(channel.get("sampler"), len(samplers), "samplers", where)
-        times, values, is_later, interpolation = self._sampled(
-            samplers[number], f"{clip}.samplers[{number}]"
-        )
+        sampled = self._sampled(samplers[number], f"{clip}.samplers[{number}]")
         target = file.part(channel, "target", where)
         path = target.get("path")
         if not isinstance(path, str):
             raise file.damaged(f"{where} has no path")
+        if path == "pointer":
+            pointer = file.part(file.part(target, "extensions", where), POINTER, where)
+            return sampled.times, self._pointed(pointer.get("pointer"), sampled, where)
         if path not in (*_WIDTHS, "weights") or "node" not in target:
-            pointer = file.part(file.part(target, "extensions", where), _POINTER, where)
-            what = pointer.get("pointer", path) if path == "pointer" else path
-            file.warnings.add(f"{where} moves {shown(str(what))} of no node: left out")
-            return times, None
+            file.warnings.add(f"{where} moves {shown(path)} of no node: left out")
+            return sampled.times, []
         node = file.number_in("nodes", target["node"], where)
-        width = self._width(path, node, where)
+        return sampled.times, [self._of_node(node, path, sampled, where)]
+
+    def _of_node(self, node: int, path: str, sampled: _Sampled, where: str) -> ChannelRecord:
+        times, values = self._shaped(sampled, self._width(path, node, where), where)
+        if path == "rotation":
+            values = self._turning(values, where)
+        return ChannelRecord(node, path, sampled.interpolation, times, values)
+
+    def _pointed(
+        self, pointer, sampled: _Sampled, where: str
+    ) -> list[ChannelRecord | PropertyRecord]:
+        """What moves what a pointer means."""
+        file, target = self._file, target_of(self._file, pointer, where)
+        if target is None:
+            file.warnings.add(f"{where} moves {_named(pointer)}, which is not played: left out")
+            return []
+        kind, number, path, width = target
+        nodes = self._shown_by.get(number, []) if kind == "mesh" else [number]
+        if path in (*_WIDTHS, "weights"):
+            return [self._of_node(node, path, sampled, where) for node in nodes]
+        if kind in ("camera", "light"):
+            records = self._lists[f"{kind}s"].number_of
+            if number not in records:
+                return []  # left out, which was told
+            nodes = [records[number]]
+        if path == "visible":
+            # One that says so in time is seen or not, and nothing in between.
+            sampled = sampled._replace(values=(sampled.values != 0).astype(np.float32))
+            if sampled.interpolation != "step":
+                file.warnings.add(f"{where} moves {_named(pointer)} otherwise than by steps: STEP")
+                if sampled.interpolation == "cubicspline":
+                    raise file.damaged(f"{where} has splines of what is only true or false")
+                sampled = sampled._replace(interpolation="step")
+        times, values = self._shaped(sampled, width, where)
+        kind = "node" if kind == "mesh" else kind
+        return [
+            PropertyRecord(kind, node, path, sampled.interpolation, times, values) for node in nodes
+        ]
+
+    def _shaped(self, sampled: _Sampled, width: int, where: str) -> tuple[np.ndarray, np.ndarray]:
+        """Times and values, a row of so many numbers for each time."""
+        times, values, is_later, interpolation = sampled
         shape = (_SPLINE, width) if interpolation == "cubicspline" else (width,)
         if values.size != len(times) * math.prod(shape):
-            raise file.damaged(
+            raise self._file.damaged(
                 f"{where} has {values.size} numbers for {len(times)} times of {width}"
             )
         values = values.reshape(len(times), *shape)
-        if path == "rotation":
-            values = self._turning(values, where)
-        if is_later is not None:
-            times, values = times[is_later], values[is_later]
-        return times, ChannelRecord(node, path, interpolation, times, values)
+        return (times, values) if is_later is None else (times[is_later], values[is_later])
 
     def _turning(self, values: np.ndarray, where: str) -> np.ndarray:
         """Rotations of which none is the null quaternion."""
@@ -151,8 +240,7 @@ class _Clips:
             raise self._file.damaged(f"{where} moves weights of no morph targets")
         return count
 
-    def _sampled(self, sampler: dict, where: str) -> tuple:
-        """Times, values, which times differ from the next one (None for all), interpolation."""
+    def _sampled(self, sampler: dict, where: str) -> _Sampled:
         file = self._file
         interpolation = sampler.get("interpolation", "LINEAR")
         if interpolation not in _INTERPOLATIONS:
@@ -164,7 +252,7 @@ class _Clips:
         )
         times, is_later = once(self._times, key, partial(self._checked_times, key, where))
         values = once(self._values, output, partial(self._checked_values, output, where))
-        return times, values, is_later, interpolation.lower()
+        return _Sampled(times, values, is_later, interpolation.lower())
 
     def _checked_values(self, index: int, where: str) -> np.ndarray:
         values = self._accessors.floats(index, where, 1, 2, 3, 4)

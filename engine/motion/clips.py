@@ -1,12 +1,13 @@
 """Clips: how nodes of a scene change in time.
 
-In: keys, each a time and a value, of parts of nodes. Out: the same, checked and read-only.
+In: keys, each a time and a value, of parts of nodes. Out: the same, checked and read-only. Clips
+hold channels of other properties (`properties.py`) as well.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import get_args
+from typing import TYPE_CHECKING, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,6 +17,9 @@ from .._support.validation import Closed, choose
 from ..choices import Interpolation, MotionPath
 from ..errors import InvalidArgumentError
 from ..scene.nodes import Node
+
+if TYPE_CHECKING:
+    from .properties import PropertyChannel
 
 PATHS = get_args(MotionPath)
 INTERPOLATIONS = get_args(Interpolation)
@@ -94,8 +98,8 @@ class AnimationClip(Closed):
 
     Parameters
     ----------
-    channels : iterable of Channel
-        Of nodes of one scene.
+    channels : iterable of Channel and PropertyChannel
+        Of nodes of one scene, and of what they hold.
     name : str
 
     Raises
@@ -104,19 +108,21 @@ class AnimationClip(Closed):
         One is no channel.
     """
 
-    def __init__(self, channels: Iterable[Channel], name: str = "") -> None:
+    def __init__(self, channels: Iterable[Channel | PropertyChannel], name: str = "") -> None:
+        from .properties import PropertyChannel
+
         if not isinstance(channels, Iterable):
             raise InvalidArgumentError(f"channels must be several Channel, not {channels!r}")
         self._channels = tuple(channels)
         for channel in self._channels:
-            if not isinstance(channel, Channel):
+            if not isinstance(channel, (Channel, PropertyChannel)):
                 kind = type(channel).__name__
                 raise InvalidArgumentError(f"channels must be several Channel, not {kind}")
         self._name = str(name)
         self._duration = max((float(c.times[-1]) for c in self._channels), default=0.0)
 
     @property
-    def channels(self) -> tuple[Channel, ...]:
+    def channels(self) -> tuple[Channel | PropertyChannel, ...]:
         return self._channels
 
     @property

@@ -12,6 +12,7 @@ import numpy as np
 
 from .clips import Channel
 from .interpolation import spline, straight, turns, unit
+from .properties import PropertyChannel
 
 
 class KeyframeTable:
@@ -20,10 +21,10 @@ class KeyframeTable:
     Attributes
     ----------
     path : str
-    channels : tuple of Channel
+    channels : tuple of Channel or PropertyChannel
     """
 
-    def __init__(self, channels: Sequence[Channel]) -> None:
+    def __init__(self, channels: Sequence[Channel | PropertyChannel]) -> None:
         self.channels = tuple(channels)
         first = channels[0]
         self.path, self._interpolation = first.path, first.interpolation
@@ -78,9 +79,9 @@ class KeyframeTable:
         return low
 
 
-def tables_of(channels: Sequence[Channel]) -> list[KeyframeTable]:
+def tables_of(channels: Sequence[Channel | PropertyChannel]) -> list[KeyframeTable]:
     """Return the channels in tables of one kind each."""
-    kinds: dict[tuple, list[Channel]] = {}
+    kinds: dict[tuple, list[Channel | PropertyChannel]] = {}
     for channel in channels:
         kind = channel.path, channel.interpolation, channel.values.shape[-1]
         kinds.setdefault(kind, []).append(channel)

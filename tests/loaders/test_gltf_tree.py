@@ -425,3 +425,76 @@ def test_what_bends_has_its_tangents_from_the_start(tmp_path):
     # Texture coordinates are turned over twice, and so rounded.
     assert np.allclose(node.object.tangents, ball.with_tangents().tangents, atol=1e-5)
     assert len(node.object.morph_targets[0].positions) == len(node.object.positions)
+
+
+@pytest.mark.parametrize(
+    ("extensions", "is_turned"),
+    [({"VRM": {}}, True), ({"VRMC_vrm": {}}, False), ({"VRM": {}, "VRMC_vrm": {}}, False)],
+)
+def test_avatars_face_the_viewer(tmp_path, extensions, is_turned):
+    tree = moving()
+    still = read(tree, tmp_path)
+    tree["extensions"] |= extensions
+    turned = read(tree, tmp_path)
+    assert any("faces the other way" in told for told in turned.warnings) == is_turned
+    for one, other in zip(still.objects, turned.objects, strict=True):
+        turn = np.diag([-1.0, 1, -1, 1]) if is_turned else np.eye(4)
+        assert np.array_equal(turn @ one.pose, other.pose)
+    (tmp_path / "a.gltf").write_text(json.dumps(tree))
+    scene = e3d.load_scene(tmp_path / "a.gltf")
+    assert scene.nodes[0].name == ("VRM" if is_turned else "")
+    assert len(scene.nodes[0].children) == (3 if is_turned else 0)
+
+
+def spheres(count):
+    """Meshes that share their accessors, each with a material of its own."""
+    tree = triangle_tree()
+    ball = e3d.uv_sphere(segments=(64, 48))
+    for name, array in (("POSITION", ball.positions), ("NORMAL", ball.normals)):
+        add_attribute(tree, name, array)
+    primitive = tree["meshes"][0]["primitives"][0]
+    named = primitive["attributes"]
+    add_attribute(tree, "indices", ball.faces.astype(np.uint16).reshape(-1, 1))
+    indices = named.pop("indices")
+    tree["meshes"] = [
+        {"primitives": [{"attributes": named, "indices": indices, "material": k}]}
+        for k in range(count)
+    ]
+    tree["materials"] = [{"alphaCutoff": k / count} for k in range(count)]
+    tree["nodes"] = [{"mesh": k, "translation": [k, 0, 0]} for k in range(count)]
+    tree["scenes"] = [{"nodes": list(range(count))}]
+    return tree
+
+
+def test_what_meshes_share_counts_once_and_is_there_once(tmp_path):
+    document = read(spheres(200), tmp_path)
+    assert document.warnings == []
+    meshes = [entry.mesh for entry in document.objects]
+    for name in ("positions", "normals", "faces", "material_ids"):
+        assert len({id(getattr(mesh, name)) for mesh in meshes}) == 1
+    assert [mesh.materials[0].alpha_cutoff for mesh in meshes] == [k / 200 for k in range(200)]
+    meshes[0].positions = meshes[0].positions * 2
+    assert meshes[1].bounds[1].tolist() != meshes[0].bounds[1].tolist()
+
+
+def test_arrays_that_some_of_several_primitives_share_are_there_once(tmp_path):
+    tree = spheres(2)
+    colors = np.zeros((len(e3d.uv_sphere(segments=(64, 48)).positions), 3), np.float32)
+    add_attribute(tree, "COLOR_0", colors)
+    one, other = (mesh.mesh for mesh in read(tree, tmp_path).objects)
+    assert one.colors is not None and other.colors is None
+    assert one.positions is other.positions and one.normals is other.normals
+    assert one.faces is other.faces
+
+
+def test_what_shared_arrays_are_made_into_is_limited(tmp_path):
+    """Primitives that each use other vertices of one long array are each made."""
+    tree = spheres(200)
+    count = tree["accessors"][tree["meshes"][0]["primitives"][0]["indices"]]["count"]
+    for k, mesh in enumerate(tree["meshes"]):
+        (primitive,) = mesh["primitives"]
+        accessor = tree["accessors"][primitive["indices"]]
+        tree["accessors"].append({**accessor, "count": count - 3 * k - 3})
+        primitive["indices"] = len(tree["accessors"]) - 1
+    with pytest.raises(FileFormatError, match="numbers, the limit for its size"):
+        read(tree, tmp_path)

@@ -8,7 +8,6 @@ is left out with a warning.
 
 from __future__ import annotations
 
-import copy
 from dataclasses import replace
 
 import numpy as np
@@ -112,11 +111,11 @@ class GltfMeshes:
         if self._primitives.are_kept(primitives):
             if key not in self._parts:
                 self._parts[key] = self._made(primitives, target_names, uv_set)
-            mesh = _twin(self._parts[key])
+            mesh = self._parts[key]
         else:
             mesh = self._made(primitives, target_names, uv_set)
-        mesh.name = name
-        mesh.materials = [usual for usual, _ in (chosen if kind == "faces" else chosen[:1])]
+        materials = [usual for usual, _ in (chosen if kind == "faces" else chosen[:1])]
+        mesh = mesh._twin(materials, name)
         self._count_variants(chosen)
         return MeshRecord(name, mesh, variants=_variants(chosen))
 
@@ -243,13 +242,6 @@ def _tangent_set_of(chosen: list[tuple]) -> int | None:
     materials = [usual for usual, _ in chosen]
     materials += [material for _, others in chosen for material in others.values()]
     return next((found for m in materials if (found := _tangent_set(m)) is not None), None)
-
-
-def _twin(mesh: Mesh) -> Mesh:
-    """Another mesh of the same arrays, and of what follows from them."""
-    twin = copy.copy(mesh)
-    twin._derived = mesh._derived
-    return twin
 
 
 def _variants(chosen: list[tuple]) -> dict[int, tuple]:

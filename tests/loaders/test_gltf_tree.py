@@ -457,7 +457,7 @@ def spheres(count):
     add_attribute(tree, "indices", ball.faces.astype(np.uint16).reshape(-1, 1))
     indices = named.pop("indices")
     tree["meshes"] = [
-        {"primitives": [{"attributes": named, "indices": indices, "material": k}]}
+        {"primitives": [{"attributes": dict(named), "indices": indices, "material": k}]}
         for k in range(count)
     ]
     tree["materials"] = [{"alphaCutoff": k / count} for k in range(count)]

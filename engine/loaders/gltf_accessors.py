@@ -38,6 +38,10 @@ class GltfAccessors:
         self.file, self._buffers = file, buffers
         self._kept: dict[int, np.ndarray | DamagedError] = {}
 
+    def count(self, numbers: int) -> None:
+        """Note that so many numbers are made besides: see `GltfBuffers.count`."""
+        self._buffers.count(numbers)
+
     def raw(self, index, where: str, *widths: int) -> np.ndarray:
         """Return an accessor as (N, width), of its own type; may be part of the file's bytes.
 

@@ -130,8 +130,22 @@ class GltfMaterials:
         self._textures.decode(self._named_textures())
 
     def all(self) -> tuple[Material, ...]:
-        """Return all materials of the file, for meshes with normals."""
-        return tuple(self.get(index, "") for index in range(len(self._file.entries("materials"))))
+        """Return all materials of the file, for meshes with normals.
+
+        Those that nothing uses and that say the same are the same.
+        """
+        used = {index for index, *_ in self._made}
+        unused: dict[str, Material] = {}
+        found = []
+        for index, entry in enumerate(self._file.entries("materials")):
+            if index in used:
+                found.append(self.get(index, ""))
+                continue
+            words = repr(entry)
+            if words not in unused:
+                unused[words] = self.get(index, "")
+            found.append(unused[words])
+        return tuple(found)
 
     def made(self) -> dict[int, tuple[Material, ...]]:
         """Return all that each material of the file became so far."""
@@ -296,17 +310,10 @@ class GltfMaterials:
             "flat_shading": flat,
             "extras": self._extras(entry, where),
         }
+        material = Material._plain(values.pop("name"))
         with certainly_linear():
-            try:
-                return Material(**values)
-            except InvalidArgumentError:
-                return self._without_nonsense(values, where)
-
-    def _without_nonsense(self, values: dict, where: str) -> Material:
-        """A material of those values that make sense."""
-        material = Material()
-        for field, value in values.items():
-            self._file.sound(f"{where}.{field}", self._put, material, field, value)
+            for field, value in values.items():
+                self._file.sound(f"{where}.{field}", self._put, material, field, value)
         return material
 
     def _put(self, material: Material, field: str, value) -> None:

@@ -30,6 +30,8 @@ from .text import shown
 _INTERPOLATIONS = ("LINEAR", "STEP", "CUBICSPLINE")
 _WIDTHS = {"translation": 3, "rotation": 4, "scale": 3}
 _MOST_TOLD = 200
+# A pointer to a mesh moves all nodes that show it; a channel of each takes so many numbers' memory.
+_NUMBERS_PER_CHANNEL = 64
 # Parts of a key of a spline: the tangent towards it, its value, the tangent away from it.
 _SPLINE = 3
 
@@ -83,18 +85,29 @@ def read_clips(
     return sound_list(file, "animations", file.entries("animations"), reading.clip).records
 
 
+def _moved_by(channel: dict) -> str:
+    """What a channel says that it moves."""
+    return repr(channel.get("target"))
+
+
 def _named(pointer: str) -> str:
     """A pointer as it is told, whole unless it is very long."""
     return repr(pointer if len(pointer) <= _MOST_TOLD else f"{pointer[:_MOST_TOLD]}...")
 
 
 def _later(
-    channel: ChannelRecord | PropertyRecord, seconds: float
+    channel: ChannelRecord | PropertyRecord, seconds: float, made: dict[tuple[int, int], tuple]
 ) -> ChannelRecord | PropertyRecord:
-    """A channel whose keys come later; of those that fall together the last one is left."""
-    times = channel.times + np.float32(seconds)
-    is_later = np.append(np.diff(times) > 0, True)
-    return replace(channel, times=times[is_later], values=channel.values[is_later])
+    """A channel whose keys come later; of those that fall together the last one is left.
+
+    ``made`` has the arrays of others, for those that have the same.
+    """
+    key = id(channel.times), id(channel.values)
+    if key not in made:
+        times = channel.times + np.float32(seconds)
+        is_later = np.append(np.diff(times) > 0, True)
+        made[key] = times[is_later], channel.values[is_later]
+    return replace(channel, times=made[key][0], values=made[key][1])
 
 
 class _Sampled(NamedTuple):
@@ -114,6 +127,8 @@ class _Clips:
         self._nodes, self._meshes, self._lists = nodes, meshes, lists
         self._times: dict[int, tuple[np.ndarray, np.ndarray | None] | DamagedError] = {}
         self._values: dict[int, np.ndarray | DamagedError] = {}
+        self._keys: dict[tuple, tuple] = {}  # with what they were made of, whose ids are the keys
+        self._turns: dict[int, tuple[np.ndarray, np.ndarray]] = {}
         self._shown_by: dict[int, list[int]] = {}  # the nodes of each mesh
         for index, node in enumerate(nodes):
             if node.mesh is not None and node.weights is None:
@@ -129,8 +144,13 @@ class _Clips:
         entries = file.entries("channels", entry, f"{where}.")
         made: list[ChannelRecord | PropertyRecord] = []
         first, last, is_sound = 0.0, 0.0, not entries
+        last_of = {_moved_by(channel): number for number, channel in enumerate(entries)}
         for number, channel in enumerate(entries):
             place = f"{where}.channels[{number}]"
+            other = last_of[_moved_by(channel)]
+            if other != number:
+                file.warnings.add(f"{place} moves what channels[{other}] moves: left out")
+                continue
             read = file.sound(place, self._channel, channel, samplers, where, place)
             if read is not None:
                 times, moved = read
@@ -141,7 +161,8 @@ class _Clips:
             return None
         if first < 0:
             file.warnings.add(f"{where} begins at {first:g} s: it is moved to begin at 0")
-            made = [_later(one, -first) for one in made]
+            shifted: dict[tuple[int, int], tuple] = {}
+            made = [_later(one, -first, shifted) for one in made]
         return ClipRecord(
             file.name(entry, where),
             last - first,
@@ -173,7 +194,9 @@ class _Clips:
     def _of_node(self, node: int, path: str, sampled: _Sampled, where: str) -> ChannelRecord:
         times, values = self._shaped(sampled, self._width(path, node, where), where)
         if path == "rotation":
-            values = self._turning(values, where)
+            if id(values) not in self._turns:
+                self._turns[id(values)] = values, self._turning(values, where)
+            values = self._turns[id(values)][1]
         return ChannelRecord(node, path, sampled.interpolation, times, values)
 
     def _pointed(
@@ -187,6 +210,7 @@ class _Clips:
         kind, number, path, width = target
         nodes = self._shown_by.get(number, []) if kind == "mesh" else [number]
         if path in (*_WIDTHS, "weights"):
+            self._accessors.count(_NUMBERS_PER_CHANNEL * len(nodes))
             return [self._of_node(node, path, sampled, where) for node in nodes]
         if kind in ("camera", "light"):
             records = self._lists[f"{kind}s"].number_of
@@ -203,12 +227,19 @@ class _Clips:
                 sampled = sampled._replace(interpolation="step")
         times, values = self._shaped(sampled, width, where)
         kind = "node" if kind == "mesh" else kind
+        self._accessors.count(_NUMBERS_PER_CHANNEL * len(nodes))
         return [
             PropertyRecord(kind, node, path, sampled.interpolation, times, values) for node in nodes
         ]
 
     def _shaped(self, sampled: _Sampled, width: int, where: str) -> tuple[np.ndarray, np.ndarray]:
-        """Times and values, a row of so many numbers for each time."""
+        """Times and values, a row of so many numbers for each time; the same arrays for all."""
+        key = id(sampled.times), id(sampled.values), sampled.interpolation, width
+        if key not in self._keys:
+            self._keys[key] = (sampled, *self._rows(sampled, width, where))
+        return self._keys[key][1:]
+
+    def _rows(self, sampled: _Sampled, width: int, where: str) -> tuple[np.ndarray, np.ndarray]:
         times, values, is_later, interpolation = sampled
         shape = (_SPLINE, width) if interpolation == "cubicspline" else (width,)
         if values.size != len(times) * math.prod(shape):

@@ -39,7 +39,7 @@ def tree_objects(
     rest = RestPose(tree)
     shown = [node for node in rest.nodes if node.visible]
     drawn = [node for node in shown if tree.nodes[node.index].mesh is not None]
-    if len(drawn) > _MAX_OBJECTS:
+    if sum(len(tree.meshes[tree.nodes[n.index].mesh].parts) for n in drawn) > _MAX_OBJECTS:
         raise FileFormatError(f"more than {_MAX_OBJECTS} objects", source.path)
     if not split:
         _check_vertices(source, tree, drawn, most_vertices)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .._native.loaders import is_frozen
 from .._support.numbers import floats
 from .._support.validation import Closed, choose
 from ..choices import Interpolation, MotionPath
@@ -143,17 +144,26 @@ class AnimationClip(Closed):
 
 def check_times(value) -> np.ndarray:
     """Check times of keys: (K,) float64, increasing, at least one."""
-    times = floats(value, "times")
+    times = frozen_or_copied(value, "times")
     if times.ndim != 1 or not len(times):
         raise InvalidArgumentError(f"times must be (K,), at least one, not {times.shape}")
     if not np.isfinite(times).all() or not (np.diff(times) > 0).all():
         raise InvalidArgumentError("times must be finite and increase")
-    times.setflags(write=False)
     return times
 
 
+def frozen_or_copied(value, what: str) -> np.ndarray:
+    """Return numbers as a read-only float64 array: the given one, if nobody can write to it."""
+    is_kept = isinstance(value, np.ndarray) and value.dtype == np.float64 and is_frozen(value)
+    if is_kept and value.flags.c_contiguous:
+        return value
+    array = floats(value, what)
+    array.setflags(write=False)
+    return array
+
+
 def _check_values(value, path: str, interpolation: str, count: int) -> np.ndarray:
-    values = floats(value, "values")
+    values = frozen_or_copied(value, "values")
     middle = (3,) if interpolation == "cubicspline" else ()
     width = _WIDTHS.get(path, values.shape[-1] if values.ndim else 0)
     if values.shape != (count, *middle, width):
@@ -167,5 +177,4 @@ def _check_values(value, path: str, interpolation: str, count: int) -> np.ndarra
             squares = (keys * keys).sum(axis=1)
         if not ((squares > 0.0) & (squares < np.inf)).all():
             raise InvalidArgumentError("rotations must not be zero quaternions, nor overflow")
-    values.setflags(write=False)
     return values

@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._support.numbers import floats
 from .._support.validation import Closed, choose
 from ..choices import Interpolation
 from ..errors import InvalidArgumentError
@@ -23,7 +22,7 @@ from ..materials.textures import PlacedTexture, Texture
 from ..scene.cameras import OrthographicCamera, PerspectiveCamera
 from ..scene.lights import DirectionalLight, PointLight, SpotLight
 from ..scene.nodes import Node
-from .clips import INTERPOLATIONS, check_times
+from .clips import INTERPOLATIONS, check_times, frozen_or_copied
 
 _LEAST = 1e-9  # of what must be greater than 0
 _WIDEST = math.pi - 1e-6
@@ -278,10 +277,9 @@ class PropertyChannel(Closed):
 
 
 def _checked(value: ArrayLike, shape: tuple[int, ...], path: str) -> NDArray[np.float64]:
-    values = floats(value, "values")
+    values = frozen_or_copied(value, "values")
     if values.shape != shape:
         raise InvalidArgumentError(f"values of {path} must be {shape}, not {values.shape}")
     if not np.isfinite(values).all():
         raise InvalidArgumentError("values must be finite")
-    values.setflags(write=False)
     return values

@@ -11,7 +11,10 @@ import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 from weakref import WeakKeyDictionary
 
+import numpy as np
+
 from .._support.numbers import shown
+from .._support.validation import freeze
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..loaders.documents import (
@@ -95,6 +98,7 @@ class _Filling:
         self._objects: dict[tuple, object] = {}
         self._nodes: dict[int, Node] = {}  # by their numbers in the tree
         self._parts: dict[int, list[Node]] = {}  # the nodes that show parts of their meshes
+        self._keys: dict[int, tuple[np.ndarray, np.ndarray]] = {}  # by the ids of the first
 
     def fill(self) -> None:
         """Add everything."""
@@ -206,9 +210,9 @@ class _Filling:
             if channel.path == "weights":
                 moved = self._parts.get(channel.node, []) if node is not None else []
             missing += not moved
+            times, values = self._shared(channel.times), self._shared(channel.values)
             channels += [
-                Channel(each, channel.path, channel.times, channel.values, channel.interpolation)
-                for each in moved
+                Channel(each, channel.path, times, values, channel.interpolation) for each in moved
             ]
         made = [self._property_channels(each, record.name) for each in record.properties]
         missing += sum(not each for each in made)
@@ -220,6 +224,13 @@ class _Filling:
         clip = AnimationClip(channels, record.name)
         records[clip] = record
         self._scene.animations[_free(record.name or f"animation_{number}", self._scene)] = clip
+
+    def _shared(self, array: np.ndarray) -> np.ndarray:
+        """The float64 numbers that channels hold of an array, the same for all that name it."""
+        key = id(array)
+        if key not in self._keys:
+            self._keys[key] = array, freeze(array.astype(np.float64))
+        return self._keys[key][1]
 
     def _property_channels(self, record: PropertyRecord, clip: str) -> list[PropertyChannel]:
         """The channels of what a record means: several where a scene has several things for it."""
@@ -241,9 +252,8 @@ class _Filling:
         from ..motion.properties import PropertyChannel
 
         try:
-            return PropertyChannel(
-                target, record.path, record.times, record.values, record.interpolation
-            )
+            times, values = self._shared(record.times), self._shared(record.values)
+            return PropertyChannel(target, record.path, times, values, record.interpolation)
         except InvalidArgumentError as error:
             what = f"{record.path} of {record.kind} {record.number}"
             self._scene.warnings.append(f"animation {clip!r}: {what} stays: {error}")

@@ -78,6 +78,7 @@ _PUBLIC = {
     "AnimationClip": "motion.clips",
     "AnimationPlayer": "motion.player",
     "Channel": "motion.clips",
+    "PropertyChannel": "motion.properties",
     "Node": "scene.nodes",
     "Resource": "files.resources",
     "Resources": "files.resources",

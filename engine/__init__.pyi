@@ -40,6 +40,7 @@ from .materials.textures import Texture as Texture
 from .motion.clips import AnimationClip as AnimationClip
 from .motion.clips import Channel as Channel
 from .motion.player import AnimationPlayer as AnimationPlayer
+from .motion.properties import PropertyChannel as PropertyChannel
 from .motion.skins import Skin as Skin
 from .navigation import NavigationGrid as NavigationGrid
 from .navigation import Walker as Walker

@@ -491,9 +491,22 @@ class Mesh(Closed):
                 break
         self._changed()
 
+    def _twin(self, materials: Iterable[Material], name: str) -> Mesh:
+        """Return another mesh of the same arrays and what follows from them, as loaders make many.
+
+        A copy takes ten times as long.
+        """
+        twin = type(self).__new__(type(self))
+        own = {key: type(held)(held) for key, held in vars(self).items() if type(held) is dict}
+        own["_derived"] = self._derived
+        vars(twin).update(
+            vars(self), **own, name=name, warnings=list(self.warnings), _materials=list(materials)
+        )
+        return twin
+
     def _changed(self) -> None:
         self._origin = None
-        self._derived.clear()
+        self._derived = {}  # that of twins stays
         renew(self)
 
     def _become(self, other: Mesh) -> None:
@@ -502,7 +515,7 @@ class Mesh(Closed):
         self._arrays.update({**gone, **other._arrays})  # one step: they fit at every moment
         self._morph_targets = other._morph_targets
         self._crease_angle = other._crease_angle
-        self._derived.clear()
+        self._derived = {}
         self._materials, self._groups = list(other._materials), dict(other.groups)
         self.warnings = list(other.warnings)
         self._origin = other._origin

@@ -203,6 +203,31 @@ class ChannelRecord:
 
 
 @dataclass(frozen=True, eq=False)
+class PropertyRecord:
+    """How a property of something else than a node's pose changes in time.
+
+    Attributes
+    ----------
+    kind : {"node", "material", "camera", "light"}
+    number : int
+        In the tree's list of these.
+    path : str
+        The attribute of what a scene has for it: see `PropertyChannel`.
+    interpolation : {"step", "linear", "cubicspline"}
+    times : (K,) float32
+    values : (K, N) or (K, 3, N) float32
+        As of `ChannelRecord`.
+    """
+
+    kind: str
+    number: int
+    path: str
+    interpolation: str
+    times: np.ndarray
+    values: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
 class ClipRecord:
     """An animation.
 
@@ -213,12 +238,14 @@ class ClipRecord:
         The last time of all channels, seconds; all clips begin at 0.
     channels : tuple of ChannelRecord
     extras : object
+    properties : tuple of PropertyRecord
     """
 
     name: str
     duration: float
     channels: tuple[ChannelRecord, ...]
     extras: Any = None
+    properties: tuple[PropertyRecord, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -339,6 +366,8 @@ class TreeRecord:
     lights : tuple of LampRecord
     materials : tuple of Material
         All of the file.
+    made_materials : dict of int to tuple of Material
+        All that each of them became: of meshes without normals, say, another than of those with.
     variants : tuple of str
         Names of the sets of materials that one may choose from.
     extras : object
@@ -352,6 +381,7 @@ class TreeRecord:
     cameras: tuple[LensRecord, ...] = ()
     lights: tuple[LampRecord, ...] = ()
     materials: tuple[Material, ...] = ()
+    made_materials: dict[int, tuple[Material, ...]] = field(default_factory=dict)
     variants: tuple[str, ...] = ()
     extras: Any = None
 

@@ -1,16 +1,19 @@
 """The numbers of a glTF file, from wherever its accessors say that they are.
 
 In: a `GltfFile` and its buffers. Out: arrays. An accessor without bytes of its own stands for any
-number of zeros, and any number of meshes may use the same one: `GltfBuffers.count` limits them.
+number of zeros, and any number of meshes may use some of its rows: `GltfBuffers.count` limits what
+is made.
 """
 
 from __future__ import annotations
+
+from functools import partial
 
 import numpy as np
 
 from .._native.loaders import large_array
 from .gltf_buffers import GltfBuffers
-from .gltf_file import GltfFile
+from .gltf_file import DamagedError, GltfFile, once, whole_of
 from .text import shown
 
 _TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
@@ -33,7 +36,11 @@ class GltfAccessors:
 
     def __init__(self, file: GltfFile, buffers: GltfBuffers) -> None:
         self.file, self._buffers = file, buffers
-        self._kept: dict[int, np.ndarray] = {}
+        self._kept: dict[int, np.ndarray | DamagedError] = {}
+
+    def count(self, numbers: int) -> None:
+        """Note that so many numbers are made besides: see `GltfBuffers.count`."""
+        self._buffers.count(numbers)
 
     def raw(self, index, where: str, *widths: int) -> np.ndarray:
         """Return an accessor as (N, width), of its own type; may be part of the file's bytes.
@@ -46,23 +53,22 @@ class GltfAccessors:
         *widths : int
             How many columns it may have: 16 of a matrix.
         """
-        self.check(index, where, *widths)
-        if index not in self._kept:
-            accessor = self.file.entries("accessors")[index]
-            self._kept[index] = self._values(accessor, f"accessors[{index}]")
-        return self._kept[index]
+        index = self.check(index, where, *widths)
+        return once(self._kept, index, partial(self._values, index))
 
-    def check(self, index, where: str, *widths: int) -> None:
-        """Raise unless an accessor has one of some numbers of columns."""
-        kind = self.file.entry("accessors", index, where).get("type")
+    def check(self, index, where: str, *widths: int) -> int:
+        """Return the number of an accessor that has one of some numbers of columns."""
+        index = self.file.number_in("accessors", index, where)
+        kind = self.file.entries("accessors")[index].get("type")
         if not isinstance(kind, str) or _WIDTHS.get(kind, 0) not in widths:
-            raise self.file.error(
-                f"damaged: accessors[{index}], {where}, is of the type {shown(str(kind))}"
+            raise self.file.damaged(
+                f"accessors[{index}], {where}, is of the type {shown(str(kind))}"
             )
+        return index
 
     def typed(self, values: np.ndarray, index: int) -> np.ndarray:
         """Return what was unpacked elsewhere, of the type that its accessor announces."""
-        kind = self._type(self.file.entries("accessors")[index], f"accessors[{index}]")
+        kind = self._type(self._entry(index), f"accessors[{index}]")
         if kind.kind == "f" or values.dtype == kind:
             return values.astype(kind, copy=False)
         range_of = np.iinfo(kind)
@@ -108,17 +114,21 @@ class GltfAccessors:
 
     def _is_normalized(self, index: int) -> bool:
         """Whether an accessor's integers stand for 0..1 or -1..1."""
-        return self.file.entries("accessors")[index].get("normalized") is True
+        return self._entry(index).get("normalized") is True
+
+    def _entry(self, index: int) -> dict:
+        return self.file.entry("accessors", index, "accessors")
 
     def indices(self, index, where: str) -> np.ndarray:
         """Return an accessor of indices as (N,), of an unsigned type."""
         values = self.raw(index, where, 1)
         if values.dtype.kind != "u":
-            raise self.file.error(f"damaged: accessors[{index}], indices, is not unsigned")
+            raise self.file.damaged(f"accessors[{index}], indices, is not unsigned")
         self._buffers.count(len(values))
         return values[:, 0]
 
-    def _values(self, accessor: dict, name: str) -> np.ndarray:
+    def _values(self, index: int) -> np.ndarray:
+        accessor, name = self._entry(index), f"accessors[{index}]"
         count = self.file.whole(accessor, "count", name)
         width = _WIDTHS[accessor["type"]]
         if "bufferView" not in accessor or "sparse" in accessor:
@@ -129,9 +139,9 @@ class GltfAccessors:
         return values
 
     def _type(self, entry: dict, name: str) -> np.dtype:
-        kind = entry.get("componentType")
+        kind = whole_of(entry.get("componentType"))
         if type(kind) is not int or kind not in _TYPES:
-            raise self.file.error(f"damaged: {name} has no component type that is known")
+            raise self.file.damaged(f"{name} has no component type that is known")
         return np.dtype(_TYPES[kind])
 
     def _stored(self, entry: dict, name: str, count: int, width: int, kind) -> np.ndarray:
@@ -144,26 +154,26 @@ class GltfAccessors:
         stride = self.file.whole(view, "byteStride", name, row)
         start = self.file.whole(entry, "byteOffset", name, 0)
         if stride < row:
-            raise self.file.error(f"damaged: {name} has rows of {row} bytes every {stride}")
+            raise self.file.damaged(f"{name} has rows of {row} bytes every {stride}")
         end = start + (count - 1) * stride + row if count else start
         if end > len(data):
-            raise self.file.error(f"damaged: {name} ends at byte {end}, its view at {len(data)}")
+            raise self.file.damaged(f"{name} ends at byte {end}, its view at {len(data)}")
         return np.ndarray((count, width), kind, data, start, (stride, kind.itemsize))
 
     def _changed(self, values: np.ndarray, sparse: dict, name: str) -> np.ndarray:
         """A copy with some rows replaced."""
         count = self.file.whole(sparse, "count", f"{name}.sparse")
         if not 0 < count <= len(values):
-            raise self.file.error(f"damaged: {name}.sparse changes {count} of {len(values)} rows")
+            raise self.file.damaged(f"{name}.sparse changes {count} of {len(values)} rows")
         where, what = (self.file.part(sparse, part, name) for part in ("indices", "values"))
-        if where.get("componentType") not in _INDEX_TYPES:
-            raise self.file.error(f"damaged: {name}.sparse.indices is not unsigned")
+        if whole_of(where.get("componentType")) not in _INDEX_TYPES:
+            raise self.file.damaged(f"{name}.sparse.indices is not unsigned")
         place = f"{name}.sparse"
         if "bufferView" not in where or "bufferView" not in what:
-            raise self.file.error(f"damaged: {place} has no buffer view")
+            raise self.file.damaged(f"{place} has no buffer view")
         rows = self._stored(where, place, count, 1, self._type(where, place))[:, 0]
         if int(rows.max()) >= len(values):
-            raise self.file.error(f"damaged: {place} changes row {rows.max()} of {len(values)}")
+            raise self.file.damaged(f"{place} changes row {rows.max()} of {len(values)}")
         changed = values.copy()
         changed[rows] = self._stored(what, place, count, values.shape[1], values.dtype)
         return changed

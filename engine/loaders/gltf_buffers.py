@@ -7,15 +7,14 @@ allocated for what the file announces before it was found to hold it.
 from __future__ import annotations
 
 import binascii
-from urllib.parse import unquote_to_bytes
 
 from . import gltf_meshopt, sources
-from .gltf_file import GltfFile
+from .gltf_file import DamagedError, GltfFile, once
 from .linked_files import LinkedFileError, LinkedFiles
+from .percent_encoding import percent_decoded
 from .posed_parts import MAX_REPEATED
 from .sources import Source
 from .text import shown
-from .warning_list import WarningList
 
 # Several primitives may share what takes a byte a number, honestly.
 _NUMBERS_PER_BYTE = 4
@@ -29,7 +28,6 @@ class GltfBuffers:
     file : GltfFile
     source : Source
         Where it is from.
-    warnings : WarningList
 
     Attributes
     ----------
@@ -38,11 +36,11 @@ class GltfBuffers:
         with the files that are read.
     """
 
-    def __init__(self, file: GltfFile, source: Source, warnings: WarningList) -> None:
-        self._file, self._warnings = file, warnings
-        self._files = LinkedFiles.of(source, warnings)
-        self._buffers: dict[int, memoryview] = {}
-        self._unpacked: dict[int, memoryview] = {}
+    def __init__(self, file: GltfFile, source: Source) -> None:
+        self._file = file
+        self._files = LinkedFiles.of(source, file.warnings)
+        self._buffers: dict[int, memoryview | DamagedError] = {}
+        self._unpacked: dict[int, memoryview | DamagedError] = {}
         self._given = 0
         self._file_bytes = source.size
         self._unpacked_bytes = 0
@@ -80,17 +78,18 @@ class GltfBuffers:
 
     def view(self, index, where: str) -> memoryview:
         """Return the bytes of a buffer view, unpacked if they are compressed."""
-        view = self._file.entry("bufferViews", index, where)
+        index = self._file.number_in("bufferViews", index, where)
+        view = self._file.entries("bufferViews")[index]
         name = f"bufferViews[{index}]"
         packed = gltf_meshopt.packing_of(self._file, view, name)
         if packed is None:
             return self._range(view, name)
-        if index not in self._unpacked:
-            self.allow(gltf_meshopt.unpacked_size(self._file, packed, name), name)
-            self._unpacked[index] = gltf_meshopt.unpacked(
-                self._file, self._range(packed, name), packed, name
-            )
-        return self._unpacked[index]
+        return once(self._unpacked, index, lambda: self._unpack(packed, name))
+
+    def _unpack(self, packed: dict, name: str) -> memoryview:
+        """The bytes of a view that says how it is packed."""
+        self.allow(gltf_meshopt.unpacked_size(self._file, packed, name), name)
+        return gltf_meshopt.unpacked(self._file, self._range(packed, name), packed, name)
 
     def _range(self, entry: dict, name: str) -> memoryview:
         """The part of a buffer that an entry names."""
@@ -98,8 +97,8 @@ class GltfBuffers:
         length = self._file.whole(entry, "byteLength", name)
         buffer = self._buffer(entry.get("buffer"), name)
         if start + length > len(buffer):
-            raise self._file.error(
-                f"damaged: {name} ends at byte {start + length}, its buffer at {len(buffer)}"
+            raise self._file.damaged(
+                f"{name} ends at byte {start + length}, its buffer at {len(buffer)}"
             )
         return buffer[start : start + length]
 
@@ -111,34 +110,32 @@ class GltfBuffers:
         Engine3DError
         """
         if not isinstance(uri, str):
-            raise self._file.error(f"damaged: {where}: a URI that is no text")
+            raise self._file.damaged(f"{where}: a URI that is no text")
         if uri[:5].lower() == "data:":
             return self._data_uri(uri, where)
         try:
             with self._files.read(self._files.find_uri(uri)) as source:
                 return source.data
         except LinkedFileError as error:
-            raise self._file.error(f"{where}: {shown(uri)}: {error}") from None
+            raise DamagedError(f"{where}: {shown(uri)}: {error}", self._file.path) from None
 
     def _data_uri(self, uri: str, where: str) -> bytes:
         head, comma, body = uri.partition(",")
         if not comma:
-            raise self._file.error(f"damaged: {where}: a data URI without a comma")
+            raise self._file.damaged(f"{where}: a data URI without a comma")
         if not head.lower().endswith(";base64"):
-            return unquote_to_bytes(body)
+            return percent_decoded(body)
         try:
             return binascii.a2b_base64(body)
         except ValueError as error:
-            raise self._file.error(f"damaged: {where}: {error}") from error
+            raise self._file.damaged(f"{where}: {error}") from error
 
     def _buffer(self, index, where: str) -> memoryview:
-        buffer = self._file.entry("buffers", index, where)
-        if index not in self._buffers:
-            self._buffers[index] = self._read(buffer, index)
-        return self._buffers[index]
+        index = self._file.number_in("buffers", index, where)
+        return once(self._buffers, index, lambda: self._read(index))
 
-    def _read(self, buffer: dict, index: int) -> memoryview:
-        name = f"buffers[{index}]"
+    def _read(self, index: int) -> memoryview:
+        buffer, name = self._file.entries("buffers")[index], f"buffers[{index}]"
         length = self._file.whole(buffer, "byteLength", name)
         uri = buffer.get("uri")
         if uri is not None:
@@ -150,10 +147,10 @@ class GltfBuffers:
             data = self._file.binary
         else:
             self.allow(length, name)
-            self._warnings.add(f"{name} has no data: zeros instead")
+            self._file.warnings.add(f"{name} has no data: zeros instead")
             data = memoryview(bytes(length))
         if len(data) < length:
-            raise self._file.error(
-                f"damaged: {name} is announced with {length} bytes, there are {len(data)}"
+            raise self._file.damaged(
+                f"{name} is announced with {length} bytes, there are {len(data)}"
             )
         return data[:length]

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import importlib.util
 import pickle
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import FileFormatError
 from .gltf_buffers import GltfBuffers
-from .gltf_file import GltfFile
+from .gltf_file import DamagedError, GltfFile, whole_of
 from .limited_process import in_limited_process
 from .sources import Source
 
@@ -51,7 +51,7 @@ class GltfDraco:
 
     def __init__(self, file: GltfFile, buffers: GltfBuffers) -> None:
         self._file, self._buffers = file, buffers
-        self._meshes: dict[int, tuple] | None = None
+        self._meshes: dict[int, tuple | str] | None = None
 
     def unpacked(self, entry: dict, where: str) -> Unpacked | None:
         """Return what a primitive holds; None if it is not packed, or also in the file as it is."""
@@ -68,21 +68,32 @@ class GltfDraco:
         if self._meshes is None:
             self._meshes = self._unpack_all()
         attributes = self._file.part(packing, "attributes", f"{where}.{DRACO}")
-        corners, by_id = self._meshes[packing["bufferView"]]
+        index = self._file.number_in("bufferViews", packing["bufferView"], where)
+        found = self._meshes.get(index, "not read")
+        if isinstance(found, str):
+            raise self._file.damaged(f"bufferViews[{index}] is not what Draco packs ({found})")
+        corners, by_id = found
         arrays = {}
         for name, number in attributes.items():
+            number = whole_of(number)
             if type(number) is not int or number not in by_id:
-                raise self._file.error(f"damaged: {where}: Draco has no attribute for {name}")
+                raise self._file.damaged(f"{where}: Draco has no attribute for {name}")
             arrays[name] = by_id[number]
         return Unpacked(arrays, corners)
 
     def _packing(self, entry: dict, where: str) -> dict | None:
-        extensions = self._file.part(entry, "extensions", where)
+        extensions = self._file.spare_part(entry, "extensions", where)
         if DRACO not in extensions:
             return None
         packing = self._file.part(extensions, DRACO, where)
         self._file.entry("bufferViews", packing.get("bufferView"), f"{where}.{DRACO}")
         return packing
+
+    def _add_view(self, primitive: dict, views: dict[int, bytes]) -> None:
+        packing = self._packing(primitive, "")
+        if packing is not None:
+            index = self._file.number_in("bufferViews", packing["bufferView"], "")
+            views[index] = bytes(self._buffers.view(index, ""))
 
     def _is_required(self) -> bool:
         return DRACO in self._file.tree.get("extensionsRequired", ())
@@ -93,36 +104,37 @@ class GltfDraco:
         accessor = self._file.entry("accessors", attributes.get("POSITION"), where)
         return "bufferView" in accessor
 
-    def _unpack_all(self) -> dict[int, tuple]:
-        file, views = self._file, {}
-        for number, mesh in enumerate(file.entries("meshes")):
-            where = f"meshes[{number}]"
-            for primitive in file.entries("primitives", mesh, f"{where}."):
-                packing = self._packing(primitive, where)
-                if packing is not None:
-                    index = packing["bufferView"]
-                    views[index] = bytes(self._buffers.view(index, where))
+    def _unpack_all(self) -> dict[int, tuple | str]:
+        file: GltfFile = self._file
+        views: dict[int, bytes] = {}
+        for mesh in file.entries("meshes"):
+            with suppress(DamagedError):  # which is told where it is read
+                for primitive in file.entries("primitives", mesh):
+                    with suppress(DamagedError):
+                        self._add_view(primitive, views)
         source = Source(file.path, pickle.dumps(views))
         found = in_limited_process(_unpack_here, source, True, size=source.size)
-        for index, (corners, arrays) in found.items():
+        for index, unpacked in found.items():
+            if isinstance(unpacked, str):
+                continue
+            corners, arrays = unpacked
             held = [array for array in (corners, *arrays.values()) if array is not None]
             self._buffers.allow(sum(array.nbytes for array in held), f"bufferViews[{index}]")
         return found
 
 
-def _unpack_here(source: Source, split: bool) -> dict[int, tuple]:
-    """Unpack views: corners or None, and arrays by their numbers, each."""
+def _unpack_here(source: Source, split: bool) -> dict[int, tuple | str]:
+    """Unpack views: corners or None, and arrays by their numbers, each; or what is wrong."""
     import DracoPy
 
-    found = {}
+    found: dict[int, tuple | str] = {}
     for index, data in pickle.loads(source.data).items():
         try:
             mesh = DracoPy.decode(data)
         # DracoPy has an exception of its own, and lets others of C++ through.
         except Exception as error:
-            raise FileFormatError(
-                f"damaged: bufferViews[{index}] is not what Draco packs ({error})", source.path
-            ) from None
+            found[index] = str(error)
+            continue
         corners = getattr(mesh, "faces", None)
         arrays = {
             held["unique_id"]: np.ascontiguousarray(held["data"]).reshape(

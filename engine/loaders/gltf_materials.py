@@ -1,8 +1,9 @@
 """The materials of a glTF file.
 
 In: a `GltfFile` and its textures. Out: a `Material` for each number, all fields of the core format
-and of the extensions in `READ`. KHR_materials_pbrSpecularGlossiness becomes what KHR_materials_ior
-and KHR_materials_specular say of it: no metal, an index of refraction of 0, the specular colour.
+and of the extensions in `READ`; what makes no sense is left out with a warning.
+KHR_materials_pbrSpecularGlossiness becomes what KHR_materials_ior and KHR_materials_specular say of
+it: no metal, an index of refraction of 0, the specular colour.
 """
 
 from __future__ import annotations
@@ -15,9 +16,8 @@ from ..errors import InvalidArgumentError
 from ..materials.colors import certainly_linear
 from ..materials.material import Material
 from ..materials.textures import PlacedTexture, Texture
-from .gltf_file import GltfFile
+from .gltf_file import GltfFile, whole_of
 from .gltf_textures import GltfTextures, changed
-from .warning_list import WarningList
 
 _GLOSSY, _UNLIT = "KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit"
 _VARIANTS = "KHR_materials_variants"
@@ -120,18 +120,40 @@ class GltfMaterials:
     ----------
     file : GltfFile
     textures : GltfTextures
-    warnings : WarningList
     """
 
-    def __init__(self, file: GltfFile, textures: GltfTextures, warnings: WarningList) -> None:
-        self._file, self._textures, self._warnings = file, textures, warnings
+    def __init__(self, file: GltfFile, textures: GltfTextures) -> None:
+        self._file, self._textures = file, textures
+        self._variant_names: tuple[str, ...] | None = None
         self._made: dict[tuple, Material] = {}
         self._sets: dict[int, set[int]] = {}
         self._textures.decode(self._named_textures())
 
     def all(self) -> tuple[Material, ...]:
-        """Return all materials of the file, for meshes with normals."""
-        return tuple(self.get(index, "") for index in range(len(self._file.entries("materials"))))
+        """Return all materials of the file, for meshes with normals.
+
+        Those that nothing uses and that say the same are the same.
+        """
+        used = {index for index, *_ in self._made}
+        unused: dict[str, Material] = {}
+        found = []
+        for index, entry in enumerate(self._file.entries("materials")):
+            if index in used:
+                found.append(self.get(index, ""))
+                continue
+            words = repr(entry)
+            if words not in unused:
+                unused[words] = self.get(index, "")
+            found.append(unused[words])
+        return tuple(found)
+
+    def made(self) -> dict[int, tuple[Material, ...]]:
+        """Return all that each material of the file became so far."""
+        found: dict[int, tuple[Material, ...]] = {}
+        for (index, *_), material in self._made.items():
+            if index is not None:
+                found[index] = (*found.get(index, ()), material)
+        return found
 
     def get(
         self,
@@ -161,36 +183,56 @@ class GltfMaterials:
             self._made[key]._is_implied = index is None
         return self._made[key]
 
+    def number(self, primitive: dict, where: str) -> int | None:
+        """Return the material that a primitive names; None if it names none that there is."""
+        if primitive.get("material") is None:
+            return None
+        place = f"{where}.material"
+        return self._file.sound(
+            place, self._file.number_in, "materials", primitive["material"], place
+        )
+
     def uv_sets(self, primitive: dict, where: str) -> set[int]:
         """Return the sets of texture coordinates that the materials of a primitive use."""
-        indices = [primitive["material"]] if "material" in primitive else []
+        usual = self.number(primitive, where)
+        indices = [] if usual is None else [usual]
         indices += [material for material, _ in self.variants(primitive, where)]
         return set().union(*(self._uv_sets(index, where) for index in indices))
 
     def variants(self, primitive: dict, where: str) -> list[tuple[int, list[int]]]:
         """Return the other materials of a primitive, each with the variants that it is of."""
-        file = self._file
-        extensions = file.part(primitive, "extensions", where)
+        extensions = self._file.spare_part(primitive, "extensions", where)
+        if _VARIANTS not in extensions:
+            return []
         where = f"{where}.{_VARIANTS}"
+        return self._file.sound(where, self._mappings, extensions, where) or []
+
+    def _mappings(self, extensions: dict, where: str) -> list[tuple[int, list[int]]]:
+        file, count = self._file, len(self.variant_names())
         found = []
         mappings = file.entries("mappings", file.part(extensions, _VARIANTS, where), f"{where}.")
         for mapping in mappings:
-            file.entry("materials", mapping.get("material"), where)
+            material = file.number_in("materials", mapping.get("material"), where)
             variants = mapping.get("variants")
             if not isinstance(variants, list):
-                raise file.error(f"damaged: {where}.mappings name no variants")
-            count = len(self.variant_names())
-            for variant in variants:
-                file.index(variant, count, "variants", where)
-            found.append((mapping["material"], variants))
+                raise file.damaged(f"{where}.mappings name no variants")
+            numbers = [file.index(variant, count, "variants", where) for variant in variants]
+            found.append((material, numbers))
         return found
 
     def variant_names(self) -> tuple[str, ...]:
         """Return the names of the file's sets of materials."""
-        file = self._file
-        extension = file.part(file.part(file.tree, "extensions", ""), _VARIANTS, "extensions")
-        entries = file.entries("variants", extension, f"extensions.{_VARIANTS}.")
-        return tuple(file.text(entry, "name", f"{_VARIANTS}.variants") for entry in entries)
+        if self._variant_names is None:
+            names = self._file.sound(f"extensions.{_VARIANTS}", self._read_variant_names)
+            self._variant_names = names or ()
+        return self._variant_names
+
+    def _read_variant_names(self) -> tuple[str, ...]:
+        file, where = self._file, f"extensions.{_VARIANTS}."
+        entries = file.entries("variants", file.extension(_VARIANTS), where)
+        return tuple(
+            file.name(entry, f"{where}variants[{index}]") for index, entry in enumerate(entries)
+        )
 
     def _uv_sets(self, index: int, where: str) -> set[int]:
         entry = self._file.entry("materials", index, where)
@@ -209,29 +251,30 @@ class GltfMaterials:
             for index, entry in enumerate(self._file.entries("materials"))
             for info in self._infos(entry, f"materials[{index}]")
         ]
-        named = {info.get("index") for info in infos if type(info.get("index")) is int}
+        indices = [whole_of(info.get("index")) for info in infos]
+        named = {index for index in indices if type(index) is int}
         return {index for index in named if 0 <= index < count}
 
     def _parts(self, entry: dict, where: str):
         """The parts that a material has, and what may stand in them."""
         file = self._file
-        extensions = file.part(entry, "extensions", where)
+        extensions = file.spare_part(entry, "extensions", where)
         glossy = _GLOSSY in extensions
         for name, items in PARTS.items():
             if not name:
                 yield entry, items
             elif name == "pbrMetallicRoughness":
-                part = file.part(entry, name, where)
+                part = file.spare_part(entry, name, where)
                 yield from () if glossy else [(part, items)]
             elif name in extensions:
-                yield file.part(extensions, name, where), items
+                yield file.spare_part(extensions, name, where), items
         if glossy:
-            yield file.part(extensions, _GLOSSY, where), _GLOSSY_PARTS
+            yield file.spare_part(extensions, _GLOSSY, where), _GLOSSY_PARTS
 
     def _infos(self, entry: dict, where: str) -> list[dict]:
         """What a material says of its textures."""
         return [
-            self._file.part(part, item.key, where)
+            self._file.spare_part(part, item.key, where)
             for part, items in self._parts(entry, where)
             for item in items
             if isinstance(item, Map) and item.key in part
@@ -242,33 +285,45 @@ class GltfMaterials:
         values = {"metallic": 1.0, "roughness": 1.0}
         for part, items in self._parts(entry, where):
             for item in items:
-                values.update(self._values(part, item, where, uv_sets))
-        extensions = file.part(entry, "extensions", where)
+                if item.key in part:
+                    place = f"{where}.{item.key}"
+                    held = file.sound(place, self._values, part, item, where, uv_sets)
+                    values.update(held or {})
+        extensions = file.spare_part(entry, "extensions", where)
         if _GLOSSY in extensions:
-            glossiness = file.number(
-                file.part(extensions, _GLOSSY, where), "glossinessFactor", where, 1
+            glossiness = file.sound(
+                f"{where}.glossinessFactor",
+                file.number,
+                file.spare_part(extensions, _GLOSSY, where),
+                "glossinessFactor",
+                where,
+                1,
             )
-            values.update(_from_glossiness(values, glossiness))
+            values.update(_from_glossiness(values, 1.0 if glossiness is None else glossiness))
         color = values.get("color", (1.0, 1.0, 1.0))
         values["color"] = color[:3] if color[3:] == (1.0,) else color
         values |= {
-            "name": file.text(entry, "name", where),
+            "name": file.name(entry, where),
             "two_sided": entry.get("doubleSided") is True,
             "unlit": _UNLIT in extensions,
             "alpha_mode": self._alpha_mode(entry, where),
             "flat_shading": flat,
             "extras": self._extras(entry, where),
         }
+        material = Material._plain(values.pop("name"))
+        with certainly_linear():
+            for field, value in values.items():
+                self._file.sound(f"{where}.{field}", self._put, material, field, value)
+        return material
+
+    def _put(self, material: Material, field: str, value) -> None:
         try:
-            with certainly_linear():
-                return Material(**values)
+            setattr(material, field, value)
         except InvalidArgumentError as error:
-            raise file.error(f"damaged: {where}: {error}") from None
+            raise self._file.damaged(str(error)) from None
 
     def _values(self, part: dict, item: Numbers | Map, where: str, uv_sets) -> dict:
         """What one item says, as parameters of a material."""
-        if item.key not in part:
-            return {}
         if isinstance(item, Numbers):
             if isinstance(item.default, tuple):
                 return {item.field: self._file.numbers(part, item.key, where, item.default)}
@@ -282,7 +337,7 @@ class GltfMaterials:
     def _alpha_mode(self, entry: dict, where: str) -> str:
         mode = entry.get("alphaMode", "OPAQUE")
         if mode not in ("OPAQUE", "MASK", "BLEND"):
-            self._warnings.add_once(f"{where} has no alpha mode that is known: drawn opaque")
+            self._file.warnings.add_once(f"{where} has no alpha mode that is known: drawn opaque")
             mode = "OPAQUE"
         return mode.lower()
 
@@ -290,7 +345,7 @@ class GltfMaterials:
         extras = entry.get("extras", {})
         if isinstance(extras, dict):
             return extras
-        self._warnings.add_once(f"{where}.extras is no object: left out")
+        self._file.warnings.add_once(f"{where}.extras is no object: left out")
         return {}
 
 

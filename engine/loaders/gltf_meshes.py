@@ -2,7 +2,8 @@
 
 In: a `GltfFile` and what reads its primitives. Out: a `MeshRecord` each. The primitives of a mesh
 that carry the same attributes become one `Mesh`, with a material for each; others become further
-parts of the record.
+parts of the record. Meshes of the same primitives share their arrays. A primitive that is damaged
+is left out with a warning.
 """
 
 from __future__ import annotations
@@ -18,16 +19,15 @@ from ..materials.material import Material
 from ..materials.textures import PlacedTexture
 from .documents import MeshRecord
 from .gltf_buffers import GltfBuffers
-from .gltf_file import GltfFile
+from .gltf_file import DamagedError, GltfFile
 from .gltf_materials import GltfMaterials
 from .gltf_primitives import GltfPrimitives, Primitive
 from .smoothing import join_seams
 
-# Each takes some kilobytes, or a part of a millisecond, however little the file says of it.
-_MAX_PRIMITIVES = 10_000
 # Of so many faces of a mesh that bends, tangents are found while it is read.
 _MOST_BENDING = 1 << 17
 _MORPHS = ("positions", "normals", "tangents")
+_NO_MATERIAL = Material()
 
 
 class GltfMeshes:
@@ -50,6 +50,7 @@ class GltfMeshes:
     ) -> None:
         self._file, self._buffers = file, buffers
         self._primitives, self._materials = primitives, materials
+        self._parts: dict[tuple, Mesh] = {}  # of primitives that are kept
 
     def all(self) -> tuple[MeshRecord, ...]:
         """Return the meshes.
@@ -58,48 +59,42 @@ class GltfMeshes:
         ------
         FileFormatError
         """
-        file = self._file
-        lists = [
-            file.entries("primitives", entry, f"meshes[{index}].")
-            for index, entry in enumerate(file.entries("meshes"))
-        ]
-        if sum(map(len, lists)) > _MAX_PRIMITIVES:
-            raise file.error(f"more than {_MAX_PRIMITIVES} primitives")
+        entries = zip(self._file.entries("meshes"), self._primitives.lists, strict=True)
         return tuple(
             self._mesh(entry, primitives, f"meshes[{index}]")
-            for index, (entry, primitives) in enumerate(
-                zip(file.entries("meshes"), lists, strict=True)
-            )
+            for index, (entry, primitives) in enumerate(entries)
         )
 
     def _mesh(self, entry: dict, primitives: list[dict], where: str) -> MeshRecord:
-        file = self._file
-        if "primitives" not in entry:
-            raise file.error(f"damaged: {where} has no primitives")
-        name = file.text(entry, "name", where)
-        weights = file.number_list(entry, "weights", where)
-        targets = {len(file.entries("targets", p, f"{where}.")) for p in primitives}
-        if len(targets) > 1:
-            raise file.error(f"damaged: the primitives of {where} have unequal morph targets")
+        file, name = self._file, self._file.name(entry, where)
         groups: dict[tuple, list[tuple[Primitive, dict, str]]] = {}
         for number, primitive in enumerate(primitives):
             place = f"{where}.primitives[{number}]"
-            read = self._primitives.read(primitive, place)
+            try:
+                read = self._primitives.read(primitive, place)
+            except DamagedError as error:
+                file.lose(place, error)
+                continue
             if read is not None:
                 groups.setdefault(_kind_of(read), []).append((read, primitive, place))
         if not groups:
             return MeshRecord(name, Mesh([], name=name), extras=entry.get("extras"))
-        (count,) = targets
+        counts = {len(read.morphs) for members in groups.values() for read, _, _ in members}
+        count = max(counts)
+        if len(counts) > 1:
+            file.warnings.add(
+                f"the primitives of {where} have unequal morph targets: each moves by its own"
+            )
         names = _target_names(entry.get("extras"), count)
         first, *rest = (self._part(name, members, names) for members in groups.values())
-        weights = self._weights(weights, count, where)
+        weights = file.sound(f"{where}.weights", self._weights, entry, count, where)
+        weights = (0.0,) * count if weights is None else weights
         return replace(first, morph_weights=weights, rest=tuple(rest), extras=entry.get("extras"))
 
-    def _weights(self, weights, count: int, where: str) -> tuple[float, ...]:
-        if weights is None:
-            return (0.0,) * count
-        if len(weights) != count:
-            raise self._file.error(f"damaged: {where} has {len(weights)} weights, {count} targets")
+    def _weights(self, entry: dict, count: int, where: str) -> tuple[float, ...] | None:
+        weights = self._file.number_list(entry, "weights", where)
+        if weights is not None and len(weights) != count:
+            raise self._file.damaged(f"{where} has {len(weights)} weights, {count} targets")
         return weights
 
     def _part(
@@ -107,29 +102,48 @@ class GltfMeshes:
     ) -> MeshRecord:
         """Primitives that carry the same as one mesh."""
         primitives = [primitive for primitive, _, _ in members]
+        kind = primitives[0].kind
+        flat = kind == "faces" and "normals" not in primitives[0].arrays
+        chosen = [self._chosen(*member, flat=flat) for member in members]
+        uv_set = None if kind != "faces" or flat else _tangent_set_of(chosen)
+        # The primitives' arrays are theirs as long as the primitives are kept for others.
+        key = (*(id(primitive.arrays) for primitive in primitives), *target_names, uv_set)
+        if self._primitives.are_kept(primitives):
+            if key not in self._parts:
+                self._parts[key] = self._made(primitives, target_names, uv_set)
+            mesh = self._parts[key]
+        else:
+            mesh = self._made(primitives, target_names, uv_set)
+        materials = [usual for usual, _ in (chosen if kind == "faces" else chosen[:1])]
+        mesh = mesh._twin(materials, name)
+        self._count_variants(chosen)
+        return MeshRecord(name, mesh, variants=_variants(chosen))
+
+    def _made(
+        self, primitives: list[Primitive], target_names: list[str], uv_set: int | None
+    ) -> Mesh:
+        """A mesh of several primitives, whose materials are not those that it will have."""
         counts = [len(primitive.arrays["positions"]) for primitive in primitives]
         starts = np.cumsum([0, *counts])[:-1]
         arrays = {
             key: self._joined([p.arrays[key] for p in primitives]) for key in primitives[0].arrays
         }
         kind = primitives[0].kind
+        flat = kind == "faces" and "normals" not in arrays
         elements = [
             primitive.elements + np.int32(start) if start else primitive.elements
             for primitive, start in zip(primitives, starts, strict=True)
         ]
-        flat = kind == "faces" and "normals" not in arrays
-        chosen = [self._chosen(*member, flat=flat) for member in members]
         ids = None
-        if kind == "faces" and len(members) > 1:
+        if kind == "faces" and len(primitives) > 1:
             sizes = [len(part) for part in elements]
-            ids = np.repeat(np.arange(len(members), dtype=np.int32), sizes)
-        materials = [usual for usual, _ in chosen] if kind == "faces" else [chosen[0][0]]
+            self._buffers.count(sum(sizes))
+            ids = np.repeat(np.arange(len(primitives), dtype=np.int32), sizes)
         mesh = Mesh(
             arrays.pop("positions"),
             **{kind: self._joined(elements)},
-            materials=materials,
+            materials=[_NO_MATERIAL] * len(primitives),
             material_ids=ids,
-            name=name,
             **arrays,
         )
         mesh._scalars = {
@@ -143,14 +157,16 @@ class GltfMeshes:
         if target_names:
             mesh.morph_targets = self._morphs(primitives, counts, target_names)
         if kind == "faces" and "normals" in arrays and "tangents" not in arrays:
-            mesh = self._with_tangents(mesh, chosen)
-        return MeshRecord(name, mesh, variants=_variants(chosen))
+            mesh = self._with_tangents(mesh, uv_set)
+        return mesh
 
-    def _with_tangents(self, mesh: Mesh, chosen: list[tuple]) -> Mesh:
+    def _count_variants(self, chosen: list[tuple]) -> None:
+        """Note what is made for variants: a list of materials each, however few they name."""
+        named = {variant for _, others in chosen for variant in others}
+        self._buffers.count(len(named) * len(chosen))
+
+    def _with_tangents(self, mesh: Mesh, uv_set: int | None) -> Mesh:
         """A mesh whose tangents will be found when it is drawn; of one that bends, they are."""
-        materials = [usual for usual, _ in chosen]
-        materials += [material for _, others in chosen for material in others.values()]
-        uv_set = next((found for m in materials if (found := _tangent_set(m)) is not None), None)
         if uv_set is None or (mesh.uvs1 if uv_set else mesh.uvs) is None:
             return mesh
         if mesh._scalars:
@@ -179,7 +195,9 @@ class GltfMeshes:
     ) -> list[MorphTarget]:
         """The morph targets of joined primitives: what only some change is 0 for the others."""
         found = []
-        for name, *targets in zip(names, *(p.morphs for p in primitives), strict=True):
+        # A primitive that has fewer stays as it is where the others move.
+        held = ([*p.morphs, *({},) * (len(names) - len(p.morphs))] for p in primitives)
+        for name, *targets in zip(names, *held, strict=True):
             deltas = {}
             for key in _MORPHS:
                 parts = [target.get(key) for target in targets]
@@ -217,6 +235,13 @@ def _tangent_set(material: Material) -> int | None:
     if isinstance(found, PlacedTexture):
         return None if found.is_moved else found.uv_set
     return 0 if found is not None or material.anisotropy else None
+
+
+def _tangent_set_of(chosen: list[tuple]) -> int | None:
+    """The texture coordinates that any material of a mesh needs tangents for."""
+    materials = [usual for usual, _ in chosen]
+    materials += [material for _, others in chosen for material in others.values()]
+    return next((found for m in materials if (found := _tangent_set(m)) is not None), None)
 
 
 def _variants(chosen: list[tuple]) -> dict[int, tuple]:

@@ -47,11 +47,11 @@ def unpacked(file: GltfFile, data: memoryview, packing: dict, where: str) -> mem
     count, stride = (file.whole(packing, name, where) for name in ("count", "byteStride"))
     mode, filter = packing.get("mode"), packing.get("filter", "NONE")
     if not isinstance(mode, str) or not isinstance(filter, str):
-        raise file.error(f"damaged: {where} is packed in no mode that is known")
+        raise file.damaged(f"{where} is packed in no mode that is known")
     elements = unpack_meshopt(data, mode, filter, count, stride)
     if elements is None:
-        raise file.error(
-            f"damaged: {where}, {count} elements of {stride} bytes packed by meshopt in the mode "
+        raise file.damaged(
+            f"{where}, {count} elements of {stride} bytes packed by meshopt in the mode "
             f"{shown(mode)} with the filter {shown(filter)}"
         )
     return memoryview(elements.tobytes())

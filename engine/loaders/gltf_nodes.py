@@ -1,19 +1,24 @@
 """The nodes of a glTF file: the tree that its scene shows, and what each of them names.
 
 In: a `GltfFile`. Out: a `NodeRecord` each, and the nodes that the scene begins with. Nodes may be
-nested to any depth; one that two others name, or that names itself, is an error.
+nested to any depth; one that two others name, or that names itself, is an error. One that stands
+nowhere is hidden with what is below it; what a node names and is not there is left out.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import partial
+
 import numpy as np
 
 from .. import linalg
-from .documents import NodeRecord
+from .documents import MeshRecord, NodeRecord, SkinRecord
 from .gltf_accessors import GltfAccessors
-from .gltf_file import LIGHTS, GltfFile
+from .gltf_file import LIGHTS, DamagedError, GltfFile, once
+from .gltf_lists import SoundList
+from .posed_parts import without_rounding
 from .text import shown
-from .warning_list import WarningList
 
 INSTANCING, VISIBILITY = "EXT_mesh_gpu_instancing", "KHR_node_visibility"
 #: The extensions that are read here.
@@ -22,33 +27,30 @@ _POSE_PARTS = {"TRANSLATION": 3, "ROTATION": 4, "SCALE": 3}
 _COLORS = "_COLOR_0"
 
 
-def read_nodes(file: GltfFile, accessors: GltfAccessors) -> tuple[NodeRecord, ...]:
+def read_nodes(
+    file: GltfFile, accessors: GltfAccessors, lists: dict[str, SoundList]
+) -> tuple[NodeRecord, ...]:
     """Return all nodes of a file.
+
+    Parameters
+    ----------
+    file : GltfFile
+    accessors : GltfAccessors
+    lists : dict of str to SoundList
+        Skins, cameras and lights.
 
     Raises
     ------
     FileFormatError
-        A node names what does not exist, or is no node.
+        A node has children that do not exist.
     """
+    reading = _Nodes(file, accessors, lists)
     return tuple(
-        _node(file, accessors, node, f"nodes[{index}]")
-        for index, node in enumerate(file.entries("nodes"))
+        reading.node(node, f"nodes[{index}]") for index, node in enumerate(file.entries("nodes"))
     )
 
 
-def warn_of_unknown_attributes(file: GltfFile, warnings: WarningList) -> None:
-    """Tell which attributes of instances are not drawn, each once."""
-    for index, node in enumerate(file.entries("nodes")):
-        where = f"nodes[{index}]"
-        extension = file.part(file.part(node, "extensions", where), INSTANCING, where)
-        for name in file.part(extension, "attributes", where):
-            if name not in (*_POSE_PARTS, _COLORS):
-                warnings.add_once(f"what instances say of {shown(name)} is left out")
-
-
-def read_roots(
-    file: GltfFile, nodes: tuple[NodeRecord, ...], warnings: WarningList
-) -> tuple[int, ...]:
+def read_roots(file: GltfFile, nodes: tuple[NodeRecord, ...]) -> tuple[int, ...]:
     """Return the nodes that the file's scene begins with.
 
     Raises
@@ -58,10 +60,10 @@ def read_roots(
     """
     scenes = file.entries("scenes")
     if scenes:
-        number = file.tree.get("scene", 0)
-        scene = file.entry("scenes", number, "scene")
+        number = file.number_in("scenes", file.tree.get("scene", 0), "scene")
+        scene = scenes[number]
         if len(scenes) > 1:
-            warnings.add(f"{len(scenes)} scenes: only scenes[{number}] is shown")
+            file.warnings.add(f"{len(scenes)} scenes: only scenes[{number}] is shown")
         roots = _references(file, scene, "nodes", f"scenes[{number}]")
     else:
         named = {child for node in nodes for child in node.children}
@@ -76,13 +78,13 @@ def _check_tree(file: GltfFile, nodes: tuple[NodeRecord, ...], roots: tuple[int,
     for index, node in enumerate(nodes):
         for child in node.children:
             if above[child] >= 0:
-                raise file.error(f"damaged: nodes[{child}] is named twice")
+                raise file.damaged(f"nodes[{child}] is named twice")
             above[child] = index
     _reached(file, nodes, roots)
     tops = tuple(index for index, parent in enumerate(above) if parent < 0)
     missed = _reached(file, nodes, tops).find(0)
     if missed >= 0:
-        raise file.error(f"damaged: nodes[{missed}] is below itself")
+        raise file.damaged(f"nodes[{missed}] is below itself")
 
 
 def _reached(file: GltfFile, nodes: tuple[NodeRecord, ...], roots: tuple[int, ...]) -> bytearray:
@@ -92,103 +94,182 @@ def _reached(file: GltfFile, nodes: tuple[NodeRecord, ...], roots: tuple[int, ..
     while waiting:
         index = waiting.pop()
         if seen[index]:
-            raise file.error(f"damaged: nodes[{index}] is named twice")
+            raise file.damaged(f"nodes[{index}] is named twice")
         seen[index] = 1
         waiting += nodes[index].children
     return seen
 
 
-def _node(file: GltfFile, accessors: GltfAccessors, node: dict, where: str) -> NodeRecord:
-    extensions = file.part(node, "extensions", where)
-    matrix = None
+def with_fitting(
+    file: GltfFile,
+    nodes: tuple[NodeRecord, ...],
+    meshes: tuple[MeshRecord, ...],
+    skins: tuple[SkinRecord, ...],
+) -> tuple[NodeRecord, ...]:
+    """Return nodes without the skins and weights that do not fit their meshes."""
+    highest: dict[int, int] = {}
+    found = list(nodes)
+    for index, node in enumerate(nodes):
+        if node.mesh is None or (node.skin is None and node.weights is None):
+            continue
+        where, record = f"nodes[{index}]", meshes[node.mesh]
+        if node.skin is not None:
+            joint = once(highest, node.mesh, partial(_highest_joint, record))
+            count = len(skins[node.skin].joints)
+            if joint >= count:
+                reason = f"its mesh is moved by joint {joint}, there are {count}"
+                file.leave_out(f"{where}.skin", file.damaged(reason))
+                node = replace(node, skin=None)
+        count = len(record.mesh.morph_targets)
+        if node.weights is not None and len(node.weights) != count:
+            told = f"{where} has {len(node.weights)} weights, its mesh {count} targets"
+            file.warnings.add(f"{told}: those of none are left out, others are 0")
+            padding = (0.0,) * (count - len(node.weights))
+            node = replace(node, weights=(*node.weights[:count], *padding))
+        found[index] = node
+    return tuple(found)
+
+
+def _highest_joint(record: MeshRecord) -> int:
+    """The last joint that moves a vertex; -1 if none does."""
+    moving = [
+        np.where(part.mesh.weights > 0, part.mesh.joints, 0).max(initial=0)
+        for part in record.parts
+        if part.mesh.joints is not None
+    ]
+    return max(map(int, moving), default=-1)
+
+
+class _Nodes:
+    """Reads nodes."""
+
+    def __init__(
+        self, file: GltfFile, accessors: GltfAccessors, lists: dict[str, SoundList]
+    ) -> None:
+        self._file, self._accessors, self._lists = file, accessors, lists
+        self._light_count = len(file.lights())
+
+    def node(self, node: dict, where: str) -> NodeRecord:
+        file = self._file
+        extensions = file.spare_part(node, "extensions", where)
+        is_hidden = file.spare_part(extensions, VISIBILITY, where).get("visible") is False
+        place: dict = {}
+        try:
+            place = _place(file, node, where)
+        except DamagedError as error:
+            file.lose(where, error)
+            is_hidden = True
+        return NodeRecord(
+            name=file.name(node, where),
+            children=_references(file, node, "children", where),
+            visible=not is_hidden,
+            skin=self._spare(node, "skin", "skins", where),
+            camera=self._spare(node, "camera", "cameras", where),
+            light=self._light(extensions, where),
+            weights=self._weights(node, where),
+            **place,
+            **self._shown(node, extensions, where),
+            extras=node.get("extras"),
+        )
+
+    def _shown(self, node: dict, extensions: dict, where: str) -> dict:
+        """The mesh of a node, and its instances."""
+        if "mesh" not in node:
+            return {}
+        try:
+            mesh = self._file.number_in("meshes", node["mesh"], where)
+            return {"mesh": mesh, **self._instances(extensions, where)}
+        except DamagedError as error:
+            self._file.lose(f"{where}.mesh", error)
+            return {}
+
+    def _weights(self, node: dict, where: str) -> tuple[float, ...] | None:
+        if "weights" not in node:
+            return None
+        return self._file.sound(f"{where}.weights", self._file.number_list, node, "weights", where)
+
+    def _spare(self, node: dict, name: str, list_name: str, where: str) -> int | None:
+        """The record of what a node names and can do without."""
+        if name not in node:
+            return None
+        number = self._file.sound(
+            f"{where}.{name}", self._file.number_in, list_name, node[name], where
+        )
+        return self._lists[list_name].number_of.get(number)
+
+    def _light(self, extensions: dict, where: str) -> int | None:
+        if LIGHTS not in extensions:
+            return None
+        given = self._file.spare_part(extensions, LIGHTS, where).get("light")
+        place = f"{where}.{LIGHTS}"
+        number = self._file.sound(
+            place, self._file.index, given, self._light_count, "lights", place
+        )
+        return self._lists["lights"].number_of.get(number)
+
+    def _instances(self, extensions: dict, where: str) -> dict:
+        """The poses and colours of instances; none where the mesh is drawn once."""
+        if INSTANCING not in extensions:
+            return {}
+        file, accessors, where = self._file, self._accessors, f"{where}.{INSTANCING}"
+        attributes = file.part(file.part(extensions, INSTANCING, where), "attributes", where)
+        for name in attributes:
+            if name not in (*_POSE_PARTS, _COLORS):
+                file.warnings.add_once(f"what instances say of {shown(name)} is left out")
+        held = {
+            name: accessors.floats(attributes[name], where, width).astype(np.float64)
+            for name, width in _POSE_PARTS.items()
+            if name in attributes
+        }
+        if len({len(values) for values in held.values()}) != 1:
+            raise file.damaged(f"{where} has no instances, or unequal numbers of their parts")
+        if not all(np.isfinite(values).all() for values in held.values()):
+            raise file.damaged(f"{where} has instances that are nowhere")
+        count = len(next(iter(held.values())))
+        rotations = held.get("ROTATION", np.tile((0.0, 0.0, 0.0, 1.0), (count, 1)))
+        poses = poses_of(
+            held.get("TRANSLATION", np.zeros((count, 3))),
+            rotations,
+            held.get("SCALE", np.ones((count, 3))),
+        )
+        colors = file.sound(f"{where}.{_COLORS}", _colors, accessors, attributes, where, count)
+        return {"instances": poses, "instance_colors": colors}
+
+
+def _place(file: GltfFile, node: dict, where: str) -> dict:
+    """The parts of a node's pose."""
+    found: dict = {
+        name: file.numbers(node, name, where, (0.0,) * count)
+        for name, count in (("translation", 3), ("rotation", 4), ("scale", 3))
+        if name in node
+    }
+    if "rotation" in found and not 0.0 < sum(x * x for x in found["rotation"]) < np.inf:
+        raise file.damaged(f"{where}.rotation has no direction")
     if "matrix" in node:
         columns = file.numbers(node, "matrix", where, (0.0,) * 16)
-        matrix = np.array(columns).reshape(4, 4).T.copy()
-        if columns[3::4] != (0.0, 0.0, 0.0, 1.0):
-            raise file.error(f"{where}.matrix is no affine pose")
-    rotation = _numbers(file, node, "rotation", where, 4)
-    if rotation is not None and not 0.0 < sum(x * x for x in rotation) < np.inf:
-        raise file.error(f"damaged: {where}.rotation has no direction")
-    mesh = _reference(file, node, "mesh", "meshes", where)
-    return NodeRecord(
-        name=file.text(node, "name", where),
-        children=_references(file, node, "children", where),
-        translation=_numbers(file, node, "translation", where, 3),
-        rotation=rotation,
-        scale=_numbers(file, node, "scale", where, 3),
-        matrix=matrix,
-        visible=file.part(extensions, VISIBILITY, where).get("visible") is not False,
-        mesh=mesh,
-        skin=_reference(file, node, "skin", "skins", where),
-        camera=_reference(file, node, "camera", "cameras", where),
-        light=_light(file, extensions, where),
-        weights=file.number_list(node, "weights", where),
-        **(_instances(file, accessors, extensions, where) if mesh is not None else {}),
-        extras=node.get("extras"),
-    )
-
-
-def _numbers(file: GltfFile, node: dict, name: str, where: str, count: int):
-    return file.numbers(node, name, where, (0.0,) * count) if name in node else None
-
-
-def _reference(file: GltfFile, node: dict, name: str, list_name: str, where: str) -> int | None:
-    if name not in node:
-        return None
-    file.entry(list_name, node[name], where)
-    return node[name]
+        matrix = without_rounding(np.array(columns).reshape(4, 4).T.copy())
+        if matrix[3].tolist() != [0.0, 0.0, 0.0, 1.0]:
+            raise DamagedError(f"{where}.matrix is no affine pose", file.path)
+        found["matrix"] = matrix
+    return found
 
 
 def _references(file: GltfFile, entry: dict, name: str, where: str) -> tuple[int, ...]:
     values = entry.get(name, [])
     if not isinstance(values, list):
-        raise file.error(f"damaged: {where}.{name} is no list")
-    for value in values:
-        file.entry("nodes", value, where)
-    return tuple(values)
+        raise file.damaged(f"{where}.{name} is no list")
+    return tuple(file.number_in("nodes", value, where) for value in values)
 
 
-def _light(file: GltfFile, extensions: dict, where: str) -> int | None:
-    if LIGHTS not in extensions:
-        return None
-    return file.index(
-        file.part(extensions, LIGHTS, where).get("light"), len(file.lights()), "lights", where
-    )
-
-
-def _instances(file: GltfFile, accessors: GltfAccessors, extensions: dict, where: str) -> dict:
-    """The poses and colours of instances; none where the mesh is drawn once."""
-    if INSTANCING not in extensions:
-        return {}
-    where = f"{where}.{INSTANCING}"
-    entry = file.part(extensions, INSTANCING, where)
-    attributes = file.part(entry, "attributes", where)
-    held = {
-        name: accessors.floats(attributes[name], where, width).astype(np.float64)
-        for name, width in _POSE_PARTS.items()
-        if name in attributes
-    }
-    colors = _colors(accessors, attributes, where)
-    counts = {len(values) for values in (*held.values(), *([] if colors is None else [colors]))}
-    if len(counts) != 1 or not held:
-        raise file.error(f"damaged: {where} has no instances, or unequal numbers of their parts")
-    if not all(np.isfinite(values).all() for values in held.values()):
-        raise file.error(f"damaged: {where} has instances that are nowhere")
-    count = len(next(iter(held.values())))
-    rotations = held.get("ROTATION", np.tile((0.0, 0.0, 0.0, 1.0), (count, 1)))
-    poses = poses_of(
-        held.get("TRANSLATION", np.zeros((count, 3))),
-        rotations,
-        held.get("SCALE", np.ones((count, 3))),
-    )
-    return {"instances": poses, "instance_colors": colors}
-
-
-def _colors(accessors: GltfAccessors, attributes: dict, where: str) -> np.ndarray | None:
+def _colors(
+    accessors: GltfAccessors, attributes: dict, where: str, count: int
+) -> np.ndarray | None:
     """(N, 4) float32, linear, as three.js and others read the attribute; None if there are none."""
     if _COLORS not in attributes:
         return None
     colors = np.nan_to_num(accessors.floats(attributes[_COLORS], where, 3, 4)).clip(0, 1)
+    if len(colors) != count:
+        raise accessors.file.damaged(f"{len(colors)} colours for {count} instances")
     opaque = np.ones((len(colors), 4 - colors.shape[1]), np.float32)
     return np.concatenate([colors, opaque], axis=1)
 

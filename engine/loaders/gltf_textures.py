@@ -17,17 +17,22 @@ from ..errors import Engine3DError
 from ..materials.textures import PlacedTexture, Texture
 from . import gltf_basisu
 from .gltf_buffers import GltfBuffers
-from .gltf_file import GltfFile
+from .gltf_file import GltfFile, whole_of
 from .images import read_image
 from .registry import find_reader
 from .sources import Source
-from .warning_list import WarningList
 
 TRANSFORM, _WEBP = "KHR_texture_transform", "EXT_texture_webp"
 #: The extensions that are read here.
 READ = (TRANSFORM, _WEBP, *gltf_basisu.READ)
 _WRAPS = {33071: "clamp", 33648: "mirror", 10497: "repeat"}
 _NEAREST, _LINEAR = 9728, 9729
+_SAMPLING = {
+    "magFilter": (_NEAREST, _LINEAR),
+    "minFilter": (_NEAREST, _LINEAR, 9984, 9985, 9986, 9987),
+    "wrapS": tuple(_WRAPS),
+    "wrapT": tuple(_WRAPS),
+}
 _MOST_THREADS = 4
 # What images begin with: PNG, JPEG, WebP.
 _USUAL = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"RIFF")
@@ -40,11 +45,10 @@ class GltfTextures:
     ----------
     file : GltfFile
     buffers : GltfBuffers
-    warnings : WarningList
     """
 
-    def __init__(self, file: GltfFile, buffers: GltfBuffers, warnings: WarningList) -> None:
-        self._file, self._buffers, self._warnings = file, buffers, warnings
+    def __init__(self, file: GltfFile, buffers: GltfBuffers) -> None:
+        self._file, self._buffers = file, buffers
         self._images: dict[int, Texture | None] = {}
         self._textures: dict[tuple, Texture] = {}
         self._sources: dict[int, int | None] = {}
@@ -59,13 +63,13 @@ class GltfTextures:
             results = side_by_side(self._decoded, images, _threads(images))
         for image, result in zip(images, results, strict=True):
             if isinstance(result, str):
-                self._warnings.add(f"images[{image}] is left out: {result}")
+                self._file.warnings.add(f"images[{image}] is left out: {result}")
             self._images[image] = None if isinstance(result, str) else result
 
     def get(self, info: dict, where: str) -> Texture | None:
         """Return the texture that a material's ``info`` names; None if its image is left out."""
-        index = info.get("index")
-        entry = self._file.entry("textures", index, where)
+        index = self._file.number_in("textures", info.get("index"), where)
+        entry = self._file.entries("textures")[index]
         self.decode({index})
         image = self._image_of(index)
         held = None if image is None else self._images[image]
@@ -92,25 +96,32 @@ class GltfTextures:
         texture = self.get(info, where)
         if texture is None:
             return None
-        transform = self._transform(info, where)
         uv_set = self.uv_set(info, where)
-        place = {
-            "uv_set": uv_sets.index(uv_set) if uv_set in uv_sets else 0,
+        place = self._file.sound(f"{where}.{TRANSFORM}", self._place, info, where) or {}
+        place["uv_set"] = uv_sets.index(uv_set) if uv_set in uv_sets else 0
+        found = PlacedTexture(texture, **place)
+        return found if found.uv_set or found.is_moved else texture
+
+    def _place(self, info: dict, where: str) -> dict:
+        """How the coordinates are moved."""
+        transform = self._transform(info, where)
+        return {
             "offset": self._file.numbers(transform, "offset", where, (0.0, 0.0)),
             "rotation": self._file.number(transform, "rotation", where, 0.0),
             "scale": self._file.numbers(transform, "scale", where, (1.0, 1.0)),
         }
-        found = PlacedTexture(texture, **place)
-        return found if found.uv_set or found.is_moved else texture
 
     def uv_set(self, info: dict, where: str) -> int:
-        """Return the set of texture coordinates that ``info`` names."""
+        """Return the set of texture coordinates that ``info`` names; 0 if that is no number."""
+        return self._file.sound(f"{where}.texCoord", self._uv_set, info, where) or 0
+
+    def _uv_set(self, info: dict, where: str) -> int:
         default = self._file.whole(info, "texCoord", where, 0)
         return self._file.whole(self._transform(info, where), "texCoord", where, default)
 
     def _transform(self, info: dict, where: str) -> dict:
-        extensions = self._file.part(info, "extensions", where)
-        return self._file.part(extensions, TRANSFORM, where)
+        extensions = self._file.spare_part(info, "extensions", where)
+        return self._file.spare_part(extensions, TRANSFORM, where)
 
     def _image_of(self, index: int) -> int | None:
         """The image of a texture; told once if it has none."""
@@ -118,17 +129,17 @@ class GltfTextures:
             return self._sources[index]
         file, where = self._file, f"textures[{index}]"
         entry = file.entry("textures", index, where)
-        extensions = file.part(entry, "extensions", where)
-        candidates = [file.part(extensions, _WEBP, where).get("source"), entry.get("source")]
+        extensions = file.spare_part(entry, "extensions", where)
+        candidates = [file.spare_part(extensions, _WEBP, where).get("source"), entry.get("source")]
         place = 0 if gltf_basisu.is_installed() else len(candidates)
         for name in gltf_basisu.READ:
-            candidates.insert(place, file.part(extensions, name, where).get("source"))
+            candidates.insert(place, file.spare_part(extensions, name, where).get("source"))
         image = next((source for source in candidates if source is not None), None)
         if image is None:
             others = " that is read" if extensions else ""
-            self._warnings.add(f"{where} has no image{others}: left out")
+            file.warnings.add(f"{where} has no image{others}: left out")
         else:
-            file.entry("images", image, where)
+            image = file.sound(where, file.number_in, "images", image, where)
         self._sources[index] = image
         return image
 
@@ -136,7 +147,14 @@ class GltfTextures:
         """The wraps along both sides, and the filter."""
         sampler = {}
         if "sampler" in entry:
-            sampler = self._file.entry("samplers", entry["sampler"], where)
+            place = f"{where}.sampler"
+            found = self._file.sound(place, self._file.entry, "samplers", entry["sampler"], where)
+            sampler = found or {}
+        for key, known in _SAMPLING.items():
+            if key in sampler and whole_of(sampler[key]) not in known:
+                self._file.warnings.add_once(
+                    f"{where} is sampled by no {key} that is known: as by default"
+                )
         wrap = _wrap(sampler.get("wrapS")), _wrap(sampler.get("wrapT"))
         if sampler.get("magFilter") == _NEAREST:
             return wrap, "nearest"
@@ -187,4 +205,5 @@ def _threads(images: list) -> int:
 
 
 def _wrap(value) -> str:
+    value = whole_of(value)
     return _WRAPS.get(value, "repeat") if type(value) is int else "repeat"

@@ -26,6 +26,8 @@ from .text import shown
 from .warning_list import WarningList
 
 _MAX_NAME = 4096
+# Taking the escapes of a longer name apart would take many times its memory.
+_MAX_SPELT = 3 * _MAX_NAME
 # A file that looks in vain for more places than this only wants to keep the disk busy.
 _MAX_FAILURES = 16_000
 
@@ -120,6 +122,8 @@ class LinkedFiles:
         ------
         LinkedFileError
         """
+        if len(name) > _MAX_SPELT:
+            raise LinkedFileError("not a file name")
         places = self._places_from(folder)
         path = self._first_found(spellings(name), places)
         tell_found([path])
@@ -145,6 +149,8 @@ class LinkedFiles:
             return self.find(name, folder), ""
         except LinkedFileError as error:
             reason = error
+        if len(name) > _MAX_SPELT:
+            raise reason
         try:
             path = self._first_found(ends(name), self._places_from(folder))
         except LinkedFileError:

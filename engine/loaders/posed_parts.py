@@ -20,6 +20,9 @@ from .text import shown
 # A file's meshes may hold so many numbers, and its nodes may repeat so many vertices, and besides
 # as many as it has bytes. Assign another value to change it.
 MAX_REPEATED = 1 << 20
+# So far the last row of a pose is from 0 0 0 1 where float32 has rounded it.
+_ROUNDING = 1e-5
+_LAST_ROW = (0.0, 0.0, 0.0, 1.0)
 
 
 class PosedPart(NamedTuple):
@@ -56,8 +59,9 @@ def document_objects(
     FileFormatError
         A pose is not affine, there are too many vertices or none.
     """
+    parts = [part._replace(pose=without_rounding(part.pose)) for part in parts]
     for part in parts:
-        if not (np.isfinite(part.pose).all() and np.array_equal(part.pose[3], (0, 0, 0, 1))):
+        if not (np.isfinite(part.pose).all() and np.array_equal(part.pose[3], _LAST_ROW)):
             raise FileFormatError(f"node {shown(part.name)} has no affine pose", source.path)
     vertices = sum(len(part.mesh.positions) for part in parts)
     if not vertices:
@@ -71,6 +75,13 @@ def document_objects(
     if split:
         return [DocumentObject(*part) for part in parts]
     return [DocumentObject(part.name, posed_mesh(part.mesh, part.pose)) for part in parts]
+
+
+def without_rounding(pose: np.ndarray) -> np.ndarray:
+    """Return a (4, 4) pose with the last row of an affine one, if it has it but for rounding."""
+    if pose[3].tolist() == [*_LAST_ROW] or not np.abs(pose[3] - _LAST_ROW).max() <= _ROUNDING:
+        return pose
+    return np.vstack([pose[:3], _LAST_ROW])
 
 
 def counts_of(objects: list[DocumentObject]) -> dict:

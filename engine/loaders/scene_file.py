@@ -7,7 +7,6 @@ the document are what shows, with the nodes' poses. docs/formats.md has the form
 
 from __future__ import annotations
 
-import copy
 import math
 import os
 import re
@@ -299,10 +298,7 @@ class _Reading:
 
     def _repeated(self, mesh: Mesh) -> Mesh:
         """A primitive that is like another one, with arrays that both share."""
-        twin = copy.copy(mesh)
-        twin.materials = [copy.copy(material) for material in self._materials_of[mesh]]
-        twin._origin = mesh._origin
-        return twin
+        return mesh._twin([material._twin() for material in self._materials_of[mesh]], mesh.name)
 
     def _mesh_of_file(self, entry: JsonValue) -> Mesh:
         """A mesh of a file, or an empty one that keeps its place, with a warning."""
@@ -345,17 +341,15 @@ class _Reading:
 
     def _twin(self, mesh: Mesh, times: int) -> Mesh:
         """A mesh that is used once more: parts of a file share materials only if all are new."""
-        twin = copy.copy(mesh)
-        twin.materials = [self._material_copy(m, times) for m in self._materials_of[mesh]]
-        twin._origin = mesh._origin
-        return twin
+        materials = [self._material_copy(m, times) for m in self._materials_of[mesh]]
+        return mesh._twin(materials, mesh.name)
 
     def _material_copy(self, material: Material, times: int) -> Material:
         key = id(material), times
         if key not in self._copies:
             if len(self._copies) >= _MAX_COPIES:
                 raise FileFormatError(f"more than {_MAX_COPIES} materials of repeated files")
-            self._copies[key] = copy.copy(material)
+            self._copies[key] = material._twin()
         return self._copies[key]
 
     def _read(

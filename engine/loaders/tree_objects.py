@@ -6,11 +6,8 @@ may repeat a mesh, so that joined they are limited.
 
 from __future__ import annotations
 
-import numpy as np
-
 from ..errors import FileFormatError
 from .documents import DocumentObject, TreeRecord
-from .gltf_file import GltfFile
 from .posed_parts import PosedPart, counts_of, document_objects
 from .sources import Source
 from .tree_posing import RestPose
@@ -42,7 +39,7 @@ def tree_objects(
     rest = RestPose(tree)
     shown = [node for node in rest.nodes if node.visible]
     drawn = [node for node in shown if tree.nodes[node.index].mesh is not None]
-    if len(drawn) > _MAX_OBJECTS:
+    if sum(len(tree.meshes[tree.nodes[n.index].mesh].parts) for n in drawn) > _MAX_OBJECTS:
         raise FileFormatError(f"more than {_MAX_OBJECTS} objects", source.path)
     if not split:
         _check_vertices(source, tree, drawn, most_vertices)
@@ -82,30 +79,6 @@ def _check_vertices(source: Source, tree: TreeRecord, drawn: list, most: int) ->
             f"{most}; load_scene keeps the meshes apart",
             source.path,
         )
-
-
-def check_skins(file: GltfFile, tree: TreeRecord) -> None:
-    """Raise unless the joints of each skinned mesh are there.
-
-    Raises
-    ------
-    FileFormatError
-    """
-    checked = set()
-    for index, node in enumerate(tree.nodes):
-        if node.mesh is None or node.skin is None or (node.mesh, node.skin) in checked:
-            continue
-        checked.add((node.mesh, node.skin))
-        count = len(tree.skins[node.skin].joints)
-        for part in tree.meshes[node.mesh].parts:
-            if part.mesh.joints is None:
-                continue
-            moving = np.where(part.mesh.weights > 0, part.mesh.joints, 0)
-            highest = int(moving.max(initial=0))
-            if highest >= count:
-                raise file.error(
-                    f"damaged: nodes[{index}] has a mesh of joint {highest}, its skin {count}"
-                )
 
 
 def tree_counts(tree: TreeRecord, objects: list[DocumentObject]) -> dict:

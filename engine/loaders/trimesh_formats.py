@@ -59,7 +59,11 @@ def read_with_trimesh(source: Source, split: bool = False) -> Document:
             source.path,
         )
     is_packed = source.head(len(ZIP)) == ZIP
-    size = ZipArchive(source).unpacked_size if is_packed else source.size
+    size = source.size
+    if is_packed:
+        archive = ZipArchive(source)
+        archive.check_packings()
+        size = archive.unpacked_size
     return in_limited_process(read_here, source, split, size=size)
 
 

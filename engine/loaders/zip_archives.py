@@ -21,6 +21,8 @@ from .text import shown
 ZIP = b"PK"
 _PIECE = 1 << 16
 _MOST_SAID = 100
+# Ways to pack that packages do not allow; messages name them.
+_PACKINGS = {9: "Deflate64", 12: "BZIP2", 14: "LZMA", 93: "Zstandard", 95: "XZ"}
 # What the library raises of damaged or unusual archives: the last two of encrypted ones and others.
 _FAULTS = (
     zipfile.BadZipFile,
@@ -89,6 +91,7 @@ class ZipArchive:
         entry = self._parts.get(_key(name))
         if entry is None:
             raise FileFormatError(f"{shown(name)} is not in the archive", self._path)
+        self._check_packing(entry)
         try:
             with self._zip.open(entry) as file:
                 while piece := file.read(_PIECE):
@@ -97,6 +100,18 @@ class ZipArchive:
             raise FileFormatError(
                 f"{shown(name)} is damaged: {_said(error)}", self._path
             ) from error
+
+    def check_packings(self) -> None:
+        """Raise unless all parts are packed in ways that are known."""
+        for entry in self._parts.values():
+            self._check_packing(entry)
+
+    def _check_packing(self, entry: zipfile.ZipInfo) -> None:
+        if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+            name = _PACKINGS.get(entry.compress_type, f"method {entry.compress_type}")
+            raise FileFormatError(
+                f"{shown(entry.filename)} is packed by {name}; only Deflate is read", self._path
+            )
 
     def read(self, name: str) -> bytes:
         """Return the bytes of a part; raises as `pieces`."""

@@ -1,6 +1,7 @@
-"""The parts of a scene's nodes that clips move: a row for each, path by path.
+"""The parts of a scene's nodes that clips move, and other properties: a row for each.
 
-In: clips; then rows of values. Out: nodes that are there. Where they were at first is remembered.
+In: clips; then rows of values. Out: nodes that are there, properties that are so. What they were at
+first is remembered.
 """
 
 from __future__ import annotations
@@ -11,10 +12,20 @@ import numpy as np
 
 from ..scene.nodes import Node
 from ..scene.scene import Scene
-from .clips import PATHS, AnimationClip
+from .clips import PATHS, AnimationClip, Channel
+from .properties import Property, PropertyChannel
 
-#: Values by path: (rows, N) float64; of weights a list of (T,) arrays.
+#: Of what is no part of a node's pose, the path; the rows are the properties.
+PROPERTIES = "properties"
+#: Values by path: (rows, N) float64; of weights and properties a list of (T,) arrays.
 Values = dict
+
+
+def row_of(channel: Channel | PropertyChannel) -> tuple[str, Node | Property]:
+    """Return the path whose rows a channel is of, and what its row is of."""
+    if isinstance(channel, PropertyChannel):
+        return PROPERTIES, Property(channel.target, channel.path)
+    return channel.path, channel.node
 
 
 class AnimatedParts:
@@ -22,19 +33,21 @@ class AnimatedParts:
 
     Attributes
     ----------
-    rows : dict of str to dict of Node to int
-        The row of each node, by path.
+    rows : dict of str to dict of Node or Property to int
+        The row of each, by path.
     rest : dict
         The values that the nodes had when this was made.
     """
 
     def __init__(self, scene: Scene, clips: Iterable[AnimationClip]) -> None:
-        self.rows: dict[str, dict[Node, int]] = {path: {} for path in PATHS}
+        self.rows: dict[str, dict] = {path: {} for path in (*PATHS, PROPERTIES)}
         for clip in clips:
             for channel in clip.channels:
-                rows = self.rows[channel.path]
-                rows.setdefault(channel.node, len(rows))
+                path, moved = row_of(channel)
+                self.rows[path].setdefault(moved, len(self.rows[path]))
         self.rest: Values = {path: _values_of(scene, path, self.rows[path]) for path in PATHS}
+        self.rest[PROPERTIES] = [held.numbers() for held in self.rows[PROPERTIES]]
+        self._held = [held.held() for held in self.rows[PROPERTIES]]
         self._slots: tuple | None = None
 
     def none(self) -> dict[str, np.ndarray]:
@@ -62,6 +75,16 @@ class AnimatedParts:
                 if len(weights) == len(getattr(node.object, "morph_targets", ())):
                     node.morph_weights = weights
 
+        for number, held in enumerate(self.rows[PROPERTIES]):
+            is_gone = isinstance(held.target, Node) and held.target._scene is not scene
+            if not masks[PROPERTIES][number] or is_gone:
+                continue
+            numbers = values[PROPERTIES][number]
+            if numbers is self.rest[PROPERTIES][number]:
+                held.restore(self._held[number])
+            else:
+                held.put(numbers)
+
     def _slots_in(self, scene: Scene) -> dict[str, np.ndarray]:
         """The slots of all rows, -1 for nodes that were removed."""
         state = scene._arrays, scene._removals
@@ -69,6 +92,7 @@ class AnimatedParts:
             slots = {
                 path: np.array([n._slot if n._scene is scene else -1 for n in rows], np.int32)
                 for path, rows in self.rows.items()
+                if path != PROPERTIES
             }
             self._slots = state, slots
         return self._slots[1]

@@ -1,21 +1,26 @@
 """Clips: how nodes of a scene change in time.
 
-In: keys, each a time and a value, of parts of nodes. Out: the same, checked and read-only.
+In: keys, each a time and a value, of parts of nodes. Out: the same, checked and read-only. Clips
+hold channels of other properties (`properties.py`) as well.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import get_args
+from typing import TYPE_CHECKING, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .._native.loaders import is_frozen
 from .._support.numbers import floats
 from .._support.validation import Closed, choose
 from ..choices import Interpolation, MotionPath
 from ..errors import InvalidArgumentError
 from ..scene.nodes import Node
+
+if TYPE_CHECKING:
+    from .properties import PropertyChannel
 
 PATHS = get_args(MotionPath)
 INTERPOLATIONS = get_args(Interpolation)
@@ -94,8 +99,8 @@ class AnimationClip(Closed):
 
     Parameters
     ----------
-    channels : iterable of Channel
-        Of nodes of one scene.
+    channels : iterable of Channel and PropertyChannel
+        Of nodes of one scene, and of what they hold.
     name : str
 
     Raises
@@ -104,19 +109,21 @@ class AnimationClip(Closed):
         One is no channel.
     """
 
-    def __init__(self, channels: Iterable[Channel], name: str = "") -> None:
+    def __init__(self, channels: Iterable[Channel | PropertyChannel], name: str = "") -> None:
+        from .properties import PropertyChannel
+
         if not isinstance(channels, Iterable):
             raise InvalidArgumentError(f"channels must be several Channel, not {channels!r}")
         self._channels = tuple(channels)
         for channel in self._channels:
-            if not isinstance(channel, Channel):
+            if not isinstance(channel, (Channel, PropertyChannel)):
                 kind = type(channel).__name__
                 raise InvalidArgumentError(f"channels must be several Channel, not {kind}")
         self._name = str(name)
         self._duration = max((float(c.times[-1]) for c in self._channels), default=0.0)
 
     @property
-    def channels(self) -> tuple[Channel, ...]:
+    def channels(self) -> tuple[Channel | PropertyChannel, ...]:
         return self._channels
 
     @property
@@ -137,17 +144,26 @@ class AnimationClip(Closed):
 
 def check_times(value) -> np.ndarray:
     """Check times of keys: (K,) float64, increasing, at least one."""
-    times = floats(value, "times")
+    times = frozen_or_copied(value, "times")
     if times.ndim != 1 or not len(times):
         raise InvalidArgumentError(f"times must be (K,), at least one, not {times.shape}")
     if not np.isfinite(times).all() or not (np.diff(times) > 0).all():
         raise InvalidArgumentError("times must be finite and increase")
-    times.setflags(write=False)
     return times
 
 
+def frozen_or_copied(value, what: str) -> np.ndarray:
+    """Return numbers as a read-only float64 array: the given one, if nobody can write to it."""
+    is_kept = isinstance(value, np.ndarray) and value.dtype == np.float64 and is_frozen(value)
+    if is_kept and value.flags.c_contiguous:
+        return value
+    array = floats(value, what)
+    array.setflags(write=False)
+    return array
+
+
 def _check_values(value, path: str, interpolation: str, count: int) -> np.ndarray:
-    values = floats(value, "values")
+    values = frozen_or_copied(value, "values")
     middle = (3,) if interpolation == "cubicspline" else ()
     width = _WIDTHS.get(path, values.shape[-1] if values.ndim else 0)
     if values.shape != (count, *middle, width):
@@ -161,5 +177,4 @@ def _check_values(value, path: str, interpolation: str, count: int) -> np.ndarra
             squares = (keys * keys).sum(axis=1)
         if not ((squares > 0.0) & (squares < np.inf)).all():
             raise InvalidArgumentError("rotations must not be zero quaternions, nor overflow")
-    values.setflags(write=False)
     return values

@@ -12,6 +12,7 @@ import numpy as np
 
 from .clips import Channel
 from .interpolation import spline, straight, turns, unit
+from .properties import PropertyChannel
 
 
 class KeyframeTable:
@@ -20,22 +21,26 @@ class KeyframeTable:
     Attributes
     ----------
     path : str
-    channels : tuple of Channel
+    channels : tuple of Channel or PropertyChannel
     """
 
-    def __init__(self, channels: Sequence[Channel]) -> None:
+    def __init__(self, channels: Sequence[Channel | PropertyChannel]) -> None:
         self.channels = tuple(channels)
         first = channels[0]
         self.path, self._interpolation = first.path, first.interpolation
-        counts = np.array([len(channel.times) for channel in channels])
+        # Channels that have the same keys share them.
+        keys = {(id(c.times), id(c.values)): c for c in channels}
+        counts = np.array([len(channel.times) for channel in keys.values()])
         ends = np.cumsum(counts)
-        self._times = np.concatenate([channel.times for channel in channels])
-        values = np.concatenate([channel.values for channel in channels])
-        self._first, self._last = ends - counts, ends - 1
+        self._times = np.concatenate([channel.times for channel in keys.values()])
+        values = np.concatenate([channel.values for channel in keys.values()])
+        row_of = {key: row for row, key in enumerate(keys)}
+        rows = np.array([row_of[id(channel.times), id(channel.values)] for channel in channels])
+        self._first, self._last = (ends - counts)[rows], (ends - 1)[rows]
         self._at = self._first.copy()
         self._turns = None
         if first.path == "rotation" and first.interpolation == "linear":
-            after = np.minimum(np.arange(len(values)) + 1, np.repeat(self._last, counts))
+            after = np.minimum(np.arange(len(values)) + 1, np.repeat(ends - 1, counts))
             self._turns = turns(values, values[after])
         self._values = values
 
@@ -78,9 +83,9 @@ class KeyframeTable:
         return low
 
 
-def tables_of(channels: Sequence[Channel]) -> list[KeyframeTable]:
+def tables_of(channels: Sequence[Channel | PropertyChannel]) -> list[KeyframeTable]:
     """Return the channels in tables of one kind each."""
-    kinds: dict[tuple, list[Channel]] = {}
+    kinds: dict[tuple, list[Channel | PropertyChannel]] = {}
     for channel in channels:
         kind = channel.path, channel.interpolation, channel.values.shape[-1]
         kinds.setdefault(kind, []).append(channel)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..choices import Loop
-from .animated_parts import AnimatedParts, Values
+from .animated_parts import PROPERTIES, AnimatedParts, Values, row_of
 from .clips import AnimationClip
 from .interpolation import straight, turns
 from .keyframes import tables_of
@@ -37,19 +37,21 @@ class Layer:
     ) -> None:
         self.clips, self.fade, self.since = clips, fade, 0.0
         self._parts = parts
-        last = {(c.node, c.path): (k, c) for k, clip in enumerate(clips) for c in clip.channels}
+        last = {row_of(c): (k, c) for k, clip in enumerate(clips) for c in clip.channels}
         number_of = {id(channel): number for number, channel in last.values()}
         self._tables = tables_of([channel for _, channel in last.values()])
-        self._rows, self._durations, self._offsets = [], [], []
+        self._rows, self._durations, self._offsets, self._paths = [], [], [], []
         self.masks = parts.none()
         durations = np.array([clip.duration for clip in clips])
         for table in self._tables:
-            rows = np.array([parts.rows[table.path][c.node] for c in table.channels])
+            path = row_of(table.channels[0])[0]
+            rows = np.array([parts.rows[path][row_of(c)[1]] for c in table.channels])
             numbers = [number_of[id(channel)] for channel in table.channels]
             self._rows.append(rows)
             self._durations.append(durations[numbers])
             self._offsets.append(offsets[numbers])
-            self.masks[table.path][rows] = True
+            self._paths.append(path)
+            self.masks[path][rows] = True
 
     def values(self, time: float, loop: Loop) -> Values:
         """Return the values of all rows at a time since the newest layer began."""
@@ -58,11 +60,17 @@ class Layer:
         for k, table in enumerate(self._tables):
             moments = looped(time + self._offsets[k], self._durations[k], loop)
             sampled = table.sample(moments)
-            if table.path == "weights":
-                for row, weights in zip(self._rows[k].tolist(), sampled, strict=True):
+            path, rows = self._paths[k], self._rows[k]
+            if path == "weights":
+                for row, weights in zip(rows.tolist(), sampled, strict=True):
                     values["weights"][row] = weights
+            elif path == PROPERTIES:
+                for channel, row, numbers in zip(
+                    table.channels, rows.tolist(), sampled, strict=True
+                ):
+                    values[PROPERTIES][row] = channel.within(numbers)
             else:
-                values[table.path][self._rows[k]] = sampled
+                values[path][rows] = sampled
         return values
 
     def share(self, time: float) -> float:
@@ -101,6 +109,7 @@ def _between(some: Values, others: Values, share: float) -> Values:
     values = {path: straight(some[path], others[path], s) for path, s in shares.items()}
     ways = turns(some["rotation"], others["rotation"])
     values["rotation"] = ways.at(np.full(len(some["rotation"]), share))
-    pairs = zip(some["weights"], others["weights"], strict=True)
-    values["weights"] = [a * (1.0 - share) + b * share for a, b in pairs]
+    for path in ("weights", PROPERTIES):
+        pairs = zip(some[path], others[path], strict=True)
+        values[path] = [a * (1.0 - share) + b * share for a, b in pairs]
     return values

@@ -1,8 +1,8 @@
 """What plays clips: it moves the nodes of a scene to where clips have them at a time.
 
-In: clips, and the time. Out: translations, rotations, scales and morph weights of nodes. Where
-nodes are depends on the clips that play and their times alone, never on the frames before, with the
-same bits on every machine. All channels are found together.
+In: clips, and the time. Out: translations, rotations, scales and morph weights of nodes, and other
+properties. What they are depends on the clips that play and their times alone, never on the frames
+before, with the same bits on every machine. All channels are found together.
 """
 
 from __future__ import annotations
@@ -16,10 +16,12 @@ from .._support.numbers import real
 from .._support.validation import Closed, choose, finite, not_negative
 from ..choices import Loop
 from ..errors import InvalidArgumentError
+from ..scene.nodes import Node
 from ..scene.scene import Scene
 from .animated_parts import AnimatedParts
 from .clips import AnimationClip
 from .layers import Layer, mixed
+from .properties import PropertyChannel
 
 LOOPS = get_args(Loop)
 
@@ -203,7 +205,8 @@ def _check_clips(value, scene: Scene) -> tuple[AnimationClip, ...]:
         if not isinstance(clip, AnimationClip):
             kind = type(clip).__name__
             raise InvalidArgumentError(f"clips must be several AnimationClip, not {kind}")
-        scene.select({channel.node: None for channel in clip.channels})
+        moved = (c.target if isinstance(c, PropertyChannel) else c.node for c in clip.channels)
+        scene.select({node: None for node in moved if isinstance(node, Node)})
     return clips
 
 

@@ -8,13 +8,23 @@ no place in a scene is warned of.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 from weakref import WeakKeyDictionary
 
+import numpy as np
+
 from .._support.numbers import shown
+from .._support.validation import freeze
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
-from ..loaders.documents import ClipRecord, LampRecord, LensRecord, NodeRecord, TreeRecord
+from ..loaders.documents import (
+    ClipRecord,
+    LampRecord,
+    LensRecord,
+    NodeRecord,
+    PropertyRecord,
+    TreeRecord,
+)
 from ..loaders.tree_posing import shown_nodes
 from ..materials.material import Material
 from .cameras import Camera, OrthographicCamera, PerspectiveCamera
@@ -23,8 +33,14 @@ from .lights import DirectionalLight, Light, PointLight, SpotLight
 from .nodes import Node
 from .scene import Scene
 
+if TYPE_CHECKING:
+    from ..motion.clips import Channel
+    from ..motion.properties import PropertyChannel
+
 #: What a file says of what a scene holds, for whoever writes it again: the record of each thing.
 records: WeakKeyDictionary = WeakKeyDictionary()
+#: Pairs of properties of which the first must be less.
+_APART = (("znear", "zfar"), ("inner_cone_angle", "outer_cone_angle"))
 #: Stands there for a node that holds what the one above it could not hold besides.
 FURTHER_PART = object()
 
@@ -82,6 +98,7 @@ class _Filling:
         self._objects: dict[tuple, object] = {}
         self._nodes: dict[int, Node] = {}  # by their numbers in the tree
         self._parts: dict[int, list[Node]] = {}  # the nodes that show parts of their meshes
+        self._keys: dict[int, tuple[np.ndarray, np.ndarray]] = {}  # by the ids of the first
 
     def fill(self) -> None:
         """Add everything."""
@@ -185,17 +202,21 @@ class _Filling:
     def _add_clip(self, record: ClipRecord, number: int) -> None:
         from ..motion.clips import AnimationClip, Channel
 
-        channels, missing = [], 0
+        channels: list[Channel | PropertyChannel] = []
+        missing = 0
         for channel in record.channels:
             node = self._nodes.get(channel.node)
             moved = [] if node is None else [node]
             if channel.path == "weights":
                 moved = self._parts.get(channel.node, []) if node is not None else []
             missing += not moved
+            times, values = self._shared(channel.times), self._shared(channel.values)
             channels += [
-                Channel(each, channel.path, channel.times, channel.values, channel.interpolation)
-                for each in moved
+                Channel(each, channel.path, times, values, channel.interpolation) for each in moved
             ]
+        made = [self._property_channels(each, record.name) for each in record.properties]
+        missing += sum(not each for each in made)
+        channels += self._without_crossing([one for each in made for one in each], record.name)
         if missing:
             self._scene.warnings.append(
                 f"animation {record.name!r}: {missing} of its channels move nothing that is shown"
@@ -203,6 +224,54 @@ class _Filling:
         clip = AnimationClip(channels, record.name)
         records[clip] = record
         self._scene.animations[_free(record.name or f"animation_{number}", self._scene)] = clip
+
+    def _shared(self, array: np.ndarray) -> np.ndarray:
+        """The float64 numbers that channels hold of an array, the same for all that name it."""
+        key = id(array)
+        if key not in self._keys:
+            self._keys[key] = array, freeze(array.astype(np.float64))
+        return self._keys[key][1]
+
+    def _property_channels(self, record: PropertyRecord, clip: str) -> list[PropertyChannel]:
+        """The channels of what a record means: several where a scene has several things for it."""
+        targets: list[Any] = []
+        if record.kind == "node":
+            node = self._nodes.get(record.number)
+            parts = self._parts.get(record.number, []) if record.path != "visible" else [node]
+            targets = [] if node is None else parts
+        elif record.kind == "material":
+            targets = list(self._tree.made_materials.get(record.number, ()))
+        else:
+            thing = self._objects.get((record.kind, record.number))
+            targets = [] if thing is None else [thing]
+        made = (self._property_channel(target, record, clip) for target in targets)
+        return [channel for channel in made if channel is not None]
+
+    def _property_channel(self, target, record: PropertyRecord, clip: str):
+        """A channel of one thing; None, which is told, if that has no such property."""
+        from ..motion.properties import PropertyChannel
+
+        try:
+            times, values = self._shared(record.times), self._shared(record.values)
+            return PropertyChannel(target, record.path, times, values, record.interpolation)
+        except InvalidArgumentError as error:
+            what = f"{record.path} of {record.kind} {record.number}"
+            self._scene.warnings.append(f"animation {clip!r}: {what} stays: {error}")
+            return None
+
+    def _without_crossing(self, channels: list[PropertyChannel], clip: str) -> list:
+        """The channels without those by which a near plane would pass the far one, and such."""
+        crossing = set()
+        for low, high in _APART:
+            ends = {(c.target, c.path): c.reach for c in channels if c.path in (low, high)}
+            for target in {target for target, _ in ends}:
+                lows = ends.get((target, low), (getattr(target, low),) * 2)
+                highs = ends.get((target, high), (getattr(target, high),) * 2)
+                if not lows[1] < highs[0]:
+                    crossing |= {(target, low), (target, high)}
+                    told = f"animation {clip!r}: {low} would be beyond {high}: both stay"
+                    self._scene.warnings.append(told)
+        return [c for c in channels if (c.target, c.path) not in crossing]
 
 
 def _free(name: str, scene: Scene) -> str:

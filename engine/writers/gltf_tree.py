@@ -13,10 +13,12 @@ import numpy as np
 from ..loaders.documents import ClipRecord, LampRecord, LensRecord, NodeRecord, TreeRecord
 from ..loaders.gltf_file import LIGHTS
 from ..loaders.gltf_nodes import INSTANCING, VISIBILITY
+from ..loaders.gltf_pointers import POINTER
 from .gltf_arrays import GltfArrays
 from .gltf_instances import are_sheared, parts_of_poses
 from .gltf_materials import GltfMaterialList
 from .gltf_meshes import GltfMeshList
+from .gltf_pointers import GltfPointers
 
 _VARIANTS = "KHR_materials_variants"
 # The parts of an instance's pose.
@@ -48,6 +50,7 @@ class GltfTree:
             materials.number(material)
         for mesh in tree.meshes:
             meshes.add(mesh)
+        self._pointers = GltfPointers(tree, materials)
         lists = {
             "nodes": [self._node(node) for node in tree.nodes],
             "meshes": meshes.meshes,
@@ -71,6 +74,7 @@ class GltfTree:
         ]
         self._extensions |= materials.extensions
         self.json = self._with_extensions(tree, lists, materials.required)
+        self.told += self._pointers.define(self.json)
 
     def _with_extensions(self, tree: TreeRecord, lists: dict, required: set[str]) -> dict[str, Any]:
         extensions: dict[str, Any] = {}
@@ -78,6 +82,8 @@ class GltfTree:
             extensions[LIGHTS] = {"lights": [_light(light) for light in tree.lights]}
         if tree.variants:
             extensions[_VARIANTS] = {"variants": [{"name": name} for name in tree.variants]}
+        if any(clip.properties for clip in tree.clips):
+            self._extensions |= {POINTER, *self._pointers.extensions}
         used = sorted(self._extensions | extensions.keys())
         return {
             "asset": {"version": "2.0", "generator": "engine3d"},
@@ -139,7 +145,12 @@ class GltfTree:
         samplers: list[dict[str, Any]] = []
         channels = []
         times: dict[bytes, int] = {}
-        for channel in clip.channels:
+        targets = [{"node": c.node, "path": c.path} for c in clip.channels]
+        moved: list[Any] = list(clip.channels)
+        for held, target in self._pointers.targets(clip):
+            moved.append(held)
+            targets.append(target)
+        for channel, target in zip(moved, targets, strict=True):
             content = np.asarray(channel.times, np.float32)
             key = content.tobytes()
             if key not in times:
@@ -148,11 +159,13 @@ class GltfTree:
                 accessor["min"], accessor["max"] = [float(content[0])], [float(content[-1])]
             values = np.asarray(channel.values, np.float32)
             width = values.shape[-1]
-            rows = values.reshape(-1) if channel.path == "weights" else values.reshape(-1, width)
+            if channel.path == "visible":
+                values = (values >= 0.5).astype(np.uint8)
+            is_flat = channel.path == "weights" or width == 1
+            rows = values.reshape(-1) if is_flat else values.reshape(-1, width)
             sampler = {"input": times[key], "output": self.arrays.add(rows)}
             if channel.interpolation != "linear":
                 sampler["interpolation"] = channel.interpolation.upper()
-            target = {"node": channel.node, "path": channel.path}
             channels.append({"sampler": len(samplers), "target": target})
             samplers.append(sampler)
         entry: dict[str, Any] = {"name": clip.name} if clip.name else {}

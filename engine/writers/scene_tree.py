@@ -22,12 +22,14 @@ from ..loaders.documents import (
     LensRecord,
     MeshRecord,
     NodeRecord,
+    PropertyRecord,
     SkinRecord,
     TreeRecord,
 )
 from ..loaders.tree_posing import local_pose
 from ..materials.colors import linear_color
 from ..materials.material import Material
+from ..motion.properties import PropertyChannel
 from ..scene.cameras import OrthographicCamera, PerspectiveCamera
 from ..scene.instances import InstancedMesh
 from ..scene.lights import DirectionalLight, PointLight, SpotLight
@@ -71,15 +73,18 @@ class _Making:
         made += self._turned_lights(made)
         self._tell_of_scene(nodes)
         meshes = tuple(self._lists["meshes"])
+        materials = _materials_of(meshes)
+        self._material_rows = {key: row for row, key in enumerate(materials)}
+        clips = tuple(self._clip(clip) for clip in scene.animations.values())
         return TreeRecord(
             nodes=tuple(made),
             roots=tuple(self._row[node] for node in nodes if node.parent is None),
             meshes=meshes,
             skins=tuple(self._lists["skins"]),
-            clips=tuple(self._clip(clip) for clip in scene.animations.values()),
+            clips=clips,
             cameras=tuple(self._lists["cameras"]),
             lights=tuple(self._lists["lights"]),
-            materials=_materials_of(meshes),
+            materials=tuple(materials.values()),
             variants=self._variants,
             extras=records.get(scene),
         )
@@ -201,7 +206,11 @@ class _Making:
 
     def _clip(self, clip) -> ClipRecord:
         channels, seen = [], set()
+        properties = []
         for channel in clip.channels:
+            if isinstance(channel, PropertyChannel):
+                properties += self._property(channel, clip.name)
+                continue
             node = self._folded.get(channel.node, channel.node)
             # Each part of a mesh has a channel for its weights, a file has one for all.
             if node not in self._row or (node, channel.path) in seen:
@@ -218,7 +227,23 @@ class _Making:
             )
         came = records.get(clip)
         extras = None if came is None else came.extras
-        return ClipRecord(clip.name, clip.duration, tuple(channels), extras)
+        return ClipRecord(clip.name, clip.duration, tuple(channels), extras, tuple(properties))
+
+    def _property(self, channel: PropertyChannel, clip: str) -> list[PropertyRecord]:
+        """How a property changes; nothing, which is told, of what is not in the file."""
+        thing, numbers = channel.target, self._numbers
+        if isinstance(thing, Node):
+            kind, number = "node", self._row.get(self._folded.get(thing, thing))
+        elif isinstance(thing, Material):
+            kind, number = "material", self._material_rows.get(id(thing))
+        else:
+            kind = "camera" if ("cameras", id(thing)) in numbers else "light"
+            number = numbers.get((f"{kind}s", id(thing)))
+        if number is None:
+            self.told.append(f"clip {shown(clip)}: what {channel.path} is of is not in the file")
+            return []
+        keys = channel.interpolation, channel.times, channel.values
+        return [PropertyRecord(kind, number, channel.path, *keys)]
 
     def _tell_of_mesh(self, meshes: list[Mesh]) -> None:
         lost = ["groups"] if any(mesh.groups for mesh in meshes) else []
@@ -323,13 +348,13 @@ def _across(direction: np.ndarray) -> tuple[float, float, float]:
     return (0.0, 1.0, 0.0) if y < max(x, z) else (1.0, 0.0, 0.0)
 
 
-def _materials_of(meshes: tuple[MeshRecord, ...]) -> tuple[Material, ...]:
-    """The materials in use, in the order of their use."""
+def _materials_of(meshes: tuple[MeshRecord, ...]) -> dict[int, Material]:
+    """The materials in use by their ids, in the order of their use."""
     found: dict[int, Material] = {}
     for record in meshes:
         for part in record.parts:
             found.update((id(material), material) for material in part.mesh.materials)
-    return tuple(found.values())
+    return found
 
 
 def _are_equal(one: Any, other: Any) -> bool:

@@ -182,6 +182,16 @@ def test_packages_that_mean_harm(write, monkeypatch):
         load_mesh(write("a.3mf", bytes(damaged)))
 
 
+@pytest.mark.parametrize("packing", [zipfile.ZIP_LZMA, zipfile.ZIP_BZIP2])
+@pytest.mark.parametrize("name", ["a.3mf", "a.zip", "a.xyz"])
+def test_parts_are_packed_by_deflate_or_not_at_all(write, packing, name):
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", packing) as archive:
+        archive.writestr("a.model", THREEMF_MODEL)
+    with pytest.raises(FileFormatError, match=r"'a.model' is packed by (LZMA|BZIP2); only Deflate"):
+        load_mesh(write(name, file.getvalue()))
+
+
 def test_components_that_multiply_are_limited(write, monkeypatch):
     levels = [f'<object id="1">{CORNER}</object>']
     for number in range(2, 30):

@@ -72,6 +72,17 @@ def keyed(times, values, path="translation", interpolation="linear"):
     e3d.render(shown, camera(), size=SIZE, threads=1)
 
 
+def changing(times, values, path="color", interpolation="linear"):
+    shown = scene()
+    material = shown.nodes[0].object.materials[0]
+    channel = e3d.PropertyChannel(material, path, times, values, interpolation)
+    player = e3d.AnimationPlayer(shown, [e3d.AnimationClip([channel])])
+    player.play()
+    for time in (-1.0, 0.3, 9.0):
+        player.seek(time)
+    e3d.render(shown, camera(), size=SIZE, threads=1)
+
+
 def playing(name):
     shown = scene()
     channel = e3d.Channel(shown.nodes[0], "scale", [0, 1], [(1, 1, 1), (2, 2, 2)])
@@ -467,6 +478,14 @@ CALLS = {
     "Channel": (
         keyed,
         {"times": [0.0, 1.0], "values": [(0, 0, 0), (1, 1, 1)], "path": "scale"},
+    ),
+    "PropertyChannel": (
+        changing,
+        {"times": [0.0, 1.0], "values": [(0, 0, 0, 1), (1, 1, 1, 0)], "path": "color"},
+    ),
+    "PropertyChannel.interpolation": (
+        changing,
+        {"times": [0.0], "values": [((0,) * 4,) * 3], "interpolation": "cubicspline"},
     ),
     "Channel.interpolation": (
         keyed,

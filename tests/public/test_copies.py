@@ -92,6 +92,7 @@ REFUSED = {
     "Animator": lambda: e3d.Animator(drawn()),
     "Skin": lambda: e3d.Skin(drawn().nodes[:2]),
     "Channel": lambda: moved(),
+    "PropertyChannel": lambda: e3d.PropertyChannel(e3d.Material(), "roughness", [0.0], [[1.0]]),
     "AnimationClip": lambda: e3d.AnimationClip([moved()]),
     "AnimationPlayer": lambda: e3d.AnimationPlayer(drawn()),
     "Renderer": lambda: e3d.Renderer(4, 4),

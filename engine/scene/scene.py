@@ -23,7 +23,14 @@ from ..choices import ColorLike
 from ..environments.environment import Environment
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
-from ..motion.posing import Posing, check_morph_weights, check_skin, posed_for, set_weights
+from ..motion.posing import (
+    Posing,
+    check_morph_weights,
+    check_skin,
+    may_bend,
+    posed_for,
+    set_weights,
+)
 from ._objects import ObjectTable
 from ._queries import SceneQueries
 from .cameras import Camera
@@ -239,7 +246,8 @@ class Scene(Surroundings, SceneQueries):
     def _show(self, node: Node) -> None:
         """Let a node draw what it holds, as its skin and its morph weights bend it."""
         posed, before = posed_for(node), node._drawn
-        if posed is not None and self._posing is None:
+        looks = may_bend(node)
+        if looks and self._posing is None:
             self._posing = Posing()
         drawn = node._object if posed is None else posed
         number = self._objects.take(drawn)
@@ -247,7 +255,8 @@ class Scene(Surroundings, SceneQueries):
         node._posed, node._drawn = posed, drawn
         self._arrays.set_object(node._slot, number)
         if self._posing is not None:
-            (self._posing.leave if posed is None else self._posing.take)(node)
+            (self._posing.take if looks else self._posing.leave)(node)
+        self._placed_colliders = None
 
     def _set_skin(self, node: Node, skin: Skin | None) -> None:
         """Let joints bend what a node holds."""

@@ -14,6 +14,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
+from .._native.loaders import frozen
 from ..errors import Engine3DError
 from ..materials.textures import PlacedTexture, Texture
 from . import gltf_basisu
@@ -184,8 +185,7 @@ def _read_image(source: Source) -> np.ndarray:
 
 def changed(texture: Texture, pixels: np.ndarray, name: str) -> Texture:
     """Return a texture of other pixels that is sampled like this one."""
-    pixels.setflags(write=False)
-    return Texture(pixels, wrap=texture.wrap, filter=texture.filter, name=name)
+    return Texture(frozen(pixels), wrap=texture.wrap, filter=texture.filter, name=name)
 
 
 def _threads(images: list) -> int:

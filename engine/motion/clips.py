@@ -11,6 +11,7 @@ from typing import get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .._native.loaders import frozen
 from .._support.numbers import floats
 from .._support.validation import Closed, choose
 from ..choices import Interpolation, MotionPath
@@ -142,8 +143,7 @@ def check_times(value) -> np.ndarray:
         raise InvalidArgumentError(f"times must be (K,), at least one, not {times.shape}")
     if not np.isfinite(times).all() or not (np.diff(times) > 0).all():
         raise InvalidArgumentError("times must be finite and increase")
-    times.setflags(write=False)
-    return times
+    return frozen(times)
 
 
 def _check_values(value, path: str, interpolation: str, count: int) -> np.ndarray:
@@ -161,5 +161,4 @@ def _check_values(value, path: str, interpolation: str, count: int) -> np.ndarra
             squares = (keys * keys).sum(axis=1)
         if not ((squares > 0.0) & (squares < np.inf)).all():
             raise InvalidArgumentError("rotations must not be zero quaternions, nor overflow")
-    values.setflags(write=False)
-    return values
+    return frozen(values)

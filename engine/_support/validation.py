@@ -53,7 +53,9 @@ def own(value):
     """Return what a copy keeps of a value: arrays that nobody can write to, its own containers."""
     if isinstance(value, np.ndarray):
         return frozen(value if is_frozen(value) or value.flags.owndata else value.copy())
-    return type(value)(value) if type(value) in (dict, list) else value
+    if isinstance(value, dict):
+        return {key: own(item) for key, item in value.items()}
+    return list(map(own, value)) if isinstance(value, list) else value
 
 
 @functools.cache

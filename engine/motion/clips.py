@@ -5,7 +5,7 @@ In: keys, each a time and a value, of parts of nodes. Out: the same, checked and
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import get_args
 
 import numpy as np
@@ -134,6 +134,18 @@ class AnimationClip(Closed):
 
     def __repr__(self) -> str:
         return f"AnimationClip({len(self._channels)} channels, {self.duration:g} s, {self._name!r})"
+
+
+def check_clips(value: Mapping[str, AnimationClip]) -> dict[str, AnimationClip]:
+    """Check clips by their names."""
+    if not isinstance(value, Mapping):
+        raise InvalidArgumentError(f"animations must be a dict of names to clips, not {value!r}")
+    for name, clip in value.items():
+        if not isinstance(name, str) or not isinstance(clip, AnimationClip):
+            raise InvalidArgumentError(
+                f"animations must be AnimationClips by their names, not {clip!r} by {name!r}"
+            )
+    return dict(value)
 
 
 def check_times(value) -> np.ndarray:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 from weakref import WeakSet
 
@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
 from .._native.scene_graph import OBJECT_BOX, union
+from .._support.checked_containers import CheckedDict
 from .._support.validation import vector3
 from ..choices import ColorLike
 from ..environments.environment import Environment
@@ -96,7 +97,6 @@ class Scene(Surroundings, SceneQueries):
     InvalidArgumentError
     """
 
-    animations: dict[str, AnimationClip]
     warnings: list[str]
 
     def __init__(
@@ -125,6 +125,16 @@ class Scene(Surroundings, SceneQueries):
         self.animations = {}
         self._animator: Animator | None = None
         self.warnings = []
+
+    @property
+    def animations(self) -> dict[str, AnimationClip]:
+        return self._animations
+
+    @animations.setter
+    def animations(self, value: Mapping[str, AnimationClip]) -> None:
+        from ..motion.clips import check_clips
+
+        self._animations = CheckedDict(self, _take_animations, check_clips(value))
 
     @property
     def animator(self) -> Animator | None:
@@ -442,6 +452,13 @@ class Scene(Surroundings, SceneQueries):
 
     def __repr__(self) -> str:
         return f"Scene({self._arrays.count - self._removed} nodes)"
+
+
+def _take_animations(scene: Scene, clips: dict, put: Callable[[dict], None]) -> None:
+    """Let a scene's own dict hold other clips."""
+    from ..motion.clips import check_clips
+
+    put(check_clips(clips))
 
 
 def _check_object(obj) -> None:

@@ -183,14 +183,15 @@ class GltfMeshes:
             deltas = {}
             for key in _MORPHS:
                 parts = [target.get(key) for target in targets]
-                # A target that changes nothing still has its weight.
-                if key == "positions" or any(part is not None for part in parts):
+                if any(part is not None for part in parts):
                     deltas[key] = self._joined(
                         [
                             np.zeros((count, 3), np.float32) if part is None else part
                             for part, count in zip(parts, counts, strict=True)
                         ]
                     )
+            if not deltas:  # a target that changes nothing still has its weight
+                deltas["positions"] = np.zeros((sum(counts), 3), np.float32)
             found.append(MorphTarget(**deltas, name=name))
         return found
 

@@ -77,7 +77,8 @@ class GltfMeshList:
     def _points(self, mesh: Mesh) -> dict[str, Any]:
         whole = np.array_equal(mesh.points, np.arange(len(mesh.positions)))
         rows = slice(None) if whole else mesh.points
-        return {"attributes": self._attributes(mesh, rows, flat=False), "mode": _POINTS}
+        entry = {"attributes": self._attributes(mesh, rows, flat=False), "mode": _POINTS}
+        return {**entry, **self._targets(mesh, rows)}
 
     def _primitive(
         self, mesh: Mesh, elements: np.ndarray, *, whole: bool, flat: bool = False
@@ -89,9 +90,7 @@ class GltfMeshList:
             elements = flat_elements.reshape(elements.shape)
         entry: dict[str, Any] = {"attributes": self._attributes(mesh, rows, flat=flat)}
         entry["indices"] = self._arrays.indices(elements)
-        if mesh.morph_targets:
-            entry["targets"] = [self._target(target, rows) for target in mesh.morph_targets]
-        return entry
+        return {**entry, **self._targets(mesh, rows)}
 
     def _dressed(self, entry: dict[str, Any], part: MeshRecord, number: int) -> dict[str, Any]:
         """A primitive with its material, and those that variants have for it."""
@@ -145,6 +144,12 @@ class GltfMeshList:
                 content = np.ascontiguousarray(array[:, columns])
                 found[f"{name}_{number}"] = self._arrays.vertices(content, name)
         return found
+
+    def _targets(self, mesh: Mesh, rows) -> dict[str, list[dict[str, int]]]:
+        """What morph targets add: all primitives of a mesh have as many."""
+        if not mesh.morph_targets:
+            return {}
+        return {"targets": [self._target(target, rows) for target in mesh.morph_targets]}
 
     def _target(self, target, rows) -> dict[str, int]:
         held = {name: getattr(target, field) for field, name in _MORPHED.items()}

@@ -26,7 +26,7 @@ from .smoothing import join_seams
 # Each takes some kilobytes, or a part of a millisecond, however little the file says of it.
 _MAX_PRIMITIVES = 10_000
 # Of so many faces of a mesh that bends, tangents are found while it is read.
-_MOST_BENDING = 1 << 17
+MOST_BENDING = 1 << 17
 _MORPHS = ("positions", "normals", "tangents")
 
 
@@ -150,7 +150,7 @@ class GltfMeshes:
         """A mesh whose tangents will be found when it is drawn; of one that bends, they are."""
         materials = [usual for usual, _ in chosen]
         materials += [material for _, others in chosen for material in others.values()]
-        uv_set = next((found for m in materials if (found := _tangent_set(m)) is not None), None)
+        uv_set = next((found for m in materials if (found := tangent_set(m)) is not None), None)
         if uv_set is None or (mesh.uvs1 if uv_set else mesh.uvs) is None:
             return mesh
         if mesh._scalars:
@@ -158,7 +158,7 @@ class GltfMeshes:
         if mesh.joints is None and not mesh.morph_targets:
             mesh._tangent_uv_set = uv_set
             return mesh
-        if len(mesh.faces) > _MOST_BENDING:
+        if len(mesh.faces) > MOST_BENDING:
             return mesh
         self._buffers.count(4 * len(mesh.positions))
         return mesh.with_tangents(uv_set)
@@ -211,7 +211,7 @@ def _kind_of(primitive: Primitive) -> tuple:
     return primitive.kind, tuple(primitive.arrays), joints, material, scalars
 
 
-def _tangent_set(material: Material) -> int | None:
+def tangent_set(material: Material) -> int | None:
     """The texture coordinates that need tangents; None if nothing does, or these are turned."""
     maps = material.normal_texture, material.clearcoat_normal_texture, material.anisotropy_texture
     found = next((texture for texture in maps if texture is not None), None)

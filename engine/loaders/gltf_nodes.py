@@ -175,13 +175,12 @@ def _instances(file: GltfFile, accessors: GltfAccessors, extensions: dict, where
     if not all(np.isfinite(values).all() for values in held.values()):
         raise file.error(f"damaged: {where} has instances that are nowhere")
     count = len(next(iter(held.values())))
-    rotations = held.get("ROTATION", np.tile((0.0, 0.0, 0.0, 1.0), (count, 1)))
-    poses = poses_of(
+    parts = (
         held.get("TRANSLATION", np.zeros((count, 3))),
-        rotations,
+        held.get("ROTATION", np.tile((0.0, 0.0, 0.0, 1.0), (count, 1))),
         held.get("SCALE", np.ones((count, 3))),
     )
-    return {"instances": poses, "instance_colors": colors}
+    return {"instances": poses_of(*parts), "instance_parts": parts, "instance_colors": colors}
 
 
 def _colors(accessors: GltfAccessors, attributes: dict, where: str) -> np.ndarray | None:

@@ -117,7 +117,7 @@ class GltfPrimitives:
             vertices.rows = elements if vertices.is_indexed else slice(None)
             elements = np.arange(len(elements), dtype=np.int32)
         else:
-            vertices.rows, elements = _compact(elements, vertices.total)
+            vertices.rows, elements = compact(elements, vertices.total)
         kind = "points" if mode == _POINTS else "lines" if mode < _TRIANGLES else "faces"
         primitive = Primitive(kind, elements, {}, material=material, uv_sets=uv_sets)
         self._add_arrays(primitive, vertices)
@@ -279,7 +279,7 @@ class _Vertices:
             )
 
 
-def _compact(elements: np.ndarray, total: int):
+def compact(elements: np.ndarray, total: int):
     """The rows of the vertices in use, and the elements with the numbers that these get."""
     if elements.size * _FEW < total:
         rows, flat = np.unique(elements, return_inverse=True)

@@ -304,8 +304,7 @@ class _Reading:
         """A primitive that is like another one, with arrays that both share."""
         twin = copy.copy(mesh)
         twin.materials = [copy.copy(material) for material in self._materials_of[mesh]]
-        twin._origin = mesh._origin
-        return twin
+        return _as_it_came(twin, mesh)
 
     def _mesh_of_file(self, entry: JsonValue) -> Mesh:
         """A mesh of a file, or an empty one that keeps its place, with a warning."""
@@ -350,8 +349,7 @@ class _Reading:
         """A mesh that is used once more: parts of a file share materials only if all are new."""
         twin = copy.copy(mesh)
         twin.materials = [self._material_copy(m, times) for m in self._materials_of[mesh]]
-        twin._origin = mesh._origin
-        return twin
+        return _as_it_came(twin, mesh)
 
     def _material_copy(self, material: Material, times: int) -> Material:
         key = id(material), times
@@ -384,6 +382,14 @@ class _Reading:
         if folder is None or "\0" in name or len(name) > _MAX_NAME:
             return None
         return os.path.abspath(os.path.join(folder, name))
+
+
+def _as_it_came(twin: Mesh, mesh: Mesh) -> Mesh:
+    """A copy of a mesh under the name that it came with, whatever the first is called by now."""
+    twin._origin = mesh._origin
+    if mesh._origin is not None:
+        twin.name = mesh._origin.name
+    return twin
 
 
 def _crease_angle(entry: JsonValue, usual: float) -> float:

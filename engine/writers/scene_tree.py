@@ -153,6 +153,9 @@ class _Making:
         found: dict[str, Any] = {"mesh": self._mesh(meshes)}
         if instanced:
             found["instances"] = _poses(instanced[0])
+            came = records.get(instanced[0])
+            if came is not None and came.poses is instanced[0].poses:
+                found["instance_parts"] = came.parts
             found["instance_colors"] = _linear(instanced[0].colors)
         if node.skin is not None:
             found["skin"] = self._number("skins", node.skin, self._skin)
@@ -327,7 +330,7 @@ def _poses(instanced: InstancedMesh) -> np.ndarray:
 def _linear(colors: np.ndarray | None) -> np.ndarray | None:
     """Colours of instances in linear light, (N, 4) float32."""
     if colors is None or colors.dtype != np.uint8:
-        return colors
+        return None if colors is None else colors.clip(0, 1)
     decoded = [(*linear_color(tuple(row[:3])), row[3] / 255) for row in colors.tolist()]
     return np.array(decoded, np.float32).reshape(-1, 4)
 
@@ -371,8 +374,24 @@ def _materials_of(meshes: tuple[MeshRecord, ...]) -> tuple[Material, ...]:
     found: dict[int, Material] = {}
     for record in meshes:
         for part in record.parts:
-            found.update((id(material), material) for material in part.mesh.materials)
+            mesh = part.mesh
+            numbers = materials_of_faces(mesh)
+            numbers += [0] if len(mesh.lines) or len(mesh.points) else []
+            used = [mesh.materials[number] for number in numbers]
+            found.update((id(material), material) for material in used)
     return tuple(found.values())
+
+
+def materials_of_faces(mesh: Mesh) -> list[int]:
+    """The numbers of the materials that faces have, in the order in which they are written.
+
+    Readers make one mesh of the smooth ones and another of the flat ones: like stands with like.
+    """
+    if not len(mesh.faces):
+        return []
+    numbers = np.unique(mesh.material_ids).tolist() if len(mesh.materials) > 1 else [0]
+    are_flat = mesh.materials[numbers[0]].flat_shading
+    return sorted(numbers, key=lambda n: mesh.materials[n].flat_shading != are_flat)
 
 
 def _are_equal(one: Any, other: Any) -> bool:

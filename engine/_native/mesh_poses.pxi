@@ -146,6 +146,11 @@ cdef class NativePose:
         self.current = self.spare = None
         self.stale = True
 
+    @property
+    def has_edges(self):
+        """Whether the handles carry edges."""
+        return self.edges is not None
+
     def want_edges(self, edges not None):
         """Have the handles carry edges, (E, 2) int32."""
         self.edges = edges

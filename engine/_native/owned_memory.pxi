@@ -1,7 +1,7 @@
 # Part of loaders.pyx: memory that C allocated, or the bytes of a file, as Python's.
 #
 # In:  sizes, or what C hands over.
-# Out: arrays over memory in large pages; once frozen, nobody can write to it any more.
+# Out: arrays over memory in large pages; once frozen, nobody can write to it any more, whatever flags are set.
 
 cdef extern from "core/large_pages.h":
     void *e3d_large_memory(size_t bytes) nogil
@@ -70,27 +70,62 @@ def large_array(shape, dtype):
     return owned(&data, size, np.dtype(np.uint8)).view(dtype).reshape(shape)
 
 
+cdef class SealedMemory:
+    """The memory of an array, for reading: NumPy asks it before it lets anybody write."""
+
+    cdef Py_buffer held
+
+    def __dealloc__(self):
+        PyBuffer_Release(&self.held)
+
+    def __getbuffer__(self, Py_buffer *buffer, int flags):
+        PyBuffer_FillInfo(buffer, self, self.held.buf, self.held.len, True, flags)
+
+
+cdef object NDARRAY = np.ndarray
+cdef Py_ssize_t SMALL = 1024  # bytes: to copy them takes less time than to lend them
+
+
 def frozen(array):
-    """Make an array read-only, and what owns its memory; return it."""
-    array.setflags(write=False)
+    """Return an array that nobody can write to: over the memory of this one, if only the caller has it.
+
+    A flag alone would not do, because whoever has an array can set its flag again.
+    """
+    cdef SealedMemory memory
+    cdef Py_ssize_t size
     owner = array
-    while isinstance(owner.base, np.ndarray):
+    while isinstance(owner.base, NDARRAY):
         owner = owner.base
-        owner.setflags(write=False)
-    if isinstance(owner.base, OwnedMemory):
-        (<OwnedMemory>owner.base).is_frozen = True
-    return array
+    base = owner.base
+    if isinstance(base, OwnedMemory):
+        (<OwnedMemory>base).is_frozen = True
+        owner = array
+        while isinstance(owner, NDARRAY):
+            owner.setflags(write=False)
+            owner = owner.base
+        return array
+    if isinstance(base, (SealedMemory, bytes)):
+        return array
+    size = array.nbytes
+    if size <= SMALL:
+        return NDARRAY(array.shape, array.dtype, array.tobytes())
+    if base is not None or not array.flags.c_contiguous:
+        array = np.array(array, order="C")
+    memory = SealedMemory.__new__(SealedMemory)
+    PyObject_GetBuffer(array, &memory.held, PyBUF_SIMPLE)
+    return NDARRAY(array.shape, array.dtype, memory)
 
 
 def is_frozen(array):
-    """Tell whether nobody can write to an array's memory."""
+    """Tell whether nobody can write to an array's memory, nor allow it."""
     if array.flags.writeable:
         return False
-    while isinstance(array.base, np.ndarray):
-        array = array.base
-    if isinstance(array.base, OwnedMemory):
-        return bool((<OwnedMemory>array.base).is_frozen)
-    return array.base is None and not array.flags.writeable
+    base = array.base
+    while isinstance(base, NDARRAY):
+        base = base.base
+    if isinstance(base, OwnedMemory):
+        return bool((<OwnedMemory>base).is_frozen)
+    return isinstance(base, (SealedMemory, bytes))
 
 
 def exchange(dict held, dict expected, dict fresh):

@@ -80,6 +80,7 @@ class NativePose:
     rest: NativeRest
     current: NativeMesh
     face_normals: bool
+    has_edges: bool
     def __init__(self, rest: NativeRest, face_normals: bool) -> None: ...
     def set_skeleton(
         self, slots: _Integers, above: _Integers, ends: _Integers, inverse_binds: _Doubles

@@ -33,8 +33,7 @@ def weld_corners(const int32_t[::1] positions not None, const int32_t[::1] uvs,
                                 &of_position[0], made_uv, made_normal)
     if made == <size_t>-1:
         raise OutOfMemoryError("no memory to weld the corners of a mesh")
-    faces.setflags(write=False)
-    return faces, *(None if array is None else array[:made] for array in vertices)
+    return frozen(faces), *(None if array is None else array[:made] for array in vertices)
 
 
 def used_or_all(const int32_t[::1] indices not None, size_t total):

@@ -8,6 +8,7 @@ Always: the GIL is held, so that threads take turns; what is asked of a slot tha
      ``links`` grows when a node hangs elsewhere, comes or goes.
 """
 
+from cpython.bytes cimport PyBytes_FromStringAndSize
 from libc.math cimport INFINITY
 from libc.stdint cimport int32_t, uint8_t, uint32_t, uint64_t
 from libc.stdlib cimport calloc, free
@@ -330,23 +331,30 @@ cdef class NativeGraph:
         e3d_graph_find_world(&self.graph, slot)
         return self.graph.world_version[slot]
 
-    def copy_pose(self, int32_t slot, double[:, ::1] out not None):
-        self.check(slot)
-        copy_affine(self.graph.pose + 12 * <size_t>slot, out)
+    # What follows are copies, over bytes: nobody can write to them.
 
-    def copy_world(self, int32_t slot, double[:, ::1] out not None):
+    def pose(self, int32_t slot):
+        """parent-from-node, (4, 4)."""
+        self.check(slot)
+        return affine(self.graph.pose + 12 * <size_t>slot)
+
+    def world_pose(self, int32_t slot):
+        """world-from-node, (4, 4)."""
         self.check(slot)
         e3d_graph_find_world(&self.graph, slot)
-        copy_affine(self.graph.world + 12 * <size_t>slot, out)
+        return affine(self.graph.world + 12 * <size_t>slot)
 
-    def copy_parts(self, int32_t slot, double[::1] rotation not None, double[::1] scale not None):
-        """Copy quaternion (4,) and scale (3,)."""
+    def rotation(self, int32_t slot):
+        """Quaternion, (4,)."""
         self.check(slot)
-        if rotation.shape[0] != 4 or scale.shape[0] != 3:
-            raise InvalidArgumentError("a rotation has 4 numbers, a scale 3")
         e3d_graph_find_parts(&self.graph, slot)
-        memcpy(&rotation[0], self.graph.rotation + 4 * <size_t>slot, 4 * sizeof(double))
-        memcpy(&scale[0], self.graph.scale + 3 * <size_t>slot, 3 * sizeof(double))
+        return sealed((4,), self.graph.rotation + 4 * <size_t>slot, 4)
+
+    def scale(self, int32_t slot):
+        """(3,)."""
+        self.check(slot)
+        e3d_graph_find_parts(&self.graph, slot)
+        return sealed((3,), self.graph.scale + 3 * <size_t>slot, 3)
 
     def update(self, const double[:, ::1] boxes not None, int threads):
         """Make every world pose, SHOWN and bounds true; boxes: (objects, OBJECT_BOX).
@@ -498,13 +506,22 @@ cdef void copy_hit(const e3d_hit *hit, int32_t *ids, double *values) noexcept:
     memcpy(values + 7, hit.barycentric, 3 * sizeof(double))
 
 
-cdef int copy_affine(const double *pose, double[:, ::1] out) except -1:
-    if out.shape[0] != 4 or out.shape[1] != 4:
-        raise InvalidArgumentError("a pose is 4x4")
-    memcpy(&out[0, 0], pose, 12 * sizeof(double))
-    out[3, 0] = out[3, 1] = out[3, 2] = 0.0
-    out[3, 3] = 1.0
-    return 0
+cdef object NDARRAY = np.ndarray
+cdef object DOUBLE = np.dtype(np.float64)
+
+
+cdef object sealed(tuple shape, const double *numbers, int count):
+    """A copy of numbers as an array over bytes."""
+    return NDARRAY(shape, DOUBLE, PyBytes_FromStringAndSize(<const char *>numbers, count * sizeof(double)))
+
+
+cdef object affine(const double *pose):
+    """A copy of three rows, with the fourth."""
+    cdef double matrix[16]
+    memcpy(matrix, pose, 12 * sizeof(double))
+    matrix[12] = matrix[13] = matrix[14] = 0.0
+    matrix[15] = 1.0
+    return sealed((4, 4), matrix, 16)
 
 
 def invert(const double[:, ::1] m not None, double[:, ::1] out not None):

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._native.loaders import is_frozen
+from .._native.loaders import frozen, is_frozen
 from ..choices import Color, ColorLike
 from ..errors import InvalidArgumentError
 from .dirty_tracking import renew
@@ -52,16 +52,10 @@ class Closed:
 def own(value):
     """Return what a copy keeps of a value: arrays that nobody can write to, its own containers."""
     if isinstance(value, np.ndarray):
-        return freeze(value)
-    return type(value)(value) if type(value) in (dict, list) else value
-
-
-def freeze(array: np.ndarray) -> np.ndarray:
-    """Return an array that nobody can write to: this one, if only the caller has its memory."""
-    if not is_frozen(array):
-        array = array if array.base is None and array.flags.owndata else array.copy()
-        array.setflags(write=False)
-    return array
+        return frozen(value if is_frozen(value) or value.flags.owndata else value.copy())
+    if isinstance(value, dict):
+        return {key: own(item) for key, item in value.items()}
+    return list(map(own, value)) if isinstance(value, list) else value
 
 
 @functools.cache
@@ -188,21 +182,25 @@ def how_far(value: float, what: str) -> float:
 
 
 def vector3(value: ArrayLike, what: str) -> NDArray[np.float64]:
-    """Check three finite numbers; return them as a read-only float64 array."""
-    return frozen_floats(value, what, (3,))
+    """Check three finite numbers; return them as a float64 array of the caller's own."""
+    return finite_floats(value, what, (3,))
 
 
 def matrix4(value: ArrayLike, what: str) -> NDArray[np.float64]:
-    """Check a 4x4 matrix of finite numbers; return it as a read-only float64 array."""
-    return frozen_floats(value, what, (4, 4))
+    """Check a 4x4 matrix of finite numbers; return it as a float64 array of the caller's own."""
+    return finite_floats(value, what, (4, 4))
 
 
 def frozen_floats(value: ArrayLike, what: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
-    """Return a read-only float64 copy of ``value``, of one shape and finite."""
+    """Return a float64 copy of ``value``, of one shape and finite, that nobody can write to."""
+    return frozen(finite_floats(value, what, shape))
+
+
+def finite_floats(value: ArrayLike, what: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """Return a float64 copy of ``value``, of one shape and finite."""
     array = floats(value, what)
     if array.shape != shape:
         raise InvalidArgumentError(f"{what} must have shape {shape}, not {array.shape}")
     if not all(map(math.isfinite, array.ravel().tolist())):  # of few numbers, faster than NumPy
         raise InvalidArgumentError(f"{what} must be finite: {array.tolist()}")
-    array.setflags(write=False)
     return array

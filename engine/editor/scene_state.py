@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from .._native.scene_graph import STATIC, VISIBLE
+from .._support.held_values import kept, same
 from ..geometry.mesh import Mesh
 from ..materials.material import textures_of
 from ..scene.instances import InstancedMesh
@@ -21,7 +22,7 @@ from ..scene.placements import Placements
 from ..scene.scene import Scene
 from ..scene.surroundings import SCENE_VALUES
 from ..spatial.colliders import MeshCollider
-from .contents import contents, kept, put_contents, same
+from .contents import contents, put_contents
 from .selection import topmost
 
 _SCENE_VALUES = (*SCENE_VALUES, "warnings")

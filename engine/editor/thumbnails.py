@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .._native.loaders import frozen
 from ..geometry.mesh import Mesh
 from ..materials.material import Material, textures_of
 from ..materials.textures import Texture
@@ -47,8 +48,7 @@ class Thumbnails:
         versions = _versions(thing)
         held = self._pictures.get(id(thing))
         if held is None or held[0] is not thing or held[1] != versions:
-            picture = self._drawn(thing)
-            picture.setflags(write=False)
+            picture = frozen(self._drawn(thing))
             held = self._pictures[id(thing)] = thing, versions, picture
         self._pictures.move_to_end(id(thing))
         while len(self._pictures) > MOST:

@@ -7,10 +7,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from .._support.held_values import kept
 from ..scene.cameras import Camera
 from ..scene.lights import PointLight, SpotLight
 from ..scene.nodes import Node
-from .contents import kept
 from .history import Command
 
 
@@ -28,7 +28,7 @@ class SetValues(Command):
 
     def __init__(self, things: Iterable[Any], values: Mapping[str, Any], label: str = "") -> None:
         self._things = tuple(things)
-        self._values = dict(values)
+        self._values = kept(dict(values))  # the caller may go on with its own
         self.nodes = tuple(thing for thing in self._things if isinstance(thing, Node))
         self.label = label or f"Set {', '.join(self._values)} of {_named(self._things)}"
         self._old: list[tuple[Any, str, Any]] = []

@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .._native.loaders import frozen, is_frozen
 from .._support.numbers import floats, real, shown
-from .._support.validation import Closed, freeze, vector3
+from .._support.validation import Closed, vector3
 from ..choices import BuiltInEnvironment
 from ..errors import InvalidArgumentError
 from ..linalg.single import normalize
@@ -183,7 +184,7 @@ def environment_of(source: Source) -> Environment:
     """Return the environment of a file's content; raises as `Environment.load` does."""
     from ..loaders.radiance_pictures import load_radiance
 
-    environment = Environment(load_radiance(source), name=source.stem)
+    environment = Environment(frozen(load_radiance(source)), name=source.stem)
     if source.has_name:
         environment._path = os.path.abspath(source.path)
     return environment
@@ -195,10 +196,11 @@ def _checked(pixels: ArrayLike) -> NDArray[np.float32]:
         raise InvalidArgumentError(
             f"an Environment is made of pixels: use Environment.load({pixels!r})"
         )
-    array = pixels if isinstance(pixels, np.ndarray) and pixels.dtype == np.float32 else None
-    if array is None:
+    if isinstance(pixels, np.ndarray) and pixels.dtype == np.float32:
+        array = pixels
+    else:
         with np.errstate(over="ignore"):
-            array = floats(pixels, "pixels").astype(np.float32)
+            array = frozen(floats(pixels, "pixels").astype(np.float32))
     if array.ndim != 3 or array.shape[2] != 3:
         raise InvalidArgumentError(f"pixels must be (H, W, 3), got {array.shape}")
     height, width, _ = array.shape
@@ -206,7 +208,9 @@ def _checked(pixels: ArrayLike) -> NDArray[np.float32]:
         raise InvalidArgumentError(
             f"an environment's sides must be in 1..{MAX_SIDE}, got {width}x{height}"
         )
-    return freeze(np.ascontiguousarray(array))
+    if is_frozen(array) and array.flags.c_contiguous:
+        return array
+    return frozen(np.array(array, order="C"))
 
 
 @functools.cache
@@ -218,7 +222,7 @@ def _made(name: BuiltInEnvironment) -> Environment:
         "sky": sky.pixels,
         "hall": hall.pixels,
     }
-    environment = Environment(makers[name](), name=name)
+    environment = Environment(frozen(makers[name]()), name=name)
     environment._built_in = name
     return environment
 
@@ -251,7 +255,7 @@ def daylight_arguments(
 def _daylight(sun: tuple[float, float, float], turbidity: float, sun_disc: bool) -> Environment:
     from . import daylight
 
-    environment = Environment(daylight.pixels(sun, turbidity, sun_disc), name="sky")
+    environment = Environment(frozen(daylight.pixels(sun, turbidity, sun_disc)), name="sky")
     environment._built_in = "sky"
     environment._sun = sun, turbidity, sun_disc
     return environment

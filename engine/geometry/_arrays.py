@@ -11,7 +11,7 @@ from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
 
-from .._native.loaders import is_frozen
+from .._native.loaders import frozen, is_frozen
 from .._support.numbers import as_array
 from ..errors import InvalidArgumentError
 from ..materials.colors import eight_bit_or_float
@@ -159,6 +159,5 @@ def _frozen(array: np.ndarray, dtype) -> np.ndarray:
     """Return a read-only array of the type; a copy unless nobody can write to this one."""
     if not (is_frozen(array) and array.dtype == dtype and array.flags.c_contiguous):
         with np.errstate(over="ignore", invalid="ignore"):
-            array = np.array(array, dtype, order="C")
-        array.setflags(write=False)
+            array = frozen(np.array(array, dtype, order="C"))
     return array

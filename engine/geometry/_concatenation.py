@@ -71,7 +71,7 @@ def concatenate(mesh_type: type, meshes: list, name: str):
         name=name,
         **_joined_attributes(meshes),
     )
-    joined._groups = _joined_groups(meshes)
+    joined._take_groups(_joined_groups(meshes))
     joined.warnings = [warning for mesh in meshes for warning in mesh.warnings]
     return joined
 

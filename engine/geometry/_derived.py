@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from .._native.loaders import frozen
 from .._native.rasterizer import bound_points
 from . import normals as _normals
 from . import topology as _topology
@@ -20,8 +21,7 @@ def derive(kept: dict[str, tuple[list, np.ndarray]], what: str, arrays: dict) ->
     sources = [arrays[name] for name in names]
     made_of, array = kept.get(what, (None, None))
     if made_of is None or not all(map(operator.is_, made_of, sources)):
-        array = compute(*sources)
-        array.setflags(write=False)
+        array = frozen(compute(*sources))
         kept[what] = sources, array
     return array
 

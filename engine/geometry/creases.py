@@ -110,9 +110,7 @@ def creased_arrays(arrays: dict, attributes: Iterable[str], angle: float) -> dic
         named = ("positions", "position_ids", *attributes)
         rows = {name: arrays[name] for name in named if arrays[name] is not None}
         changed |= {name: array[made.rows] for name, array in rows.items()}
-    for array in changed.values():
-        native.frozen(array)
-    return {**arrays, **changed}
+    return {**arrays, **{name: native.frozen(array) for name, array in changed.items()}}
 
 
 def mesh_with_creases(mesh: Mesh) -> Mesh:

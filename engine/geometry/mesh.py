@@ -10,13 +10,14 @@ coordinates have their origin at the bottom left.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, BinaryIO, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._native.loaders import exchange, frozen
+from .._support.checked_containers import CheckedDict, CheckedList
 from .._support.dirty_tracking import renew
 from .._support.validation import Closed, own
 from ..errors import InvalidArgumentError
@@ -169,7 +170,7 @@ class Mesh(Closed):
         name: str = "",
     ) -> None:
         self.name = str(name)
-        self._groups: dict[str, NDArray[np.int32]] = {}  # loaders put checked ones here
+        self._take_groups({})
         # Loaders put numbers of the vertices here, (V,) or (V, N) by name: `viewer/scalars.py`
         # colours by them.
         self._scalars: dict[str, NDArray[np.number]] = {}
@@ -177,7 +178,7 @@ class Mesh(Closed):
         self._arrays: dict[str, np.ndarray | None] = dict.fromkeys(_movers.VERTEX_AXES)
         self._morph_targets = ()
         self._derived: dict[str, tuple[list, np.ndarray]] = {}  # with what it was computed from
-        self._materials = _check_materials(materials)
+        self._materials = CheckedList(self, _take_materials, _check_materials(materials))
         self._crease_angle = check_crease_angle(crease_angle)
         self.positions = positions
         self.faces = () if faces is None else faces
@@ -291,15 +292,18 @@ class Mesh(Closed):
 
     @property
     def materials(self) -> list[Material]:
-        """The materials that ``material_ids`` refer to; at least one."""
+        """The materials that ``material_ids`` refer to; at least one.
+
+        The list may be changed in place, but never so that a face has no material left: give
+        ``material_ids`` others first.
+        """
         return self._materials
 
     @materials.setter
     def materials(self, value: Iterable[Material] | None) -> None:
         materials = _check_materials(value)
-        if len(materials) < len(self._materials):
-            require_range(self.material_ids, len(materials), "material_ids", "materials")
-        self._materials = materials
+        _require_used(self, len(materials))
+        self._materials = CheckedList(self, _take_materials, materials)
         renew(self)
 
     @property
@@ -309,7 +313,12 @@ class Mesh(Closed):
 
     @groups.setter
     def groups(self, value: Mapping[str, ArrayLike]) -> None:
-        self._groups = check_groups(value, len(self.faces))
+        self._take_groups(check_groups(value, len(self.faces)))
+
+    def _take_groups(self, groups: dict[str, NDArray[np.int32]]) -> None:
+        """Have groups that are checked, such as those of loaders."""
+        frozen_groups = {name: frozen(faces) for name, faces in groups.items()}
+        self._groups = CheckedDict(self, _take_changed_groups, frozen_groups)
 
     @classmethod
     def concatenate(
@@ -448,8 +457,14 @@ class Mesh(Closed):
 
     def __setstate__(self, state: dict) -> None:
         super().__setstate__({**state, "_derived": {}})
-        for arrays in (self._arrays, self._groups, self._scalars):
+        for arrays in (self._arrays, self._scalars):
             arrays.update({name: own(array) for name, array in arrays.items()})
+        self._own_containers()
+
+    def _own_containers(self) -> None:
+        """Make plain lists and dicts, which were put in their places, the mesh's own."""
+        self._materials = CheckedList(self, _take_materials, self._materials)
+        self._take_groups(self._groups)
 
     def __repr__(self) -> str:
         parts = [f"{len(self.positions)} vertices", f"{len(self.faces)} faces"]
@@ -474,7 +489,7 @@ class Mesh(Closed):
             if exchange(self._arrays, others, fresh):
                 break
         if anew:
-            self._groups = {}
+            self._take_groups({})
         self._changed()
 
     def _put(self, fresh: dict) -> None:
@@ -502,6 +517,7 @@ class Mesh(Closed):
         vars(twin).update(
             vars(self), **own, name=name, warnings=list(self.warnings), _materials=list(materials)
         )
+        twin._own_containers()
         return twin
 
     def _changed(self) -> None:
@@ -516,12 +532,37 @@ class Mesh(Closed):
         self._morph_targets = other._morph_targets
         self._crease_angle = other._crease_angle
         self._derived = {}
-        self._materials, self._groups = list(other._materials), dict(other.groups)
+        self._materials, self._groups = other._materials, other._groups
+        self._own_containers()
         self.warnings = list(other.warnings)
         self._origin = other._origin
         if self._tangent_uv_set != other._tangent_uv_set:
             self._tangent_uv_set = other._tangent_uv_set
         renew(self)
+
+
+def _take_materials(mesh: Mesh, materials: list, put: Callable[[list], None]) -> None:
+    """Let a mesh's own list hold other materials."""
+    if not materials:
+        raise InvalidArgumentError(
+            f"{mesh!r} needs a material: replace them all at once, materials[:] = [...]"
+        )
+    materials = _check_materials(materials)
+    _require_used(mesh, len(materials))
+    put(materials)
+    renew(mesh)
+
+
+def _require_used(mesh: Mesh, count: int) -> None:
+    """Raise if a face of a mesh refers to no material of so many."""
+    if count < len(mesh._materials):
+        what = f"material_ids of {mesh!r}"
+        require_range(mesh.material_ids, count, what, "materials")
+
+
+def _take_changed_groups(mesh: Mesh, groups: dict, put: Callable[[dict], None]) -> None:
+    """Let a mesh's own dict hold other groups."""
+    put(check_groups(groups, len(mesh.faces)))
 
 
 def _check_materials(materials: Iterable[Material] | None) -> list[Material]:

@@ -9,6 +9,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from .._native.loaders import frozen
 from .._support.numbers import as_array, floats
 from ..errors import InvalidArgumentError
 from .morph_targets import MorphTarget
@@ -42,10 +43,7 @@ def check_influences(joints, weights, count: int) -> dict[str, np.ndarray | None
     if joints.size and not 0 <= int(joints.min()) <= int(joints.max()) <= _MOST_JOINT:
         wrong = int(joints.min()) if joints.min() < 0 else int(joints.max())
         raise InvalidArgumentError(f"joints holds {wrong}, which is no number of a joint")
-    joints, weights = joints.astype(np.uint16), shares(weights)
-    for array in (joints, weights):
-        array.setflags(write=False)
-    return {"joints": joints, "weights": weights}
+    return {"joints": frozen(joints.astype(np.uint16)), "weights": frozen(shares(weights))}
 
 
 def shares(weights: np.ndarray) -> np.ndarray:
@@ -102,5 +100,4 @@ def _stack(offsets: list, count: int) -> np.ndarray | None:
     for row, each in zip(stack, offsets, strict=True):
         if each is not None:
             row[:] = each
-    stack.setflags(write=False)
-    return stack
+    return frozen(stack)

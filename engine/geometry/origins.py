@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from .._support.held_values import kept, same
 from ..materials.material import TEXTURE_SLOTS, Material
 from ..materials.textures import PlacedTexture, Texture
 from .creases import CREASE_ANGLE
@@ -92,12 +93,12 @@ def origin_of(mesh: Mesh) -> Came | None:
 def has_own_materials(mesh: Mesh, came: Came) -> bool:
     """Whether the materials are still what they were when the mesh came."""
     held = [_held(material) for material in mesh.materials]
-    return len(held) == len(came.materials) and all(map(_same, held, came.materials))
+    return same(held, came.materials)
 
 
 def _held(material: Material) -> dict[str, Any]:
     """What a material holds; of its textures, what these hold."""
-    held = {key: value for key, value in vars(material).items() if key != "version"}
+    held = {key: kept(value) for key, value in vars(material).items() if key != "version"}
     for slot in TEXTURE_SLOTS:
         if (texture := held[slot]) is not None:
             held[slot] = _held_by(texture)
@@ -109,10 +110,3 @@ def _held_by(texture: Texture | PlacedTexture) -> dict[str, Any]:
     if isinstance(texture, PlacedTexture):
         held["texture"] = _held_by(texture.texture)
     return held
-
-
-def _same(one: Any, other: Any) -> bool:
-    """Whether two things hold the same; pixels if they are the same object."""
-    if isinstance(one, dict) and isinstance(other, dict):
-        return one.keys() == other.keys() and all(_same(one[key], other[key]) for key in one)
-    return one is other or (type(one) is type(other) and not hasattr(one, "shape") and one == other)

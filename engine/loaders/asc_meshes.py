@@ -108,7 +108,7 @@ def _mesh(
     )
     chosen = [materials[k] if k >= 0 else Material() for k in found[order].tolist()]
     mesh = build_mesh(geometry, chosen, record.name)
-    mesh._groups = {record.name: np.arange(len(corners), dtype=np.int32)}
+    mesh._take_groups({record.name: np.arange(len(corners), dtype=np.int32)})
     return mesh
 
 

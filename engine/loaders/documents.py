@@ -327,6 +327,8 @@ class NodeRecord:
         Of the morph targets, instead of the mesh's.
     instances : (N, 4, 4) float64 or None
         node-from-instance, where the mesh is drawn many times.
+    instance_parts : tuple of (N, 3), (N, 4) and (N, 3) or None
+        Translations, quaternions and scales, where the file has these poses so.
     instance_colors : (N, 4) float32 or None
         Linear light and alpha.
     extras : object
@@ -345,6 +347,7 @@ class NodeRecord:
     light: int | None = None
     weights: tuple[float, ...] | None = None
     instances: np.ndarray | None = None
+    instance_parts: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
     instance_colors: np.ndarray | None = None
     extras: Any = None
 

@@ -11,6 +11,7 @@ import struct
 
 import numpy as np
 
+from .._native.loaders import frozen
 from ..errors import FileFormatError
 from .images import check_image_size
 from .limited_process import in_limited_process
@@ -61,9 +62,7 @@ def read_packed(source: Source) -> np.ndarray:
         width, height = struct.unpack_from("<II", source.data, _SIZE_AT)
         check_image_size(width, height, source.path, source.size)
         size += width * height // 8
-    pixels = np.array(in_limited_process(_read_here, source, True, size=size))
-    pixels.setflags(write=False)
-    return pixels
+    return frozen(np.array(in_limited_process(_read_here, source, True, size=size)))
 
 
 def _read_here(source: Source, split: bool) -> np.ndarray:

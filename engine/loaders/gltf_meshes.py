@@ -25,7 +25,7 @@ from .gltf_primitives import GltfPrimitives, Primitive
 from .smoothing import join_seams
 
 # Of so many faces of a mesh that bends, tangents are found while it is read.
-_MOST_BENDING = 1 << 17
+MOST_BENDING = 1 << 17
 _MORPHS = ("positions", "normals", "tangents")
 _NO_MATERIAL = Material()
 
@@ -174,7 +174,7 @@ class GltfMeshes:
         if mesh.joints is None and not mesh.morph_targets:
             mesh._tangent_uv_set = uv_set
             return mesh
-        if len(mesh.faces) > _MOST_BENDING:
+        if len(mesh.faces) > MOST_BENDING:
             return mesh
         self._buffers.count(4 * len(mesh.positions))
         return mesh.with_tangents(uv_set)
@@ -201,14 +201,15 @@ class GltfMeshes:
             deltas = {}
             for key in _MORPHS:
                 parts = [target.get(key) for target in targets]
-                # A target that changes nothing still has its weight.
-                if key == "positions" or any(part is not None for part in parts):
+                if any(part is not None for part in parts):
                     deltas[key] = self._joined(
                         [
                             np.zeros((count, 3), np.float32) if part is None else part
                             for part, count in zip(parts, counts, strict=True)
                         ]
                     )
+            if not deltas:  # a target that changes nothing still has its weight
+                deltas["positions"] = np.zeros((sum(counts), 3), np.float32)
             found.append(MorphTarget(**deltas, name=name))
         return found
 
@@ -228,7 +229,7 @@ def _kind_of(primitive: Primitive) -> tuple:
     return primitive.kind, tuple(primitive.arrays), joints, material, scalars
 
 
-def _tangent_set(material: Material) -> int | None:
+def tangent_set(material: Material) -> int | None:
     """The texture coordinates that need tangents; None if nothing does, or these are turned."""
     maps = material.normal_texture, material.clearcoat_normal_texture, material.anisotropy_texture
     found = next((texture for texture in maps if texture is not None), None)
@@ -241,7 +242,7 @@ def _tangent_set_of(chosen: list[tuple]) -> int | None:
     """The texture coordinates that any material of a mesh needs tangents for."""
     materials = [usual for usual, _ in chosen]
     materials += [material for _, others in chosen for material in others.values()]
-    return next((found for m in materials if (found := _tangent_set(m)) is not None), None)
+    return next((found for m in materials if (found := tangent_set(m)) is not None), None)
 
 
 def _variants(chosen: list[tuple]) -> dict[int, tuple]:

@@ -226,14 +226,13 @@ class _Nodes:
         if not all(np.isfinite(values).all() for values in held.values()):
             raise file.damaged(f"{where} has instances that are nowhere")
         count = len(next(iter(held.values())))
-        rotations = held.get("ROTATION", np.tile((0.0, 0.0, 0.0, 1.0), (count, 1)))
-        poses = poses_of(
+        parts = (
             held.get("TRANSLATION", np.zeros((count, 3))),
-            rotations,
+            held.get("ROTATION", np.tile((0.0, 0.0, 0.0, 1.0), (count, 1))),
             held.get("SCALE", np.ones((count, 3))),
         )
         colors = file.sound(f"{where}.{_COLORS}", _colors, accessors, attributes, where, count)
-        return {"instances": poses, "instance_colors": colors}
+        return {"instances": poses_of(*parts), "instance_parts": parts, "instance_colors": colors}
 
 
 def _place(file: GltfFile, node: dict, where: str) -> dict:

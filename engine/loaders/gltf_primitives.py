@@ -314,7 +314,7 @@ class _Vertices:
         """The rows of the vertices in use, and triangles or segments of the numbers they get."""
 
         def make():
-            return _compact(_elements(self.corners(), mode), self.total)
+            return compact(_elements(self.corners(), mode), self.total)
 
         if self._unpacked is not None:
             return make()
@@ -399,7 +399,7 @@ def _accessors_of(entry: dict) -> list[int]:
     return [index for index in (*named, entry.get("indices")) if isinstance(index, (int, float))]
 
 
-def _compact(elements: np.ndarray, total: int):
+def compact(elements: np.ndarray, total: int):
     """The rows of the vertices in use, and the elements with the numbers that these get."""
     if elements.size * _FEW < total:
         rows, flat = np.unique(elements, return_inverse=True)

@@ -12,6 +12,7 @@ import warnings as python_warnings
 
 import numpy as np
 
+from .._native.loaders import frozen
 from .._support.side_by_side import side_by_side
 from ..errors import Engine3DError
 from ..materials.textures import PlacedTexture, Texture
@@ -196,8 +197,7 @@ def _read_image(source: Source) -> np.ndarray:
 
 def changed(texture: Texture, pixels: np.ndarray, name: str) -> Texture:
     """Return a texture of other pixels that is sampled like this one."""
-    pixels.setflags(write=False)
-    return Texture(pixels, wrap=texture.wrap, filter=texture.filter, name=name)
+    return Texture(frozen(pixels), wrap=texture.wrap, filter=texture.filter, name=name)
 
 
 def _threads(images: list) -> int:

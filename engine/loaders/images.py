@@ -15,6 +15,7 @@ from contextvars import ContextVar
 
 import numpy as np
 
+from .._native.loaders import frozen
 from ..errors import FileFormatError
 from ..materials.textures import MAX_SIDE
 from .registry import Reader
@@ -143,8 +144,7 @@ def rgba_pixels(image, path: str) -> np.ndarray:
     for top in range(0, image.height, rows):
         bottom = min(top + rows, image.height)
         convert(image, image.crop((0, top, image.width, bottom)), pixels[top:bottom], path)
-    pixels.setflags(write=False)  # so that a texture takes it over
-    return pixels
+    return frozen(pixels)  # so that a texture takes it over
 
 
 def made_pixels(image, path: str) -> np.ndarray:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .._native.loaders import frozen
 from ..geometry.creases import SMOOTH
 from ..materials.material import Material
 from .corner_mesh import Triangles
@@ -80,8 +81,7 @@ def _materials(source, file: ObjFile, states: ObjStates, cut: Triangulation | No
     faces = len(file.faces.sizes)
     lengths = run_lengths(states.materials, faces)
     ids = np.repeat(np.array([len(materials), *material_of_use], np.int32), lengths)
-    ids = ids if cut is None else ids[cut.polygons]
-    ids.setflags(write=False)
+    ids = frozen(ids if cut is None else ids[cut.polygons])
     if not materials or (lengths[0] > 0 and (ids == len(materials)).any()):
         materials.append(Material() if only is None else only)
     if not is_of_library and len(file.vertices.uvs):

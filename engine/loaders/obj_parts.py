@@ -137,7 +137,7 @@ class ObjParts(NamedTuple):
         mesh = build_mesh(geometry, self.materials, name)
         if not mesh.has_normals:
             join_seams(mesh)
-        mesh._groups = self._groups(starts, chosen)
+        mesh._take_groups(self._groups(starts, chosen))
         return DocumentObject(name, mesh, pose)
 
     def _starts(self) -> np.ndarray:
@@ -159,7 +159,10 @@ class ObjParts(NamedTuple):
             triangles = np.arange(starts[number], starts[number + 1], dtype=np.int32)
             for name in _unique(words_of(names[number]))[:_MAX_GROUPS_OF_A_FACE]:
                 ranges.setdefault(name, []).append(triangles)
-        return {name: np.concatenate(parts) for name, parts in ranges.items()}
+        return {
+            name: parts[0] if len(parts) == 1 else np.concatenate(parts)
+            for name, parts in ranges.items()
+        }
 
 
 def _segments(lines: Elements) -> np.ndarray:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .._native.loaders import frozen
 from ..errors import Engine3DError
 from ..materials.material import Material
 from ..materials.textures import Texture
@@ -53,8 +54,6 @@ def _texture(name: str, textures: TextureCache, source: Source, warnings) -> Tex
 def material_ids(numbers: np.ndarray | None, triangles: int, materials: int) -> np.ndarray:
     """Return the material of each triangle: (T,) int32, the first for numbers of no image."""
     if numbers is None:
-        none = np.zeros(triangles, np.int32)
-        none.setflags(write=False)  # so that the mesh takes it over
-        return none
+        return frozen(np.zeros(triangles, np.int32))  # so that the mesh takes it over
     is_known = (numbers >= 0) & (numbers < materials)
     return np.where(is_known, numbers, 0).astype(np.int32)

@@ -298,7 +298,8 @@ class _Reading:
 
     def _repeated(self, mesh: Mesh) -> Mesh:
         """A primitive that is like another one, with arrays that both share."""
-        return mesh._twin([material._twin() for material in self._materials_of[mesh]], mesh.name)
+        twin = mesh._twin([m._twin() for m in self._materials_of[mesh]], mesh.name)
+        return _as_it_came(twin, mesh)
 
     def _mesh_of_file(self, entry: JsonValue) -> Mesh:
         """A mesh of a file, or an empty one that keeps its place, with a warning."""
@@ -342,7 +343,7 @@ class _Reading:
     def _twin(self, mesh: Mesh, times: int) -> Mesh:
         """A mesh that is used once more: parts of a file share materials only if all are new."""
         materials = [self._material_copy(m, times) for m in self._materials_of[mesh]]
-        return mesh._twin(materials, mesh.name)
+        return _as_it_came(mesh._twin(materials, mesh.name), mesh)
 
     def _material_copy(self, material: Material, times: int) -> Material:
         key = id(material), times
@@ -375,6 +376,14 @@ class _Reading:
         if folder is None or "\0" in name or len(name) > _MAX_NAME:
             return None
         return os.path.abspath(os.path.join(folder, name))
+
+
+def _as_it_came(twin: Mesh, mesh: Mesh) -> Mesh:
+    """A copy of a mesh under the name that it came with, whatever the first is called by now."""
+    twin._origin = mesh._origin
+    if mesh._origin is not None:
+        twin.name = mesh._origin.name
+    return twin
 
 
 def _crease_angle(entry: JsonValue, usual: float) -> float:

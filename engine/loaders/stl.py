@@ -99,7 +99,7 @@ def read_stl(source: Source, split: bool = False) -> Document:
         name=source.stem,
     )
     groups = [] if facets.polygons is None else _groups(facets.solids, facets.polygons)
-    whole._groups = {name: indices for name, indices in groups if name}
+    whole._take_groups({name: indices for name, indices in groups if name})
     objects = [DocumentObject(source.stem, whole, facets.pose)]
     if split and 1 < len(groups) <= _MAX_OBJECTS:
         named = [(name or source.stem, indices) for name, indices in groups]
@@ -273,7 +273,10 @@ def _groups(solids: list[tuple[str, int]], facets: np.ndarray) -> list[tuple[str
     for (name, _), begin, end in zip(solids, begins, ends, strict=True):
         if begin < end:
             groups.setdefault(name, []).append(np.arange(begin, end, dtype=np.int32))
-    return [(name, np.concatenate(parts)) for name, parts in groups.items()]
+    return [
+        (name, parts[0] if len(parts) == 1 else np.concatenate(parts))
+        for name, parts in groups.items()
+    ]
 
 
 def _part(whole: Mesh, chosen: np.ndarray, name: str) -> Mesh:

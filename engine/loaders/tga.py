@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._native.images import unpack_tga
+from .._native.loaders import frozen
 from ..errors import FileFormatError
 from .images import check_image_size
 from .registry import Reader
@@ -96,8 +97,7 @@ def read_tga(source: Source) -> np.ndarray:
     if attributes is None and not pixels[:, :, 3].any():
         pixels[:, :, 3] = 255
     _turn_upright(pixels, header)
-    pixels.setflags(write=False)
-    return pixels
+    return frozen(pixels)
 
 
 def _read_header(source: Source) -> _Header:

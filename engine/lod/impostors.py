@@ -14,6 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import linalg
+from .._native.loaders import frozen
+from .._support.validation import Closed
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..materials.colors import srgb_bytes
@@ -30,7 +32,7 @@ _OVERLAP = 1 / 32  # texels by which neighbouring rectangles overlap, so that no
 _SEARCH = 96  # directions along each side of the octahedron that are tried for the worst
 
 
-class Impostor:
+class Impostor(Closed):
     """What stands for a mesh where it is small on the screen.
 
     Parameters
@@ -59,6 +61,11 @@ class Impostor:
     InvalidArgumentError
     """
 
+    directions: NDArray[np.float64]
+    texture: Texture
+    cards: tuple[Mesh, ...]
+    error: float
+
     def __init__(self, mesh: Mesh, *, views: int = 6, texels: int = 16) -> None:
         if not isinstance(mesh, Mesh):
             raise InvalidArgumentError(f"not a Mesh: {type(mesh).__name__}")
@@ -70,7 +77,7 @@ class Impostor:
             raise InvalidArgumentError("a mesh without faces has no impostor")
         self._views = views
         self._center, self._radius = bounding_ball(mesh)
-        self.directions = octahedral_directions(views)
+        self.directions = frozen(octahedral_directions(views))
         pictures = _pictures(mesh, self.directions, self._center, self._radius, texels)
         side = texels + 2 * _BORDER
         atlas = np.zeros((views * side, views * side, 4), np.uint8)

@@ -12,7 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
+from .._native.loaders import frozen
 from .._support.numbers import real
+from .._support.validation import Closed
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..scene.cameras import Camera
@@ -26,7 +28,7 @@ from .simplification import simplify
 RATIOS = (0.5, 0.2, 0.08)
 
 
-class DetailedInstances:
+class DetailedInstances(Closed):
     """A mesh at many poses, each drawn in the detail that its size on the screen needs.
 
     Parameters
@@ -64,6 +66,12 @@ class DetailedInstances:
         A mesh alone needs the package fast-simplification.
     """
 
+    levels: tuple[tuple[Mesh, float], ...]
+    pixels: float
+    hysteresis: float
+    level: NDArray[np.intp]
+    instances: tuple[InstancedMesh, ...]
+
     def __init__(
         self,
         levels: Mesh | Sequence[tuple[Mesh, float]],
@@ -89,7 +97,7 @@ class DetailedInstances:
         self._errors = np.array(errors)
         finest = InstancedMesh(mesh, poses, colors=colors)
         self._poses, self._colors = finest.poses, finest.colors
-        self.level: NDArray[np.intp] = np.zeros(len(self._poses), np.intp)
+        self.level = frozen(np.zeros(len(self._poses), np.intp))
         self._drawn = self.level  # as which of the instances
         cards = () if impostor is None else impostor.cards
         others = [InstancedMesh(mesh, finest.poses[:0]) for mesh, _ in self.levels[1:]]
@@ -126,7 +134,7 @@ class DetailedInstances:
         """
         pose, size = checked_view(camera, pose, size)
         errors = self._errors_on_screen(camera, pose, size)
-        level = choose_levels(self.level, errors, self.pixels, self.hysteresis)
+        level = frozen(choose_levels(self.level, errors, self.pixels, self.hysteresis))
         drawn = level if self._impostor is None else self._with_cards(level, camera, pose, size)
         touched = set(drawn[drawn != self._drawn]) | set(self._drawn[drawn != self._drawn])
         self.level, self._drawn = level, drawn

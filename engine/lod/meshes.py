@@ -9,10 +9,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
+from .._native.loaders import frozen
 from .._support.numbers import real
+from .._support.validation import Closed
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..scene.cameras import Camera
@@ -21,7 +23,7 @@ from ..scene.scene import Scene
 from ._choosing import check_errors, check_limits, checked_view, choose_levels, pixels_a_unit
 
 
-class DetailedMeshes:
+class DetailedMeshes(Closed):
     """Meshes, each drawn in the detail that its nearest point needs.
 
     Parameters
@@ -44,6 +46,11 @@ class DetailedMeshes:
     InvalidArgumentError
     """
 
+    levels: tuple[tuple[tuple[Mesh, ...], float], ...]
+    pixels: float
+    hysteresis: float
+    level: NDArray[np.intp]
+
     def __init__(
         self,
         levels: Sequence[tuple[Sequence[Mesh], float]],
@@ -55,7 +62,7 @@ class DetailedMeshes:
         self.levels = _checked(levels)
         self.pixels, self.hysteresis = float(pixels), float(hysteresis)
         meshes = self.levels[0][0]
-        self.level = np.zeros(len(meshes), np.intp)
+        self.level = frozen(np.zeros(len(meshes), np.intp))
         self._errors = np.array([error for _, error in self.levels])
         nothing = np.zeros((2, 3))
         boxes = [mesh.bounds if len(mesh.positions) else nothing for mesh in meshes]
@@ -106,7 +113,7 @@ class DetailedMeshes:
         distances = linalg.length(nearest - eye) * scales.min()
         pixels = pixels_a_unit(camera, size, distances) * scales.max()
         errors = self._errors[:, np.newaxis] * pixels
-        level = choose_levels(self.level, errors, self.pixels, self.hysteresis)
+        level = frozen(choose_levels(self.level, errors, self.pixels, self.hysteresis))
         changed = np.flatnonzero(level != self.level)
         for number in changed.tolist() if self._nodes else ():
             self._nodes[number][self.level[number]].visible = False

@@ -17,6 +17,7 @@ from typing import get_args
 
 import numpy as np
 
+from .._native.loaders import frozen
 from .._support.numbers import real, shown
 from ..choices import Color, ColorLike, ColorSpace, SurfaceColor
 from ..errors import InvalidArgumentError, warn
@@ -36,9 +37,7 @@ def srgb_to_linear_table() -> np.ndarray:
             table[value] = encoded / 12.92
         else:
             table[value] = math.pow((encoded + 0.055) / 1.055, 2.4)
-    table = table.astype(np.float32)
-    table.setflags(write=False)
-    return table
+    return frozen(table.astype(np.float32))
 
 
 def check_color(value: ColorLike, what: str = "color") -> Color:

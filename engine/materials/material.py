@@ -12,6 +12,7 @@ import math
 from dataclasses import replace
 from typing import Any, TypeAlias, get_args
 
+from .._support.held_values import kept
 from .._support.numbers import real, shown
 from .._support.validation import (
     CheckedAttribute,
@@ -79,7 +80,7 @@ def _check_reach(value: float, what: str) -> float:
 def _check_dict(value: dict[str, Any], what: str) -> dict[str, Any]:
     if not isinstance(value, dict):
         raise InvalidArgumentError(f"{what} must be a dict: {type(value).__name__}")
-    return dict(value)
+    return kept(value)
 
 
 _Flag: TypeAlias = CheckedAttribute[bool, bool]

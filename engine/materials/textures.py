@@ -17,6 +17,7 @@ from typing import TypeAlias, TypedDict, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .._native.loaders import frozen, is_frozen
 from .._support.dirty_tracking import renew
 from .._support.numbers import as_array, real, shown
 from .._support.validation import CheckedAttribute, Closed, choose, one_of
@@ -264,15 +265,9 @@ def as_rgba(pixels: ArrayLike) -> NDArray[np.uint8]:
         raise InvalidArgumentError(
             f"a texture's sides must be in 1..{MAX_SIDE}, got {width}x{height}"
         )
-    if channels == 4 and _is_frozen(image):
+    if channels == 4 and image.flags.c_contiguous and is_frozen(image):
         return image
     rgba = np.empty((height, width, 4), np.uint8)
     rgba[:, :, :3] = image[:, :, :3] if channels >= 3 else image[:, :, :1]
     rgba[:, :, 3] = image[:, :, channels - 1] if channels in (2, 4) else 255
-    rgba.setflags(write=False)
-    return rgba
-
-
-def _is_frozen(image: np.ndarray) -> bool:
-    """An array that nobody can write to any more needs no copy."""
-    return image.base is None and image.flags.c_contiguous and not image.flags.writeable
+    return frozen(rgba)

@@ -6,13 +6,13 @@ hold channels of other properties (`properties.py`) as well.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._native.loaders import is_frozen
+from .._native.loaders import frozen, is_frozen
 from .._support.numbers import floats
 from .._support.validation import Closed, choose
 from ..choices import Interpolation, MotionPath
@@ -142,6 +142,18 @@ class AnimationClip(Closed):
         return f"AnimationClip({len(self._channels)} channels, {self.duration:g} s, {self._name!r})"
 
 
+def check_clips(value: Mapping[str, AnimationClip]) -> dict[str, AnimationClip]:
+    """Check clips by their names."""
+    if not isinstance(value, Mapping):
+        raise InvalidArgumentError(f"animations must be a dict of names to clips, not {value!r}")
+    for name, clip in value.items():
+        if not isinstance(name, str) or not isinstance(clip, AnimationClip):
+            raise InvalidArgumentError(
+                f"animations must be AnimationClips by their names, not {clip!r} by {name!r}"
+            )
+    return dict(value)
+
+
 def check_times(value) -> np.ndarray:
     """Check times of keys: (K,) float64, increasing, at least one."""
     times = frozen_or_copied(value, "times")
@@ -157,9 +169,7 @@ def frozen_or_copied(value, what: str) -> np.ndarray:
     is_kept = isinstance(value, np.ndarray) and value.dtype == np.float64 and is_frozen(value)
     if is_kept and value.flags.c_contiguous:
         return value
-    array = floats(value, what)
-    array.setflags(write=False)
-    return array
+    return frozen(floats(value, what))
 
 
 def _check_values(value, path: str, interpolation: str, count: int) -> np.ndarray:

@@ -49,8 +49,10 @@ class PosedMesh:
         if _same(arrays, self._made_of):
             return False
         self._made_of = arrays
-        wanted = bool(self._made_of) and getattr(self, "native", None)
-        self.native = NativePose(_rest_of(self.mesh, arrays), bool(wanted and wanted.face_normals))
+        before = getattr(self, "native", None)
+        self.native = NativePose(_rest_of(self.mesh, arrays), bool(before and before.face_normals))
+        if before and before.has_edges:  # whoever drew them may not ask again
+            self.native.want_edges(self.mesh._derive("edges", arrays))
         return True
 
     @property

@@ -12,6 +12,7 @@ from weakref import WeakValueDictionary
 import numpy as np
 
 from .._native.rasterizer import NativePose, pose_meshes
+from .._support.dirty_tracking import Watch
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..materials.colors import float32_of
@@ -42,12 +43,14 @@ class Posing:
         self.numbers = np.empty(0, np.int32)
         self.poses: list[NativePose] = []
         self._nodes: WeakValueDictionary[int, Node] = WeakValueDictionary()
+        self._here: list[Node] = []  # those of them that are in the scene, by their ids
+        self._watch = Watch()  # of their meshes
         self._posed: list[PosedMesh] = []
         self._linked: tuple | None = None  # the arrays and the links that skeletons are of
         self._changes = -1
 
     def take(self, node: Node) -> None:
-        """Look at a node from now on; what it shows is posed."""
+        """Look at a node from now on: it has what may bend its mesh."""
         self._nodes[node.id] = node
         self._linked = None
 
@@ -59,10 +62,18 @@ class Posing:
     def update(self, scene: Scene, threads: int) -> None:
         """Pose what moved since the last time."""
         arrays = scene._arrays
-        renewed = [posed.renew() for posed in self._posed]
-        if any(renewed) or self._linked != (arrays, arrays.links):
-            self._link(scene)
-        if arrays.changes == self._changes and not any(renewed):
+        is_other_tree = self._linked != (arrays, arrays.links)
+        if is_other_tree:
+            self._find_nodes(scene)
+        changed = self._watch.found()
+        if is_other_tree or changed:
+            # First the meshes: what is linked is what they are now.
+            are_others = self._follow_meshes(scene)
+            if is_other_tree or are_others:
+                self._link(scene)
+            for mesh, version in changed:
+                self._watch.saw(mesh, version)
+        if arrays.changes == self._changes:
             return
         moved = pose_meshes(self.poses, arrays.columns["pose"], threads)
         if moved:
@@ -73,19 +84,33 @@ class Posing:
             self.moment += 1
         self._changes = arrays.changes
 
+    def _find_nodes(self, scene: Scene) -> None:
+        """Find the nodes that are in the scene, and look at their meshes."""
+        self._here = [node for _, node in sorted(self._nodes.items()) if node._scene is scene]
+        self._watch = Watch(node._object for node in self._here)
+
+    def _follow_meshes(self, scene: Scene) -> bool:
+        """Let nodes show their meshes as these are now; return whether any shows another."""
+        are_others = False
+        for node in self._here:
+            if _is_bent(node) != (node._posed is not None):
+                scene._show(node)
+                are_others = True
+            elif node._posed is not None and node._posed.renew():
+                are_others = True
+        return are_others
+
     def _link(self, scene: Scene) -> None:
         """Find the joints of all skins in the tree as it is now."""
         arrays = scene._arrays
-        known = sorted(self._nodes.items())
-        nodes = [node for _, node in known if node._scene is scene]
+        nodes = [node for node in self._here if node._posed is not None]
         self._posed = [node._posed for node in nodes]
         self.poses = [posed.native for posed in self._posed]
         numbers = [scene._objects.number_of(posed) for posed in self._posed]
         self.numbers = np.array(numbers, np.int32)
         slots, anchors = [], []
         for node in nodes:
-            if node._morph_weights is not None:
-                set_weights(node._posed, node._morph_weights)
+            set_weights(node._posed, node._morph_weights)
             anchor = self._find_joints(node, scene)
             if anchor is not None:
                 slots.append(node._slot)
@@ -140,22 +165,34 @@ def check_morph_weights(value, obj) -> np.ndarray | None:
     return frozen_floats(value, "morph_weights", (len(targets),))
 
 
+def may_bend(node: Node) -> bool:
+    """Whether a node has what bends a mesh, if its mesh is one that can be bent."""
+    has_means = node._skin is not None or node._morph_weights is not None
+    return has_means and isinstance(node._object, Mesh)
+
+
+def _is_bent(node: Node) -> bool:
+    """Whether a node shows its mesh bent."""
+    if not may_bend(node):
+        return False
+    mesh = node._object
+    bends = node._skin is not None and mesh.joints is not None
+    return bends or (node._morph_weights is not None and len(mesh.morph_targets) > 0)
+
+
 def posed_for(node: Node) -> PosedMesh | None:
     """Return what a node shows instead of its mesh, or None for the mesh itself."""
-    mesh, posed = node._object, node._posed
-    if not isinstance(mesh, Mesh):
+    if not _is_bent(node):
         return None
-    bent = node._skin is not None and mesh.joints is not None
-    if not bent and (node._morph_weights is None or not mesh.morph_targets):
-        return None
-    if posed is None or posed.mesh is not mesh:
-        posed = PosedMesh(mesh)
-    if node._morph_weights is not None:
-        set_weights(posed, node._morph_weights)
+    posed = node._posed
+    if posed is None or posed.mesh is not node._object:
+        posed = PosedMesh(node._object)
+    set_weights(posed, node._morph_weights)
     return posed
 
 
-def set_weights(posed: PosedMesh, weights: np.ndarray) -> None:
-    """Give a posed mesh its weights, if its targets are still those."""
-    if posed.native.rest.targets == len(weights):
-        posed.native.set_weights(float32_of(weights))
+def set_weights(posed: PosedMesh, weights: np.ndarray | None) -> None:
+    """Give a posed mesh its weights: zeros without any, or if its targets are others by now."""
+    targets = posed.native.rest.targets
+    fit = weights is not None and len(weights) == targets
+    posed.native.set_weights(float32_of(weights) if fit else np.zeros(targets, np.float32))

@@ -10,6 +10,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .._native.loaders import frozen
 from .._support.numbers import floats
 from .._support.validation import Closed
 from ..errors import InvalidArgumentError
@@ -90,5 +91,4 @@ def _check_binds(value, count: int) -> np.ndarray:
         raise InvalidArgumentError("inverse_binds must be finite")
     if not (binds[:, 3] == (0.0, 0.0, 0.0, 1.0)).all():
         raise InvalidArgumentError("inverse_binds must be affine: the last row of each is 0 0 0 1")
-    binds.setflags(write=False)
-    return binds
+    return frozen(binds)

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from .. import linalg
 from .._native import navigation as _native
+from .._native.loaders import frozen
 from .._support.numbers import floats, real
 from .._support.validation import Closed, not_negative
 from ..errors import InvalidArgumentError
@@ -129,8 +130,7 @@ class NavigationGrid(Closed):
             if ground:
                 native.sort()
         arrays = native.layers()
-        for array in (self.origin, *arrays):
-            array.setflags(write=False)
+        self.origin, *arrays = map(frozen, (self.origin, *arrays))
         self.starts, self.heights, self._slope_x, self._slope_z, self.walkable = arrays
 
     def sample_ground(

@@ -72,8 +72,6 @@ class DrawList:
         self._users: dict[Texture, set[Material]] = {}
         # Where materials begin, by their ids, and whether both sides show anyway.
         self._bases: dict[tuple[tuple[int, ...], bool], int] = {}
-        self._material_lists: list[list[Material]] = []  # the meshes' own, by number of the object
-        self._lists_then: list[list[Material]] = []  # and as they were
         self._listed: list = []  # what the objects were made of, by number: things, materials' ids
         self._left = 0  # how often an object went, or took other materials, since all were listed
         self._marks = False
@@ -196,7 +194,6 @@ class DrawList:
         return (
             self._scene() is scene
             and self._objects_version == scene._objects.version
-            and self._material_lists == self._lists_then
             and not self._changed
         )
 
@@ -221,7 +218,7 @@ class DrawList:
         """Numbers of objects that are others or changed; None where all are to be listed anew."""
         objects = scene._objects
         numbers = objects.renewed_since(self._objects_version)
-        if numbers is None or self._material_lists != self._lists_then:
+        if numbers is None:
             return None
         for thing in self._changed:
             if isinstance(thing, (Mesh, InstancedMesh)):
@@ -265,7 +262,7 @@ class DrawList:
         self.lights.forget()
         self._watch, self._changed = Watch(), []
         self._materials, self._traits, self._textured, self._users = {}, {}, {}, {}
-        self._bases, self._material_lists, self._lists_then, self._listed = {}, [], [], []
+        self._bases, self._listed = {}, []
         self._left = 0
         self._marks = self._trees = False
         self._many, self._frames = {}, 0
@@ -285,7 +282,7 @@ class DrawList:
         self._with_holes.discard(number)
         if obj is None:
             self.native.set_object(number, None, 0)
-            self._note(number, (), (), [])
+            self._note(number, (), ())
             return
         mesh = obj if isinstance(obj, Mesh) else obj.mesh
         things = (mesh, obj) if isinstance(obj, InstancedMesh) else (mesh,)
@@ -308,7 +305,7 @@ class DrawList:
         closed = () if holes is None else (True, holes.ends, holes.points)
         self.native.set_object(number, native, self._bases[surfaces, both], *closed)
         self._marks = self._marks or len(mesh.lines) > 0 or len(mesh.points) > 0
-        self._note(number, things, surfaces, mesh.materials)
+        self._note(number, things, surfaces)
         if isinstance(obj, InstancedMesh):
             self._set_instances(number, obj)
 
@@ -334,15 +331,12 @@ class DrawList:
             obj._ids,
         )
 
-    def _note(self, number: int, things: tuple, surfaces: tuple, materials: list) -> None:
-        """Remember what would make a listed object, or its list of materials, out of date."""
+    def _note(self, number: int, things: tuple, surfaces: tuple) -> None:
+        """Remember what would make a listed object out of date."""
         if number == len(self._listed):
             self._listed.append(((), ()))
-            self._material_lists.append([])
-            self._lists_then.append([])
         self._left += self._listed[number][1] not in ((), surfaces)
         self._listed[number] = things, surfaces
-        self._material_lists[number], self._lists_then[number] = materials, list(materials)
 
     def _forget(self, scene: Scene, number: int) -> None:
         """Look no longer at what a number's object was made of, where no other is."""

@@ -21,6 +21,8 @@ from ..scene.lights import DirectionalLight, SpotLight
 from ..scene.scene import Scene
 from ._ambient_terms import ambient_terms
 
+_NOT_KNOWN = (object(),)  # equal to nothing that a scene has, not even to no light at all
+
 
 class LightList:
     """The lights of one native draw list.
@@ -49,7 +51,7 @@ class LightList:
         self._at: dict[int, tuple] = {}  # of each light that shows what it is, and where
         self._changes = 0
         self._placed = np.empty(0, np.uint32)
-        self._added: tuple | None = None
+        self._added: tuple = _NOT_KNOWN
 
     def update(self, scene: Scene, headlight) -> None:
         """Make the native lights those of a scene; ``headlight`` is for one that has none."""
@@ -96,7 +98,7 @@ class LightList:
 
     def _add_around(self, scene: Scene) -> None:
         """Sum up the light from all around, where anything of it changed."""
-        added = None
+        added: tuple = ()
         if self._around:
             columns = scene._arrays.columns
             shown = (columns["flags"][self._around_slots] & SHOWN != 0).tolist()
@@ -105,9 +107,9 @@ class LightList:
             added = self._slots_of, shown, placed, versions
         if added == self._added:
             return
-        self._added = None  # for if anything below raises
+        self._added = _NOT_KNOWN  # for if anything below raises
         terms = None
-        if added is not None and any(shown):
+        if added and any(shown):
             poses = columns["world"][self._around_slots].tolist()
             lights = zip(self._around, poses, shown, strict=True)
             seen = [(light, pose) for light, pose, shows in lights if shows]

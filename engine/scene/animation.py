@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from .. import linalg
 from .._support.numbers import floats, real
-from .._support.validation import Closed, finite, vector3
+from .._support.validation import Closed, finite, frozen_floats, vector3
 from ..errors import InvalidArgumentError
 from ..motion.interpolation import slerp
 from .nodes import Node
@@ -213,7 +213,7 @@ class Spin(_Described):
 
     def __init__(self, node: Node, rotation, axis, period, phase) -> None:
         super().__init__(node)
-        self.axis, self.period = vector3(axis, "axis"), finite(period, "period")
+        self.axis, self.period = frozen_floats(axis, "axis", (3,)), finite(period, "period")
         if not self.axis.any() or abs(self.period) < 1e-300:
             raise InvalidArgumentError("a spin needs an axis and a period other than 0")
         self.phase, self.rotation = finite(phase, "phase"), rotation

@@ -21,7 +21,7 @@ from .._support.validation import (
     OptionalNumberAttribute,
     VectorAttribute,
     finite,
-    matrix4,
+    frozen_floats,
     optional_positive,
     positive,
 )
@@ -87,7 +87,8 @@ class Camera(PlacedByNode):
 
     version: int
     matrix: VectorAttribute = CheckedAttribute(
-        matrix4, "clip_from_view, (4, 4) float64, read-only."
+        lambda value, what: frozen_floats(value, what, (4, 4)),
+        "clip_from_view, (4, 4) float64, read-only.",
     )
     znear: float | None = None
     zfar: float | None = None

@@ -12,6 +12,7 @@ import operator
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .._native.loaders import frozen
 from .._native.scene_graph import BOX, OBJECT_BOX, NativeTree, instance_boxes, union
 from .._support.dirty_tracking import renew
 from .._support.numbers import as_array, floats
@@ -171,8 +172,7 @@ def _check_poses(value) -> np.ndarray:
         raise InvalidArgumentError(f"poses must be (N, 4, 4) or (N, 4), not {poses.shape}")
     if poses.ndim == 3 and not (poses[:, 3] == (0, 0, 0, 1)).all():
         raise InvalidArgumentError("poses must be affine: the last row of each is 0 0 0 1")
-    poses.setflags(write=False)
-    return poses
+    return frozen(poses)
 
 
 def _check_colors(value, count: int) -> np.ndarray | None:
@@ -185,5 +185,4 @@ def _check_colors(value, count: int) -> np.ndarray | None:
     opaque = 255 if colors.dtype == np.uint8 else 1
     result = np.full((count, 4), opaque, colors.dtype)
     result[:, : colors.shape[1]] = colors
-    result.setflags(write=False)
-    return result
+    return frozen(result)

@@ -20,9 +20,9 @@ from .._support.validation import (
     ColorAttribute,
     NumberAttribute,
     VectorAttribute,
+    frozen_floats,
     not_negative,
     one_of,
-    vector3,
 )
 from ..choices import ColorLike, Falloff, LightShadow, LightUnit, ShadowTaps
 from ..errors import InvalidArgumentError
@@ -38,7 +38,7 @@ UnitAttribute: TypeAlias = CheckedAttribute[LightUnit, LightUnit]
 
 
 def _direction(value: ArrayLike, what: str) -> NDArray[np.float64]:
-    direction = vector3(value, what)
+    direction = frozen_floats(value, what, (3,))
     if not direction.any():
         raise InvalidArgumentError(f"{what} must not be the zero vector")
     return direction

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from .._native.loaders import frozen
 from ..errors import InvalidArgumentError
 from ..loaders.json_values import JsonValue
 from .animation import Animator, Spin, Track
@@ -68,7 +69,7 @@ def _spin(node: Node, entry: JsonValue) -> Spin:
     try:
         return Spin(
             node,
-            check_rotation(first),
+            frozen(check_rotation(first)),
             entry.need("axis").numbers(3),
             entry.need("period").value,
             0.0 if phase is None else phase.value,

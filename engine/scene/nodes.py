@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
+from .._native.loaders import frozen
 from .._native.scene_graph import STATIC, VISIBLE
 from .._support.numbers import floats
-from .._support.validation import frozen_floats, matrix4, vector3
+from .._support.validation import finite_floats, matrix4, vector3
 from ..errors import InvalidArgumentError
 from ..spatial.colliders import check_collider
 from .node_arrays import CASTS_NONE, RECEIVES_NONE
@@ -199,17 +200,12 @@ class Node:
         """parent-from-node, (4, 4) float64."""
         version = self._arrays.pose_version(self._slot)
         if version != self._pose_version:
-            pose = np.empty((4, 4))
-            self._arrays.copy_pose(self._slot, pose)
-            pose.setflags(write=False)
-            self._pose, self._pose_version = pose, version
+            self._pose, self._pose_version = self._arrays.pose(self._slot), version
         return self._pose
 
     @pose.setter
     def pose(self, value: ArrayLike) -> None:
-        matrix = check_pose(value)
-        version = self._arrays.set_pose(self._slot, matrix)
-        self._pose, self._pose_version = matrix, version
+        self._arrays.set_pose(self._slot, check_pose(value))
 
     @property
     def translation(self) -> NDArray[np.float64]:
@@ -223,7 +219,7 @@ class Node:
     @property
     def rotation(self) -> NDArray[np.float64]:
         """Quaternion x, y, z, w, (4,) float64."""
-        return self._rotation_and_scale()[0]
+        return self._arrays.rotation(self._slot)
 
     @rotation.setter
     def rotation(self, value: ArrayLike) -> None:
@@ -236,9 +232,7 @@ class Node:
         Turns about x, then about the new y, then about the newest z, which is the default order of
         `linalg.euler_to_quaternion`.
         """
-        angles = linalg.quaternion_to_euler(self.rotation)
-        angles.setflags(write=False)
-        return angles
+        return frozen(linalg.quaternion_to_euler(self.rotation))
 
     @euler.setter
     def euler(self, value: ArrayLike) -> None:
@@ -247,7 +241,7 @@ class Node:
     @property
     def scale(self) -> NDArray[np.float64]:
         """Factors along the node's axes, (3,) float64; one number may be assigned."""
-        return self._rotation_and_scale()[1]
+        return self._arrays.scale(self._slot)
 
     @scale.setter
     def scale(self, value: ArrayLike) -> None:
@@ -317,10 +311,8 @@ class Node:
         """world-from-node, (4, 4) float64, read-only."""
         version = self._arrays.world_version(self._slot)
         if version != self._world_version:
-            pose = np.empty((4, 4))
-            self._arrays.copy_world(self._slot, pose)
-            pose.setflags(write=False)
-            self._world_pose, self._world_version = pose, version
+            self._world_pose = self._arrays.world_pose(self._slot)
+            self._world_version = version
         return self._world_pose
 
     @property
@@ -333,8 +325,7 @@ class Node:
         if self._scene is None:
             return None
         self._scene._update()
-        bounds = self._arrays.columns["bounds"][self._slot, :6].reshape(2, 3).copy()
-        bounds.setflags(write=False)
+        bounds = frozen(self._arrays.columns["bounds"][self._slot, :6].reshape(2, 3).copy())
         return bounds if bounds[0, 0] <= bounds[1, 0] else None
 
     def __repr__(self) -> str:
@@ -361,20 +352,13 @@ class Node:
             self._arrays.columns["unshadowed"][self._slot] ^= bit
             self._arrays.changes += 1
 
-    def _rotation_and_scale(self) -> tuple[np.ndarray, np.ndarray]:
-        rotation, scale = np.empty(4), np.empty(3)
-        self._arrays.copy_parts(self._slot, rotation, scale)
-        rotation.setflags(write=False)
-        scale.setflags(write=False)
-        return rotation, scale
-
 
 def _hangs_under(node, parent: Node | None) -> bool:
     return parent is not None and isinstance(node, Node) and node.parent is parent
 
 
 def check_pose(value: ArrayLike) -> NDArray[np.float64]:
-    """Check an affine matrix; return it as a read-only (4, 4) float64 array."""
+    """Check an affine matrix; return it as (4, 4) float64."""
     matrix = matrix4(value, "pose")
     if matrix[3].tolist() != [0.0, 0.0, 0.0, 1.0]:
         raise InvalidArgumentError("pose must be affine: its last row is 0 0 0 1")
@@ -382,14 +366,14 @@ def check_pose(value: ArrayLike) -> NDArray[np.float64]:
 
 
 def check_rotation(value: ArrayLike) -> NDArray[np.float64]:
-    """Check a quaternion; return it as a read-only (4,) float64 array."""
-    rotation = frozen_floats(value, "rotation", (4,))
+    """Check a quaternion; return it as (4,) float64."""
+    rotation = finite_floats(value, "rotation", (4,))
     if not 0.0 < sum(x * x for x in rotation.tolist()) < math.inf:
         raise InvalidArgumentError("rotation must not be the zero quaternion, nor overflow")
     return rotation
 
 
 def check_scale(value: ArrayLike) -> NDArray[np.float64]:
-    """Check one factor or three; return three as a read-only (3,) float64 array."""
+    """Check one factor or three; return three as (3,) float64."""
     factors = floats(value, "scale")
     return vector3(np.broadcast_to(factors, (3,)) if factors.ndim == 0 else factors, "scale")

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 from weakref import WeakSet
 
@@ -18,12 +18,20 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
 from .._native.scene_graph import OBJECT_BOX, union
+from .._support.checked_containers import CheckedDict
 from .._support.validation import vector3
 from ..choices import ColorLike
 from ..environments.environment import Environment
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
-from ..motion.posing import Posing, check_morph_weights, check_skin, posed_for, set_weights
+from ..motion.posing import (
+    Posing,
+    check_morph_weights,
+    check_skin,
+    may_bend,
+    posed_for,
+    set_weights,
+)
 from ._objects import ObjectTable
 from ._queries import SceneQueries
 from .cameras import Camera
@@ -89,7 +97,6 @@ class Scene(Surroundings, SceneQueries):
     InvalidArgumentError
     """
 
-    animations: dict[str, AnimationClip]
     warnings: list[str]
 
     def __init__(
@@ -118,6 +125,16 @@ class Scene(Surroundings, SceneQueries):
         self.animations = {}
         self._animator: Animator | None = None
         self.warnings = []
+
+    @property
+    def animations(self) -> dict[str, AnimationClip]:
+        return self._animations
+
+    @animations.setter
+    def animations(self, value: Mapping[str, AnimationClip]) -> None:
+        from ..motion.clips import check_clips
+
+        self._animations = CheckedDict(self, _take_animations, check_clips(value))
 
     @property
     def animator(self) -> Animator | None:
@@ -239,7 +256,8 @@ class Scene(Surroundings, SceneQueries):
     def _show(self, node: Node) -> None:
         """Let a node draw what it holds, as its skin and its morph weights bend it."""
         posed, before = posed_for(node), node._drawn
-        if posed is not None and self._posing is None:
+        looks = may_bend(node)
+        if looks and self._posing is None:
             self._posing = Posing()
         drawn = node._object if posed is None else posed
         number = self._objects.take(drawn)
@@ -247,7 +265,8 @@ class Scene(Surroundings, SceneQueries):
         node._posed, node._drawn = posed, drawn
         self._arrays.set_object(node._slot, number)
         if self._posing is not None:
-            (self._posing.leave if posed is None else self._posing.take)(node)
+            (self._posing.take if looks else self._posing.leave)(node)
+        self._placed_colliders = None
 
     def _set_skin(self, node: Node, skin: Skin | None) -> None:
         """Let joints bend what a node holds."""
@@ -433,6 +452,13 @@ class Scene(Surroundings, SceneQueries):
 
     def __repr__(self) -> str:
         return f"Scene({self._arrays.count - self._removed} nodes)"
+
+
+def _take_animations(scene: Scene, clips: dict, put: Callable[[dict], None]) -> None:
+    """Let a scene's own dict hold other clips."""
+    from ..motion.clips import check_clips
+
+    put(check_clips(clips))
 
 
 def _check_object(obj) -> None:

@@ -62,6 +62,21 @@ class MeshWords(NamedTuple):
     variant_names: tuple[str, ...]
 
 
+class InstanceWords(NamedTuple):
+    """What a file says of instances.
+
+    Attributes
+    ----------
+    poses : (N, 4, 4) float32
+        The very array that they had then.
+    parts : tuple of arrays or None
+        As in `NodeRecord`.
+    """
+
+    poses: Any
+    parts: tuple | None
+
+
 def choose_variant(tree: TreeRecord | None, variant: str | int) -> None:
     """Give the meshes of a tree the materials of one of its variants.
 
@@ -139,7 +154,9 @@ class _Filling:
         if record.instances is None:
             return meshes
         colors = record.instance_colors
-        return [InstancedMesh(mesh, record.instances, colors=colors) for mesh in meshes]
+        made = [InstancedMesh(mesh, record.instances, colors=colors) for mesh in meshes]
+        records.update((each, InstanceWords(each.poses, record.instance_parts)) for each in made)
+        return made
 
     def _placed(self, record: NodeRecord) -> list[Camera | Light]:
         """The camera and the light of a node, each made once for all nodes that name it."""

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._support.validation import Closed, freeze, positive, vector3
+from .._native.loaders import frozen
+from .._support.validation import Closed, frozen_floats, positive, vector3
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 
@@ -33,12 +34,12 @@ class BoxCollider(Closed):
     def __init__(self, low: ArrayLike | None = None, high: ArrayLike | None = None) -> None:
         if (low is None) != (high is None):
             raise InvalidArgumentError("give both corners of a BoxCollider, or none")
-        self.box = None if low is None else np.stack([vector3(low, "low"), vector3(high, "high")])
-        if self.box is None:
+        self.box = None
+        if low is None:
             return
+        self.box = frozen(np.stack([vector3(low, "low"), vector3(high, "high")]))
         if (self.box[0] > self.box[1]).any():
             raise InvalidArgumentError("low must not be above high")
-        freeze(self.box)
 
 
 class SphereCollider(Closed):
@@ -54,7 +55,8 @@ class SphereCollider(Closed):
     center: NDArray[np.float64]
 
     def __init__(self, radius: float, center: ArrayLike = (0, 0, 0)) -> None:
-        self.radius, self.center = positive(radius, "radius"), vector3(center, "center")
+        self.radius = positive(radius, "radius")
+        self.center = frozen_floats(center, "center", (3,))
 
 
 class MeshCollider(Closed):

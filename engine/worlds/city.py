@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .._native.loaders import frozen
 from .._support.validation import own
 from ..geometry.mesh import Mesh
 from ..materials.material import Material
@@ -150,8 +151,7 @@ def city(triangles: int = 1_000_000, seed: int = 0) -> World:
         mesh, lights = _district(ground, key, shared)
         districts.append(mesh)
         lamps.append(lights)
-    lamps = np.concatenate(lamps)
-    lamps.setflags(write=False)
+    lamps = frozen(np.concatenate(lamps))
     return World(seed, tuple(districts), shared, lamps, WALKABLE, FOLIAGE, triangles)
 
 

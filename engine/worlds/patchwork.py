@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import linalg
+from .._native.loaders import frozen
 from ..geometry.mesh import Mesh
 from ..primitives.faces import split_quads
 from .surfaces import FITTED, TEXTURE_METRES
@@ -183,5 +184,4 @@ def _single(array: np.ndarray) -> np.ndarray:
 
 def _kept(array: np.ndarray) -> np.ndarray:
     """Let `Mesh` keep the array itself: nobody else writes to it."""
-    array.setflags(write=False)
-    return array
+    return frozen(array)

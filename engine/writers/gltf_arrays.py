@@ -6,6 +6,7 @@ What is the same array is written once.
 
 from __future__ import annotations
 
+from hashlib import blake2b
 from typing import Any
 
 import numpy as np
@@ -34,20 +35,17 @@ class GltfArrays:
         self.chunks: list[Any] = []
         self.size = 0
         self._numbers: dict[tuple, int] = {}
-        self._kept: list[Any] = []  # so that no other array gets an id meanwhile
 
-    def vertices(self, array: np.ndarray, what: str, *, key: Any = None) -> int:
+    def vertices(self, array: np.ndarray, what: str) -> int:
         """Return the accessor of an attribute, (V, N); positions with their bounds.
 
-        Parameters
-        ----------
-        key : object
-            What the array was made of, if it was: the same makes the same accessor.
+        What holds the same has the same accessor, whether it is one array or several: a file that
+        is read and written again is the same, though it was read into other arrays.
         """
-        known = (id(array if key is None else key), what, len(array))
+        content = np.ascontiguousarray(array)
+        known = what, content.dtype.str, content.shape, blake2b(content).digest()
         if known not in self._numbers:
-            self._kept.append(array if key is None else key)
-            self._numbers[known] = self.add(array, bounds=what == "POSITION", target=_VERTICES)
+            self._numbers[known] = self.add(content, bounds=what == "POSITION", target=_VERTICES)
         return self._numbers[known]
 
     def indices(self, elements: np.ndarray) -> int:

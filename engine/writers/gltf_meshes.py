@@ -11,14 +11,20 @@ from typing import Any
 import numpy as np
 
 from ..geometry.mesh import Mesh
+from ..geometry.movers import shares
 from ..loaders.documents import MeshRecord
+from ..loaders.gltf_meshes import MOST_BENDING, tangent_set
+from ..loaders.gltf_primitives import compact
+from ..loaders.vertex_values import usable_normals
 from ..materials.colors import srgb_to_linear_table
 from .gltf_arrays import GltfArrays
 from .gltf_materials import GltfMaterialList
+from .scene_tree import materials_of_faces
 
 _POINTS, _LINES = 0, 1
 _VARIANTS = "KHR_materials_variants"
 _INFLUENCES = 4
+_MOST_ROUNDS = 8
 _MORPHED = {"positions": "POSITION", "normals": "NORMAL", "tangents": "TANGENT"}
 
 
@@ -60,16 +66,14 @@ class GltfMeshList:
         return len(self.meshes) - 1
 
     def _primitives(self, part: MeshRecord):
-        mesh = part.mesh.with_creases()
-        numbers = np.unique(mesh.material_ids) if len(mesh.materials) > 1 else [0]
-        for number in numbers if len(mesh.faces) else ():
-            is_all = len(numbers) == 1
-            faces = mesh.faces if is_all else mesh.faces[mesh.material_ids == number]
-            material = mesh.materials[number]
-            entry = self._primitive(mesh, faces, whole=is_all, flat=material.flat_shading)
-            yield self._dressed(entry, part, int(number))
+        mesh = _with_tangents(part.mesh.with_creases())
+        numbers = materials_of_faces(mesh)
+        for number in numbers:
+            faces = mesh.faces[mesh.material_ids == number] if len(numbers) > 1 else mesh.faces
+            entry = self._primitive(mesh, faces, flat=mesh.materials[number].flat_shading)
+            yield self._dressed(entry, part, number)
         if len(mesh.lines):
-            entry = self._primitive(mesh, mesh.lines, whole=not len(mesh.faces))
+            entry = self._primitive(mesh, mesh.lines, flat=False)
             yield self._dressed({**entry, "mode": _LINES}, part, 0)
         if len(mesh.points):
             yield self._dressed(self._points(mesh), part, 0)
@@ -77,21 +81,13 @@ class GltfMeshList:
     def _points(self, mesh: Mesh) -> dict[str, Any]:
         whole = np.array_equal(mesh.points, np.arange(len(mesh.positions)))
         rows = slice(None) if whole else mesh.points
-        return {"attributes": self._attributes(mesh, rows, flat=False), "mode": _POINTS}
+        return {**self._vertices(mesh, rows, mesh.faces[:0], flat=False), "mode": _POINTS}
 
-    def _primitive(
-        self, mesh: Mesh, elements: np.ndarray, *, whole: bool, flat: bool = False
-    ) -> dict[str, Any]:
+    def _primitive(self, mesh: Mesh, elements: np.ndarray, *, flat: bool) -> dict[str, Any]:
         """Faces or lines of one material, with the vertices that they need."""
-        rows = slice(None)
-        if not whole:
-            rows, flat_elements = np.unique(elements, return_inverse=True)
-            elements = flat_elements.reshape(elements.shape)
-        entry: dict[str, Any] = {"attributes": self._attributes(mesh, rows, flat=flat)}
-        entry["indices"] = self._arrays.indices(elements)
-        if mesh.morph_targets:
-            entry["targets"] = [self._target(target, rows) for target in mesh.morph_targets]
-        return entry
+        rows, elements = compact(elements, len(mesh.positions))
+        entry = self._vertices(mesh, rows, elements[:, :3], flat=flat)
+        return {**entry, "indices": self._arrays.indices(elements)}
 
     def _dressed(self, entry: dict[str, Any], part: MeshRecord, number: int) -> dict[str, Any]:
         """A primitive with its material, and those that variants have for it."""
@@ -110,32 +106,36 @@ class GltfMeshList:
             entry["extensions"] = {_VARIANTS: {"mappings": mappings}}
         return entry
 
-    def _attributes(self, mesh: Mesh, rows, *, flat: bool) -> dict[str, int]:
-        whole = isinstance(rows, slice)
-        arrays = {"POSITION": mesh.positions}
+    def _vertices(self, mesh: Mesh, rows, faces: np.ndarray, *, flat: bool) -> dict[str, Any]:
+        """What some vertices carry, of which readers make use."""
+        arrays = {"POSITION": mesh.positions[rows]}
         # Faces without normals are flat; there is no other word for it.
         if not flat and (mesh.has_normals or len(mesh.faces)):
-            arrays["NORMAL"] = mesh.normals
-        if mesh.tangents is not None and not flat:
-            arrays["TANGENT"] = mesh.tangents
+            faces = faces if faces.shape[1] == 3 else mesh.faces[:0]
+            normals = usable_normals(mesh.normals[rows], arrays["POSITION"], faces)
+            arrays |= {} if normals is None else {"NORMAL": normals}
+        if mesh.tangents is not None and "NORMAL" in arrays:
+            arrays["TANGENT"] = mesh.tangents[rows]
         for number, uvs in enumerate((mesh.uvs, mesh.uvs1)):
             if uvs is not None:
-                arrays[f"TEXCOORD_{number}"] = uvs
+                arrays[f"TEXCOORD_{number}"] = uvs[rows]
         if mesh.colors is not None:
-            arrays["COLOR_0"] = mesh.colors
+            arrays["COLOR_0"] = mesh.colors[rows]
         found = {
-            name: self._arrays.vertices(_as_stored(array[rows], name), name, key=array)
-            if whole
-            else self._arrays.vertices(_as_stored(array[rows], name), name)
+            name: self._arrays.vertices(_as_stored(array, name), name)
             for name, array in arrays.items()
         }
-        return {**found, **self._influences(mesh, rows)}
+        entry: dict[str, Any] = {"attributes": {**found, **self._influences(mesh, rows)}}
+        if mesh.morph_targets:  # all primitives of a mesh have as many
+            entry["targets"] = [self._target(target, rows, found) for target in mesh.morph_targets]
+        return entry
 
     def _influences(self, mesh: Mesh, rows) -> dict[str, int]:
         found: dict[str, int] = {}
         if mesh.joints is None:
             return found
-        joints, weights = mesh.joints[rows], mesh.weights[rows]
+        weights = _settled(mesh.weights[rows])
+        joints = np.where(weights > 0, mesh.joints[rows], np.uint16(0))
         lacking = -joints.shape[1] % _INFLUENCES
         joints = np.pad(joints, ((0, 0), (0, lacking)))
         weights = np.pad(weights, ((0, 0), (0, lacking)))
@@ -146,13 +146,37 @@ class GltfMeshList:
                 found[f"{name}_{number}"] = self._arrays.vertices(content, name)
         return found
 
-    def _target(self, target, rows) -> dict[str, int]:
-        held = {name: getattr(target, field) for field, name in _MORPHED.items()}
-        return {
-            name: self._arrays.vertices(array[rows], name)
-            for name, array in held.items()
-            if array is not None
+    def _target(self, target, rows, attributes: dict[str, int]) -> dict[str, int]:
+        """What a target adds to the attributes that there are."""
+        held = {
+            name: getattr(target, field) for field, name in _MORPHED.items() if name in attributes
         }
+        added = {name: array[rows] for name, array in held.items() if array is not None}
+        if not added:  # a target that changes nothing still has its weight
+            added["POSITION"] = np.zeros((len(target), 3), np.float32)[rows]
+        return {name: self._arrays.vertices(array, name) for name, array in added.items()}
+
+
+def _settled(weights: np.ndarray) -> np.ndarray:
+    """Weights that stay as they are when they are read as shares of their sum again."""
+    for _ in range(_MOST_ROUNDS):
+        read = shares(weights.astype(np.float64))
+        if np.array_equal(read, weights):
+            break
+        weights = read
+    return weights
+
+
+def _with_tangents(mesh: Mesh) -> Mesh:
+    """A mesh that bends, with the tangents that readers would find for it; any other as it is."""
+    bends = mesh.joints is not None or bool(mesh.morph_targets)
+    if not bends or mesh.tangents is not None or not 0 < len(mesh.faces) <= MOST_BENDING:
+        return mesh
+    used = [mesh.materials[number] for number in materials_of_faces(mesh)]
+    smooth = [material for material in used if not material.flat_shading]
+    uv_set = next((found for m in smooth if (found := tangent_set(m)) is not None), None)
+    has_uvs = uv_set is not None and (mesh.uvs1 if uv_set else mesh.uvs) is not None
+    return mesh.with_tangents(uv_set) if has_uvs else mesh
 
 
 def _as_stored(array: np.ndarray, name: str) -> np.ndarray:
@@ -165,4 +189,4 @@ def _as_stored(array: np.ndarray, name: str) -> np.ndarray:
         linear = srgb_to_linear_table()[array]
         linear[:, 3] = array[:, 3].astype(np.float64) / 255
         return linear
-    return array
+    return np.nan_to_num(array).clip(0, 1) if name == "COLOR_0" else array

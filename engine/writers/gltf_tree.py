@@ -112,7 +112,7 @@ class GltfTree:
         if not node.visible:
             extensions[VISIBILITY] = {"visible": False}
         if node.instances is not None:
-            attributes = self._instances(node.instances)
+            attributes = self._instances(node.instances, node.instance_parts)
             if node.instance_colors is not None:
                 attributes["_COLOR_0"] = self.arrays.add(node.instance_colors)
             extensions[INSTANCING] = {"attributes": attributes}
@@ -123,10 +123,11 @@ class GltfTree:
             entry["extras"] = node.extras
         return entry
 
-    def _instances(self, poses: np.ndarray) -> dict[str, int]:
-        parts = parts_of_poses(poses)
-        if are_sheared(poses, parts):
-            self.told.append("gltf files hold no sheared instances: the shear is left out")
+    def _instances(self, poses: np.ndarray, parts: tuple | None) -> dict[str, int]:
+        if parts is None:
+            parts = parts_of_poses(poses)
+            if are_sheared(poses, parts):
+                self.told.append("gltf files hold no sheared instances: the shear is left out")
         return {
             name: self.arrays.add(part.astype(np.float32))
             for name, part in zip(_PARTS, parts, strict=True)

@@ -49,6 +49,13 @@ def tree_of_scene(scene: Scene) -> tuple[TreeRecord, list[str]]:
     return making.tree(), making.told
 
 
+class _TurnedLight:
+    """A node of the file for a directional light that shines elsewhere than along -Z."""
+
+    def __init__(self, light: DirectionalLight) -> None:
+        self.light = light
+
+
 class _Making:
     """The lists of a tree, each thing once."""
 
@@ -66,18 +73,24 @@ class _Making:
         scene = self._scene
         # What hangs below a node since that could not hold it goes back into it.
         self._folded = {node: node.parent for node in scene.nodes if _is_further_part(node)}
-        nodes = [node for node in scene.nodes if node not in self._folded]
-        self._row = {node: row for row, node in enumerate(nodes)}
-        placements = Placements(scene, nodes)
-        made = [self._node(node, placements, row) for row, node in enumerate(nodes)]
-        made += self._turned_lights(made)
+        self._turned = {
+            node: _TurnedLight(node.object)
+            for node in scene.nodes
+            if isinstance(node.object, DirectionalLight) and _is_turned(node.object)
+        }
+        rows = self._rows()
+        self._row = {row: number for number, row in enumerate(rows)}
+        nodes = [row for row in rows if isinstance(row, Node)]
+        self._placements = Placements(scene, nodes)
+        self._place_of = {node: place for place, node in enumerate(nodes)}
+        made = tuple(map(self._record, rows))
         self._tell_of_scene(nodes)
         meshes = tuple(self._lists["meshes"])
         materials = _materials_of(meshes)
         self._material_rows = {key: row for row, key in enumerate(materials)}
         clips = tuple(self._clip(clip) for clip in scene.animations.values())
         return TreeRecord(
-            nodes=tuple(made),
+            nodes=made,
             roots=tuple(self._row[node] for node in nodes if node.parent is None),
             meshes=meshes,
             skins=tuple(self._lists["skins"]),
@@ -89,18 +102,45 @@ class _Making:
             extras=records.get(scene),
         )
 
-    def _node(self, node: Node, placements: Placements, row: int) -> NodeRecord:
-        below = [child for child in node.children if child not in self._folded]
+    def _rows(self) -> list[Node | _TurnedLight]:
+        """The nodes of the file, each before those below it: in the order in which it is read.
+
+        So what they hold has the same numbers when what was read is written again.
+        """
+        tops = [node for node in self._scene.nodes if node.parent is None]
+        found: list[Node | _TurnedLight] = []
+        waiting: list[Node | _TurnedLight] = tops[::-1]
+        while waiting:
+            found.append(waiting.pop())
+            waiting += self._below(found[-1])[::-1]
+        return found
+
+    def _below(self, row: Node | _TurnedLight) -> list[Node | _TurnedLight]:
+        """What hangs below a node of the file, its turned light behind all others."""
+        if not isinstance(row, Node):
+            return []
+        below = [child for child in row.children if child not in self._folded]
+        return [*below, self._turned[row]] if row in self._turned else below
+
+    def _record(self, row: Node | _TurnedLight) -> NodeRecord:
+        if isinstance(row, Node):
+            return self._node(row)
+        direction = row.light.direction
+        number = self._number("lights", row.light, _lamp)
+        turned = linalg.look_at((0, 0, 0), direction, _across(direction))
+        return NodeRecord(matrix=turned, light=number)
+
+    def _node(self, node: Node) -> NodeRecord:
         parts = [node, *(child for child in node.children if child in self._folded)]
         held = [part.object for part in parts if part.object is not None]
         came = records.get(node)
         came = came if isinstance(came, NodeRecord) else NodeRecord()
         return NodeRecord(
             name=node.name,
-            children=tuple(self._row[child] for child in below),
+            children=tuple(self._row[below] for below in self._below(node)),
             visible=node.visible,
             extras=came.extras,
-            **_place(node, came, placements, row),
+            **_place(came, self._placements, self._place_of[node]),
             **self._shown(node, held),
             **self._placed(node, held),
         )
@@ -109,11 +149,18 @@ class _Making:
         """The mesh of a node, and how it is bent."""
         instanced = [obj for obj in held if isinstance(obj, InstancedMesh)]
         meshes = [obj.mesh for obj in instanced] or [obj for obj in held if isinstance(obj, Mesh)]
+        meshes = [mesh for mesh in meshes if _shows(mesh)]
         if not meshes:
+            return {}
+        if instanced and not len(instanced[0]):
+            self.told.append(f"node {shown(node.name)}: gltf files hold no instances without any")
             return {}
         found: dict[str, Any] = {"mesh": self._mesh(meshes)}
         if instanced:
             found["instances"] = _poses(instanced[0])
+            came = records.get(instanced[0])
+            if came is not None and came.poses is instanced[0].poses:
+                found["instance_parts"] = came.parts
             found["instance_colors"] = _linear(instanced[0].colors)
         if node.skin is not None:
             found["skin"] = self._number("skins", node.skin, self._skin)
@@ -131,7 +178,11 @@ class _Making:
         for obj in held:
             if isinstance(obj, (Mesh, InstancedMesh)):
                 continue
-            if isinstance(obj, (PerspectiveCamera, OrthographicCamera)):
+            if isinstance(obj, OrthographicCamera) and obj.znear < 0:
+                self.told.append(
+                    f"node {shown(node.name)}: gltf files hold no camera that sees behind itself"
+                )
+            elif isinstance(obj, (PerspectiveCamera, OrthographicCamera)):
                 found["camera"] = self._number("cameras", obj, _lens)
             elif isinstance(obj, _LIGHTS) and self._is_told(node, obj):
                 found["light"] = self._number("lights", obj, _lamp)
@@ -142,30 +193,14 @@ class _Making:
 
     def _is_told(self, node: Node, light) -> bool:
         """Whether a light shines as such files say; others that are nearly so are told of."""
-        if isinstance(light, DirectionalLight) and light.direction.tolist()[:2] != [0.0, 0.0]:
-            return False  # it hangs below, turned
-        if isinstance(light, DirectionalLight) and light.direction[2] > 0:
-            return False
+        if node in self._turned:
+            return False  # it hangs below
         if isinstance(light, PointLight) and light.falloff != "gltf" and light.range < math.inf:
             self.told.append(
                 f"node {shown(node.name)}: gltf files hold no light whose falloff is "
                 f"{light.falloff!r}"
             )
         return True
-
-    def _turned_lights(self, made: list[NodeRecord]) -> list[NodeRecord]:
-        """Nodes for the directional lights that shine elsewhere than along -Z, below their own."""
-        added: list[NodeRecord] = []
-        for node, row in self._row.items():
-            light = node.object
-            if not isinstance(light, DirectionalLight) or made[row].light is not None:
-                continue
-            number = self._number("lights", light, _lamp)
-            turned = linalg.look_at((0, 0, 0), light.direction, _across(light.direction))
-            below = NodeRecord(matrix=turned, light=number)
-            made[row] = replace(made[row], children=(*made[row].children, len(made) + len(added)))
-            added.append(below)
-        return added
 
     def _number(self, where: str, thing: Any, record_of) -> int:
         """The number of a thing in its list, to which it is added if it is new there."""
@@ -271,6 +306,17 @@ def _tells_of_shadows(node: Node) -> bool:
     return bool(casts or not node.cast_shadows or not node.receive_shadows)
 
 
+def _is_turned(light: DirectionalLight) -> bool:
+    """Whether a light shines elsewhere than along -Z, as those of such files do."""
+    x, y, z = light.direction.tolist()
+    return (x, y) != (0.0, 0.0) or z > 0
+
+
+def _shows(mesh: Mesh) -> bool:
+    """Whether a mesh is more than vertices, of which such files would hold nothing."""
+    return any(map(len, (mesh.faces, mesh.lines, mesh.points)))
+
+
 def _is_further_part(node: Node) -> bool:
     """Whether a node is as the loader made it for what the node above it could not hold."""
     if records.get(node) is not FURTHER_PART or node.parent is None or node.children:
@@ -278,7 +324,7 @@ def _is_further_part(node: Node) -> bool:
     return np.array_equal(node.pose, np.eye(4)) and node.visible and node.object is not None
 
 
-def _place(node: Node, came: NodeRecord, placements: Placements, row: int) -> dict[str, Any]:
+def _place(came: NodeRecord, placements: Placements, row: int) -> dict[str, Any]:
     """A node's pose: as the file had it while it is the same, else its parts or its matrix."""
     names = (*_IDENTITY, "matrix")
     pose = placements.poses[row]
@@ -309,7 +355,7 @@ def _poses(instanced: InstancedMesh) -> np.ndarray:
 def _linear(colors: np.ndarray | None) -> np.ndarray | None:
     """Colours of instances in linear light, (N, 4) float32."""
     if colors is None or colors.dtype != np.uint8:
-        return colors
+        return None if colors is None else colors.clip(0, 1)
     decoded = [(*linear_color(tuple(row[:3])), row[3] / 255) for row in colors.tolist()]
     return np.array(decoded, np.float32).reshape(-1, 4)
 
@@ -353,8 +399,24 @@ def _materials_of(meshes: tuple[MeshRecord, ...]) -> dict[int, Material]:
     found: dict[int, Material] = {}
     for record in meshes:
         for part in record.parts:
-            found.update((id(material), material) for material in part.mesh.materials)
+            mesh = part.mesh
+            numbers = materials_of_faces(mesh)
+            numbers += [0] if len(mesh.lines) or len(mesh.points) else []
+            used = [mesh.materials[number] for number in numbers]
+            found.update((id(material), material) for material in used)
     return found
+
+
+def materials_of_faces(mesh: Mesh) -> list[int]:
+    """The numbers of the materials that faces have, in the order in which they are written.
+
+    Readers make one mesh of the smooth ones and another of the flat ones: like stands with like.
+    """
+    if not len(mesh.faces):
+        return []
+    numbers = np.unique(mesh.material_ids).tolist() if len(mesh.materials) > 1 else [0]
+    are_flat = mesh.materials[numbers[0]].flat_shading
+    return sorted(numbers, key=lambda n: mesh.materials[n].flat_shading != are_flat)
 
 
 def _are_equal(one: Any, other: Any) -> bool:

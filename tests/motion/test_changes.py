@@ -4,12 +4,13 @@ import gc
 import threading
 
 import numpy as np
-from motion.test_posing import bent_tube, by_matrices, posed, skinned_scene
+import pytest
+from motion.test_posing import bent_tube, by_matrices, skinned_scene
 from motion.test_shown import stage, view, wriggle
 
 import engine3d as e3d
 from engine3d.linalg import transform_points
-from engine3d.motion.shown import placing_pose
+from engine3d.motion.shown import placing_pose, shown_object
 
 
 def world_points(scene, node):
@@ -71,7 +72,8 @@ def test_a_mesh_without_joints_any_longer_is_drawn_at_rest():
     scene, node = skinned_scene(bent_tube(rng), rng)
     scene._update()
     node.object.set_influences(None, None)
-    assert np.array_equal(posed(scene, node).positions, node.object.positions)
+    scene._update()
+    assert shown_object(node) is node.object
     assert scene._arrays.columns["anchor"][node._slot] == -1
 
 
@@ -104,3 +106,106 @@ def test_what_a_thread_draws_stays_as_it_is_while_another_moves_it():
     for thread in threads:
         thread.join()
     assert len(seen) > 2 and set(seen) <= expected
+
+
+def flat_scene():
+    """A square, moved by one joint and one morph target as soon as a node says so."""
+    scene = e3d.Scene(ambient=(1, 1, 1))
+    mesh = e3d.Mesh(SQUARE, [[0, 1, 2], [1, 3, 2]])
+    node, joint = scene.add(mesh), scene.add(translation=(0.5, 0, 0))
+    camera = e3d.PerspectiveCamera(zfar=20), e3d.look_at((0, 0, 6), (0, 0, 0))
+    return scene, mesh, node, joint, camera
+
+
+SQUARE = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]])
+STEPS = {
+    "influences": lambda mesh, node, skin: mesh.set_influences(np.zeros((4, 1), int), [[1.0]] * 4),
+    "targets": lambda mesh, node, skin: setattr(
+        mesh, "morph_targets", [e3d.MorphTarget(np.tile([0, 0.5, 0], (4, 1)))]
+    ),
+    "positions": lambda mesh, node, skin: setattr(mesh, "positions", SQUARE * (1, 0.5, 1)),
+    "edges": lambda mesh, node, skin: setattr(mesh, "edge_visible", [[1, 0, 0], [0, 1, 1]]),
+    "skin": lambda mesh, node, skin: setattr(node, "skin", skin),
+    "weights": lambda mesh, node, skin: setattr(node, "morph_weights", [1.0]),
+    "no skin": lambda mesh, node, skin: setattr(node, "skin", None),
+    "no weights": lambda mesh, node, skin: setattr(node, "morph_weights", None),
+    "no influences": lambda mesh, node, skin: mesh.set_influences(None, None),
+    "no targets": lambda mesh, node, skin: setattr(mesh, "morph_targets", ()),
+    "another mesh and back": lambda mesh, node, skin: (
+        setattr(node, "object", None),
+        setattr(node, "object", mesh),
+    ),
+}
+END = ("influences", "targets", "positions", "edges", "skin", "weights")
+
+
+def looked_at(scene, camera, renderer):
+    """What pictures and rays say of a scene: the same the second time."""
+    frames = [renderer.render(scene, camera, wireframe="overlay", cull="none") for _ in range(2)]
+    again = renderer.render(scene, camera, outputs=("depth",), cull="none")
+    assert frames[0].color.tobytes() == frames[1].color.tobytes()
+    hits = [scene.raycast((x, 0.7, 3), (0, 0, -1)) for x in (0.25, 0.75, 1.25)]
+    hits = [hit and hit.position.tolist() for hit in hits]
+    return frames[0].color.tobytes(), again.depth.tobytes(), scene.bounds.tolist(), hits
+
+
+def in_some_order(rng):
+    """The steps of the end; joints come before a skin, targets before weights."""
+    steps = list(rng.permutation(END))
+    for first, then in (("influences", "skin"), ("targets", "weights")):
+        if steps.index(first) > steps.index(then):
+            a, b = steps.index(first), steps.index(then)
+            steps[a], steps[b] = then, first
+    return steps
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_the_order_in_which_a_mesh_is_made_to_bend_changes_nothing(seed):
+    rng = np.random.default_rng(seed)
+    scene, mesh, node, joint, camera = flat_scene()
+    skin, renderer = e3d.Skin([joint], np.eye(4)[None]), e3d.Renderer(64, 64)
+    for _ in range(12):
+        try:
+            STEPS[str(rng.choice(list(STEPS)))](mesh, node, skin)
+        except e3d.InvalidArgumentError:
+            continue  # a skin for a mesh without joints, weights for no targets
+        if rng.random() < 0.3:
+            looked_at(scene, camera, renderer)
+        if rng.random() < 0.3:
+            assert np.isfinite(scene.bounds).all()
+    for step in ("no skin", "no weights", "no influences", "no targets"):
+        STEPS[step](mesh, node, skin)
+    for step in in_some_order(rng):
+        STEPS[step](mesh, node, skin)
+    seen = looked_at(scene, camera, renderer)
+    fresh, mesh, node, joint, camera = flat_scene()
+    skin = e3d.Skin([joint], np.eye(4)[None])
+    for step in END:
+        STEPS[step](mesh, node, skin)
+    assert seen == looked_at(fresh, camera, e3d.Renderer(64, 64))
+
+
+def test_meshes_that_are_made_to_bend_after_their_nodes_bend():
+    scene, mesh, node, joint, _ = flat_scene()
+    STEPS["influences"](mesh, node, None)
+    STEPS["targets"](mesh, node, None)
+    node.skin, node.morph_weights = e3d.Skin([joint], np.eye(4)[None]), [1.0]
+    assert scene.bounds.tolist() == [[0.5, 0.5, 0], [1.5, 1.5, 0]]
+    node.morph_weights = None
+    assert scene.bounds.tolist() == [[0.5, 0, 0], [1.5, 1, 0]]
+    node.morph_weights = [1.0]
+    node.object = other = e3d.Mesh(SQUARE, [[0, 1, 2]])
+    assert scene.bounds.tolist() == [[0, 0, 0], [1, 1, 0]]
+    other.set_influences(np.zeros((4, 1), int), [[1.0]] * 4)
+    assert scene.bounds.tolist() == [[0.5, 0, 0], [1.5, 1, 0]]
+    other.morph_targets = mesh.morph_targets
+    assert scene.bounds.tolist() == [[0.5, 0.5, 0], [1.5, 1.5, 0]]
+
+
+def test_colliders_of_meshes_that_are_bent_later_are_where_these_are():
+    scene, mesh, node, joint, _ = flat_scene()
+    STEPS["influences"](mesh, node, None)
+    node.collider = e3d.MeshCollider()
+    assert scene.overlap_sphere((1.3, 0.5, 0), 0.1) == ()
+    node.skin = e3d.Skin([joint], np.eye(4)[None])
+    assert scene.overlap_sphere((1.3, 0.5, 0), 0.1) == (node,)

@@ -12,8 +12,8 @@ import itertools
 
 from ..scene.node_arrays import NodeArrays
 from ..scene.scene import Scene
-from ._casters import placed_casters
 from ._draw_list import DrawList
+from .casters import placed_casters
 
 _versions = itertools.count(1)
 

@@ -14,7 +14,6 @@ from .._native.rasterizer import CULLS, NativeRenderer, find_shadow_ranges, shad
 from ..choices import Cull
 from ..scene.lights import DirectionalLight, SpotLight
 from ..scene.scene import Scene
-from ._casters import placed_casters
 from ._draw_list import DrawList
 from ._shadow_views import (
     MapView,
@@ -24,6 +23,7 @@ from ._shadow_views import (
     spot_views,
 )
 from ._view import View
+from .casters import placed_casters
 
 
 class _LightMaps:

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from .. import linalg
 from ..geometry.mesh import Mesh
 from ..materials.material import Material
 from ..rendering.frame import Frame
@@ -33,8 +32,6 @@ _SMALL = (160, 120)
 _SAMPLES = 4
 #: How far ambient occlusion reaches, in radii of the model.
 _OCCLUSION = 0.2
-#: What is lower than this share of its size lies flat.
-_FLAT = 1e-3
 _KEPT = ("background", "ambient", "environment", "environment_intensity", "fog")
 
 
@@ -76,9 +73,6 @@ class Studio:
         )
         self.own_ids = np.array([node.id for node in self.scene.nodes], np.int64)
         self._kept = {name: getattr(self.scene, name) for name in _KEPT}
-        size = self.bounds[1] - self.bounds[0]
-        # What lies flat on the ground has no shadow: the two would mix.
-        self._is_upright = float(linalg.dot(size, np.abs(self.up))) > _FLAT * float(size.max())
         self._options = {"samples": _SAMPLES, "antialias": "msaa", **drawing}
         self._drawing = dict(drawing)
         self._cull = viewed.appearance.get("cull", "back")
@@ -144,11 +138,12 @@ class Studio:
         if both_sides:
             options["cull"] = "none"
         if on_stage:
-            if self._is_upright:
-                self._stage.lay_shadow(self.sphere, azimuth, 0.0)
+            cull = options.get("cull", self._cull)
+            self._stage.lay_shadow(self.sphere, azimuth, cull, (*pose[:3, 2], 0.0))
             options["ambient_occlusion"] = True
             options["ambient_occlusion_radius"] = _OCCLUSION * self.sphere.radius
-        self._stage.show_shadow(on_stage)
+        else:
+            self._stage.show_shadow(False)
         ground = self.stage_theme.gradient if on_stage else self.paper.background
         self.scene.background = ground
         outputs = OUTPUTS if on_stage else (*OUTPUTS, "world_normal")

@@ -1,13 +1,15 @@
 """The soft shadow of a model on an invisible ground.
 
-In: a scene, and where its ground is. Out: a `Mesh`, a square that is black where little light comes
-down to the ground and lets the background through elsewhere.
+In: a scene, where its ground is, and from which side it is looked at. Out: how dark the ground is
+on a square around the model.
 
-A picture from below tells how high the lowest surface over each place of the ground is. Surfaces
-are parted by their heights. What a part takes of the light is spread over the ground about as far
-as the part is high: so the shadow is dark and sharp where the model stands, and soft below what
-overhangs. The sky's light comes straight down, the key light at a slant. All of it is done in
-integers, which are the same on every machine.
+Along the rays of a light, pictures from below and from above tell where the model begins and ends
+over each place of the ground. It is taken apart into slices by height. A slice takes light from
+the ground where the rays meet it, and about as far around as it is high; the slice that takes most
+counts. So the shadow is dark and sharp where the model stands and soft below what overhangs, and
+no ring shows where one slice ends and the next begins, since they overlap. The sky's rays come
+straight down, the key light's at a slant. Sums are of whole numbers that 32-bit floats hold: they
+are the same on every machine.
 """
 
 from __future__ import annotations
@@ -16,118 +18,270 @@ import numpy as np
 
 from .. import linalg
 from ..geometry.mesh import Mesh
-from ..materials.material import Material
-from ..materials.textures import Texture
+from ..materials.material import textures_of
+from ..rendering.casters import placed_casters
 from ..rendering.renderer import Renderer
-from ..scene.cameras import OrthographicCamera
-from ..scene.orbiting import cosine, home_axes, sine
+from ..scene.cameras import Camera
+from ..scene.instances import InstancedMesh
+from ..scene.orbiting import cosine, sine
 from .viewpoint import Sphere
 
 #: The square reaches so many radii from the middle of the model, in so many texels a side.
-REACH, SIDE = 2.0, 256
-#: Heights, in radii, at which the parts end.
-_PARTS = (0.06, 0.14, 0.3, 0.6, 1.1, 2.0)
+REACH, SIDE = 2.0, 512
 #: How dark it is where none of the sky's light arrives, and none of the key light.
-_SKY, _KEY = 0.42, 0.26
+_SKY, _KEY = 0.46, 0.3
 #: How far both spread, and how far to the left and back the key light's shadow moves, in heights.
-_SKY_SPREAD, _KEY_SPREAD = 0.55, 0.18
+_SKY_SPREAD, _KEY_SPREAD = 0.45, 0.18
 _LEFT, _BACK = 0.42, 0.5
-_ONE = 1 << 16
+#: Heights of the slices in radii: the first is at the ground, each next one so many times as high.
+_HEIGHTS = (0.0, *(0.02 * 1.5**k for k in range(12)))
+#: Heights that are seen, in radii.
+_LOW, _HIGH = -0.01, 3.0
+#: Spreads in texels: no slice spreads less than the first, and on coarser texels if farther than
+#: the second. Slices are cut out in blocks of whole texels of all sizes.
+_LEAST, _MOST, _BLOCK = 2, 4, 64
+#: What is wholly in a slice, and what is left of that after it has spread to the sides.
+_WHOLE, _WIDE = 256.0, 4096.0
+#: From here on the shadow fades, in radii, so that it ends before the square does.
+_FADES = 1.6
 
 
-def ground_shadow(scene, lowest: float, sphere: Sphere, up, azimuth: float) -> Mesh:
-    """Return the shadow of a scene.
+class GroundShadow:
+    """The shadow of a scene on its ground, parts of which are kept for as long as they hold.
 
     Parameters
     ----------
     scene : Scene
-    lowest : float
-        How high the ground lies along the up direction.
-    sphere : Sphere
-        The scene's bounding sphere; sets the size of the square.
-    up : (3,) sequence of float
-        The world's up direction.
-    azimuth : float
-        Of one who looks at the scene, in radians; the key light stands behind their right shoulder.
-
-    Returns
-    -------
-    Mesh
-        In world space; seen from above only.
+    ground : Mesh
+        What shows the shadow in the scene; casts none.
+    axes : (3, 3) ndarray of float64
+        Those of `home_axes`: rows right, up and back.
     """
-    axes = home_axes(up)
-    up = axes[1]
-    center = np.array(sphere.center)
-    middle = center + up * (lowest - float(linalg.dot(center, up)))
-    alpha = _darkness(_heights(scene, middle, axes, sphere.radius), azimuth)
-    return _square(alpha, middle, axes, REACH * sphere.radius)
+
+    def __init__(self, scene, ground: Mesh, axes: np.ndarray) -> None:
+        self._scene = scene
+        self._ground = ground
+        self._axes = axes
+        self._renderers: dict[bool, Renderer] = {}
+        self._kept: dict[float, tuple[tuple, np.ndarray]] = {}
+
+    def alphas(self, lowest: float, sphere: Sphere, azimuth: float, cull: str) -> np.ndarray:
+        """Return how dark the ground is; rows go from the back to the front.
+
+        Parameters
+        ----------
+        lowest : float
+            How high the ground lies along the up direction.
+        sphere : Sphere
+            The scene's bounding sphere; sets the size of the square.
+        azimuth : float
+            Of one who looks at the scene, in radians; the key light stands behind their right
+            shoulder.
+        cull : str
+            As in `Renderer.render`: faces that the lights do not see cast no shadow.
+
+        Returns
+        -------
+        (SIDE, SIDE) ndarray of uint8
+            0 at the sides.
+        """
+        turned, tipped = cosine(azimuth), sine(azimuth)
+        slant = -_LEFT * turned - _BACK * tipped, _LEFT * tipped - _BACK * turned
+        stands = lowest, sphere, cull, self._state()
+        sky = self._darkness((0.0, 0.0), _SKY_SPREAD, *stands)
+        key = self._darkness(slant, _KEY_SPREAD, *stands)
+        dark = (sky * np.float32(255 * _SKY) + key * np.float32(255 * _KEY)) * _fading()
+        return np.rint(dark).astype(np.uint8)
+
+    def _darkness(self, slant, spread: float, *stands) -> np.ndarray:
+        """How much of a light is taken, (SIDE, SIDE) float32 from 0 to 1."""
+        kept = self._kept.get(spread)
+        if kept is None or kept[0] != (slant, stands):
+            heights = self._heights(slant, *stands[:3])
+            kept = self._kept[spread] = (slant, stands), _darkness(*heights, spread)
+        return kept[1]
+
+    def _state(self) -> tuple:
+        """What is the same while all that casts a shadow is, and stays as and where it is."""
+        scene = self._scene
+        scene._update()
+        posing = None if scene._posing is None else scene._posing.moment
+        versions = {}
+        for shape in scene._objects.objects:
+            if shape is None or shape is self._ground:
+                continue
+            if isinstance(shape, InstancedMesh):
+                versions[shape] = shape.version
+            mesh = getattr(shape, "mesh", shape)
+            versions[mesh] = mesh.version
+            for material in mesh.materials:
+                versions[material] = material.version
+                if material.alpha_mode != "opaque":  # its textures have holes
+                    versions.update((t, t.version) for t in textures_of(material).values())
+        return versions, posing, placed_casters(scene._arrays)
+
+    def _heights(self, slant, lowest: float, sphere: Sphere, cull: str):
+        """Where along rays the model begins and ends: two of (SIDE, SIDE) float32, in radii.
+
+        Where nothing is, it begins infinitely high and ends infinitely low.
+        """
+        right, up, back = self._axes
+        center = np.array(sphere.center)
+        middle = center + up * (lowest - float(linalg.dot(center, up)))
+        across, down = slant
+        from_below = _camera((-across, -down), 2 * _LOW, sphere.radius)
+        from_above = _camera((across, -down), -2 * _HIGH, sphere.radius)
+        below = self._depths(from_below, middle, (right, back, -up))[::-1]
+        above = self._depths(from_above, middle, (right, -back, up), cull)
+        last = np.float32(_HIGH) - above * np.float32(_HIGH - _LOW)
+        first = np.minimum(np.float32(_LOW) + below * np.float32(_HIGH - _LOW), last)
+        return np.where(np.isfinite(above), first, np.float32(np.inf)), last
+
+    def _depths(self, camera: Camera, middle: np.ndarray, axes, cull="none") -> np.ndarray:
+        """Depths from 0 to 1 of what a camera on the ground sees; infinite where nothing is."""
+        pose = np.eye(4)
+        pose[:3, :3], pose[:3, 3] = np.stack(axes, axis=1), middle
+        by_mesh = cull == "auto"  # each renderer goes on as it began
+        if by_mesh not in self._renderers:
+            self._renderers[by_mesh] = Renderer(SIDE, SIDE)
+        frame = self._renderers[by_mesh].render(
+            self._scene, (camera, pose), outputs=("ndc_depth",), cull=cull
+        )
+        return (frame.ndc_depth + np.float32(1.0)) * np.float32(0.5)
 
 
-def _heights(scene, middle: np.ndarray, axes, radius: float) -> np.ndarray:
-    """How high over the ground the lowest surfaces are, in radii: infinite where there are none.
+def _camera(lean, reached: float, radius: float) -> Camera:
+    """A camera without perspective whose picture shows where rays that lean meet the ground.
 
-    Rows go from the back to the front, columns from the left to the right.
+    Parameters
+    ----------
+    lean : (float, float)
+        How far to the right and up a place moves in the picture for each step to the viewer.
+    reached : float
+        Twice how far before the camera the picture begins, in radii.
+    radius : float
     """
-    right, up, back = axes
-    pose = np.eye(4)
-    pose[:3, 0], pose[:3, 1], pose[:3, 2] = right, back, -up  # looks up from below
-    pose[:3, 3] = middle - up * (0.01 * radius)
-    camera = OrthographicCamera(REACH * radius, znear=0.005 * radius, zfar=3.0 * radius)
-    with Renderer(SIDE, SIDE) as renderer:
-        depth = renderer.render(scene, (camera, pose), outputs=("depth",), cull="none").depth
-    heights = np.maximum(depth / np.float32(radius) - np.float32(0.01), 0)
-    return np.where(depth > 0, heights, np.inf)[::-1]
+    side, deep = REACH * radius, _HIGH - _LOW
+    return Camera(
+        [
+            [1 / side, 0.0, lean[0] / side, 0.0],
+            [0.0, 1 / side, lean[1] / side, 0.0],
+            [0.0, 0.0, -2 / (deep * radius), -reached / deep - 1.0],
+            [0.0, 0.0, 0.0, 1.0],
+        ]
+    )
 
 
-def _darkness(heights: np.ndarray, azimuth: float) -> np.ndarray:
-    """Return (SIDE, SIDE) uint8 alphas."""
-    texels = SIDE / (2 * REACH)  # of a radius
-    turned, tipped = cosine(azimuth), sine(azimuth)
-    across, down = -_LEFT * turned - _BACK * tipped, _LEFT * tipped - _BACK * turned
-    sky, key = np.zeros(heights.shape, np.int64), np.zeros(heights.shape, np.int64)
-    low = 0.0
-    for high in _PARTS:
-        part = ((heights >= low) & (heights < high)) * np.int64(_ONE)
-        height = (low + high) / 2 * texels
-        sky += _spread(part, round(_SKY_SPREAD * height))
-        moved = _moved(part, round(across * height), round(down * height))
-        key += _spread(moved, round(_KEY_SPREAD * height))
-        low = high
-    dark = _SKY * np.minimum(sky, _ONE) + _KEY * np.minimum(key, _ONE)
-    return np.rint(dark * (255 / _ONE)).astype(np.uint8)
+# ---- slices ----
 
 
-def _moved(part: np.ndarray, columns: int, rows: int) -> np.ndarray:
-    """Return a picture moved to the right and downward; what comes in is 0."""
-    moved = np.zeros_like(part)
-    to = tuple(slice(max(step, 0), SIDE + min(step, 0)) for step in (rows, columns))
-    source = tuple(slice(max(-step, 0), SIDE + min(-step, 0)) for step in (rows, columns))
-    moved[to] = part[source]
-    return moved
+def _darkness(first: np.ndarray, last: np.ndarray, spread: float) -> np.ndarray:
+    """Return how much light all slices take, (SIDE, SIDE) float32 from 0 to 1."""
+    rows, columns = _block(last > -np.inf)
+    first, last = first[rows, columns], last[rows, columns]
+    level = _texels(len(_HEIGHTS) - 1, spread)[0]
+    taken = np.zeros((SIDE >> level, SIDE >> level), np.float32)
+    for number in reversed(range(len(_HEIGHTS))):
+        finer, reach = _texels(number, spread)
+        while level > finer:
+            taken, level = _doubled(taken), level - 1
+        part = _slice(first, last, number)
+        inner = _block(part > 0)
+        if part[inner].size:
+            corner = [
+                a.start + b.start >> level for a, b in zip((rows, columns), inner, strict=True)
+            ]
+            _lay(_spread(_coarse(part[inner], level), reach), taken, corner, 3 * reach)
+    while level > 0:
+        taken, level = _doubled(taken), level - 1
+    return taken
+
+
+def _texels(number: int, spread: float) -> tuple[int, int]:
+    """How often texels are doubled for a slice, and how many it spreads then."""
+    reach, level = spread * _HEIGHTS[number] * SIDE / (2 * REACH), 0
+    while reach > _MOST:
+        reach, level = reach / 2, level + 1
+    return level, max(_LEAST, round(reach))
+
+
+def _slice(first: np.ndarray, last: np.ndarray, number: int) -> np.ndarray:
+    """What is at the height of a slice, from 0 to `_WHOLE`; what nears it is partly in it."""
+    above = _HEIGHTS[number + 1] if number + 1 < len(_HEIGHTS) else _HIGH
+    here, whole = _HEIGHTS[number], np.float32(_WHOLE)
+    part = _share(np.float32(above) - first, above - here)
+    if number:
+        part *= _share(last - np.float32(_HEIGHTS[number - 1]), here - _HEIGHTS[number - 1])
+    return np.rint(part * whole)
+
+
+def _share(height: np.ndarray, step: float) -> np.ndarray:
+    return np.clip(height * np.float32(1 / step), np.float32(0), np.float32(1))
+
+
+def _block(shows: np.ndarray) -> tuple[slice, slice]:
+    """The rows and columns in which something is, in whole blocks."""
+    found = []
+    for axis in (1, 0):
+        places = np.flatnonzero(shows.any(axis=axis))
+        low, high = (places[0], places[-1] + 1) if len(places) else (0, 0)
+        found.append(slice(low // _BLOCK * _BLOCK, -(-high // _BLOCK) * _BLOCK))
+    return found[0], found[1]
+
+
+def _coarse(part: np.ndarray, level: int) -> np.ndarray:
+    for _ in range(level):
+        part = part[::2] + part[1::2]
+        part = part[:, ::2] + part[:, 1::2]
+    return np.rint(part * np.float32(0.25**level))
+
+
+def _doubled(taken: np.ndarray) -> np.ndarray:
+    """Return twice as many rows and columns, between which a picture goes on evenly."""
+    for _ in range(2):
+        beside = np.concatenate([taken[:1], taken, taken[-1:]]) * np.float32(0.25)
+        finer = np.empty((2 * len(taken), taken.shape[1]), np.float32)
+        inner = taken * np.float32(0.75)
+        finer[::2], finer[1::2] = inner + beside[:-2], inner + beside[2:]
+        taken = finer.T
+    return np.ascontiguousarray(taken)
 
 
 def _spread(part: np.ndarray, reach: int) -> np.ndarray:
-    """Return a picture spread about as by a normal distribution: by three means along each side."""
-    for _ in range(6 if reach and part.any() else 0):
-        part = _means(part, reach).T
-    return part
+    """Return a part spread about as by a normal distribution, with a margin of 3 reaches.
+
+    That is by three means along each side; 1 where all around is wholly in the slice.
+    """
+    taps = float((2 * reach + 1) ** 3)
+    wide = _sums(np.pad(part, 6 * reach), reach)
+    wide = np.rint(wide * np.float32(_WIDE / (_WHOLE * taps)))
+    return _sums(wide.T, reach).T * np.float32(1 / (_WIDE * taps))
 
 
-def _means(rows: np.ndarray, reach: int) -> np.ndarray:
-    sums = np.cumsum(np.pad(rows, ((0, 0), (reach + 1, reach))), axis=1)
-    return (sums[:, 2 * reach + 1 :] - sums[:, : -2 * reach - 1]) // (2 * reach + 1)
+def _sums(rows: np.ndarray, reach: int) -> np.ndarray:
+    """Return three times the sums of neighbours; rows become shorter by 3 reaches at each end."""
+    for _ in range(3):
+        length = len(rows) - 2 * reach
+        total = rows[:length] + rows[1 : 1 + length]
+        for k in range(2, 2 * reach + 1):
+            total += rows[k : k + length]
+        rows = total
+    return rows
 
 
-def _square(alpha: np.ndarray, middle: np.ndarray, axes, reach: float) -> Mesh:
-    pixels = np.zeros((SIDE, SIDE, 4), np.uint8)
-    pixels[..., 3] = alpha
-    texture = Texture(pixels, filter="bilinear", wrap="clamp")
-    right, _, back = axes
-    corners = [(-1, 1), (1, 1), (1, -1), (-1, -1)]
-    return Mesh(
-        np.array([middle + right * (reach * x) + back * (reach * y) for x, y in corners]),
-        [(0, 1, 2), (0, 2, 3)],
-        uvs=[(0, 0), (1, 0), (1, 1), (0, 1)],
-        materials=[Material(texture=texture, alpha_mode="blend", unlit=True)],
-        name="shadow",
-    )
+def _lay(part: np.ndarray, taken: np.ndarray, corner, margin: int) -> None:
+    """Let a part take its light, if another does not take more already."""
+    to, source = [], []
+    for start, size in zip(corner, part.shape, strict=True):
+        low, high = max(start - margin, 0), min(start - margin + size, len(taken))
+        to.append(slice(low, high))
+        source.append(slice(low - start + margin, high - start + margin))
+    np.maximum(taken[tuple(to)], part[tuple(source)], out=taken[tuple(to)])
+
+
+def _fading() -> np.ndarray:
+    """From 1 in the middle to 0 at the sides, (SIDE, SIDE) float32."""
+    beside = np.abs(np.arange(SIDE) + 0.5 - SIDE / 2) * (2 * REACH / SIDE)
+    share = np.clip((REACH - 2 * REACH / SIDE - beside) / (REACH - _FADES), 0.0, 1.0)
+    share = (share * share * (3.0 - 2.0 * share)).astype(np.float32)
+    return share[:, np.newaxis] * share

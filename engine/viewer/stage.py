@@ -2,6 +2,11 @@
 
 In: a scene and how it is looked at. Out: nodes that are added to it, and a theme whose background
 the model stands out from.
+
+The ground is nowhere drawn over the model. It lies no higher than anything of it, and shows from
+above only. So each line of sight meets the model first, and what lies on the ground in the same
+place; therefore the ground is drawn farther away, the same for the eye, by a share of its distance
+that no depth loses.
 """
 
 from __future__ import annotations
@@ -11,18 +16,24 @@ from collections.abc import Iterable
 import numpy as np
 
 from .. import linalg
+from ..geometry.mesh import Mesh
+from ..materials.material import Material
+from ..materials.textures import Texture
 from ..scene.ambient_lights import HemisphereLight
 from ..scene.orbiting import home_axes
-from .ground_shadow import ground_shadow
+from .ground_shadow import REACH, SIDE, GroundShadow
 from .theme import DARK, LIGHT, Theme
 from .viewpoint import Sphere
 
 #: Light from above and from below.
 _SKY, _GROUND = (0.30, 0.32, 0.36), (0.18, 0.17, 0.16)
-#: The outline of a model differs from its background by so many codes of 255, on average over it.
-_CONTRAST = 60.0
-#: Seconds for which the shadow of what moves stays as it is.
-_SOME_TIME = 0.1
+#: The outline of a model differs from its background by so many codes of 255, on average over it:
+#: of faces, which shade from one to the next, and of what is all outline, as points and lines are.
+_CONTRAST, _THIN_CONTRAST = 5.0, 60.0
+#: How much farther away the ground is drawn than it is, in distances from the eye.
+BEHIND = 1 / 4
+#: Lines of sight that fall by less than this share of their length do not show the ground.
+_LEVEL = 2e-3
 
 
 class Stage:
@@ -36,53 +47,98 @@ class Stage:
         The world's up direction.
     is_lit : bool
         Whether light from all around is added, in place of the scene's ambient light.
+    places : (N, 3) ndarray of float64, optional
+        How far the scene reaches as it moves, in world space; by default it stays where it is.
     """
 
-    def __init__(self, scene, up, is_lit: bool):
+    def __init__(self, scene, up, is_lit: bool, places: np.ndarray | None = None):
         self._scene = scene
-        self._up = up
         self._ambient = scene.ambient
         self._nodes = []
-        self._shadow = None
+        self._axes = home_axes(up)
         if is_lit:
             pose = np.eye(4)
-            pose[:3, :3] = np.stack(home_axes(up), axis=1)
+            pose[:3, :3] = np.stack(self._axes, axis=1)
             self._nodes.append(scene.add(HemisphereLight(_SKY, _GROUND), pose=pose))
             scene.ambient = (0.0, 0.0, 0.0)
-
-        self._lowest = float(linalg.dot(scene.bounds, up).min())
-        self._laid_at: float | None = None
+        self._ground = None
+        self._square = _square()
+        self._shadow = GroundShadow(scene, self._square, self._axes)
+        places = scene.bounds if places is None else places
+        self._usual = float(linalg.dot(places, self._axes[1]).min())
 
     @property
     def nodes(self) -> tuple:
         """What was added that is drawn."""
-        return () if self._shadow is None else (self._shadow,)
+        return () if self._ground is None else (self._ground,)
 
-    def lay_shadow(self, bounds: Sphere, azimuth: float, time: float) -> None:
-        """Lay the shadow of the scene as it is at a time on the ground; see `ground_shadow`.
+    def lay_shadow(self, bounds: Sphere, azimuth: float, cull: str, eye) -> None:
+        """Show the shadow of the scene as it is on the ground.
 
-        What moves has its shadow laid anew when it was laid some time ago.
+        Parameters
+        ----------
+        bounds : Sphere
+            The scene's; sets the size of the shadow.
+        azimuth, cull
+            As in `GroundShadow.alphas`.
+        eye : (4,) sequence of float
+            The place of who looks at it and 1, or the direction to them and 0.
         """
-        if self._laid_at is not None and abs(time - self._laid_at) < _SOME_TIME:
-            return
         self.show_shadow(False)
-        mesh = ground_shadow(self._scene, self._lowest, bounds, self._up, azimuth)
-        if self._shadow is None:
-            self._shadow = self._scene.add(mesh, name="shadow", cast_shadows=False)
-            self._nodes.append(self._shadow)
-        self._shadow.object = mesh
-        self._laid_at = time
+        lowest = min(self._usual, self._lowest())
+        up, center = self._axes[1], np.array(bounds.center)
+        middle = center + up * (lowest - float(linalg.dot(center, up)))
+        towards = np.array(eye[:3]) - middle * eye[3]
+        if not float(linalg.dot(towards, up)) > _LEVEL * float(linalg.length(towards)):
+            return
+        alphas = self._shadow.alphas(lowest, bounds, azimuth, cull)
+        ground = self._darkened(alphas)
+        farther = 1.0 + BEHIND * eye[3]
+        pose = np.eye(4)
+        pose[:3, :3] = np.stack(self._axes, axis=1) * (farther * bounds.radius)
+        pose[:3, 3] = middle - towards * (BEHIND if eye[3] else BEHIND * bounds.radius)
+        ground.pose = pose
+        self.show_shadow(True)
+
+    def _lowest(self) -> float:
+        """How low the scene reaches now."""
+        return float(linalg.dot(self._scene.bounds, self._axes[1]).min())
+
+    def _darkened(self, alphas: np.ndarray):
+        """Return the ground with a shadow on it; it is added when it is needed first."""
+        if self._ground is None:
+            self._ground = self._scene.add(self._square, name="shadow", cast_shadows=False)
+            self._nodes.append(self._ground)
+        material = self._square.materials[0]
+        known = material.texture
+        if known is None or (known.pixels[..., 3] != alphas).any():
+            pixels = np.zeros((SIDE, SIDE, 4), np.uint8)
+            pixels[..., 3] = alphas
+            material.texture = Texture(pixels, filter="bilinear", wrap="clamp")
+        return self._ground
 
     def show_shadow(self, shown: bool) -> None:
-        """Show the shadow or not, if there is one."""
-        if self._shadow is not None:
-            self._shadow.visible = shown
+        """Show the shadow that was laid, or not, if there is one."""
+        if self._ground is not None:
+            self._ground.visible = shown
 
     def leave(self) -> None:
         """Leave the scene as it was."""
         for node in self._nodes:
             self._scene.remove(node)
         self._scene.ambient = self._ambient
+
+
+def _square() -> Mesh:
+    """A square of the ground, black and seen from above, around the origin of its node."""
+    corners = [(-1, 1), (1, 1), (1, -1), (-1, -1)]
+    return Mesh(
+        [(REACH * x, 0.0, REACH * z) for x, z in corners],
+        [(0, 1, 2), (0, 2, 3)],
+        uvs=[(0, 0), (1, 0), (1, 1), (0, 1)],
+        materials=[Material(alpha_mode="blend", unlit=True)],
+        name="shadow",
+    )
 
 
 def theme_for(picture: np.ndarray, themes: Iterable[Theme] = (LIGHT, DARK)) -> Theme:
@@ -94,17 +150,20 @@ def theme_for(picture: np.ndarray, themes: Iterable[Theme] = (LIGHT, DARK)) -> T
         The model before a transparent background.
     themes : iterable of Theme
     """
-    distances = [(_distance(picture, theme), theme) for theme in themes]
-    enough = [theme for distance, theme in distances if distance >= _CONTRAST]
-    return enough[0] if enough else max(distances, key=lambda entry: entry[0])[1]
-
-
-def _distance(picture: np.ndarray, theme: Theme) -> float:
-    """How far the outline of a model is from a theme's background, in codes; 0 if it has none."""
     shows = picture[..., 3] > 0
     around = np.pad(shows, 1, mode="edge")
     inside = around[:-2, 1:-1] & around[2:, 1:-1] & around[1:-1, :-2] & around[1:-1, 2:]
-    rows, columns = np.nonzero(shows & ~inside)
+    outline = np.nonzero(shows & ~inside)
+    thin = len(outline[0]) / max(np.count_nonzero(shows), 1)
+    needed = _CONTRAST + (_THIN_CONTRAST - _CONTRAST) * thin
+    distances = [(_distance(picture, outline, theme), theme) for theme in themes]
+    enough = [theme for distance, theme in distances if distance >= needed]
+    return enough[0] if enough else max(distances, key=lambda entry: entry[0])[1]
+
+
+def _distance(picture: np.ndarray, outline, theme: Theme) -> float:
+    """How far an outline's pixels are from a theme's background, in codes; 0 if there are none."""
+    rows, columns = outline
     if not len(rows):
         return 0.0
     top, bottom = (np.array(color, float) for color in (theme.gradient.top, theme.gradient.bottom))

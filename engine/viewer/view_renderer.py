@@ -36,7 +36,7 @@ from .scene_bounds import turning_outline
 from .selection import CLICK_OUTPUTS
 from .settings import Settings
 from .shadow_switch import ShadowSwitch
-from .stage import Stage, theme_for
+from .stage import BEHIND, Stage, theme_for
 from .surroundings import fog_color
 from .theme import Theme
 from .untextured import Textures
@@ -215,14 +215,14 @@ class ViewRenderer:
         lights = isinstance(self.lighting, Lighting) and self.lighting.names[0] != OWN_LIGHTS
         is_lit = lights and self.viewed.scene.environment is None
         self._chooses_theme = self._shows_theme()
-        return Stage(self.viewed.scene, UP_DIRECTIONS[self.up], is_lit)
+        return Stage(self.viewed.scene, UP_DIRECTIONS[self.up], is_lit, self.viewed.focus)
 
     def _shows_theme(self) -> bool:
         """Whether the theme's background is what is behind the model."""
         kept = self._transparent or self.settings.background or self.settings.surroundings.shows
         return self.viewed.themed and not kept
 
-    def _set_stage(self, view: Viewpoint, time: float) -> None:
+    def _set_stage(self, view: Viewpoint) -> None:
         """Set the stage for a frame: a background that the model stands out from, its shadow."""
         stage, appearance = self._stage, self.appearance
         if stage is None:
@@ -230,10 +230,11 @@ class ViewRenderer:
         if self._chooses_theme:
             stage.show_shadow(False)
             self.theme = theme_for(self._picture_alone(view))
-        if not self._transparent:
-            stage.lay_shadow(self.bounds, view.azimuth, time)
-            is_plain = appearance.mode in ("lit", "unlit") and appearance.wireframe is None
-            stage.show_shadow(is_plain and not self.split)
+        is_plain = appearance.mode in ("lit", "unlit") and appearance.wireframe is None
+        if is_plain and not self.split and not self._transparent:
+            stage.lay_shadow(self.bounds, view.azimuth, appearance.cull, view.eye())
+        else:
+            stage.show_shadow(False)
 
     def _picture_alone(self, view: Viewpoint) -> np.ndarray:
         """Return a small picture of the model before a transparent background."""
@@ -394,7 +395,7 @@ class ViewRenderer:
         self.lighting.follow(pose)
         if self.viewed.follow is not None:
             self.viewed.follow(pose[:3, 3])
-        self._set_stage(view, time)
+        self._set_stage(view)
         self._box.follow(view, self.settings.axes_grid and not self.split)
         camera, mode = self._camera(view), self.appearance.mode
         if self.viewed.detail is not None:
@@ -436,7 +437,7 @@ class ViewRenderer:
     def _camera(self, view: Viewpoint):
         clearance = self.viewed.clearance
         free = 0.0 if clearance is None else clearance(view.position()) / view.stretch(self.aspect)
-        camera = view.camera(self._clip_bounds(), self.viewed.nearest, free)
+        camera = view.camera(self._clip_bounds(view), self.viewed.nearest, free)
         camera = with_clip_planes(camera, self.settings.near, self.settings.far)
         if isinstance(camera, PerspectiveCamera) and self.settings.far is None:
             camera.reversed_depth = True
@@ -492,14 +493,18 @@ class ViewRenderer:
 
         return self.settings.ui_scale or text_scale_for(width, height, self.screen_scale)
 
-    def _clip_bounds(self) -> Sphere:
-        """Return what the clip planes must enclose: animated parts and the grids included."""
+    def _clip_bounds(self, view: Viewpoint) -> Sphere:
+        """Return what the clip planes must enclose: animated parts, grids and ground included."""
         margin = 1.0 if self.viewed.update is None else 1.6
         if self.settings.grid or self._stage is not None:
             margin = max(margin, 3.2)
         if self.settings.axes_grid:
             margin = max(margin, _BOX_REACH)
-        return self.bounds._replace(radius=self.bounds.radius * margin)
+        radius = self.bounds.radius * margin
+        if self._stage is not None:
+            distance = float(linalg.length(view.position() - np.array(self.bounds.center)))
+            radius += BEHIND * (distance + radius)
+        return self.bounds._replace(radius=radius)
 
     def metadata(self) -> list[str]:
         """Return what the scene's file holds, line by line."""

@@ -94,6 +94,11 @@ class Viewpoint:
         """Return where the camera stands, (3,), in world space."""
         return self.target + self.rotation()[:, 2] * self.distance
 
+    def eye(self) -> np.ndarray:
+        """Return the camera's place and 1; if orthographic, the direction to it and 0."""
+        back = self.rotation()[:, 2]
+        return np.array([*back, 0.0]) if self.orthographic else np.array([*self.position(), 1.0])
+
     def pose(self) -> np.ndarray:
         """Return the camera's pose, ``world_from_view``, (4, 4) float64."""
         pose = np.eye(4)

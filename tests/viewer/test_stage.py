@@ -1,9 +1,15 @@
 """What models stand in by default: soft light, a shadow on the ground, a background."""
 
+import math
+
 import numpy as np
 import pytest
 
 import engine3d as e3d
+from engine3d.motion.clips import AnimationClip, Channel
+from engine3d.scene.orbiting import home_axes
+from engine3d.viewer.clips import play_clips
+from engine3d.viewer.ground_shadow import SIDE, GroundShadow
 from engine3d.viewer.settings import Settings
 from engine3d.viewer.stage import theme_for
 from engine3d.viewer.theme import DARK, LIGHT
@@ -37,10 +43,8 @@ def test_a_model_casts_a_shadow_on_the_ground():
     alpha = shadow.materials[0].texture.pixels[..., 3]
     middle = len(alpha) // 2
     assert alpha[middle, middle] > 100 and alpha[0].max() == 0 == alpha[:, -1].max()
-    corner = [tuple(picture[-1, 0]) for picture in (shown, bare.astype(int))]
+    corner = [tuple(picture[0, 0]) for picture in (shown, bare.astype(int))]
     assert corner[0] == corner[1]  # where no shadow is, the background is as it was
-    low = float(shadow.positions[:, 1].max())
-    assert low == pytest.approx(-0.5)  # under the box
 
 
 def test_the_shadow_is_none_of_the_models_parts():
@@ -81,10 +85,33 @@ def test_the_scene_is_left_as_it_was():
     assert before[0] > 1 and scene.ambient == (0.1, 0.2, 0.3)
 
 
-@pytest.mark.parametrize(("color", "theme"), [((0.05,) * 3, LIGHT), ((1.0,) * 3, DARK)])
-def test_the_background_is_one_that_the_model_stands_out_from(color, theme):
-    scene, renderer = staged(color)
-    with renderer:
+def staged_points():
+    scene = e3d.Scene()
+    places = np.random.default_rng(3).uniform(-1.0, 1.0, (60, 3))
+    scene.add(e3d.Mesh(places, points=np.arange(60)))
+    return scene
+
+
+@pytest.mark.parametrize("color", [0.05, 0.2, 0.5, 0.8, 1.0])
+@pytest.mark.parametrize("shape", ["box", "uv_sphere", "torus"])
+def test_like_models_stand_on_the_same_ground(shape, color):
+    scene = e3d.Scene()
+    mesh = getattr(e3d, shape)()
+    mesh.materials = [e3d.Material(color=(color,) * 3)]
+    scene.add(mesh)
+    viewed = ViewedScene(scene, shape, themed=True)
+    with ViewRenderer(viewed, Settings({}, look="studio"), SIZE) as renderer:
+        view = renderer.view()
+        renderer.fill(view)
+        renderer.draw(view)
+        assert renderer.theme is LIGHT
+
+
+@pytest.mark.parametrize("theme", [LIGHT, DARK])
+def test_the_background_is_one_that_the_model_stands_out_from(theme):
+    scene = staged()[0] if theme is LIGHT else staged_points()
+    viewed = ViewedScene(scene, "model", themed=True)
+    with ViewRenderer(viewed, Settings({}, look="studio"), SIZE) as renderer:
         renderer.draw(renderer.view())
         assert renderer.theme is theme and scene.background == theme.gradient
         renderer.theme = DARK if theme is LIGHT else LIGHT  # the user's word stands
@@ -101,3 +128,161 @@ def test_scenes_of_their_own_and_the_plain_look_have_no_stage():
     with renderer:
         renderer.draw(renderer.view())
     assert shadow_of(scene) is None and scene.background == DARK.background
+
+
+# ---- the ground is behind the model, and shows from above only ----
+
+
+FLAT = {
+    "plane": lambda: e3d.plane((2.0, 3.0), 1),
+    "fine plane": lambda: e3d.plane((2.0, 2.0), 20),
+    "tile": lambda: e3d.box((2.0, 0.02, 2.0)),
+    "box": lambda: e3d.box((1.0, 1.0, 1.0)),
+    "long box": lambda: e3d.box((9.0, 0.3, 0.5)),
+    "cylinder": lambda: e3d.cylinder(0.8, 0.5),
+}
+LOOKS = [(30, 18), (30, 70), (100, 2.0), (200, 0.2), (75, -25)]
+
+
+def ground_of(scene, size, view_of, **settings):
+    """Yield pictures and object ids with the ground, and pictures without it, look by look."""
+    settings = Settings({}, look="studio", **settings)
+    viewed = ViewedScene(scene, "flat", themed=True)
+    with ViewRenderer(viewed, settings, size) as renderer:
+        for azimuth, elevation in LOOKS:
+            view = renderer.view()
+            view.azimuth, view.elevation = math.radians(azimuth), math.radians(elevation)
+            view_of(view)
+            renderer.fill(view)
+            frame = renderer.draw(view, outputs=("color", "object_id"))
+            renderer._stage.show_shadow(False)
+            look = (renderer._camera(view), view.pose())
+            bare = renderer.renderer.render(scene, look, **renderer._appearance()).color
+            yield elevation, frame.color, frame.object_id >= 0, bare
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e9])
+@pytest.mark.parametrize("name", FLAT)
+def test_the_ground_is_never_drawn_over_the_model(name, scale):
+    scene = e3d.Scene()
+    place = np.array((0.37, -0.71, 1.9)) * scale
+    scene.add(FLAT[name](), scale=scale, translation=place, name=name)
+
+    def orthographic(view):
+        view.orthographic = name in ("tile", "box")
+
+    fields = {"near": 1e-3, "far": 1e3} if name == "cylinder" and scale == 1.0 else {}
+    for elevation, shown, model, bare in ground_of(scene, (96, 64), orthographic, **fields):
+        assert model.any() or elevation < 10
+        assert (shown[model] == bare[model]).all(), elevation
+        if elevation < 0:
+            assert (shown == bare).all()
+
+
+def test_what_moves_lower_than_before_is_not_hidden_by_the_ground():
+    scene, renderer = staged()
+    with renderer:
+        view = renderer.view()
+        renderer.draw(view)
+        next(iter(scene.nodes)).translation = (0.0, -0.4, 0.0)
+        frame = renderer.draw(view, outputs=("color", "object_id"))
+        renderer._stage.show_shadow(False)
+        look = (renderer._camera(view), view.pose())
+        bare = renderer.renderer.render(scene, look, **renderer._appearance()).color
+        model = frame.object_id >= 0
+        assert (frame.color[model] == bare[model]).all()
+
+
+# ---- the shadow ----
+
+
+def shadow_alphas(mesh, azimuth=0.0, cull="back"):
+    scene = e3d.Scene()
+    scene.add(mesh)
+    up = (0.0, 1.0, 0.0)
+    low = float(scene.bounds[0][1])
+    bounds = ViewedScene(scene, "model").bounds
+    shadow = GroundShadow(scene, e3d.plane(), home_axes(up))
+    return shadow.alphas(low, bounds, azimuth, cull).astype(int)
+
+
+def mushroom():
+    """A stem with a wide cap: surfaces of all heights, and a jump between two."""
+    profile = [(0.0, 0.3), (0.02, 0.3), (0.25, 0.34), (0.26, 0.9), (0.7, 0.95), (0.9, 0.0)]
+    angles = np.linspace(0.0, 2.0 * np.pi, 97)[:-1]
+    rings = [[(r * np.cos(a), h, r * np.sin(a)) for a in angles] for h, r in profile]
+    count, faces = len(angles), [tuple(range(len(angles)))]
+    for ring in range(len(profile) - 1):
+        for k in range(count):
+            a, b = ring * count + k, ring * count + (k + 1) % count
+            faces += [(a, a + count, b), (b, a + count, b + count)]
+    triangles = [face for face in faces if len(face) == 3]
+    triangles += [(0, k, k + 1) for k in range(1, count - 1)]
+    return e3d.Mesh(np.reshape(rings, (-1, 3)), triangles)
+
+
+def test_no_ring_and_no_step_is_seen_in_the_shadow():
+    alphas = shadow_alphas(mushroom(), azimuth=math.pi / 4, cull="none")
+    middle = SIDE // 2
+    # Towards the viewer the key light's shadow ends first, and the sky's goes on.
+    rows = alphas[middle:, middle - 60 : middle + 60]
+    assert np.diff(rows, axis=0).max() <= 1  # what gets brighter stays brighter
+    steps = max(np.abs(np.diff(alphas, axis=axis)).max() for axis in (0, 1))
+    assert steps <= 255 * 0.76 / 5  # at least five texels from dark to light
+    assert max(alphas[0].max(), alphas[-1].max(), alphas[:, 0].max(), alphas[:, -1].max()) == 0
+
+
+def test_the_shadow_of_the_key_light_turns_with_the_viewer():
+    places = np.arange(SIDE) - (SIDE - 1) / 2
+    for turn in range(4):
+        azimuth = 0.3 + turn * math.pi / 2
+        alphas = shadow_alphas(e3d.cylinder(0.3, 2.0), azimuth)
+        total = alphas.sum()
+        x, z = (alphas.sum(0) * places).sum() / total, (alphas.sum(1) * places).sum() / total
+        right = x * math.cos(azimuth) - z * math.sin(azimuth)
+        back = -x * math.sin(azimuth) - z * math.cos(azimuth)
+        assert right < -8 and back > 8  # to the left of the model, and behind it
+
+
+def test_each_picture_of_a_turn_is_that_from_there():
+    scene, renderer = staged()
+    with renderer:
+        view = renderer.view()
+        for azimuth in (0.0, 1.0, 1.05, 4.0, 0.0):
+            view.azimuth = azimuth
+            kept = renderer.draw(view).color.copy()
+            other, fresh = staged()
+            with fresh:
+                assert (fresh.draw(view).color == kept).all()
+
+
+def moving():
+    scene = e3d.Scene()
+    node = scene.add(e3d.box(), name="box")
+    times = (0.0, 1.0)
+    places = np.array([(0.0, 0.0, 0.0), (3.0, 0.4, 0.0)])
+    scene.animations["slide"] = AnimationClip([Channel(node, "translation", times, places)])
+    viewed = ViewedScene(scene, "moving", themed=True)
+    play_clips(viewed)
+    return viewed
+
+
+def test_the_shadow_follows_each_picture_of_an_animation():
+    settings = Settings({}, look="studio")
+    with ViewRenderer(moving(), settings, SIZE) as renderer:
+        view, before = renderer.view(), None
+        for time in (0.0, 0.03, 0.06, 0.5, 0.03):
+            renderer.draw(view, time)
+            pixels = shadow_of(renderer.viewed.scene).object.materials[0].texture.pixels
+            assert before is None or (pixels != before).any()
+            before = pixels.copy()
+            with ViewRenderer(moving(), settings, SIZE) as fresh:
+                fresh.draw(view, time)
+                alone = shadow_of(fresh.viewed.scene).object.materials[0].texture.pixels
+                assert (alone == pixels).all()
+
+
+@pytest.mark.parametrize(("cull", "casts"), [("back", False), ("none", True), ("front", True)])
+def test_faces_that_are_left_out_cast_no_shadow(cull, casts):
+    downward = e3d.Mesh([(0, 1, 0), (1, 1, 0), (0, 1, 1)], [(0, 1, 2)])
+    assert bool(shadow_alphas(downward, cull=cull).any()) is casts

@@ -34,6 +34,7 @@ typedef struct e3d_draw {
     const double *node_worlds;       /* (instances, 12) world from node: three rows of four */
     const int32_t *node_ids;         /* (instances,) what object_id outputs */
     int32_t unshadowed;              /* not 0: no shadow falls on it */
+    uint32_t spared_lights;          /* of what casts exact shadows: bit n is set where it does not hide the light that n such lights come before */
 } e3d_draw;
 
 #ifdef __cplusplus

@@ -164,6 +164,7 @@ typedef struct e3d_node_rows {
     const int32_t *anchor; /* as in e3d_graph */
     const uint8_t *unshadowed; /* E3D_NODE_CASTS_NONE, E3D_NODE_RECEIVES_NONE; NULL: neither of any */
     int32_t casting;       /* not 0: only what casts shadows is drawn */
+    const uint32_t *spared_lights; /* as in e3d_draw; NULL: none */
 } e3d_node_rows;
 
 /* The nodes of one object that receive shadows, or those that don't. */

@@ -106,6 +106,7 @@ cdef extern from "e3d.h" nogil:
         float matrix[6]
 
     ctypedef enum e3d_alpha_mode:
+        E3D_ALPHA_OPAQUE
         E3D_ALPHA_MASK
         E3D_ALPHA_BLEND
 
@@ -173,6 +174,8 @@ cdef extern from "e3d.h" nogil:
         float shininess
         float emissive[3]
         float normal_scale
+        e3d_texture_use texture
+        e3d_texture_use emissive_texture
         int32_t id
         int32_t two_sided
         int32_t flat
@@ -266,6 +269,7 @@ cdef extern from "e3d.h" nogil:
         const double *node_worlds
         const int32_t *node_ids
         int32_t unshadowed
+        uint32_t spared_lights
 
     ctypedef struct e3d_casters:
         const e3d_draw *draws

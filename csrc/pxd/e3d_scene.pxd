@@ -144,6 +144,7 @@ cdef extern from "e3d_scene.h" nogil:
         const int32_t *anchor
         const uint8_t *unshadowed
         int32_t casting
+        const uint32_t *spared_lights
 
     ctypedef struct e3d_draw_list:
         e3d_draw *draws

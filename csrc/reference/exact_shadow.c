@@ -210,6 +210,8 @@ int ref_is_hidden(const e3d_light *light, const ref_surface *surface)
         const ref_caster *caster = &casters->items[n];
         seen s;
         float weight[3];
+        if (casters->instances[caster->instance].draw->spared_lights >> light->shadow.first & 1)
+            continue;
         see(&e, caster, &s);
         if (goes_through(&e, &s, weight) && is_above(&e, &plane, p, caster, &s, weight) && !has_hole(casters, caster, weight))
             return 1;

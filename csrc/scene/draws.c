@@ -128,6 +128,7 @@ static int select_instances(e3d_draw_list *list, const e3d_view_volume *view, co
 typedef struct drawn_node {
     const double *world; /* three rows of four */
     int32_t id, unshadowed;
+    uint32_t spared_lights;
 } drawn_node;
 
 static int append_node(e3d_draw_list *list, const e3d_placed *object, const drawn_node *node, const e3d_view_volume *view)
@@ -138,6 +139,7 @@ static int append_node(e3d_draw_list *list, const e3d_placed *object, const draw
     memcpy(draw.world_from_node + 12, LAST_ROW, sizeof LAST_ROW);
     draw.node_id = node->id;
     draw.unshadowed = node->unshadowed;
+    draw.spared_lights = node->spared_lights;
     if (view && object->instances)
         return select_instances(list, view, object, draw.world_from_node) && append_runs(list, &draw);
     e3d_draw *to = append(list);
@@ -231,6 +233,8 @@ static int casts_none(const e3d_node_rows *rows, int32_t slot)
     return rows->casting && rows->unshadowed && rows->unshadowed[slot] & E3D_NODE_CASTS_NONE;
 }
 
+static uint32_t spared_lights(const e3d_node_rows *rows, int32_t slot) { return rows->spared_lights ? rows->spared_lights[slot] : 0; }
+
 static e3d_batch *batch_of(const e3d_draw_list *list, const e3d_node_rows *rows, int32_t slot)
 {
     return &list->batches[2 * (size_t)rows->object[slot] + (size_t)receives_none(rows, slot)];
@@ -248,7 +252,7 @@ static void list_slots(e3d_draw_list *list, const e3d_node_rows *rows, const uin
         }
         if (draws_at(rows, slot, objects, object_count) && !casts_none(rows, slot)) {
             list->slots[list->nodes++] = slot;
-            batch_of(list, rows, slot)->nodes++;
+            batch_of(list, rows, slot)->nodes += !spared_lights(rows, slot);
         }
     }
 }
@@ -267,9 +271,9 @@ int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64
     for (int32_t i = 0; i < list->nodes; i++) {
         int32_t slot = list->slots[i];
         const e3d_placed *object = &objects[rows->object[slot]];
-        const drawn_node node = {e3d_placing_pose(rows->world, rows->anchor, slot), rows->id[slot], receives_none(rows, slot)};
+        const drawn_node node = {e3d_placing_pose(rows->world, rows->anchor, slot), rows->id[slot], receives_none(rows, slot), spared_lights(rows, slot)};
         e3d_batch *of = batch_of(list, rows, slot);
-        int together = batch && of->nodes > 1 && object->draw.pose_kind == E3D_POSE_NONE;
+        int together = batch && of->nodes > 1 && !node.spared_lights && object->draw.pose_kind == E3D_POSE_NONE;
         if (!(together ? append_member(list, object, of, &node) : append_node(list, object, &node, view)))
             return 0;
     }

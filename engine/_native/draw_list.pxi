@@ -60,6 +60,7 @@ cdef class NativeDrawList:
     cdef int32_t window_count
     cdef e3d_material *materials
     cdef e3d_material *casting_materials
+    cdef e3d_material *unlit_materials
     cdef e3d_light *lights
     cdef e3d_shadow_map *shadow_maps
     cdef int shadow_map_count, shadow_map_capacity
@@ -84,6 +85,7 @@ cdef class NativeDrawList:
         e3d_draw_list_free(&self.hiding)
         free(self.materials)
         free(self.casting_materials)
+        free(self.unlit_materials)
         free(self.shadow_maps)
         free(self.lights)
 
@@ -236,13 +238,19 @@ cdef class NativeDrawList:
         self.list_draws(&self.casting, &rows, selection, &volume, True)
         self.find_casting_materials()
 
-    def place_hiding(self, int32_t count, dict columns not None, int64_t version):
+    def place_hiding(
+        self, int32_t count, dict columns not None, int64_t version, const uint32_t[::1] spared_lights=None
+    ):
         """List what may hide lights with exact shadows: all nodes that show and cast shadows.
 
-        ``version`` is another one whenever anything of that is other than before.
+        ``version`` is another one whenever anything of that is other than before. Of each node, bit n of
+        ``spared_lights`` is set where it does not hide the n-th of these lights.
         """
         cdef e3d_node_rows rows
         set_rows(&rows, count, columns, None)
+        if spared_lights is not None and count:
+            require(spared_lights.shape[0] >= count, "spared_lights: a row a node")
+            rows.spared_lights = &spared_lights[0]
         rows.casting = True
         self.list_draws(&self.hiding, &rows, None, NULL, True)
         self.casters.version = version
@@ -263,6 +271,25 @@ cdef class NativeDrawList:
             bits = &selection[0]
         if not e3d_graph_draws(placed, rows, bits, view, self.objects, self.object_count, batch):
             raise OutOfMemoryError("no memory for the list of what to draw")
+        return 0
+
+    cdef int find_unlit_materials(self) except -1:
+        """Materials as mode unlit draws them: what is black shows its emission, if it has one."""
+        cdef e3d_material *material
+        if not self.material_count:
+            return 0
+        self.unlit_materials = <e3d_material *>resized(
+            self.unlit_materials, self.material_count, sizeof(e3d_material)
+        )
+        memcpy(self.unlit_materials, self.materials, self.material_count * sizeof(e3d_material))
+        for k in range(self.material_count):
+            material = &self.unlit_materials[k]
+            if material.color[0] or material.color[1] or material.color[2]:
+                continue
+            # The texture of the colour decides what has holes.
+            if material.alpha_mode == E3D_ALPHA_OPAQUE:
+                material.texture = material.emissive_texture
+                memcpy(material.color, material.emissive, sizeof(material.color))
         return 0
 
     cdef int find_casting_materials(self) except -1:

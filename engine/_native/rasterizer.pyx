@@ -406,6 +406,9 @@ cdef class NativeRenderer:
         frame.depth_far = depth_far
         frame.windows, frame.window_count = draw_list.windows, draw_list.window_count
         frame.materials = draw_list.materials
+        if frame.mode == E3D_MODE_UNLIT:
+            draw_list.find_unlit_materials()
+            frame.materials = draw_list.unlit_materials
         frame.material_count = draw_list.material_count
         frame.lights = draw_list.lights
         frame.light_count = draw_list.light_count

@@ -64,7 +64,7 @@ def solar() -> ViewedScene:
         update=animator.seek,
         period=MONTH,
         plays=True,
-        azimuth=0.2,
+        azimuth=3.2,  # of the Earth its day shows first
         elevation=0.45,
         focus=np.array(
             [

@@ -10,9 +10,12 @@ from __future__ import annotations
 
 import itertools
 
+import numpy as np
+
 from ..scene.node_arrays import NodeArrays
 from ..scene.scene import Scene
 from ._draw_list import DrawList
+from ._lamps import lamp_slots
 from .casters import placed_casters
 
 _versions = itertools.count(1)
@@ -41,21 +44,36 @@ class ExactShadows:
             There are more such lights than the core takes.
         """
         native = self._draw_list.native
-        lights = [at[0] for at in self._draw_list.lights.placed() if at[1].shadow == "exact"]
-        for number in lights:
+        lights = [at for at in self._draw_list.lights.placed() if at[1].shadow == "exact"]
+        for number, *_ in lights:
             native.set_exact_shadow(number)
         if lights:
-            self._list_casters(scene._arrays)
+            spared = [self._spared(scene, number, place) for number, _, (_, place) in lights]
+            self._list_casters(scene._arrays, spared)
 
-    def _list_casters(self, arrays: NodeArrays) -> None:
-        """List the casters, unless they are listed; a version is theirs until one is another."""
+    def _spared(self, scene: Scene, number: int, place) -> tuple[int, ...]:
+        """The slots of what does not hide a light."""
+        if place is None:
+            return ()
+        return lamp_slots(scene, self._draw_list.lights.slot_of(number), place)
+
+    def _list_casters(self, arrays: NodeArrays, spared: list[tuple[int, ...]]) -> None:
+        """List the casters, unless they are listed; a version is theirs until one is another.
+
+        ``spared`` are, for each light, the slots of what does not hide it.
+        """
         renewals = self._draw_list.renewals
-        moment = arrays, arrays.updated, renewals
+        moment = arrays, arrays.updated, renewals, spared
         if moment == self._moment:
             return
-        casters = arrays, renewals, *placed_casters(arrays)
+        casters = arrays, renewals, spared, *placed_casters(arrays)
         if casters != self._casters:
             self._version = next(_versions)
         self._moment = self._casters = None  # for if anything below raises
-        self._draw_list.native.place_hiding(arrays.count, arrays.columns, self._version)
+        bits = None
+        if any(spared):
+            bits = np.zeros(arrays.count, np.uint32)
+            for number, slots in enumerate(spared):
+                bits[list(slots)] |= np.uint32(1 << number)
+        self._draw_list.native.place_hiding(arrays.count, arrays.columns, self._version, bits)
         self._moment, self._casters = moment, casters

@@ -150,6 +150,10 @@ class LightList:
         """
         return [(number, *at) for number, at in sorted(self._at.items())]
 
+    def slot_of(self, number: int) -> int:
+        """Return the slot of a light that shows, by its number."""
+        return int(self._slots[self._shown][number])
+
     def _place(self, number: int, light, pose: list[float]) -> None:
         """Put a light where the first three rows of its world pose say."""
         towards, position = None, None

@@ -15,6 +15,7 @@ from ..choices import Cull
 from ..scene.lights import DirectionalLight, SpotLight
 from ..scene.scene import Scene
 from ._draw_list import DrawList
+from ._lamps import lamp_slots
 from ._shadow_views import (
     MapView,
     ShadowViews,
@@ -114,7 +115,9 @@ class ShadowMaps:
         for number, light, pose in lights:
             views = self._views_of(number, light, pose, bounds, view)
             if views is not None:
-                self._update_light(number, light, views, moment)
+                slot, (_, place) = self._draw_list.lights.slot_of(number), pose
+                spared = () if place is None else lamp_slots(scene, slot, place)
+                self._update_light(number, light, views, (*moment, spared))
 
     def _views_of(self, number: int, light, pose: tuple, bounds, view: View) -> ShadowViews | None:
         """From where a light's maps are drawn: as before, if nothing that decides it changed."""
@@ -154,9 +157,11 @@ class ShadowMaps:
         clip = seen.clip_from_world.tobytes()
         if clip == drawn.clip and moment == drawn.moment:
             return
-        arrays, _, renewals, cull = moment
+        arrays, _, renewals, cull, spared = moment
         selection = np.empty((arrays.count + 63) // 64, np.uint64)
         arrays.select(seen.clip_from_world, 1.0, False, selection)
+        for slot in spared:
+            selection[slot >> 6] &= ~np.uint64(1 << (slot & 63))
         casters = arrays, renewals, cull, placed_casters(arrays, selection)
         if clip != drawn.clip or casters != drawn.casters:
             drawn.clip, drawn.casters = b"", None  # for if anything below raises

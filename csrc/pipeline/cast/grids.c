@@ -71,6 +71,18 @@ static void find_corners(void *argument, int task)
         }
 }
 
+/* What is nowhere is in no grid. */
+static void leave_out_spared(const e3d_caster_faces *casters, const e3d_light *light, float (*corners)[9])
+{
+    const e3d_caster_instance *instance = casters->instances.data;
+    for (; instance->draw >= 0; instance++) {
+        if (!(casters->casters.draws[instance->draw].spared_lights >> light->shadow.first & 1))
+            continue;
+        for (int64_t n = instance->first; n < instance[1].first; n++)
+            corners[n][0] = NAN;
+    }
+}
+
 /* ---- boxes ---- */
 
 static int is_finite(const float corners[9])
@@ -378,8 +390,10 @@ int e3d_find_grids(const e3d_caster_faces *casters, const e3d_light *light, e3d_
     int done = job.bounds && e3d_array_reserve(&memory->corners, (size_t)casters->count + 1, sizeof(float[9]));
     out->corners = memory->corners.data;
     job.corners = memory->corners.data;
-    if (done)
+    if (done) {
         e3d_pool_share(threads, tasks, find_corners, &job);
+        leave_out_spared(casters, light, job.corners);
+    }
     for (int face = 0; face < (directional ? 1 : E3D_CASTER_FACES) && done; face++) {
         job.face = directional ? -1 : face;
         job.grid = &out->grids[face];

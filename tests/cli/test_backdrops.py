@@ -25,7 +25,8 @@ def picture(model, *options):
 
 
 def test_a_gradient_goes_from_the_top_to_the_bottom(model):
-    corners = picture(model, "--background-gradient", "#ff0000", "0,0,1")[[0, -1], 0]
+    gradient = ["--background-gradient", "#ff0000", "0,0,1"]
+    corners = picture(model, "--look", "plain", *gradient)[[0, -1], 0]
     assert (abs(corners - [(255, 0, 0), (0, 0, 255)]) <= 8).all()
 
 

@@ -138,8 +138,15 @@ class _Filling:
             records.setdefault(part.mesh, said)
         if record.instances is None:
             return meshes
-        colors = record.instance_colors
-        return [InstancedMesh(mesh, record.instances, colors=colors) for mesh in meshes]
+        return [self._instanced(mesh, record) for mesh in meshes]
+
+    def _instanced(self, mesh: Mesh, record: NodeRecord) -> InstancedMesh:
+        """The instances of a mesh, once for all nodes that have the same."""
+        poses, colors = record.instances, record.instance_colors
+        key = "instances", id(mesh), id(poses), id(colors)
+        if key not in self._objects:
+            self._objects[key] = InstancedMesh(mesh, poses, colors=colors)
+        return self._objects[key]
 
     def _placed(self, record: NodeRecord) -> list[Camera | Light]:
         """The camera and the light of a node, each made once for all nodes that name it."""

@@ -23,6 +23,7 @@ from .gltf_file import DamagedError, GltfFile
 from .gltf_materials import GltfMaterials
 from .gltf_primitives import GltfPrimitives, Primitive
 from .smoothing import join_seams
+from .text import shown
 
 # Of so many faces of a mesh that bends, tangents are found while it is read.
 MOST_BENDING = 1 << 17
@@ -51,6 +52,7 @@ class GltfMeshes:
         self._file, self._buffers = file, buffers
         self._primitives, self._materials = primitives, materials
         self._parts: dict[tuple, Mesh] = {}  # of primitives that are kept
+        self._variant_materials = 0
 
     def all(self) -> tuple[MeshRecord, ...]:
         """Return the meshes.
@@ -116,8 +118,7 @@ class GltfMeshes:
             mesh = self._made(primitives, target_names, uv_set)
         materials = [usual for usual, _ in (chosen if kind == "faces" else chosen[:1])]
         mesh = mesh._twin(materials, name)
-        self._count_variants(chosen)
-        return MeshRecord(name, mesh, variants=_variants(chosen))
+        return MeshRecord(name, mesh, variants=self._variants(chosen, name))
 
     def _made(
         self, primitives: list[Primitive], target_names: list[str], uv_set: int | None
@@ -160,10 +161,27 @@ class GltfMeshes:
             mesh = self._with_tangents(mesh, uv_set)
         return mesh
 
-    def _count_variants(self, chosen: list[tuple]) -> None:
-        """Note what is made for variants: a list of materials each, however few they name."""
-        named = {variant for _, others in chosen for variant in others}
-        self._buffers.count(len(named) * len(chosen))
+    def _variants(self, chosen: list[tuple], name: str) -> dict[int, tuple]:
+        """The materials of each variant that is named; none, with a warning, of far too many."""
+        named: dict[int, dict[int, Material]] = {}  # the materials of each, by primitive
+        for number, (_, others) in enumerate(chosen):
+            for variant, material in others.items():
+                named.setdefault(variant, {})[number] = material
+        self._variant_materials += len(named) * len(chosen)
+        if self._variant_materials > self._buffers.limit:
+            self._file.warnings.add(
+                f"mesh {shown(name)}: {len(named)} variants of {len(chosen)} primitives are more "
+                "than such a file may have: left out"
+            )
+            return {}
+        usual_ones = [usual for usual, _ in chosen]
+        found = {}
+        for variant in sorted(named):
+            materials = list(usual_ones)
+            for number, material in named[variant].items():
+                materials[number] = material
+            found[variant] = tuple(materials)
+        return found
 
     def _with_tangents(self, mesh: Mesh, uv_set: int | None) -> Mesh:
         """A mesh whose tangents will be found when it is drawn; of one that bends, they are."""
@@ -243,13 +261,6 @@ def _tangent_set_of(chosen: list[tuple]) -> int | None:
     materials = [usual for usual, _ in chosen]
     materials += [material for _, others in chosen for material in others.values()]
     return next((found for m in materials if (found := tangent_set(m)) is not None), None)
-
-
-def _variants(chosen: list[tuple]) -> dict[int, tuple]:
-    named = sorted({variant for _, others in chosen for variant in others})
-    return {
-        variant: tuple(others.get(variant, usual) for usual, others in chosen) for variant in named
-    }
 
 
 def _target_names(extras, count: int) -> list[str]:

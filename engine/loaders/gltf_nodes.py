@@ -148,6 +148,9 @@ class _Nodes:
     ) -> None:
         self._file, self._accessors, self._lists = file, accessors, lists
         self._light_count = len(file.lights())
+        self._drawn: set[tuple[int, str]] = set()
+        self._poses: dict[str, np.ndarray | DamagedError] = {}
+        self._instance_colors: dict[str, np.ndarray | DamagedError | None] = {}
 
     def node(self, node: dict, where: str) -> NodeRecord:
         file = self._file
@@ -178,7 +181,7 @@ class _Nodes:
             return {}
         try:
             mesh = self._file.number_in("meshes", node["mesh"], where)
-            return {"mesh": mesh, **self._instances(extensions, where)}
+            return {"mesh": mesh, **self._instances(extensions, mesh, where)}
         except DamagedError as error:
             self._file.lose(f"{where}.mesh", error)
             return {}
@@ -207,7 +210,7 @@ class _Nodes:
         )
         return self._lists["lights"].number_of.get(number)
 
-    def _instances(self, extensions: dict, where: str) -> dict:
+    def _instances(self, extensions: dict, mesh: int, where: str) -> dict:
         """The poses and colours of instances; none where the mesh is drawn once."""
         if INSTANCING not in extensions:
             return {}
@@ -216,6 +219,21 @@ class _Nodes:
         for name in attributes:
             if name not in (*_POSE_PARTS, _COLORS):
                 file.warnings.add_once(f"what instances say of {shown(name)} is left out")
+        # Nodes that say the same have the same arrays.
+        key = repr(attributes)
+        made = once(self._poses, key, partial(self._instance_poses, attributes, where))
+        poses, parts = made
+        if (mesh, key) not in self._drawn:
+            self._drawn.add((mesh, key))
+            accessors.count(16 * len(poses))  # of a scene, which has them for each mesh
+        kept: dict = self._instance_colors
+        read = partial(_colors, accessors, attributes, where, len(poses))
+        colors = file.sound(f"{where}.{_COLORS}", once, kept, key, read)
+        return {"instances": poses, "instance_parts": parts, "instance_colors": colors}
+
+    def _instance_poses(self, attributes: dict, where: str) -> tuple[np.ndarray, tuple]:
+        """The poses of instances, and the parts that they are made of."""
+        file, accessors = self._file, self._accessors
         held = {
             name: accessors.floats(attributes[name], where, width).astype(np.float64)
             for name, width in _POSE_PARTS.items()
@@ -231,8 +249,7 @@ class _Nodes:
             held.get("ROTATION", np.tile((0.0, 0.0, 0.0, 1.0), (count, 1))),
             held.get("SCALE", np.ones((count, 3))),
         )
-        colors = file.sound(f"{where}.{_COLORS}", _colors, accessors, attributes, where, count)
-        return {"instances": poses_of(*parts), "instance_parts": parts, "instance_colors": colors}
+        return poses_of(*parts), parts
 
 
 def _place(file: GltfFile, node: dict, where: str) -> dict:

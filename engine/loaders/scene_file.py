@@ -50,6 +50,7 @@ _NODES, _BYTES_OF_A_NODE = 20_000, 32
 _MAX_NAME = 4096
 _MAX_COPIES = 20_000
 _SIGNATURE = re.compile(rb'\A(?:\xef\xbb\xbf)?\s*\{\s*"format"\s*:\s*"engine3d scene"')
+_MATERIAL_FIELDS = frozenset(Material.__init__.__kwdefaults__ or ())
 _ARRAYS = {name.removeprefix("_given_") for name in Mesh([])._arrays}
 
 
@@ -223,7 +224,12 @@ class _Reading:
             values["attenuation_distance"] = math.inf
         try:
             with certainly_linear():
-                return Material(**values)
+                if not values.keys() <= _MATERIAL_FIELDS:
+                    return Material(**values)  # which says what it does not know
+                material = Material._plain("")
+                for key, value in values.items():
+                    setattr(material, key, value)
+                return material
         except (InvalidArgumentError, TypeError) as error:
             raise entry.error(str(error)) from None
 

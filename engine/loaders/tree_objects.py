@@ -47,7 +47,7 @@ def tree_objects(
     for node in drawn:
         if split:
             record = tree.nodes[node.index]
-            meshes = [(part.mesh, node.world) for part in tree.meshes[record.mesh].parts]
+            meshes = [(part.mesh, node.world.copy()) for part in tree.meshes[record.mesh].parts]
         else:
             meshes = list(rest.posed(node))
         meshes = [(mesh, pose) for mesh, pose in meshes if len(mesh.positions)]

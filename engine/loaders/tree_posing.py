@@ -48,12 +48,17 @@ def shown_nodes(tree: TreeRecord) -> list[ShownNode]:
     """Return the nodes of the shown scene, each before those below it."""
     found = []
     waiting = [(root, -1, _IDENTITY, True) for root in reversed(tree.roots)]
+    unmoved = np.array(_IDENTITY)  # one array for all: files may have very many
+    unmoved.setflags(write=False)
     while waiting:
         index, parent, above, visible = waiting.pop()
         node = tree.nodes[index]
-        world = single.multiply(above, local_pose(node))
+        local = local_pose(node)
+        is_moved = above is not _IDENTITY or local is not _IDENTITY
+        world = single.multiply(above, local) if is_moved else _IDENTITY
         visible = visible and node.visible
-        found.append(ShownNode(index, parent, np.array(world), visible))
+        pose = np.array(world) if is_moved else unmoved
+        found.append(ShownNode(index, parent, pose, visible))
         waiting += [(child, index, world, visible) for child in reversed(node.children)]
     return found
 

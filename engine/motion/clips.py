@@ -7,23 +7,19 @@ hold channels of other properties (`properties.py`) as well.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, get_args
+from typing import get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._native.loaders import frozen, is_frozen
-from .._support.numbers import floats
 from .._support.validation import Closed, choose
 from ..choices import Interpolation, MotionPath
 from ..errors import InvalidArgumentError
 from ..scene.nodes import Node
-
-if TYPE_CHECKING:
-    from .properties import PropertyChannel
+from .keys import INTERPOLATIONS, check_times, frozen_or_copied
+from .properties import PropertyChannel
 
 PATHS = get_args(MotionPath)
-INTERPOLATIONS = get_args(Interpolation)
 _WIDTHS = {"translation": 3, "rotation": 4, "scale": 3}
 
 
@@ -110,8 +106,6 @@ class AnimationClip(Closed):
     """
 
     def __init__(self, channels: Iterable[Channel | PropertyChannel], name: str = "") -> None:
-        from .properties import PropertyChannel
-
         if not isinstance(channels, Iterable):
             raise InvalidArgumentError(f"channels must be several Channel, not {channels!r}")
         self._channels = tuple(channels)
@@ -152,24 +146,6 @@ def check_clips(value: Mapping[str, AnimationClip]) -> dict[str, AnimationClip]:
                 f"animations must be AnimationClips by their names, not {clip!r} by {name!r}"
             )
     return dict(value)
-
-
-def check_times(value) -> np.ndarray:
-    """Check times of keys: (K,) float64, increasing, at least one."""
-    times = frozen_or_copied(value, "times")
-    if times.ndim != 1 or not len(times):
-        raise InvalidArgumentError(f"times must be (K,), at least one, not {times.shape}")
-    if not np.isfinite(times).all() or not (np.diff(times) > 0).all():
-        raise InvalidArgumentError("times must be finite and increase")
-    return times
-
-
-def frozen_or_copied(value, what: str) -> np.ndarray:
-    """Return numbers as a read-only float64 array: the given one, if nobody can write to it."""
-    is_kept = isinstance(value, np.ndarray) and value.dtype == np.float64 and is_frozen(value)
-    if is_kept and value.flags.c_contiguous:
-        return value
-    return frozen(floats(value, what))
 
 
 def _check_values(value, path: str, interpolation: str, count: int) -> np.ndarray:

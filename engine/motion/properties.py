@@ -22,7 +22,7 @@ from ..materials.textures import PlacedTexture, Texture
 from ..scene.cameras import OrthographicCamera, PerspectiveCamera
 from ..scene.lights import DirectionalLight, PointLight, SpotLight
 from ..scene.nodes import Node
-from .clips import INTERPOLATIONS, check_times, frozen_or_copied
+from .keys import INTERPOLATIONS, check_times, frozen_or_copied
 
 _LEAST = 1e-9  # of what must be greater than 0
 _WIDEST = math.pi - 1e-6

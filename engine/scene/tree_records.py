@@ -153,10 +153,16 @@ class _Filling:
             records.setdefault(part.mesh, said)
         if record.instances is None:
             return meshes
-        colors = record.instance_colors
-        made = [InstancedMesh(mesh, record.instances, colors=colors) for mesh in meshes]
-        records.update((each, InstanceWords(each.poses, record.instance_parts)) for each in made)
-        return made
+        return [self._instanced(mesh, record) for mesh in meshes]
+
+    def _instanced(self, mesh: Mesh, record: NodeRecord) -> InstancedMesh:
+        """The instances of a mesh, once for all nodes that have the same."""
+        poses, colors = record.instances, record.instance_colors
+        key = "instances", id(mesh), id(poses), id(colors)
+        if key not in self._objects:
+            made = self._objects[key] = InstancedMesh(mesh, poses, colors=colors)
+            records[made] = InstanceWords(made.poses, record.instance_parts)
+        return self._objects[key]
 
     def _placed(self, record: NodeRecord) -> list[Camera | Light]:
         """The camera and the light of a node, each made once for all nodes that name it."""

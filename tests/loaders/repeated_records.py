@@ -512,7 +512,7 @@ OTHERS = {
         ),
         "material": scene(materials={"name": "a"}),
         "light": scene(
-            objects={"kind": "point_light"}, nodes=lambda k: {"object": k}
+            objects={"kind": "point light"}, nodes=lambda k: {"object": k}
         ),
         "environment": scene(environments={"built_in": "studio"}),
     },
@@ -530,9 +530,10 @@ def records():
 
 def sized(make, size):
     """A file of about so many bytes."""
-    few = make(10)
-    each = max((len(make(20)) - len(few)) / 10, 0.1)
-    return make(max(int((size - len(few)) / each), 20))
+    count, few = 64, len(make(4))
+    for _ in range(3):
+        count = max(int(count * (size - few) / max(len(make(count)) - few, 1)), 8)
+    return make(count)
 
 
 def cost(load, path, data):

@@ -8,7 +8,8 @@ Every backend must give the same bytes, hence these rules. The flags below come 
 CFLAGS. The baseline is plain x86-64, so that only the ISA files hold code that an old CPU lacks.
 A file is compiled again when its command has changed or a file that it includes, which the compiler
 lists beside the object.
-ENGINE3D_BUILD=release|debug|profile|asan|tsan chooses the kind of build, each in its own folder.
+ENGINE3D_BUILD=release|debug|profile|asan|tsan|msan chooses the kind of build, each in its own
+folder.
 Everything that is not a rule of the build (name, version, extras) is in pyproject.toml; what the
 package needs depends on the system, and is here.
 """
@@ -36,6 +37,7 @@ BUILDS = {
     "profile": ["-O3", "-g", "-DNDEBUG", "-fno-omit-frame-pointer"],
     "asan": ["-O1", "-g", "-UNDEBUG", "-fno-omit-frame-pointer"],
     "tsan": ["-O1", "-g", "-UNDEBUG", "-fno-omit-frame-pointer"],
+    "msan": ["-O1", "-g", "-UNDEBUG", "-fno-omit-frame-pointer"],
 }
 # What Cython writes checks arguments and calls the core: optimised for speed, it would be little
 # faster and much larger.
@@ -43,6 +45,7 @@ GATEWAY_FLAGS = {"release": ["-Os"], "profile": ["-Os"]}
 SANITIZERS = {
     "asan": ["-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"],
     "tsan": ["-fsanitize=thread"],
+    "msan": ["-fsanitize=memory"],
 }
 WARNINGS = ["-Wall", "-Wextra"]
 INCLUDE_DIRS = ["csrc/include", "csrc"]

@@ -4,9 +4,10 @@ In:  csrc/ (the C core), engine/_native/*.pyx (its Python gateway), engine/ and 
 Out: static libraries, one for each instruction set; the extension engine3d._native._core, which
      holds the core and the modules engine3d._native.*; the packages engine3d.*.
 
-The flags and the core's files are in build_rules.py. A file is compiled again when its command has
-changed or a file that it includes, which the compiler lists beside the object.
-ENGINE3D_BUILD=release|debug|profile|asan|tsan chooses the kind of build, each in its own folder.
+The flags and the core's files are in csrc/build_rules.py. A file is compiled again when its command
+has changed or a file that it includes, which the compiler lists beside the object.
+ENGINE3D_BUILD=release|debug|profile|asan|tsan|msan chooses the kind of build, each in its own
+folder.
 Everything that is not a rule of the build (name, version, extras) is in pyproject.toml; what the
 package needs depends on the system, and is here.
 """
@@ -27,7 +28,7 @@ from setuptools.command.build import build
 from setuptools.command.build_clib import build_clib
 from setuptools.command.build_ext import build_ext
 
-sys.path.append(os.path.dirname(os.path.abspath(__file__)))  # where pip builds, it isn't there
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "csrc"))
 from build_rules import (
     BUILD,
     GATEWAY_FLAGS,
@@ -277,7 +278,7 @@ class BuildExtensions(build_ext):
         module = self.get_ext_fullpath(extension.name)
         # The linker is called where an object is newer than the module, or there is no module.
         if not is_newer(
-            module, [*extension.extra_objects, *archives, "setup.py", "build_rules.py"]
+            module, [*extension.extra_objects, *archives, "setup.py", "csrc/build_rules.py"]
         ):
             Path(module).unlink(missing_ok=True)
         super().build_extension(extension)

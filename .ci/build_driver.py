@@ -27,12 +27,15 @@ TRACED = ("csrc/loaders/", "csrc/fuzz/decimal", "csrc/images/tga", "csrc/images/
 UNTRACED_FLAGS = ["-fno-sanitize-coverage=trace-cmp"]
 # What a target that lets memory run out calls in their place.
 WRAPPED = ("malloc", "calloc", "realloc", "posix_memalign")
+# What the driver fills with a pattern: csrc/driver/poison.c.
+POISONED = ("malloc", "realloc", "posix_memalign")
 
 
 def rules_for(compiler):
     """The globals of build_rules.py, as if run on the processor that `compiler` compiles for."""
-    rules = runpy.run_path(str(ROOT / "build_rules.py"), run_name="rules")
+    rules = runpy.run_path(str(ROOT / "csrc" / "build_rules.py"), run_name="rules")
     machine = subprocess.run([compiler, "-dumpmachine"], capture_output=True, text=True, check=True)
+    rules["IS_LINUX"] = "linux" in machine.stdout
     # The functions of build_rules.py read these names from their own globals.
     for name, tell in (("MACHINE", "machine_of"), ("IS_WINDOWS", "is_windows")):
         rules["static_libraries"].__globals__[name] = rules[tell](machine.stdout)
@@ -53,11 +56,12 @@ def compile_all(compiler, rules, fuzz, folder, more=(), told=lambda made, total:
         macros = [f"-D{name}={value}" for name, value in info["macros"]]
         jobs += [(source, info["cflags"], macros) for source in info["sources"]]
     includes = [f"-I{folder}" for folder in rules["INCLUDE_DIRS"]]
+    poison = [f"-D{name}=poison_{name}" for name in POISONED if rules["IS_LINUX"]]
 
     def compile_one(job):
         source, flags, macros = job
         target = str(Path(folder) / (source.replace("/", "_") + ".o"))
-        extra = [*more, *(FUZZ_FLAGS if fuzz else [])]
+        extra = [*more, *(FUZZ_FLAGS if fuzz else poison)]
         if fuzz and not source.startswith(TRACED):
             extra = [*extra, *UNTRACED_FLAGS]
         command = [compiler, *macros, *includes, *flags, *extra, "-c", source, "-o", target]

@@ -1,6 +1,6 @@
 """What -O0 to -O3, -march=native and the intrinsics each bring to the kernels.
 
-In:  the C files of this checkout, a compiler, this CPU; the flags are those of build_rules.py.
+In:  the C files of this checkout, a compiler, this CPU; the flags are those of csrc/build_rules.py.
 Out: two tables, or with --json one object: nanoseconds for each kernel and way to build it, and
      frames a second of a whole picture; how many times as fast each is as the plain C of -O3
      (backend portable).
@@ -25,7 +25,7 @@ from pathlib import Path
 from progress import tracked
 
 ROOT = Path(__file__).resolve().parents[1]
-RULES = runpy.run_path(str(ROOT / "build_rules.py"), run_name="rules")
+RULES = runpy.run_path(str(ROOT / "csrc" / "build_rules.py"), run_name="rules")
 MACHINE = RULES["MACHINE"]
 ISA_FLAGS = RULES["isa_flags"](MACHINE)
 BACKENDS = ["portable", *ISA_FLAGS]

@@ -5,6 +5,7 @@
  * Source of the pyramid: Jimenez, "Next generation post processing in Call of Duty: Advanced Warfare", 2014, with other filters.
  */
 #include <stdatomic.h>
+#include <string.h>
 
 #include "core/bloom_levels.h"
 #include "core/fpenv.h"
@@ -106,6 +107,7 @@ static void lay(const bloom_job *job, int32_t y, float *rows)
         float *out = rows + (size_t)(1 + k) * job->row;
         mix_rows(job, k, y, rows);
         job->kernels->bloom_spread(rows, bloom->width, 0, out);
+        memset(out + bloom->width, 0, E3D_PAD * sizeof *out); /* whole vectors are read, and what is dark is left out */
         glow[k] = out;
     }
     uint32_t *rgba = (uint32_t *)(void *)bloom->color + (size_t)y * (size_t)bloom->width;

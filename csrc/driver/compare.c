@@ -6,7 +6,6 @@
 #include "driver/compare.h"
 
 #include <fenv.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,98 +14,10 @@
 #include <xmmintrin.h>
 #endif
 
+#include "driver/picture.h"
+#include "driver/renderers.h"
 #include "driver/scenes.h"
 #include "driver/shadow_scene.h"
-
-/* One run's outputs; NULL where not asked for. */
-typedef struct picture {
-    void *arrays[E3D_OUTPUTS];
-    size_t pixels;
-    e3d_status status;
-} picture;
-
-static size_t output_size(const picture *p, int k)
-{
-    return p->pixels * (size_t)(E3D_OUTPUT_FORMATS[k].channels * E3D_OUTPUT_FORMATS[k].bytes);
-}
-
-/* Bit k of `mask` asks for output k. */
-static picture picture_create(size_t pixels, uint32_t mask, int poison)
-{
-    picture p = {.pixels = pixels};
-    for (int k = 0; k < E3D_OUTPUTS; k++) {
-        if (!(mask >> k & 1))
-            continue;
-        p.arrays[k] = malloc(output_size(&p, k));
-        if (p.arrays[k] == NULL)
-            abort();
-        memset(p.arrays[k], poison, output_size(&p, k));
-    }
-    return p;
-}
-
-static void picture_destroy(picture *p)
-{
-    for (int k = 0; k < E3D_OUTPUTS; k++)
-        free(p->arrays[k]);
-}
-
-static e3d_targets picture_targets(const picture *p)
-{
-    e3d_targets targets;
-    for (int k = 0; k < E3D_OUTPUTS; k++)
-        e3d_targets_set(&targets, k, p->arrays[k]);
-    return targets;
-}
-
-static uint64_t picture_hash(const picture *p)
-{
-    uint64_t hash = HASH_START ^ (uint64_t)p->status;
-    for (int k = 0; k < E3D_OUTPUTS && p->status == E3D_OK; k++)
-        if (p->arrays[k] != NULL)
-            hash = hash_bytes(hash, p->arrays[k], output_size(p, k));
-    return hash;
-}
-
-static int complain(const char *title, const char *run, const char *name, const char *what,
-                    size_t i)
-{
-    if (title != NULL)
-        fprintf(stderr, "%s: %s: %s %s at value %zu\n", title, run, name, what, i);
-    return 0;
-}
-
-static int has_no_nan(const picture *p, const char *title, const char *run)
-{
-    int fine = 1;
-    for (int k = 0; k < E3D_OUTPUTS && p->status == E3D_OK; k++) {
-        const float *values = p->arrays[k];
-        size_t count = p->pixels * (size_t)E3D_OUTPUT_FORMATS[k].channels;
-        for (size_t i = 0; E3D_OUTPUT_FORMATS[k].is_float && values != NULL && i < count; i++)
-            if (isnan(values[i])) {
-                fine = complain(title, run, E3D_OUTPUT_FORMATS[k].name, "is NaN", i);
-                break;
-            }
-    }
-    return fine;
-}
-
-static int same_picture(const picture *a, const picture *b, const char *title, const char *run)
-{
-    if (a->status != b->status)
-        return complain(title, run, "the status", e3d_status_text(b->status), 0);
-    int same = 1;
-    for (int k = 0; k < E3D_OUTPUTS && a->status == E3D_OK; k++) {
-        const uint8_t *left = a->arrays[k], *right = b->arrays[k];
-        if (left == NULL || memcmp(left, right, output_size(a, k)) == 0)
-            continue;
-        size_t i = 0;
-        while (left[i] == right[i])
-            i++;
-        same = complain(title, run, E3D_OUTPUT_FORMATS[k].name, "differs", i / (size_t)E3D_OUTPUT_FORMATS[k].bytes);
-    }
-    return same;
-}
 
 /* What other libraries in a process may have done: the core must neither notice nor undo it. */
 static void disturb_floating_point(int disturb)
@@ -155,7 +66,7 @@ static e3d_status draw_scene(const void *data, e3d_backend backend, int32_t thre
     e3d_frame frame = ((const scene *)data)->frame;
     frame.culling = CULLING[threads <= 3 ? threads - 1 : 0];
     e3d_renderer *renderer = NULL;
-    e3d_status status = e3d_renderer_create(backend, threads, &renderer);
+    e3d_status status = renderer_take(backend, threads, &renderer);
     if (status != E3D_OK)
         return status;
     e3d_stats stats;
@@ -172,7 +83,7 @@ static e3d_status draw_scene(const void *data, e3d_backend backend, int32_t thre
     }
     if (status == E3D_OK && threads > 1)
         status = draw_ids(renderer, &frame, targets);
-    e3d_renderer_destroy(renderer);
+    renderer_return(renderer);
     return status;
 }
 
@@ -216,12 +127,12 @@ static outcome compare(const drawing *what, const run_plan *plan, const char *ti
             snprintf(label, sizeof label, "%s, %d threads", e3d_backend_name(backend),
                      (int)plan->threads[i]);
             picture p = draw_once(what, backend, plan->threads[i], run);
-            result.agrees &= has_no_nan(&p, title, label);
+            result.agrees &= picture_has_no_nan(&p, title, label);
             if (run++ == 0) {
                 pattern = p;
                 continue;
             }
-            result.agrees &= same_picture(&pattern, &p, title, label);
+            result.agrees &= picture_is_same(&pattern, &p, title, label);
             picture_destroy(&p);
         }
     }

@@ -522,8 +522,35 @@ void scene_add_alpha(scene *s, random_stream *r)
     s->frame.transparent_outputs = random_below(r, 2);
 }
 
+static e3d_environment_light environment_light(const scene *s, random_stream *r)
+{
+    float turn = random_float(r, -1.0f, 1.0f), intensity = random_once_in(r, 6) ? HOSTILE[random_below(r, 6)] : random_float(r, 0.0f, 3.0f);
+    return (e3d_environment_light){s->environment, turn, sqrtf(1.0f - turn * turn), intensity};
+}
+
+e3d_status scene_add_environment(scene *s, random_stream *r)
+{
+    enum { WIDTH = 8, HEIGHT = 4 };
+    const float *pixels = random_floats(s, r, WIDTH * HEIGHT * 3, 0.0f, 4.0f);
+    e3d_backdrop *backdrop = &s->frame.backdrop;
+    e3d_status status = e3d_environment_create(pixels, WIDTH, HEIGHT, 2, &s->environment);
+    if (status != E3D_OK)
+        return status;
+    s->frame.environment = environment_light(s, r);
+    if (random_once_in(r, 2))
+        backdrop->light = environment_light(s, r);
+    backdrop->level = random_float(r, 0.0f, (float)(E3D_ENVIRONMENT_LEVELS - 1));
+    for (int k = 0; k < 3; k++) {
+        backdrop->ray[k] = random_float(r, -1.0f, 1.0f);
+        backdrop->across[k] = random_float(r, -0.02f, 0.02f);
+        backdrop->down[k] = random_float(r, -0.02f, 0.02f);
+    }
+    return E3D_OK;
+}
+
 void scene_destroy(scene *s)
 {
+    e3d_environment_destroy(s->environment);
     for (int i = 0; i < SCENE_MAX_MESHES; i++)
         if (s->meshes[i] != NULL)
             e3d_mesh_destroy(s->meshes[i]);

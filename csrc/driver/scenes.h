@@ -26,6 +26,7 @@ typedef struct scene {
     e3d_material materials[SCENE_MAX_MATERIALS];
     e3d_light lights[SCENE_MAX_LIGHTS];
     e3d_window windows[2];
+    e3d_environment *environment; /* or NULL */
     void *arrays[SCENE_MAX_ARRAYS]; /* freed with the scene: what the meshes and draws borrow */
     int32_t array_count;
     int calm; /* nothing but sheets, some way off: few triangles, none of them large */
@@ -43,6 +44,8 @@ typedef struct clip_triangles {
 e3d_status scene_create(scene *s, random_stream *r, int32_t most_side);
 /* Masks some of its materials, and blends some: at least one. */
 void scene_add_alpha(scene *s, random_stream *r);
+/* Light from all around, of a random picture; it may be the background as well. */
+e3d_status scene_add_environment(scene *s, random_stream *r);
 void scene_destroy(scene *s);
 
 clip_triangles clip_triangles_create(random_stream *r, int32_t most_side);

@@ -30,7 +30,7 @@ cdef extern from *:
 def number():
     return e3d_number()
 """
-REAL_FILES = ("setup.py", "build_rules.py", "pyproject.toml", "engine/version.py")
+REAL_FILES = ("setup.py", "csrc/build_rules.py", "pyproject.toml", "engine/version.py")
 REAL_FILES += ("csrc/include/e3d_backends.h",)
 # Prints the number that the one module of the core gives.
 PROBE = """
@@ -121,7 +121,7 @@ def test_edited_gateway_is_translated_again(build, tiny_tree):
 def test_other_flags_rebuild(run_python, tiny_tree):
     """The kind of build stays, so the objects lie where those of before lay."""
     before = made_at(tiny_tree)
-    rules = tiny_tree / "build_rules.py"
+    rules = tiny_tree / "csrc/build_rules.py"
     rules.write_text(rules.read_text("utf-8").replace('"-O3", "-g0"', '"-O2", "-g0"'), "utf-8")
     run_python("setup.py", "-q", "build_clib", cwd=tiny_tree)
     assert made_at(tiny_tree)["kernels/isa_avx2.o"] != before["kernels/isa_avx2.o"]

@@ -60,13 +60,13 @@ def test_the_cross_compiler_names_its_target(source_tree):
     ],
 )
 def test_the_build_knows_its_machine(source_tree, platform, machine, is_windows):
-    build = rules(source_tree, "build_rules.py")
+    build = rules(source_tree, "csrc/build_rules.py")
     assert build["machine_of"](platform) == machine
     assert build["is_windows"](platform) == is_windows
 
 
 def test_each_machine_has_its_kernels(source_tree):
-    isa_flags = rules(source_tree, "build_rules.py")["isa_flags"]
+    isa_flags = rules(source_tree, "csrc/build_rules.py")["isa_flags"]
     assert list(isa_flags("X86")) == ["sse41", "avx2", "avx512"]
     assert isa_flags("AARCH64") == {"neon": []}
     assert isa_flags("") == {}

@@ -40,14 +40,19 @@ static int32_t find_runs(const e3d_tile_job *job, int *gaps)
     return job->in->pass->kernels->find_runs(job->visible, job->tile.width, job->tile.height, job->memory->shade.runs.rows, gaps);
 }
 
+/* Whether shading leaves an output as it was: where layers are counted, no sample gets a colour, nor has it radiance. */
+static int leaves_outputs(const e3d_prepared *pass)
+{
+    return (pass->targets->color || pass->targets->radiance) && !e3d_plans(pass, E3D_PLAN_COLORS);
+}
+
 /* Fills the tile with what its samples are before they are shaded; nothing is filled where all of them will be. */
 static void begin(const e3d_tile_job *job, int all)
 {
     const e3d_store *store = job->in->shade->store;
-    int counted = store->pass->targets->color && !e3d_plans(store->pass, E3D_PLAN_COLORS); /* instead of shaded */
     if (is_again(job))
         e3d_resolve_again(store, &job->tile, &job->memory->pixels);
-    else if (counted || !all)
+    else if (!all || leaves_outputs(store->pass))
         e3d_resolve_begin(store, &job->memory->pixels);
 }
 

@@ -1,7 +1,7 @@
 """What the core is compiled from, and how: sources, flags, kinds of build.
 
-In:  csrc/ (the C core), the machine, ENGINE3D_BUILD=release|debug|profile|asan|tsan. Nothing but
-     Python's own library: setup.py builds the package with it, .ci/build_driver.py the core alone.
+In:  csrc/ (the C core), the machine, ENGINE3D_BUILD=release|debug|profile|asan|tsan|msan. Nothing
+     but Python's own library: setup.py builds the package with it, .ci/build_driver.py the core alone.
 Out: lists of files and flags.
 
 Every backend must give the same bytes, hence these rules. The flags below come after the user's
@@ -20,6 +20,7 @@ BUILDS = {
     "profile": ["-O3", "-g", "-DNDEBUG", "-fno-omit-frame-pointer"],
     "asan": ["-O1", "-g", "-UNDEBUG", "-fno-omit-frame-pointer"],
     "tsan": ["-O1", "-g", "-UNDEBUG", "-fno-omit-frame-pointer"],
+    "msan": ["-O1", "-g", "-UNDEBUG", "-fno-omit-frame-pointer"],
 }
 # What Cython writes checks arguments and calls the core: optimised for speed, it would be little
 # faster and much larger.
@@ -27,6 +28,7 @@ GATEWAY_FLAGS = {"release": ["-Os"], "profile": ["-Os"]}
 SANITIZERS = {
     "asan": ["-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"],
     "tsan": ["-fsanitize=thread"],
+    "msan": ["-fsanitize=memory"],
 }
 WARNINGS = ["-Wall", "-Wextra"]
 INCLUDE_DIRS = ["csrc/include", "csrc"]
@@ -54,7 +56,7 @@ def isa_flags(machine):
 
     machine: as in `MACHINE`.
     """
-    header = Path(__file__).with_name("csrc") / "include" / "e3d_backends.h"
+    header = Path(__file__).with_name("include") / "e3d_backends.h"
     _, _, rows = header.read_text("utf-8").partition(f"#define E3D_EACH_{machine}_BACKEND(X)")
     rows = rows.partition("\n\n")[0].split("X(E3D_BACKEND_")[1:]
     flags = {}

@@ -1,7 +1,7 @@
 """What the core is compiled from, and how: sources, flags, kinds of build.
 
 In:  csrc/ (the C core), the machine, ENGINE3D_BUILD=release|debug|profile|asan|tsan|msan. Nothing
-     but Python's own library: setup.py builds the package with it, .ci/build_driver.py the core alone.
+     but Python's own library: setup.py builds the package with it, .ci/build_driver.py the core.
 Out: lists of files and flags.
 
 Every backend must give the same bytes, hence these rules. The flags below come after the user's

@@ -22,6 +22,7 @@ from typing import Any
 
 from .._support.side_by_side import Thread
 from .._support.system import kill_group
+from ..errors import OutOfMemoryError
 from .worker import BEGUN, receive, send
 
 _PROGRAM = (
@@ -142,7 +143,7 @@ class _Worker:
             self._end(error)
             future.set_exception(error)
             return
-        except (EOFError, OSError, ValueError, pickle.UnpicklingError) as error:
+        except (EOFError, OSError, ValueError, pickle.UnpicklingError, OutOfMemoryError) as error:
             future.set_exception(WorkerDiedError(self._end(error)))
             return
         except Exception as error:  # what cannot be pickled

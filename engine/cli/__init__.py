@@ -73,6 +73,10 @@ def _run(arguments: list[str], begin: Callable[[], None] | None) -> int:
         return _fail(_one_line(error))
     except MemoryError:
         return _fail("out of memory")
+    except ImportError as error:
+        if "failed to map" not in str(error):  # what the system says of a library without room
+            raise
+        return _fail("out of memory")
 
 
 def _obey(arguments: list[str], begin: Callable[[], None] | None) -> int:

@@ -120,7 +120,7 @@ def _info_of(path: str) -> dict[str, float] | None:
     return None if None in stamps else _checked_info(stem, stamps)
 
 
-@functools.lru_cache(256)
+@functools.lru_cache(1 << 16)
 def _checked_info(stem: str, stamps: tuple[FileStamp | None, ...]) -> dict[str, float] | None:
     path = f"{stem}.json"
     try:

@@ -30,12 +30,13 @@ _HEAD = json_records.members(
     {
         "autosave": json_records.members(
             {
-                "document": json_records.maybe(json_records.path_text),
+                "document": json_records.anything,  # without it the scene is still there
                 "time": json_records.time_of_day,
             }
         )
     }
 )
+_LONGEST_LINE, _LARGEST = 1 << 16, 1 << 40  # bytes
 _ROOT = "/"  # what a copy names is named from here, so that it may stand anywhere
 
 
@@ -173,7 +174,7 @@ def content_of(copy: Recovery) -> tuple[str, bytes]:
     ------
     FileAccessError, FileFormatError
     """
-    data = json_records.read_small(copy.path)
+    data = json_records.read_small(copy.path, _LARGEST)  # a scene may be large
     return os.path.join(_ROOT, os.path.basename(copy.path)), b"{" + data.partition(b"\n")[2]
 
 
@@ -203,12 +204,13 @@ def _saying(path: Path) -> tuple[str | None, float] | None:
     None for a copy that cannot be read, of which a warning tells.
     """
     try:
-        line = json_records.read_small(path).partition(b"\n")[0]
+        line = json_records.start_of(path, _LONGEST_LINE).partition(b"\n")[0]
         head = json_records.parsed(line.removesuffix(b",") + b"}", str(path), _HEAD)["autosave"]
     except (FileAccessError, FileFormatError) as error:
         warn(f"{error}: this copy of what was not saved is passed over")
         return None
-    return head["document"], float(head["time"])
+    document = head["document"]
+    return document if json_records.path_text(document) is None else None, float(head["time"])
 
 
 def _remove(path: Path) -> None:

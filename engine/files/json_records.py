@@ -75,20 +75,32 @@ def read_json(
 
 def read_small(path: str | os.PathLike[str], most: int = LARGEST, *, regular: bool = True) -> bytes:
     """Return the bytes of a file that is not large; raises as `read_json`."""
+    data = start_of(path, most + 1, regular=regular)
+    if len(data) > most:
+        raise FileFormatError(f"not read: larger than {most} bytes", os.fspath(path))
+    return data
+
+
+def start_of(path: str | os.PathLike[str], size: int, *, regular: bool = True) -> bytes:
+    """Return the first bytes of a file, so many at most.
+
+    Raises `FileAccessError`, as `read_json`.
+    """
     path = os.fspath(path)
     try:
         with open(path, "rb", opener=_opened_at_once if regular else None) as file:
-            if regular and not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
-                raise FileAccessError("cannot read: not a regular file", path)
-            data = file.read(most + 1)
+            status = os.fstat(file.fileno())
+            if not stat.S_ISREG(status.st_mode):
+                if regular:
+                    raise FileAccessError("cannot read: not a regular file", path)
+                return file.read(size)
+            # A buffer is made first; what a system makes up has a size of 0.
+            return file.read(min(size, max(status.st_size, 1 << 16)))
     except FileAccessError:
         raise
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
+    except (OSError, ValueError, MemoryError) as error:
+        reason = getattr(error, "strerror", None) or str(error) or "out of memory"
         raise FileAccessError(f"cannot read: {reason}", path) from error
-    if len(data) > most:
-        raise FileFormatError(f"not read: larger than {most} bytes", path)
-    return data
 
 
 def sealed(value: dict[str, Any]) -> bytes:

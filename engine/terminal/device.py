@@ -27,6 +27,8 @@ LARGEST_CELL = 1000
 MOST_CELLS = (640, 256)
 #: Bytes of an answer.
 _LONGEST_ANSWER = 1 << 16
+#: Bytes that are read before something else is done.
+_MOST_READ = 1 << 16
 _ASK_KITTY = b"\x1b_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\"
 _ASK_CELL = b"\x1b[16t"
 _ASK_PIXEL_MOUSE = b"\x1b[?1016$p"
@@ -100,8 +102,14 @@ class Device:
 
     def read(self, timeout: float) -> bytes:
         """Return what was typed or answered; empty if nothing comes within ``timeout`` seconds."""
-        ready, _, _ = select.select([self._file], [], [], max(timeout, 0.0))
-        return os.read(self._file, 1 << 16) if ready else b""
+        said, wait = b"", max(timeout, 0.0)
+        # The system hands over a few kilobytes at a time: all that waits is taken in at once.
+        while len(said) < _MOST_READ and select.select([self._file], [], [], wait)[0]:
+            part = os.read(self._file, _MOST_READ - len(said))
+            if not part:
+                break
+            said, wait = said + part, 0.0
+        return said
 
     def cells(self) -> tuple[int, int]:
         """Return columns and rows."""

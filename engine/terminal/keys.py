@@ -26,10 +26,11 @@ _SEQUENCE = re.compile(
     rb"|\x1b\[(?P<numbers>[0-9;]{0,16})(?P<letter>[A-Za-z~])"
     rb"|\x1bO(?P<function>[A-Z])"
     rb"|\x1b_[^\x1b]*\x1b\\"  # an answer that came late
-    rb"|\x1b\[[0-?]*[ -/]*[@-~]"  # whatever else has the form of a sequence
+    rb"|\x1b\[[ -?]*[@-~]"  # whatever else a terminal takes for a sequence
 )
 #: What could still become a sequence.
-_BEGUN = re.compile(rb"\x1b(\[[0-?]*[ -/]*|O|_[^\x1b]*\x1b?)?\Z")
+_BEGUN = re.compile(rb"\x1b(\[[ -?]*|O|_[^\x1b]*\x1b?)?\Z")
+_TAIL = re.compile(rb"[ -?]*(?P<end>[@-~])?")
 #: Of a longer one nothing is kept but how it begins.
 _LONGEST = 4096
 _LETTERS = {b"A": "Up", b"B": "Down", b"C": "Right", b"D": "Left", b"H": "Home", b"F": "End"}
@@ -71,6 +72,7 @@ class Decoder:
     def __init__(self, place) -> None:
         self._place = place
         self._rest = b""
+        self._is_inside = False  # of a sequence of which nothing is kept
         self._mouse: tuple[int, int] | None = None
         self._click = (0.0, (0, 0), 0)
 
@@ -81,7 +83,7 @@ class Decoder:
 
     def decode(self, data: bytes, *, ended: bool = False) -> list:
         """Return the events of some bytes; ``ended``: no more come soon, so Escape was a key."""
-        data, self._rest = self._rest + data, b""
+        data, self._rest = self._rest + self._after_sequence(data), b""
         happened: list = []
         place = 0
         while place < len(data):
@@ -101,9 +103,18 @@ class Decoder:
         """Keep the beginning of a sequence, unless it was an Escape key and what was typed then."""
         if ended and len(begun) < 3:
             return False
+        self._is_inside = ended and begun.startswith(b"\x1b[")
         if not ended:
             self._rest = begun if len(begun) <= _LONGEST else begun[:2]
         return True
+
+    def _after_sequence(self, data: bytes) -> bytes:
+        """Pass over what may still come of a sequence that was given up: its digits are no keys."""
+        if not (self._is_inside and data):
+            return data
+        rest = _TAIL.match(data)
+        self._is_inside = rest.end() == len(data) and rest["end"] is None
+        return data[rest.end() :]
 
     def _plain(self, data: bytes, place: int, happened: list) -> int:
         """Take in a byte, or a character of several; return how many bytes it has."""

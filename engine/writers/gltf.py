@@ -50,7 +50,7 @@ def write_tree(tree: TreeRecord, extension: str, file: BinaryIO) -> list[str]:
         if made.arrays.size:
             content = base64.b64encode(b"".join(made.arrays.chunks)).decode("ascii")
             made.json["buffers"] = [{"byteLength": made.arrays.size, "uri": _URI + content}]
-        file.write(_text(made.json, indent=1) + b"\n")
+        file.write(_text(made, indent=1) + b"\n")
     else:
         _write_glb(made, file)
     return list(dict.fromkeys(made.told))
@@ -59,7 +59,7 @@ def write_tree(tree: TreeRecord, extension: str, file: BinaryIO) -> list[str]:
 def _write_glb(made: GltfTree, file: BinaryIO) -> None:
     if made.arrays.size:
         made.json["buffers"] = [{"byteLength": made.arrays.size}]
-    text = _text(made.json)
+    text = _text(made)
     text += b" " * (-len(text) % 4)
     size = 12 + 8 + len(text) + (8 + made.arrays.size if made.arrays.size else 0)
     if size > _MOST:
@@ -72,10 +72,40 @@ def _write_glb(made: GltfTree, file: BinaryIO) -> None:
             file.write(chunk)
 
 
-def _text(tree: dict[str, Any], indent: int | None = None) -> bytes:
-    separators = (",", ":") if indent is None else (",", ": ")
-    text = json.dumps(tree, separators=separators, indent=indent, ensure_ascii=False)
+def _text(made: GltfTree, indent: int | None = None) -> bytes:
+    try:
+        text = _json(made.json, indent)
+    except (TypeError, ValueError, RecursionError):  # by what others say of their things
+        made.told.append("extras that JSON does not hold are left out")
+        text = _json(_without_odd_extras(made.json), indent)
     return text.encode("utf-8", "backslashreplace")
+
+
+def _json(value: Any, indent: int | None) -> str:
+    separators = (",", ":") if indent is None else (",", ": ")
+    form: dict[str, Any] = {"separators": separators, "indent": indent, "ensure_ascii": False}
+    return json.dumps(value, **form, allow_nan=False)
+
+
+def _without_odd_extras(value: Any) -> Any:
+    """Return a part of the tree without extras that cannot be written."""
+    if isinstance(value, list):
+        return [_without_odd_extras(one) for one in value]
+    if not isinstance(value, dict):
+        return value
+    return {
+        key: one if key == "extras" else _without_odd_extras(one)
+        for key, one in value.items()
+        if key != "extras" or _is_json(one)
+    }
+
+
+def _is_json(value: Any) -> bool:
+    try:
+        _json(value, 1)
+    except (TypeError, ValueError, RecursionError):
+        return False
+    return True
 
 
 def _write_mesh(mesh: Mesh, file: BinaryIO, extension: str) -> list[str]:

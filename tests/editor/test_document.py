@@ -169,6 +169,7 @@ def test_what_was_recovered_is_copied_at_once(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.filterwarnings("ignore:.*passed over")
 def test_damaged_copies_are_not_offered(tmp_path):
     (tmp_path / "a.e3d.json").write_bytes(b"")
     (tmp_path / "b.e3d.json").write_bytes(b'{"autosave": 3,\n"format": 1}')

@@ -83,6 +83,8 @@ def test_escape_alone_is_a_key_once_nothing_follows():
         b"\x1b_" + b"a" * 300_000,
         b"\x1b[?" + b"1;" * 200_000 + b"c",
         b"\x1b[38:2:1:2:3m",
+        b"\x1b[<8;" + b"9" * 5000 + b";-1M",
+        b"\x1b[1.5;" + b"9" * 5000 + b"A",
     ],
     ids=lambda data: repr(data[:8]),
 )
@@ -94,6 +96,17 @@ def test_sequences_that_nobody_knows_are_passed_over(data):
         assert len(keys._rest) < 10_000
     assert happened + keys.decode(b"", ended=True) == []
     assert keys.decode(b"w") == [KeyDown("W", "W"), TextEntered("w")]
+
+
+def test_what_comes_late_of_a_long_sequence_is_no_key():
+    keys = decoder()
+    happened = []
+    for piece in (b"\x1b[99", b"9" * 3000, b"9;9", b"9~"):
+        happened += keys.decode(piece) + keys.decode(b"", ended=True)
+    assert happened == []
+    assert keys.decode(b"w") == [KeyDown("W", "W"), TextEntered("w")]
+    assert keys.decode(b"\x1b[99") + keys.decode(b"", ended=True) == []
+    assert keys.decode(b"\x03") == [CloseRequested()]
 
 
 def test_two_quick_clicks_are_a_double_click():

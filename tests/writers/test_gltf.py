@@ -244,3 +244,23 @@ def test_a_variant_is_chosen(tmp_path):
     for variant in ("c", 2):
         with pytest.raises(InvalidArgumentError, match=r"no variant .* \(there are: 'a', 'b'\)"):
             e3d.load_scene(path, variant=variant)
+
+
+@pytest.mark.parametrize("extension", [".gltf", ".glb"])
+@pytest.mark.parametrize("odd", [float("inf"), float("nan"), {1, 2}, [[[float("-inf")]]]])
+def test_extras_that_json_does_not_hold_are_left_out(extension, odd, tmp_path):
+    """JSON has no infinite numbers, but a file's 1e999 is one."""
+    box = e3d.box()
+    box.materials = [
+        e3d.Material(name="odd", metallic=1.0, extras={"a": odd}),
+        e3d.Material(name="plain", metallic=1.0, extras={"a": 1.5}),
+    ]
+    box.material_ids = [0, 1] * 6
+    path = tmp_path / f"a{extension}"
+    scene = e3d.Scene()
+    scene.add(box)
+    with pytest.warns(e3d.Engine3DWarning, match="extras that JSON does not hold are left out"):
+        e3d.save_scene(scene, path)
+    assert b"Infinity" not in path.read_bytes() and b"NaN" not in path.read_bytes()
+    (read,) = [node.object for node in e3d.load_scene(path).nodes if node.object is not None]
+    assert [material.extras for material in read.materials] == [{}, {"a": 1.5}]

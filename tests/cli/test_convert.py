@@ -15,7 +15,7 @@ def test_convert(model, tmp_path, capfd):
     assert main(["convert", "out.ply", "out.stl", "--ascii"]) == 0
     assert "do not hold texture coordinates" in capfd.readouterr().err
     assert (tmp_path / "out.stl").read_text().count("vertex") == 6
-    assert main(["convert", "out.stl", "missing/out.obj"]) == 1
+    assert main(["convert", "out.stl", "out.stl/out.obj"]) == 1
 
 
 @pytest.mark.parametrize("name", ["out.obj", "out.ply", "out.stl"])

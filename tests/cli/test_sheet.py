@@ -82,8 +82,8 @@ def test_wrong_usage(model, tmp_path, capsys, arguments, part):
     [
         (["missing.obj", "-o", "out.png"], "missing.obj"),
         (["broken.obj", "-o", "out.png"], "broken.obj:2: "),
-        (["square.obj", "-o", "no/out.png"], "no/out.png"),
-        (["square.obj", "-o", "out.png", "--report", "no/r.json"], "no/r.json"),
+        (["square.obj", "-o", "square.obj/out.png"], "square.obj/out.png"),
+        (["square.obj", "-o", "out.png", "--report", "square.obj/r.json"], "square.obj/r.json"),
         (["square.obj", "-o", "out.png", "--views", "camera0"], "square.obj has no camera 0"),
         (["square.obj", "-o", "out.png", "--size", "100x80"], "size: "),
     ],

@@ -32,7 +32,7 @@ def folder(tmp_path, monkeypatch):
         ["render", f"{EVIL}.obj", *SMALL, "--verbose", "-o", "out.png"],
         ["render", f"{EVIL}2.obj", *SMALL, "-o", "out.png"],
         ["render", f"{EVIL}3.obj", *SMALL, "-o", "out.png"],
-        ["render", "a.obj", *SMALL, "-o", f"{EVIL}/out.png"],
+        ["render", "a.obj", *SMALL, "-o", f"a.obj/{EVIL}/out.png"],
         ["render", "a.obj", *SMALL, "-o", f"out.{EVIL}"],
         ["render", "a.obj", *SMALL, "--texture", f"{EVIL}.tga", "-o", "out.png"],
         ["render", "a.obj", *SMALL, "--reference", f"{EVIL}.png"],

@@ -30,6 +30,7 @@ _MAX_NAME = 4096
 _MAX_SPELT = 3 * _MAX_NAME
 # A file that looks in vain for more places than this only wants to keep the disk busy.
 _MAX_FAILURES = 16_000
+_NOT_FOUND = "not found"
 
 _listeners: ContextVar[tuple[Callable[[str], object], ...]] = ContextVar("listeners", default=())
 
@@ -177,8 +178,11 @@ class LinkedFiles:
         return self._places if folder is None else list(dict.fromkeys([folder, *self._places]))
 
     def _first_found(self, names: Iterable[str], places: list[str]) -> str:
-        """The first file that any of the names means in any of the folders."""
-        reason = None
+        """The first file that any of the names means in any of the folders.
+
+        Where there is none, the reason is the first one that says more than that.
+        """
+        reason = LinkedFileError(_NOT_FOUND)
         for name in names:
             for place in places:
                 if self._failures >= _MAX_FAILURES:
@@ -187,8 +191,9 @@ class LinkedFiles:
                     return self._found(name, place)
                 except LinkedFileError as error:
                     self._failures += 1
-                    reason = reason or error
-        raise reason or LinkedFileError("not a file name")
+                    if str(reason) == _NOT_FOUND:
+                        reason = error
+        raise reason
 
     def read(self, path: str) -> Source:
         """Read a file that `find` returned.
@@ -245,7 +250,7 @@ class LinkedFiles:
                 path = self._as_on_disk(folder, name)
             mode = os.stat(self._real_path(path)).st_mode
         except FileNotFoundError:
-            raise LinkedFileError("not found") from None
+            raise LinkedFileError(_NOT_FOUND) from None
         except (OSError, ValueError) as error:
             raise LinkedFileError(getattr(error, "strerror", None) or "not a file name") from None
         if not stat.S_ISREG(mode):

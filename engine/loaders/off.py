@@ -90,11 +90,14 @@ class _OffReader:
         self._read_head()
         try:
             return self._geometry(self._rows())
-        except FileFormatError:
+        except FileFormatError as problem:
             rows = self._rows_of_words()
             if rows is None:
                 raise
-            return self._geometry(rows)
+            try:
+                return self._geometry(rows)
+            except FileFormatError:
+                raise problem from None
 
     def _geometry(self, rows: NumberRows) -> IndexedGeometry:
         count = self._vertex_count
@@ -293,7 +296,8 @@ class _OffReader:
 
     def _row(self, row: int) -> tuple[int, bytes]:
         """The place and the text of a vertex's line, or, counted on, of a face's."""
-        return next(islice(self._filled_lines(self._body), row, None))
+        end = len(self._text) - 1, b""  # where rows are not lines
+        return next(islice(self._filled_lines(self._body), row, None), end)
 
     def _fail_at_face(self, reason: str, face: int):
         position, line = self._row(self._vertex_count + face)

@@ -96,7 +96,9 @@ def may_be_blank(stats: Mapping[str, Any], scene: Scene) -> bool:
     if not stats["pixels_shaded"]:
         return True
     opaque = False
-    for node in scene.nodes:
+    for number, node in enumerate(scene.nodes):
+        if opaque and number >= _MANY:
+            break  # of so many, clear ones hardly hide that nothing else is there
         if isinstance(node.object, DRAWABLE):
             for material in mesh_of(node.object).materials:
                 if material.alpha_mode == "opaque":

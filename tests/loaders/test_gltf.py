@@ -123,9 +123,9 @@ def test_named_files_stay_in_the_folder(tmp_path):
     folder = tmp_path / "model"
     folder.mkdir()
     (folder / "a.bin").write_bytes(data)
-    (tmp_path / "a.bin").write_bytes(data)
+    (tmp_path / "b.bin").write_bytes(data)
     path = folder / "model.gltf"
-    for name in ("a.bin", "../a.bin", "%2e%2e/a.bin"):
+    for name in ("a.bin", "../b.bin", "%2e%2e/b.bin"):
         tree["buffers"][0]["uri"] = name
         path.write_text(json.dumps(tree))
         if name == "a.bin":

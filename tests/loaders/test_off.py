@@ -156,6 +156,12 @@ def test_what_is_no_colour_of_a_face_is_told():
     assert mesh.warnings[0].endswith("what stands behind the corners of 1 faces is left out")
 
 
+def test_what_is_wrong_of_numbers_that_keep_to_no_lines():
+    rows = " ".join(f"{x} {y} {z}" for x, y, z in SQUARE)
+    with pytest.raises(FileFormatError, match="the file ends before its 4 vertices do"):
+        load_mesh(f"OFF\n4 1 0\n{rows}\n3 0 1 9\n".encode(), format="off")
+
+
 def test_four_dimensions_are_refused():
     with pytest.raises(FileFormatError, match="only three-dimensional OFF files"):
         load_mesh(b"nOFF 4\n1 0 0\n0 0 0 0\n")

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..geometry.mesh import Mesh
 from ..geometry.movers import shares
+from ..geometry.normals import vertex_normals
 from ..loaders.documents import MeshRecord
 from ..loaders.gltf_meshes import MOST_BENDING, tangent_set
 from ..loaders.gltf_primitives import compact
@@ -25,6 +26,7 @@ _POINTS, _LINES = 0, 1
 _VARIANTS = "KHR_materials_variants"
 _INFLUENCES = 4
 _MOST_ROUNDS = 8
+_ANY_NORMAL = np.float32((0, 0, 1))  # of faces without an area
 _MORPHED = {"positions": "POSITION", "normals": "NORMAL", "tangents": "TANGENT"}
 
 
@@ -112,7 +114,7 @@ class GltfMeshList:
         # Faces without normals are flat; there is no other word for it.
         if not flat and (mesh.has_normals or len(mesh.faces)):
             faces = faces if faces.shape[1] == 3 else mesh.faces[:0]
-            normals = usable_normals(mesh.normals[rows], arrays["POSITION"], faces)
+            normals = _usable(mesh.normals[rows], arrays["POSITION"], faces)
             arrays |= {} if normals is None else {"NORMAL": normals}
         if mesh.tangents is not None and "NORMAL" in arrays:
             arrays["TANGENT"] = mesh.tangents[rows]
@@ -177,6 +179,15 @@ def _with_tangents(mesh: Mesh) -> Mesh:
     uv_set = next((found for m in smooth if (found := tangent_set(m)) is not None), None)
     has_uvs = uv_set is not None and (mesh.uvs1 if uv_set else mesh.uvs) is not None
     return mesh.with_tangents(uv_set) if has_uvs else mesh
+
+
+def _usable(normals: np.ndarray, positions: np.ndarray, faces: np.ndarray) -> np.ndarray | None:
+    """Normals that readers take; of faces there are some, or they would be flat."""
+    given = usable_normals(normals, positions, faces)
+    if given is not None or not len(faces):
+        return given
+    found = usable_normals(vertex_normals(positions, faces), positions, faces)
+    return np.tile(_ANY_NORMAL, (len(positions), 1)) if found is None else found
 
 
 def _as_stored(array: np.ndarray, name: str) -> np.ndarray:

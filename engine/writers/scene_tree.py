@@ -250,6 +250,9 @@ class _Making:
             # Each part of a mesh has a channel for its weights, a file has one for all.
             if node not in self._row or (node, channel.path) in seen:
                 continue
+            if channel.path == "weights" and channel.values.shape[-1] != _targets_of(node):
+                self.told.append(f"animation {shown(clip.name)}: weights of what is not written")
+                continue
             seen.add((node, channel.path))
             channels.append(
                 ChannelRecord(
@@ -315,6 +318,12 @@ def _is_turned(light: DirectionalLight) -> bool:
 def _shows(mesh: Mesh) -> bool:
     """Whether a mesh is more than vertices, of which such files would hold nothing."""
     return any(map(len, (mesh.faces, mesh.lines, mesh.points)))
+
+
+def _targets_of(node: Node) -> int:
+    """How many morph targets the mesh has in the file that a node shows."""
+    mesh = node.object
+    return len(mesh.morph_targets) if isinstance(mesh, Mesh) and _shows(mesh) else 0
 
 
 def _is_further_part(node: Node) -> bool:

@@ -51,7 +51,7 @@ class Things:
         self.view = self.scene.add(self.camera, translation=(0.2, 0.3, 4))
         self.lights = (
             e3d.DirectionalLight((0, -0.3, -1)),
-            e3d.PointLight((1, 0.5, 0.2), 5.0),
+            e3d.PointLight((1, 0.5, 0.2), 5.0, 20.0),
             e3d.SpotLight((0.2, 0.5, 1), 9.0),
             e3d.HemisphereLight(intensity=0.2),
             e3d.LightProbe(np.linspace(0, 0.3, 27).reshape(9, 3)),
@@ -294,7 +294,7 @@ def differing(one, other):
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(32))
 def test_only_the_end_is_seen(seed):
     rng = np.random.default_rng(seed)
     settings = {"threads": 1, "backend": ("auto", "portable", "scalar")[seed % 8 // 3 * (seed % 2)]}
@@ -309,7 +309,7 @@ def test_only_the_end_is_seen(seed):
     first = [change for change in end if change[0][2] in FIRST]
     others = [change for change in end if change[0][2] not in FIRST]
     for node in things.of_kind[e3d.Node]:
-        node.skin = node.morph_weights = node.collider = None
+        node.skin = node.morph_weights = node.collider = node.parent = None
     left = [
         *take_all(things, [first[k] for k in rng.permutation(len(first))]),
         *take_all(things, [others[k] for k in rng.permutation(len(others))]),

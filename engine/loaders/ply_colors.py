@@ -62,11 +62,32 @@ def read_colors(table: PlyTable, warnings: WarningList, is_own: bool = False) ->
         colors = np.full((len(table), 4), 255, np.uint8)
         colors[:, : len(both)] = table.columns(*both)
         return colors
-    columns = [_Column(name, table.type(name), table.column(name)) for name in both]
+    kinds = [table.type(name) for name in both]
+    values = [table.column(name) for name in both] if len(set(kinds)) > 1 else None
+    if values is None:  # read at once
+        block = table.columns(*both)
+        if kinds[0].startswith("f") and (is_own or _is_light(block)):
+            return _light(block)
+        values = list(block.T)
+    columns = [_Column(*column) for column in zip(both, kinds, values, strict=True)]
     ranges = _Ranges(is_own, warnings)
     fulls = ranges.of_colors(columns[:3])
     clear = None if alpha is None else ranges.shares(columns[3])
     return _joined(columns[:3], fulls, clear)
+
+
+def _is_light(block: np.ndarray) -> bool:
+    """Whether floats are certainly none of 0 to 255: what most files hold."""
+    largest = float(block.max(initial=0))
+    return largest < (_LEAST_WHOLE if block.shape[1] == 4 else _LEAST_DISPLAY)
+
+
+def _light(block: np.ndarray) -> np.ndarray:
+    """Linear light of floats, white for what is none."""
+    with np.errstate(over="ignore"):
+        colors = np.ones((len(block), 4), np.float32)
+        colors[:, : block.shape[1]] = np.nan_to_num(block, nan=1.0)
+    return np.clip(colors, 0, np.finfo(np.float32).max, out=colors)
 
 
 class _Column(NamedTuple):

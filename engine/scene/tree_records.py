@@ -13,8 +13,8 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from .._native.loaders import frozen
 from .._support.numbers import shown
-from .._support.validation import freeze
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..loaders.documents import (
@@ -252,7 +252,7 @@ class _Filling:
         """The float64 numbers that channels hold of an array, the same for all that name it."""
         key = id(array)
         if key not in self._keys:
-            self._keys[key] = array, freeze(array.astype(np.float64))
+            self._keys[key] = array, frozen(array.astype(np.float64))
         return self._keys[key][1]
 
     def _property_channels(self, record: PropertyRecord, clip: str) -> list[PropertyChannel]:

@@ -16,7 +16,7 @@ from .text import shown
 
 _TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _INDEX_TYPES = (5121, 5123, 5125)
-_LARGE = 1 << 16  # numbers, from which on memory comes page by page
+_LARGE = 1 << 12  # numbers, from which on memory is worth the call that gets it
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 

@@ -7,8 +7,6 @@ is made.
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 
 from .._native.loaders import large_array
@@ -18,6 +16,7 @@ from .text import shown
 
 _TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _INDEX_TYPES = (5121, 5123, 5125)
+_LARGE = 1 << 12  # numbers, from which on memory is worth the call that gets it
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 
@@ -54,7 +53,7 @@ class GltfAccessors:
             How many columns it may have: 16 of a matrix.
         """
         index = self.check(index, where, *widths)
-        return once(self._kept, index, partial(self._values, index))
+        return once(self._kept, index, lambda: self._values(index))
 
     def check(self, index, where: str, *widths: int) -> int:
         """Return the number of an accessor that has one of some numbers of columns."""
@@ -181,6 +180,8 @@ class GltfAccessors:
 
 def _copied(values: np.ndarray) -> np.ndarray:
     """The values as float32, in memory of their own."""
+    if values.size < _LARGE:
+        return values.astype(np.float32, order="C")
     made = large_array(values.shape, np.float32)
     made[:] = values
     return made

@@ -128,12 +128,17 @@ class GltfFile:
 
     def entry(self, name: str, index, where: str) -> dict:
         """Return the object that an index means; ``where`` is the place that names it."""
-        entries = self.entries(name)
+        entries = self._checked[name]
+        if type(index) is int and 0 <= index < len(entries):  # most often, and very often
+            return entries[index]
         return entries[self.index(index, len(entries), name, where)]
 
     def number_in(self, name: str, value, where: str) -> int:
         """Return the number of an entry of a list of the file."""
-        return self.index(value, len(self.entries(name)), name, where)
+        count = len(self._checked[name])
+        if type(value) is int and 0 <= value < count:
+            return value
+        return self.index(value, count, name, where)
 
     def index(self, value, count: int, name: str, where: str) -> int:
         """Return the number of one of ``count`` things."""
@@ -177,7 +182,9 @@ class GltfFile:
 
     def whole(self, entry: dict, name: str, where: str, default: int | None = None) -> int:
         """Return a whole number that is not negative."""
-        value = whole_of(entry.get(name, default))
+        value = entry.get(name, default)
+        if type(value) is not int:
+            value = whole_of(value)
         if type(value) is not int or not 0 <= value < 1 << 53:
             raise self.damaged(f"{where}.{name} is {_short(value)}")
         return value
@@ -266,12 +273,13 @@ class GltfFile:
 
 def once(kept: dict, key, make: Callable[[], _Value]) -> _Value:
     """Return what was made for a key before, or make it; of what is damaged the error is kept."""
-    if key not in kept:
+    found = kept.get(key)
+    if found is None:
         try:
-            kept[key] = make()
+            found = make()
         except DamagedError as error:
-            kept[key] = error
-    found = kept[key]
+            found = error
+        kept[key] = found
     if isinstance(found, DamagedError):
         raise found.with_traceback(None)
     return found

@@ -85,11 +85,6 @@ def read_clips(
     return sound_list(file, "animations", file.entries("animations"), reading.clip).records
 
 
-def _moved_by(channel: dict) -> str:
-    """What a channel says that it moves."""
-    return repr(channel.get("target"))
-
-
 def _named(pointer: str) -> str:
     """A pointer as it is told, whole unless it is very long."""
     return repr(pointer if len(pointer) <= _MOST_TOLD else f"{pointer[:_MOST_TOLD]}...")
@@ -127,7 +122,8 @@ class _Clips:
         self._nodes, self._meshes, self._lists = nodes, meshes, lists
         self._times: dict[int, tuple[np.ndarray, np.ndarray | None] | DamagedError] = {}
         self._values: dict[int, np.ndarray | DamagedError] = {}
-        self._keys: dict[tuple, tuple] = {}  # with what they were made of, whose ids are the keys
+        self._keys: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}  # by ids of what is kept
+        self._flags: list[np.ndarray] = []  # whose ids are in use
         self._turns: dict[int, tuple[np.ndarray, np.ndarray]] = {}
         self._shown_by: dict[int, list[int]] = {}  # the nodes of each mesh
         for index, node in enumerate(nodes):
@@ -144,10 +140,11 @@ class _Clips:
         entries = file.entries("channels", entry, f"{where}.")
         made: list[ChannelRecord | PropertyRecord] = []
         first, last, is_sound = 0.0, 0.0, not entries
-        last_of = {_moved_by(channel): number for number, channel in enumerate(entries)}
+        moved_by = [repr(channel.get("target")) for channel in entries]
+        last_of = {moved: number for number, moved in enumerate(moved_by)}
         for number, channel in enumerate(entries):
             place = f"{where}.channels[{number}]"
-            other = last_of[_moved_by(channel)]
+            other = last_of[moved_by[number]]
             if other != number:
                 file.warnings.add(f"{place} moves what channels[{other}] moves: left out")
                 continue
@@ -220,6 +217,7 @@ class _Clips:
         if path == "visible":
             # One that says so in time is seen or not, and nothing in between.
             sampled = sampled._replace(values=(sampled.values != 0).astype(np.float32))
+            self._flags.append(sampled.values)
             if sampled.interpolation != "step":
                 file.warnings.add(f"{where} moves {_named(pointer)} otherwise than by steps: STEP")
                 if sampled.interpolation == "cubicspline":
@@ -235,9 +233,10 @@ class _Clips:
     def _shaped(self, sampled: _Sampled, width: int, where: str) -> tuple[np.ndarray, np.ndarray]:
         """Times and values, a row of so many numbers for each time; the same arrays for all."""
         key = id(sampled.times), id(sampled.values), sampled.interpolation, width
-        if key not in self._keys:
-            self._keys[key] = (sampled, *self._rows(sampled, width, where))
-        return self._keys[key][1:]
+        found = self._keys.get(key)
+        if found is None:
+            found = self._keys[key] = self._rows(sampled, width, where)
+        return found
 
     def _rows(self, sampled: _Sampled, width: int, where: str) -> tuple[np.ndarray, np.ndarray]:
         times, values, is_later, interpolation = sampled
@@ -277,12 +276,10 @@ class _Clips:
         if interpolation not in _INTERPOLATIONS:
             file.warnings.add_once(f"{where}: no interpolation {shown(str(interpolation))}: LINEAR")
             interpolation = "LINEAR"
-        key, output = (
-            file.number_in("accessors", sampler.get(name), f"{where}.{name}")
-            for name in ("input", "output")
-        )
-        times, is_later = once(self._times, key, partial(self._checked_times, key, where))
-        values = once(self._values, output, partial(self._checked_values, output, where))
+        key = file.number_in("accessors", sampler.get("input"), f"{where}.input")
+        output = file.number_in("accessors", sampler.get("output"), f"{where}.output")
+        times, is_later = once(self._times, key, lambda: self._checked_times(key, where))
+        values = once(self._values, output, lambda: self._checked_values(output, where))
         return _Sampled(times, values, is_later, interpolation.lower())
 
     def _checked_values(self, index: int, where: str) -> np.ndarray:
@@ -295,11 +292,12 @@ class _Clips:
         raw = self._accessors.raw(index, where, 1)
         if raw.dtype.kind != "f":
             raise self._file.damaged(f"{where} has times that are no floats")
-        times = self._accessors.floats(index, where, 1)[:, 0]
-        steps = np.diff(times)
-        if not len(times) or not np.isfinite(times).all() or (steps < 0).any():
+        times = self._accessors.as_floats(raw, index)[:, 0]
+        least = float(np.diff(times).min(initial=np.inf))  # not a number where one time is none
+        ends = [float(time) for time in (*times[:1], *times[-1:])]
+        if not ends or not (least >= 0 and all(map(math.isfinite, ends))):
             raise self._file.damaged(f"{where} has times that go back, or are none")
-        if (steps > 0).all():
+        if least > 0:
             return times, None
         self._file.warnings.add(f"{where} has equal times: the last one of each counts")
-        return times, np.append(steps > 0, True)
+        return times, np.append(np.diff(times) > 0, True)

@@ -250,10 +250,10 @@ class _Filling:
 
     def _shared(self, array: np.ndarray) -> np.ndarray:
         """The float64 numbers that channels hold of an array, the same for all that name it."""
-        key = id(array)
-        if key not in self._keys:
-            self._keys[key] = array, frozen(array.astype(np.float64))
-        return self._keys[key][1]
+        held = self._keys.get(id(array))
+        if held is None:
+            held = self._keys[id(array)] = array, frozen(array.astype(np.float64))
+        return held[1]
 
     def _property_channels(self, record: PropertyRecord, clip: str) -> list[PropertyChannel]:
         """The channels of what a record means: several where a scene has several things for it."""

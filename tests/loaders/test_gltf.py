@@ -6,6 +6,7 @@ import json
 import struct
 import subprocess
 import sys
+from urllib.parse import unquote_to_bytes
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from PIL import Image
 import engine3d as e3d
 from engine3d.cli.info import describe
 from engine3d.errors import Engine3DWarning, FileFormatError
-from engine3d.loaders import gltf_buffers, load_document, load_mesh
+from engine3d.loaders import gltf_buffers, load_document, load_mesh, percent_encoding
 
 
 def triangle_tree(points=3):
@@ -495,3 +496,11 @@ def test_nodes_that_are_no_tree(write, nodes):
     tree["nodes"] = nodes
     with pytest.raises(FileFormatError, match=r"a\.gltf: damaged: nodes\[[01]\] is named twice"):
         load_mesh(write("a.gltf", json.dumps(tree)))
+
+
+def test_percent_encoded_text_is_decoded_piece_by_piece(monkeypatch):
+    text = "a%20b%zz%%41%4" * 3 + "%e4\u00e4%"
+    expected = unquote_to_bytes(text)
+    for size in range(3, 40):
+        monkeypatch.setattr(percent_encoding, "_PIECE", size)
+        assert percent_encoding.percent_decoded(text) == expected

@@ -45,7 +45,7 @@ def state(material):
     return held
 
 
-@pytest.mark.parametrize("keyword", STATEMENTS)
+@pytest.mark.parametrize("keyword", sorted(STATEMENTS))
 def test_keywords_in_any_letters(load, keyword):
     value = STATEMENTS[keyword]
     expected = load(f"newmtl m\n{keyword} {value}\n")

@@ -47,7 +47,7 @@ def written(shares, kind):
     return values if name in ("float", "double") else np.floor(values + 0.5).astype(np.int64)
 
 
-@pytest.mark.parametrize(("color", "alpha"), itertools.product(KINDS, KINDS))
+@pytest.mark.parametrize(("color", "alpha"), [*itertools.product(KINDS, KINDS)])
 def test_colours_and_alphas_of_any_two_types(color, alpha):
     columns = np.column_stack([written(SHARES, color), written(ALPHAS, alpha)]).tolist()
     if KINDS[color][0] not in ("float", "double"):
@@ -68,7 +68,7 @@ def test_colours_and_alphas_of_any_two_types(color, alpha):
     assert bool(mesh.warnings) == (color in guessed or alpha in guessed)
 
 
-@pytest.mark.parametrize("kinds", itertools.permutations(["uchar", "ushort", "float of 8 bits"]))
+@pytest.mark.parametrize("kinds", [*itertools.permutations(["uchar", "ushort", "float of 8 bits"])])
 def test_channels_of_different_types(kinds):
     columns = [written(SHARES[:, k], kind).tolist() for k, kind in enumerate(kinds)]
     names = [(name, KINDS[kind][0]) for name, kind in zip("rgb", kinds, strict=True)]

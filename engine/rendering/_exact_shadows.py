@@ -14,6 +14,7 @@ from ..scene.node_arrays import NodeArrays
 from ..scene.scene import Scene
 from ._casters import placed_casters
 from ._draw_list import DrawList
+from ._frame_memory import FrameMemory
 
 _versions = itertools.count(1)
 
@@ -32,13 +33,14 @@ class ExactShadows:
         self._casters: tuple | None = None
         self._version = 0
 
-    def update(self, scene: Scene) -> None:
+    def update(self, scene: Scene, memory: FrameMemory) -> None:
         """Let lights whose ``shadow`` is "exact" have it, for a frame with lit surfaces.
 
         Raises
         ------
         InvalidArgumentError
-            There are more such lights than the core takes.
+            There are more such lights than the core takes, or their shadows take more memory than a
+            frame may.
         """
         native = self._draw_list.native
         lights = [at[0] for at in self._draw_list.lights.placed() if at[1].shadow == "exact"]
@@ -46,6 +48,7 @@ class ExactShadows:
             native.set_exact_shadow(number)
         if lights:
             self._list_casters(scene._arrays)
+            memory.add_exact(len(lights), native.hiding_faces())
 
     def _list_casters(self, arrays: NodeArrays) -> None:
         """List the casters, unless they are listed; a version is theirs until one is another."""

@@ -16,6 +16,7 @@ from ..scene.lights import DirectionalLight, SpotLight
 from ..scene.scene import Scene
 from ._casters import placed_casters
 from ._draw_list import DrawList
+from ._frame_memory import FrameMemory
 from ._shadow_views import (
     MapView,
     ShadowViews,
@@ -91,13 +92,14 @@ class ShadowMaps:
         self._found: dict[int, tuple[tuple, ShadowViews | None]] = {}
         self.drawn = self.count = 0
 
-    def update(self, scene: Scene, view: View, cull: Cull) -> None:
+    def update(self, scene: Scene, view: View, cull: Cull, memory: FrameMemory) -> None:
         """Give the lights their maps, for a frame with lit surfaces that leaves out these faces.
 
         Raises
         ------
         InvalidArgumentError
-            A light's shadow_radius is too wide for its maps.
+            A light's shadow_radius is too wide for its maps, or the maps take more memory than a
+            frame may.
         """
         native = self._draw_list.native
         self.drawn = self.count = 0
@@ -111,10 +113,16 @@ class ShadowMaps:
             return
         bounds = scene.bounds
         moment = scene._arrays, scene._arrays.updated, self._draw_list.renewals, CULLS[cull]
-        for number, light, pose in lights:
-            views = self._views_of(number, light, pose, bounds, view)
-            if views is not None:
-                self._update_light(number, light, views, moment)
+        seen = [
+            (n, light, self._views_of(n, light, pose, bounds, view)) for n, light, pose in lights
+        ]
+        seen = [(number, light, views) for number, light, views in seen if views is not None]
+        memory.add_maps(
+            (type(light).__name__, len(views.maps), light.shadow_map_size)
+            for _, light, views in seen
+        )
+        for number, light, views in seen:
+            self._update_light(number, light, views, moment)
 
     def _views_of(self, number: int, light, pose: tuple, bounds, view: View) -> ShadowViews | None:
         """From where a light's maps are drawn: as before, if nothing that decides it changed."""

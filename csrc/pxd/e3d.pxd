@@ -73,6 +73,7 @@ cdef extern from "e3d.h" nogil:
         const int32_t *movers
 
     e3d_status e3d_mesh_create(const e3d_mesh_desc *desc, int32_t threads, e3d_mesh **out)
+    const e3d_mesh_desc *e3d_mesh_view(const e3d_mesh *mesh)
     void e3d_mesh_destroy(e3d_mesh *mesh)
     void e3d_mesh_desc_set(e3d_mesh_desc *desc, e3d_vertex_attribute attribute, const void *array)
     void e3d_mesh_set_attribute(e3d_mesh *mesh, e3d_vertex_attribute attribute, const void *array)

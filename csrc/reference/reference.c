@@ -19,7 +19,7 @@ enum { BAND_SAMPLES = 1 << 20 };
 
 static double milliseconds(void)
 {
-    struct timespec now;
+    struct timespec now = {0}; /* where there is no clock */
     timespec_get(&now, TIME_UTC);
     return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
 }

@@ -255,6 +255,14 @@ cdef class NativeDrawList:
         self.list_draws(&self.hiding, &rows, None, NULL, True)
         self.casters.version = version
 
+    def hiding_faces(self):
+        """How many faces `place_hiding` has listed, in all their places."""
+        cdef int64_t count = 0
+        cdef int32_t d
+        for d in range(self.hiding.count):
+            count += <int64_t>e3d_mesh_view(self.hiding.draws[d].mesh).faces_count * self.hiding.draws[d].instances
+        return count
+
     cdef const e3d_casters *casters_now(self) except? NULL:
         """What may hide lights; NULL where no light has an exact shadow."""
         if not self.exact_light_count:

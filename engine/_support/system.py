@@ -38,6 +38,14 @@ def usable_processors() -> int:
     return os.cpu_count() or 1
 
 
+def machine_memory() -> int | None:
+    """The bytes of memory that the machine has; None where the system does not tell."""
+    try:
+        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (AttributeError, OSError, ValueError):
+        return None
+
+
 def ending_signals() -> tuple:
     """The signals by which a system asks a program to end."""
     import signal

@@ -31,7 +31,7 @@ class Bloom:
 
     def targets(self, outputs: dict, options: RenderOptions) -> dict:
         """Return the arrays to draw into: a frame's, and one of radiance if it glows."""
-        if not _glows(options) or "color" not in outputs or "radiance" in outputs:
+        if not glows(options) or "color" not in outputs or "radiance" in outputs:
             return outputs
         shape = (*outputs["color"].shape[:2], 3)
         if self._radiance.shape != shape:
@@ -40,7 +40,7 @@ class Bloom:
 
     def add(self, targets: dict, options: RenderOptions) -> None:
         """Lay the glow of what was drawn over its colour."""
-        if not _glows(options) or "color" not in targets:
+        if not glows(options) or "color" not in targets:
             return
         height, width = targets["color"].shape[:2]
         needed = _native.bloom_scratch(width, height, self._threads)
@@ -62,5 +62,6 @@ class Bloom:
         self._scratch = np.empty(0, np.float32)
 
 
-def _glows(options: RenderOptions) -> bool:
+def glows(options: RenderOptions) -> bool:
+    """Whether pictures of these options have bloom."""
     return options.bloom > 0 and options.mode in ("lit", "unlit")

@@ -15,6 +15,7 @@ import numpy as np
 from ..scene.node_arrays import NodeArrays
 from ..scene.scene import Scene
 from ._draw_list import DrawList
+from ._frame_memory import FrameMemory
 from ._lamps import lamp_slots
 from .casters import placed_casters
 
@@ -35,13 +36,14 @@ class ExactShadows:
         self._casters: tuple | None = None
         self._version = 0
 
-    def update(self, scene: Scene) -> None:
+    def update(self, scene: Scene, memory: FrameMemory) -> None:
         """Let lights whose ``shadow`` is "exact" have it, for a frame with lit surfaces.
 
         Raises
         ------
         InvalidArgumentError
-            There are more such lights than the core takes.
+            There are more such lights than the core takes, or their shadows take more memory than a
+            frame may.
         """
         native = self._draw_list.native
         lights = [at for at in self._draw_list.lights.placed() if at[1].shadow == "exact"]
@@ -50,6 +52,7 @@ class ExactShadows:
         if lights:
             spared = [self._spared(scene, number, place) for number, _, (_, place) in lights]
             self._list_casters(scene._arrays, spared)
+            memory.add_exact(len(lights), native.hiding_faces())
 
     def _spared(self, scene: Scene, number: int, place) -> tuple[int, ...]:
         """The slots of what does not hide a light."""

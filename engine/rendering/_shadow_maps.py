@@ -15,6 +15,7 @@ from ..choices import Cull
 from ..scene.lights import DirectionalLight, SpotLight
 from ..scene.scene import Scene
 from ._draw_list import DrawList
+from ._frame_memory import FrameMemory
 from ._lamps import lamp_slots
 from ._shadow_views import (
     MapView,
@@ -92,13 +93,14 @@ class ShadowMaps:
         self._found: dict[int, tuple[tuple, ShadowViews | None]] = {}
         self.drawn = self.count = 0
 
-    def update(self, scene: Scene, view: View, cull: Cull) -> None:
+    def update(self, scene: Scene, view: View, cull: Cull, memory: FrameMemory) -> None:
         """Give the lights their maps, for a frame with lit surfaces that leaves out these faces.
 
         Raises
         ------
         InvalidArgumentError
-            A light's shadow_radius is too wide for its maps.
+            A light's shadow_radius is too wide for its maps, or the maps take more memory than a
+            frame may.
         """
         native = self._draw_list.native
         self.drawn = self.count = 0
@@ -112,12 +114,19 @@ class ShadowMaps:
             return
         bounds = scene.bounds
         moment = scene._arrays, scene._arrays.updated, self._draw_list.renewals, CULLS[cull]
-        for number, light, pose in lights:
-            views = self._views_of(number, light, pose, bounds, view)
-            if views is not None:
-                slot, (_, place) = self._draw_list.lights.slot_of(number), pose
-                spared = () if place is None else lamp_slots(scene, slot, place)
-                self._update_light(number, light, views, (*moment, spared))
+        seen = [
+            (number, light, pose, self._views_of(number, light, pose, bounds, view))
+            for number, light, pose in lights
+        ]
+        seen = [each for each in seen if each[-1] is not None]
+        memory.add_maps(
+            (type(light).__name__, len(views.maps), light.shadow_map_size)
+            for _, light, _, views in seen
+        )
+        for number, light, (_, place), views in seen:
+            slot = self._draw_list.lights.slot_of(number)
+            spared = () if place is None else lamp_slots(scene, slot, place)
+            self._update_light(number, light, views, (*moment, spared))
 
     def _views_of(self, number: int, light, pose: tuple, bounds, view: View) -> ShadowViews | None:
         """From where a light's maps are drawn: as before, if nothing that decides it changed."""

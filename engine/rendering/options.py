@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     from ._view import CameraChoice
     from .frame import Frame
 
+#: Bytes that a frame may take beside its outputs, and a few for each pixel: docs/reliability.md.
+MAX_FRAME_BYTES = 1 << 30
 _CULLS = (*_native.CULLS, "auto")
 WHITE = (1.0, 1.0, 1.0)
 MAX_LINE = 256.0  # pixels: the widest line, the largest point

@@ -42,6 +42,7 @@ from ._ambient_occlusion import AmbientOcclusion, radius_of, shows_occlusion
 from ._bloom import Bloom
 from ._draw_list import DrawList
 from ._exact_shadows import ExactShadows
+from ._frame_memory import FrameMemory
 from ._frame_options import OptionsCache
 from ._output_pool import OutputPool, shapes_of
 from ._shadow_maps import ShadowMaps
@@ -134,6 +135,7 @@ class Renderer(Closed):
         self._viewpoint = Viewpoint(self._draw_list)
         self._surfaces = SurfacePass()
         self._occlusion = AmbientOcclusion(number, threads)
+        self._memory = FrameMemory(*_SAMPLES[antialias][samples], threads)
         self._turn = RendererTurn(self._native)
 
     @property
@@ -239,6 +241,7 @@ class Renderer(Closed):
             except Exception as error:
                 _blame_change(scene, census, error)
                 raise
+            self._memory.begin(options, self._width, self._height)
             self._pool.prepare(shapes_of(options.outputs, self._width, self._height))
             axis, multiple = _SAMPLES[self._antialias][self._samples]
             self._native.prepare(self._width * axis, self._height * axis, multiple or 1)
@@ -419,6 +422,7 @@ class Renderer(Closed):
     ) -> Frame:
         """Draw a frame in the turn that the caller has."""
         frame_options = self._options.get(scene, options, self._height)
+        self._memory.begin(options, self._width, self._height)
         frame = self._new_frame(options.outputs) if out is None else self._check_out(out)
         census = scene._census()
         try:
@@ -446,9 +450,9 @@ class Renderer(Closed):
                 if windows is None:
                     frame_options = self._options.get(scene, with_both_sides(options), self._height)
             if options.mode == "lit" and shows_light(frame.outputs):
-                self._shadow_maps.update(scene, view, shadow_cull)
+                self._shadow_maps.update(scene, view, shadow_cull, self._memory)
                 self._turn.check()
-                self._exact_shadows.update(scene)
+                self._exact_shadows.update(scene, self._memory)
             near, far = 0.0, 1.0
             if options.mode == "depth":
                 near, far = view.depth_range(scene.bounds)

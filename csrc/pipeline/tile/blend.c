@@ -469,11 +469,13 @@ void e3d_alpha_front(const e3d_tile_job *job)
         }
 }
 
-/* R123: where sums are too great for a number. */
-static void leave_finite(float *radiance)
+/* R123: where sums are too great for a number. Beyond the picture nothing may have been written. */
+static void leave_finite(const e3d_tile_job *job, float *radiance)
 {
-    for (int i = 0; i < 3 * E3D_TILE_SAMPLES; i++)
-        radiance[i] = fabsf(radiance[i]) <= FLT_MAX ? radiance[i] : 0.0f;
+    int axis = job->in->pass->frame->samples_axis;
+    for (int y = 0; y < job->tile.height / axis; y++, radiance += 3 * E3D_TILE)
+        for (int i = 0; i < 3 * (job->tile.width / axis); i++)
+            radiance[i] = fabsf(radiance[i]) <= FLT_MAX ? radiance[i] : 0.0f;
 }
 
 int e3d_alpha_blend(const e3d_tile_job *job)
@@ -487,6 +489,6 @@ int e3d_alpha_blend(const e3d_tile_job *job)
         return 0;
     int done = e3d_plans(job->in->pass, E3D_PLAN_SORTS) ? blend_sequence(job) : blend_groups(job);
     if (radiance_of(job))
-        leave_finite(radiance_of(job));
+        leave_finite(job, radiance_of(job));
     return done && (!e3d_plans(job->in->pass, E3D_PLAN_FRONT) || shade_front(job));
 }

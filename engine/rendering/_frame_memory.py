@@ -1,0 +1,160 @@
+"""How much memory a frame may take for what a scene or an option says in a few bytes.
+
+In: what a frame is about to allocate. Out: nothing, or one error that tells what takes how much and
+what to change, before anything of it is allocated.
+
+A frame's outputs may take what the machine has. What else it needs has a limit: `MAX_FRAME_BYTES`
+of options.py, which a program may raise, and `BYTES_A_PIXEL` for each pixel, by which what goes by
+the size of the picture always fits.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from .._native.rasterizer import bloom_scratch, thread_count
+from .._support.system import machine_memory
+from ..errors import InvalidArgumentError
+from . import options as limits
+from ._ambient_occlusion import shows_occlusion
+from ._bloom import glows
+from ._output_pool import shapes_of
+from .options import RenderOptions
+
+#: Bytes that a frame may take for each pixel. Bloom and ambient occlusion together need fewer.
+BYTES_A_PIXEL = 32
+
+_FLOAT = 4
+_OCCLUSION = 3 * _FLOAT  # depth, scratch, visibility
+_RADIANCE = 3 * _FLOAT
+_KEPT_SAMPLE = 8  # a depth and an ID: csrc/pipeline/tile/kept.c
+_MOST_KEPT = 1 << 25  # samples of a picture: E3D_MOST_KEPT_SAMPLES of csrc/pipeline/pass/plan.h
+_TILE_PLANE = 24 * 4096  # of a sample of a tile its depth, ID, colour and count
+# About, of each face that casts exact shadows: its corners, and for each light these once more
+# and the boxes of the cells that it is in.
+_CASTER, _CASTER_OF_LIGHT = 37, 160
+_SHOWN = 20  # an error names what takes at least this part of all
+
+
+class Use(NamedTuple):
+    """What takes memory."""
+
+    size: int  # bytes
+    what: str
+    advice: str
+
+
+class FrameMemory:
+    """What the next frame of one renderer is to allocate.
+
+    Parameters
+    ----------
+    axis, multiple : int
+        Samples of a pixel along each axis; how often each is multisampled, 0 without.
+    threads : int
+        0: all.
+    """
+
+    def __init__(self, axis: int, multiple: int, threads: int) -> None:
+        self._axis, self._multiple, self._threads = axis, multiple, threads or thread_count()
+        self._checked: tuple | None = None
+        self._size = 0, 0
+        self._of_options: list[Use] = []
+        self._of_maps: list[Use] = []
+
+    def begin(self, options: RenderOptions, width: int, height: int) -> None:
+        """Begin a frame of these options.
+
+        Raises
+        ------
+        InvalidArgumentError
+            Its outputs are larger than the machine's memory, or what else goes by its options takes
+            more than a frame may.
+        """
+        self._of_maps = []
+        asked = options, width, height, limits.MAX_FRAME_BYTES
+        if self._checked == asked:
+            return
+        self._size = width, height
+        _check_outputs(options.outputs, width, height)
+        self._of_options = self._uses_of(options, width, height)
+        self._check(self._of_options)
+        self._checked = asked
+
+    def add_maps(self, lights: Iterable[tuple[str, int, int]]) -> None:
+        """Add maps of shadows: of each light its kind, how many it has, and texels a side.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The frame would take too much.
+        """
+        for (kind, maps, side), times in Counter(lights).items():
+            size = _FLOAT * maps * side * side * times
+            what = f"shadow maps of {side}x{side} ({times} of kind {kind}, {maps} maps each)"
+            self._of_maps.append(Use(size, what, "a smaller shadow_map_size"))
+        self._check(self._of_options + self._of_maps)
+
+    def add_exact(self, lights: int, faces: int) -> None:
+        """Add exact shadows of so many faces, of so many lights.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The frame would take too much.
+        """
+        size = faces * (_CASTER + lights * _CASTER_OF_LIGHT)
+        what = f"exact shadows ({lights} lights, {faces} faces that may hide them)"
+        exact = Use(size, what, "shadow=True, or fewer nodes that cast shadows")
+        self._check([*self._of_options, *self._of_maps, exact])
+
+    def _uses_of(self, options: RenderOptions, width: int, height: int) -> list[Use]:
+        pixels, planes = width * height, self._multiple or 1
+        samples = pixels * self._axis**2 * planes
+        uses = []
+        if glows(options) and "color" in options.outputs:
+            size = _FLOAT * bloom_scratch(width, height, self._threads)
+            size += _RADIANCE * pixels * ("radiance" not in options.outputs)
+            uses.append(Use(size, "bloom", "bloom=0"))
+        if shows_occlusion(options, options.outputs):
+            uses.append(Use(_OCCLUSION * pixels, "ambient occlusion", "ambient_occlusion=False"))
+        if samples <= _MOST_KEPT:
+            uses.append(Use(_KEPT_SAMPLE * samples, f"{samples} samples", "fewer samples"))
+        if self._multiple:
+            size = _TILE_PLANE * planes * self._threads
+            what = f"multisampling by {self._threads} threads"
+            uses.append(Use(size, what, "fewer samples or threads"))
+        return uses
+
+    def _check(self, uses: list[Use]) -> None:
+        width, height = self._size
+        total = sum(use.size for use in uses)
+        limit = limits.MAX_FRAME_BYTES + BYTES_A_PIXEL * width * height
+        if total <= limit:
+            return
+        largest = sorted((use for use in uses if use.size * _SHOWN >= total), reverse=True)
+        parts = ", ".join(f"{_readable(use.size)} for {use.what}" for use in largest)
+        raise InvalidArgumentError(
+            f"a frame of {width}x{height} pixels may take {_readable(limit)} of memory beside its "
+            f"outputs, not {_readable(total)}: {parts}. Choose {largest[0].advice}, or raise "
+            "engine3d.rendering.options.MAX_FRAME_BYTES"
+        )
+
+
+def _check_outputs(outputs: tuple[str, ...], width: int, height: int) -> None:
+    room = machine_memory()
+    shapes = shapes_of(outputs, width, height).values()
+    size = sum(dtype.itemsize * math.prod(shape) for shape, dtype in shapes)
+    if room is not None and size > room:
+        raise InvalidArgumentError(
+            f"the outputs of a frame of {width}x{height} pixels take {_readable(size)}, but this "
+            f"machine has {_readable(room)} of memory. Ask for fewer outputs, or fewer pixels"
+        )
+
+
+def _readable(size: int) -> str:
+    """A number of bytes in MiB or GiB."""
+    return f"{size / 2**30:.1f} GiB" if size >= 2**30 else f"{size / 2**20:.1f} MiB"

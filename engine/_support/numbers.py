@@ -14,6 +14,9 @@ import numpy as np
 
 from ..errors import InvalidArgumentError
 
+#: What NumPy makes numbers of: text of what it says, None of not-a-number.
+_NONE = (str, bytes, type(None))
+
 
 def real(value) -> float:
     """Return a number as a float; not-a-number for what is none."""
@@ -30,7 +33,7 @@ def shown(value) -> str:
     try:
         text = " ".join(repr(value).split())
     except ValueError:  # more digits than Python writes
-        text = f"an integer of {value.bit_length()} bits"
+        text = f"an integer of {value.bit_length()} bits" if type(value) is int else "numbers"
     return text if len(text) <= 80 else f"{text[:60]} …"
 
 
@@ -38,14 +41,16 @@ def as_array(value, what: str) -> np.ndarray:
     """Return an array of any type."""
     try:
         return np.asarray(value)
-    except (TypeError, ValueError, OverflowError) as error:
+    except (TypeError, ValueError, OverflowError, RecursionError) as error:
         raise InvalidArgumentError(f"{what} is not an array: {error}") from None
 
 
 def floats(value, what: str) -> np.ndarray:
     """Return a float64 copy of numbers, C-contiguous."""
-    if getattr(getattr(value, "dtype", None), "kind", "f") in "cmM":
+    if getattr(getattr(value, "dtype", None), "kind", "f") in "cmMSU":
         raise InvalidArgumentError(f"{what} must be numbers, not {value.dtype}")
+    if value is None or (type(value) in (tuple, list) and value and isinstance(value[0], _NONE)):
+        raise InvalidArgumentError(f"{what} must be numbers, not {shown(value)}")  # NumPy takes it
     try:
         return np.array(value, np.float64, order="C")
     except (TypeError, ValueError, OverflowError) as error:

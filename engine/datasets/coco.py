@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
+from .._support.calls import checks_types
 from .opaque_png import color_png
 from .rle import encode_rle
 from .samples import Sample, box_of
@@ -46,6 +47,7 @@ class CocoWriter(DatasetWriter):
     def __init__(self, categories: Sequence[str] | None = None) -> None:
         self.categories = checked_categories(categories)
 
+    @checks_types
     def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
         path = f"images/{sample.name}.png"
         found = []
@@ -60,6 +62,7 @@ class CocoWriter(DatasetWriter):
         size = [sample.frame.width, sample.frame.height]
         return {path: color_png(sample.frame)}, {"size": size, "things": found}
 
+    @checks_types
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
         shown = (thing[0] for note in notes for thing in note.said["things"])
         numbers = category_numbers(self.categories, shown)

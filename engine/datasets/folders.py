@@ -14,11 +14,12 @@ from typing import Any
 
 import numpy as np
 
+from .._support.calls import checks_types
 from ..files.atomic_write import atomic_write
 from ..rendering.frame import Frame, Output
 from ..rendering.options import check_outputs
 from .samples import Sample
-from .writer import DatasetWriter, Note, compact
+from .writer import DatasetWriter, Note, compact, make_folder
 
 PICTURES = "pictures.jsonl"
 
@@ -41,6 +42,7 @@ class FolderWriter(DatasetWriter):
     def __init__(self, outputs: Sequence[Output] = ("color", "depth", "object_id")) -> None:
         self.outputs = check_outputs(outputs)
 
+    @checks_types
     def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
         files = {}
         for output in self.outputs:
@@ -48,8 +50,9 @@ class FolderWriter(DatasetWriter):
             files[f"{output}/{sample.name}.{suffix}"] = data
         return files, said_of(sample)
 
+    @checks_types
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
-        os.makedirs(folder, exist_ok=True)
+        make_folder(folder)
         with atomic_write(os.path.join(folder, PICTURES)) as file:
             for note in notes:
                 said = {"name": note.name, "files": note.files, **note.said}

@@ -17,6 +17,7 @@ import tarfile
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
+from .._support.calls import checks_types
 from .._support.numbers import shown
 from ..errors import InvalidArgumentError
 from ..files.atomic_write import atomic_write
@@ -52,6 +53,7 @@ class WebDatasetWriter(DatasetWriter):
             raise InvalidArgumentError(f"shard must be a whole number above 0, not {shown(shard)}")
         self.shard = shard
 
+    @checks_types
     def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
         key = f"{UNPACKED}/{sample.index:09d}"
         files = {}
@@ -61,6 +63,7 @@ class WebDatasetWriter(DatasetWriter):
         files[f"{key}.json"] = json_line({"name": sample.name, **said_of(sample)})
         return files, None
 
+    @checks_types
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
         shard: list[Note] = []
         for note in notes:
@@ -71,9 +74,11 @@ class WebDatasetWriter(DatasetWriter):
         if shard:
             yield self._pack(folder, shard)
 
+    @checks_types
     def beside(self, sample: Sample, end: str) -> str:
         return f"{UNPACKED}/{sample.index:09d}.{end}"
 
+    @checks_types
     def stored(self, folder: str, note: Note, path: str) -> bytes | None:
         data = super().stored(folder, note, path)
         if data is not None:
@@ -84,7 +89,7 @@ class WebDatasetWriter(DatasetWriter):
             with open(shard, "rb") as file:
                 file.seek(start)
                 return file.read(size)
-        except (OSError, KeyError, tarfile.TarError):
+        except (OSError, ValueError, KeyError, tarfile.TarError):
             return None
 
     def _shard_of(self, note: Note) -> str:

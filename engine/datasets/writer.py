@@ -13,7 +13,9 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, NamedTuple, TypeAlias
 
-from ..errors import InvalidArgumentError
+from .._support.calls import checks_types
+from .._support.numbers import shown
+from ..errors import FileAccessError, InvalidArgumentError
 from ..files.atomic_write import AtomicFiles
 from ..rendering.frame import Output
 from .samples import Sample
@@ -40,6 +42,19 @@ class Note(NamedTuple):
 
 #: What a file holds, or what makes it.
 Content: TypeAlias = bytes | Callable[[], bytes]
+
+
+def make_folder(path: str) -> None:
+    """Make a folder, if it is not there.
+
+    Raises
+    ------
+    FileAccessError
+    """
+    try:
+        os.makedirs(path, exist_ok=True)
+    except OSError as error:
+        raise FileAccessError(f"cannot write: {error.strerror}", path) from error
 
 
 def own_files(files: Mapping[str, Content]) -> dict[str, bytes]:
@@ -74,6 +89,7 @@ class DatasetWriter(ABC):
     outputs: tuple[Output, ...] = ("color",)
 
     @abstractmethod
+    @checks_types
     def describe(self, sample: Sample) -> tuple[dict[str, Content], Any]:
         """Return a picture's files, by their paths in the data set, and a note for `finish`.
 
@@ -81,10 +97,12 @@ class DatasetWriter(ABC):
         they are made where they are not there yet.
         """
 
+    @checks_types
     def is_whole(self, folder: str, note: Note) -> bool:
         """Return whether the files are there that a picture shares with others."""
         return True
 
+    @checks_types
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
         """Write what belongs to the whole data set; yield the paths of these files in it.
 
@@ -99,6 +117,7 @@ class DatasetWriter(ABC):
             pass
         yield from ()
 
+    @checks_types
     def beside(self, sample: Sample, end: str) -> str:
         """Return where a further file of a picture goes, whose name has this end."""
         return f"extra/{sample.name}.{end}"
@@ -107,6 +126,7 @@ class DatasetWriter(ABC):
         """What tells this writer from others of its kind, in JSON's types."""
         return {"kind": self.kind, **dict(sorted(vars(self).items()))}
 
+    @checks_types
     def stored(self, folder: str, note: Note, path: str) -> bytes | None:
         """Return the bytes of one of a picture's own files; None where they are not there.
 
@@ -122,7 +142,7 @@ class DatasetWriter(ABC):
         try:
             with open(os.path.join(folder, path), "rb") as file:
                 return file.read()
-        except OSError:
+        except (OSError, ValueError):  # a name with a zero byte is a file's nowhere
             return None
 
 
@@ -137,7 +157,7 @@ class JsonParts:
 
     def __init__(self, folder: str, path: str) -> None:
         target = os.path.join(folder, path)
-        os.makedirs(os.path.dirname(target), exist_ok=True)
+        make_folder(os.path.dirname(target))
         self._files = AtomicFiles()
         self._file = self._files.create(target)
 
@@ -174,11 +194,12 @@ def checked_categories(names: Sequence[str] | None) -> list[str] | None:
     """Return the names of categories, each once; None where pictures are to tell them."""
     if names is None:
         return None
-    listed = list(names) if not isinstance(names, str) else []
-    if not listed or len(set(listed)) != len(listed):
-        raise InvalidArgumentError("categories must be names, none twice")
-    if not all(isinstance(name, str) and name for name in listed):
-        raise InvalidArgumentError("categories must be names, none empty")
+    listed = list(names) if isinstance(names, Iterable) and not isinstance(names, str) else []
+    are_names = all(isinstance(name, str) and name for name in listed)
+    if not listed or not are_names or len(set(listed)) != len(listed):
+        raise InvalidArgumentError(
+            f"categories must be names, none empty and none twice, not {shown(names)}"
+        )
     return listed
 
 

@@ -8,12 +8,15 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping
 
+from .._support.calls import checks_types
+from .._support.numbers import shown
 from ..errors import InvalidArgumentError
-from ..files.atomic_write import AtomicFiles
+from ..files.atomic_write import AtomicFiles, checked_path
 from .samples import Sample
-from .writer import Content, DatasetWriter, Note, contents, own_files
+from .writer import Content, DatasetWriter, Note, contents, make_folder, own_files
 
 
+@checks_types
 def write_dataset(
     folder: str | os.PathLike[str], writer: DatasetWriter, samples: Iterable[Sample]
 ) -> list[str]:
@@ -36,8 +39,10 @@ def write_dataset(
     ------
     InvalidArgumentError, FileAccessError
     """
-    root, notes = os.fspath(folder), []
+    root, notes = checked_path(folder), []
     for sample in samples:
+        if not isinstance(sample, Sample):
+            raise InvalidArgumentError(f"samples must be Samples, not {shown(sample)}")
         if notes and sample.index <= notes[-1].index:
             raise InvalidArgumentError(f"samples come in the order of their index: {sample.index}")
         files, said = writer.describe(sample)
@@ -51,5 +56,5 @@ def save_files(folder: str, files: Mapping[str, Content]) -> None:
     """Write a picture's files, which appear together, in a folder that is made for them."""
     with AtomicFiles() as parts:
         for target, data in contents(folder, files):
-            os.makedirs(os.path.dirname(target), exist_ok=True)
+            make_folder(os.path.dirname(target))
             parts.create(target).write(data)

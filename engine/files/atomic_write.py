@@ -16,6 +16,7 @@ import stat
 from collections.abc import Iterator
 from typing import BinaryIO
 
+from .._support.numbers import shown
 from .._support.system import AT_ONCE, READ_WRITE, WRITE, set_mode
 from ..errors import FileAccessError, InvalidArgumentError
 
@@ -48,10 +49,12 @@ def atomic_write(path: str | os.PathLike) -> Iterator[BinaryIO]:
 def checked_path(path: str | bytes | os.PathLike) -> str:
     """Return the path of an output file as a string."""
     try:
-        return os.fsdecode(path)
+        decoded = os.fsdecode(path)
     except TypeError:
-        kind = type(path).__name__
-        raise InvalidArgumentError(f"path must be a str or path-like, not {kind}") from None
+        raise InvalidArgumentError(f"path must be a str or path-like, not {shown(path)}") from None
+    if "\0" in decoded:
+        raise InvalidArgumentError(f"path must not hold a zero byte: {shown(decoded)}")
+    return decoded
 
 
 class AtomicFiles:

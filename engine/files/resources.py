@@ -14,6 +14,7 @@ import warnings
 from typing import TYPE_CHECKING, Any, NamedTuple
 from weakref import WeakValueDictionary
 
+from .._support.calls import checks_types, shows_annotations
 from ..errors import Engine3DError, Engine3DWarning, InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..loaders import load_mesh, load_texture
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from ..scene.scene import Scene
 
 
+@shows_annotations
 class ResourceStats(NamedTuple):
     """What a `Resources` holds.
 
@@ -57,6 +59,7 @@ class ResourceStats(NamedTuple):
     shared: int
 
 
+@shows_annotations
 class Resource(NamedTuple):
     """One thing that is loaded.
 
@@ -174,6 +177,7 @@ class Resources:
             for thing in self._things()
         )
 
+    @checks_types
     def find(self, name: str) -> Mesh | Texture | None:
         """Return the first thing of that name that is held, or None."""
         return next((entry.thing for entry in self.listed() if entry.name == name), None)

@@ -17,8 +17,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._native.loaders import exchange, frozen
+from .._support.calls import checks_types
 from .._support.dirty_tracking import renew
-from .._support.validation import Closed, own
+from .._support.numbers import shown
+from .._support.validation import Closed, own, text
 from ..errors import InvalidArgumentError
 from ..materials.material import Material
 from . import movers as _movers
@@ -29,6 +31,7 @@ from ._arrays import (
     check_groups,
     check_indices,
     check_pairs,
+    check_positions,
     check_triples,
     check_vectors2,
     check_vectors3,
@@ -58,7 +61,8 @@ class Mesh(Closed):
     Parameters
     ----------
     positions : (V, 3) float
-        Vertices in object space. Not-finite ones are allowed; what uses them is not drawn.
+        Vertices in object space. Not-finite ones are allowed, with a warning; what uses them is not
+        drawn.
     faces : (F, 3) int, optional
         Vertex indices of the triangles.
     normals : (V, 3) float, optional
@@ -127,7 +131,7 @@ class Mesh(Closed):
     name: str
     version: int
     warnings: list[str]
-    positions: _Floats = ArrayAttribute(check_vectors3)
+    positions: _Floats = ArrayAttribute(check_positions)
     faces: _Integers = ArrayAttribute(check_triples)
     uvs: _VertexFloats = VertexAttribute(check_vectors2, fill=0)
     uvs1: _VertexFloats = VertexAttribute(check_vectors2, fill=0)
@@ -168,7 +172,7 @@ class Mesh(Closed):
         crease_angle: float = SMOOTH,
         name: str = "",
     ) -> None:
-        self.name = str(name)
+        self.name = text(name, "name")
         self._groups: dict[str, NDArray[np.int32]] = {}  # loaders put checked ones here
         # Loaders put numbers of the vertices here, (V,) or (V, N) by name: `viewer/scalars.py`
         # colours by them.
@@ -312,6 +316,7 @@ class Mesh(Closed):
         self._groups = check_groups(value, len(self.faces))
 
     @classmethod
+    @checks_types
     def concatenate(
         cls,
         meshes: Iterable[Mesh],
@@ -368,6 +373,7 @@ class Mesh(Closed):
         """
         return mesh_with_creases(self)
 
+    @checks_types
     def with_tangents(self, uv_set: int = 0) -> Mesh:
         """Return the mesh with tangents computed from normals and texture coordinates.
 
@@ -438,6 +444,7 @@ class Mesh(Closed):
 
         return mesh_to_trimesh(self)
 
+    @checks_types
     def save(
         self, path: str | os.PathLike[str] | BinaryIO, *, format: str | None = None, **options: Any
     ) -> None:
@@ -514,8 +521,10 @@ class Mesh(Closed):
 def _check_materials(materials: Iterable[Material] | None) -> list[Material]:
     if isinstance(materials, Material):
         raise InvalidArgumentError("materials must be a list of Material, not one Material")
+    if materials is not None and not isinstance(materials, Iterable):
+        raise InvalidArgumentError(f"materials must be a list of Material, not {shown(materials)}")
     materials = [] if materials is None else list(materials)
     for material in materials:
         if not isinstance(material, Material):
-            raise InvalidArgumentError(f"not a Material: {type(material).__name__}")
+            raise InvalidArgumentError(f"materials must be Material, not {shown(material)}")
     return materials or [Material()]

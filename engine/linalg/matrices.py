@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._native.scene_graph import invert
+from .._support.angles import finite_angle
 from .._support.numbers import floats
 from ..errors import InvalidArgumentError
 from . import single
@@ -63,6 +64,7 @@ def _three(name: str, values: npt.ArrayLike) -> FloatArray:
 def _plane_rotation(first: int, second: int, angle: float) -> FloatArray:
     """Rotate the axis `first` towards the axis `second`."""
     matrix = np.eye(4)
+    angle = finite_angle(angle, "angle")
     c, s = cos(angle), sin(angle)
     matrix[first, first] = matrix[second, second] = c
     matrix[first, second], matrix[second, first] = -s, s

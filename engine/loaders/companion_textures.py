@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 
+from .._support.calls import checks_types
 from ..errors import Engine3DError
 from ..files.picture_mark import MARKED_BYTES, is_own_picture
 from .linked_files import LinkedFileError, LinkedFiles
@@ -20,6 +21,7 @@ _SUFFIXES = ("_diffuse", "_texture", "_color", "_albedo", "_basecolor")
 _PREFERRED = (".tga", ".png", ".jpg", ".jpeg")
 
 
+@checks_types
 def companion_texture(
     path: str | os.PathLike, accept: Callable[[str], bool] | None = None
 ) -> str | None:

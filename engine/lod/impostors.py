@@ -14,8 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import linalg
+from .._support.numbers import as_array
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
+from ..linalg.vectors import as_vectors
 from ..materials.colors import srgb_bytes
 from ..materials.material import Material
 from ..materials.textures import Texture
@@ -97,7 +99,14 @@ class Impostor:
         last : (N,) int
             What it was, or -1: it is kept until another one is clearly nearer.
         """
-        unit = linalg.normalize(towards)
+        unit = linalg.normalize(as_vectors("towards", towards))
+        last = as_array(last, "last")
+        if unit.ndim != 2 or last.shape != unit.shape[:1] or last.dtype.kind not in "iu":
+            raise InvalidArgumentError(
+                f"last must be ({len(unit)},) whole numbers, not {last.shape} {last.dtype}"
+            )
+        if not ((last >= -1) & (last < len(self.directions))).all():
+            raise InvalidArgumentError(f"last must be in -1..{len(self.directions) - 1}")
         likeness = np.stack([linalg.dot(unit, d) for d in self.directions], axis=1)
         best = likeness.argmax(axis=1)
         rows = np.arange(len(unit))

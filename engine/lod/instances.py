@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
+from .._support.calls import checks_types
 from .._support.numbers import real
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
@@ -97,6 +98,7 @@ class DetailedInstances:
         self.instances = (finest, *others)
         self._nodes: list[Node] = []
 
+    @checks_types
     def add_to(self, scene: Scene, *, name: str = "", parent: Node | None = None) -> Node:
         """Add a node for each level to a scene; returns the node that groups them.
 

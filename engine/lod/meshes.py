@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import linalg
+from .._support.calls import checks_types
 from .._support.numbers import real
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
@@ -63,6 +64,7 @@ class DetailedMeshes:
         self._group: Node | None = None
         self._nodes: list[list[Node]] = []  # of each mesh, one per level
 
+    @checks_types
     def add_to(self, scene: Scene, *, name: str = "", parent: Node | None = None) -> Node:
         """Add all to a scene, once; returns the node that groups them.
 

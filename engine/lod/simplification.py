@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from .. import linalg
+from .._support.calls import checks_types
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..geometry.vertex_attributes import attributes_of, vertex_attributes
@@ -18,6 +19,7 @@ from ..geometry.vertex_attributes import attributes_of, vertex_attributes
 _ATTRIBUTES = ("normals", *vertex_attributes(Mesh))
 
 
+@checks_types
 def simplify(mesh: Mesh, ratio: float) -> tuple[Mesh, float]:
     """Return a mesh of fewer triangles, and how far it is from the old one.
 

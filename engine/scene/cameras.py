@@ -14,30 +14,25 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
+from .._support.angles import field_of_view
 from .._support.numbers import real, shown
 from .._support.validation import (
     CheckedAttribute,
+    Closed,
     NumberAttribute,
     OptionalNumberAttribute,
     VectorAttribute,
     finite,
+    flag,
     matrix4,
     optional_positive,
     positive,
 )
 from ..errors import InvalidArgumentError
-from ._placed_by_node import PlacedByNode
 
 #: Nearer near planes are of models that are too small for the clip space of others.
 _SMALL = 2.0**-18
 _MOST = 100  # a power that floats take
-
-
-def _angle(value: float, what: str) -> float:
-    number = real(value)
-    if not 0.0 < number < math.pi:
-        raise InvalidArgumentError(f"{what} must be between 0 and pi radians, not {shown(value)}")
-    return number
 
 
 def _far(value: float | None, what: str) -> float:
@@ -67,7 +62,7 @@ def _enlarged(matrix: NDArray[np.float64], znear: float) -> NDArray[np.float64]:
     return matrix * 2.0 ** min(-math.frexp(znear)[1], _MOST)
 
 
-class Camera(PlacedByNode):
+class Camera(Closed):
     """A camera given by its projection matrix.
 
     Parameters
@@ -99,6 +94,7 @@ class Camera(PlacedByNode):
 
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
+        positive(width, "width"), positive(height, "height")
         return self.matrix
 
     def __repr__(self) -> str:
@@ -144,11 +140,11 @@ class PerspectiveCamera(Camera):
         self.reversed_depth = reversed_depth
         _check_range(self)
 
-    yfov: NumberAttribute = CheckedAttribute(_angle)
+    yfov: NumberAttribute = CheckedAttribute(field_of_view)
     znear: NumberAttribute = CheckedAttribute(positive)
     zfar: CheckedAttribute[float | None, float] = CheckedAttribute(_far)
     aspect: OptionalNumberAttribute = CheckedAttribute(optional_positive)
-    reversed_depth: CheckedAttribute[bool, bool] = CheckedAttribute(lambda value, _: bool(value))
+    reversed_depth: CheckedAttribute[bool, bool] = CheckedAttribute(flag)
 
     @property
     def _far_depth(self) -> float:
@@ -156,7 +152,8 @@ class PerspectiveCamera(Camera):
 
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         _check_range(self)
-        aspect = width / height if self.aspect is None else self.aspect
+        aspect = positive(width, "width") / positive(height, "height")
+        aspect = aspect if self.aspect is None else self.aspect
         matrix = linalg.perspective(self.yfov, aspect, self.znear, self.zfar)
         if self.reversed_depth:
             ratio = self.znear / self.zfar
@@ -206,7 +203,8 @@ class OrthographicCamera(Camera):
 
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         _check_range(self)
-        xmag = self.ymag * (width / height) if self.xmag is None else self.xmag
+        aspect = positive(width, "width") / positive(height, "height")
+        xmag = self.ymag * aspect if self.xmag is None else self.xmag
         return linalg.orthographic(xmag, self.ymag, self.znear, self.zfar)
 
     def _parameters(self) -> str:
@@ -261,6 +259,7 @@ class IntrinsicsCamera(Camera):
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         _check_range(self)
         # The depth rows are those of any perspective; only the pixel grid differs.
+        width, height = positive(width, "width"), positive(height, "height")
         matrix = linalg.perspective(1.0, 1.0, self.znear, self.zfar)
         matrix[0, 0] = 2.0 * self.fx / width
         matrix[1, 1] = 2.0 * self.fy / height

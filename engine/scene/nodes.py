@@ -16,10 +16,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
 from .._native.scene_graph import STATIC, VISIBLE
-from .._support.numbers import floats
-from .._support.validation import frozen_floats, matrix4, vector3
+from .._support.angles import angles
+from .._support.foreign_names import Hinting, refuses_foreign_names
+from .._support.numbers import floats, shown
+from .._support.validation import flag, frozen_floats, matrix4, text, vector3
 from ..errors import InvalidArgumentError
+from ..linalg.quaternions import quaternion_of_turns
 from ..spatial.colliders import check_collider
+from ._pose_parts import PosePart
 from .node_arrays import CASTS_NONE, RECEIVES_NONE
 
 if TYPE_CHECKING:
@@ -35,7 +39,8 @@ if TYPE_CHECKING:
     SceneObject: TypeAlias = Mesh | InstancedMesh | Camera | Light
 
 
-class Node:
+@refuses_foreign_names
+class Node(Hinting):
     """An object's place in a scene; made by `Scene.add`.
 
     ``pose`` is parent-from-node, a 4x4 matrix; ``translation``, ``rotation`` (quaternion x, y, z,
@@ -125,7 +130,7 @@ class Node:
 
     @name.setter
     def name(self, value: str) -> None:
-        self._name = str(value)
+        self._name = text(value, "name")
         if self._scene is not None:
             self._scene._names = None
             self._scene._renames += 1
@@ -178,11 +183,11 @@ class Node:
         """
         scene = self._scene
         if parent is not None and not (isinstance(parent, Node) and parent._scene is scene):
-            raise InvalidArgumentError("parent must be a node of this scene")
+            raise InvalidArgumentError(f"parent must be a node of this scene, not {shown(parent)}")
         if scene is None:
             raise InvalidArgumentError("the node was removed from its scene")
         pose = None
-        if keep_world_pose:
+        if flag(keep_world_pose, "keep_world_pose"):
             pose = self.world_pose
             if parent is not None:
                 pose = linalg.multiply(linalg.inverse(parent.world_pose), pose)
@@ -214,7 +219,7 @@ class Node:
     @property
     def translation(self) -> NDArray[np.float64]:
         """(3,) float64."""
-        return self.pose[:3, 3]
+        return self.pose[:3, 3].view(PosePart)
 
     @translation.setter
     def translation(self, value: ArrayLike) -> None:
@@ -236,13 +241,13 @@ class Node:
         Turns about x, then about the new y, then about the newest z, which is the default order of
         `linalg.euler_to_quaternion`.
         """
-        angles = linalg.quaternion_to_euler(self.rotation)
-        angles.setflags(write=False)
-        return angles
+        turns = linalg.quaternion_to_euler(np.asarray(self.rotation))
+        turns.setflags(write=False)
+        return turns.view(PosePart)
 
     @euler.setter
     def euler(self, value: ArrayLike) -> None:
-        self.rotation = linalg.euler_to_quaternion(vector3(value, "euler"))
+        self.rotation = quaternion_of_turns(check_euler(value))
 
     @property
     def scale(self) -> NDArray[np.float64]:
@@ -260,7 +265,7 @@ class Node:
 
     @visible.setter
     def visible(self, value: bool) -> None:
-        self._arrays.set_flag(self._slot, VISIBLE, bool(value))
+        self._arrays.set_flag(self._slot, VISIBLE, flag(value, "visible"))
 
     @property
     def shown(self) -> bool:
@@ -277,7 +282,7 @@ class Node:
 
     @static.setter
     def static(self, value: bool) -> None:
-        self._arrays.set_flag(self._slot, STATIC, bool(value))
+        self._arrays.set_flag(self._slot, STATIC, flag(value, "static"))
 
     @property
     def cast_shadows(self) -> bool:
@@ -289,7 +294,7 @@ class Node:
 
     @cast_shadows.setter
     def cast_shadows(self, value: bool) -> None:
-        self._take_part(CASTS_NONE, bool(value))
+        self._take_part(CASTS_NONE, flag(value, "cast_shadows"))
 
     @property
     def receive_shadows(self) -> bool:
@@ -298,7 +303,7 @@ class Node:
 
     @receive_shadows.setter
     def receive_shadows(self, value: bool) -> None:
-        self._take_part(RECEIVES_NONE, bool(value))
+        self._take_part(RECEIVES_NONE, flag(value, "receive_shadows"))
 
     @property
     def collider(self) -> Collider | None:
@@ -366,7 +371,7 @@ class Node:
         self._arrays.copy_parts(self._slot, rotation, scale)
         rotation.setflags(write=False)
         scale.setflags(write=False)
-        return rotation, scale
+        return rotation.view(PosePart), scale.view(PosePart)
 
 
 def _hangs_under(node, parent: Node | None) -> bool:
@@ -383,10 +388,21 @@ def check_pose(value: ArrayLike) -> NDArray[np.float64]:
 
 def check_rotation(value: ArrayLike) -> NDArray[np.float64]:
     """Check a quaternion; return it as a read-only (4,) float64 array."""
-    rotation = frozen_floats(value, "rotation", (4,))
+    given = floats(value, "rotation")
+    if given.shape == (3,):
+        raise InvalidArgumentError(
+            "rotation is a quaternion (x, y, z, w), not three numbers: three angles are euler=, "
+            f"in radians: {shown(value)}"
+        )
+    rotation = frozen_floats(given, "rotation", (4,))
     if not 0.0 < sum(x * x for x in rotation.tolist()) < math.inf:
         raise InvalidArgumentError("rotation must not be the zero quaternion, nor overflow")
     return rotation
+
+
+def check_euler(value: ArrayLike) -> NDArray[np.float64]:
+    """Check three angles; return them as a read-only (3,) float64 array."""
+    return vector3(angles(value, "euler"), "euler")
 
 
 def check_scale(value: ArrayLike) -> NDArray[np.float64]:

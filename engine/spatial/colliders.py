@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .._support.calls import shows_annotations
 from .._support.validation import Closed, freeze, positive, vector3
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
@@ -77,6 +78,7 @@ class MeshCollider(Closed):
 Collider: TypeAlias = BoxCollider | SphereCollider | MeshCollider
 
 
+@shows_annotations
 class ColliderHit(NamedTuple):
     """Where a ray meets a collider.
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from .. import linalg
 from .._native.rasterizer import CULLS
+from .._support.calls import shows_annotations
 from .._support.numbers import floats
 from .._support.validation import choose, how_far, vector3
 from ..errors import InvalidArgumentError
@@ -27,6 +28,7 @@ from ._shapes import tell
 _LAYERS = 256  # faces that are not drawn, one behind the other, that a pick looks through
 
 
+@shows_annotations
 class RayHit(NamedTuple):
     """Where a ray meets a face.
 
@@ -54,6 +56,7 @@ class RayHit(NamedTuple):
     barycentric: NDArray[np.float64]
 
 
+@shows_annotations
 class RayHits(NamedTuple):
     """Where many rays meet faces: a row per ray.
 

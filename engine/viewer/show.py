@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from .._support.calls import checks_types
 from .._support.image_size import check_size
 from .._support.numbers import real, shown
 from ..choices import PixelFormat
@@ -32,6 +33,7 @@ from .window import Window
 SIZE = (1280, 720)
 
 
+@checks_types
 def show(
     thing: Scene | Node | Mesh | InstancedMesh | Picture | Any,
     *,

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .._support.calls import checks_types
 from .._support.validation import own
 from ..geometry.mesh import Mesh
 from ..materials.material import Material
@@ -105,6 +106,7 @@ class World:
             levels.append((tuple(made), tolerance))
         return tuple(levels)
 
+    @checks_types
     def add_to(self, scene: Scene) -> Node:
         """Add the districts to a scene; returns the node that groups them."""
         group = scene.add(name="city")

@@ -6,12 +6,14 @@ import os
 import warnings
 from typing import Any, BinaryIO
 
+from .._support.calls import checks_types
 from ..errors import Engine3DWarning, InvalidArgumentError, located
 from ..files.atomic_write import AtomicFiles, StreamFiles, checked_path
 from ..geometry.mesh import Mesh
 from .registry import find_writer
 
 
+@checks_types
 def save_mesh(
     mesh: Mesh,
     path: str | os.PathLike[str] | BinaryIO,

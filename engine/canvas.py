@@ -336,6 +336,7 @@ class Canvas(Hinting):
             width, height = native.text_size(codes, scale)
             pad = 2 * scale
             left, top = np.floor(place) - pad
+            _color_bytes(background, "background")
             self.rectangle(left, top, width + 2 * pad, height + 2 * pad, background)
         self._surface.text(*place, codes, scale, _color_bytes(color))
 
@@ -375,7 +376,7 @@ def _given_pixels(*args) -> NDArray[np.uint8]:
     return args[0]
 
 
-def _color_bytes(color: Color) -> bytes:
+def _color_bytes(color: Color, what: str = "color") -> bytes:
     try:
         rgba = bytes(tuple(color))
     except (TypeError, ValueError):
@@ -384,7 +385,7 @@ def _color_bytes(color: Color) -> bytes:
         return rgba + b"\xff"
     if len(rgba) != 4:
         raise InvalidArgumentError(
-            f"a color is (r, g, b) or (r, g, b, a), integers from 0 to 255, not {shown(color)}"
+            f"{what} must be (r, g, b) or (r, g, b, a), integers from 0 to 255, not {shown(color)}"
         )
     return rgba
 

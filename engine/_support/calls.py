@@ -130,6 +130,8 @@ def _kind(node: ast.expr, function) -> _Kind | None:
     name = ast.unparse(node)
     if name in _UNCHECKED:
         return None
+    if name == "Literal":
+        return _kind_of(Literal[ast.literal_eval(of)], name)
     if _PLAIN.get(name) is _MANY and of.isidentifier():
         return _is_many, f"several {of}"
     return _PLAIN[name] if name in _PLAIN else _kind_of(_named(name, function), name)

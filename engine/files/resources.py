@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from weakref import WeakValueDictionary
 
 from .._support.calls import checks_types, shows_annotations
+from .._support.numbers import shown
 from ..errors import Engine3DError, Engine3DWarning, InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..loaders import load_mesh, load_texture
@@ -122,7 +123,7 @@ class Resources:
             It is neither a Mesh nor a Texture.
         """
         if not isinstance(thing, (Mesh, Texture)):
-            raise InvalidArgumentError(f"not a Mesh or Texture: {type(thing).__name__}")
+            raise InvalidArgumentError(f"thing must be a Mesh or Texture, not {shown(thing)}")
         with self._lock:
             self._loads += 1
             return self._same(thing)

@@ -458,6 +458,12 @@ class Mesh(Closed):
         for arrays in (self._arrays, self._groups, self._scalars):
             arrays.update({name: own(array) for name, array in arrays.items()})
 
+    def _repr_png_(self) -> bytes | None:
+        """A picture for notebooks; see `thumbnail`."""
+        from ..rendering.thumbnail import thumbnail
+
+        return thumbnail(self)
+
     def __repr__(self) -> str:
         parts = [f"{len(self.positions)} vertices", f"{len(self.faces)} faces"]
         parts += [f"{len(self.lines)} lines"] if len(self.lines) else []

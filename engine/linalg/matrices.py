@@ -44,13 +44,13 @@ def translation(offset: npt.ArrayLike) -> FloatArray:
 def scaling(factors: npt.ArrayLike) -> FloatArray:
     """Return the matrix that scales by one factor, or by three along x, y and z."""
     matrix = np.eye(4)
-    matrix[[0, 1, 2], [0, 1, 2]] = _three_factors(factors)
+    matrix[[0, 1, 2], [0, 1, 2]] = _three_factors("factors", factors)
     return matrix
 
 
-def _three_factors(factors: npt.ArrayLike) -> FloatArray:
-    factors = floats(factors, "scale")
-    return _three("scale", np.broadcast_to(factors, (3,)) if factors.ndim == 0 else factors)
+def _three_factors(name: str, factors: npt.ArrayLike) -> FloatArray:
+    factors = floats(factors, name)
+    return _three(name, np.broadcast_to(factors, (3,)) if factors.ndim == 0 else factors)
 
 
 def _three(name: str, values: npt.ArrayLike) -> FloatArray:
@@ -287,8 +287,8 @@ def compose(
     InvalidArgumentError
         If a shape is wrong or the quaternion is null.
     """
-    matrix = quaternion_to_matrix(rotation)
-    matrix[:3, :3] = matrix[:3, :3] * _three_factors(scale)
+    matrix = quaternion_to_matrix(as_vectors("rotation", rotation, 4))
+    matrix[:3, :3] = matrix[:3, :3] * _three_factors("scale", scale)
     matrix[:3, 3] = _three("offset", offset)
     return matrix
 

@@ -41,8 +41,8 @@ def companion_texture(
         ``head_color``, ``head_albedo``, ``head_basecolor``, each as TGA, PNG, JPEG and then the
         other formats. A TGA file that engine3d wrote is none.
     """
-    folder = os.path.dirname(os.fspath(path))
-    stem = stem_and_extension(os.fspath(path))[0]
+    path = os.fsdecode(path)
+    folder, stem = os.path.dirname(path), stem_and_extension(path)[0]
     try:
         present = {entry.lower(): entry for entry in sorted(os.listdir(folder or "."))}
     except (OSError, ValueError):

@@ -63,7 +63,7 @@ class Impostor:
 
     def __init__(self, mesh: Mesh, *, views: int = 6, texels: int = 16) -> None:
         if not isinstance(mesh, Mesh):
-            raise InvalidArgumentError(f"not a Mesh: {type(mesh).__name__}")
+            raise InvalidArgumentError(f"mesh must be a Mesh, not {type(mesh).__name__}")
         if not (isinstance(views, int) and 2 <= views <= 16):
             raise InvalidArgumentError(f"views must be a whole number from 2 to 16, not {views!r}")
         if not (isinstance(texels, int) and 8 <= texels <= 128 and texels % _CELLS == 0):

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
 from .._support.calls import checks_types
-from .._support.numbers import real
+from .._support.numbers import real, shown
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..scene.cameras import Camera
@@ -79,7 +79,7 @@ class DetailedInstances:
         self.levels = _made_levels(levels) if isinstance(levels, Mesh) else _checked(levels)
         check_limits(hysteresis, pixels=pixels, impostor_pixels=impostor_pixels)
         if impostor is not None and not isinstance(impostor, Impostor):
-            raise InvalidArgumentError(f"not an Impostor: {type(impostor).__name__}")
+            raise InvalidArgumentError(f"impostor must be an Impostor, not {shown(impostor)}")
         self.pixels, self.hysteresis = float(pixels), float(hysteresis)
         mesh = self.levels[0][0]
         self._center, self._radius = bounding_ball(mesh)

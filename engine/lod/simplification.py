@@ -49,7 +49,7 @@ def simplify(mesh: Mesh, ratio: float) -> tuple[Mesh, float]:
         There is no fast-simplification.
     """
     if not isinstance(mesh, Mesh):
-        raise InvalidArgumentError(f"not a Mesh: {type(mesh).__name__}")
+        raise InvalidArgumentError(f"mesh must be a Mesh, not {type(mesh).__name__}")
     if not 0.0 < ratio <= 1.0:
         raise InvalidArgumentError(f"ratio must be more than 0 and at most 1, not {ratio!r}")
     vertex_of, first = _equal_vertices(mesh)

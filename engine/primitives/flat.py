@@ -144,11 +144,11 @@ def quad(
         If a corner isn't a finite point, or the corners span no area.
     """
     try:
-        corners = floats((p0, p1, p2, p3), "the corners")
+        corners = floats((p0, p1, p2, p3), "p0, p1, p2 and p3")
     except (TypeError, ValueError):
-        raise InvalidArgumentError("the corners of a quad must be points of 3 numbers") from None
+        raise InvalidArgumentError("p0, p1, p2 and p3 must be points of 3 numbers") from None
     if corners.shape != (4, 3) or not np.all(np.isfinite(corners)):
-        raise InvalidArgumentError("the corners of a quad must be 4 finite points of 3 numbers")
+        raise InvalidArgumentError("p0, p1, p2 and p3 must be finite points of 3 numbers")
     normal = linalg.normalize(linalg.cross(corners[2] - corners[0], corners[3] - corners[1]))
     if not np.any(normal):
         raise InvalidArgumentError("the corners of a quad must span an area")

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, TypedDict, get_args
 
 from .._native import rasterizer as _native
-from .._support.calls import hints_keywords
+from .._support.calls import checks_types, hints_keywords
 from .._support.numbers import real, shown
 from .._support.validation import choose, flag, optional_positive
 from ..choices import (
@@ -180,6 +180,7 @@ class RenderOptions:
             ),
         )
 
+    @checks_types
     def pixels_of(self, size: float, height: int) -> float:
         """Return what a line's width or a point's size is in a picture of some height.
 

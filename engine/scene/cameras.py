@@ -90,7 +90,7 @@ class Camera(Closed):
     _far_depth = 1.0
 
     def __init__(self, projection: ArrayLike) -> None:
-        self.matrix = projection
+        self.matrix = matrix4(projection, "projection")
 
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""

@@ -437,6 +437,12 @@ class Scene(Surroundings, SceneQueries):
     def __reduce_ex__(self, protocol):
         raise TypeError("a Scene cannot be copied or pickled: add its objects to another Scene")
 
+    def _repr_png_(self) -> bytes | None:
+        """A picture for notebooks; see `thumbnail`."""
+        from ..rendering.thumbnail import thumbnail
+
+        return thumbnail(self)
+
     def __repr__(self) -> str:
         return f"Scene({self._arrays.count - self._removed} nodes)"
 

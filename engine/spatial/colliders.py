@@ -33,7 +33,7 @@ class BoxCollider(Closed):
 
     def __init__(self, low: ArrayLike | None = None, high: ArrayLike | None = None) -> None:
         if (low is None) != (high is None):
-            raise InvalidArgumentError("give both corners of a BoxCollider, or none")
+            raise InvalidArgumentError("give both corners of a BoxCollider, low and high, or none")
         self.box = None if low is None else np.stack([vector3(low, "low"), vector3(high, "high")])
         if self.box is None:
             return

@@ -46,7 +46,7 @@ def save_mesh(
         The format is not known, has no such option, or needs files beside a file object.
     """
     if not isinstance(mesh, Mesh):
-        raise InvalidArgumentError(f"not a Mesh: {type(mesh).__name__}")
+        raise InvalidArgumentError(f"mesh must be a Mesh, not {type(mesh).__name__}")
     is_stream = hasattr(path, "write")
     name = "<stream>" if is_stream else checked_path(path)
     writer = find_writer(name, format)

@@ -53,7 +53,7 @@ def test_renderer(arguments, options, message):
         ({"line_color": "red"}, "line_color must be a sequence of 3 numbers: 'red'"),
         ({"out": np.zeros((6, 8, 4))}, "out must be a Frame"),
         ({"camera": e3d.PerspectiveCamera()}, "a camera alone has no place"),
-        ({"camera": 5}, "camera must be None, a node or a pair"),
+        ({"camera": 5}, "must be None, a node or a pair"),
         ({"camera": (e3d.PerspectiveCamera(), np.eye(3))}, "camera pose must have shape"),
         ({"camera": (e3d.PerspectiveCamera(), np.zeros((4, 4)))}, "no inverse"),
     ],

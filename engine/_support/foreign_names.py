@@ -158,8 +158,10 @@ _NAMES: dict[str, dict[str, str]] = {
         "energy": "intensity",
         "power": "intensity",
         "strength": "intensity",
+    },
+    "PointLight": {"distance": "range", "decay": "falloff"},
+    "SpotLight": {
         "distance": "range",
-        "decay": "falloff",
         "angle": "outer_cone_angle, in radians",
         "innerConeAngle": "inner_cone_angle",
         "outerConeAngle": "outer_cone_angle",

@@ -69,9 +69,7 @@ def check_positions(value, what: str) -> np.ndarray:
         if suspicious:  # or too large to be added up
             broken = int((~np.isfinite(array)).any(axis=1).sum())
             if broken:
-                warn(
-                    f"{what}: {broken} of {len(array)} are not finite: what uses them is not drawn"
-                )
+                warn(f"{broken} of {len(array)} {what} are not finite: what uses them is not drawn")
     return array
 
 

@@ -18,7 +18,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._native import canvas as native
 from ._native.images import encode_png
-from ._support.foreign_names import Hinting
 from ._support.numbers import as_array, floats, real, shown
 from ._support.validation import choose, flag
 from .errors import InvalidArgumentError
@@ -38,7 +37,7 @@ _FONT_CODES |= {ord(letter): code for code, letter in enumerate("àâçèéêë�
 _REPLACEMENT_CODE = 127
 
 
-class Canvas(Hinting):
+class Canvas:
     """A framebuffer to draw on in two dimensions.
 
     Parameters

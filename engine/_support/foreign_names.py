@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 _PLACED = "its place is its node's: scene.add({thing}, {how})"
 _LIGHT = _PLACED.format(thing="light", how="translation=(x, y, z)")
@@ -72,6 +71,7 @@ _NAMES: dict[str, dict[str, str]] = {
         "triangles": "faces",
         "indices": "faces",
         "polys": "faces",
+        "position": "positions",
         "vertex_normals": "normals",
         "normal": "normals",
         "vertex_colors": "colors",
@@ -248,7 +248,6 @@ _NAMES: dict[str, dict[str, str]] = {
         "parent_node": "parent",
     },
     "orbit": {"radius": "distance", "center": "target", "theta": "azimuth", "phi": "elevation"},
-    "look_at": {"position": "eye", "center": "target", "at": "target"},
     "box": {"extents": "size", "dimensions": "size", "width": "size=(x, y, z)"},
     "plane": {"width": "size=(x, z)", "extents": "size", "subdivisions": "segments"},
     "uv_sphere": {"count": "segments=(around, bands)", "subdivisions": "segments, or icosphere"},
@@ -329,25 +328,16 @@ class UnknownName(AttributeError):
         owner, name, known = self.args
         if isinstance(owner, str):
             return f"module {owner!r} has no attribute {name!r}{hint(owner, name, known)}"
+        known = [each for each in dir(owner) if hasattr(owner, each)]  # no foreign ones
         kind = f"{'an' if owner.__name__[0] in 'AEIOU' else 'a'} {owner.__name__}"
-        return f"{kind} has no attribute {name!r}{hint(owner, name, dir(owner))}"
-
-
-class Hinting:
-    """Base of what answers to a foreign name, or a misspelt one, by what may be meant."""
-
-    __slots__ = ()
-
-    if not TYPE_CHECKING:  # to a type checker, any attribute could be read
-
-        def __getattr__(self, name: str):
-            if hasattr(type(self), name):
-                return object.__getattribute__(self, name)  # its own error once more
-            raise UnknownName(type(self), name)
+        return f"{kind} has no attribute {name!r}{hint(owner, name, known)}"
 
 
 class _Foreign:
-    """A foreign name of a class that cannot look at each assignment: it is there to refuse."""
+    """A foreign name of a class, which is there to refuse to be read or assigned.
+
+    A ``__getattr__`` would do so as well, and make every attribute of the class slower to read.
+    """
 
     def __init__(self, name: str) -> None:
         self._name = name
@@ -360,12 +350,21 @@ class _Foreign:
 
 
 def refuses_foreign_names(kind: type) -> type:
-    """Let a class with slots answer to foreign names by an error that tells its own.
+    """Let a class answer to foreign names by an error that tells its own.
 
-    A ``__setattr__`` would do so as well, and make every assignment slower.
+    Misspelt ones are Python's to tell, which guesses when it shows an error.
     """
-    foreign = foreign_names(kind).keys() - set(dir(kind))
+    foreign = frozenset(foreign_names(kind).keys() - set(dir(kind)))
     for name in foreign:
         setattr(kind, name, _Foreign(name))
-    kind.__dir__ = lambda thing: [name for name in object.__dir__(thing) if name not in foreign]
+    if foreign:
+        kind.__dir__ = _own_names
     return kind
+
+
+def _own_names(thing) -> list[str]:
+    """What ``dir`` shows: not what is there to refuse."""
+    refused = {
+        n for kind in type(thing).__mro__ for n, v in vars(kind).items() if type(v) is _Foreign
+    }
+    return [name for name in object.__dir__(thing) if name not in refused]

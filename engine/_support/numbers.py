@@ -14,9 +14,6 @@ import numpy as np
 
 from ..errors import InvalidArgumentError
 
-#: What NumPy makes numbers of: text of what it says, None of not-a-number.
-_NONE = (str, bytes, type(None))
-
 
 def real(value) -> float:
     """Return a number as a float; not-a-number for what is none."""
@@ -47,10 +44,14 @@ def as_array(value, what: str) -> np.ndarray:
 
 def floats(value, what: str) -> np.ndarray:
     """Return a float64 copy of numbers, C-contiguous."""
-    if getattr(getattr(value, "dtype", None), "kind", "f") in "cmMSU":
-        raise InvalidArgumentError(f"{what} must be numbers, not {value.dtype}")
-    if value is None or (type(value) in (tuple, list) and value and isinstance(value[0], _NONE)):
-        raise InvalidArgumentError(f"{what} must be numbers, not {shown(value)}")  # NumPy takes it
+    kind = value.__class__
+    if kind is tuple or kind is list:  # the common case first: this is called for every node
+        wrong = bool(value) and value[0].__class__ is str  # NumPy reads "1" as 1
+    else:
+        wrong = value is None or getattr(getattr(value, "dtype", None), "kind", "f") in "cmMSU"
+    if wrong:
+        given = getattr(value, "dtype", None) or shown(value)
+        raise InvalidArgumentError(f"{what} must be numbers, not {given}")
     try:
         return np.array(value, np.float64, order="C")
     except (TypeError, ValueError, OverflowError) as error:

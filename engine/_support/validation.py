@@ -21,14 +21,14 @@ from ..choices import Color, ColorLike
 from ..errors import InvalidArgumentError
 from .calls import hinted, is_flag
 from .dirty_tracking import renew
-from .foreign_names import Hinting, UnknownName
+from .foreign_names import UnknownName, refuses_foreign_names
 from .numbers import floats, real, shown
 
 Given = TypeVar("Given")
 Kept = TypeVar("Kept")
 
 
-class Closed(Hinting):
+class Closed:
     """Base of what has no public attributes but its class's, so that a misspelt one is an error.
 
     Attributes of instances are declared by annotations; a subclass may declare more. Copies, and
@@ -47,6 +47,7 @@ class Closed(Hinting):
         super().__init_subclass__(**keywords)
         if "__init__" in vars(cls):
             cls.__init__ = hinted(cls.__init__, cls)
+        refuses_foreign_names(cls)
 
     if not TYPE_CHECKING:  # to a type checker, any attribute could be assigned
 
@@ -140,6 +141,8 @@ def choose(value, allowed, what: str):
 
 def flag(value: bool, what: str) -> bool:
     """Check what is True or False, or NumPy's, or 0 and 1."""
+    if value is True or value is False:
+        return value
     if not is_flag(value):
         raise InvalidArgumentError(f"{what} must be True or False, not {shown(value)}")
     return bool(value)

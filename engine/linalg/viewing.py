@@ -12,7 +12,6 @@ import numpy as np
 import numpy.typing as npt
 
 from .._support.angles import field_of_view
-from .._support.calls import hinted
 from .._support.numbers import real
 from .._support.validation import finite, positive
 from ..errors import InvalidArgumentError
@@ -28,7 +27,6 @@ FloatArray = npt.NDArray[np.float64]
 _PARALLEL = 1e-9
 
 
-@hinted
 def look_at(
     eye: npt.ArrayLike, target: npt.ArrayLike, up: npt.ArrayLike = (0.0, 1.0, 0.0)
 ) -> FloatArray:

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from .._native import rasterizer as _native
 from .._native.images import encode_png
 from .._support.calls import checks_types
-from .._support.foreign_names import Hinting
+from .._support.foreign_names import refuses_foreign_names
 from .._support.validation import choose
 from ..choices import ImageFormat
 from ..errors import InvalidArgumentError, MissingOutputError
@@ -97,7 +97,8 @@ class _Output(Generic[Scalar]):
             ) from None
 
 
-class Frame(Hinting):
+@refuses_foreign_names
+class Frame:
     """What a renderer drew.
 
     The arrays belong to the caller: they stay as they are for as long as they are held, unless the

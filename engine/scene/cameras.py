@@ -52,6 +52,14 @@ def _check_range(camera) -> None:
         )
 
 
+def _check_size(width: int, height: int) -> None:
+    """Check a picture's sides, which are integers nearly always: this is done for every frame."""
+    if width.__class__ is int and height.__class__ is int and width > 0 and height > 0:
+        return
+    for side, what in ((width, "width"), (height, "height")):
+        positive(side, what)
+
+
 def _enlarged(matrix: NDArray[np.float64], znear: float) -> NDArray[np.float64]:
     """A projection of what may be tiny: the same, times a power of two if the near plane is near.
 
@@ -94,7 +102,7 @@ class Camera(Closed):
 
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
-        positive(width, "width"), positive(height, "height")
+        _check_size(width, height)
         return self.matrix
 
     def __repr__(self) -> str:
@@ -152,8 +160,8 @@ class PerspectiveCamera(Camera):
 
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         _check_range(self)
-        aspect = positive(width, "width") / positive(height, "height")
-        aspect = aspect if self.aspect is None else self.aspect
+        _check_size(width, height)
+        aspect = width / height if self.aspect is None else self.aspect
         matrix = linalg.perspective(self.yfov, aspect, self.znear, self.zfar)
         if self.reversed_depth:
             ratio = self.znear / self.zfar
@@ -203,8 +211,8 @@ class OrthographicCamera(Camera):
 
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         _check_range(self)
-        aspect = positive(width, "width") / positive(height, "height")
-        xmag = self.ymag * aspect if self.xmag is None else self.xmag
+        _check_size(width, height)
+        xmag = self.ymag * (width / height) if self.xmag is None else self.xmag
         return linalg.orthographic(xmag, self.ymag, self.znear, self.zfar)
 
     def _parameters(self) -> str:
@@ -259,7 +267,7 @@ class IntrinsicsCamera(Camera):
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         _check_range(self)
         # The depth rows are those of any perspective; only the pixel grid differs.
-        width, height = positive(width, "width"), positive(height, "height")
+        _check_size(width, height)
         matrix = linalg.perspective(1.0, 1.0, self.znear, self.zfar)
         matrix[0, 0] = 2.0 * self.fx / width
         matrix[1, 1] = 2.0 * self.fy / height

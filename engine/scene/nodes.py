@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from .. import linalg
 from .._native.scene_graph import STATIC, VISIBLE
 from .._support.angles import angles
-from .._support.foreign_names import Hinting, refuses_foreign_names
+from .._support.foreign_names import refuses_foreign_names
 from .._support.numbers import floats, shown
 from .._support.validation import flag, frozen_floats, matrix4, text, vector3
 from ..errors import InvalidArgumentError
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 
 @refuses_foreign_names
-class Node(Hinting):
+class Node:
     """An object's place in a scene; made by `Scene.add`.
 
     ``pose`` is parent-from-node, a 4x4 matrix; ``translation``, ``rotation`` (quaternion x, y, z,
@@ -60,11 +60,13 @@ class Node(Hinting):
         "_pose",
         "_pose_version",
         "_posed",
+        "_read_pose",
         "_scene",
         "_skin",
         "_slot",
         "_taken",
         "_taken_with",
+        "_translation",
         "_world_pose",
         "_world_version",
     )
@@ -78,6 +80,7 @@ class Node(Hinting):
         self._taken = ()  # the nodes below that were removed with this one
         self._taken_with = None  # the node above that this one was removed with
         self._pose_version = self._world_version = -1
+        self._read_pose = self._translation = None  # as they were when they were last read
         self._id = number
 
     @property
@@ -219,7 +222,10 @@ class Node(Hinting):
     @property
     def translation(self) -> NDArray[np.float64]:
         """(3,) float64."""
-        return self.pose[:3, 3].view(PosePart)
+        pose = self.pose
+        if pose is not self._read_pose:
+            self._read_pose, self._translation = pose, pose[:3, 3].view(PosePart)
+        return self._translation
 
     @translation.setter
     def translation(self, value: ArrayLike) -> None:
@@ -265,7 +271,8 @@ class Node(Hinting):
 
     @visible.setter
     def visible(self, value: bool) -> None:
-        self._arrays.set_flag(self._slot, VISIBLE, flag(value, "visible"))
+        on = value if value is True or value is False else flag(value, "visible")
+        self._arrays.set_flag(self._slot, VISIBLE, on)
 
     @property
     def shown(self) -> bool:
@@ -388,13 +395,15 @@ def check_pose(value: ArrayLike) -> NDArray[np.float64]:
 
 def check_rotation(value: ArrayLike) -> NDArray[np.float64]:
     """Check a quaternion; return it as a read-only (4,) float64 array."""
-    given = floats(value, "rotation")
-    if given.shape == (3,):
+    try:
+        rotation = frozen_floats(value, "rotation", (4,))
+    except InvalidArgumentError:
+        if floats(value, "rotation").shape != (3,):
+            raise
         raise InvalidArgumentError(
             "rotation is a quaternion (x, y, z, w), not three numbers: three angles are euler=, "
             f"in radians: {shown(value)}"
-        )
-    rotation = frozen_floats(given, "rotation", (4,))
+        ) from None
     if not 0.0 < sum(x * x for x in rotation.tolist()) < math.inf:
         raise InvalidArgumentError("rotation must not be the zero quaternion, nor overflow")
     return rotation

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from .._native.scene_graph import OBJECT_BOX, union
 from .._support.calls import checks_types, hinted
 from .._support.numbers import shown
-from .._support.validation import text, vector3
+from .._support.validation import flag, text, vector3
 from ..choices import ColorLike
 from ..environments.environment import Environment
 from ..errors import InvalidArgumentError
@@ -209,7 +209,8 @@ class Scene(Surroundings, SceneQueries):
             self._arrays.set_translation(slot, translation)
         if rotation is not None or scale is not None:
             self._arrays.set_parts(slot, rotation, scale)
-        node.static = static
+        if flag(static, "static"):
+            node.static = True
         node.cast_shadows, node.receive_shadows = cast_shadows, receive_shadows
         self._list(node)
         self._nodes = None

@@ -49,7 +49,9 @@ class NodeSelection(Closed):
         if self._removals != scene._removals:
             for node in self.nodes:
                 if not isinstance(node, Node) or node._scene is not scene:
-                    raise InvalidArgumentError(f"nodes must be of this scene, now: {shown(node)}")
+                    raise InvalidArgumentError(
+                        f"nodes: {shown(node)} is not a node of this scene, or not now"
+                    )
             self._slots = np.array([node._slot for node in self.nodes], np.int32)
             self._removals = scene._removals
         return self._slots

@@ -11,7 +11,6 @@ from collections.abc import Iterator
 
 from .. import events
 from .._support.calls import checks_types
-from .._support.foreign_names import Hinting
 from .._support.image_size import check_side
 from .._support.numbers import real, shown
 from .._support.validation import text as checked_text
@@ -49,7 +48,7 @@ POINTERS: dict[PointerShape, str] = {
 _OPEN: dict[int, Window] = {}
 
 
-class Window(Hinting):
+class Window:
     """A window to show pictures in.
 
     Iterating over it yields events and, where the window doesn't wait, a `Tick` whenever the next

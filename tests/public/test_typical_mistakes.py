@@ -44,7 +44,7 @@ MISTAKES = [
     (assign(node, "position", (1, 2, 3)), "did you mean translation"),
     (assign(node, "look_at", (1, 2, 3)), "engine3d.look_at"),
     (assign(node, "anything", 1), "no attribute 'anything'"),
-    (lambda: node().visble, "did you mean visible"),
+    (lambda: node().visble, "no attribute 'visble'"),
     (lambda: scene().lights, "scene.nodes"),
     (assign(e3d.Scene, "bg_color", (1, 1, 1)), "did you mean background"),
     (assign(e3d.Material, "metalness", 1.0), "did you mean metallic"),

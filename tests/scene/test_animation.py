@@ -150,7 +150,7 @@ def test_what_is_no_scene_or_no_nodes(scene):
         e3d.Animator(None)
     animator = e3d.Animator(scene)
     for nodes in (None, 3, "ab", [e3d.Scene().add()]):
-        with pytest.raises(e3d.InvalidArgumentError, match="nodes must be of this scene"):
+        with pytest.raises(e3d.InvalidArgumentError, match="is not a node of this scene"):
             animator.spin(nodes, period=1.0)
     with pytest.raises(e3d.InvalidArgumentError, match="iterable of Node"):
         scene.select(3)

@@ -168,7 +168,7 @@ _NAMES: dict[str, dict[str, str]] = {
     },
     "HemisphereLight": dict.fromkeys(_PLACES, _LIGHT),
     "LightProbe": dict.fromkeys(_PLACES, _LIGHT),
-    "DirectionalLight": {"target": "direction", "position": "direction, in which the light goes"},
+    "DirectionalLight": {"target": "direction"},
     "Texture": {"image": "pixels", "data": "pixels", "source": "pixels", "interpolation": "filter"},
     "Node": {
         "position": "translation",

@@ -53,7 +53,7 @@ def checked_path(path: str | bytes | os.PathLike) -> str:
     except TypeError:
         raise InvalidArgumentError(f"path must be a str or path-like, not {shown(path)}") from None
     if "\0" in decoded:
-        raise InvalidArgumentError(f"path must not hold a zero byte: {shown(decoded)}")
+        raise FileAccessError("cannot write: the path holds a zero byte", decoded)
     return decoded
 
 

@@ -19,7 +19,7 @@ from typing import Any, Literal, TypeVar, Union, get_args, get_origin, is_typedd
 import numpy as np
 
 from ..errors import InvalidArgumentError
-from .foreign_names import hint
+from .foreign_names import Kind, hint
 from .numbers import shown
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -71,13 +71,13 @@ def checks_types(function: Function) -> Function:
     return call
 
 
-def hints_keywords(kind: type) -> type:
+def hints_keywords(kind: Kind) -> Kind:
     """Let a class's constructor give hints, as `hinted` says."""
     kind.__init__ = hinted(kind.__init__, kind)
     return kind
 
 
-def shows_annotations(kind: type) -> type:
+def shows_annotations(kind: Kind) -> Kind:
     """Let ``help`` show a named tuple's types as they are written."""
     written = {name: each.__forward_arg__ for name, each in kind.__annotations__.items()}
     kind.__new__.__annotations__ = written

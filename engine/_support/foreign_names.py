@@ -9,6 +9,9 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
+from typing import TypeVar
+
+Kind = TypeVar("Kind", bound=type)
 
 _PLACED = "its place is its node's: scene.add({thing}, {how})"
 _LIGHT = _PLACED.format(thing="light", how="translation=(x, y, z)")
@@ -349,7 +352,7 @@ class _Foreign:
         raise UnknownName(type(thing), self._name)
 
 
-def refuses_foreign_names(kind: type) -> type:
+def refuses_foreign_names(kind: Kind) -> Kind:
     """Let a class answer to foreign names by an error that tells its own.
 
     Misspelt ones are Python's to tell, which guesses when it shows an error.

@@ -54,7 +54,7 @@ def _check_range(camera) -> None:
 
 def _check_size(width: int, height: int) -> None:
     """Check a picture's sides, which are integers nearly always: this is done for every frame."""
-    if width.__class__ is int and height.__class__ is int and width > 0 and height > 0:
+    if width.__class__ is height.__class__ is int and 0 < width < 2**31 and 0 < height < 2**31:
         return
     for side, what in ((width, "width"), (height, "height")):
         positive(side, what)

@@ -108,6 +108,9 @@ _MODULES = (
     *("batch", "choices", "datasets", "errors", "events", "linalg", "loaders", "primitives"),
 )
 
+# Modules that need other packages, or few programs need: not for ``import *``.
+_MODULES_APART = ("compat", "golden", "notebook")
+
 __all__ = ["__version__", *_PUBLIC, *_MODULES]
 
 
@@ -115,10 +118,14 @@ def __getattr__(name):
     """Import a public name from its module on first use (PEP 562)."""
     if name in _PUBLIC:
         value = getattr(import_module(f".{_PUBLIC[name]}", __name__), name)
-    elif name in _MODULES:
+    elif name in _MODULES or name in _MODULES_APART:
         value = import_module(f".{name}", __name__)
-    else:
+    elif name[0] == "_":  # Python's own questions
         raise AttributeError(f"module 'engine3d' has no attribute {name!r}")
+    else:
+        from ._support.foreign_names import UnknownName
+
+        raise UnknownName(__name__, name, __all__)
     globals()[name] = value
     return value
 

@@ -2,11 +2,14 @@
 
 from . import batch as batch
 from . import choices as choices
+from . import compat as compat
 from . import datasets as datasets
 from . import errors as errors
 from . import events as events
+from . import golden as golden
 from . import linalg as linalg
 from . import loaders as loaders
+from . import notebook as notebook
 from . import primitives as primitives
 from .canvas import Canvas as Canvas
 from .environments.environment import Environment as Environment

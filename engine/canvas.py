@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from ._native import canvas as native
 from ._native.images import encode_png
 from ._support.numbers import as_array, floats, real, shown
+from ._support.validation import choose, flag
 from .errors import InvalidArgumentError
 
 if TYPE_CHECKING:
@@ -118,7 +119,7 @@ class Canvas:
 
     def point(self, x: float, y: float, color: Color) -> None:
         """Draw the pixel that holds (x, y)."""
-        self._surface.point(*_numbers(x, y), _color_bytes(color))
+        self._surface.point(*_numbers("x and y", x, y), _color_bytes(color))
 
     def points(self, xy: ArrayLike, color: Color | NDArray[np.uint8]) -> None:
         """Draw many points in one call.
@@ -167,7 +168,7 @@ class Canvas:
             If the width is not a positive number or the algorithm is unknown.
         """
         algorithm_code = _algorithm(native.LINE_ALGORITHMS, algorithm)
-        ends = _numbers(x0, y0, x1, y1)
+        ends = _numbers("x0, y0, x1 and y1", x0, y0, x1, y1)
         self._surface.line(*ends, _color_bytes(color), _width(width), algorithm_code)
 
     def lines(
@@ -219,7 +220,9 @@ class Canvas:
         positions = _positions(xy, 2, "xy")
         algorithm_code = _algorithm(native.LINE_ALGORITHMS, algorithm)
         color_bytes = _color_bytes(color)
-        self._surface.polyline(positions, closed, color_bytes, _width(width), algorithm_code)
+        self._surface.polyline(
+            positions, flag(closed, "closed"), color_bytes, _width(width), algorithm_code
+        )
 
     def triangle(
         self,
@@ -247,8 +250,8 @@ class Canvas:
             pixels are the same.
         """
         algorithm_code = _algorithm(native.TRIANGLE_ALGORITHMS, algorithm)
-        (ax, ay), (bx, by), (cx, cy) = a, b, c
-        self._surface.triangle(ax, ay, bx, by, cx, cy, _color_bytes(color), algorithm_code)
+        corners = (*_pair(a, "a"), *_pair(b, "b"), *_pair(c, "c"))
+        self._surface.triangle(*corners, _color_bytes(color), algorithm_code)
 
     def triangles(
         self,
@@ -297,7 +300,8 @@ class Canvas:
         fill : bool, optional
             Fill it, or draw its outermost pixels only.
         """
-        self._surface.rectangle(*_numbers(x, y, width, height), _color_bytes(color), fill)
+        box = _numbers("x, y, width and height", x, y, width, height)
+        self._surface.rectangle(*box, _color_bytes(color), flag(fill, "fill"))
 
     def text(
         self,
@@ -326,14 +330,14 @@ class Canvas:
             Draw the text on a box of this colour, which reaches ``2 * scale`` pixels beyond the
             text on all sides. A translucent one keeps text legible on any picture.
         """
-        codes = _codes(string)
-        scale = _scale(scale)
+        place, codes, scale = _numbers("x and y", x, y), _codes(string), _scale(scale)
         if background is not None and string:
             width, height = native.text_size(codes, scale)
             pad = 2 * scale
-            left, top = np.floor(x) - pad, np.floor(y) - pad
+            left, top = np.floor(place) - pad
+            _color_bytes(background, "background")
             self.rectangle(left, top, width + 2 * pad, height + 2 * pad, background)
-        self._surface.text(*_numbers(x, y), codes, scale, _color_bytes(color))
+        self._surface.text(*place, codes, scale, _color_bytes(color))
 
 
 def text_size(string: str, scale: int = 1) -> tuple[int, int]:
@@ -358,7 +362,7 @@ def _new_pixels(width: int, height: int) -> NDArray[np.uint8]:
     for side in (width, height):
         if not isinstance(side, int | np.integer) or not 0 <= side <= native.MAX_SIDE:
             raise InvalidArgumentError(
-                f"width and height must be integers from 0 to {native.MAX_SIDE}, not {side!r}"
+                f"width and height must be integers from 0 to {native.MAX_SIDE}, not {shown(side)}"
             )
     pixels = np.zeros((height, width, 4), np.uint8)
     pixels[..., 3] = 255
@@ -371,7 +375,7 @@ def _given_pixels(*args) -> NDArray[np.uint8]:
     return args[0]
 
 
-def _color_bytes(color: Color) -> bytes:
+def _color_bytes(color: Color, what: str = "color") -> bytes:
     try:
         rgba = bytes(tuple(color))
     except (TypeError, ValueError):
@@ -380,7 +384,7 @@ def _color_bytes(color: Color) -> bytes:
         return rgba + b"\xff"
     if len(rgba) != 4:
         raise InvalidArgumentError(
-            f"a colour is (r, g, b) or (r, g, b, a), integers from 0 to 255, not {color!r}"
+            f"{what} must be (r, g, b) or (r, g, b, a), integers from 0 to 255, not {shown(color)}"
         )
     return rgba
 
@@ -392,7 +396,7 @@ def _colors_bytes(color: Color | NDArray[np.uint8], count: int) -> bytes | NDArr
         return _color_bytes(color)
     if colors.dtype != np.uint8 or colors.shape not in ((count, 3), (count, 4)):
         raise InvalidArgumentError(
-            f"colours for {count} primitives are a ({count}, 3) or ({count}, 4) uint8 array, "
+            f"color for {count} primitives is one, or a ({count}, 3) or ({count}, 4) uint8 array, "
             f"not {colors.shape} {colors.dtype}"
         )
     rgba = np.full((count, 4), 255, np.uint8)
@@ -411,17 +415,23 @@ def _positions(values: ArrayLike, columns: int, name: str) -> NDArray[np.float64
     return positions
 
 
-def _numbers(*values: float) -> list[float]:
+def _numbers(what: str, *values: float) -> list[float]:
     for value in values:
         if not isinstance(value, numbers.Real):
-            raise InvalidArgumentError(f"a place on a canvas is a number, not {shown(value)}")
+            raise InvalidArgumentError(f"{what} must be numbers, not {shown(value)}")
     return list(map(real, values))
 
 
+def _pair(value: Sequence[float], what: str) -> list[float]:
+    try:
+        x, y = value
+    except (TypeError, ValueError):
+        raise InvalidArgumentError(f"{what} must be (x, y), not {shown(value)}") from None
+    return _numbers(what, x, y)
+
+
 def _algorithm(codes: dict[str, int], name: str) -> int:
-    if name not in codes:
-        raise InvalidArgumentError(f"algorithm must be one of {', '.join(codes)}, not {name!r}")
-    return codes[name]
+    return codes[choose(name, codes, "algorithm")]
 
 
 def _width(width: float) -> float:
@@ -434,14 +444,14 @@ def _width(width: float) -> float:
 def _scale(scale: int) -> int:
     if not isinstance(scale, int | np.integer) or not 1 <= scale <= _MAX_TEXT_SCALE:
         raise InvalidArgumentError(
-            f"scale must be an integer from 1 to {_MAX_TEXT_SCALE}, not {scale!r}"
+            f"scale must be an integer from 1 to {_MAX_TEXT_SCALE}, not {shown(scale)}"
         )
     return int(scale)
 
 
 def _codes(string: str) -> bytes:
     if not isinstance(string, str):
-        raise InvalidArgumentError(f"a text must be a str, not {type(string).__name__}")
+        raise InvalidArgumentError(f"string must be a str, not {shown(string)}")
     characters = string.expandtabs(_TAB_COLUMNS).encode("utf-32-le", "surrogatepass")
     codes = np.frombuffer(characters, "<u4")
     if codes.size and (codes.max() > 126 or codes.min() < 32):

@@ -13,6 +13,44 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Union
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+__all__ = [
+    "AlphaMode",
+    "Antialias",
+    "Backend",
+    "BuiltInEnvironment",
+    "Color",
+    "ColorLike",
+    "ColorSpace",
+    "Cull",
+    "Culling",
+    "EulerOrder",
+    "Falloff",
+    "Filter",
+    "FrameCull",
+    "HiddenSurfaces",
+    "ImageFormat",
+    "Interpolation",
+    "LightShadow",
+    "LightUnit",
+    "LineShape",
+    "Loop",
+    "Mode",
+    "MotionPath",
+    "Normals",
+    "OutputMode",
+    "PixelFormat",
+    "PointShape",
+    "PointerShape",
+    "Samples",
+    "Shading",
+    "ShadowTaps",
+    "SizeUnit",
+    "SurfaceColor",
+    "ToneMapping",
+    "Wireframe",
+    "Wrap",
+]
+
 Backend = Literal["auto", "scalar", "portable", "sse41", "avx2", "avx512", "neon"]
 ColorSpace = Literal["srgb", "linear"]
 Samples = Literal[1, 2, 4, 8, 16]

@@ -11,6 +11,20 @@ import os
 import sys
 import warnings
 
+__all__ = [
+    "BackendError",
+    "DisplayError",
+    "Engine3DError",
+    "Engine3DWarning",
+    "FileAccessError",
+    "FileFormatError",
+    "InvalidArgumentError",
+    "MissingOutputError",
+    "OutOfMemoryError",
+    "RendererBusyError",
+    "SceneChangedError",
+]
+
 
 class Engine3DError(Exception):
     """Root of every exception of engine3d's own."""
@@ -40,7 +54,7 @@ class FileFormatError(Engine3DError, ValueError):
     ) -> None:
         super().__init__(message)
         self.message = message
-        self.path = None if path is None else os.fspath(path)
+        self.path = _name_of(path)
         self.line = line
 
     def __str__(self) -> str:
@@ -69,7 +83,7 @@ class FileAccessError(Engine3DError, OSError):
     def __init__(self, message: str, path: str | os.PathLike | None = None) -> None:
         super().__init__(message)
         self.message = message
-        self.path = None if path is None else os.fspath(path)
+        self.path = _name_of(path)
 
     def __str__(self) -> str:
         return located(self.message, self.path)
@@ -108,6 +122,13 @@ class RendererBusyError(Engine3DError, RuntimeError):
 
 class Engine3DWarning(UserWarning):
     """Something was left out or replaced; the rest of the work went on."""
+
+
+def _name_of(path) -> str | None:
+    """Return a path as text, whatever it is: an error of an error helps nobody."""
+    if path is None or isinstance(path, str):
+        return path
+    return os.fsdecode(path) if isinstance(path, (bytes, os.PathLike)) else str(path)
 
 
 def warn(message: str) -> None:

@@ -7,12 +7,15 @@ the package jupyter_rfb, which sends JPEGs while something moves and a PNG when 
 from __future__ import annotations
 
 import asyncio
+import base64
 import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
 from . import events
+from ._native.images import encode_png
 from ._support.image_size import check_size
 from .errors import InvalidArgumentError
 from .geometry.mesh import Mesh
@@ -132,6 +135,21 @@ class View(RemoteFrameBuffer):
             self._view_renderer.close()
             self._view_renderer = None
         super().close()
+
+    def _repr_mimebundle_(self, **options) -> Any:
+        """The widget, and a picture for pages where no program runs any more."""
+        bundle = super()._repr_mimebundle_(**options)
+        data = bundle[0] if isinstance(bundle, tuple) else bundle
+        if data and self._view_renderer is not None:
+            data["image/png"] = base64.b64encode(self._still()).decode("ascii")
+        return bundle
+
+    def _still(self) -> bytes:
+        """What the view shows now, as a PNG; the page gets its first picture all the same."""
+        self._viewer.draw(self._viewer.sampling.at_rest())
+        self._viewer.changed = True
+        rgb = self._page.picture
+        return encode_png(np.dstack([rgb, np.full(rgb.shape[:2], 255, np.uint8)]))
 
     # What jupyter_rfb calls
 

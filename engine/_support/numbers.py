@@ -30,7 +30,7 @@ def shown(value) -> str:
     try:
         text = " ".join(repr(value).split())
     except ValueError:  # more digits than Python writes
-        text = f"an integer of {value.bit_length()} bits"
+        text = f"an integer of {value.bit_length()} bits" if type(value) is int else "numbers"
     return text if len(text) <= 80 else f"{text[:60]} …"
 
 
@@ -38,14 +38,20 @@ def as_array(value, what: str) -> np.ndarray:
     """Return an array of any type."""
     try:
         return np.asarray(value)
-    except (TypeError, ValueError, OverflowError) as error:
+    except (TypeError, ValueError, OverflowError, RecursionError) as error:
         raise InvalidArgumentError(f"{what} is not an array: {error}") from None
 
 
 def floats(value, what: str) -> np.ndarray:
     """Return a float64 copy of numbers, C-contiguous."""
-    if getattr(getattr(value, "dtype", None), "kind", "f") in "cmM":
-        raise InvalidArgumentError(f"{what} must be numbers, not {value.dtype}")
+    kind = value.__class__
+    if kind is tuple or kind is list:  # the common case first: this is called for every node
+        wrong = bool(value) and value[0].__class__ is str  # NumPy reads "1" as 1
+    else:
+        wrong = value is None or getattr(getattr(value, "dtype", None), "kind", "f") in "cmMSU"
+    if wrong:
+        given = getattr(value, "dtype", None) or shown(value)
+        raise InvalidArgumentError(f"{what} must be numbers, not {given}")
     try:
         return np.array(value, np.float64, order="C")
     except (TypeError, ValueError, OverflowError) as error:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import functools
 import math
+import numbers
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar, overload
 
@@ -18,7 +19,9 @@ from numpy.typing import ArrayLike, NDArray
 from .._native.loaders import frozen, is_frozen
 from ..choices import Color, ColorLike
 from ..errors import InvalidArgumentError
+from .calls import hinted, is_flag
 from .dirty_tracking import renew
+from .foreign_names import UnknownName, refuses_foreign_names
 from .numbers import floats, real, shown
 
 Given = TypeVar("Given")
@@ -40,12 +43,18 @@ class Closed:
     def __setstate__(self, state: dict) -> None:
         self.__dict__.update({key: own(value) for key, value in state.items()})
 
+    def __init_subclass__(cls, **keywords) -> None:
+        super().__init_subclass__(**keywords)
+        if "__init__" in vars(cls):
+            cls.__init__ = hinted(cls.__init__, cls)
+        refuses_foreign_names(cls)
+
     if not TYPE_CHECKING:  # to a type checker, any attribute could be assigned
 
         def __setattr__(self, name: str, value) -> None:
             kind = type(self)
             if name[0] != "_" and not hasattr(kind, name) and name not in _declared(kind):
-                raise AttributeError(f"a {kind.__name__} has no attribute {name!r}")
+                raise UnknownName(kind, name)
             object.__setattr__(self, name, value)
 
 
@@ -118,13 +127,44 @@ def one_of(allowed: tuple[Kept, ...]) -> Callable[[Kept, str], Kept]:
 
 def choose(value, allowed, what: str):
     """Return ``value`` if it is one of ``allowed``; the message lists what is allowed."""
-    try:
-        if value in allowed:
-            return value
-    except (TypeError, ValueError):  # not hashable, or an array
-        pass
+    if is_one_of(value, allowed):
+        return value
     choices = ", ".join(repr(choice) for choice in allowed)
-    raise InvalidArgumentError(f"{what} must be one of {choices}, not {value!r}")
+    raise InvalidArgumentError(f"{what} must be one of {choices}, not {shown(value)}")
+
+
+def flag(value: bool, what: str) -> bool:
+    """Check what is True or False, or NumPy's, or 0 and 1."""
+    if value is True or value is False:
+        return value
+    if not is_flag(value):
+        raise InvalidArgumentError(f"{what} must be True or False, not {shown(value)}")
+    return bool(value)
+
+
+def text(value: str, what: str) -> str:
+    """Check a str."""
+    if not isinstance(value, str):
+        raise InvalidArgumentError(f"{what} must be a str, not {shown(value)}")
+    return str(value)
+
+
+def whole_number(value: int, what: str, least: int, most: int) -> int:
+    """Check a whole number of a range."""
+    whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
+    if not (whole and least <= value <= most):
+        raise InvalidArgumentError(
+            f"{what} must be a whole number in {least}..{most}, not {shown(value)}"
+        )
+    return int(value)
+
+
+def is_one_of(value, allowed) -> bool:
+    """Whether a value, whatever it is, is among those that are allowed."""
+    try:
+        return bool(value in allowed)
+    except (TypeError, ValueError):  # not hashable, or an array
+        return False
 
 
 def finite(value: float, what: str) -> float:

@@ -11,6 +11,7 @@ from concurrent.futures import Future
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
+from .._support.numbers import shown
 from .._support.system import usable_processors
 from ..errors import InvalidArgumentError
 from .processes import ProcessPool
@@ -79,8 +80,8 @@ def engine_for(
         with connected(scheduler) as (client, count):
             yield Engine(client, count, threads or 1, DASK_SECONDS)
     elif executor is not None:
-        if not callable(getattr(executor, "submit", None)):
-            raise InvalidArgumentError("executor must have a method submit")
+        if isinstance(executor, type) or not callable(getattr(executor, "submit", None)):
+            raise InvalidArgumentError(f"executor must have a method submit: {shown(executor)}")
         yield _given(executor, threads or 1)
     else:
         yield from _own(usable_processors() if jobs is None else jobs, threads, timeout)

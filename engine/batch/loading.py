@@ -14,7 +14,9 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any, NamedTuple
 
+from .._support.calls import checks_types
 from ..errors import warn
+from ..files.atomic_write import checked_path
 from ..files.resources import Resources, versions_of
 from ..geometry.mesh import Mesh
 from ..loaders import load_document
@@ -154,6 +156,7 @@ def loading(files: LoadedFiles, inputs: InputFiles, out: str) -> Iterator[None]:
         files.inputs = None
 
 
+@checks_types
 def load_mesh(path: str | os.PathLike[str], **options: Any) -> Mesh:
     """Load a mesh in a script: once a process, whichever pictures show it.
 
@@ -169,9 +172,10 @@ def load_mesh(path: str | os.PathLike[str], **options: Any) -> Mesh:
     ------
     FileFormatError, FileAccessError, InvalidArgumentError
     """
-    return _files().mesh(os.fspath(path), options)
+    return _files().mesh(checked_path(path), options)
 
 
+@checks_types
 def load_texture(path: str | os.PathLike[str], **options: Any) -> Texture:
     """Load a texture in a script, as `load_mesh` does a mesh.
 
@@ -185,7 +189,7 @@ def load_texture(path: str | os.PathLike[str], **options: Any) -> Texture:
     ------
     FileFormatError, FileAccessError, InvalidArgumentError
     """
-    return _files().texture(os.fspath(path), options)
+    return _files().texture(checked_path(path), options)
 
 
 def _files() -> LoadedFiles:

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import fields
 from typing import Any, NamedTuple
 
+from .._support.calls import checks_types
 from ..datasets import BopWriter, CocoWriter, FolderWriter, WebDatasetWriter
 from ..datasets.writer import DatasetWriter
 from ..errors import InvalidArgumentError
@@ -41,6 +42,7 @@ class Manifest(NamedTuple):
     writer: DatasetWriter | None
 
 
+@checks_types
 def read_manifest(path: str | os.PathLike[str]) -> Manifest:
     """Read the tasks of a batch; files that they name are relative to the manifest's folder.
 

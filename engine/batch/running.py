@@ -19,14 +19,16 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
+from .._support.calls import checks_types
 from .._support.numbers import real, shown
+from .._support.validation import whole_number
 from ..choices import Backend
 from ..datasets.writer import DatasetWriter, Note
 from ..errors import FileAccessError, InvalidArgumentError, warn
-from ..files.atomic_write import LEFT_BEHIND
+from ..files.atomic_write import LEFT_BEHIND, checked_path
 from ..files.hashing import hash_of_file
 from ..files.making_folders import make_folder_of
-from ..rendering.backend_selection import resolve_backend
+from ..rendering.backend_selection import MAX_THREADS, resolve_backend
 from ..version import __version__
 from .drawing import How, Outcome, draw_chunk, writer_of
 from .executors import Engine, engine_for
@@ -42,6 +44,7 @@ _TRIES = 3
 _NAMED = 4  # of the pictures that a process may have been drawing when it died
 
 
+@checks_types
 def run(
     tasks: Iterable[Task],
     out: str | os.PathLike[str],
@@ -100,13 +103,13 @@ def run(
         The folder cannot be written to, or another batch writes to it.
     """
     numbered = _numbered(tasks)
-    for number in (jobs, threads):
-        if number is not None and not (isinstance(number, int) and number >= 1):
-            raise InvalidArgumentError("jobs and threads must be whole numbers from 1 on")
+    for number, what in ((jobs, "jobs"), (threads, "threads")):
+        if number is not None:
+            whole_number(number, what, 1, MAX_THREADS)
     if timeout is not None and not 0 < real(timeout) <= threading.TIMEOUT_MAX:
         raise InvalidArgumentError(f"timeout must be a number of seconds, not {shown(timeout)}")
     resolve_backend(backend)
-    folder = os.path.abspath(os.fspath(out))
+    folder = os.path.abspath(checked_path(out))
     _make(folder)
     with locked_folder(os.path.join(folder, FOLDER)):
         _remove_left_behind(folder)

@@ -11,11 +11,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from .._support.calls import shows_annotations
 from ..files.atomic_write import atomic_write
 
 SUMS = "SHA256SUMS"
 
 
+@shows_annotations
 class Failure(NamedTuple):
     """A picture that is not there.
 

@@ -14,6 +14,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from typing import Any, get_args
 
+from .._support.calls import checks_types
 from .._support.image_size import check_size
 from .._support.numbers import shown
 from .._support.validation import choose
@@ -114,6 +115,7 @@ class Task:
             raise InvalidArgumentError("a task needs a model or a script")
         check_look(self)
 
+    @checks_types
     def path(self, name: str) -> str:
         """Return the path of a file that the task names."""
         return os.path.join(self.folder, name)
@@ -123,6 +125,7 @@ class Task:
         """The path of the folder that files named in the model may be in."""
         return None if self.root is None else self.path(self.root)
 
+    @checks_types
     def key(self, writer: DatasetWriter) -> str:
         """Return a hash of all that the task says, of the writer and of engine3d's version."""
         told = {one.name: getattr(self, one.name) for one in fields(self) if one.name != "folder"}

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import io
+import os
+import shlex
 
 from ..errors import printable
 from ..files.making_folders import make_folder_of
@@ -65,6 +67,9 @@ def _scene(model, how: dict, format: str | None, extension: str, options: dict):
 def _output(args: argparse.Namespace) -> str:
     """Where to write: OUT and ``-o`` are two ways to say it."""
     named = [name for name in (args.output, args.output_option) if name is not None]
+    if not named:
+        example = shlex.join([args.model, os.path.splitext(args.model)[0] + ".ply"])
+        raise UsageError(f"say where to write, such as: engine3d convert {printable(example)}")
     if len(named) != 1:
         raise UsageError("say once where to write: OUT, or -o OUT")
     return named[0]

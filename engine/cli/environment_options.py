@@ -35,11 +35,12 @@ def add_environment(parser) -> None:
         metavar="F",
         help="factor for the environment's light; 1 by default",
     )
-    group.add_argument(
+    background = group.add_argument(
         "--background",
         choices=["environment"],
         help="show the environment behind everything: the studio, if there is no other",
     )
+    background.hint = ": a colour goes with --background-color"
     group.add_argument(
         "--background-blur",
         type=values.fraction,

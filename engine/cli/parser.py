@@ -64,7 +64,7 @@ def _parsed(arguments: list[str], parser: Parser) -> argparse.Namespace:
         program = " ".join(filter(None, ("engine3d", args.command)))
         command = parser.commands.get(args.command, parser)
         wrong = next(filter(_is_option, unknown), "").partition("=")[0]
-        hint = suggestions.meant(wrong, suggestions.option_strings(command))
+        hint = suggestions.option_meant(wrong, command)
         message = f"unknown arguments: {' '.join(unknown)}{hint}"
         raise UsageError(f"{message} (see {program} --help)")
     return args

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 import time
 
-from ..files.animation_files import save_animation
+from ..errors import printable
+from ..files.animation_files import ANIMATION_SUFFIXES, PICTURE_SUFFIXES, save_animation
 from ..files.making_folders import make_folder_of
 from ..viewer import headless
 from ..viewer.clips import NoSuchClipError
@@ -105,7 +107,7 @@ def _check(args: argparse.Namespace) -> None:
     many = "--animation" if args.turntable is None else "--turntable"
     if args.output is None:
         if args.reference is None or _count(args) is not None:
-            raise UsageError("say where to write with -o FILE")
+            raise UsageError(f"say where to write with -o FILE{_meant(args.models)}")
         return
     if _count(args) is not None:
         if args.output in (STANDARD_OUTPUT, TERMINAL) or args.reference is not None:
@@ -120,6 +122,16 @@ def _check(args: argparse.Namespace) -> None:
             raise UsageError(f"-o {TERMINAL} compares with nothing: its size is the terminal's")
         return
     check_picture(args.output, transparent=args.no_background, series="--turntable N")
+
+
+def _meant(models: list[str]) -> str:
+    """Return the command with ``-o`` where one of several models is plainly a picture."""
+    suffixes = (*PICTURE_SUFFIXES, *ANIMATION_SUFFIXES)
+    pictures = [name for name in models if name.lower().endswith(suffixes)]
+    others = [name for name in models if name not in pictures]
+    if len(pictures) != 1 or not others:
+        return ""
+    return printable(f": engine3d render {shlex.join(others)} -o {shlex.join(pictures)}")
 
 
 def _count(args: argparse.Namespace) -> int | None:

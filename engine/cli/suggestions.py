@@ -40,8 +40,28 @@ class Parser(argparse.ArgumentParser):
                 message = f"{value!r} is no command; to see that file: engine3d run {value}"
             raise argparse.ArgumentError(None, message)
         known = ", ".join(choices)
-        message = f"{str(value)!r} is not one of {known}{meant(str(value), choices)}"
+        hint = meant(str(value), choices) or getattr(action, "hint", "")
+        message = f"{str(value)!r} is not one of {known}{hint}"
         raise argparse.ArgumentError(action, message)
+
+
+#: Options by the names of other commands and programs, and what they may be called here.
+_ELSEWHERE = {
+    "--size": ("--resolution",),
+    "--resolution": ("--size",),
+    "--width": ("--resolution", "--size"),
+    "--height": ("--resolution", "--size"),
+    "--fov": ("--camera-view-angle",),
+    "--bg": ("--background-color",),
+    "--out": ("--output",),
+}
+
+
+def option_meant(word: str, parser: argparse.ArgumentParser) -> str:
+    """Return what `meant` does of an option that a parser does not have."""
+    known = option_strings(parser)
+    named = [option for option in _ELSEWHERE.get(word, ()) if option in known]
+    return f": did you mean {named[0]}?" if named else meant(word, known)
 
 
 def meant(word: str, known: Iterable[str]) -> str:

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import linalg
+from .._support.calls import checks_types
 from .._support.numbers import shown
 from .._support.validation import positive
 from ..errors import InvalidArgumentError
@@ -123,6 +124,7 @@ class BopWriter(DatasetWriter):
         self.depth_scale = positive(depth_scale, "depth_scale")
         self.millimetres = positive(millimetres, "millimetres")
 
+    @checks_types
     def describe(self, sample: Sample) -> tuple[dict[str, Content], Any]:
         folder, image = self._place(sample.index)
         depth = sample.frame.depth
@@ -146,9 +148,11 @@ class BopWriter(DatasetWriter):
         said = {"camera": self._camera(sample), "size": size, "shapes": shapes}
         return files, {**said, "truth": truth, "info": info}
 
+    @checks_types
     def is_whole(self, folder: str, note: Note) -> bool:
         return has_shapes(folder, note.said["shapes"])
 
+    @checks_types
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
         found = (category for note in notes for category, *_ in note.said["truth"])
         numbers = category_numbers(self.categories, found)

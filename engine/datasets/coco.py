@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
+from .._support.calls import checks_types
 from ..files import json_records as records
 from ..rendering.frame import Output
 from ..rendering.options import check_outputs
@@ -64,6 +65,7 @@ class CocoWriter(DatasetWriter):
         # What annotations are made of is drawn in any case.
         self.outputs = tuple(dict.fromkeys(("color", "object_id", *self.written)))
 
+    @checks_types
     def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
         files = {f"images/{sample.name}.png": color_png(sample.frame)}
         for output in self.written:
@@ -82,6 +84,7 @@ class CocoWriter(DatasetWriter):
         size = [sample.frame.width, sample.frame.height]
         return files, {"size": size, "things": found}
 
+    @checks_types
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
         shown = (thing[0] for note in notes for thing in note.said["things"])
         numbers = category_numbers(self.categories, shown)

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from .._support.calls import checks_types
 from ..files import json_records as records
 from ..files.atomic_write import atomic_write
 from ..files.making_folders import make_folder_of
@@ -56,6 +57,7 @@ class FolderWriter(DatasetWriter):
     def __init__(self, outputs: Sequence[Output] = ("color", "depth", "object_id")) -> None:
         self.outputs = check_outputs(outputs)
 
+    @checks_types
     def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
         files = {}
         for output in self.outputs:
@@ -63,6 +65,7 @@ class FolderWriter(DatasetWriter):
             files[f"{output}/{sample.name}.{suffix}"] = data
         return files, said_of(sample)
 
+    @checks_types
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
         target = os.path.join(folder, PICTURES)
         make_folder_of(target)

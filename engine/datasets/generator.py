@@ -17,12 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._support.numbers import shown
-from .._support.validation import finite
+from .._support.validation import finite, fraction
 from ..errors import InvalidArgumentError
 
 Item = TypeVar("Item")
 
 _ULP = 2.0**-53
+_MOST = 2**30  # numbers at once
 
 
 class Generator:
@@ -88,7 +89,7 @@ class Generator:
         low, high = finite(low, "low"), finite(high, "high")
         if size is None:
             return low + (high - low) * ((self._raw() >> 11) * _ULP)
-        words = np.asarray(self._bits.random_raw(size), np.uint64)
+        words = np.asarray(self._bits.random_raw(_shape(size)), np.uint64)
         return low + (high - low) * ((words >> np.uint64(11)) * _ULP)
 
     def integer(self, low: int, high: int) -> int:
@@ -99,8 +100,11 @@ class Generator:
         InvalidArgumentError
             There is none.
         """
+        low, high = _whole(low, "low"), _whole(high, "high")
         if not low < high:
-            raise InvalidArgumentError(f"no whole number is from {low} to {high - 1}")
+            raise InvalidArgumentError(
+                f"low must be less than high: {shown(low)} and {shown(high)}"
+            )
         return low + (self._raw() * (high - low) >> 64)
 
     def integers(self, low: int, high: int, size: int | tuple[int, ...]) -> NDArray[np.int64]:
@@ -111,24 +115,32 @@ class Generator:
         InvalidArgumentError
             There is none, or are more.
         """
+        low, high = _whole(low, "low"), _whole(high, "high")
         if not 0 < high - low <= 2**32:
-            raise InvalidArgumentError(f"{low} to {high - 1} are not 1 to 2**32 whole numbers")
-        words = np.asarray(self._bits.random_raw(size), np.uint64) >> np.uint64(32)
+            raise InvalidArgumentError(
+                f"low and high must be 1 to 2**32 apart, not {shown(low)} and {shown(high)}"
+            )
+        if not (low >= -(2**63) and high <= 2**63):
+            raise InvalidArgumentError(f"low and high must be of 64 bits, not {shown(low)}")
+        words = np.asarray(self._bits.random_raw(_shape(size)), np.uint64) >> np.uint64(32)
         return (words * np.uint64(high - low) >> np.uint64(32)).astype(np.int64) + low
 
     def chance(self, probability: float) -> bool:
         """Return True as often as ``probability``, from 0 to 1, says."""
-        return self.uniform() < probability
+        return self.uniform() < fraction(probability, "probability")
 
     def choice(self, items: Sequence[Item]) -> Item:
         """Return one of the items, each as often as the others."""
-        return items[self.integer(0, len(items))]
+        listed = _listed(items)
+        if len(listed) == 0:
+            raise InvalidArgumentError("items must be one or more, not none")
+        return listed[self.integer(0, len(listed))]
 
     def sample(self, items: Sequence[Item], count: int) -> list[Item]:
         """Return some of the items, none twice, in any order."""
-        left = list(items)
-        if not 0 <= count <= len(left):
-            raise InvalidArgumentError(f"{count} of {len(left)} items cannot be taken")
+        left = list(_listed(items))
+        if not 0 <= _whole(count, "count") <= len(left):
+            raise InvalidArgumentError(f"count must be 0 to {len(left)}, not {shown(count)}")
         return [left.pop(self.integer(0, len(left))) for _ in range(count)]
 
     def direction(self) -> NDArray[np.float64]:
@@ -160,3 +172,29 @@ class Generator:
 
     def __repr__(self) -> str:
         return f"Generator({', '.join(map(repr, self._words))})"
+
+
+def _whole(value: int, what: str) -> int:
+    if not isinstance(value, (int, np.integer)):
+        raise InvalidArgumentError(f"{what} must be a whole number, not {shown(value)}")
+    return int(value)
+
+
+def _listed(items: Sequence[Item]) -> Sequence[Item]:
+    if not isinstance(items, Sequence) and not (isinstance(items, np.ndarray) and items.ndim):
+        raise InvalidArgumentError(f"items must be a sequence, not {shown(items)}")
+    return items
+
+
+def _shape(size: int | tuple[int, ...] | None) -> tuple[int, ...] | None:
+    """Check the shape of an array."""
+    if size is None:
+        return None
+    sides = tuple(size) if isinstance(size, (tuple, list)) else (size,)
+    if not all(isinstance(side, (int, np.integer)) and type(side) is not bool for side in sides):
+        raise InvalidArgumentError(f"size must be whole numbers, not {shown(size)}")
+    if any(side < 0 for side in sides):
+        raise InvalidArgumentError(f"size must be whole numbers, 0 or more, not {shown(size)}")
+    if math.prod(map(int, sides)) > _MOST:
+        raise InvalidArgumentError(f"size must be at most {_MOST} numbers, not {shown(size)}")
+    return sides

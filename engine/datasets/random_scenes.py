@@ -13,7 +13,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
-from .._support.validation import choose, positive, vector3
+from .._support.angles import finite_angle
+from .._support.calls import checks_types
+from .._support.numbers import shown
+from .._support.validation import choose, finite, fraction, positive, vector3
 from ..errors import InvalidArgumentError
 from ..materials.material import Material
 from ..materials.textures import Texture
@@ -29,6 +32,7 @@ _TURN = 2.0 * math.pi
 _TRIES = 64  # for a place, before a thing is left out
 
 
+@checks_types
 def random_camera(
     generator: Generator,
     scene: Scene,
@@ -61,6 +65,8 @@ def random_camera(
     pose : (4, 4) float64
         world-from-camera.
     """
+    azimuth, elevation = _angles(azimuth, "azimuth"), _angles(elevation, "elevation")
+    distance, yfov = _limits(distance, "distance"), _limits(yfov, "yfov")
     low, high = scene.bounds
     center = (low + high) * 0.5
     radius = float(linalg.length((high - low) * 0.5)) or 1.0
@@ -72,6 +78,7 @@ def random_camera(
     return PerspectiveCamera(view, znear=near, zfar=away + 1.01 * radius), pose
 
 
+@checks_types
 def random_light(
     generator: Generator,
     *,
@@ -92,6 +99,7 @@ def random_light(
         By how much channels of its colour are less than 1 at most.
     shadow : {False, True, "exact"}
     """
+    elevation, intensity = _angles(elevation, "elevation"), _limits(intensity, "intensity")
     azimuth, height = generator.uniform(0.0, _TURN), generator.uniform(*elevation)
     across = linalg.cos(height)
     towards = linalg.cos(azimuth) * across, linalg.sin(height), linalg.sin(azimuth) * across
@@ -100,6 +108,7 @@ def random_light(
     return DirectionalLight(np.negative(towards), color, strength, shadow=shadow)
 
 
+@checks_types
 def random_pose(
     generator: Generator,
     low: ArrayLike = (0.0, 0.0, 0.0),
@@ -131,6 +140,7 @@ def random_pose(
     return pose
 
 
+@checks_types
 def scatter(
     generator: Generator, radii: Sequence[float], half_size: float
 ) -> list[tuple[float, float] | None]:
@@ -168,6 +178,7 @@ def _overlap(one: tuple[float, float, float], other: tuple[float, float, float])
     return x * x + z * z < reach * reach
 
 
+@checks_types
 def random_texture(generator: Generator, side: int = 64, pattern: str | None = None) -> Texture:
     """Return a texture of two colours in a pattern.
 
@@ -184,7 +195,7 @@ def random_texture(generator: Generator, side: int = 64, pattern: str | None = N
     InvalidArgumentError
     """
     if side not in (2**k for k in range(3, 11)):
-        raise InvalidArgumentError(f"side must be a power of two from 8 to 1024, not {side!r}")
+        raise InvalidArgumentError(f"side must be a power of two from 8 to 1024, not {shown(side)}")
     if pattern is None:
         pattern = generator.choice(PATTERNS)
     choose(pattern, PATTERNS, "pattern")
@@ -219,6 +230,7 @@ def _noise(generator: Generator, x: np.ndarray, y: np.ndarray, cell: int) -> np.
     return (above * (cell - low) + under * low) // (cell * cell)
 
 
+@checks_types
 def random_material(generator: Generator, *, textured: float = 0.5) -> Material:
     """Return a physically based material.
 
@@ -228,6 +240,7 @@ def random_material(generator: Generator, *, textured: float = 0.5) -> Material:
     textured : float
         How often it has a `random_texture`, from 0 to 1; else it has one colour.
     """
+    textured = fraction(textured, "textured")
     metallic = 1.0 if generator.chance(0.25) else 0.0
     roughness = generator.uniform(0.2, 1.0)
     if generator.chance(textured):
@@ -235,3 +248,18 @@ def random_material(generator: Generator, *, textured: float = 0.5) -> Material:
         return Material(texture=texture, metallic=metallic, roughness=roughness)
     color = generator.integers(32, 256, 3).astype(np.uint8)
     return Material(color=color, metallic=metallic, roughness=roughness)
+
+
+def _limits(value: Limits, what: str) -> tuple[float, float]:
+    """Check two numbers."""
+    try:
+        low, high = value
+    except (TypeError, ValueError):
+        raise InvalidArgumentError(f"{what} must be (low, high), not {shown(value)}") from None
+    return finite(low, what), finite(high, what)
+
+
+def _angles(value: Limits, what: str) -> tuple[float, float]:
+    """Check two angles in radians."""
+    low, high = _limits(value, what)
+    return finite_angle(low, what), finite_angle(high, what)

@@ -9,11 +9,13 @@ Source: the format that the COCO API reads (rleToString of its maskApi), written
 
 from __future__ import annotations
 
+import operator
 from typing import TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .._support.calls import checks_types
 from .._support.numbers import as_array, shown
 from ..errors import InvalidArgumentError
 
@@ -55,6 +57,7 @@ def encode_rle(mask: NDArray[np.bool_]) -> Rle:
     return {"size": list(mask.shape), "counts": _packed(runs)}
 
 
+@checks_types
 def decode_rle(rle: Rle) -> NDArray[np.bool_]:
     """Return the mask, (H, W) bool, of what `encode_rle` gave.
 
@@ -63,8 +66,13 @@ def decode_rle(rle: Rle) -> NDArray[np.bool_]:
     InvalidArgumentError
         The runs are not as many pixels as the picture has, or no runs at all.
     """
-    height, width = rle["size"]
-    runs = _unpacked(rle["counts"])
+    try:
+        height, width = map(operator.index, rle["size"])
+        runs = _unpacked(rle["counts"])
+    except (KeyError, TypeError, ValueError):
+        raise InvalidArgumentError(
+            f"rle must be a dict of size, two whole numbers, and counts, a text: {shown(rle)}"
+        ) from None
     if sum(runs) != height * width or any(run < 0 for run in runs):
         raise InvalidArgumentError(f"these are no runs of {width}x{height} pixels")
     inside = np.arange(len(runs)) % 2 == 1

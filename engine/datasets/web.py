@@ -17,6 +17,7 @@ import tarfile
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
+from .._support.calls import checks_types
 from .._support.numbers import shown
 from ..errors import InvalidArgumentError
 from ..files import json_records as records
@@ -54,6 +55,7 @@ class WebDatasetWriter(DatasetWriter):
             raise InvalidArgumentError(f"shard must be a whole number above 0, not {shown(shard)}")
         self.shard = shard
 
+    @checks_types
     def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
         key = f"{UNPACKED}/{sample.index:09d}"
         files = {}
@@ -63,6 +65,7 @@ class WebDatasetWriter(DatasetWriter):
         files[f"{key}.json"] = json_line({"name": sample.name, **said_of(sample)})
         return files, None
 
+    @checks_types
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
         shard: list[Note] = []
         for note in notes:
@@ -75,9 +78,11 @@ class WebDatasetWriter(DatasetWriter):
         with contextlib.suppress(OSError):  # missing, or of pictures that have come since
             os.rmdir(os.path.join(folder, UNPACKED))
 
+    @checks_types
     def beside(self, sample: Sample, end: str) -> str:
         return f"{UNPACKED}/{sample.index:09d}.{end}"
 
+    @checks_types
     def stored(self, folder: str, note: Note, path: str) -> bytes | None:
         data = super().stored(folder, note, path)
         if data is not None:
@@ -88,7 +93,7 @@ class WebDatasetWriter(DatasetWriter):
             with open(shard, "rb") as file:
                 file.seek(start)
                 return file.read(size)
-        except (OSError, KeyError, tarfile.TarError):
+        except (OSError, ValueError, KeyError, tarfile.TarError):
             return None
 
     def _shard_of(self, note: Note) -> str:

@@ -13,6 +13,8 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, NamedTuple, TypeAlias
 
+from .._support.calls import checks_types
+from .._support.numbers import shown
 from ..errors import InvalidArgumentError
 from ..files.atomic_write import AtomicFiles
 from ..files.json_records import Shape, anything
@@ -95,16 +97,19 @@ class DatasetWriter(ABC):
     outputs: tuple[Output, ...] = ("color",)
 
     @abstractmethod
+    @checks_types
     def describe(self, sample: Sample) -> tuple[dict[str, Content], Any]:
         """Return a picture's files, by their paths in the data set, and a note for `finish`.
 
         Those that are `Shared` are made where they are not there yet, or are damaged.
         """
 
+    @checks_types
     def is_whole(self, folder: str, note: Note) -> bool:
         """Return whether the files are there that a picture shares with others."""
         return True
 
+    @checks_types
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
         """Write what belongs to the whole data set; yield the paths of these files in it.
 
@@ -119,6 +124,7 @@ class DatasetWriter(ABC):
             pass
         yield from ()
 
+    @checks_types
     def beside(self, sample: Sample, end: str) -> str:
         """Return where a further file of a picture goes, whose name has this end."""
         return f"extra/{sample.name}.{end}"
@@ -127,6 +133,7 @@ class DatasetWriter(ABC):
         """What tells this writer from others of its kind, in JSON's types."""
         return {"kind": self.kind, **dict(sorted(vars(self).items()))}
 
+    @checks_types
     def stored(self, folder: str, note: Note, path: str) -> bytes | None:
         """Return the bytes of one of a picture's own files; None where they are not there.
 
@@ -142,7 +149,7 @@ class DatasetWriter(ABC):
         try:
             with open(os.path.join(folder, path), "rb") as file:
                 return file.read()
-        except OSError:
+        except (OSError, ValueError):  # a name with a zero byte is a file's nowhere
             return None
 
 
@@ -194,11 +201,12 @@ def checked_categories(names: Sequence[str] | None) -> list[str] | None:
     """Return the names of categories, each once; None where pictures are to tell them."""
     if names is None:
         return None
-    listed = list(names) if not isinstance(names, str) else []
-    if not listed or len(set(listed)) != len(listed):
-        raise InvalidArgumentError("categories must be names, none twice")
-    if not all(isinstance(name, str) and name for name in listed):
-        raise InvalidArgumentError("categories must be names, none empty")
+    listed = list(names) if isinstance(names, Iterable) and not isinstance(names, str) else []
+    are_names = all(isinstance(name, str) and name for name in listed)
+    if not listed or not are_names or len(set(listed)) != len(listed):
+        raise InvalidArgumentError(
+            f"categories must be names, none empty and none twice, not {shown(names)}"
+        )
     return listed
 
 

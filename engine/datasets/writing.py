@@ -8,13 +8,16 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping
 
+from .._support.calls import checks_types
+from .._support.numbers import shown
 from ..errors import InvalidArgumentError
-from ..files.atomic_write import AtomicFiles
+from ..files.atomic_write import AtomicFiles, checked_path
 from ..files.making_folders import make_folder_of
 from .samples import Sample
 from .writer import Content, DatasetWriter, Note, contents, own_files
 
 
+@checks_types
 def write_dataset(
     folder: str | os.PathLike[str], writer: DatasetWriter, samples: Iterable[Sample]
 ) -> list[str]:
@@ -37,8 +40,10 @@ def write_dataset(
     ------
     InvalidArgumentError, FileAccessError
     """
-    root, notes = os.fspath(folder), []
+    root, notes = checked_path(folder), []
     for sample in samples:
+        if not isinstance(sample, Sample):
+            raise InvalidArgumentError(f"samples must be Samples, not {shown(sample)}")
         if notes and sample.index <= notes[-1].index:
             raise InvalidArgumentError(f"samples come in the order of their index: {sample.index}")
         files, said = writer.describe(sample)

@@ -16,8 +16,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._native.loaders import frozen, is_frozen
+from .._support.calls import checks_types
 from .._support.numbers import floats, real, shown
-from .._support.validation import Closed, vector3
+from .._support.validation import Closed, text, vector3
 from ..choices import BuiltInEnvironment
 from ..errors import InvalidArgumentError
 from ..linalg.single import normalize
@@ -73,7 +74,7 @@ class Environment(Closed):
 
     def __init__(self, pixels: ArrayLike, *, name: str = "") -> None:
         self._pixels = _checked(pixels)
-        self._name = str(name)
+        self._name = text(name, "name")
         self._path = None
         self._built_in = None
         self._sun = None
@@ -114,6 +115,7 @@ class Environment(Closed):
         return _made("studio")
 
     @staticmethod
+    @checks_types
     def sky(
         sun_direction: ArrayLike | None = None, turbidity: float = 3.0, *, sun_disc: bool = True
     ) -> Environment:

@@ -11,9 +11,11 @@ type and where they are. Events compare and match by their values::
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeAlias
 
 __all__ = [
     "CloseRequested",
+    "Event",
     "Exposed",
     "FilesDropped",
     "FocusLost",
@@ -173,3 +175,23 @@ class Tick:
 
     dt: float
     time: float
+
+
+#: What `Window.events` returns, and iterating over a window yields.
+Event: TypeAlias = (
+    KeyDown
+    | KeyUp
+    | TextEntered
+    | MouseButton
+    | MouseMotion
+    | MouseLeft
+    | Wheel
+    | Resized
+    | FilesDropped
+    | Exposed
+    | Minimised
+    | Restored
+    | FocusLost
+    | CloseRequested
+    | Tick
+)

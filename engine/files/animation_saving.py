@@ -14,6 +14,8 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from .._support.calls import checks_types
+from .._support.numbers import as_array
 from ..errors import InvalidArgumentError
 from ..rendering.frame import Frame
 from . import animation_files
@@ -21,6 +23,7 @@ from .atomic_write import checked_path
 from .frame_names import frame_name
 
 
+@checks_types
 def save_animation(
     frames: Iterable[Frame | NDArray[np.uint8]],
     path: str | os.PathLike[str],
@@ -72,7 +75,7 @@ def _pictures(frames: Iterable[Frame | NDArray[np.uint8]]) -> Iterator[NDArray[n
     """Yield the pixels of frames, checked."""
     shape = None
     for frame in frames:
-        pixels = frame.color if isinstance(frame, Frame) else np.asarray(frame)
+        pixels = frame.color if isinstance(frame, Frame) else as_array(frame, "a frame")
         if pixels.dtype != np.uint8 or pixels.ndim != 3 or pixels.shape[2] != 4:
             raise InvalidArgumentError(
                 f"a frame must be a Frame or (H, W, 4) uint8, not {pixels.shape} {pixels.dtype}"

@@ -22,6 +22,7 @@ import stat
 from collections.abc import Iterator
 from typing import BinaryIO
 
+from .._support.numbers import shown
 from .._support.system import AT_ONCE, READ_WRITE, WRITE, set_mode, sync_folder
 from ..errors import FileAccessError, InvalidArgumentError
 
@@ -62,10 +63,12 @@ def atomic_write(
 def checked_path(path: str | bytes | os.PathLike) -> str:
     """Return the path of an output file as a string."""
     try:
-        return os.fsdecode(path)
+        decoded = os.fsdecode(path)
     except TypeError:
-        kind = type(path).__name__
-        raise InvalidArgumentError(f"path must be a str or path-like, not {kind}") from None
+        raise InvalidArgumentError(f"path must be a str or path-like, not {shown(path)}") from None
+    if "\0" in decoded:
+        raise FileAccessError("cannot write: the path holds a zero byte", decoded)
+    return decoded
 
 
 class AtomicFiles:

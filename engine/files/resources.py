@@ -14,6 +14,8 @@ import warnings
 from typing import TYPE_CHECKING, Any, NamedTuple
 from weakref import WeakValueDictionary
 
+from .._support.calls import checks_types, shows_annotations
+from .._support.numbers import shown
 from ..errors import Engine3DError, Engine3DWarning, InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..loaders import load_mesh, load_texture
@@ -37,6 +39,7 @@ if TYPE_CHECKING:
     from ..scene.scene import Scene
 
 
+@shows_annotations
 class ResourceStats(NamedTuple):
     """What a `Resources` holds.
 
@@ -57,6 +60,7 @@ class ResourceStats(NamedTuple):
     shared: int
 
 
+@shows_annotations
 class Resource(NamedTuple):
     """One thing that is loaded.
 
@@ -119,7 +123,7 @@ class Resources:
             It is neither a Mesh nor a Texture.
         """
         if not isinstance(thing, (Mesh, Texture)):
-            raise InvalidArgumentError(f"not a Mesh or Texture: {type(thing).__name__}")
+            raise InvalidArgumentError(f"thing must be a Mesh or Texture, not {shown(thing)}")
         with self._lock:
             self._loads += 1
             return self._same(thing)
@@ -174,6 +178,7 @@ class Resources:
             for thing in self._things()
         )
 
+    @checks_types
     def find(self, name: str) -> Mesh | Texture | None:
         """Return the first thing of that name that is held, or None."""
         return next((entry.thing for entry in self.listed() if entry.name == name), None)

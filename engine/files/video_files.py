@@ -2,7 +2,7 @@
 
 In: (H, W, 4) uint8 RGBA arrays. Out: a file, whole or not at all. ffmpeg is a program of its own,
 which the package imageio-ffmpeg brings (``pip install engine3d[video]``); where that is not
-installed, one on the PATH does as well. Alpha is left out: videos have none.
+installed, one on the PATH does as well. Videos have no alpha: what is transparent is refused.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ import numpy as np
 
 from ..errors import Engine3DWarning, FileAccessError, printable
 from .atomic_write import atomic_write
+from .transparency import refuse_transparency
 
 #: Constant quality of x264: 18 can hardly be told from the original.
 QUALITY = 18
@@ -100,6 +101,7 @@ def _feed(command: list[str], pictures: Iterable[np.ndarray], path) -> None:
         )
         try:
             for pixels in pictures:
+                refuse_transparency(pixels, ".mp4")
                 process.stdin.write(_rgb(pixels))
             process.stdin.close()
             status = process.wait()

@@ -6,6 +6,8 @@ shares no memory that anybody can write to, or an `InvalidArgumentError` that sa
 
 from __future__ import annotations
 
+import math
+import sys
 from collections.abc import Callable, Mapping
 from typing import Any, Generic, TypeVar, overload
 
@@ -13,7 +15,7 @@ import numpy as np
 
 from .._native.loaders import frozen, is_frozen
 from .._support.numbers import as_array
-from ..errors import InvalidArgumentError
+from ..errors import InvalidArgumentError, warn
 from ..materials.colors import eight_bit_or_float
 
 _INT32_MAX = 2**31 - 1
@@ -57,6 +59,29 @@ def check_vectors2(value, what: str) -> np.ndarray:
 def check_vectors3(value, what: str) -> np.ndarray:
     """(N, 3) float32."""
     return _frozen(_floats(value, what, 3), np.float32)
+
+
+def check_positions(value, what: str) -> np.ndarray:
+    """(N, 3) float32; warns of what is not finite, but for arrays of loaders, which say it."""
+    array = check_vectors3(value, what)
+    if array is not value:
+        with np.errstate(over="ignore", invalid="ignore"):
+            suspicious = not math.isfinite(np.add.reduce(array.reshape(-1)))
+        if suspicious:  # or too large to be added up
+            broken = int((~np.isfinite(array)).any(axis=1).sum())
+            if broken and not _is_loading():
+                warn(f"{broken} of {len(array)} {what} are not finite: what uses them is not drawn")
+    return array
+
+
+def _is_loading() -> bool:
+    """Whether a loader asks, which has words of its own for what its file holds."""
+    frame = sys._getframe()
+    while frame is not None:
+        if frame.f_globals.get("__name__", "").startswith("engine3d.loaders."):
+            return True
+        frame = frame.f_back
+    return False
 
 
 def check_vectors4(value, what: str) -> np.ndarray:

@@ -46,7 +46,7 @@ def _pose_matrix(pose, number: int) -> np.ndarray:
 def _check_types(mesh_type: type, meshes: list) -> None:
     for mesh in meshes:
         if not isinstance(mesh, mesh_type):
-            raise InvalidArgumentError(f"not a Mesh: {type(mesh).__name__}")
+            raise InvalidArgumentError(f"meshes must be Mesh, not {type(mesh).__name__}")
 
 
 def concatenate(mesh_type: type, meshes: list, name: str):

@@ -16,8 +16,7 @@ import numpy as np
 
 from .. import linalg
 from .._native import loaders as native
-from .._support.numbers import real, shown
-from ..errors import InvalidArgumentError
+from .._support.angles import limited_angle
 from ._splitting import split_mesh
 from .normals import vertex_normals
 
@@ -48,10 +47,7 @@ class Creased(NamedTuple):
 
 def check_crease_angle(value: float, what: str = "crease_angle") -> float:
     """Return an angle, checked."""
-    number = real(value)
-    if not 0.0 <= number <= math.pi:
-        raise InvalidArgumentError(f"{what} must be between 0 and pi radians, not {shown(value)}")
-    return number
+    return limited_angle(value, what, math.pi, "from 0 to pi radians")
 
 
 def has_creases(arrays: dict, angle: float) -> bool:

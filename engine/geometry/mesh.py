@@ -17,9 +17,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._native.loaders import exchange, frozen
+from .._support.calls import checks_types
 from .._support.checked_containers import CheckedDict, CheckedList
 from .._support.dirty_tracking import renew
-from .._support.validation import Closed, own
+from .._support.numbers import shown
+from .._support.validation import Closed, own, text
 from ..errors import InvalidArgumentError
 from ..materials.material import Material
 from . import movers as _movers
@@ -30,6 +32,7 @@ from ._arrays import (
     check_groups,
     check_indices,
     check_pairs,
+    check_positions,
     check_triples,
     check_vectors2,
     check_vectors3,
@@ -59,7 +62,8 @@ class Mesh(Closed):
     Parameters
     ----------
     positions : (V, 3) float
-        Vertices in object space. Not-finite ones are allowed; what uses them is not drawn.
+        Vertices in object space. Not-finite ones are allowed, with a warning; what uses them is not
+        drawn.
     faces : (F, 3) int, optional
         Vertex indices of the triangles.
     normals : (V, 3) float, optional
@@ -128,7 +132,7 @@ class Mesh(Closed):
     name: str
     version: int
     warnings: list[str]
-    positions: _Floats = ArrayAttribute(check_vectors3)
+    positions: _Floats = ArrayAttribute(check_positions)
     faces: _Integers = ArrayAttribute(check_triples)
     uvs: _VertexFloats = VertexAttribute(check_vectors2, fill=0)
     uvs1: _VertexFloats = VertexAttribute(check_vectors2, fill=0)
@@ -169,7 +173,7 @@ class Mesh(Closed):
         crease_angle: float = SMOOTH,
         name: str = "",
     ) -> None:
-        self.name = str(name)
+        self.name = text(name, "name")
         self._take_groups({})
         # Loaders put numbers of the vertices here, (V,) or (V, N) by name: `viewer/scalars.py`
         # colours by them.
@@ -321,6 +325,7 @@ class Mesh(Closed):
         self._groups = CheckedDict(self, _take_changed_groups, frozen_groups)
 
     @classmethod
+    @checks_types
     def concatenate(
         cls,
         meshes: Iterable[Mesh],
@@ -377,6 +382,7 @@ class Mesh(Closed):
         """
         return mesh_with_creases(self)
 
+    @checks_types
     def with_tangents(self, uv_set: int = 0) -> Mesh:
         """Return the mesh with tangents computed from normals and texture coordinates.
 
@@ -447,6 +453,7 @@ class Mesh(Closed):
 
         return mesh_to_trimesh(self)
 
+    @checks_types
     def save(
         self, path: str | os.PathLike[str] | BinaryIO, *, format: str | None = None, **options: Any
     ) -> None:
@@ -465,6 +472,12 @@ class Mesh(Closed):
         """Make plain lists and dicts, which were put in their places, the mesh's own."""
         self._materials = CheckedList(self, _take_materials, self._materials)
         self._take_groups(self._groups)
+
+    def _repr_png_(self) -> bytes | None:
+        """A picture for notebooks; see `thumbnail`."""
+        from ..rendering.thumbnail import thumbnail
+
+        return thumbnail(self)
 
     def __repr__(self) -> str:
         parts = [f"{len(self.positions)} vertices", f"{len(self.faces)} faces"]
@@ -568,8 +581,10 @@ def _take_changed_groups(mesh: Mesh, groups: dict, put: Callable[[dict], None]) 
 def _check_materials(materials: Iterable[Material] | None) -> list[Material]:
     if isinstance(materials, Material):
         raise InvalidArgumentError("materials must be a list of Material, not one Material")
+    if materials is not None and not isinstance(materials, Iterable):
+        raise InvalidArgumentError(f"materials must be a list of Material, not {shown(materials)}")
     materials = [] if materials is None else list(materials)
     for material in materials:
         if not isinstance(material, Material):
-            raise InvalidArgumentError(f"not a Material: {type(material).__name__}")
+            raise InvalidArgumentError(f"materials must be Material, not {shown(material)}")
     return materials or [Material()]

@@ -10,9 +10,9 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._support.validation import Closed
+from .._support.validation import Closed, text
 from ..errors import InvalidArgumentError
-from ._arrays import check_vectors3
+from ._arrays import check_indices, check_vectors3, require_range
 
 _Offsets: TypeAlias = NDArray[np.float32] | None
 
@@ -40,7 +40,7 @@ class MorphTarget(Closed):
         tangents: ArrayLike | None = None,
         name: str = "",
     ) -> None:
-        self._name = str(name)
+        self._name = text(name, "name")
         self._positions = _offsets(positions, "positions")
         self._normals = _offsets(normals, "normals")
         self._tangents = _offsets(tangents, "tangents")
@@ -73,6 +73,8 @@ class MorphTarget(Closed):
 
     def rows(self, numbers: NDArray[np.integer]) -> MorphTarget:
         """Return the target of a mesh whose vertices are those of some rows of this one's."""
+        numbers = check_indices(numbers, "numbers")
+        require_range(numbers, len(self), "numbers", "vertices")
         parts = (self._positions, self._normals, self._tangents)
         return MorphTarget(*(None if p is None else p[numbers] for p in parts), name=self._name)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .._support.numbers import shown
 from ..errors import InvalidArgumentError
 from ..loaders.far_coordinates import moved_near
 from ..loaders.images import check_image_size, made_pixels
@@ -66,7 +67,7 @@ def _mesh(geometry, name: str, textures: _Textures, positions: np.ndarray | None
     """The mesh of a Trimesh, a PointCloud or a Path; its vertices may stand elsewhere."""
     if positions is None:
         positions = np.asarray(getattr(geometry, "vertices", ()), np.float64)
-    if hasattr(geometry, "faces"):
+    if hasattr(geometry, "faces") and hasattr(geometry, "visual"):
         return _triangle_mesh(geometry, name, textures, positions)
     if hasattr(geometry, "entities"):
         return _path_mesh(geometry, name, positions)
@@ -74,7 +75,7 @@ def _mesh(geometry, name: str, textures: _Textures, positions: np.ndarray | None
         colors = getattr(geometry, "colors", None)
         colors = None if colors is None or len(colors) != len(positions) else _bytes(colors)
         return Mesh(positions, colors=colors, points=np.arange(len(positions)), name=name)
-    raise InvalidArgumentError(f"not a geometry of trimesh: {type(geometry).__name__}")
+    raise InvalidArgumentError(f"geometry must be one of trimesh, not {shown(geometry)}")
 
 
 def _triangle_mesh(geometry, name: str, textures: _Textures, positions: np.ndarray) -> Mesh:

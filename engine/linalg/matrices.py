@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._native.scene_graph import invert
+from .._support.angles import finite_angle
 from .._support.numbers import floats
 from ..errors import InvalidArgumentError
 from . import single
@@ -43,13 +44,13 @@ def translation(offset: npt.ArrayLike) -> FloatArray:
 def scaling(factors: npt.ArrayLike) -> FloatArray:
     """Return the matrix that scales by one factor, or by three along x, y and z."""
     matrix = np.eye(4)
-    matrix[[0, 1, 2], [0, 1, 2]] = _three_factors(factors)
+    matrix[[0, 1, 2], [0, 1, 2]] = _three_factors("factors", factors)
     return matrix
 
 
-def _three_factors(factors: npt.ArrayLike) -> FloatArray:
-    factors = floats(factors, "scale")
-    return _three("scale", np.broadcast_to(factors, (3,)) if factors.ndim == 0 else factors)
+def _three_factors(name: str, factors: npt.ArrayLike) -> FloatArray:
+    factors = floats(factors, name)
+    return _three(name, np.broadcast_to(factors, (3,)) if factors.ndim == 0 else factors)
 
 
 def _three(name: str, values: npt.ArrayLike) -> FloatArray:
@@ -63,6 +64,7 @@ def _three(name: str, values: npt.ArrayLike) -> FloatArray:
 def _plane_rotation(first: int, second: int, angle: float) -> FloatArray:
     """Rotate the axis `first` towards the axis `second`."""
     matrix = np.eye(4)
+    angle = finite_angle(angle, "angle")
     c, s = cos(angle), sin(angle)
     matrix[first, first] = matrix[second, second] = c
     matrix[first, second], matrix[second, first] = -s, s
@@ -285,8 +287,8 @@ def compose(
     InvalidArgumentError
         If a shape is wrong or the quaternion is null.
     """
-    matrix = quaternion_to_matrix(rotation)
-    matrix[:3, :3] = matrix[:3, :3] * _three_factors(scale)
+    matrix = quaternion_to_matrix(as_vectors("rotation", rotation, 4))
+    matrix[:3, :3] = matrix[:3, :3] * _three_factors("scale", scale)
     matrix[:3, 3] = _three("offset", offset)
     return matrix
 

@@ -12,7 +12,10 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from .._support.numbers import floats, real, shown
+from .._support.angles import angles as angles_of
+from .._support.angles import finite_angle
+from .._support.numbers import floats, shown
+from .._support.validation import finite
 from ..choices import EulerOrder
 from ..errors import InvalidArgumentError
 from . import single
@@ -54,12 +57,14 @@ def quaternion_from_axis_angle(axis: npt.ArrayLike, angle: float) -> FloatArray:
     InvalidArgumentError
         If the axis has length zero.
     """
-    unit = normalize(axis)
+    unit = normalize(as_vectors("axis", axis))
     if unit.shape != (3,) or not np.any(unit):
-        raise InvalidArgumentError("axis must be one vector of shape (3,), not null")
-    if not math.isfinite(real(angle)):
-        raise InvalidArgumentError(f"angle must be a finite number, not {shown(angle)}")
-    half = 0.5 * real(angle)
+        raise InvalidArgumentError(f"axis must be one vector of shape (3,), not {shown(axis)}")
+    return _turn(unit, finite_angle(angle, "angle"))
+
+
+def _turn(unit: FloatArray, angle: float) -> FloatArray:
+    half = 0.5 * angle
     return np.append(unit * sin(half), cos(half))
 
 
@@ -199,12 +204,17 @@ def euler_to_quaternion(angles: npt.ArrayLike, order: EulerOrder = "XYZ") -> Flo
     InvalidArgumentError
         If the order isn't a permutation of XYZ or the shape is wrong.
     """
-    angles = as_vectors("angles", angles)
-    if angles.shape != (3,):
-        raise InvalidArgumentError(f"angles must have shape (3,), not {angles.shape}")
+    checked = as_vectors("angles", angles_of(angles, "angles"))
+    if checked.shape != (3,):
+        raise InvalidArgumentError(f"angles must have shape (3,), not {checked.shape}")
+    return quaternion_of_turns(checked, order)
+
+
+def quaternion_of_turns(angles: FloatArray, order: EulerOrder = "XYZ") -> FloatArray:
+    """Return what `euler_to_quaternion` does, of checked angles."""
     result = np.array((0.0, 0.0, 0.0, 1.0))
     for axis in _axes_of(order):
-        turn = quaternion_from_axis_angle(np.eye(3)[axis], angles[axis])
+        turn = _turn(np.eye(3)[axis], finite(float(angles[axis]), "angles"))
         result = quaternion_multiply(result, turn)
     return result
 
@@ -250,6 +260,6 @@ def quaternion_to_euler(q: npt.ArrayLike, order: EulerOrder = "XYZ") -> FloatArr
 
 
 def _axes_of(order: str) -> list[int]:
-    if sorted(order) != ["X", "Y", "Z"]:
-        raise InvalidArgumentError(f"order must be a permutation of 'XYZ', not {order!r}")
+    if not isinstance(order, str) or sorted(order) != ["X", "Y", "Z"]:
+        raise InvalidArgumentError(f"order must be a permutation of 'XYZ', not {shown(order)}")
     return ["XYZ".index(name) for name in order]

@@ -16,7 +16,9 @@ from typing import overload
 import numpy as np
 import numpy.typing as npt
 
-from .._support.numbers import floats
+from .._support.numbers import floats, shown
+from .._support.validation import whole_number
+from ..errors import InvalidArgumentError
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -26,6 +28,7 @@ _HALF_PI_HIGH = float.fromhex("0x1.921fb544p+0")
 _HALF_PI_MIDDLE = float.fromhex("0x1.0b4611a6p-34")
 _HALF_PI_LOW = float.fromhex("0x1.3198a2e037073p-69")
 _REDUCTION_LIMIT = 2.0**20
+_MOST_POINTS = 2**24  # of a circle
 
 # Coefficients of x**3, x**5, ... and of x**4, x**6, ...; the first term left out is below 2**-60.
 _SINE_TERMS = tuple((-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9))
@@ -196,8 +199,14 @@ def atan2(y: npt.ArrayLike, x: npt.ArrayLike) -> FloatArray | float:
     float or ndarray of float64
         Radians in [-pi, pi]; 0 for the null vector. A float if both arguments are scalars.
     """
-    scalar = np.ndim(y) == 0 and np.ndim(x) == 0
-    y, x = np.broadcast_arrays(np.asarray(y, np.float64), np.asarray(x, np.float64))
+    y, x = floats(y, "y"), floats(x, "x")
+    if not (np.isfinite(y).all() and np.isfinite(x).all()):
+        raise InvalidArgumentError(f"y and x must be finite: {shown(y)}, {shown(x)}")
+    scalar = y.ndim == 0 and x.ndim == 0
+    try:
+        y, x = np.broadcast_arrays(y, x)
+    except ValueError:
+        raise InvalidArgumentError(f"y and x do not go together: {y.shape}, {x.shape}") from None
     rise, run = np.abs(y), np.abs(x)
     long = np.maximum(rise, run)
     slope = np.minimum(rise, run) / np.where(long == 0.0, 1.0, long)
@@ -230,6 +239,7 @@ def unit_circle(count: int) -> tuple[FloatArray, FloatArray]:
     x, y : ndarray of float64, shape (count,)
         Cosines and sines.
     """
+    count = whole_number(count, "count", 1, _MOST_POINTS)
     eighths = 8 * np.arange(count)  # the angle in units of 1/count of an octant
     octant, position = np.divmod(eighths, count)
     folded = np.where(octant % 2 == 1, count - position, position)

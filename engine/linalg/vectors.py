@@ -82,6 +82,7 @@ def cross(a: npt.ArrayLike, b: npt.ArrayLike) -> FloatArray:
 
 def length(v: npt.ArrayLike) -> Any:
     """Return the Euclidean lengths of vectors, shape (..., 3) to shape (...)."""
+    v = as_vectors("v", v)
     return np.sqrt(dot(v, v))
 
 

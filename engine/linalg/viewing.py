@@ -11,7 +11,9 @@ import math
 import numpy as np
 import numpy.typing as npt
 
+from .._support.angles import field_of_view
 from .._support.numbers import real
+from .._support.validation import finite, positive
 from ..errors import InvalidArgumentError
 from . import single
 from .trigonometry import tan
@@ -93,9 +95,8 @@ def perspective(yfov: float, aspect: float, znear: float, zfar: float | None = N
     InvalidArgumentError
         If an argument is out of its range.
     """
-    yfov, aspect, znear = real(yfov), real(aspect), real(znear)
-    if not 0.0 < yfov < math.pi:
-        raise InvalidArgumentError(f"yfov must be between 0 and pi radians, not {yfov}")
+    yfov = field_of_view(yfov)
+    aspect, znear = real(aspect), real(znear)
     if not 0.0 < aspect < math.inf:
         raise InvalidArgumentError(f"aspect must be greater than 0, not {aspect}")
     if not 0.0 < znear < math.inf:
@@ -140,9 +141,9 @@ def orthographic(xmag: float, ymag: float, znear: float, zfar: float) -> FloatAr
     InvalidArgumentError
         If an argument is out of its range.
     """
-    if not (0.0 < xmag < math.inf and 0.0 < ymag < math.inf):
-        raise InvalidArgumentError(f"xmag and ymag must be greater than 0, not {xmag}, {ymag}")
-    if not -math.inf < znear < zfar < math.inf:
+    xmag, ymag = positive(xmag, "xmag"), positive(ymag, "ymag")
+    znear, zfar = finite(znear, "znear"), finite(zfar, "zfar")
+    if not znear < zfar:
         raise InvalidArgumentError(f"znear must be less than zfar, not {znear}, {zfar}")
     matrix = np.eye(4)
     matrix[0, 0] = 1.0 / xmag

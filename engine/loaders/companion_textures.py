@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 
+from .._support.calls import checks_types
 from ..errors import Engine3DError
 from ..files.picture_mark import MARKED_BYTES, is_own_picture
 from .linked_files import LinkedFileError, LinkedFiles
@@ -20,6 +21,7 @@ _SUFFIXES = ("_diffuse", "_texture", "_color", "_albedo", "_basecolor")
 _PREFERRED = (".tga", ".png", ".jpg", ".jpeg")
 
 
+@checks_types
 def companion_texture(
     path: str | os.PathLike, accept: Callable[[str], bool] | None = None
 ) -> str | None:
@@ -39,8 +41,8 @@ def companion_texture(
         ``head_color``, ``head_albedo``, ``head_basecolor``, each as TGA, PNG, JPEG and then the
         other formats. A TGA file that engine3d wrote is none.
     """
-    folder = os.path.dirname(os.fspath(path))
-    stem = stem_and_extension(os.fspath(path))[0]
+    path = os.fsdecode(path)
+    folder, stem = os.path.dirname(path), stem_and_extension(path)[0]
     try:
         present = {entry.lower(): entry for entry in sorted(os.listdir(folder or "."))}
     except (OSError, ValueError):

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from .._support.calls import checks_types
 from ..errors import Engine3DWarning, FileFormatError, InvalidArgumentError
 from ..geometry.creases import CREASE_ANGLE, check_crease_angle
 from ..geometry.mesh import Mesh
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 Progress = Callable[[float], object]
 
 
+@checks_types
 def load_mesh(
     path: File,
     *,
@@ -88,6 +90,7 @@ def load_mesh(
     return whole_mesh(document, source, format)
 
 
+@checks_types
 def load_document(
     path: File,
     *,
@@ -163,6 +166,7 @@ def _remember(mesh: Mesh, document: Document, source: Source, format: str | None
         remember_origin(mesh, origin)
 
 
+@checks_types
 def load_texture(
     path: File, *, format: str | None = None, **options: Unpack[TextureOptions]
 ) -> Texture:

@@ -13,6 +13,7 @@ import importlib
 from collections.abc import Callable
 from typing import NamedTuple
 
+from .._support.calls import checks_types
 from ..errors import FileFormatError, InvalidArgumentError
 from .sources import Source
 
@@ -73,6 +74,7 @@ def readers() -> tuple[Reader, ...]:
     return tuple(sorted(found, key=lambda reader: reader.name))
 
 
+@checks_types
 def formats(kind: str | None = None) -> list[Format]:
     """Return the formats that can be read.
 

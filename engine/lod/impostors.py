@@ -15,9 +15,11 @@ from numpy.typing import NDArray
 
 from .. import linalg
 from .._native.loaders import frozen
+from .._support.numbers import as_array
 from .._support.validation import Closed
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
+from ..linalg.vectors import as_vectors
 from ..materials.colors import srgb_bytes
 from ..materials.material import Material
 from ..materials.textures import Texture
@@ -68,7 +70,7 @@ class Impostor(Closed):
 
     def __init__(self, mesh: Mesh, *, views: int = 6, texels: int = 16) -> None:
         if not isinstance(mesh, Mesh):
-            raise InvalidArgumentError(f"not a Mesh: {type(mesh).__name__}")
+            raise InvalidArgumentError(f"mesh must be a Mesh, not {type(mesh).__name__}")
         if not (isinstance(views, int) and 2 <= views <= 16):
             raise InvalidArgumentError(f"views must be a whole number from 2 to 16, not {views!r}")
         if not (isinstance(texels, int) and 8 <= texels <= 128 and texels % _CELLS == 0):
@@ -104,7 +106,14 @@ class Impostor(Closed):
         last : (N,) int
             What it was, or -1: it is kept until another one is clearly nearer.
         """
-        unit = linalg.normalize(towards)
+        unit = linalg.normalize(as_vectors("towards", towards))
+        last = as_array(last, "last")
+        if unit.ndim != 2 or last.shape != unit.shape[:1] or last.dtype.kind not in "iu":
+            raise InvalidArgumentError(
+                f"last must be ({len(unit)},) whole numbers, not {last.shape} {last.dtype}"
+            )
+        if not ((last >= -1) & (last < len(self.directions))).all():
+            raise InvalidArgumentError(f"last must be in -1..{len(self.directions) - 1}")
         likeness = np.stack([linalg.dot(unit, d) for d in self.directions], axis=1)
         best = likeness.argmax(axis=1)
         rows = np.arange(len(unit))

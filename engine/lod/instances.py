@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
 from .._native.loaders import frozen
-from .._support.numbers import real
+from .._support.calls import checks_types
+from .._support.numbers import real, shown
 from .._support.validation import Closed
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
@@ -86,7 +87,7 @@ class DetailedInstances(Closed):
         self.levels = _made_levels(levels) if isinstance(levels, Mesh) else _checked(levels)
         check_limits(hysteresis, pixels=pixels, impostor_pixels=impostor_pixels)
         if impostor is not None and not isinstance(impostor, Impostor):
-            raise InvalidArgumentError(f"not an Impostor: {type(impostor).__name__}")
+            raise InvalidArgumentError(f"impostor must be an Impostor, not {shown(impostor)}")
         self.pixels, self.hysteresis = float(pixels), float(hysteresis)
         mesh = self.levels[0][0]
         self._center, self._radius = bounding_ball(mesh)
@@ -105,6 +106,7 @@ class DetailedInstances(Closed):
         self.instances = (finest, *others)
         self._nodes: list[Node] = []
 
+    @checks_types
     def add_to(self, scene: Scene, *, name: str = "", parent: Node | None = None) -> Node:
         """Add a node for each level to a scene; returns the node that groups them.
 

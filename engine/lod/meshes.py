@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
 from .._native.loaders import frozen
+from .._support.calls import checks_types
 from .._support.numbers import real
 from .._support.validation import Closed
 from ..errors import InvalidArgumentError
@@ -70,6 +71,7 @@ class DetailedMeshes(Closed):
         self._group: Node | None = None
         self._nodes: list[list[Node]] = []  # of each mesh, one per level
 
+    @checks_types
     def add_to(self, scene: Scene, *, name: str = "", parent: Node | None = None) -> Node:
         """Add all to a scene, once; returns the node that groups them.
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from .. import linalg
+from .._support.calls import checks_types
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..geometry.vertex_attributes import attributes_of, vertex_attributes
@@ -18,6 +19,7 @@ from ..geometry.vertex_attributes import attributes_of, vertex_attributes
 _ATTRIBUTES = ("normals", *vertex_attributes(Mesh))
 
 
+@checks_types
 def simplify(mesh: Mesh, ratio: float) -> tuple[Mesh, float]:
     """Return a mesh of fewer triangles, and how far it is from the old one.
 
@@ -47,7 +49,7 @@ def simplify(mesh: Mesh, ratio: float) -> tuple[Mesh, float]:
         There is no fast-simplification.
     """
     if not isinstance(mesh, Mesh):
-        raise InvalidArgumentError(f"not a Mesh: {type(mesh).__name__}")
+        raise InvalidArgumentError(f"mesh must be a Mesh, not {type(mesh).__name__}")
     if not 0.0 < ratio <= 1.0:
         raise InvalidArgumentError(f"ratio must be more than 0 and at most 1, not {ratio!r}")
     vertex_of, first = _equal_vertices(mesh)

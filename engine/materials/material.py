@@ -12,6 +12,7 @@ import math
 from dataclasses import replace
 from typing import Any, TypeAlias, get_args
 
+from .._support.angles import finite_angle
 from .._support.held_values import kept
 from .._support.numbers import real, shown
 from .._support.validation import (
@@ -21,10 +22,12 @@ from .._support.validation import (
     NumberAttribute,
     OptionalNumberAttribute,
     finite,
+    flag,
     fraction,
     not_negative,
     one_of,
     optional_fraction,
+    text,
 )
 from ..choices import AlphaMode, Color, ColorLike, SurfaceColor
 from ..errors import InvalidArgumentError
@@ -209,13 +212,13 @@ class Material(Closed):
     specular: ColorAttribute = CheckedAttribute(check_color)
     shininess: NumberAttribute = CheckedAttribute(not_negative)
     emissive: ColorAttribute = CheckedAttribute(check_color)
-    two_sided: _Flag = CheckedAttribute(lambda value, what: bool(value))
-    flat_shading: _Flag = CheckedAttribute(lambda value, what: bool(value))
-    name: CheckedAttribute[str, str] = CheckedAttribute(lambda value, what: str(value))
+    two_sided: _Flag = CheckedAttribute(flag)
+    flat_shading: _Flag = CheckedAttribute(flag)
+    name: CheckedAttribute[str, str] = CheckedAttribute(text)
     extras: CheckedAttribute[dict[str, Any], dict[str, Any]] = CheckedAttribute(_check_dict)
     metallic: OptionalNumberAttribute = CheckedAttribute(optional_fraction)
     roughness: OptionalNumberAttribute = CheckedAttribute(optional_fraction)
-    unlit: _Flag = CheckedAttribute(lambda value, what: bool(value))
+    unlit: _Flag = CheckedAttribute(flag)
     alpha_mode: CheckedAttribute[AlphaMode, AlphaMode] = CheckedAttribute(one_of(ALPHA_MODES))
     alpha_cutoff: NumberAttribute = CheckedAttribute(not_negative)
     normal_scale: NumberAttribute = CheckedAttribute(finite)
@@ -247,7 +250,7 @@ class Material(Closed):
     transmission_texture: TextureSlot = TextureSlot(is_color=False)
     thickness_texture: TextureSlot = TextureSlot(is_color=False)
     anisotropy: NumberAttribute = CheckedAttribute(fraction)
-    anisotropy_rotation: NumberAttribute = CheckedAttribute(finite)
+    anisotropy_rotation: NumberAttribute = CheckedAttribute(finite_angle)
     iridescence: NumberAttribute = CheckedAttribute(fraction)
     iridescence_ior: NumberAttribute = CheckedAttribute(_check_film_ior)
     iridescence_thickness_minimum: NumberAttribute = CheckedAttribute(not_negative)

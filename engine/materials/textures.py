@@ -18,9 +18,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._native.loaders import frozen, is_frozen
+from .._support.angles import finite_angle
+from .._support.calls import hints_keywords
 from .._support.dirty_tracking import renew
 from .._support.numbers import as_array, real, shown
-from .._support.validation import CheckedAttribute, Closed, choose, one_of
+from .._support.validation import CheckedAttribute, Closed, choose, one_of, text, whole_number
 from ..choices import ColorSpace, Filter, Wrap
 from ..errors import InvalidArgumentError
 from ..linalg import cos, sin
@@ -134,7 +136,7 @@ class Texture(Closed):
         self.color_space = color_space
         self.filter = filter
         self.wrap = wrap
-        self.name = str(name)
+        self.name = text(name, "name")
         self.anisotropy = anisotropy
         self.lod_bias = lod_bias
 
@@ -168,6 +170,7 @@ class Texture(Closed):
 UV_SETS = 2  # of a mesh: `uvs` and `uvs1`
 
 
+@hints_keywords
 @dataclass(frozen=True)
 class PlacedTexture:
     """A texture in a slot of a material, with the coordinates that it is read at.
@@ -210,16 +213,11 @@ class PlacedTexture:
     ) -> None:
         if not isinstance(texture, Texture):
             raise InvalidArgumentError(f"texture must be a Texture: {type(texture).__name__}")
-        if uv_set not in range(UV_SETS):
-            raise InvalidArgumentError(f"uv_set must be 0 or 1, not {shown(uv_set)}")
-        angle = real(rotation)
-        if not math.isfinite(angle):
-            raise InvalidArgumentError(f"rotation must be finite, not {shown(rotation)}")
         self.__dict__.update(
             texture=texture,
-            uv_set=int(uv_set),
+            uv_set=whole_number(uv_set, "uv_set", 0, UV_SETS - 1),
             offset=_two(offset, "offset"),
-            rotation=angle,
+            rotation=finite_angle(rotation, "rotation"),
             scale=_two(scale, "scale"),
         )
 

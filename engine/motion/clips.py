@@ -12,7 +12,7 @@ from typing import get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._support.validation import Closed, choose
+from .._support.validation import Closed, choose, text
 from ..choices import Interpolation, MotionPath
 from ..errors import InvalidArgumentError
 from ..scene.nodes import Node
@@ -113,7 +113,7 @@ class AnimationClip(Closed):
             if not isinstance(channel, (Channel, PropertyChannel)):
                 kind = type(channel).__name__
                 raise InvalidArgumentError(f"channels must be several Channel, not {kind}")
-        self._name = str(name)
+        self._name = text(name, "name")
         self._duration = max((float(c.times[-1]) for c in self._channels), default=0.0)
 
     @property

@@ -12,7 +12,8 @@ from typing import get_args
 
 import numpy as np
 
-from .._support.numbers import real
+from .._support.calls import checks_types
+from .._support.numbers import real, shown
 from .._support.validation import Closed, choose, finite, not_negative
 from ..choices import Loop
 from ..errors import InvalidArgumentError
@@ -99,6 +100,7 @@ class AnimationPlayer(Closed):
     def loop(self, value: Loop) -> None:
         self._loop = choose(value, LOOPS, "loop")
 
+    @checks_types
     def play(
         self,
         clip: str | int | AnimationClip | Iterable[AnimationClip] | None = None,
@@ -163,22 +165,25 @@ class AnimationPlayer(Closed):
 
     def _find(self, clip) -> tuple[AnimationClip, ...]:
         if isinstance(clip, Iterable) and not isinstance(clip, str):
-            found = tuple(each for one in clip for each in self._find(one))
+            found = tuple(self._find_one(one) for one in clip)
             if not found:
                 raise InvalidArgumentError("play() needs a clip")
             return found
+        return (self._find_one(clip),)
+
+    def _find_one(self, clip) -> AnimationClip:
         if isinstance(clip, AnimationClip) and clip in self._clips:
-            return (clip,)
+            return clip
         if isinstance(clip, str):
             named = [each for each in self._clips if each.name == clip]
             named = [self._scene.animations.get(clip), *named]
             named = [each for each in named if each in self._clips]
             if named:
-                return (named[0],)
+                return named[0]
         elif isinstance(clip, int) and 0 <= clip < len(self._clips):
-            return (self._clips[clip],)
+            return self._clips[clip]
         names = ", ".join(repr(each.name) for each in self._clips)
-        raise InvalidArgumentError(f"there is no clip {clip!r}; there are {names or 'none'}")
+        raise InvalidArgumentError(f"there is no clip {shown(clip)}; there are {names or 'none'}")
 
     def _move(self) -> None:
         if self._layers:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._native.loaders import frozen
 from .._support.numbers import floats
-from .._support.validation import Closed
+from .._support.validation import Closed, text
 from ..errors import InvalidArgumentError
 from ..scene.nodes import Node
 
@@ -47,7 +47,7 @@ class Skin(Closed):
             poses = np.array([joint.world_pose for joint in self._joints])
             inverse_binds = linalg.inverse(poses)
         self._inverse_binds = _check_binds(inverse_binds, len(self._joints))
-        self._name = str(name)
+        self._name = text(name, "name")
 
     @property
     def joints(self) -> tuple[Node, ...]:

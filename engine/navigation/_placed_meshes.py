@@ -38,9 +38,7 @@ def placed_meshes(thing) -> list[tuple[Mesh, np.ndarray]]:
 
 def _checked(item):
     if not isinstance(item, (Mesh, InstancedMesh)):
-        raise InvalidArgumentError(
-            f"a navigation grid is made of meshes, not {type(item).__name__}"
-        )
+        raise InvalidArgumentError(f"thing must be a scene or meshes, not {type(item).__name__}")
     return item
 
 

@@ -16,7 +16,9 @@ from numpy.typing import ArrayLike
 from .. import linalg
 from .._native import navigation as _native
 from .._native.loaders import frozen
-from .._support.numbers import floats, real
+from .._support.angles import limited_angle
+from .._support.calls import checks_types
+from .._support.numbers import floats, real, shown
 from .._support.validation import Closed, not_negative
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
@@ -104,8 +106,9 @@ class NavigationGrid(Closed):
     ) -> None:
         placed = placed_meshes(thing)
         self.cell, self.step, self.headroom = _sizes(cell, step, headroom)
-        if not 0.0 <= real(max_slope) < math.pi / 2:
-            raise InvalidArgumentError(f"max_slope must be from 0 to a quarter turn: {max_slope!r}")
+        words = "from 0 to less than pi/2 radians"
+        if limited_angle(max_slope, "max_slope", math.pi / 2, words) == math.pi / 2:
+            raise InvalidArgumentError(f"max_slope must be {words}, not {shown(max_slope)}")
         radius = not_negative(radius, "radius")
         low, high = _area(placed, bounds)
         self.origin = low
@@ -122,6 +125,8 @@ class NavigationGrid(Closed):
         native = _native.NativeGrid(
             *low.tolist(), self.cell, columns, rows, least, self.step, self.headroom, radius
         )
+        for choice, what in ((walkable, "walkable"), (ignore, "ignore")):
+            _check_choice(choice, what)
         kinds = [_kinds(mesh.materials, walkable, ignore) for mesh, _ in placed]
         for ground in (True, False):
             for (mesh, pose), kind in zip(placed, kinds, strict=True):
@@ -191,6 +196,7 @@ class NavigationGrid(Closed):
             found[some[low]], heights[some[low]] = layer[low], height[low]
         return found, heights
 
+    @checks_types
     def standing(self, row: int, column: int, x: float, z: float, y: float) -> int | None:
         """Return the layer of a cell on which one can stand, or None.
 
@@ -202,18 +208,33 @@ class NavigationGrid(Closed):
             A point, in or near the cell. The layer counts that is nearest in height, if it is a
             step away at most.
         """
+        return self._standing(row, column, real(x), real(z), real(y))
+
+    def _standing(self, row: int, column: int, x: float, z: float, y: float) -> int | None:
         if not (0 <= row < self.shape[0] and 0 <= column < self.shape[1]):
             return None
         cell = row * self.shape[1] + column
         found, nearest = None, self.step
         for layer in range(int(self.starts[cell]), int(self.starts[cell + 1])):
-            distance = abs(self.height(layer, row, column, x, z) - y)
+            distance = abs(self._height(layer, row, column, x, z) - y)
             if distance <= nearest:
                 found, nearest = layer, distance
         return found if found is not None and self.walkable[found] else None
 
+    @checks_types
     def height(self, layer: int, row: int, column: int, x: float, z: float) -> float:
-        """Return how high the plane of a cell's layer is at a point."""
+        """Return how high the plane of a cell's layer is at a point.
+
+        Raises
+        ------
+        InvalidArgumentError
+            There is no such layer, or an argument is no number.
+        """
+        if not 0 <= layer < len(self.heights):
+            raise InvalidArgumentError(f"layer must be in 0..{len(self.heights) - 1}, not {layer}")
+        return self._height(int(layer), real(row), real(column), real(x), real(z))
+
+    def _height(self, layer: int, row: int, column: int, x: float, z: float) -> float:
         dx = x - (float(self.origin[0]) + (column + 0.5) * self.cell)
         dz = z - (float(self.origin[1]) + (row + 0.5) * self.cell)
         slopes = float(self._slope_x[layer]), float(self._slope_z[layer])
@@ -257,6 +278,17 @@ def _kinds(materials: list[Material], walkable: Choice, ignore: Choice) -> np.nd
         for material in materials
     ]
     return np.array(kinds, np.uint8)
+
+
+def _check_choice(choice: Choice, what: str) -> None:
+    """Raise unless it chooses materials."""
+    if choice is None or callable(choice):
+        return
+    several = isinstance(choice, Collection) and not isinstance(choice, (str, bytes))
+    if not several or not all(isinstance(name, str) for name in choice):
+        raise InvalidArgumentError(
+            f"{what} must be names of materials, or a function of a Material, not {shown(choice)}"
+        )
 
 
 def _chosen(material: Material, choice: Choice, default: bool = False) -> bool:

@@ -13,6 +13,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from .._support.calls import checks_types
 from .._support.numbers import real
 from .._support.validation import Closed, finite
 from ..errors import InvalidArgumentError
@@ -62,6 +63,7 @@ class Walker(Closed):
     z: float
     eye_height: float
 
+    @checks_types
     def __init__(
         self,
         grid: NavigationGrid,
@@ -87,6 +89,7 @@ class Walker(Closed):
         """Where the eyes are, (3,) float64."""
         return np.array([self.x, self.y + self.eye_height, self.z])
 
+    @checks_types
     def move(self, dx: float, dz: float) -> bool:
         """Go by (dx, dz), or along what blocks the way; returns whether that was anywhere."""
         dx, dz = real(dx), real(dz)
@@ -116,7 +119,7 @@ class Walker(Closed):
         self._surveyed = self.x, self.z
         grid = self._survey(self.x, self.z)
         column, row = _cell(grid, self.x, self.z)
-        layer = grid.standing(row, column, self.x, self.z, self.y)
+        layer = grid._standing(row, column, self.x, self.z, self.y)
         if layer is not None:
             self.grid, self._layer = grid, layer
 
@@ -127,17 +130,17 @@ class Walker(Closed):
         x, z = self.x + dx, self.z + dz
         layer, y = self._layer, self._ground(x, z)
         for row, column in _cells_between(self.grid, self.x, self.z, x, z):
-            layer = self.grid.standing(row, column, x, z, y)
+            layer = self.grid._standing(row, column, x, z, y)
             if layer is None:
                 return False
-            y = self.grid.height(layer, row, column, x, z)
+            y = self.grid._height(layer, row, column, x, z)
         self.x, self.y, self.z, self._layer = x, y, z, layer
         return True
 
     def _ground(self, x: float, z: float) -> float:
         """How high the ground that the feet are on would be at a point near by."""
         column, row = _cell(self.grid, self.x, self.z)
-        return self.grid.height(self._layer, row, column, x, z)
+        return self.grid._height(self._layer, row, column, x, z)
 
     def __repr__(self) -> str:
         return f"Walker(x={self.x:g}, y={self.y:g}, z={self.z:g})"

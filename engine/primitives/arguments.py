@@ -13,6 +13,7 @@ from typing import Any, ParamSpec
 
 import numpy as np
 
+from .._support.calls import hinted
 from .._support.numbers import as_array, shown
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
@@ -31,19 +32,19 @@ def positive(name: str, value: Any) -> float:
             raise TypeError
         number = float(value)
     except (TypeError, ValueError, OverflowError):
-        raise InvalidArgumentError(f"{name} must be a number, not {value!r}") from None
+        raise InvalidArgumentError(f"{name} must be a number, not {shown(value)}") from None
     if not (0.0 < number < float("inf")):
-        raise InvalidArgumentError(f"{name} must be finite and greater than 0, not {value!r}")
+        raise InvalidArgumentError(f"{name} must be finite and greater than 0, not {shown(value)}")
     return number
 
 
 def positives(name: str, values: Any, count: int) -> tuple[float, ...]:
     """Return `count` positive numbers; one number stands for all."""
-    values = as_array(values, name)
+    given, values = values, as_array(values, name)
     if values.ndim == 0:
         return (positive(name, values.item()),) * count
     if values.shape != (count,):
-        raise InvalidArgumentError(f"{name} must be one number or {count}, not {shown(values)}")
+        raise InvalidArgumentError(f"{name} must be one number or {count}, not {shown(given)}")
     return tuple(positive(name, value) for value in values)
 
 
@@ -52,17 +53,17 @@ def integer(name: str, value: Any, least: int, most: int) -> int:
     try:
         number = operator.index(value)
     except TypeError:
-        raise InvalidArgumentError(f"{name} must be an integer, not {value!r}") from None
+        raise InvalidArgumentError(f"{name} must be an integer, not {shown(value)}") from None
     if not least <= number <= most:
-        raise InvalidArgumentError(f"{name} must be from {least} to {most}, not {number}")
+        raise InvalidArgumentError(f"{name} must be from {least} to {most}, not {shown(number)}")
     return number
 
 
 def segment_pair(name: str, values: Any, least: tuple[int, int]) -> tuple[int, int]:
     """Return two counts of segments, each at least its own minimum."""
-    values = as_array(values, name)
+    given, values = values, as_array(values, name)
     if values.shape != (2,):
-        raise InvalidArgumentError(f"{name} must be two integers, not {shown(values)}")
+        raise InvalidArgumentError(f"{name} must be two integers, not {shown(given)}")
     first, second = (
         integer(name, value, low, MAX_SEGMENTS) for value, low in zip(values, least, strict=True)
     )
@@ -72,9 +73,11 @@ def segment_pair(name: str, values: Any, least: tuple[int, int]) -> tuple[int, i
 def names_itself(make: Callable[Parameters, Mesh]) -> Callable[Parameters, Mesh]:
     """Let a function's meshes know by which arguments it makes them, as scene files say."""
 
+    hinting = hinted(make)
+
     @functools.wraps(make)
     def named(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Mesh:
-        mesh = make(*args, **kwargs)
+        mesh = hinting(*args, **kwargs)
         given = inspect.signature(make).bind(*args, **kwargs).arguments
         plain = {name: np.asarray(value).tolist() for name, value in given.items()}
         remember_origin(mesh, PrimitiveOrigin(make.__name__, plain))

@@ -144,11 +144,11 @@ def quad(
         If a corner isn't a finite point, or the corners span no area.
     """
     try:
-        corners = floats((p0, p1, p2, p3), "the corners")
+        corners = floats((p0, p1, p2, p3), "p0, p1, p2 and p3")
     except (TypeError, ValueError):
-        raise InvalidArgumentError("the corners of a quad must be points of 3 numbers") from None
+        raise InvalidArgumentError("p0, p1, p2 and p3 must be points of 3 numbers") from None
     if corners.shape != (4, 3) or not np.all(np.isfinite(corners)):
-        raise InvalidArgumentError("the corners of a quad must be 4 finite points of 3 numbers")
+        raise InvalidArgumentError("p0, p1, p2 and p3 must be finite points of 3 numbers")
     normal = linalg.normalize(linalg.cross(corners[2] - corners[0], corners[3] - corners[1]))
     if not np.any(normal):
         raise InvalidArgumentError("the corners of a quad must span an area")
@@ -180,7 +180,9 @@ def hexahedron(corners: npt.ArrayLike) -> Mesh:
     ----------
     corners : array_like, shape (8, 3)
         Four at the back, then four at the front, each lower left, lower right, upper right, upper
-        left as seen from the front: the order of VTK's hexahedron.
+        left as seen from the front: the order of VTK's hexahedron. Four of one side and the four
+        across from them, in the same order, are taken from any two sides: where that would turn
+        the box inside out, the two sides change places.
 
     Returns
     -------
@@ -195,8 +197,9 @@ def hexahedron(corners: npt.ArrayLike) -> Mesh:
     points = floats(corners, "the corners")
     if points.shape != (8, 3) or not np.all(np.isfinite(points)):
         raise InvalidArgumentError("the corners of a hexahedron must be 8 finite points")
-    quads = points[_HEXAHEDRON_FACES]
-    across = linalg.cross(quads[:, 2] - quads[:, 0], quads[:, 3] - quads[:, 1])
+    quads, across = _sides(points)
+    if linalg.dot(quads.mean(axis=1) - points.mean(axis=0), across).sum() < 0.0:
+        quads, across = _sides(np.roll(points, 4, axis=0))
     normals = linalg.normalize(across)
     if not np.any(normals):
         raise InvalidArgumentError("the corners of a hexahedron must span an area")
@@ -210,3 +213,9 @@ def hexahedron(corners: npt.ArrayLike) -> Mesh:
         position_ids=_HEXAHEDRON_FACES.reshape(-1),
         name="hexahedron",
     )
+
+
+def _sides(points: npt.NDArray[np.float64]) -> tuple[npt.NDArray[np.float64], ...]:
+    """Return the corners of the sides, (6, 4, 3), and the products of their diagonals, (6, 3)."""
+    quads = points[_HEXAHEDRON_FACES]
+    return quads, linalg.cross(quads[:, 2] - quads[:, 0], quads[:, 3] - quads[:, 1])

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
 from .._native.scene_graph import camera_view
+from .._support.numbers import shown
 from .._support.validation import matrix4
 from ..errors import InvalidArgumentError
 from ..linalg.vectors import as_vectors
@@ -142,7 +143,9 @@ def find_camera(scene: Scene, camera: CameraChoice) -> tuple[Camera, np.ndarray]
         return None if node is None else (node.object, node.world_pose)
     if isinstance(camera, Node):
         if not isinstance(camera.object, Camera):
-            raise InvalidArgumentError(f"camera must be a node that holds a camera, not {camera!r}")
+            raise InvalidArgumentError(
+                f"camera must be a node that holds a camera, not {shown(camera)}"
+            )
         if camera._scene is not scene:
             raise InvalidArgumentError(
                 f"{camera!r} is not a node of this scene: give (node.object, node.world_pose)"
@@ -158,6 +161,7 @@ def find_camera(scene: Scene, camera: CameraChoice) -> tuple[Camera, np.ndarray]
         what = None
     if not isinstance(what, Camera):
         raise InvalidArgumentError(
-            f"camera must be None, a node or a pair (camera, pose), not {camera!r}"
+            "camera, or culling_camera, must be None, a node or a pair (camera, pose), "
+            f"not {shown(camera)}"
         )
     return what, matrix4(pose, "camera pose")

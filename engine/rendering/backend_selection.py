@@ -11,10 +11,11 @@ import numbers
 import os
 
 from .._native import rasterizer as _native
+from .._support.numbers import shown
 from ..choices import Backend
 from ..errors import BackendError, InvalidArgumentError
 
-_MAX_THREADS = 256
+MAX_THREADS = 256
 
 
 def backends() -> list[Backend]:
@@ -35,7 +36,7 @@ def resolve_backend(backend: Backend = "auto") -> int:
         The backend is unknown or this machine cannot run it.
     """
     source = "backend"
-    if backend == "auto":
+    if isinstance(backend, str) and backend == "auto":
         backend = os.environ.get("ENGINE3D_BACKEND") or "auto"
         source = "ENGINE3D_BACKEND"
         if backend == "auto":
@@ -43,7 +44,7 @@ def resolve_backend(backend: Backend = "auto") -> int:
     number = _native.BACKENDS.get(backend) if isinstance(backend, str) else None
     if number is None:
         known = ", ".join(["auto", *_native.BACKENDS])
-        raise BackendError(f"{source}={backend!r} is unknown: it is one of {known}")
+        raise BackendError(f"{source}={shown(backend)} is unknown: it is one of {known}")
     if not _native.backend_available(number):
         raise BackendError(
             f"{source}={backend!r} does not run on this machine: it has {', '.join(backends())}"
@@ -66,6 +67,8 @@ def resolve_threads(threads: int = 0) -> int:
             threads = int(text)
         except ValueError:
             threads = text
-    if not isinstance(threads, numbers.Integral) or not 0 <= threads <= _MAX_THREADS:
-        raise InvalidArgumentError(f"{source} must be a whole number in 0..256, not {threads!r}")
+    if not isinstance(threads, numbers.Integral) or not 0 <= threads <= MAX_THREADS:
+        raise InvalidArgumentError(
+            f"{source} must be a whole number in 0..256, not {shown(threads)}"
+        )
     return int(threads)

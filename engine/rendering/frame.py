@@ -16,10 +16,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._native import rasterizer as _native
 from .._native.images import encode_png
+from .._support.calls import checks_types
+from .._support.foreign_names import refuses_foreign_names
+from .._support.validation import choose
 from ..choices import ImageFormat
 from ..errors import InvalidArgumentError, MissingOutputError
 from ..files.atomic_write import atomic_write, checked_path
 from ..files.picture_mark import TGA_MARK
+from ..files.transparency import refuse_transparency
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -93,6 +97,7 @@ class _Output(Generic[Scalar]):
             ) from None
 
 
+@refuses_foreign_names
 class Frame:
     """What a renderer drew.
 
@@ -242,6 +247,7 @@ class Frame:
 
         return Canvas(self.color)
 
+    @checks_types
     def save(self, path: str | os.PathLike[str], **options: Any) -> None:
         """Write the colour to an image file, whole or not at all.
 
@@ -256,7 +262,7 @@ class Frame:
         Raises
         ------
         InvalidArgumentError
-            The suffix is none of those.
+            The suffix is none of those, or the format lacks the alpha that the picture needs.
         FileAccessError
             The file cannot be written.
         """
@@ -265,6 +271,7 @@ class Frame:
         with atomic_write(path) as file:
             file.write(data)
 
+    @checks_types
     def encode(self, format: ImageFormat = "png", **options: Any) -> bytes:
         """Return the colour as the bytes of an image file.
 
@@ -277,17 +284,15 @@ class Frame:
         Raises
         ------
         InvalidArgumentError
-            The format is none of those.
+            The format is none of those, or lacks the alpha that the picture needs.
         """
-        if format not in _FORMATS:
-            raise InvalidArgumentError(
-                f"an image format is one of {', '.join(_FORMATS)}, not {format!r}"
-            )
+        choose(format, _FORMATS, "format")
         if format == "png" and not options:
             return encode_png(self.color)
         name, defaults = _FORMATS[format]
         image = self.image()
         if name == "JPEG":
+            refuse_transparency(self.color, f".{format}")
             image = image.convert("RGB")
         buffer = io.BytesIO()
         image.save(buffer, name, **{**defaults, **options})

@@ -7,14 +7,14 @@ closely, which keeps depth precise. The same inputs give the same bits on every 
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
-from .._support.numbers import floats, real, shown
+from .._support.angles import field_of_view
+from .._support.numbers import floats, shown
 from .._support.validation import positive
 from ..errors import InvalidArgumentError
 from ..scene.cameras import PerspectiveCamera
@@ -108,7 +108,7 @@ def frame_scene(
 @np.errstate(all="ignore")
 def _frame(support: SupportFunction | None, bounds, aspect, yfov, direction, up, margin):
     smallest, largest = _corners(bounds)
-    y_slope = linalg.tan(0.5 * _angle(yfov))
+    y_slope = linalg.tan(0.5 * field_of_view(yfov))
     x_slope = y_slope * positive(aspect, "aspect")
     margin = positive(margin, "margin")
     center, half = (smallest + largest) * 0.5, (largest - smallest) * 0.5
@@ -277,12 +277,5 @@ def _corners(bounds) -> tuple[np.ndarray, np.ndarray]:
 def _direction(value) -> np.ndarray:
     array = floats(value, "direction")
     if array.shape != (3,) or not np.isfinite(array).all() or not array.any():
-        raise InvalidArgumentError(f"direction must be a vector of 3 numbers, not {value!r}")
+        raise InvalidArgumentError(f"direction must be a vector of 3 numbers, not {shown(value)}")
     return array
-
-
-def _angle(value) -> float:
-    number = real(value)
-    if not 0.0 < number < math.pi:
-        raise InvalidArgumentError(f"yfov must be between 0 and pi radians, not {shown(value)}")
-    return number

@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, TypedDict, get_args
 
 from .._native import rasterizer as _native
+from .._support.calls import checks_types, hints_keywords
 from .._support.numbers import real, shown
-from .._support.validation import choose, optional_positive
+from .._support.validation import choose, flag, optional_positive
 from ..choices import (
     ColorLike,
     Culling,
@@ -112,6 +113,7 @@ class RenderKeywords(TypedDict, total=False):
     options: RenderOptions | None
 
 
+@hints_keywords
 @dataclass(frozen=True, kw_only=True)
 class RenderOptions:
     """How pictures are drawn: made once, checked, and given to any number of frames.
@@ -168,18 +170,19 @@ class RenderOptions:
             outputs=check_outputs(self.outputs),
             line_width=_line_size(self.line_width, "line_width"),
             line_color=check_color(self.line_color, "line_color"),
-            hidden_lines=bool(self.hidden_lines),
+            hidden_lines=flag(self.hidden_lines, "hidden_lines"),
             point_size=_line_size(self.point_size, "point_size"),
-            batching=bool(self.batching),
-            transparent_outputs=bool(self.transparent_outputs),
+            batching=flag(self.batching, "batching"),
+            transparent_outputs=flag(self.transparent_outputs, "transparent_outputs"),
             bloom=_strength(self.bloom),
-            alpha_to_coverage=bool(self.alpha_to_coverage),
-            ambient_occlusion=bool(self.ambient_occlusion),
+            alpha_to_coverage=flag(self.alpha_to_coverage, "alpha_to_coverage"),
+            ambient_occlusion=flag(self.ambient_occlusion, "ambient_occlusion"),
             ambient_occlusion_radius=optional_positive(
                 self.ambient_occlusion_radius, "ambient_occlusion_radius"
             ),
         )
 
+    @checks_types
     def pixels_of(self, size: float, height: int) -> float:
         """Return what a line's width or a point's size is in a picture of some height.
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._native import rasterizer as _native
+from .._support.calls import shows_annotations
 from .._support.image_size import check_side
 from .._support.numbers import as_array, floats
 from .._support.validation import choose
@@ -20,6 +21,7 @@ from ..errors import InvalidArgumentError
 from .backend_selection import resolve_backend, resolve_threads
 
 
+@shows_annotations
 class RasterizeResult(NamedTuple):
     """What `rasterize` saw, top row first.
 

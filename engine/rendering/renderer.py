@@ -11,8 +11,9 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from .._native import rasterizer as _native
+from .._support.calls import hinted, refuse_unknown
 from .._support.image_size import check_side, check_size
-from .._support.validation import Closed, choose
+from .._support.validation import Closed, choose, is_one_of
 from ..choices import (
     Antialias,
     Backend,
@@ -83,7 +84,7 @@ class Renderer(Closed):
         ``"srgb"``: 8-bit colours and textures are decoded to linear light, the result is encoded.
         ``"linear"``: 8-bit values are taken as they are, and written so.
     samples : {1, 2, 4, 8, 16}
-        Samples per pixel; more samples give smoother edges.
+        Samples per pixel; more samples give smoother edges. 2 and 8 need ``antialias="msaa"``.
     antialias : {"ssaa", "msaa"}
         What happens at each sample. ``"ssaa"`` (supersampling): everything; 1, 4 or 16 samples.
         ``"msaa"`` (multisampling, in the standard patterns of Direct3D): each surface that shows in
@@ -120,7 +121,7 @@ class Renderer(Closed):
         self._width, self._height = check_side(width, "width"), check_side(height, "height")
         self._color_space = choose(color_space, COLOR_SPACES, "color_space")
         self._antialias = choose(antialias, _SAMPLES, "antialias")
-        self._samples = choose(samples, _SAMPLES[antialias], "samples")
+        self._samples = _check_samples(samples, self._antialias)
         number = resolve_backend(backend)
         self._backend = list(_native.BACKENDS)[number]
         threads = resolve_threads(threads)
@@ -252,6 +253,8 @@ class Renderer(Closed):
         if self._native is None:
             raise InvalidArgumentError("the renderer is closed")
 
+    @hinted
+    @hinted
     def render(
         self,
         scene: Scene,
@@ -306,7 +309,8 @@ class Renderer(Closed):
         outputs : iterable of str
             Which arrays the frame holds: ``color``, ``depth``, ``ndc_depth``, ``triangle_id``,
             ``object_id``, ``instance_id``, ``material_id``, ``albedo``, ``normal``, ``position``,
-            ``world_normal``, ``world_position``, ``uv``, ``barycentric``.
+            ``world_normal``, ``world_position``, ``uv``, ``barycentric``, ``metallic_roughness``,
+            ``emissive``, ``tangent``, ``radiance``: see `Frame`.
         out : Frame, optional
             An earlier frame of the same size to draw into; its outputs are drawn, and it is
             returned.
@@ -515,6 +519,21 @@ class Renderer(Closed):
         return f"<Renderer {self._width}x{self._height}, {self._backend}>"
 
 
+def _check_samples(samples: Samples, antialias: Antialias) -> Samples:
+    """Check a number of samples, and name the method that has it where another was chosen."""
+    others = [how for how, numbers in _SAMPLES.items() if is_one_of(samples, numbers)]
+    if others and antialias not in others:
+        raise InvalidArgumentError(
+            f"samples={samples} needs antialias={others[0]!r}: with antialias={antialias!r} it is "
+            f"one of {', '.join(map(str, _SAMPLES[antialias]))}"
+        )
+    return choose(samples, _SAMPLES[antialias], "samples")
+
+
+#: What `render` takes for the renderer that it makes.
+_RENDERER_KEYWORDS = ("size", "backend", "threads", "color_space", "samples", "antialias")
+
+
 def _blame_change(scene: Scene, census: tuple[int, int], error: Exception) -> None:
     """Raise, where nodes came or went since a census, an error that says so instead of another."""
     if scene._census() != census:
@@ -559,6 +578,7 @@ def render(
     ------
     InvalidArgumentError, BackendError, OutOfMemoryError
     """
+    refuse_unknown("render", options, (*RenderKeywords.__annotations__, *_RENDERER_KEYWORDS))
     width, height = check_size(size)
     drawn = scene_of(scene)
     if drawn is None:

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import math
-import numbers
+from collections.abc import Callable
 from typing import TypeAlias, get_args
 
 from .._support.numbers import shown
 from .._support.validation import (
     CheckedAttribute,
+    Closed,
     NumberAttribute,
     finite,
     not_negative,
     one_of,
+    whole_number,
 )
 from ..choices import LightShadow, ShadowTaps
 from ..errors import InvalidArgumentError
-from ._placed_by_node import PlacedByNode
 
 SHADOWS: tuple[LightShadow, ...] = get_args(LightShadow)
 TAPS: tuple[ShadowTaps, ...] = get_args(ShadowTaps)
@@ -27,18 +28,9 @@ TapsAttribute: TypeAlias = CheckedAttribute[ShadowTaps, ShadowTaps]
 CountAttribute: TypeAlias = CheckedAttribute[int, int]
 
 
-def whole_number(least: int, most: int):
+def count_of(least: int, most: int) -> Callable[[int, str], int]:
     """Return a check that a value is a whole number of a range."""
-
-    def check(value: int, what: str) -> int:
-        whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
-        if not (whole and least <= value <= most):
-            raise InvalidArgumentError(
-                f"{what} must be a whole number in {least}..{most}, not {shown(value)}"
-            )
-        return int(value)
-
-    return check
+    return lambda value, what: whole_number(value, what, least, most)
 
 
 def _shadow(value: LightShadow, what: str) -> LightShadow:
@@ -54,12 +46,12 @@ def _radius(value: float, what: str) -> float:
     return number
 
 
-class CastsShadows(PlacedByNode):
+class CastsShadows(Closed):
     """Base of lights: what shadows they cast, if any."""
 
     version: int
     shadow: ShadowAttribute = CheckedAttribute(_shadow)
-    shadow_map_size: CountAttribute = CheckedAttribute(whole_number(LEAST_MAP, MOST_MAP))
+    shadow_map_size: CountAttribute = CheckedAttribute(count_of(LEAST_MAP, MOST_MAP))
     shadow_bias: NumberAttribute = CheckedAttribute(finite)
     shadow_normal_bias: NumberAttribute = CheckedAttribute(finite)
     shadow_radius: NumberAttribute = CheckedAttribute(_radius)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from .._support.validation import (
     CheckedAttribute,
+    Closed,
     ColorAttribute,
     NumberAttribute,
     VectorAttribute,
@@ -20,14 +21,13 @@ from .._support.validation import (
 )
 from ..choices import ColorLike
 from ..materials.colors import check_color
-from ._placed_by_node import PlacedByNode
 
 
 def _coefficients(value: ArrayLike, what: str) -> np.ndarray:
     return frozen_floats(value, what, (9, 3))
 
 
-class HemisphereLight(PlacedByNode):
+class HemisphereLight(Closed):
     """Light of one colour from above and another from below, which blend in between.
 
     Above is the +Y of its node. It has no place and is in no shadow; ambient occlusion dims it.
@@ -70,7 +70,7 @@ class HemisphereLight(PlacedByNode):
         )
 
 
-class LightProbe(PlacedByNode):
+class LightProbe(Closed):
     """Light from all around as nine spherical harmonics, such as three.js's `LightProbe` has.
 
     It has no place and is in no shadow; ambient occlusion dims it. Its node turns it.

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from .. import linalg
 from .._support.numbers import floats, real
-from .._support.validation import Closed, finite, frozen_floats, vector3
+from .._support.validation import Closed, finite, flag, frozen_floats, vector3
 from ..errors import InvalidArgumentError
 from ..motion.interpolation import slerp
 from .nodes import Node
@@ -264,7 +264,7 @@ class Track(_Described):
 
     def __init__(self, node: Node, times, translations, rotations, scales, repeat: bool) -> None:
         super().__init__(node)
-        self.times = _keys(times, "times", ())
+        self.times = _keys(() if times is None else times, "times", ())
         if not len(self.times) or not (np.diff(self.times) > 0).all():
             raise InvalidArgumentError("times must increase")
         count = len(self.times)
@@ -276,7 +276,7 @@ class Track(_Described):
                 squares = (self.rotations * self.rotations).sum(axis=1)
             if not ((squares > 0.0) & (squares < math.inf)).all():
                 raise InvalidArgumentError("rotations must not be zero quaternions, nor overflow")
-        self.repeat = bool(repeat)
+        self.repeat = flag(repeat, "repeat")
 
     def move(self, time: float) -> None:
         first, last = float(self.times[0]), float(self.times[-1])

@@ -14,30 +14,26 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
+from .._support.angles import field_of_view
 from .._support.numbers import real, shown
 from .._support.validation import (
     CheckedAttribute,
+    Closed,
     NumberAttribute,
     OptionalNumberAttribute,
     VectorAttribute,
     finite,
+    flag,
     frozen_floats,
+    matrix4,
     optional_positive,
     positive,
 )
 from ..errors import InvalidArgumentError
-from ._placed_by_node import PlacedByNode
 
 #: Nearer near planes are of models that are too small for the clip space of others.
 _SMALL = 2.0**-18
 _MOST = 100  # a power that floats take
-
-
-def _angle(value: float, what: str) -> float:
-    number = real(value)
-    if not 0.0 < number < math.pi:
-        raise InvalidArgumentError(f"{what} must be between 0 and pi radians, not {shown(value)}")
-    return number
 
 
 def _far(value: float | None, what: str) -> float:
@@ -57,6 +53,14 @@ def _check_range(camera) -> None:
         )
 
 
+def _check_size(width: int, height: int) -> None:
+    """Check a picture's sides, which are integers nearly always: this is done for every frame."""
+    if width.__class__ is height.__class__ is int and 0 < width < 2**31 and 0 < height < 2**31:
+        return
+    for side, what in ((width, "width"), (height, "height")):
+        positive(side, what)
+
+
 def _enlarged(matrix: NDArray[np.float64], znear: float) -> NDArray[np.float64]:
     """A projection of what may be tiny: the same, times a power of two if the near plane is near.
 
@@ -67,7 +71,7 @@ def _enlarged(matrix: NDArray[np.float64], znear: float) -> NDArray[np.float64]:
     return matrix * 2.0 ** min(-math.frexp(znear)[1], _MOST)
 
 
-class Camera(PlacedByNode):
+class Camera(Closed):
     """A camera given by its projection matrix.
 
     Parameters
@@ -96,10 +100,11 @@ class Camera(PlacedByNode):
     _far_depth = 1.0
 
     def __init__(self, projection: ArrayLike) -> None:
-        self.matrix = projection
+        self.matrix = matrix4(projection, "projection")
 
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
+        _check_size(width, height)
         return self.matrix
 
     def __repr__(self) -> str:
@@ -145,11 +150,11 @@ class PerspectiveCamera(Camera):
         self.reversed_depth = reversed_depth
         _check_range(self)
 
-    yfov: NumberAttribute = CheckedAttribute(_angle)
+    yfov: NumberAttribute = CheckedAttribute(field_of_view)
     znear: NumberAttribute = CheckedAttribute(positive)
     zfar: CheckedAttribute[float | None, float] = CheckedAttribute(_far)
     aspect: OptionalNumberAttribute = CheckedAttribute(optional_positive)
-    reversed_depth: CheckedAttribute[bool, bool] = CheckedAttribute(lambda value, _: bool(value))
+    reversed_depth: CheckedAttribute[bool, bool] = CheckedAttribute(flag)
 
     @property
     def _far_depth(self) -> float:
@@ -157,6 +162,7 @@ class PerspectiveCamera(Camera):
 
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         _check_range(self)
+        _check_size(width, height)
         aspect = width / height if self.aspect is None else self.aspect
         matrix = linalg.perspective(self.yfov, aspect, self.znear, self.zfar)
         if self.reversed_depth:
@@ -207,6 +213,7 @@ class OrthographicCamera(Camera):
 
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         _check_range(self)
+        _check_size(width, height)
         xmag = self.ymag * (width / height) if self.xmag is None else self.xmag
         return linalg.orthographic(xmag, self.ymag, self.znear, self.zfar)
 
@@ -262,6 +269,7 @@ class IntrinsicsCamera(Camera):
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         _check_range(self)
         # The depth rows are those of any perspective; only the pixel grid differs.
+        _check_size(width, height)
         matrix = linalg.perspective(1.0, 1.0, self.znear, self.zfar)
         matrix[0, 0] = 2.0 * self.fx / width
         matrix[1, 1] = 2.0 * self.fy / height

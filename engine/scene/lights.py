@@ -14,6 +14,7 @@ from typing import TypeAlias, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .._support.angles import limited_angle
 from .._support.numbers import real, shown
 from .._support.validation import (
     CheckedAttribute,
@@ -28,7 +29,7 @@ from ..choices import ColorLike, Falloff, LightShadow, LightUnit, ShadowTaps
 from ..errors import InvalidArgumentError
 from ..linalg import cos
 from ..materials.colors import check_color
-from ._shadow_casting import CastsShadows, CountAttribute, whole_number
+from ._shadow_casting import CastsShadows, CountAttribute, count_of
 from .ambient_lights import AMBIENT_LIGHTS, HemisphereLight, LightProbe
 
 FALLOFFS: tuple[Falloff, ...] = get_args(Falloff)
@@ -52,10 +53,7 @@ def _range(value: float, what: str) -> float:
 
 
 def _angle(value: float, what: str) -> float:
-    number = real(value)
-    if not 0 <= number <= math.pi / 2:
-        raise InvalidArgumentError(f"{what} must be a number from 0 to pi/2, not {shown(value)}")
-    return number
+    return limited_angle(value, what, math.pi / 2, "from 0 to pi/2 radians")
 
 
 class DirectionalLight(CastsShadows):
@@ -106,7 +104,7 @@ class DirectionalLight(CastsShadows):
     color: ColorAttribute = CheckedAttribute(check_color)
     intensity: NumberAttribute = CheckedAttribute(not_negative)
     unit: UnitAttribute = CheckedAttribute(one_of(UNITS))
-    shadow_cascades: CountAttribute = CheckedAttribute(whole_number(1, 8))
+    shadow_cascades: CountAttribute = CheckedAttribute(count_of(1, 8))
 
     def __init__(
         self,

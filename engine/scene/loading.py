@@ -13,6 +13,7 @@ from collections.abc import Callable
 import numpy as np
 
 from .. import linalg
+from .._support.calls import checks_types
 from ..errors import InvalidArgumentError
 from ..geometry.creases import CREASE_ANGLE
 from ..loaders import CameraRecord, Document, LightRecord, load_document
@@ -24,6 +25,7 @@ from .scene import Scene
 from .tree_records import choose_variant, fill_from_tree
 
 
+@checks_types
 def load_scene(
     path: File,
     *,

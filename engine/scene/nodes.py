@@ -17,10 +17,14 @@ from numpy.typing import ArrayLike, NDArray
 from .. import linalg
 from .._native.loaders import frozen
 from .._native.scene_graph import STATIC, VISIBLE
-from .._support.numbers import floats
-from .._support.validation import finite_floats, matrix4, vector3
+from .._support.angles import angles
+from .._support.foreign_names import refuses_foreign_names
+from .._support.numbers import floats, shown
+from .._support.validation import finite_floats, flag, matrix4, text, vector3
 from ..errors import InvalidArgumentError
+from ..linalg.quaternions import quaternion_of_turns
 from ..spatial.colliders import check_collider
+from ._pose_parts import PosePart
 from .node_arrays import CASTS_NONE, RECEIVES_NONE
 
 if TYPE_CHECKING:
@@ -36,6 +40,7 @@ if TYPE_CHECKING:
     SceneObject: TypeAlias = Mesh | InstancedMesh | Camera | Light
 
 
+@refuses_foreign_names
 class Node:
     """An object's place in a scene; made by `Scene.add`.
 
@@ -56,11 +61,13 @@ class Node:
         "_pose",
         "_pose_version",
         "_posed",
+        "_read_pose",
         "_scene",
         "_skin",
         "_slot",
         "_taken",
         "_taken_with",
+        "_translation",
         "_world_pose",
         "_world_version",
     )
@@ -74,6 +81,7 @@ class Node:
         self._taken = ()  # the nodes below that were removed with this one
         self._taken_with = None  # the node above that this one was removed with
         self._pose_version = self._world_version = -1
+        self._read_pose = self._translation = None  # as they were when they were last read
         self._id = number
 
     @property
@@ -126,7 +134,7 @@ class Node:
 
     @name.setter
     def name(self, value: str) -> None:
-        self._name = str(value)
+        self._name = text(value, "name")
         if self._scene is not None:
             self._scene._names = None
             self._scene._renames += 1
@@ -179,11 +187,11 @@ class Node:
         """
         scene = self._scene
         if parent is not None and not (isinstance(parent, Node) and parent._scene is scene):
-            raise InvalidArgumentError("parent must be a node of this scene")
+            raise InvalidArgumentError(f"parent must be a node of this scene, not {shown(parent)}")
         if scene is None:
             raise InvalidArgumentError("the node was removed from its scene")
         pose = None
-        if keep_world_pose:
+        if flag(keep_world_pose, "keep_world_pose"):
             pose = self.world_pose
             if parent is not None:
                 pose = linalg.multiply(linalg.inverse(parent.world_pose), pose)
@@ -210,7 +218,10 @@ class Node:
     @property
     def translation(self) -> NDArray[np.float64]:
         """(3,) float64."""
-        return self.pose[:3, 3]
+        pose = self.pose
+        if pose is not self._read_pose:
+            self._read_pose, self._translation = pose, pose[:3, 3].view(PosePart)
+        return self._translation
 
     @translation.setter
     def translation(self, value: ArrayLike) -> None:
@@ -232,11 +243,11 @@ class Node:
         Turns about x, then about the new y, then about the newest z, which is the default order of
         `linalg.euler_to_quaternion`.
         """
-        return frozen(linalg.quaternion_to_euler(self.rotation))
+        return frozen(linalg.quaternion_to_euler(np.asarray(self.rotation))).view(PosePart)
 
     @euler.setter
     def euler(self, value: ArrayLike) -> None:
-        self.rotation = linalg.euler_to_quaternion(vector3(value, "euler"))
+        self.rotation = quaternion_of_turns(check_euler(value))
 
     @property
     def scale(self) -> NDArray[np.float64]:
@@ -254,7 +265,8 @@ class Node:
 
     @visible.setter
     def visible(self, value: bool) -> None:
-        self._arrays.set_flag(self._slot, VISIBLE, bool(value))
+        on = value if value is True or value is False else flag(value, "visible")
+        self._arrays.set_flag(self._slot, VISIBLE, on)
 
     @property
     def shown(self) -> bool:
@@ -271,7 +283,7 @@ class Node:
 
     @static.setter
     def static(self, value: bool) -> None:
-        self._arrays.set_flag(self._slot, STATIC, bool(value))
+        self._arrays.set_flag(self._slot, STATIC, flag(value, "static"))
 
     @property
     def cast_shadows(self) -> bool:
@@ -283,7 +295,7 @@ class Node:
 
     @cast_shadows.setter
     def cast_shadows(self, value: bool) -> None:
-        self._take_part(CASTS_NONE, bool(value))
+        self._take_part(CASTS_NONE, flag(value, "cast_shadows"))
 
     @property
     def receive_shadows(self) -> bool:
@@ -292,7 +304,7 @@ class Node:
 
     @receive_shadows.setter
     def receive_shadows(self, value: bool) -> None:
-        self._take_part(RECEIVES_NONE, bool(value))
+        self._take_part(RECEIVES_NONE, flag(value, "receive_shadows"))
 
     @property
     def collider(self) -> Collider | None:
@@ -367,10 +379,23 @@ def check_pose(value: ArrayLike) -> NDArray[np.float64]:
 
 def check_rotation(value: ArrayLike) -> NDArray[np.float64]:
     """Check a quaternion; return it as (4,) float64."""
-    rotation = finite_floats(value, "rotation", (4,))
+    try:
+        rotation = finite_floats(value, "rotation", (4,))
+    except InvalidArgumentError:
+        if floats(value, "rotation").shape != (3,):
+            raise
+        raise InvalidArgumentError(
+            "rotation is a quaternion (x, y, z, w), not three numbers: three angles are euler=, "
+            f"in radians: {shown(value)}"
+        ) from None
     if not 0.0 < sum(x * x for x in rotation.tolist()) < math.inf:
         raise InvalidArgumentError("rotation must not be the zero quaternion, nor overflow")
     return rotation
+
+
+def check_euler(value: ArrayLike) -> NDArray[np.float64]:
+    """Check three angles; return them as a read-only (3,) float64 array."""
+    return vector3(angles(value, "euler"), "euler")
 
 
 def check_scale(value: ArrayLike) -> NDArray[np.float64]:

@@ -14,10 +14,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
+from .._support.angles import angles
+from .._support.calls import hinted
+from .._support.numbers import floats
 from .._support.validation import positive, vector3
 from ..errors import InvalidArgumentError
 
 
+@hinted
 def orbit(
     target: ArrayLike,
     distance: float,
@@ -116,15 +120,17 @@ def cosine(angle: float) -> float:
 
 
 def _angles(azimuth: ArrayLike, elevation: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    azimuths, elevations = angles(azimuth, "azimuth"), floats(elevation, "elevation")
     try:
-        azimuths = np.asarray(azimuth, np.float64)
-        azimuths, elevations = np.broadcast_arrays(azimuths, np.asarray(elevation, np.float64))
-    except (TypeError, ValueError) as error:
-        raise InvalidArgumentError(f"azimuth and elevation must be numbers: {error}") from None
+        azimuths, elevations = np.broadcast_arrays(azimuths, elevations)
+    except ValueError as error:
+        raise InvalidArgumentError(f"azimuth and elevation do not fit: {error}") from None
     if azimuths.ndim > 1:
         raise InvalidArgumentError(f"azimuth must be a number or (N,), not {azimuths.shape}")
     if not (np.isfinite(azimuths).all() and np.isfinite(elevations).all()):
         raise InvalidArgumentError("azimuth and elevation must be finite")
     if not (np.abs(elevations) <= math.pi / 2).all():
-        raise InvalidArgumentError("elevation must be from -pi / 2 to pi / 2")
+        raise InvalidArgumentError(
+            "elevation must be from -pi / 2 to pi / 2 radians; degrees go through numpy.radians"
+        )
     return azimuths, elevations

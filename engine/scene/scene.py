@@ -16,14 +16,16 @@ from weakref import WeakSet
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import linalg
 from .._native.scene_graph import OBJECT_BOX, union
+from .._support.calls import checks_types, hinted
 from .._support.checked_containers import CheckedDict
-from .._support.validation import vector3
+from .._support.numbers import shown
+from .._support.validation import flag, text, vector3
 from ..choices import ColorLike
 from ..environments.environment import Environment
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
+from ..linalg.quaternions import quaternion_of_turns
 from ..motion.posing import (
     Posing,
     check_morph_weights,
@@ -39,7 +41,7 @@ from .gradients import Gradient
 from .instances import InstancedMesh
 from .lights import LIGHTS
 from .node_arrays import NodeArrays
-from .nodes import Node, check_pose, check_rotation, check_scale
+from .nodes import Node, check_euler, check_pose, check_rotation, check_scale
 from .selection import NodeSelection
 from .surroundings import Surroundings
 
@@ -148,6 +150,7 @@ class Scene(Surroundings, SceneQueries):
             raise InvalidArgumentError("animator must be an Animator of this scene, or None")
         self._animator = value
 
+    @hinted
     def add(
         self,
         obj: SceneObject | None = None,
@@ -199,13 +202,13 @@ class Scene(Surroundings, SceneQueries):
         """
         _check_object(obj)
         if parent is not None and not (isinstance(parent, Node) and parent._scene is self):
-            raise InvalidArgumentError("parent must be a node of this scene")
+            raise InvalidArgumentError(f"parent must be a node of this scene, not {shown(parent)}")
         if name is None:
             name = getattr(obj, "name", "")
         if rotation is not None and euler is not None:
             raise InvalidArgumentError("give rotation or euler, not both")
         if euler is not None:
-            rotation = linalg.euler_to_quaternion(vector3(euler, "euler"))
+            rotation = quaternion_of_turns(check_euler(euler))
         parts = (translation, rotation, scale)
         if pose is not None and any(part is not None for part in parts):
             raise InvalidArgumentError("give pose or translation, rotation and scale, not both")
@@ -213,7 +216,7 @@ class Scene(Surroundings, SceneQueries):
         translation = None if translation is None else vector3(translation, "translation")
         rotation = None if rotation is None else check_rotation(rotation)
         scale = None if scale is None else check_scale(scale)
-        node = Node(self, obj, str(name), next(self._ids))
+        node = Node(self, obj, text(name, "name"), next(self._ids))
         above = -1 if parent is None else parent._slot
         node._arrays = self._arrays
         slot = node._slot = self._arrays.append(node, above, self._objects.take(obj), node.id)
@@ -223,7 +226,7 @@ class Scene(Surroundings, SceneQueries):
             self._arrays.set_translation(slot, translation)
         if rotation is not None or scale is not None:
             self._arrays.set_parts(slot, rotation, scale)
-        if static:
+        if flag(static, "static"):
             node.static = True
         node.cast_shadows, node.receive_shadows = cast_shadows, receive_shadows
         self._list(node)
@@ -291,7 +294,7 @@ class Scene(Surroundings, SceneQueries):
             The node is not in this scene.
         """
         if not isinstance(node, Node) or node._scene is not self:
-            raise InvalidArgumentError("remove() needs a node of this scene")
+            raise InvalidArgumentError(f"node must be one of this scene, not {_unfound(node)}")
         arrays, taken = self._arrays, []
         for slot in arrays.remove(node._slot):
             gone, arrays.nodes[slot] = arrays.nodes[slot], None
@@ -336,7 +339,9 @@ class Scene(Surroundings, SceneQueries):
             parent does not fit.
         """
         if not isinstance(node, Node) or node not in self._gone:
-            raise InvalidArgumentError("restore() needs a node that was removed from this scene")
+            raise InvalidArgumentError(
+                f"node must be one that was removed from this scene, not {_unfound(node)}"
+            )
         taken, arrays = (node, *node._taken), self._arrays
         for slot, back in zip(arrays.restore(node._slot), taken, strict=True):
             arrays.nodes[slot] = back
@@ -376,8 +381,9 @@ class Scene(Surroundings, SceneQueries):
         """The first visible node that holds a camera: what is drawn through by default."""
         return next((node for node in self._cameras.values() if node.shown), None)
 
+    @checks_types
     def find(self, name: str) -> Node | None:
-        """Return the first node of that name, or None."""
+        """Return the first node of that name, or None where there is none."""
         names = self._names
         if names is None:
             names = {}
@@ -441,6 +447,7 @@ class Scene(Surroundings, SceneQueries):
         around = union(self._arrays.columns["bounds"][: self._arrays.count], box)
         return box[:6].reshape(2, 3) if around else np.zeros((2, 3))
 
+    @checks_types
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the scene to a file; see `engine3d.save_scene`."""
         from ..writers.scene import save_scene
@@ -449,6 +456,12 @@ class Scene(Surroundings, SceneQueries):
 
     def __reduce_ex__(self, protocol):
         raise TypeError("a Scene cannot be copied or pickled: add its objects to another Scene")
+
+    def _repr_png_(self) -> bytes | None:
+        """A picture for notebooks; see `thumbnail`."""
+        from ..rendering.thumbnail import thumbnail
+
+        return thumbnail(self)
 
     def __repr__(self) -> str:
         return f"Scene({self._arrays.count - self._removed} nodes)"
@@ -461,9 +474,12 @@ def _take_animations(scene: Scene, clips: dict, put: Callable[[dict], None]) -> 
     put(check_clips(clips))
 
 
+def _unfound(node) -> str:
+    """What a caller gave for a node: mostly what `Scene.find` returns of an unknown name."""
+    return "None, which find() returns of an unknown name" if node is None else shown(node)
+
+
 def _check_object(obj) -> None:
     if obj is not None and not isinstance(obj, _OBJECT_TYPES):
         allowed = ", ".join(kind.__name__ for kind in _OBJECT_TYPES)
-        raise InvalidArgumentError(
-            f"a scene holds {allowed} or None (a group), not {type(obj).__name__}"
-        )
+        raise InvalidArgumentError(f"obj must be {allowed} or None (a group), not {shown(obj)}")

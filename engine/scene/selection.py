@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._native.scene_graph import VISIBLE
-from .._support.numbers import floats
+from .._support.numbers import as_array, floats, shown
 from .._support.validation import Closed
 from ..errors import InvalidArgumentError
 from .node_arrays import matrices_of
@@ -49,7 +49,9 @@ class NodeSelection(Closed):
         if self._removals != scene._removals:
             for node in self.nodes:
                 if not isinstance(node, Node) or node._scene is not scene:
-                    raise InvalidArgumentError(f"{node!r} is not a node of this scene, or not now")
+                    raise InvalidArgumentError(
+                        f"nodes: {shown(node)} is not a node of this scene, or not now"
+                    )
             self._slots = np.array([node._slot for node in self.nodes], np.int32)
             self._removals = scene._removals
         return self._slots
@@ -109,10 +111,13 @@ class NodeSelection(Closed):
 
     @visible.setter
     def visible(self, value: ArrayLike) -> None:
-        try:
-            on = np.ascontiguousarray(np.broadcast_to(np.asarray(value, bool), len(self)))
-        except (TypeError, ValueError):
-            raise InvalidArgumentError(f"visible must be one bool or {len(self)}") from None
+        given = as_array(value, "visible")
+        fits = given.shape in ((), (1,), (len(self),)) and given.dtype.kind in "biu"
+        if not fits or not np.isin(given, (0, 1)).all():
+            raise InvalidArgumentError(
+                f"visible must be one bool or {len(self)}, not {shown(value)}"
+            )
+        on = np.ascontiguousarray(np.broadcast_to(given.astype(bool), len(self)))
         self._scene._arrays.set_flags(self._rows, VISIBLE, on.view(np.uint8))
 
     @property

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from .._support.angles import finite_angle
 from .._support.numbers import real, shown
 from .._support.validation import Closed, finite, not_negative
 from ..choices import Color, ColorLike
@@ -88,7 +89,7 @@ class Surroundings(Closed):
 
     @environment_rotation.setter
     def environment_rotation(self, value: float) -> None:
-        self._environment_rotation = finite(value, "environment_rotation")
+        self._environment_rotation = finite_angle(value, "environment_rotation")
 
     @property
     def background_blur(self) -> float:
@@ -154,4 +155,4 @@ def _pair(value, what: str) -> tuple[float, float]:
         low, high = value
         return float(low), float(high)
     except (TypeError, ValueError, OverflowError):
-        raise InvalidArgumentError(f"{what} must be two numbers, not {value!r}") from None
+        raise InvalidArgumentError(f"{what} must be two numbers, not {shown(value)}") from None

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import linalg
 from .._native.images import encode_png
+from .._support.calls import checks_types
 from ..canvas import Canvas
 from ..choices import Backend
 from ..errors import InvalidArgumentError
@@ -44,6 +45,7 @@ class Sheet:
         self.report = report
         self._panels = panels
 
+    @checks_types
     def save(
         self,
         path: str | os.PathLike[str],
@@ -74,6 +76,7 @@ class Sheet:
         """Return the report as JSON."""
         return report_text(self.report)
 
+    @checks_types
     def at(self, x: int, y: int) -> dict[str, Any] | None:
         """Return what a pixel of the sheet shows.
 
@@ -97,6 +100,7 @@ class Sheet:
                     return _at(panel, model, x, y, self.report)
         return None
 
+    @checks_types
     def project(self, view: str, points: ArrayLike, model: int = 0) -> NDArray[np.float64]:
         """Return where points are on the sheet.
 
@@ -182,6 +186,7 @@ def _is_parallel(panel: Panel) -> bool:
     return bool(panel.matrices.pixel_from_world[3, :3].tolist() == [0.0, 0.0, 0.0])
 
 
+@checks_types
 def contact_sheet(
     models: SheetSource | Iterable[SheetSource],
     *,

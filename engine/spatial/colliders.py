@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._native.loaders import frozen
+from .._support.calls import shows_annotations
 from .._support.validation import Closed, frozen_floats, positive, vector3
 from ..errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
@@ -33,7 +34,7 @@ class BoxCollider(Closed):
 
     def __init__(self, low: ArrayLike | None = None, high: ArrayLike | None = None) -> None:
         if (low is None) != (high is None):
-            raise InvalidArgumentError("give both corners of a BoxCollider, or none")
+            raise InvalidArgumentError("give both corners of a BoxCollider, low and high, or none")
         self.box = None
         if low is None:
             return
@@ -79,6 +80,7 @@ class MeshCollider(Closed):
 Collider: TypeAlias = BoxCollider | SphereCollider | MeshCollider
 
 
+@shows_annotations
 class ColliderHit(NamedTuple):
     """Where a ray meets a collider.
 

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from .. import linalg
 from .._native.rasterizer import CULLS
-from .._support.numbers import floats
+from .._support.calls import shows_annotations
+from .._support.numbers import floats, shown
 from .._support.validation import choose, how_far, vector3
 from ..errors import InvalidArgumentError
 from ..motion.shown import placing_pose, shown_object
@@ -27,6 +28,7 @@ from ._shapes import tell
 _LAYERS = 256  # faces that are not drawn, one behind the other, that a pick looks through
 
 
+@shows_annotations
 class RayHit(NamedTuple):
     """Where a ray meets a face.
 
@@ -54,6 +56,7 @@ class RayHit(NamedTuple):
     barycentric: NDArray[np.float64]
 
 
+@shows_annotations
 class RayHits(NamedTuple):
     """Where many rays meet faces: a row per ray.
 
@@ -139,7 +142,7 @@ def pick(scene, frame, x: int, y: int) -> RayHit | None:
         raise InvalidArgumentError(f"frame must be a Frame, not {type(frame).__name__}")
     for value in (x, y):
         if not isinstance(value, numbers.Real):
-            raise InvalidArgumentError(f"a pixel is two numbers, not {value!r}")
+            raise InvalidArgumentError(f"x and y, a pixel, are numbers, not {shown(value)}")
     if not (0 <= x < frame.width and 0 <= y < frame.height):
         raise InvalidArgumentError(
             f"pixel ({x}, {y}) is outside of the frame, {frame.width}x{frame.height}"

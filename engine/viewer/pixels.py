@@ -10,6 +10,7 @@ from typing import Any, TypeAlias, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from .._support.numbers import as_array
 from ..canvas import Canvas
 from ..choices import PixelFormat
 from ..errors import InvalidArgumentError
@@ -42,7 +43,7 @@ def as_pixels(picture, format: PixelFormat | None = None) -> tuple[NDArray[np.ui
         picture = picture.pixels
     elif isinstance(picture, Frame):
         picture = picture.color
-    pixels = np.asarray(picture)
+    pixels = as_array(picture, "picture")
     if pixels.size == 0:
         raise InvalidArgumentError("the picture has no pixels")
     if pixels.dtype == np.uint32 and pixels.ndim == 2:

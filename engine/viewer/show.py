@@ -5,14 +5,20 @@ In: what to show. Out: nothing; a scene is afterwards as it was before.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Sequence
 from typing import Any
 
+import numpy as np
+
+from .._support.calls import checks_types
 from .._support.image_size import check_size
 from .._support.numbers import real, shown
+from ..canvas import Canvas
 from ..choices import PixelFormat
-from ..errors import InvalidArgumentError
+from ..errors import DisplayError, InvalidArgumentError
 from ..geometry.mesh import Mesh
+from ..rendering.frame import Frame
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.scene import Scene
@@ -32,6 +38,7 @@ from .window import Window
 SIZE = (1280, 720)
 
 
+@checks_types
 def show(
     thing: Scene | Node | Mesh | InstancedMesh | Picture | Any,
     *,
@@ -80,9 +87,31 @@ def show(
     >>> e3d.show(e3d.torus())
     >>> e3d.show(e3d.render(scene, mode="depth"))
     """
+    try:
+        _show(thing, size, title, up, update, period, format)
+    except DisplayError as error:
+        if not _in_a_kernel():
+            raise
+        raise DisplayError(
+            f"{error}; in a notebook, engine3d.notebook.View(scene) shows it in the page, and a "
+            "frame shows by itself at the end of a cell"
+        ) from None
+
+
+def _in_a_kernel() -> bool:
+    """Whether a notebook's kernel runs this program."""
+    shell = sys.modules.get("IPython")
+    return shell is not None and hasattr(shell.get_ipython(), "kernel")
+
+
+def _show(thing, size, title, up, update, period, format) -> None:
     size = None if size is None else check_size(size)
     viewed = viewed_thing(thing, title=title, up=up, update=update, period=period)
     if viewed is None:
+        if not isinstance(thing, (Frame, Canvas, np.ndarray, Sequence)):
+            raise InvalidArgumentError(
+                f"thing must be a scene, a node, a mesh or a picture, not {shown(thing)}"
+            )
         _show_picture(thing, size, title, format)
         return
     _show_scene(viewed, size)

@@ -10,8 +10,10 @@ import time
 from collections.abc import Iterator
 
 from .. import events
+from .._support.calls import checks_types
 from .._support.image_size import check_side
 from .._support.numbers import real, shown
+from .._support.validation import text as checked_text
 from ..choices import PixelFormat, PointerShape
 from ..errors import DisplayError, InvalidArgumentError
 from .frame_times import FrameRate
@@ -32,6 +34,8 @@ from .sdl import (
 MIN_SIDE = 64
 #: How long a wait for events goes on before Ctrl-C is looked for.
 PATIENCE = 0.25
+#: Milliseconds are counted in 32 bits.
+LONGEST_WAIT = 2_000_000.0
 #: SDL's names of the shapes of a pointer.
 POINTERS: dict[PointerShape, str] = {
     "arrow": "ARROW",
@@ -87,6 +91,7 @@ class Window:
         The size or the limit is none.
     """
 
+    @checks_types
     def __init__(
         self,
         width: int,
@@ -99,14 +104,14 @@ class Window:
     ) -> None:
         self._sdl = None
         size = check_side(width, "width"), check_side(height, "height")
-        self._title = _checked_title(title)
+        self._title = checked_text(title, "title")
         self._wait = bool(wait)
         self._tick_seconds = 0.0 if max_fps is None else 1.0 / _positive(max_fps, "max_fps")
         self._last_tick: float | None = None
         self._first_tick = 0.0
         self._held = HeldInput()
         self._rate = FrameRate()
-        self._pending: list = []
+        self._pending: list[events.Event] = []
         self._pointers: dict = {}
         self._sdl = open_video()
         self._window = self._presenter = None
@@ -138,6 +143,7 @@ class Window:
 
     # Pictures
 
+    @checks_types
     def present(self, picture: Picture, format: PixelFormat | None = None) -> None:
         """Show a picture, as large as fits into the window.
 
@@ -175,12 +181,15 @@ class Window:
 
     # What happens
 
-    def events(self, timeout: float = 0.0) -> list:
+    @checks_types
+    def events(self, timeout: float = 0.0) -> list[events.Event]:
         """Return the events that are waiting; if there are none, wait up to ``timeout`` seconds."""
         self._opened()
         sdl = self._sdl
         event = sdl.SDL_Event()
-        milliseconds = math.ceil(timeout * 1000)
+        if math.isnan(real(timeout)):
+            raise InvalidArgumentError(f"timeout must be a number, not {shown(timeout)}")
+        milliseconds = math.ceil(min(max(real(timeout), 0.0), LONGEST_WAIT) * 1000)
         if not self._pending and milliseconds > 0 and sdl.SDL_WaitEventTimeout(event, milliseconds):
             self._receive(event)
         while sdl.SDL_PollEvent(event):
@@ -196,7 +205,7 @@ class Window:
             window._held.follow(translated)
             window._pending.append(translated)
 
-    def __iter__(self) -> Iterator:
+    def __iter__(self) -> Iterator[events.Event]:
         while not self.closed:
             for event in self.events(self._until_tick()):
                 if isinstance(event, events.Exposed | events.Resized):
@@ -243,11 +252,13 @@ class Window:
         """Where the mouse is, in pixels of the picture; None outside the window."""
         return self._held.mouse
 
+    @checks_types
     def capture_mouse(self, captured: bool) -> None:
         """Hide the pointer and report movements without end (mouse look), or give it back."""
         self._opened()
         self._sdl.SDL_SetRelativeMouseMode(captured)
 
+    @checks_types
     def show_pointer(self, shape: PointerShape | None) -> None:
         """Give the mouse pointer a shape over the window; None hides it.
 
@@ -277,6 +288,7 @@ class Window:
     @clipboard.setter
     def clipboard(self, text: str) -> None:
         self._opened()
+        text = checked_text(text, "clipboard")
         self._sdl.SDL_SetClipboardText(text.encode("utf-8", "replace"))
 
     # The window
@@ -294,7 +306,7 @@ class Window:
     @title.setter
     def title(self, title: str) -> None:
         self._opened()
-        self._title = _checked_title(title)
+        self._title = checked_text(title, "title")
         self._sdl.SDL_SetWindowTitle(self._window, title.encode("utf-8", "replace"))
 
     @property
@@ -354,12 +366,6 @@ class Window:
 
     def __exit__(self, *exception: object) -> None:
         self.close()
-
-
-def _checked_title(title) -> str:
-    if not isinstance(title, str):
-        raise InvalidArgumentError(f"title must be a str, not {type(title).__name__}")
-    return title
 
 
 def _positive(value, what: str) -> float:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._native.loaders import frozen
+from .._support.calls import checks_types
 from .._support.validation import own
 from ..geometry.mesh import Mesh
 from ..materials.material import Material
@@ -106,6 +107,7 @@ class World:
             levels.append((tuple(made), tolerance))
         return tuple(levels)
 
+    @checks_types
     def add_to(self, scene: Scene) -> Node:
         """Add the districts to a scene; returns the node that groups them."""
         group = scene.add(name="city")

@@ -6,12 +6,14 @@ import os
 import warnings
 from typing import Any, BinaryIO
 
+from .._support.calls import checks_types
 from ..errors import Engine3DWarning, InvalidArgumentError, located
 from ..files.atomic_write import AtomicFiles, StreamFiles, checked_path
 from ..geometry.mesh import Mesh
 from .registry import find_writer
 
 
+@checks_types
 def save_mesh(
     mesh: Mesh,
     path: str | os.PathLike[str] | BinaryIO,
@@ -44,7 +46,7 @@ def save_mesh(
         The format is not known, has no such option, or needs files beside a file object.
     """
     if not isinstance(mesh, Mesh):
-        raise InvalidArgumentError(f"not a Mesh: {type(mesh).__name__}")
+        raise InvalidArgumentError(f"mesh must be a Mesh, not {type(mesh).__name__}")
     is_stream = hasattr(path, "write")
     name = "<stream>" if is_stream else checked_path(path)
     writer = find_writer(name, format)

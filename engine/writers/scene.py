@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from .._native.images import encode_png
+from .._support.calls import checks_types
 from .._support.numbers import shown
 from ..environments.environment import Environment
 from ..errors import InvalidArgumentError, located, warn
@@ -50,6 +51,7 @@ _ENVIRONMENT_VALUES = {
 _IDENTITY = {"translation": np.zeros(3), "rotation": np.eye(4)[3], "scale": np.ones(3)}
 
 
+@checks_types
 def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     """Write a scene to a file, so that it is there whole or not at all.
 

@@ -324,10 +324,10 @@ def test_packed_pictures_are_done(place, manifest):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"jobs": 0}, "jobs and threads must be"),
-        ({"threads": 1.5}, "jobs and threads must be"),
+        ({"jobs": 0}, "must be a whole number"),
+        ({"threads": 1.5}, "must be a whole number"),
         ({"timeout": 0}, "timeout must be a number of seconds, not 0"),
-        ({"timeout": "3"}, "timeout must be a number of seconds, not '3'"),
+        ({"timeout": "3"}, "timeout must be a number or None, not '3'"),
         ({"jobs": 1, "scheduler": "tcp://a:1"}, "give one of"),
         ({"executor": 3}, "executor must have a method submit"),
     ],

@@ -88,9 +88,9 @@ def test_read_only_pixels_are_refused():
 )
 def test_wrong_colors(color):
     canvas = Canvas(4, 4)
-    with pytest.raises(InvalidArgumentError, match="colour"):
+    with pytest.raises(InvalidArgumentError, match="color"):
         canvas.point(1, 1, color)
-    with pytest.raises(InvalidArgumentError, match="colour"):
+    with pytest.raises(InvalidArgumentError, match="color"):
         canvas.lines([[0, 0, 1, 1]], color)
 
 

@@ -107,9 +107,9 @@ def test_clipped_text_is_the_whole_text_inside():
 
 @pytest.mark.parametrize("text", [5, b"text", None])
 def test_what_is_no_text(text):
-    with pytest.raises(InvalidArgumentError, match="text must be a str"):
+    with pytest.raises(InvalidArgumentError, match="string must be a str"):
         Canvas(9, 9).text(0, 0, text, WHITE)
-    with pytest.raises(InvalidArgumentError, match="text must be a str"):
+    with pytest.raises(InvalidArgumentError, match="string must be a str"):
         text_size(text)
 
 

@@ -69,8 +69,8 @@ def test_a_library_has_no_place_on_standard_output(folder):
     [
         (["-o", "-"], "- needs --format: one of glb, gltf, obj, ply, stl"),
         (["-", "--format", "dae"], "'dae' is not one of glb, gltf, obj, ply, stl"),
-        (["-", "-o", "-", "--format", "ply"], "say once where to write"),
-        ([], "say once where to write"),
+        (["-", "-o", "-", "--format", "ply"], "where to write"),
+        ([], "where to write"),
         (["-o", "-", "--format", "obj", "--ascii"], "--ascii is for"),
     ],
 )

@@ -37,6 +37,13 @@ def test_quiet_prints_errors_only(model, capsys, tmp_path):
         (["render", "a.obj", "--resolutoin=3x4"], "=3x4: did you mean --resolution?"),
         (["run", "--mode", "deph"], "did you mean depth?"),
         (["run", "--scene", "sity"], "did you mean city?"),
+        (["render", "a.obj", "--size", "3x4"], "--size 3x4: did you mean --resolution?"),
+        (["sheet", "a.obj", "--resolution", "3x4"], "did you mean --size?"),
+        (["run", "a.obj", "--fov=60"], "did you mean --camera-view-angle?"),
+        (["render", "a.obj", "--background", "white"], "a colour goes with --background-color"),
+        (["render", "a b.obj", "out.PNG"], "-o FILE: engine3d render 'a b.obj' -o out.PNG"),
+        (["render", "a.obj", "b.obj"], "say where to write with -o FILE\n"),
+        (["convert", "a.obj"], "say where to write, such as: engine3d convert a.obj a.ply"),
         (["square.obj"], "'square.obj' is no command; to see that file: engine3d run square.obj"),
     ],
 )

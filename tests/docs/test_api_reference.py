@@ -42,7 +42,8 @@ def documented():
                 if not member.startswith("_") and inspect.isfunction(function):
                     yield f"{name}.{member}", function
         for member in getattr(thing, "__all__", ()) if inspect.ismodule(thing) else ():
-            yield f"{name}.{member}", getattr(thing, member)
+            if inspect.isroutine(getattr(thing, member)) or inspect.isclass(getattr(thing, member)):
+                yield f"{name}.{member}", getattr(thing, member)
 
 
 @pytest.mark.parametrize(

@@ -48,7 +48,7 @@ def test_arrays_do_as_well_as_frames(tmp_path):
         (turned(1), "a.gif", "fast", "fps"),
         (turned(1), "a.gif", 1e-320, "fps"),
         ([], "a.gif", 25, "at least one frame"),
-        (3, "a.gif", 25, "iterable"),
+        (3, "a.gif", 25, "several"),
         ([np.zeros((4, 4, 3), np.uint8)], "a.gif", 25, r"\(H, W, 4\) uint8"),
         ([np.zeros((4, 4, 4))], "a.gif", 25, "float64"),
         ([np.zeros((n, 4, 4), np.uint8) for n in (4, 5)], "a.gif", 25, "one size"),
@@ -77,7 +77,7 @@ def test_a_video(tmp_path):
 
 
 def test_a_frame_is_not_an_animation(tmp_path):
-    with pytest.raises(e3d.InvalidArgumentError, match="iterable"):
+    with pytest.raises(e3d.InvalidArgumentError, match="several"):
         e3d.save_animation(next(turned(1)), tmp_path / "a.gif")
 
 

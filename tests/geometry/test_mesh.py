@@ -256,7 +256,7 @@ def test_only_other_arrays_make_the_core_cut_a_mesh_again():
 def test_only_meshes_are_joined():
     with pytest.raises(InvalidArgumentError, match="meshes must be several Mesh, not Mesh"):
         Mesh.concatenate(Mesh(np.eye(3)))
-    with pytest.raises(InvalidArgumentError, match="not a Mesh: int"):
+    with pytest.raises(InvalidArgumentError, match="meshes must be Mesh, not int"):
         Mesh.concatenate([square(), 5])
     assert len(Mesh.concatenate(square() for _ in range(3)).faces) == 6
 

@@ -185,9 +185,9 @@ def test_errors(options):
 def test_more_errors(impostor):
     with pytest.raises(InvalidArgumentError, match="without faces"):
         e3d.Impostor(e3d.Mesh([(0, 0, 0)], points=[0]))
-    with pytest.raises(InvalidArgumentError, match="not a Mesh"):
+    with pytest.raises(InvalidArgumentError, match="mesh must be a Mesh"):
         e3d.Impostor("box")
-    with pytest.raises(InvalidArgumentError, match="not an Impostor"):
+    with pytest.raises(InvalidArgumentError, match="impostor must be an Impostor"):
         e3d.DetailedInstances([(thing(), 0.0)], [(0, 0, 0, 1.0)], impostor=thing())
     with pytest.raises(InvalidArgumentError, match="impostor_pixels"):
         e3d.DetailedInstances([(thing(), 0.0)], [(0, 0, 0, 1.0)], impostor_pixels=0)

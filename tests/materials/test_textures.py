@@ -127,10 +127,10 @@ def test_placed_textures_compare_by_value_and_stay_as_they_are():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"uv_set": 2}, "uv_set must be 0 or 1, not 2"),
+        ({"uv_set": 2}, "uv_set must be a whole number in 0..1, not 2"),
         ({"offset": (1,)}, "offset must be two finite numbers"),
         ({"scale": 2.0}, "scale must be two finite numbers"),
-        ({"rotation": "left"}, "rotation must be finite"),
+        ({"rotation": "left"}, "rotation must be a finite number"),
     ],
 )
 def test_wrong_places_are_refused(arguments, message):

@@ -217,7 +217,7 @@ def test_no_walkable_cell_has_anything_in_it(seed, radius):
         far = np.maximum(np.abs(points[:, 0] - x), np.abs(points[:, 2] - z))
         near = points[far <= reach]
         for layer in range(grid.starts[k], grid.starts[k + 1]):
-            above = near[:, 1] - grid.height(
+            above = near[:, 1] - grid._height(
                 layer, k // columns, k % columns, near[:, 0], near[:, 2]
             )
             must_block[layer] = ((above > STEP + 1e-6) & (above < HEAD - 1e-6)).any()

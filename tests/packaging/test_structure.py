@@ -71,6 +71,8 @@ PROGRAMS = {"fuzz"}
 
 # Imports inside functions without which no modules would import each other in a circle.
 BACKWARD_IMPORTS = {
+    "geometry.mesh -> rendering.thumbnail",  # in a notebook
+    "scene.scene -> rendering.thumbnail",
     "geometry.mesh -> geometry.trimesh_conversion",
     "geometry.mesh -> writers",
     "scene.scene -> writers.scene",

@@ -82,7 +82,7 @@ def test_jpeg_has_no_alpha(frame, tmp_path, suffix):
 
 @pytest.mark.parametrize("name", ["frame.gif", "frame", "frame.txt"])
 def test_unknown_suffix(frame, tmp_path, name):
-    with pytest.raises(e3d.InvalidArgumentError, match="png, jpg, jpeg, tga, webp"):
+    with pytest.raises(e3d.InvalidArgumentError, match=".png., .jpg., .jpeg., .tga., .webp."):
         frame.save(tmp_path / name)
     assert list(tmp_path.iterdir()) == []
 

@@ -87,8 +87,8 @@ def test_assigning_counts_versions():
         (lambda: e3d.OrthographicCamera(1, zfar=math.inf), "zfar"),
         (lambda: e3d.IntrinsicsCamera(0, 1, 0, 0), "fx"),
         (lambda: e3d.IntrinsicsCamera(1, 1, math.nan, 0), "cx"),
-        (lambda: e3d.Camera(np.eye(3)), r"matrix must have shape \(4, 4\)"),
-        (lambda: e3d.Camera(np.full((4, 4), math.inf)), "matrix must be finite"),
+        (lambda: e3d.Camera(np.eye(3)), r"projection must have shape \(4, 4\)"),
+        (lambda: e3d.Camera(np.full((4, 4), math.inf)), "projection must be finite"),
     ],
 )
 def test_invalid_arguments(make, message):

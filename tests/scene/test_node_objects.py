@@ -99,7 +99,7 @@ def test_what_was_replaced_is_let_go():
 def test_errors():
     scene = e3d.Scene()
     node = scene.add(e3d.box())
-    with pytest.raises(e3d.InvalidArgumentError, match="a scene holds Mesh"):
+    with pytest.raises(e3d.InvalidArgumentError, match="obj must be Mesh"):
         node.object = "box"
     assert isinstance(node.object, e3d.Mesh)
     scene.remove(node)

@@ -239,7 +239,7 @@ def test_empty_meshes_do_not_count(scene):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"obj": "mesh"}, "a scene holds Mesh"),
+        ({"obj": "mesh"}, "obj must be Mesh"),
         ({"parent": "node"}, "parent"),
         ({"pose": np.eye(4), "scale": 2}, "not both"),
         ({"pose": np.eye(3)}, "pose"),

@@ -242,5 +242,5 @@ def test_a_pixel_is_two_numbers(pixel):
     frame = e3d.render(e3d.Scene(), size=(8, 8))
     with pytest.raises(e3d.InvalidArgumentError, match="frame must be a Frame, not NoneType"):
         e3d.Scene().pick(None, *pixel)
-    with pytest.raises(e3d.InvalidArgumentError, match="a pixel is two numbers"):
+    with pytest.raises(e3d.InvalidArgumentError, match="x and y, a pixel, are numbers"):
         e3d.Scene().pick(frame, *pixel)

@@ -187,10 +187,10 @@ def test_windows_suit_their_pictures():
 @pytest.mark.parametrize(
     ("thing", "options", "said"),
     [
-        (None, {}, "a picture is a Frame"),
+        (None, {}, "must be a scene, a node, a mesh or a picture"),
         (e3d.box(), {"up": "Y"}, "up must be one of"),
         (e3d.box(), {"period": 0}, "period must be a positive number"),
-        (e3d.box(), {"update": 3}, "update must be a function of the time, not 3"),
+        (e3d.box(), {"update": 3}, "update must be a function or None, not 3"),
         (e3d.box(), {"size": (0, 3)}, "width must be"),
     ],
 )

@@ -107,7 +107,7 @@ def test_pictures_of_all_kinds_are_shown(window):
         (np.zeros((4, 4, 3), np.float32), None, "this one is \\(4, 4, 3\\) float32"),
         (np.zeros((4, 4, 2), np.uint8), None, "this one is \\(4, 4, 2\\) uint8"),
         (np.zeros((0, 4, 4), np.uint8), None, "no pixels"),
-        (np.zeros((4, 4, 4), np.uint8), "argb", "format must be one of rgba, bgra"),
+        (np.zeros((4, 4, 4), np.uint8), "argb", "format must be one of .rgba., .bgra."),
         ("a picture", None, "a picture is a Frame"),
     ],
 )
@@ -202,8 +202,8 @@ def test_each_of_several_windows_gets_its_own_events(monkeypatch):
     [
         ((0, 10), {}, "width must be"),
         ((10, 20, 3), {}, "title must be a str"),
-        ((10, 20), {"max_fps": 0}, "max_fps must be a positive number"),
-        ((10, 20), {"max_fps": "many"}, "max_fps must be a positive number"),
+        ((10, 20), {"max_fps": 0}, "max_fps must be a"),
+        ((10, 20), {"max_fps": "many"}, "max_fps must be a"),
     ],
 )
 def test_what_makes_no_window_is_told(arguments, options, said):

@@ -203,7 +203,7 @@ def test_wrong_arguments(house, tmp_path):
         house.save(tmp_path / "a.dae")
     with pytest.raises(InvalidArgumentError, match="obj files have no option 'ascii'"):
         house.save(tmp_path / "a.obj", ascii=True)
-    with pytest.raises(InvalidArgumentError, match="not a Mesh: int"):
+    with pytest.raises(InvalidArgumentError, match="mesh must be a Mesh, not"):
         e3d.save_mesh(3, tmp_path / "a.obj")
     house.save(tmp_path / "model", format="obj")
     assert (tmp_path / "model").read_bytes().startswith(b"# written by engine3d")

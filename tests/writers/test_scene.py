@@ -265,7 +265,7 @@ def test_what_files_have_no_word_for_is_told(tmp_path):
     texts = sorted(str(warning.message).partition("json: ")[2] for warning in told)
     assert texts == ["material '': its extras are left out", "node 'sun': no word for a Sun"]
     assert [node.name for node in e3d.load_scene(tmp_path / "a.e3d.json").nodes] == ["sun", "box"]
-    with pytest.raises(e3d.InvalidArgumentError, match="not a Scene"):
+    with pytest.raises(e3d.InvalidArgumentError, match="scene must be a Scene"):
         e3d.save_scene(scene.nodes[0], tmp_path / "b.e3d.json")
     with pytest.raises(e3d.FileAccessError, match="cannot write"):
         e3d.save_scene(scene, tmp_path / "none" / "b.e3d.json")

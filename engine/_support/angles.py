@@ -1,0 +1,52 @@
+"""Angles that look like degrees.
+
+In: angles in radians, as all of Python's are here. Out: a warning where one is beyond four turns,
+which nobody means but who counts in degrees.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..errors import InvalidArgumentError, warn
+from .numbers import floats, real, shown
+from .validation import finite
+
+FOUR_TURNS = 8.0 * math.pi
+
+
+def finite_angle(value: float, what: str) -> float:
+    """Check an angle of any size: a finite number of radians."""
+    number = finite(value, what)
+    if not -FOUR_TURNS <= number <= FOUR_TURNS:
+        warn_of_degrees(what)
+    return number
+
+
+def field_of_view(value: float, what: str = "yfov") -> float:
+    """Check the angle between the sides of a picture."""
+    return limited_angle(value, what, math.pi, "between 0 and pi radians", open=True)
+
+
+def limited_angle(value: float, what: str, most: float, words: str, *, open: bool = False) -> float:
+    """Check an angle from 0 to ``most`` radians, or between them, as ``words`` say."""
+    number = real(value)
+    if not (0.0 < number < most if open else 0.0 <= number <= most):
+        beyond = "; degrees go through numpy.radians" if number > 2.0 * math.pi else ""
+        raise InvalidArgumentError(f"{what} must be {words}, not {shown(value)}{beyond}")
+    return number
+
+
+def angles(value, what: str) -> np.ndarray:
+    """Return a float64 copy of angles; whether they are finite is for others to say."""
+    array = floats(value, what)
+    if (np.abs(array) > FOUR_TURNS).any():
+        warn_of_degrees(what)
+    return array
+
+
+def warn_of_degrees(what: str) -> None:
+    """Say that angles are radians, in words that do not change, so that each line hears it once."""
+    warn(f"{what} is beyond four turns: angles are radians; degrees go through numpy.radians")

@@ -1,0 +1,222 @@
+"""Calls that are looked at: unknown keywords get a hint, wrong types an error that names them.
+
+In: functions whose annotations say what they take. Out: the same functions. `hinted` costs nothing
+but another call; `checks_types` looks at each argument as well, and is for what is not called for
+every node or number. What an annotation cannot say (a range, a shape) is for the function to check.
+"""
+
+from __future__ import annotations
+
+import ast
+import functools
+import inspect
+import numbers
+import sys
+from collections.abc import Callable, Iterable, Mapping
+from types import UnionType
+from typing import Any, Literal, TypeVar, Union, get_args, get_origin, is_typeddict
+
+import numpy as np
+
+from ..errors import InvalidArgumentError
+from .foreign_names import Kind, hint
+from .numbers import shown
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+#: Whether a value fits, and the words for what does.
+_Kind = tuple[Callable[[Any], bool], str]
+
+
+def hinted(function: Function, owner: type | None = None) -> Function:
+    """Let a function say what is meant by a keyword that it does not have.
+
+    Parameters
+    ----------
+    function : callable
+    owner : type, optional
+        The class whose constructor it is.
+    """
+
+    @functools.wraps(function)
+    def call(*args, **kwargs):
+        try:
+            return function(*args, **kwargs)
+        except TypeError as error:
+            if kwargs and error.__traceback__.tb_next is None:  # no line of the function has run
+                _raise_hint(function, owner, kwargs)
+            raise
+
+    return call
+
+
+def checks_types(function: Function) -> Function:
+    """Let a function refuse arguments of types that its annotations do not name."""
+    found: dict[str, _Kind | None] = {}  # when it is first called: by then all names are there
+
+    @functools.wraps(function)
+    def call(*args, **kwargs):
+        if not found:
+            found.update(_kinds_of(function))
+        for name, value in (*zip(found, args, strict=False), *kwargs.items()):
+            kind = found.get(name)
+            if kind is not None and not kind[0](value):
+                raise InvalidArgumentError(f"{name} must be {kind[1]}, not {shown(value)}")
+        try:
+            return function(*args, **kwargs)
+        except TypeError as error:
+            if kwargs and error.__traceback__.tb_next is None:
+                _raise_hint(function, None, kwargs)
+            raise
+
+    return call
+
+
+def hints_keywords(kind: Kind) -> Kind:
+    """Let a class's constructor give hints, as `hinted` says."""
+    kind.__init__ = hinted(kind.__init__, kind)
+    return kind
+
+
+def shows_annotations(kind: Kind) -> Kind:
+    """Let ``help`` show a named tuple's types as they are written."""
+    written = {name: each.__forward_arg__ for name, each in kind.__annotations__.items()}
+    kind.__new__.__annotations__ = written
+    return kind
+
+
+def _raise_hint(function, owner: type | None, keywords: Mapping[str, Any]) -> None:
+    """Raise a TypeError of a keyword that a function does not have, if there is one."""
+    name = function.__qualname__.removesuffix(".__init__")
+    refuse_unknown(owner or name, keywords, inspect.signature(function).parameters)
+
+
+def refuse_unknown(owner: type | str, keywords: Iterable[str], known: Iterable[str]) -> None:
+    """Raise a TypeError, with a hint, of the first keyword that is not known.
+
+    Parameters
+    ----------
+    owner : type or str
+        The class that is made, or the name of the function.
+    keywords, known : iterable of str
+    """
+    for word in keywords:
+        if word not in known:
+            name = owner if isinstance(owner, str) else owner.__name__
+            raise TypeError(
+                f"{name}() got an unexpected keyword argument {word!r}{hint(owner, word, known)}"
+            ) from None
+
+
+def _kinds_of(function) -> dict[str, _Kind | None]:
+    """Return what each parameter takes; None where anything may be right."""
+    return {
+        name: _kind(ast.parse(parameter.annotation, mode="eval").body, function)
+        if isinstance(parameter.annotation, str) and name not in ("self", "cls")
+        else None
+        for name, parameter in inspect.signature(function).parameters.items()
+        if parameter.kind not in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD)
+    }
+
+
+def _kind(node: ast.expr, function) -> _Kind | None:
+    """Return what an annotation allows, as Python's grammar has it."""
+    if isinstance(node, ast.BinOp):
+        return _either([_kind(part, function) for part in (node.left, node.right)])
+    if isinstance(node, ast.Constant):
+        return _NOTHING if node.value is None else None
+    of = ""
+    if isinstance(node, ast.Subscript):
+        node, of = node.value, ast.unparse(node.slice)
+    name = ast.unparse(node)
+    if name in _UNCHECKED:
+        return None
+    if name == "Literal":
+        return _kind_of(Literal[ast.literal_eval(of)], name)
+    if _PLAIN.get(name) is _MANY and of.isidentifier():
+        return _is_many, f"several {of}"
+    return _PLAIN[name] if name in _PLAIN else _kind_of(_named(name, function), name)
+
+
+def _named(name: str, function) -> Any:
+    """Return what a name means to a function, perhaps to type checkers only."""
+    if name in function.__globals__:
+        return function.__globals__[name]
+    modules = [sys.modules.get(f"engine3d.{module}") for module in _MODULES]
+    found = (vars(module).get(name) for module in modules if module is not None)
+    return next((each for each in found if each is not None), None) or _public(name)
+
+
+def _public(name: str) -> Any:
+    package = sys.modules["engine3d"]
+    return getattr(package, name) if name in package.__all__ else None
+
+
+def _kind_of(named: Any, name: str) -> _Kind | None:
+    """Return what a class or an alias allows."""
+    origin = get_origin(named)
+    if origin in (Union, UnionType):
+        return _either([_kind_of(each, getattr(each, "__name__", "")) for each in get_args(named)])
+    if origin is Literal:
+        allowed = get_args(named)
+        texts = all(isinstance(each, str) for each in allowed)
+        return (_is_choice(allowed), f"one of {', '.join(map(repr, allowed))}") if texts else None
+    if origin is not None:
+        return _PLAIN.get(origin.__name__)
+    if named is type(None):
+        return _NOTHING
+    if not isinstance(named, type) or named in (object, Any):
+        return None
+    if name in _PLAIN or is_typeddict(named):
+        return _PLAIN.get(name, _MAPPING)
+    return lambda value: isinstance(value, named), f"{'an' if name[0] in 'AEIOU' else 'a'} {name}"
+
+
+def _either(kinds: list[_Kind | None]) -> _Kind | None:
+    if None in kinds:
+        return None
+    return lambda value: any(fits(value) for fits, _ in kinds), " or ".join(w for _, w in kinds)
+
+
+def _is_choice(allowed: tuple[str, ...]) -> Callable[[Any], bool]:
+    return lambda value: isinstance(value, str) and value in allowed
+
+
+def is_flag(value) -> bool:
+    """Whether a value is True or False, or as good as one of these: NumPy's, 0 and 1."""
+    return isinstance(value, (bool, np.bool_)) or (isinstance(value, int) and value in (0, 1))
+
+
+def _is_path(value) -> bool:
+    return hasattr(value, "__fspath__") or isinstance(value, bytes)
+
+
+def _is_many(value) -> bool:
+    return isinstance(value, Iterable) and not isinstance(value, (str, bytes))
+
+
+def _is_file(value) -> bool:
+    return hasattr(value, "read") or hasattr(value, "write")
+
+
+_UNCHECKED = ("Any", "ArrayLike", "Backend")  # a BackendError says more of the last
+_MODULES = ("datasets", "batch", "loaders", "choices")  # whose names annotations use
+_NOTHING: _Kind = (lambda value: value is None, "None")
+_MANY: _Kind = (_is_many, "several things")
+_MAPPING: _Kind = (lambda value: isinstance(value, Mapping), "a dict")
+_PLAIN: dict[str, _Kind] = {
+    "bool": (is_flag, "True or False"),
+    "int": (lambda value: isinstance(value, numbers.Integral), "a whole number"),
+    "float": (lambda value: isinstance(value, numbers.Real), "a number"),
+    "str": (lambda value: isinstance(value, str), "a str"),
+    "bytes": (lambda value: isinstance(value, (bytes, bytearray, memoryview)), "bytes"),
+    "os.PathLike": (_is_path, "a path"),
+    "BinaryIO": (_is_file, "a file"),
+    "Callable": (callable, "a function"),
+    "Iterable": _MANY,
+    "Sequence": _MANY,
+    "list": _MANY,
+    "tuple": _MANY,
+    "Mapping": _MAPPING,
+    "dict": _MAPPING,
+    "NDArray": (lambda value: isinstance(value, np.ndarray), "an array"),
+}

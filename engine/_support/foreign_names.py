@@ -1,0 +1,373 @@
+"""Names that people bring from elsewhere, and what is called so here.
+
+In: a class, a module or a function, and a name that it does not have. Out: the end of a sentence
+that says what it has instead, or nothing. The names are those of pyrender, trimesh, three.js,
+Open3D, PyVista and Blender; what is no word of theirs may be a slip of the keyboard.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from typing import TypeVar
+
+Kind = TypeVar("Kind", bound=type)
+
+_PLACED = "its place is its node's: scene.add({thing}, {how})"
+_LIGHT = _PLACED.format(thing="light", how="translation=(x, y, z)")
+_CAMERA = _PLACED.format(thing="camera", how="pose=engine3d.look_at(eye, target)")
+_PLACES = ("position", "translation", "location", "pose", "rotation", "euler", "eye", "target")
+_MATERIALS = "mesh.materials[0].{}"
+_LIGHT_NODES = "[node for node in scene.nodes if isinstance(node.object, engine3d.PointLight)]"
+
+#: By class, or by function: a foreign name, and the name here, or some words.
+_NAMES: dict[str, dict[str, str]] = {
+    "engine3d": {
+        "sphere": "uv_sphere or icosphere",
+        "Sphere": "uv_sphere or icosphere",
+        "SphereGeometry": "uv_sphere",
+        "ico_sphere": "icosphere",
+        "cube": "box",
+        "Cube": "box",
+        "Box": "box",
+        "BoxGeometry": "box",
+        "Plane": "plane",
+        "PlaneGeometry": "plane",
+        "grid": "plane",
+        "cone": "trimesh.creation.cone by Mesh.from_trimesh",
+        "TriangleMesh": "Mesh",
+        "Trimesh": "Mesh",
+        "PolyData": "Mesh",
+        "BufferGeometry": "Mesh",
+        "load": "load_mesh or load_scene",
+        "read": "load_mesh or load_scene",
+        "read_triangle_mesh": "load_mesh",
+        "save": "save_mesh or save_scene",
+        "export": "save_mesh or save_scene",
+        "write_triangle_mesh": "save_mesh",
+        "lookat": "look_at",
+        "lookAt": "look_at",
+        "draw": "render or show",
+        "view": "show",
+        "plot": "show",
+        "draw_geometries": "show",
+        "Viewer": "show",
+        "Plotter": "show",
+        "OffscreenRenderer": "Renderer",
+        "WebGLRenderer": "Renderer",
+        "MetallicRoughnessMaterial": "Material",
+        "MeshStandardMaterial": "Material",
+        "MeshBasicMaterial": "Material(unlit=True)",
+        "AmbientLight": "Scene(ambient=...)",
+        "SunLight": "DirectionalLight",
+        "AreaLight": "PointLight or SpotLight",
+        "Group": "Scene.add(), a node without an object",
+        "Object3D": "Node, which Scene.add makes",
+        "Vector3": "NumPy's arrays and engine3d.linalg",
+        "Image": "Frame",
+    },
+    "Mesh": {
+        "vertices": "positions",
+        "verts": "positions",
+        "v": "positions",
+        "f": "faces",
+        "triangles": "faces",
+        "indices": "faces",
+        "polys": "faces",
+        "position": "positions",
+        "vertex_normals": "normals",
+        "normal": "normals",
+        "vertex_colors": "colors",
+        "color": _MATERIALS.format("color"),
+        "texture": _MATERIALS.format("texture"),
+        "material": "materials, a list",
+        "visual": "materials and colors",
+        "uv": "uvs",
+        "texcoords": "uvs",
+        "texture_coordinates": "uvs",
+        "edges_unique": "edges()",
+        "export": "save",
+        "write": "save",
+        "compute_vertex_normals": "normals, which are computed where none are given",
+        "extents": "bounds",
+        "bounding_box": "bounds",
+        "translate": "a node's translation, or Mesh.concatenate([mesh], poses=[pose])",
+        "rotate": "a node's rotation or euler, or Mesh.concatenate([mesh], poses=[pose])",
+        "scale": "a node's scale, or Mesh.concatenate([mesh], poses=[pose])",
+        "apply_transform": "Mesh.concatenate([mesh], poses=[pose])",
+        "transform": "Mesh.concatenate([mesh], poses=[pose])",
+        "copy": "copy.copy(mesh)",
+        "show": "engine3d.show(mesh)",
+        "plot": "engine3d.show(mesh)",
+    },
+    "Material": {
+        "metalness": "metallic",
+        "metallicFactor": "metallic",
+        "metallic_factor": "metallic",
+        "roughnessFactor": "roughness",
+        "roughness_factor": "roughness",
+        "baseColorFactor": "color",
+        "base_color": "color",
+        "diffuse": "color",
+        "albedo": "color",
+        "map": "texture",
+        "image": "texture",
+        "base_color_texture": "texture",
+        "baseColorTexture": "texture",
+        "normal_map": "normal_texture",
+        "normalMap": "normal_texture",
+        "emission": "emissive",
+        "emissive_intensity": "emissive_strength",
+        "opacity": "color, whose fourth number is alpha, with alpha_mode='blend'",
+        "alpha": "color, whose fourth number is alpha, with alpha_mode='blend'",
+        "transparent": "alpha_mode='blend'",
+        "double_sided": "two_sided",
+        "doubleSided": "two_sided",
+        "side": "two_sided",
+        "smooth": "flat_shading",
+        "flatShading": "flat_shading",
+        "gloss": "shininess or roughness",
+        "wireframe": "render(..., wireframe='only')",
+        "index_of_refraction": "ior",
+    },
+    "Camera": {
+        **dict.fromkeys(_PLACES, _CAMERA),
+        "look_at": _CAMERA,
+        "lookAt": _CAMERA,
+        "near": "znear",
+        "clip_start": "znear",
+        "far": "zfar",
+        "clip_end": "zfar",
+    },
+    "PerspectiveCamera": {
+        "fov": "yfov, in radians",
+        "fovy": "yfov, in radians",
+        "field_of_view": "yfov, in radians",
+        "view_angle": "yfov, in radians",
+        "aspectRatio": "aspect",
+        "aspect_ratio": "aspect",
+        "focal_length": "yfov, in radians, or an IntrinsicsCamera",
+    },
+    "OrthographicCamera": {
+        "scale": "ymag, half the height of what is seen",
+        "parallel_scale": "ymag, half the height of what is seen",
+        "size": "ymag, half the height of what is seen",
+    },
+    "CastsShadows": {
+        **dict.fromkeys(_PLACES, _LIGHT),
+        "castShadow": "shadow",
+        "cast_shadow": "shadow",
+        "shadows": "shadow",
+        "energy": "intensity",
+        "power": "intensity",
+        "strength": "intensity",
+    },
+    "PointLight": {"distance": "range", "decay": "falloff"},
+    "SpotLight": {
+        "distance": "range",
+        "angle": "outer_cone_angle, in radians",
+        "innerConeAngle": "inner_cone_angle",
+        "outerConeAngle": "outer_cone_angle",
+    },
+    "HemisphereLight": dict.fromkeys(_PLACES, _LIGHT),
+    "LightProbe": dict.fromkeys(_PLACES, _LIGHT),
+    "DirectionalLight": {"target": "direction"},
+    "Texture": {"image": "pixels", "data": "pixels", "source": "pixels", "interpolation": "filter"},
+    "Node": {
+        "position": "translation",
+        "location": "translation",
+        "quaternion": "rotation",
+        "orientation": "rotation, a quaternion, or euler",
+        "rotation_euler": "euler",
+        "rotation_quaternion": "rotation",
+        "matrix": "pose",
+        "matrix_local": "pose",
+        "matrix_world": "world_pose",
+        "matrixWorld": "world_pose",
+        "transform": "pose",
+        "world_matrix": "world_pose",
+        "world_position": "world_pose[:3, 3]",
+        "mesh": "object",
+        "camera": "object",
+        "light": "object",
+        "material": "object.materials",
+        "castShadow": "cast_shadows",
+        "cast_shadow": "cast_shadows",
+        "receiveShadow": "receive_shadows",
+        "receive_shadow": "receive_shadows",
+        "hide": "visible",
+        "look_at": "pose = engine3d.look_at(eye, target)",
+        "lookAt": "pose = engine3d.look_at(eye, target)",
+        "add": "scene.add(..., parent=node)",
+    },
+    "Scene": {
+        "lights": _LIGHT_NODES,
+        "light_nodes": _LIGHT_NODES,
+        "cameras": "nodes, those whose object is an engine3d.Camera",
+        "camera": "render(scene, camera), or a node with one",
+        "meshes": "nodes, those whose object is an engine3d.Mesh",
+        "objects": "nodes",
+        "children": "nodes",
+        "geometry": "nodes",
+        "graph": "nodes",
+        "bg_color": "background",
+        "background_color": "background",
+        "ambient_light": "ambient",
+        "add_mesh": "add",
+        "add_light": "add",
+        "add_camera": "add",
+        "add_geometry": "add",
+        "add_node": "add",
+        "get": "find",
+        "find_node": "find",
+        "getObjectByName": "find",
+        "export": "save",
+        "render": "engine3d.render(scene)",
+        "show": "engine3d.show(scene)",
+        "traverse": "nodes",
+    },
+    "Frame": {
+        "colour": "color",
+        "rgb": "color",
+        "rgba": "color",
+        "pixels": "color",
+        "data": "color",
+        "array": "color",
+        "png": "encode('png')",
+        "write": "save",
+        "show": "engine3d.show(frame)",
+        "shape": "height and width",
+        "segmentation": "object_id",
+    },
+    "Scene.add": {
+        "position": "translation",
+        "location": "translation",
+        "quaternion": "rotation",
+        "matrix": "pose",
+        "transform": "pose",
+        "material": "the mesh's materials",
+        "color": "the mesh's materials",
+        "visible": "node.visible",
+        "parent_node": "parent",
+    },
+    "orbit": {"radius": "distance", "center": "target", "theta": "azimuth", "phi": "elevation"},
+    "box": {"extents": "size", "dimensions": "size", "width": "size=(x, y, z)"},
+    "plane": {"width": "size=(x, z)", "extents": "size", "subdivisions": "segments"},
+    "uv_sphere": {"count": "segments=(around, bands)", "subdivisions": "segments, or icosphere"},
+    "icosphere": {"segments": "subdivisions, or uv_sphere", "detail": "subdivisions"},
+    "cylinder": {"sections": "segments", "resolution": "segments", "depth": "height"},
+    "torus": {"radius": "major_radius", "tube": "minor_radius"},
+    "Window": {"size": "width and height", "fps": "max_fps", "caption": "title"},
+    "Renderer": {
+        "size": "width and height",
+        "viewport_width": "width",
+        "viewport_height": "height",
+        "msaa": "antialias='msaa', samples=4",
+        "antialiasing": "antialias='msaa', samples=4",
+        "num_threads": "threads",
+    },
+    "render": {
+        "width": "size=(width, height)",
+        "resolution": "size=(width, height)",
+        "background": "scene.background",
+        "shadows": "the light's shadow=True",
+        "msaa": "Renderer(antialias='msaa', samples=4)",
+        "antialiasing": "antialias='msaa', samples=4",
+        "tonemapping": "tone_mapping",
+        "ssao": "ambient_occlusion",
+        "look": "tone_mapping, ambient_occlusion and other options",
+        "flags": "mode, wireframe and other options",
+    },
+}
+
+
+def hint(owner: str | type, name: str, known: Iterable[str]) -> str:
+    """Return ``": did you mean ..."``, or nothing where neither is near.
+
+    Parameters
+    ----------
+    owner : type or str
+        What lacks the name: a class, or the name of a module or a function.
+    name : str
+    known : iterable of str
+        What it has.
+    """
+    owners = [kind.__name__ for kind in owner.__mro__] if isinstance(owner, type) else [owner]
+    for each in owners:
+        if name in _NAMES.get(each, ()):
+            here = _NAMES[each][name]
+            return f": {here}" if here.startswith("its ") else f": did you mean {here}?"
+    near = difflib.get_close_matches(name, [k for k in known if k[0] != "_"], 1, 0.75)
+    return f": did you mean {near[0]}?" if near else ""
+
+
+def foreign_names(kind: type) -> dict[str, str]:
+    """Return the foreign names of a class and its bases, with what they are here."""
+    found: dict[str, str] = {}
+    for each in reversed(kind.__mro__):
+        found.update(_NAMES.get(each.__name__, {}))
+    return found
+
+
+class UnknownName(AttributeError):
+    """What was asked for is not there; the text, with what may be meant, is found when it shows.
+
+    Asking costs next to nothing, since `getattr` with a default and `hasattr` never read the text.
+
+    Parameters
+    ----------
+    owner : type or str
+        A class, or the name of a module.
+    name : str
+    known : iterable of str, optional
+        What a module has.
+    """
+
+    def __init__(self, owner: type | str, name: str, known: Iterable[str] = ()) -> None:
+        # The interpreter's own guess would stand behind that of the text.
+        super().__init__(owner, name, known, name=None, obj=None)
+
+    def __str__(self) -> str:
+        owner, name, known = self.args
+        if isinstance(owner, str):
+            return f"module {owner!r} has no attribute {name!r}{hint(owner, name, known)}"
+        known = [each for each in dir(owner) if hasattr(owner, each)]  # no foreign ones
+        kind = f"{'an' if owner.__name__[0] in 'AEIOU' else 'a'} {owner.__name__}"
+        return f"{kind} has no attribute {name!r}{hint(owner, name, known)}"
+
+
+class _Foreign:
+    """A foreign name of a class, which is there to refuse to be read or assigned.
+
+    A ``__getattr__`` would do so as well, and make every attribute of the class slower to read.
+    """
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __get__(self, thing, kind: type):
+        raise UnknownName(kind, self._name)
+
+    def __set__(self, thing, value) -> None:
+        raise UnknownName(type(thing), self._name)
+
+
+def refuses_foreign_names(kind: Kind) -> Kind:
+    """Let a class answer to foreign names by an error that tells its own.
+
+    Misspelt ones are Python's to tell, which guesses when it shows an error.
+    """
+    foreign = frozenset(foreign_names(kind).keys() - set(dir(kind)))
+    for name in foreign:
+        setattr(kind, name, _Foreign(name))
+    if foreign:
+        kind.__dir__ = _own_names
+    return kind
+
+
+def _own_names(thing) -> list[str]:
+    """What ``dir`` shows: not what is there to refuse."""
+    refused = {
+        n for kind in type(thing).__mro__ for n, v in vars(kind).items() if type(v) is _Foreign
+    }
+    return [name for name in object.__dir__(thing) if name not in refused]

@@ -1,0 +1,42 @@
+"""Pictures of scenes and meshes for notebooks: small, and only of what is drawn in a moment.
+
+In: a scene or a mesh. Out: a PNG, or None of what shows nothing, or has too many faces to be drawn
+while somebody waits for the text of a cell.
+"""
+
+from __future__ import annotations
+
+from ..errors import Engine3DError
+from ..geometry.mesh import Mesh
+from ..motion.shown import shown_object
+from ..scene.instances import InstancedMesh
+from ..scene.scene import Scene
+from .renderer import render
+
+SIZE = (400, 300)
+#: Faces, lines and points together: half a second on one processor.
+MOST_PARTS = 1_000_000
+
+
+def thumbnail(thing: Scene | Mesh) -> bytes | None:
+    """Return a picture as the bytes of a PNG, or None."""
+    scene = thing
+    if isinstance(thing, Mesh):
+        scene = Scene(background=None)
+        scene.add(thing)
+    shown = [shown_object(node) for node in scene.nodes if node.shown]
+    if not 0 < sum(map(_parts, shown)) <= MOST_PARTS:
+        return None
+    try:
+        frame = render(scene, size=SIZE, samples=4, antialias="msaa", cull="auto")
+    except Engine3DError:  # such as of coordinates that no camera can be placed for
+        return None
+    return frame.encode()
+
+
+def _parts(shown) -> int:
+    mesh = shown.mesh if isinstance(shown, InstancedMesh) else shown
+    if not hasattr(mesh, "faces"):
+        return 0  # a light, a camera, a group
+    count = len(shown.poses) if isinstance(shown, InstancedMesh) else 1
+    return count * (len(mesh.faces) + len(mesh.lines) + len(mesh.points))

@@ -230,7 +230,7 @@ class Node:
     @property
     def rotation(self) -> NDArray[np.float64]:
         """Quaternion x, y, z, w, (4,) float64."""
-        return self._arrays.rotation(self._slot)
+        return self._arrays.rotation(self._slot).view(PosePart)
 
     @rotation.setter
     def rotation(self, value: ArrayLike) -> None:
@@ -252,7 +252,7 @@ class Node:
     @property
     def scale(self) -> NDArray[np.float64]:
         """Factors along the node's axes, (3,) float64; one number may be assigned."""
-        return self._arrays.scale(self._slot)
+        return self._arrays.scale(self._slot).view(PosePart)
 
     @scale.setter
     def scale(self, value: ArrayLike) -> None:

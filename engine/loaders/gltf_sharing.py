@@ -11,6 +11,10 @@ from collections import Counter
 from collections.abc import Callable, Hashable, Iterable
 from typing import Any
 
+import numpy as np
+
+from .._native.loaders import frozen
+
 
 class SharedArrays:
     """What was made of accessors that several primitives name.
@@ -41,5 +45,12 @@ class SharedArrays:
             return make()
         key = role, index, *rest
         if key not in self._made:
-            self._made[key] = make()
+            self._made[key] = _sealed(make())
         return self._made[key]
+
+
+def _sealed(made: Any) -> Any:
+    """Arrays that nobody can write to: meshes copy others."""
+    if type(made) is tuple:
+        return tuple(map(_sealed, made))
+    return frozen(made) if isinstance(made, np.ndarray) else made

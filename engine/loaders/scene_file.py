@@ -7,6 +7,7 @@ the document are what shows, with the nodes' poses. docs/formats.md has the form
 
 from __future__ import annotations
 
+import inspect
 import math
 import os
 import re
@@ -50,7 +51,7 @@ _NODES, _BYTES_OF_A_NODE = 20_000, 32
 _MAX_NAME = 4096
 _MAX_COPIES = 20_000
 _SIGNATURE = re.compile(rb'\A(?:\xef\xbb\xbf)?\s*\{\s*"format"\s*:\s*"engine3d scene"')
-_MATERIAL_FIELDS = frozenset(Material.__init__.__kwdefaults__ or ())
+_MATERIAL_FIELDS = frozenset(inspect.signature(Material).parameters)
 _ARRAYS = {name.removeprefix("_given_") for name in Mesh([])._arrays}
 
 

@@ -68,7 +68,7 @@ class Layer:
                 for channel, row, numbers in zip(
                     table.channels, rows.tolist(), sampled, strict=True
                 ):
-                    values[PROPERTIES][row] = channel.within(numbers)
+                    values[PROPERTIES][row] = channel._within(numbers)
             else:
                 values[path][rows] = sampled
         return values

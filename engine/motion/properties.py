@@ -263,7 +263,7 @@ class PropertyChannel(Closed):
         keys = self._values[:, 1] if self._interpolation == "cubicspline" else self._values
         return float(keys.min()), float(keys.max())
 
-    def within(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _within(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return a value between keys that is not beyond them, if the property may not be."""
         if self._hull is None:
             return values

@@ -29,7 +29,7 @@ SECTIONS = {
         Binding(("L",), "cycle_lights", "next lights (Shift: previous)"),
         Binding(("Ctrl+L",), "toggle_occlusion", "ambient occlusion"),
         Binding(("Ctrl+T",), "cycle_tone_mapping", "next tone mapping (Shift: previous)"),
-        Binding(("F",), "toggle_flat", "flat normals, one light per face, or smooth normals"),
+        Binding(("F",), "toggle_flat", "flat, facets or smooth"),
         Binding(("B",), "cycle_cull", "cull back faces, front faces, none"),
         Binding(("Y",), "cycle_culling", "what is left out before drawing"),
         Binding(("V",), "cycle_hidden_surfaces", "depth buffer, painter, neither"),

@@ -97,7 +97,7 @@ def file(tmp_path):
 @pytest.mark.parametrize("word", REASONS)
 def test_commands_say_it(file, tmp_path, capsys, word, command):
     options, part = REASONS[word][2][0], REASONS[word][3]
-    if command == "turntable" and word in ("all_culled", "outside", "edge_on"):
+    if command == "turntable" and word in ("all_culled", "behind_camera", "outside", "edge_on"):
         pytest.skip("a turn shows it")
     cull = ["--cull", "back"] if word == "all_culled" else []
     output = tmp_path / ("a.gif" if command == "turntable" else "a.png")

@@ -110,11 +110,13 @@ def test_headless_runs_draw_what_can_be_drawn_too(folder, tmp_path, capsys):
 @pytest.mark.parametrize("look", ["studio", "plain"])
 def test_one_theme_is_one_ground_for_all(folder, tmp_path, look):
     """Before which auto puts a dark model on light, and a light one on dark."""
+    # White faces stand out from light ground as well; white points don't.
+    (folder / "p.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n")
     corners = {}
     for theme in ("auto", "dark", "light"):
         for color in ("black", "white"):
             options = [*SMALL, "--look", look, "--theme", theme, "--color", color, "--unlit"]
-            assert main(["render", str(folder / "b.obj"), *options, "-o", "a.png"]) == 0
+            assert main(["render", str(folder / "p.obj"), *options, "-o", "a.png"]) == 0
             corners[theme, color] = tuple(pixels("a.png")[0, 0])
     for theme in ("dark", "light"):
         assert corners[theme, "black"] == corners[theme, "white"]

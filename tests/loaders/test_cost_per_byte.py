@@ -12,7 +12,7 @@ from engine3d.errors import Engine3DError
 
 SIZE = 3000
 # Calls of functions, and bytes of memory, for each byte of a file.
-MOST_CALLS, MOST_MEMORY = 60, 500
+MOST_CALLS, MOST_MEMORY = 70, 600
 # How much more each further byte may cost in a file of twice the size, and what any file costs.
 MOST_GROWTH = 1.6
 CALLS_OF_ANY, MEMORY_OF_ANY = 3000, 200_000

@@ -246,6 +246,9 @@ RIGHT: dict[str, Any] = {
     "poses": [(0, 0, 0, 1)],
     "positions": np.eye(3),
     "MorphTarget.positions": np.ones((3, 3)),
+    "PropertyChannel.target": e3d.Material,
+    "PropertyChannel.path": "shininess",
+    "PropertyChannel.values": [[1.0], [2.0]],
     "probability": 0.5,
     "projection": np.eye(4),
     "q": (0, 0, 0, 1),
@@ -308,6 +311,8 @@ BESIDE: dict[str, dict[str, Any]] = {
     "batch.Task": {"script": "there.py"},
     "show": {"size": (64, 48)},
 }
+#: The shape of a note is asked of whatever a record holds.
+TAKE_ALL = {"note_shape"}
 VARIABLE = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
 
 
@@ -361,7 +366,7 @@ def _calls_of_class(label: str, kind: type) -> Iterator[Call]:
         if "__init__" in vars(kind) or not issubclass(kind, (BaseException, tuple)):
             yield _call(label, None, kind, skip=0)
     for name in dir(kind):
-        if name.startswith("_"):
+        if name.startswith("_") or name in TAKE_ALL:
             continue
         member = inspect.getattr_static(kind, name)
         where = f"{label}.{name}"

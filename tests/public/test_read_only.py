@@ -27,7 +27,8 @@ def arrays_of(thing):
         elif isinstance(value, (list, tuple)):
             todo += [(f"{where}[{k}]", item) for k, item in enumerate(value)]
             names = getattr(value, "_fields", ())
-        if type(value).__module__.startswith("engine3d"):
+        is_array = isinstance(value, np.ndarray)
+        if type(value).__module__.startswith("engine3d") and not is_array:
             names = [name for name in dir(value) if not name.startswith("_")]
             todo += [(f"{where}.{name}", getattr(value, name, None)) for name in names]
 

@@ -96,7 +96,7 @@ def test_what_is_far_from_the_origin_stands_near_one_of_its_own():
 
 
 def test_what_is_no_geometry():
-    with pytest.raises(InvalidArgumentError, match="not a geometry of trimesh: int"):
+    with pytest.raises(InvalidArgumentError, match="geometry must be one of trimesh, not 3"):
         e3d.Mesh.from_trimesh(3)
 
 

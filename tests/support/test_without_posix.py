@@ -16,7 +16,7 @@ pytestmark = pytest.mark.skipif(typeshed() is None, reason="pip install mypy: wh
 PACKAGE = Path(engine3d.__file__).parent
 # Names that are asked for where the system is known to have them: each file says how.
 KNOWN = {
-    "_support/system.py": {"SIGKILL"},  # where there is killpg
+    "_support/system.py": {"SIGKILL", "sysconf"},  # where there is killpg; AttributeError
     "editor/ui/interrupts.py": {"setitimer", "ITIMER_REAL", "SIGALRM"},  # has_alarm()
     "files/atomic_write.py": {"set_blocking"},  # where AT_ONCE is a flag
     "terminal/device.py": {"O_NOCTTY"},  # once termios is imported

@@ -4,6 +4,7 @@ Nothing bare of Python's or NumPy's, no warning of NumPy's, and no success with 
 """
 
 import warnings
+from importlib.util import find_spec
 
 import pytest
 from public.every_callable import OBJ, PPM, every_call, hostile_values
@@ -32,7 +33,8 @@ def apart(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     monkeypatch.setattr(show, "Window", no_screen)
-    monkeypatch.setattr("distributed.Client", no_scheduler)
+    if find_spec("distributed"):
+        monkeypatch.setattr("distributed.Client", no_scheduler)
     (tmp_path / "there.obj").write_bytes(OBJ)
     (tmp_path / "there.ppm").write_bytes(PPM)
     (tmp_path / "there.json").write_text(MANIFEST)

@@ -23,6 +23,8 @@ PATIENCE = 2.0
 USUAL_CELL = (8, 16)
 #: Pixels along a side of a cell, at most.
 LARGEST_CELL = 1000
+#: Columns and rows where the terminal does not tell; it does not where it says more than so many.
+USUAL_CELLS, TOLD_CELLS = (80, 24), 4096
 #: Columns and rows that are used, at most; no screen has as many.
 MOST_CELLS = (640, 256)
 #: Bytes of an answer.
@@ -114,7 +116,9 @@ class Device:
     def cells(self) -> tuple[int, int]:
         """Return columns and rows."""
         columns, rows = os.get_terminal_size(self._file)
-        return min(max(columns, 1), MOST_CELLS[0]), min(max(rows, 2), MOST_CELLS[1])
+        if not (0 < columns <= TOLD_CELLS and 0 < rows <= TOLD_CELLS):
+            return USUAL_CELLS
+        return min(columns, MOST_CELLS[0]), min(max(rows, 2), MOST_CELLS[1])
 
     def ask(self) -> Answers:
         """Ask the terminal what it can do; one that is silent can show half blocks."""

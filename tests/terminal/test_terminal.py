@@ -158,9 +158,7 @@ def test_pictures_for_large_terminals_have_a_limit():
     assert picture_size(Answers("sixel", (20, 40), False), (200, 60)) == (640, 480)
 
 
-@pytest.mark.parametrize(
-    "size", [(ROWS, COLUMNS), (0, 0), pytest.param((65535, 65535), marks=pytest.mark.slow)]
-)
+@pytest.mark.parametrize("size", [(ROWS, COLUMNS), (0, 0), (65535, 65535)])
 def test_the_viewer_goes_on_whatever_the_terminal_says(size):
     choice = random.Random(str(size))
     terminal = FakeTerminal(hostile_answers.answer(choice), "run", "MODEL", "--terminal", size=size)

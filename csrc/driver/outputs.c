@@ -92,6 +92,8 @@ outcome compare_outputs(random_stream r, const run_plan *plan, const char *title
         result.status = scene_add_environment(&s, &r);
     if (random_once_in(&r, 2))
         come_close(&s.frame, &r);
+    if (random_once_in(&r, 4))
+        s.frame.normals = E3D_NORMALS_FACET;
     const e3d_mode modes[] = {(e3d_mode)random_below(&r, E3D_MODE_UNLIT + 1), (e3d_mode)(E3D_MODE_RANDOM + random_below(&r, OTHER_MODES))};
     outcome found = {.hash = HASH_START, .status = result.status, .agrees = 1};
     for (int m = 0; m < 2 && found.status == E3D_OK; m++) {

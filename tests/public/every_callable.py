@@ -13,6 +13,7 @@ from importlib import import_module
 from typing import Any
 
 import numpy as np
+import pytest
 from public.hostile_calls import SIZE, camera, draw, ground, lit_scene, mesh, scene, sheet
 from public.test_copies import COPIED, REFUSED
 
@@ -69,9 +70,7 @@ def removed_node(shown):
 
 
 def cube_of_trimesh():
-    import trimesh
-
-    return trimesh.creation.box()
+    return pytest.importorskip("trimesh").creation.box()
 
 
 def with_uvs():

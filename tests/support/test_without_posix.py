@@ -29,6 +29,8 @@ PROGRAM = """
 import asyncio, ctypes, importlib, json, multiprocessing, os, pathlib, pkgutil, platform, signal
 import subprocess, sys, tempfile, types
 import numpy, PIL.Image, rich.console, sdl2
+# Other packages start programs, for which Python 3.13 has names of `os`.
+subprocess._USE_POSIX_SPAWN = False
 partly, wholly = json.load(sys.stdin)
 for module, names in partly.items():
     for name in names:

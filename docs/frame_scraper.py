@@ -12,6 +12,8 @@ from typing import Any
 
 from sphinx_gallery.scrapers import figure_rst
 
+from engine3d import Canvas, Frame
+
 
 class FrameScraper:
     """Remembers what it showed of the example at hand, so that each picture comes once."""
@@ -28,7 +30,7 @@ class FrameScraper:
             self._source, self._shown = block_vars["src_file"], []
         paths = []
         for thing in list(block_vars["example_globals"].values()):
-            if not hasattr(type(thing), "_repr_png_") or any(thing is old for old in self._shown):
+            if not isinstance(thing, (Canvas, Frame)) or any(thing is old for old in self._shown):
                 continue
             self._shown.append(thing)
             path = Path(next(block_vars["image_path_iterator"]))

@@ -305,8 +305,7 @@ class _Reading:
 
     def _repeated(self, mesh: Mesh) -> Mesh:
         """A primitive that is like another one, with arrays that both share."""
-        twin = mesh._twin([m._twin() for m in self._materials_of[mesh]], mesh.name)
-        return _as_it_came(twin, mesh)
+        return mesh._twin([m._twin() for m in self._materials_of[mesh]], _name_in_file(mesh))
 
     def _mesh_of_file(self, entry: JsonValue) -> Mesh:
         """A mesh of a file, or an empty one that keeps its place, with a warning."""
@@ -350,7 +349,7 @@ class _Reading:
     def _twin(self, mesh: Mesh, times: int) -> Mesh:
         """A mesh that is used once more: parts of a file share materials only if all are new."""
         materials = [self._material_copy(m, times) for m in self._materials_of[mesh]]
-        return _as_it_came(mesh._twin(materials, mesh.name), mesh)
+        return mesh._twin(materials, _name_in_file(mesh))
 
     def _material_copy(self, material: Material, times: int) -> Material:
         key = id(material), times
@@ -385,12 +384,9 @@ class _Reading:
         return os.path.abspath(os.path.join(folder, name))
 
 
-def _as_it_came(twin: Mesh, mesh: Mesh) -> Mesh:
-    """A copy of a mesh under the name that it came with, whatever the first is called by now."""
-    twin._origin = mesh._origin
-    if mesh._origin is not None:
-        twin.name = mesh._origin.name
-    return twin
+def _name_in_file(mesh: Mesh) -> str:
+    """The name that a mesh came with, whatever it is called by now."""
+    return mesh.name if mesh._origin is None else mesh._origin.name
 
 
 def _crease_angle(entry: JsonValue, usual: float) -> float:

@@ -10,20 +10,20 @@ from collections.abc import Iterable, Mapping
 from typing import get_args
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .._support.validation import Closed, choose, text
 from ..choices import Interpolation, MotionPath
 from ..errors import InvalidArgumentError
 from ..scene.nodes import Node
-from .keys import INTERPOLATIONS, check_times, frozen_or_copied
+from .keys import INTERPOLATIONS, Keyed, check_times, frozen_or_copied
 from .properties import PropertyChannel
 
 PATHS = get_args(MotionPath)
 _WIDTHS = {"translation": 3, "rotation": 4, "scale": 3}
 
 
-class Channel(Closed):
+class Channel(Keyed):
     """Keys of one part of one node; it stays as it was made.
 
     Parameters
@@ -68,20 +68,6 @@ class Channel(Closed):
     @property
     def path(self) -> MotionPath:
         return self._path
-
-    @property
-    def interpolation(self) -> Interpolation:
-        return self._interpolation
-
-    @property
-    def times(self) -> NDArray[np.float64]:
-        """(K,) float64, read-only."""
-        return self._times
-
-    @property
-    def values(self) -> NDArray[np.float64]:
-        """(K, N) or (K, 3, N) float64, read-only."""
-        return self._values
 
     def __reduce_ex__(self, protocol):
         raise TypeError("a Channel belongs to the Scene of its node: it cannot be copied")

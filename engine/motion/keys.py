@@ -5,13 +5,37 @@ from __future__ import annotations
 from typing import get_args
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .._native.loaders import frozen, is_frozen
 from .._support.numbers import floats
+from .._support.validation import Closed
 from ..choices import Interpolation
 from ..errors import InvalidArgumentError
 
 INTERPOLATIONS = get_args(Interpolation)
+
+
+class Keyed(Closed):
+    """What has keys, as channels have them; who makes one checks them."""
+
+    _interpolation: Interpolation
+    _times: NDArray[np.float64]
+    _values: NDArray[np.float64]
+
+    @property
+    def interpolation(self) -> Interpolation:
+        return self._interpolation
+
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """(K,) float64, read-only."""
+        return self._times
+
+    @property
+    def values(self) -> NDArray[np.float64]:
+        """(K, N) or (K, 3, N) float64, read-only."""
+        return self._values
 
 
 def check_times(value) -> np.ndarray:

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._support.validation import Closed, choose
+from .._support.validation import choose
 from ..choices import Interpolation
 from ..errors import InvalidArgumentError
 from ..materials.colors import certainly_linear, linear_color
@@ -22,7 +22,7 @@ from ..materials.textures import PlacedTexture, Texture
 from ..scene.cameras import OrthographicCamera, PerspectiveCamera
 from ..scene.lights import DirectionalLight, PointLight, SpotLight
 from ..scene.nodes import Node
-from .keys import INTERPOLATIONS, check_times, frozen_or_copied
+from .keys import INTERPOLATIONS, Keyed, check_times, frozen_or_copied
 
 _LEAST = 1e-9  # of what must be greater than 0
 _WIDEST = math.pi - 1e-6
@@ -193,7 +193,7 @@ def _placed(held: Texture | PlacedTexture) -> PlacedTexture:
     return held if isinstance(held, PlacedTexture) else PlacedTexture(held)
 
 
-class PropertyChannel(Closed):
+class PropertyChannel(Keyed):
     """Keys of a property of a material, a camera, a light or a node; it stays as it was made.
 
     Parameters
@@ -242,20 +242,6 @@ class PropertyChannel(Closed):
     @property
     def path(self) -> str:
         return self._property.path
-
-    @property
-    def interpolation(self) -> Interpolation:
-        return self._interpolation
-
-    @property
-    def times(self) -> NDArray[np.float64]:
-        """(K,) float64, read-only."""
-        return self._times
-
-    @property
-    def values(self) -> NDArray[np.float64]:
-        """(K, N) or (K, 3, N) float64, read-only."""
-        return self._values
 
     @property
     def reach(self) -> tuple[float, float]:

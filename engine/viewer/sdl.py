@@ -11,6 +11,7 @@ import sys
 import warnings
 
 from ..errors import DisplayError
+from .x11_errors import forgive_late_messages
 
 #: SDL's drivers that draw nowhere: it falls back to them when there is no screen.
 SCREENLESS_DRIVERS = ("offscreen", "dummy", "evdev")
@@ -61,6 +62,8 @@ def open_video():
     if driver in SCREENLESS_DRIVERS and os.environ.get("SDL_VIDEODRIVER") != driver:
         close_video(sdl)
         raise DisplayError("no screen (the one that DISPLAY names does not answer)")
+    if driver == "x11":
+        forgive_late_messages()
     return sdl
 
 

@@ -131,6 +131,33 @@ def test_walking_resizing_hiding_and_turning(desktop):
     assert desktop.finish() == (0, b"")
 
 
+LATE_MESSAGE = """
+import ctypes, sys
+from engine3d.viewer.sdl import close_video, open_video
+sdl = open_video()
+x11 = ctypes.CDLL("libX11.so.6")
+x11.XOpenDisplay.restype = ctypes.c_void_p
+display, window = ctypes.c_void_p(x11.XOpenDisplay(None)), ctypes.c_ulong(12345)
+message = (ctypes.c_long * 24)(33, 0, 1, 0, 0, 0, 32)
+getattr(x11, sys.argv[1])(display, window, 0, ctypes.c_long(0), message)
+x11.XSync(display, 0)
+close_video(sdl)
+print("still here")
+"""
+
+
+def test_a_message_that_comes_after_its_window_closed_ends_nothing(screen):
+    environment = {**os.environ, "DISPLAY": screen.name, "SDL_VIDEODRIVER": "x11"}
+
+    def ask(request):
+        command = [sys.executable, "-c", LATE_MESSAGE, request]
+        return subprocess.run(command, env=environment, capture_output=True, text=True)
+
+    assert ask("XSendEvent").stdout == "still here\n"
+    other = ask("XMapWindow")
+    assert other.returncode == 1 and "X_MapWindow" in other.stderr and not other.stdout
+
+
 def test_lessons_go_forward_and_back(screen, tmp_path):
     with Viewer(screen, tmp_path, "zbuffer", command="learn") as desktop:
         first = desktop.settle()

@@ -130,7 +130,12 @@ def run_mypy(folder, monkeypatch, cache):
     if importlib.util.find_spec("mypy") is None:
         pytest.skip("mypy is not installed (pip install mypy)")
     monkeypatch.setenv("MYPYPATH", str(folder / "packages"))
-    options = ["--follow-imports=silent", "--check-untyped-defs", "--hide-error-context"]
+    options = [
+        "--follow-imports=silent",
+        "--check-untyped-defs",
+        "--hide-error-context",
+        "--config-file=",
+    ]
     return [sys.executable, "-m", "mypy", *options, "--cache-dir", str(cache)]
 
 

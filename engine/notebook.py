@@ -22,11 +22,11 @@ from .geometry.mesh import Mesh
 from .scene.instances import InstancedMesh
 from .scene.nodes import Node
 from .scene.scene import Scene
+from .stage.stage_settings import Settings
+from .stage.view_renderer import ViewRenderer
+from .stage.viewed_scene import TURN_SECONDS
 from .viewer.sampling import Sampling
-from .viewer.settings import Settings
 from .viewer.show import check_motion, first_view, viewed_thing
-from .viewer.view_renderer import ViewRenderer
-from .viewer.viewed_scene import TURN_SECONDS
 from .viewer.viewer import Viewer
 
 try:

@@ -36,7 +36,7 @@ from .scripts import Said, Scripts
 from .task import Task
 
 if TYPE_CHECKING:
-    from ..viewer.blank import Reason
+    from ..stage.blank import Reason
 
 
 class How(NamedTuple):
@@ -191,7 +191,7 @@ class Drawer:
         self, task: Task, frame: Frame, scene: Scene, camera: Camera, pose, options: RenderOptions
     ) -> Reason | None:
         """Why a picture shows nothing, if it does not."""
-        from ..viewer.blank import Sight, may_be_blank, why_blank
+        from ..stage.blank import Sight, may_be_blank, why_blank
 
         if not may_be_blank(frame.stats, scene):
             return None

@@ -14,10 +14,10 @@ from typing import Any
 from ..choices import Backend
 from ..errors import Engine3DWarning
 from ..rendering.frame import Frame
-from ..viewer.blank import Reason
-from ..viewer.open_models import open_models
-from ..viewer.settings import Settings
-from ..viewer.view_renderer import ViewRenderer
+from ..stage.blank import Reason
+from ..stage.open_models import open_models
+from ..stage.stage_settings import Settings
+from ..stage.view_renderer import ViewRenderer
 from .task import Task
 
 

@@ -21,7 +21,7 @@ from .file_digests import InputFiles, are_as_before
 from .task import Task
 
 if TYPE_CHECKING:
-    from ..viewer.blank import Reason
+    from ..stage.blank import Reason
 
 FOLDER = ".batch"
 

@@ -97,7 +97,7 @@ def _obey(arguments: list[str], begin: Callable[[], None] | None) -> int:
     except UsageError as error:
         return _usage(str(error))
     except InvalidArgumentError as error:
-        from ..viewer.clips import NoSuchClipError
+        from ..stage.played_clips import NoSuchClipError
 
         # As for a camera that isn't there.
         if isinstance(error, NoSuchClipError):

@@ -90,7 +90,7 @@ def place_view(args: argparse.Namespace, view_renderer, *, turns: bool = True):
 
     Where they leave it open, all of the scene shows: however it turns, or filling the picture.
     """
-    from ..viewer.near_origin import from_file
+    from ..stage.near_origin import from_file
 
     if args.camera_view_angle is None:
         view = view_renderer.view()
@@ -124,7 +124,7 @@ def place_view(args: argparse.Namespace, view_renderer, *, turns: bool = True):
 def _through_camera(args: argparse.Namespace, view_renderer, view):
     """Return the view of one of the scene's cameras."""
     from ..scene.cameras import Camera
-    from ..viewer.viewpoint import look_through
+    from ..stage.viewpoint import look_through
 
     title, scene = view_renderer.viewed.title, view_renderer.viewed.scene
     nodes = [node for node in scene.nodes if isinstance(node.object, Camera)]

@@ -51,7 +51,7 @@ def add_environment(parser) -> None:
 
 def surroundings(args: argparse.Namespace):
     """Return the `Surroundings` that the options name."""
-    from ..viewer.surroundings import Surroundings
+    from ..stage.chosen_surroundings import Surroundings
 
     shows = args.background is not None
     if shows and args.environment == NONE:

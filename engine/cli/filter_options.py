@@ -50,6 +50,6 @@ def add_line_shapes(group) -> None:
 
 def filtering(args: argparse.Namespace):
     """Return the `Filtering` that the options name."""
-    from ..viewer.filtering import Filtering
+    from ..stage.filtering import Filtering
 
     return Filtering(anisotropy=args.anisotropy, lod_bias=args.lod_bias, is_usual=True)

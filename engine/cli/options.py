@@ -46,7 +46,7 @@ def add_quiet(parser) -> None:
 
 def settings(args: argparse.Namespace):
     """Return the `Settings` that the options name."""
-    from ..viewer.settings import Settings
+    from ..stage.stage_settings import Settings
 
     if args.light_position is not None and args.light_direction is not None:
         raise UsageError("--light-position and --light-direction do not go together")

@@ -80,7 +80,7 @@ def add_picture(parser) -> None:
 
 def theme(args) -> dict:
     """Return the fields of `Settings` that ``--theme`` names."""
-    from ..viewer.theme import THEMES
+    from ..stage.theme import THEMES
 
     named = {theme.name: theme for theme in THEMES}.get(args.theme)
     return {} if named is None else {"theme": named, "keeps_theme": True}

@@ -9,10 +9,10 @@ import time
 from ..errors import printable
 from ..files.animation_files import ANIMATION_SUFFIXES, PICTURE_SUFFIXES, save_animation
 from ..files.making_folders import make_folder_of
-from ..viewer import headless
-from ..viewer.clips import NoSuchClipError
-from ..viewer.view_renderer import ViewRenderer
-from ..viewer.watch import CHECK_SECONDS, FileWatch
+from ..files.watch import CHECK_SECONDS, FileWatch
+from ..stage import headless
+from ..stage.played_clips import NoSuchClipError
+from ..stage.view_renderer import ViewRenderer
 from . import options, scene_options
 from .antialiasing import PICTURES, antialiasing
 from .camera_options import place_view

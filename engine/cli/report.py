@@ -6,8 +6,8 @@ import sys
 import time
 
 from ..errors import printable, warn
-from ..viewer.blank import Reason
-from ..viewer.draw_counts import count_line
+from ..stage.blank import Reason
+from ..stage.draw_counts import count_line
 
 
 def warn_of_nothing(view_renderer) -> Reason | None:

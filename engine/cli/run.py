@@ -11,9 +11,9 @@ from ..errors import DisplayError
 from ..files.animation_files import numbered_path, save_animation
 from ..files.frame_names import literal_name
 from ..files.making_folders import make_folder_of
-from ..viewer import headless
-from ..viewer.view_renderer import ViewRenderer
-from ..viewer.walking import GroundController, controller
+from ..stage import headless
+from ..stage.view_renderer import ViewRenderer
+from ..stage.walking import GroundController, controller
 from . import options, scene_options
 from .antialiasing import WINDOW, antialiasing
 from .camera_options import place_view
@@ -117,7 +117,7 @@ def _show(
     args: argparse.Namespace, found: list[argparse.Namespace], viewed, report: Report
 ) -> None:
     """Open a window and stay until it closes."""
-    from ..viewer.ground import told
+    from ..stage.walkable_ground import told
     from ..viewer.model_files import ModelFiles
     from ..viewer.recent_files import remember
     from ..viewer.sampling import AT_REST, Sampling

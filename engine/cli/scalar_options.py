@@ -85,8 +85,8 @@ def coloring(args: argparse.Namespace):
         return None
     if all(getattr(args, name) is None or getattr(args, name) is False for name in COLORING):
         return None
-    from ..viewer.colormaps import colormap
-    from ..viewer.scalars import MAGNITUDE, ScalarColoring
+    from ..stage.colormaps import colormap
+    from ..stage.scalars import MAGNITUDE, ScalarColoring
 
     colors = colormap(args.colormap or _DEFAULT_MAP)
     component = MAGNITUDE if args.coloring_component is None else args.coloring_component

@@ -131,11 +131,11 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
         how |= {} if args.subdivisions is None else {"subdivisions": args.subdivisions}
         viewed = load_demo(args.scene or default_scene, **how)
         if args.color is not None:
-            from ..viewer.open_model import dress_scene
+            from ..stage.open_model import dress_scene
 
             dress_scene(viewed.scene, args.color)
         return viewed
-    from ..viewer.open_models import open_models
+    from ..stage.open_models import open_models
 
     check_inputs(args)
     with LoadingBar() as progress:
@@ -167,7 +167,7 @@ def _variant(given: str | None) -> str | int | None:
 
 def _animation(args: argparse.Namespace):
     """Return what lets a model that is opened play its animations, or stand at a time of them."""
-    from ..viewer.clips import play_clips, stand_at
+    from ..stage.played_clips import play_clips, stand_at
 
     plays = getattr(args, "animation", None) is not None or args.command == "run"
     asked = args.animation_index is not None or args.animation_time is not None

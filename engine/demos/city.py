@@ -11,7 +11,7 @@ from ..navigation import NavigationGrid, Walker
 from ..primitives import box
 from ..scene.lights import DirectionalLight
 from ..scene.scene import Scene
-from ..viewer.viewed_scene import ViewedScene
+from ..stage.viewed_scene import ViewedScene
 from ..worlds import World
 from ..worlds import city as make_city
 from .city_lights import CARS_AT_LEAST, LIGHTS, PERIOD, Lamps, Traffic

@@ -16,7 +16,7 @@ from ..materials.material import Material
 from ..primitives import box, icosphere
 from ..scene.lights import DirectionalLight
 from ..scene.scene import Scene
-from ..viewer.viewed_scene import ViewedScene
+from ..stage.viewed_scene import ViewedScene
 
 BACKGROUND = (26, 31, 38)
 SUN_DIRECTION, SUN_COLOR = (-0.4, -0.7, -0.6), (0.8, 0.8, 0.8)

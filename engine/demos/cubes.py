@@ -13,7 +13,7 @@ from .. import linalg
 from ..geometry.mesh import Mesh
 from ..primitives import box
 from ..scene.scene import Scene
-from ..viewer.viewed_scene import ViewedScene
+from ..stage.viewed_scene import ViewedScene
 
 BACKGROUND = (18, 20, 26)
 SPIN_SECONDS = 8.0

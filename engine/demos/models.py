@@ -6,8 +6,8 @@ from importlib.resources import files
 from pathlib import Path
 
 from ..scene.lights import DirectionalLight
-from ..viewer.open_model import open_model
-from ..viewer.viewed_scene import ViewedScene
+from ..stage.open_model import open_model
+from ..stage.viewed_scene import ViewedScene
 
 SHOWCASE_MODEL = "island.obj"
 SKY = (142, 178, 204)

@@ -16,7 +16,7 @@ from ..materials.textures import Texture
 from ..primitives import box, icosphere, plane, uv_sphere
 from ..scene.lights import DirectionalLight, PointLight
 from ..scene.scene import Scene
-from ..viewer.viewed_scene import ViewedScene
+from ..stage.viewed_scene import ViewedScene
 
 BACKGROUND = (14, 16, 22)
 PERIOD = 10.0

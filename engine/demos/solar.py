@@ -20,7 +20,7 @@ from ..primitives import uv_sphere
 from ..scene.animation import Animator
 from ..scene.lights import PointLight
 from ..scene.scene import Scene
-from ..viewer.viewed_scene import ViewedScene
+from ..stage.viewed_scene import ViewedScene
 
 BACKGROUND = (4, 5, 10)
 MONTH = 18.0  # seconds

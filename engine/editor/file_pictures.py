@@ -19,10 +19,10 @@ from .._support.side_by_side import Thread
 from ..loaders import formats
 from ..loaders.loading import document_of, texture_of
 from ..loaders.sources import read_source, stem_and_extension
-from ..viewer.near_origin import moved_near
-from ..viewer.open_model import view_document
-from ..viewer.settings import Settings
-from ..viewer.view_renderer import ViewRenderer
+from ..stage.near_origin import moved_near
+from ..stage.open_model import view_document
+from ..stage.stage_settings import Settings
+from ..stage.view_renderer import ViewRenderer
 from .thumbnails import shrunk
 
 #: Bytes of the largest files that have pictures.

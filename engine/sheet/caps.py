@@ -14,7 +14,7 @@ from .. import linalg
 from ..scene.cameras import Camera
 from .cutting import Plane, area_of, cut_nodes, gaps_of, inside
 from .layout import Rectangle
-from .studio import Studio
+from .panel_renderer import Studio
 
 #: Cut material and its hatching.
 _CUT, _HATCH = (232, 164, 124), (150, 78, 44)

@@ -16,7 +16,7 @@ from ..rendering.renderer import Renderer
 from ..scene.cameras import Camera
 from ..scene.nodes import Node
 from ..scene.scene import Scene
-from ..viewer.visibility import DRAWABLE
+from ..stage.visibility import DRAWABLE
 from .layout import Rectangle
 
 #: More pictures than these are not drawn for a panel: what they would tell is left unknown.

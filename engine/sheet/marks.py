@@ -10,8 +10,8 @@ import math
 import numpy as np
 
 from ..canvas import Canvas, text_size
-from ..viewer.overlay import AXIS_COLORS
-from ..viewer.theme import DARK, Rgba, Theme
+from ..stage.overlay import AXIS_COLORS
+from ..stage.theme import DARK, Rgba, Theme
 from .layout import Rectangle
 
 #: X, Y and Z on light ground: the usual red, green and blue, darker.

@@ -12,8 +12,8 @@ from typing import Any, BinaryIO, NamedTuple, TypeAlias
 from ..errors import InvalidArgumentError, printable
 from ..geometry.mesh import Mesh
 from ..scene.scene import Scene
-from ..viewer.open_models import open_models
-from ..viewer.viewed_scene import ViewedScene
+from ..stage.open_models import open_models
+from ..stage.viewed_scene import ViewedScene
 
 SheetSource: TypeAlias = str | os.PathLike[str] | BinaryIO | Mesh | Scene
 
@@ -42,7 +42,7 @@ def open_sources(sources: SheetSource | Iterable[SheetSource], **options: Any) -
     ----------
     sources : path, binary file object, Mesh, Scene, or an iterable of these
     **options
-        As of `engine3d.viewer.open_model.open_model`, for files.
+        As of `engine3d.stage.open_model.open_model`, for files.
 
     Raises
     ------

@@ -14,15 +14,15 @@ from ..canvas import Canvas, text_size
 from ..errors import InvalidArgumentError, printable
 from ..rendering.support_functions import support_of_box, support_of_scene
 from ..scene.cameras import Camera
-from ..viewer.viewpoint import UP_DIRECTIONS
+from ..stage.viewpoint import UP_DIRECTIONS
 from . import marks
 from .hidden import AloneScene
 from .layout import Padding, Reach, Rectangle, lay_out
 from .opening import SheetModel
+from .panel_renderer import Studio
 from .panels import Panel, Place, draw_panel
 from .placing import Extent, find_extent, place_camera
 from .report import ModelReport
-from .studio import Studio
 from .views import ViewSpec
 
 SIZE, SIZE_OF_SEVERAL = (1600, 1200), (1600, 480)

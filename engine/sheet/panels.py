@@ -15,14 +15,14 @@ from ..canvas import Canvas
 from ..rendering.frame import Frame
 from ..scene.cameras import Camera
 from ..scene.nodes import Node
-from ..viewer.blank import Reason, covered, reason_of
+from ..stage.blank import Reason, covered, reason_of
 from .caps import Caps, find_caps, paint_caps
 from .cutting import Plane
 from .hidden import AloneScene
 from .layout import Padding, Rectangle
 from .outlines import draw_outlines
+from .panel_renderer import Studio
 from .placing import Extent, Matrices, cut, cut_obliquely, find_matrices, place_camera
-from .studio import Studio
 from .views import ViewSpec
 from .visible import SAME_COLOUR, box_of, contrast
 

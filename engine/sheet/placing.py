@@ -13,7 +13,7 @@ import numpy as np
 from .. import linalg
 from ..rendering.support_functions import SupportFunction
 from ..scene.cameras import Camera, OrthographicCamera
-from ..viewer.viewpoint import Sphere
+from ..stage.viewpoint import Sphere
 from .cutting import Plane
 from .layout import Padding, Reach, Rectangle
 

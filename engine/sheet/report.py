@@ -17,9 +17,9 @@ from ..materials.colors import linear_color, split_alpha
 from ..scene.cameras import Camera, OrthographicCamera, PerspectiveCamera
 from ..scene.instances import InstancedMesh
 from .opening import SheetModel
+from .panel_renderer import Studio
 from .panels import Panel
 from .placing import is_parallel_projection
-from .studio import Studio
 from .visible import Shown, count_by_key, count_parts, joined, mesh_of_node
 
 #: Grows when a key gets another meaning.

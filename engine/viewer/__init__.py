@@ -1,4 +1,4 @@
-"""The window, its loop and controllers, and the same pictures without a screen.
+"""The window: its loop, keys, actions and panels, and what shows a picture in one.
 
-Nothing is imported here: SDL loads only when a window opens, Pillow only when a file is written.
+Nothing is imported here: SDL loads only when a window opens.
 """

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ..errors import Engine3DError
 from ..files.animation_files import numbered_path
-from .appearance import (
+from ..stage.appearance import (
     CULLINGS,
     CULLS,
     HIDDEN_SURFACES,
@@ -20,17 +20,17 @@ from .appearance import (
     WIREFRAMES,
     following,
 )
-from .clips import play_clips
-from .debug_lines import DEBUG_DRAWINGS
+from ..stage.debug_lines import DEBUG_DRAWINGS
+from ..stage.fps import FpsController
+from ..stage.played_clips import play_clips
+from ..stage.theme import THEMES
+from ..stage.viewpoint import QUARTER_TURN, UP_DIRECTIONS
+from ..stage.walkable_ground import told
+from ..stage.walking import GroundController, controller
 from .file_dialog import FolderPanel, RecentPanel
-from .fps import FpsController
-from .ground import told
 from .panels import MaterialPanel, ObjectPanel
 from .recording import record
 from .sampling import AT_REST, MOTION_FPS
-from .theme import THEMES
-from .viewpoint import QUARTER_TURN, UP_DIRECTIONS
-from .walking import GroundController, controller
 
 SAMPLES = (1, 4, 16)  # that supersampling and multisampling have
 STATISTICS = (None, "short", "long")

@@ -5,7 +5,7 @@ In: a `Canvas` over the frame, a share from 0 to 1. Out: the same pixels, drawn 
 
 from __future__ import annotations
 
-from .theme import Theme
+from ..stage.theme import Theme
 
 HEIGHT = 4
 

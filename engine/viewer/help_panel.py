@@ -8,9 +8,9 @@ from __future__ import annotations
 import textwrap
 
 from ..canvas import text_size
+from ..stage.overlay import LINE_GAP, PADDING, place, text_scale
+from ..stage.theme import DARK, Theme
 from .keymap import GESTURES, SECTIONS
-from .overlay import LINE_GAP, PADDING, place, text_scale
-from .theme import DARK, Theme
 
 #: A row is a key and what it does; a title has no second part, an empty row neither.
 Row = tuple[str, str]

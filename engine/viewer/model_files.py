@@ -9,11 +9,11 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
+from ..files.watch import FileWatch
 from ..loaders import formats
-from .clips import play_clips
-from .open_models import open_models
-from .viewed_scene import ViewedScene
-from .watch import FileWatch
+from ..stage.open_models import open_models
+from ..stage.played_clips import play_clips
+from ..stage.viewed_scene import ViewedScene
 
 #: Names of model files end so, in lower case.
 MODEL_EXTENSIONS = tuple(end for kind in formats("mesh") for end in kind.extensions)

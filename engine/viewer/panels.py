@@ -8,8 +8,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..canvas import text_size
-from .overlay import LINE_GAP, MARGIN, PADDING, place
-from .theme import Theme
+from ..stage.overlay import LINE_GAP, MARGIN, PADDING, place
+from ..stage.theme import Theme
 
 if TYPE_CHECKING:
     from .viewer import Viewer

@@ -16,7 +16,7 @@ from .. import events
 from ..errors import Engine3DError
 from ..files.animation_files import save_animation
 from ..files.frame_names import literal_name
-from . import headless
+from ..stage import headless
 
 if TYPE_CHECKING:
     from .viewer import Viewer

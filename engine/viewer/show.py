@@ -23,16 +23,16 @@ from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.scene import Scene
 from ..scene.scenes_of_things import scene_of
-from .clips import play_clips
+from ..stage.played_clips import play_clips
+from ..stage.stage_settings import Settings
+from ..stage.theme import DARK
+from ..stage.view_renderer import ViewRenderer
+from ..stage.viewed_scene import TURN_SECONDS, ViewedScene
+from ..stage.viewpoint import UP_DIRECTIONS, Viewpoint, look_through
 from .picture_window import PictureWindow, fitting_size
 from .pixels import Picture, as_pixels
 from .sampling import Sampling
-from .settings import Settings
-from .theme import DARK
-from .view_renderer import ViewRenderer
-from .viewed_scene import TURN_SECONDS, ViewedScene
 from .viewer import Viewer
-from .viewpoint import UP_DIRECTIONS, Viewpoint, look_through
 from .window import Window
 
 SIZE = (1280, 720)

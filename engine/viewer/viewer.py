@@ -15,22 +15,22 @@ import numpy as np
 from .. import events, linalg
 from ..errors import printable
 from ..spatial.rays import RayHit
+from ..stage.fps import LOOKS, MOVES, FpsController
+from ..stage.frame_times import FrameTimes
+from ..stage.orbit import MIN_DISTANCE, OrbitController
+from ..stage.overlay import draw_block, short_statistics, statistics_lines
+from ..stage.selection_outline import OUTLINE_OUTPUTS, WIDTH, draw_outline, selection_lines
+from ..stage.view_renderer import ViewRenderer
 from . import actions as viewer_actions
 from .animation_bar import draw_bar
-from .fps import LOOKS, MOVES, FpsController
-from .frame_times import FrameTimes
 from .help_panel import draw_help, help_lines
 from .keymap import REPEATED, action_for
 from .messages import Messages
 from .model_files import ModelFiles
 from .mouse import Mouse
-from .opening import Opening
-from .orbit import MIN_DISTANCE, OrbitController
-from .overlay import draw_block, short_statistics, statistics_lines
+from .opened_files import Opening
 from .panels import Panel
 from .sampling import Sampling
-from .selection import OUTLINE_OUTPUTS, WIDTH, draw_outline, selection_lines
-from .view_renderer import ViewRenderer
 
 #: How long the loop sleeps when nothing happens; also how often a watched file is looked at.
 IDLE_SECONDS = 0.25

@@ -16,7 +16,7 @@ from .._support.numbers import real, shown
 from .._support.validation import text as checked_text
 from ..choices import PixelFormat, PointerShape
 from ..errors import DisplayError, InvalidArgumentError
-from .frame_times import FrameRate
+from ..stage.frame_times import FrameRate
 from .held import HeldInput
 from .icon import set_icon
 from .input import Translator, window_number

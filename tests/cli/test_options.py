@@ -11,8 +11,8 @@ from engine3d.cli.joined_values import join_values
 from engine3d.cli.parser import make_parser
 from engine3d.cli.usage import UsageError
 from engine3d.demos import DEMO_NAMES
-from engine3d.viewer.appearance import CULLS, HIDDEN_SURFACES, MODES
-from engine3d.viewer.viewpoint import UP_DIRECTIONS
+from engine3d.stage.appearance import CULLS, HIDDEN_SURFACES, MODES
+from engine3d.stage.viewpoint import UP_DIRECTIONS
 from engine3d.worlds.city import LEAST, MOST
 
 

@@ -63,7 +63,7 @@ def test_models_that_differ_in_size_or_up_are_warned_of(model, tmp_path, capsys)
 
 
 def test_models_of_other_axes_stand_upright_side_by_side(tmp_path):
-    from engine3d.viewer.open_models import open_models
+    from engine3d.stage.open_models import open_models
 
     box = e3d.box((1.0, 3.0, 2.0))
     box.save(tmp_path / "y.ply")

@@ -125,7 +125,7 @@ def test_one_theme_is_one_ground_for_all(folder, tmp_path, look):
 
 
 def test_the_themes_are_the_viewers():
-    from engine3d.viewer.theme import THEMES
+    from engine3d.stage.theme import THEMES
 
     actions = make_parser().commands["render"]._actions
     (option,) = (action for action in actions if "--theme" in action.option_strings)
@@ -277,7 +277,7 @@ def test_render_watches(model, monkeypatch, capsys):
 
     clock = iter(range(10_000))
     monkeypatch.setattr(render.time, "sleep", sleep)
-    monkeypatch.setattr("engine3d.viewer.watch.time.monotonic", lambda: next(clock))
+    monkeypatch.setattr("engine3d.files.watch.time.monotonic", lambda: next(clock))
     output = model.with_name("a.png")
     first = ["render", str(model), *FAST, "-o", str(output)]
     assert main(first) == 0
@@ -305,7 +305,7 @@ def test_what_changes_while_the_first_picture_is_drawn_is_drawn_again(model, mon
     clock = iter(range(10_000))
     monkeypatch.setattr(render, "_render", drawn)
     monkeypatch.setattr(render.time, "sleep", sleep)
-    monkeypatch.setattr("engine3d.viewer.watch.time.monotonic", lambda: next(clock))
+    monkeypatch.setattr("engine3d.files.watch.time.monotonic", lambda: next(clock))
     output = model.with_name("a.png")
     assert main(["render", str(model), *FAST, "--watch", "-o", str(output)]) == 130
     assert capsys.readouterr().err.count(f"wrote {output}") == 1

@@ -6,7 +6,7 @@ from PIL import Image
 import engine3d as e3d
 from engine3d.cli import main
 from engine3d.scene.lights import DirectionalLight, PointLight
-from engine3d.viewer.shadow_switch import ShadowSwitch
+from engine3d.stage.shadow_switch import ShadowSwitch
 
 SUN = ["--light-direction=-0.5,-1,-0.6"]
 

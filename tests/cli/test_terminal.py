@@ -61,7 +61,7 @@ def test_names_do_not_steer_the_terminal(arguments, capfd):
 
 
 def test_the_title_of_a_model_is_shown_as_python_writes_it():
-    from engine3d.viewer.open_model import open_model
+    from engine3d.stage.open_model import open_model
 
     assert open_model(f"{EVIL}.obj").title == f"{SHOWN}.obj"
 

@@ -14,7 +14,7 @@ from engine3d.cli.info import describe
 from engine3d.errors import FileFormatError
 from engine3d.loaders import load_document, load_mesh, sources, threemf
 from engine3d.loaders.threemf_blocks import cut_lists
-from engine3d.viewer.open_model import open_model
+from engine3d.stage.open_model import open_model
 
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 PRODUCTION = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06"

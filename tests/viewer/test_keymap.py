@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from engine3d.stage.fps import LOOKS, MOVES
 from engine3d.viewer import actions as viewer_actions
-from engine3d.viewer.fps import LOOKS, MOVES
 from engine3d.viewer.help_panel import help_columns
 from engine3d.viewer.keymap import BINDINGS, action_for
 

@@ -8,11 +8,11 @@ import pytest
 from viewer.scripted_window import ScriptedWindow
 
 from engine3d import events
+from engine3d.stage.open_model import open_model
+from engine3d.stage.stage_settings import Settings
+from engine3d.stage.view_renderer import ViewRenderer
 from engine3d.viewer.model_files import ModelFiles
-from engine3d.viewer.open_model import open_model
 from engine3d.viewer.recent_files import MOST, NAME, recent_files, remember, state_folder
-from engine3d.viewer.settings import Settings
-from engine3d.viewer.view_renderer import ViewRenderer
 from engine3d.viewer.viewer import Viewer
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"

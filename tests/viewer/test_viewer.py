@@ -10,11 +10,11 @@ from viewer.scripted_window import ScriptedWindow
 
 import engine3d as e3d
 from engine3d import events
-from engine3d.viewer.appearance import MODES
+from engine3d.stage.appearance import MODES
+from engine3d.stage.stage_settings import Settings
+from engine3d.stage.view_renderer import ViewRenderer
+from engine3d.stage.viewed_scene import ViewedScene
 from engine3d.viewer.keymap import BINDINGS
-from engine3d.viewer.settings import Settings
-from engine3d.viewer.view_renderer import ViewRenderer
-from engine3d.viewer.viewed_scene import ViewedScene
 from engine3d.viewer.viewer import Viewer
 
 SIZE = (160, 120)
@@ -356,9 +356,9 @@ def test_a_dropped_file_that_cannot_be_read_leaves_the_picture(tmp_path):
 
 
 def test_a_watched_file_is_loaded_again(tmp_path, monkeypatch):
-    from engine3d.viewer import watch
+    from engine3d.files import watch
+    from engine3d.stage.open_model import open_model
     from engine3d.viewer.model_files import ModelFiles
-    from engine3d.viewer.open_model import open_model
 
     monkeypatch.setattr(watch, "CHECK_SECONDS", 0.0)
     path = tmp_path / "shape.obj"
@@ -378,7 +378,7 @@ TRIANGLE = "v {0} 0 0\nv {1} 0 0\nv {0} 1 0\nf 1 2 3\n"
 
 def watching(tmp_path, monkeypatch, *names, **options):
     """A viewer of triangles in files that it watches, and their paths."""
-    from engine3d.viewer import watch
+    from engine3d.files import watch
     from engine3d.viewer.model_files import ModelFiles
 
     monkeypatch.setattr(watch, "CHECK_SECONDS", 0.0)

@@ -11,6 +11,9 @@ import pytest
 
 import engine3d as e3d
 from engine3d import events
+from engine3d.stage.stage_settings import Settings
+from engine3d.stage.view_renderer import ViewRenderer
+from engine3d.stage.viewed_scene import ViewedScene
 from engine3d.viewer.icon import FACES, icon
 from engine3d.viewer.sdl import (
     find_screen,
@@ -19,9 +22,6 @@ from engine3d.viewer.sdl import (
     refresh_rate,
     screen_scale,
 )
-from engine3d.viewer.settings import Settings
-from engine3d.viewer.view_renderer import ViewRenderer
-from engine3d.viewer.viewed_scene import ViewedScene
 from engine3d.viewer.viewer import Viewer
 from engine3d.viewer.window import POINTERS, Window
 

@@ -13,7 +13,7 @@ from imgui_bundle import imgui
 from ...materials.display_colors import display_color
 from ...scene.fog import ExponentialFog, Fog
 from ...scene.scene import Scene
-from ...viewer.surroundings import fog_color
+from ...stage.chosen_surroundings import fog_color
 
 _KINDS = {type(None): "none", Fog: "linear", ExponentialFog: "exponential"}
 _LEAST = 1e-4  # between near and far

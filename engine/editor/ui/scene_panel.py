@@ -15,8 +15,8 @@ from ...rendering.frame import Frame
 from ...rendering.renderer import Renderer
 from ...scene.cameras import PerspectiveCamera
 from ...scene.nodes import Node
+from ...stage.selection_outline import CLICK_OUTPUTS, outline_pixels
 from ...ui.imgui_painter import ImguiPainter
-from ...viewer.selection import CLICK_OUTPUTS, outline_pixels
 from ..picking import enclosed, pick
 from .gizmo_handles import GizmoHandles
 from .layout import begin_panel

@@ -20,8 +20,8 @@ from ...loaders import load_mesh, load_texture
 from ...materials.material import Material
 from ...scene.nodes import Node
 from ...scene.scene import Scene
-from ...viewer.orbit import OrbitController
-from ...viewer.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
+from ...stage.orbit import OrbitController
+from ...stage.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
 from ..autosave import Autosave, Recovery
 from ..console import Console
 from ..document import SceneDocument

@@ -10,13 +10,13 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ..errors import Engine3DError, printable
+from ..stage.viewpoint import Sphere
 from .actions import reset_view, toggle_walking
 from .model_files import ModelFiles
 from .recent_files import remember
-from .viewpoint import Sphere
 
 if TYPE_CHECKING:
-    from .viewed_scene import ViewedScene
+    from ..stage.viewed_scene import ViewedScene
     from .viewer import Viewer
 
 #: A model that became so many times larger or smaller is framed anew.

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import time
 
-from ..files.stamps import file_stamp, was_written
+from .stamps import file_stamp, was_written
 
 #: How often the file is looked at.
 CHECK_SECONDS = 0.25

@@ -17,15 +17,15 @@ from ..rendering.frame import Frame
 from ..rendering.renderer import Renderer
 from ..scene.cameras import Camera
 from ..scene.usage import uses_in
-from ..viewer.appearance import count_points, point_size
-from ..viewer.blank import Sight
-from ..viewer.lighting import Lighting
-from ..viewer.scene_bounds import sphere_of_box
-from ..viewer.stage import Stage, theme_for
-from ..viewer.surroundings import Surroundings
-from ..viewer.theme import LIGHT, Theme
-from ..viewer.viewed_scene import ViewedScene
-from ..viewer.viewpoint import UP_DIRECTIONS
+from ..stage.appearance import count_points, point_size
+from ..stage.blank import Sight
+from ..stage.chosen_surroundings import Surroundings
+from ..stage.lighting import Lighting
+from ..stage.scene_bounds import sphere_of_box
+from ..stage.studio import Stage, theme_for
+from ..stage.theme import LIGHT, Theme
+from ..stage.viewed_scene import ViewedScene
+from ..stage.viewpoint import UP_DIRECTIONS
 from .layout import Rectangle
 
 OUTPUTS = ("color", "depth", "object_id", "instance_id", "material_id", "triangle_id")

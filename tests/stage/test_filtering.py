@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.viewer.filtering import USUAL_ANISOTROPY, USUAL_LOD_BIAS, Filtering
-from engine3d.viewer.settings import Settings
-from engine3d.viewer.view_renderer import ViewRenderer
-from engine3d.viewer.viewed_scene import ViewedScene
+from engine3d.stage.filtering import USUAL_ANISOTROPY, USUAL_LOD_BIAS, Filtering
+from engine3d.stage.stage_settings import Settings
+from engine3d.stage.view_renderer import ViewRenderer
+from engine3d.stage.viewed_scene import ViewedScene
 
 
 def scene_of(*textures):

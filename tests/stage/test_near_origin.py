@@ -6,9 +6,9 @@ import pytest
 import engine3d as e3d
 from engine3d.cli import main
 from engine3d.primitives import icosphere
-from engine3d.viewer.near_origin import from_file
-from engine3d.viewer.open_models import open_models
-from engine3d.viewer.selection import selection_lines
+from engine3d.stage.near_origin import from_file
+from engine3d.stage.open_models import open_models
+from engine3d.stage.selection_outline import selection_lines
 
 UTM = np.array([500_000.0, 4_649_776.0, 120.0])
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from ..choices import LightShadow
 from ..scene.fog import ExponentialFog, Fog
 from ..scene.gradients import Gradient
+from .chosen_surroundings import Surroundings
 from .filtering import Filtering
-from .surroundings import Surroundings
 from .theme import DARK, Theme
 
 

@@ -8,13 +8,13 @@ import pytest
 import engine3d as e3d
 from engine3d.motion.clips import AnimationClip, Channel
 from engine3d.scene.orbiting import home_axes
-from engine3d.viewer.clips import play_clips
-from engine3d.viewer.ground_shadow import SIDE, GroundShadow
-from engine3d.viewer.settings import Settings
-from engine3d.viewer.stage import theme_for
-from engine3d.viewer.theme import DARK, LIGHT
-from engine3d.viewer.view_renderer import ViewRenderer
-from engine3d.viewer.viewed_scene import ViewedScene
+from engine3d.stage.ground_shadow import SIDE, GroundShadow
+from engine3d.stage.played_clips import play_clips
+from engine3d.stage.stage_settings import Settings
+from engine3d.stage.studio import theme_for
+from engine3d.stage.theme import DARK, LIGHT
+from engine3d.stage.view_renderer import ViewRenderer
+from engine3d.stage.viewed_scene import ViewedScene
 
 SIZE = (120, 90)
 

@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from viewer.projection import project
+from stage.projection import project
 
 import engine3d as e3d
 from engine3d.rendering.support_functions import support_of_points
-from engine3d.viewer.viewpoint import (
+from engine3d.stage.viewpoint import (
     UP_DIRECTIONS,
     Sphere,
     Viewpoint,

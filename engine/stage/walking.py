@@ -15,8 +15,8 @@ import numpy as np
 from .. import linalg
 from ..navigation import NavigationGrid
 from .fps import FpsController
-from .ground import Ground, find_ground
 from .viewpoint import Sphere, Viewpoint
+from .walkable_ground import Ground, find_ground
 
 if TYPE_CHECKING:
     from .view_renderer import ViewRenderer

@@ -21,6 +21,7 @@ from ..spatial.rays import RayHit
 from .appearance import Appearance, count_points, point_size
 from .blank import Reason, Sight, may_be_blank, why_blank
 from .box_grid import BoxGrid
+from .chosen_surroundings import fog_color
 from .debug_lines import Lines, box_lines, draw_lines, frustum_lines, tree_lines
 from .free_region import NOTHING, Taken, frame_beside
 from .grid_lines import grid
@@ -35,11 +36,10 @@ from .output_pictures import (
     whole_pixel,
 )
 from .scene_bounds import turning_outline
-from .selection import CLICK_OUTPUTS
-from .settings import Settings
+from .selection_outline import CLICK_OUTPUTS
 from .shadow_switch import ShadowSwitch
-from .stage import BEHIND, Stage, theme_for
-from .surroundings import fog_color
+from .stage_settings import Settings
+from .studio import BEHIND, Stage, theme_for
 from .theme import Theme
 from .untextured import Textures
 from .viewed_scene import ViewedScene

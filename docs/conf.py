@@ -10,6 +10,8 @@ import engine3d
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from frame_scraper import FrameScraper
+from make_map import page as map_page
+from reference_code import with_code
 
 project = "engine3d"
 author = "engine3d authors"
@@ -50,6 +52,11 @@ sphinx_gallery_conf = {
     "within_subsection_order": "FileNameSortKey",
 }
 
+# The list of all files is made here, from their first sentences.
+_map = Path(__file__).resolve().parent / "generated" / "map.md"
+_map.parent.mkdir(exist_ok=True)
+_map.write_text(map_page(), "utf-8")
+
 html_theme = "pydata_sphinx_theme"
 html_title = "engine3d"
 html_show_sourcelink = False
@@ -76,5 +83,12 @@ def signature_as_called(app, what, name, thing, options, signature, returned):
     return str(inspect.Signature(plain)), returned
 
 
+def show_code_of_rules(app, docname, source):
+    """Put the reference's code beside the rules of exactness."""
+    if docname.startswith("exactness/"):
+        source[0] = with_code(source[0])
+
+
 def setup(app):
+    app.connect("source-read", show_code_of_rules)
     app.connect("autodoc-process-signature", signature_as_called)

@@ -1,6 +1,6 @@
 /* Every bound and tuning constant of the core, each with the budget that it keeps.
  *
- * Coverage (docs/exactness.md, R12): in a tile of T samples an edge that crosses it has
+ * Coverage (docs/exactness, R12): in a tile of T samples an edge that crosses it has
  * |E / 256| <= (T - 1)(|a| + |b|). |a| and |b| are at most 256 * (clip region), so 32-bit lanes are
  * exact while (T - 1) * 256 * (width + height of the region) < 2^31: T = 64 allows a sum of 133,152 samples.
  * The guard band is 65,536 wide and high; a point adds 1024 to both, and a line 1449 to one of them.

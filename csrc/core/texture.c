@@ -1,6 +1,6 @@
 /* Textures: 8-bit pixels become the texels that filters read, once, and their mip levels with them.
  *
- * Decoding before filtering is what makes averages of sRGB texels right (docs/exactness.md, R23, R28). Texels are linear
+ * Decoding before filtering is what makes averages of sRGB texels right (docs/exactness, R23, R28). Texels are linear
  * light of 15 bits; without sRGB and mip levels they are the 8-bit c, half the memory to fetch.
  * Each level has a border of one texel, by the wrap along each coordinate: the neighbours that a filter blends always
  * stand side by side.

@@ -1,3 +1,4 @@
+/* Random scene graphs for the driver: nodes are moved, and what the tree over their boxes finds is hashed. */
 #include "driver/graph_scene.h"
 
 #include <stdio.h>

@@ -3,7 +3,7 @@
  * In:  an equirectangular picture of linear radiance.
  * Out: the levels of e3d_environment_view, in one piece of memory.
  * Always: the same bytes for any number of threads: each texel is computed by one thread, in a fixed order, from directions of
- *      written polynomials (docs/exactness.md, R65-R68).
+ *      written polynomials (docs/exactness, R65-R68).
  */
 #include <stdlib.h>
 

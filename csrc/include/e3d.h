@@ -5,7 +5,7 @@
  * Out: the caller's own arrays, filled; nothing is written unless E3D_OK or E3D_CANCELLED is returned.
  * Always: any thread may call anything on different renderers at once; one renderer is one thread's
  *      at a time. Matrices are row-major and act on column vectors. Clip space is OpenGL's
- *      (-w <= z <= w). Images are top row first, without padding. docs/exactness.md has the formulas.
+ *      (-w <= z <= w). Images are top row first, without padding. docs/exactness has the formulas.
  */
 #ifndef E3D_H
 #define E3D_H

@@ -1,4 +1,4 @@
-/* Bloom: light above 1 glows around where it comes from. docs/exactness.md, R124. */
+/* Bloom: light above 1 glows around where it comes from. docs/exactness, R124. */
 #ifndef E3D_API_BLOOM_H
 #define E3D_API_BLOOM_H
 

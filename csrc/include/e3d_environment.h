@@ -1,4 +1,4 @@
-/* Environments: light that comes from all around, as a picture of the whole sphere. docs/exactness.md, section 13. */
+/* Environments: light that comes from all around, as a picture of the whole sphere. docs/exactness, section 13. */
 #ifndef E3D_API_ENVIRONMENT_H
 #define E3D_API_ENVIRONMENT_H
 

@@ -43,7 +43,7 @@ typedef struct e3d_texture_use {
 #define E3D_EACH_ALPHA_MODE(X) X(E3D_ALPHA_OPAQUE, opaque) X(E3D_ALPHA_MASK, mask) X(E3D_ALPHA_BLEND, blend)
 typedef enum e3d_alpha_mode { E3D_EACH_ALPHA_MODE(E3D_ENUMERATOR) } e3d_alpha_mode;
 
-/* What a physically based material is made of beside its colours (docs/exactness.md, section 12). */
+/* What a physically based material is made of beside its colours (docs/exactness, section 12). */
 typedef struct e3d_physical {
     float metallic, roughness; /* 0 .. 1 */
     float occlusion_strength;

@@ -1,4 +1,4 @@
-/* Ambient occlusion: how much of the light from all around reaches what shows in a picture (docs/exactness.md, section 21). */
+/* Ambient occlusion: how much of the light from all around reaches what shows in a picture (docs/exactness, section 21). */
 #ifndef E3D_API_OCCLUSION_H
 #define E3D_API_OCCLUSION_H
 

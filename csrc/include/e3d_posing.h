@@ -4,7 +4,7 @@
  *      of the targets.
  * Out: meshes of their own positions and normals, which share faces, texture coordinates and what clusters hold with the one
  *      at rest; boxes, so that culling stays right.
- * Always: rules R70 to R75 of docs/exactness.md; the same bytes on any number of threads.
+ * Always: rules R70 to R75 of docs/exactness; the same bytes on any number of threads.
  */
 #ifndef E3D_POSING_H
 #define E3D_POSING_H

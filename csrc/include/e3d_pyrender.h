@@ -1,4 +1,4 @@
-/* Pictures lit as the package pyrender lights them (docs/exactness.md, section 24).
+/* Pictures lit as the package pyrender lights them (docs/exactness, section 24).
  *
  * In:  draws, lights, a camera, and for opaque triangles which of them shows where: IDs that e3d_render wrote.
  * Out: colours and metric depths.

@@ -3,7 +3,7 @@
  * In:  arrays that the caller owns, one element or row a slot. A node keeps its slot until the caller
  *      packs the arrays; slots stand in the order in which the nodes were added.
  * Out: the same arrays, up to date after e3d_graph_update, and the draws of e3d.h.
- * Always: f64, one written order of operations (docs/exactness.md, section 1), so that a node's numbers do not
+ * Always: f64, one written order of operations (docs/exactness, section 1), so that a node's numbers do not
  *      depend on how many others move with it. One graph is one thread's at a time. Affine matrices
  *      are three rows of four.
  */

@@ -1,7 +1,7 @@
 /* Triangles of a user interface: two-dimensional, textured, blended, each list of them cut by scissor rectangles.
  *
  * In:  a picture and lists as Dear ImGui makes them (ImDrawVert, 16- or 32-bit indices, commands).
- * Out: the picture's pixels, blended over in the order of the list. docs/exactness.md, section 11, has the rules.
+ * Out: the picture's pixels, blended over in the order of the list. docs/exactness, section 11, has the rules.
  * Always: every backend gives the same bytes. Any position, uv and colour is legal: what lies outside is clipped, and a triangle
  *      with a position that is no number draws nothing. One thread, no allocation; the whole picture is the call's as long as
  *      it lasts.

@@ -1,6 +1,6 @@
 /* The kernels: one table of functions per instruction set. The plain structs that they work on are in kernels/types/.
  *
- * Every kernel gives the bytes of docs/exactness.md; what a table adds is speed. Arrays that a kernel reads
+ * Every kernel gives the bytes of docs/exactness; what a table adds is speed. Arrays that a kernel reads
  * or writes vector by vector have room for E3D_PAD elements past the end; what it leaves there means nothing.
  */
 #ifndef E3D_KERNELS_H

@@ -1,4 +1,4 @@
-/* Normals of a surface that is smooth but for its creases: the edges where triangles meet at more than an angle.
+/* Normals of a surface that is smooth but for its creases (R145): the edges where triangles meet at more than an angle.
  *
  * In:  positions, triangles, the place of each vertex, and the cosine of the angle. Out: triangles whose corners are split where
  * they have to be, and the normal of each vertex.

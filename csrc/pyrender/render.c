@@ -1,4 +1,4 @@
-/* A picture in pyrender's manner: vertices, then bands of rows, each through all steps (docs/exactness.md, section 24).
+/* A picture in pyrender's manner: vertices, then bands of rows, each through all steps (docs/exactness, section 24).
  *
  * In: a frame. Out: its colors and depths. Always: a band is one thread's; the bytes are the same for any number of threads.
  */

@@ -1,4 +1,4 @@
-/* Vertices: object space to clip space, the world, and normals there.
+/* Vertices: object space to clip space, the world, and normals there (R146).
  *
  * In: a draw. Out: its vertices. Always: world positions and normals are f32 as in pyrender's shader, clip space f64.
  */

@@ -24,6 +24,7 @@ static int32_t first_of(uint32_t samples)
     return n;
 }
 
+/* R80 */
 static float alpha_at(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y, uint32_t samples)
 {
     ref_surface surface;
@@ -45,6 +46,7 @@ static uint32_t coverage_of(const ref_scene *scene, float alpha, float cutoff)
     return covered;
 }
 
+/* R81 and R108 */
 uint32_t ref_alpha_covers(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y, uint32_t covered)
 {
     e3d_alpha_mode mode = alpha_mode_of(piece);
@@ -59,6 +61,7 @@ uint32_t ref_alpha_covers(const ref_scene *scene, const ref_piece *piece, int32_
     return alpha >= cutoff ? covered : 0;
 }
 
+/* R82 */
 int ref_is_blended(const e3d_frame *frame, const ref_piece *piece)
 {
     if (ref_transmits(frame, piece))
@@ -129,6 +132,7 @@ static void index_fragments(ref_band *band)
     }
 }
 
+/* R83 */
 void ref_sort_fragments(const ref_scene *scene, ref_band *band)
 {
     int64_t left = 0;
@@ -176,6 +180,7 @@ static int find_layer(const ref_scene *scene, const ref_piece *piece, const ref_
     return 1;
 }
 
+/* R84 */
 void ref_blend_sample(ref_scene *scene, const ref_band *band, const ref_place *at, float color[3], float *alpha)
 {
     size_t sample = ref_sample_at(band, at);
@@ -200,6 +205,7 @@ void ref_blend_sample(ref_scene *scene, const ref_band *band, const ref_place *a
     }
 }
 
+/* R123 */
 void ref_blend_radiance(const ref_scene *scene, const ref_band *band, const ref_place *at, float radiance[3])
 {
     size_t sample = ref_sample_at(band, at);

@@ -15,6 +15,7 @@ static void any_direction(const float n[3], float out[3])
     ref_normalize(out);
 }
 
+/* R136 */
 void ref_find_stretch(const e3d_physical *material, const float texel[4], float unit, const ref_surface *s, ref_stretch *out)
 {
     const float *turn = material->anisotropy_turn, *n = s->world_normal;
@@ -58,6 +59,7 @@ float ref_reflect_stretched(const ref_stretch *stretch, float alpha, const float
     return nh > 0.0f ? ((((product * product) * product) * E3D_OVER_2PI) * (square * square)) / ((f * f) * u) : 0.0f;
 }
 
+/* R138 */
 void ref_bend_normal(const ref_stretch *stretch, const float normal[3], const float view[3], float roughness, float out[3])
 {
     float e[3], p[3], k = 1.0f - stretch->strength * (1.0f - roughness), k2 = k * k, k4 = k2 * k2;

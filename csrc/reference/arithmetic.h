@@ -1,4 +1,4 @@
-/* The scalar operations that docs/exactness.md allows, and its log2, exp2 and pow (R27).
+/* The scalar operations that docs/exactness allows, and its log2, exp2 and pow (R27).
  *
  * Always: IEEE 754, round to nearest even, denormals kept (ref_float_environment_enter), nothing
  * contracted or reassociated. Conversions to integers are only given values that fit.

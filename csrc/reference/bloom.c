@@ -61,6 +61,7 @@ static int make_image(int32_t width, int32_t height, bloom_image *out)
     return out->pixels != NULL;
 }
 
+/* R124 */
 static void fill_bright(const e3d_bloom *bloom, bloom_image *out)
 {
     size_t pixels = (size_t)bloom->width * (size_t)bloom->height;
@@ -87,6 +88,7 @@ static void add_doubled(const bloom_image *from, bloom_image *out)
             }
 }
 
+/* R124 */
 static uint8_t glowing(uint8_t code, float glow, int srgb)
 {
     float shown = srgb ? (float)SRGB_TO_LINEAR16[code] * E3D_UNORM16 : (float)code * E3D_UNORM8;
@@ -94,6 +96,7 @@ static uint8_t glowing(uint8_t code, float glow, int srgb)
     return ref_encode(ref_clamp(shown + (1.0f - shown) * share, 0.0f, 1.0f), srgb);
 }
 
+/* R124 */
 static void lay(const e3d_bloom *bloom, const bloom_image *from, float scale)
 {
     for (int32_t y = 0; y < bloom->height; y++)

@@ -14,6 +14,7 @@ static int64_t faces_of(const e3d_draw *draw)
     return mesh->components == 3 ? mesh->faces_count : 0;
 }
 
+/* R97 */
 static void add_faces(ref_casters *casters, int32_t number)
 {
     const ref_instance *instance = &casters->instances[number];
@@ -32,6 +33,7 @@ static void add_faces(ref_casters *casters, int32_t number)
     }
 }
 
+/* R97 */
 e3d_status ref_find_casters(const e3d_frame *frame, ref_casters *out)
 {
     const e3d_casters *source = frame->casters;

@@ -34,6 +34,7 @@ float ref_guard_factor(int32_t samples)
     return factor;
 }
 
+/* R5 */
 static unsigned outcode(const ref_scene *scene, const float p[4])
 {
     float x = p[0], y = p[1], z = p[2], w = p[3];
@@ -52,6 +53,7 @@ static unsigned outcode(const ref_scene *scene, const float p[4])
 
 static int corner_count(ref_kind kind) { return kind == REF_FACE ? 3 : kind == REF_POINT ? 1 : 2; }
 
+/* R4 and R6 */
 ref_verdict ref_test_primitive(const ref_scene *scene, ref_kind kind, const ref_corner *corners)
 {
     unsigned any = 0, all = ~0u;
@@ -127,6 +129,7 @@ static int clip_polygon(const ref_scene *scene, int plane, double in[][COMPONENT
     return left;
 }
 
+/* R7 */
 int ref_clip_triangle(const ref_scene *scene, const ref_corner in[3], ref_corner out[REF_MAX_CORNERS])
 {
     double polygons[2][REF_MAX_CORNERS][COMPONENTS];

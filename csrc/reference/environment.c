@@ -61,6 +61,7 @@ static cube_place turned_place(const e3d_environment_light *light, const float d
     return find_place(light->cosine * d[0] - light->sine * d[2], d[1], light->sine * d[0] + light->cosine * d[2]);
 }
 
+/* R62 */
 void ref_environment(const e3d_environment_light *light, const float direction[3], float level, float out[CHANNELS])
 {
     const e3d_environment_view *view = e3d_environment_get_view(light->environment);
@@ -73,11 +74,13 @@ void ref_environment(const e3d_environment_light *light, const float direction[3
         out[c] = mix(out[c], coarser[c], l - (float)fine) * light->intensity;
 }
 
+/* R62 */
 void ref_environment_specular(const e3d_environment_light *light, const float direction[3], float roughness, float out[CHANNELS])
 {
     ref_environment(light, direction, roughness * (float)LAST, out);
 }
 
+/* R62 */
 void ref_environment_irradiance(const e3d_environment_light *light, const float normal[3], float out[CHANNELS])
 {
     cube_place place = turned_place(light, normal);
@@ -86,6 +89,7 @@ void ref_environment_irradiance(const e3d_environment_light *light, const float 
         out[c] = out[c] * light->intensity;
 }
 
+/* R63 */
 void ref_backdrop(const e3d_backdrop *backdrop, int32_t x, int32_t y, float out[CHANNELS])
 {
     float direction[3];
@@ -107,6 +111,7 @@ static node find_node(float x)
     return (node){number, at - (float)number};
 }
 
+/* R64 */
 float ref_albedo(e3d_dfg kind, float roughness, float cosine)
 {
     node i = find_node(ref_clamp(roughness, 0.0f, 1.0f));

@@ -63,6 +63,7 @@ static eye open_eye(const e3d_light *light, const float p[3])
     return out;
 }
 
+/* R98 */
 static void see(const eye *e, const ref_caster *caster, seen *out)
 {
     for (int k = 0; k < 3; k++) {
@@ -80,6 +81,7 @@ static int spans_zero(const float v[3])
     return ref_min(ref_min(v[0], v[1]), v[2]) <= 0.0f && ref_max(ref_max(v[0], v[1]), v[2]) >= 0.0f;
 }
 
+/* R99 */
 static int goes_through(const eye *e, const seen *s, float weight[3])
 {
     float a[3], b[3];
@@ -100,6 +102,7 @@ static int goes_through(const eye *e, const seen *s, float weight[3])
 
 /* ---- R100 ---- */
 
+/* R100 */
 static plane plane_of(const ref_surface *s, const e3d_light *light)
 {
     float e[3], f[3], most[3], sum[3], m[3], share[3];
@@ -180,6 +183,7 @@ static int has_hole(const ref_casters *casters, const ref_caster *caster, const 
     return !(alpha >= (material->alpha_mode == E3D_ALPHA_MASK ? material->alpha_cutoff : E3D_BLENDED_CASTER));
 }
 
+/* R101 */
 static int is_above(const eye *e, const plane *plane, const float p[3], const ref_caster *caster, const seen *s, float weight[3])
 {
     float det = (weight[0] + weight[1]) + weight[2], height[3];
@@ -200,6 +204,7 @@ static int is_above(const eye *e, const plane *plane, const float p[3], const re
     return !e->is_point || between(weight, s->z) > 0.0f;
 }
 
+/* R102 */
 int ref_is_hidden(const e3d_light *light, const ref_surface *surface)
 {
     const ref_casters *casters = surface->casters;

@@ -17,6 +17,7 @@ static float wave(int number, float path)
     return (E3D_FILM_AMPLITUDE[number] * cosine) * ref_exp2((E3D_FILM_FADE[number] * path) * path);
 }
 
+/* R139 */
 static void sensitivity(float path, const float sign[3], float out[3])
 {
     float xyz[3] = {sign[0] * (wave(0, path) + wave(3, path)), sign[1] * wave(1, path), sign[2] * wave(2, path)};
@@ -24,12 +25,14 @@ static void sensitivity(float path, const float sign[3], float out[3])
         out[c] = ref_dot3(E3D_FILM_RGB[c], xyz);
 }
 
+/* R140 */
 static float schlick(float f0, float cosine)
 {
     float w = 1.0f - cosine, w2 = w * w;
     return f0 + (1.0f - f0) * ((w2 * w2) * w);
 }
 
+/* R140 */
 void ref_film(float cosine, float ior, float thickness, const float f0[3], float out[3])
 {
     static const float ALWAYS[3] = {1.0f, 1.0f, 1.0f};

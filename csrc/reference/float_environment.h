@@ -1,4 +1,4 @@
-/* The floating-point environment of docs/exactness.md: round to nearest even, denormals kept.
+/* The floating-point environment of docs/exactness: round to nearest even, denormals kept.
  *
  * A caller may have set flush-to-zero or another rounding: it is put aside and given back.
  */

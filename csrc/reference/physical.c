@@ -79,6 +79,7 @@ static void find_film(const ref_surface *s, sample *out)
     out->film_top = ref_max(ref_max(other[0], other[1]), other[2]);
 }
 
+/* R49 */
 static sample find_sample(const e3d_frame *frame, const ref_surface *s)
 {
     const ref_physical *p = &s->physical;
@@ -225,12 +226,14 @@ typedef struct scattering {
     float once, twice, q;
 } scattering;
 
+/* R55 */
 static scattering scatter(float f0, float f90, float a, float b)
 {
     float y = f0 + (f90 - f0) * E3D_OVER_21, rest = 1.0f - (a + b), x = f0 * a + f90 * b;
     return (scattering){x, x * y, 1.0f - rest * y};
 }
 
+/* R55 */
 static void find_indirect(const e3d_frame *frame, const ref_surface *s, const sample *at, const float irradiance[3], float out[3])
 {
     const ref_physical *p = &s->physical;

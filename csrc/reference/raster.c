@@ -3,7 +3,7 @@
  * In:  the scene's pieces, in the order of R16 or sorted for the painter.
  * Out: depth, visible piece, layers of overdraw and wireframe edges of each sample of the band.
  * Rules: R12 (coverage, in exact integers), R14 and R15 (depth), R16 (order), R17 (overdraw),
- *      R36 (wireframe), R103 and R104 (multisampling), R81, R82 and R108 through alpha.c.
+ *      R36, R109, R116 (wireframe), R103 and R104 (multisampling), R81, R82 and R108 through alpha.c.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -70,6 +70,7 @@ static float edge_slack(const ref_scene *scene, const ref_piece *kept)
     return ref_min(slope, kept->z_max - kept->z_min);
 }
 
+/* R36 */
 static void keep_edge(const ref_scene *scene, float z, ref_band *band, size_t sample)
 {
     const e3d_frame *frame = scene->frame;
@@ -96,6 +97,7 @@ static uint32_t covered_samples(const ref_scene *scene, const ref_piece *piece, 
     return covered;
 }
 
+/* R16 and R17 */
 static e3d_status raster_pixel(const ref_scene *scene, const ref_piece *piece, int64_t number, int32_t x, int32_t y, ref_band *band)
 {
     float z[E3D_MOST_MSAA_SAMPLES];
@@ -134,6 +136,7 @@ static int farther_first(const void *left, const void *right)
     return a->order < b->order ? -1 : a->order > b->order;
 }
 
+/* R16 */
 void ref_sort_for_painter(ref_piece_list *pieces)
 {
     if (pieces->count > 1)

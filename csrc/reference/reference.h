@@ -1,4 +1,4 @@
-/* The scalar reference: the whole renderer again, one sample at a time, from docs/exactness.md alone.
+/* The scalar reference: the whole renderer again, one sample at a time, from docs/exactness alone.
  *
  * It is the oracle that every kernel is compared with, byte for byte, and the page to read first:
  * start at reference.c, which reads as the way of a frame. It shares no code with the kernels.

@@ -104,6 +104,7 @@ static int setup_box(const ref_scene *scene, ref_piece *piece)
     return piece->left <= piece->right && piece->top <= piece->bottom;
 }
 
+/* R12 */
 static void setup_edges(ref_piece *piece)
 {
     for (int k = 0; k < 3; k++) {
@@ -238,6 +239,7 @@ static int32_t line_offset(const ref_scene *scene, double dx, double dy)
     return (int32_t)lrint((double)half * sqrt(dx * dx + dy * dy) / (dx > dy ? dx : dy));
 }
 
+/* R36 */
 int32_t ref_greatest_offset(const ref_scene *scene)
 {
     int32_t half = ref_half_size(scene, scene->frame->line_width);
@@ -311,6 +313,7 @@ e3d_status ref_setup_line(ref_scene *scene, const ref_primitive *primitive, cons
     return setup_quad(scene, primitive, quad);
 }
 
+/* R11 and R115 */
 e3d_status ref_setup_point(ref_scene *scene, const ref_primitive *primitive, const ref_corner *corner)
 {
     screen_corner v;

@@ -5,6 +5,7 @@
  */
 #include "reference/surface.h"
 
+/* R32 */
 static void color_from_bytes(uint32_t r, uint32_t g, uint32_t b, float out[3])
 {
     out[0] = (float)(int32_t)r * E3D_UNORM8;
@@ -32,6 +33,7 @@ static void id_color(uint32_t id, float out[3])
     color_from_bytes(h & 255, (h >> 8) & 255, (h >> 16) & 255, out);
 }
 
+/* R32 */
 static void depth_color(const e3d_frame *frame, float metric_depth, float out[3])
 {
     float scale = 1.0f / (frame->depth_far - frame->depth_near);
@@ -39,6 +41,7 @@ static void depth_color(const e3d_frame *frame, float metric_depth, float out[3]
     out[0] = out[1] = out[2] = grey;
 }
 
+/* R32 */
 static int is_lit(const e3d_frame *frame, const ref_surface *surface)
 {
     const ref_primitive *primitive = &surface->piece->primitive;

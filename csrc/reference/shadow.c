@@ -41,6 +41,7 @@ static void turn(const e3d_light_shadow *shadow, const float v[3], float out[3])
 
 /* ---- R92 ---- */
 
+/* R92 */
 static place place_directional(const e3d_light *light, const e3d_shadow_map *maps, const float p[3], const float normal[3], float sine)
 {
     const e3d_light_shadow *shadow = &light->shadow;
@@ -70,6 +71,7 @@ static place project(const e3d_light_shadow *shadow, const e3d_shadow_map *map, 
     return (place){x, y, (shadow->depth[0] + shadow->depth[1] * near) + shadow->bias, number};
 }
 
+/* R92 */
 static place place_spot(const e3d_light *light, const e3d_shadow_map *map, const float p[3], const float normal[3], float sine)
 {
     float at[3], along[3];
@@ -85,6 +87,7 @@ static place place_spot(const e3d_light *light, const e3d_shadow_map *map, const
 static const int FACE_AXES[6][2] = {{2, 1}, {2, 1}, {0, 2}, {0, 2}, {0, 1}, {0, 1}};
 static const int FACE_SIGNS[6][2] = {{1, -1}, {-1, -1}, {1, -1}, {1, 1}, {-1, -1}, {1, -1}};
 
+/* R92 */
 static place place_point(const e3d_light *light, const e3d_shadow_map *map, const float p[3], const float normal[3], float sine)
 {
     float most = ref_max(ref_max(fabsf(p[0]), fabsf(p[1])), fabsf(p[2])), moved[3], at[3];
@@ -121,6 +124,7 @@ static int32_t tap(const e3d_light_shadow *shadow, const float *map, int32_t x, 
     return sum;
 }
 
+/* R93 */
 static float compare(const e3d_light_shadow *shadow, const place *at)
 {
     int32_t across = shadow->step * (shadow->taps - 1), most = 256 * shadow->size - 257 - across, sum = 0;
@@ -134,6 +138,7 @@ static float compare(const e3d_light_shadow *shadow, const place *at)
     return (float)sum / (float)(65536 * shadow->taps * shadow->taps);
 }
 
+/* R90 */
 float ref_light_reached(const e3d_frame *frame, int32_t n, const ref_surface *surface, const float l[3])
 {
     const e3d_light *light = &frame->lights[n];

@@ -29,6 +29,7 @@ static void find_slopes(const ref_surface *s, const float corners[3], float size
 /* R110: the texture's size as R25 counts it. */
 static float counted_size(const e3d_texture_view *texture, int32_t side) { return (float)side * texture->level_scale; }
 
+/* R25 and R110 */
 static void find_changes(const e3d_texture_view *texture, const ref_surface *s, const ref_coordinates *at, float along[2], float down[2])
 {
     find_slopes(s, at->corner[0], counted_size(texture, texture->levels[0].width), &along[0], &down[0]);
@@ -65,6 +66,7 @@ typedef struct ellipse {
     float direction[2];                /* of the major axis, in texels */
 } ellipse;
 
+/* R111 */
 static ellipse find_ellipse(const float along[2], const float down[2])
 {
     ellipse out;
@@ -122,6 +124,7 @@ static int32_t texel(const e3d_texture_view *texture, const e3d_level *level, in
     return ((const int16_t *)level->texels)[at];
 }
 
+/* R30 */
 static void sample_nearest(const e3d_texture_view *texture, const e3d_level *level, float s, float t, float out[CHANNELS])
 {
     int32_t column = (int32_t)(s * (float)level->width), row = (int32_t)(t * (float)level->height);
@@ -136,6 +139,7 @@ typedef struct neighbours {
     int32_t first, second, weight;
 } neighbours;
 
+/* R30 */
 static neighbours find_neighbours(float s, int32_t size, e3d_wrap wrap)
 {
     int32_t p = ref_rint(s * (float)(256 * size)) - 128;
@@ -180,6 +184,7 @@ static void sample_bilinear(const e3d_texture_view *texture, const e3d_level *le
     }
 }
 
+/* R30 */
 static void sample_trilinear(const e3d_texture_view *texture, int32_t lod, float s, float t, float out[CHANNELS])
 {
     int32_t fine = lod / 256, coarse = fine + 1 < texture->level_count ? fine + 1 : fine;
@@ -205,6 +210,7 @@ static void sample_probes(const e3d_texture_view *texture, const probes *probes,
         out[c] = out[c] / probes->count;
 }
 
+/* R30 */
 static float unit_of(const e3d_texture_view *texture)
 {
     int nearest = texture->filter == E3D_NEAREST;

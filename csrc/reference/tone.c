@@ -71,6 +71,7 @@ static float agx_stops(float v, int channel)
     return stops + (((k[2] * m + k[1]) * m + k[0]) * m + E3D_AGX_START[channel]);
 }
 
+/* R119 */
 static float agx_curve(float stops)
 {
     float sum = stops + E3D_AGX_CURVE[5];
@@ -95,6 +96,7 @@ static void map_agx(float color[3])
     multiply(E3D_AGX_SRGB, power, color);
 }
 
+/* R117 */
 void ref_map_tone(e3d_tone_mapping mapping, float color[3])
 {
     if (mapping == E3D_TONE_NONE)
@@ -122,6 +124,7 @@ static float share_of_fog(const e3d_fog *fog, float metric_depth)
     return 1.0f - ref_exp2((u * u) * E3D_MINUS_LOG2_E);
 }
 
+/* R121 */
 void ref_add_fog(const e3d_fog *fog, float metric_depth, int is_lit, float color[3])
 {
     const float *fog_color = is_lit ? fog->lit_color : fog->color;
@@ -131,6 +134,7 @@ void ref_add_fog(const e3d_fog *fog, float metric_depth, int is_lit, float color
         color[c] = color[c] + (fog_color[c] - color[c]) * share;
 }
 
+/* R122 */
 void ref_gradient(const e3d_frame *frame, int32_t x, int32_t y, float out[3])
 {
     const e3d_gradient *gradient = &frame->gradient;

@@ -73,6 +73,7 @@ void ref_round_rows(float out[][4], const double *matrix, int rows)
             out[r][c] = (float)matrix[4 * r + c];
 }
 
+/* R1 */
 void ref_instance_init(ref_instance *out, const e3d_frame *frame, const e3d_draw *draw, int32_t number)
 {
     double pose[16], world_from_object[16], clip_from_object[16];
@@ -102,6 +103,7 @@ static float transform_row(const float row[4], const float p[3])
     return ((row[0] * p[0] + row[1] * p[1]) + row[2] * p[2]) + row[3];
 }
 
+/* R3 */
 void ref_transform_clip(const ref_instance *instance, int32_t vertex, float out[4])
 {
     const e3d_mesh_desc *mesh = instance->mesh;
@@ -110,12 +112,14 @@ void ref_transform_clip(const ref_instance *instance, int32_t vertex, float out[
         out[r] = mesh->components == 4 ? p[r] : transform_row(instance->clip_from_object[r], p);
 }
 
+/* R3 */
 void ref_transform_point(const float rows[3][4], const float point[3], float out[3])
 {
     for (int r = 0; r < 3; r++)
         out[r] = transform_row(rows[r], point);
 }
 
+/* R3 */
 void ref_transform_normal(const ref_instance *instance, const float normal[3], float out[3])
 {
     const float (*n)[3] = instance->normal_matrix;

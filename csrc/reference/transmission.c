@@ -7,6 +7,7 @@
  */
 #include "reference/surface.h"
 
+/* R133 */
 int ref_transmits(const e3d_frame *frame, const ref_piece *piece)
 {
     const e3d_material *m = piece->primitive.material;
@@ -15,6 +16,7 @@ int ref_transmits(const e3d_frame *frame, const ref_piece *piece)
     return m->is_physical && !m->is_unlit && m->physical.transmission != 0.0f;
 }
 
+/* R133 */
 float ref_transmitting_alpha(const e3d_material *material, float alpha)
 {
     if (material->alpha_mode == E3D_ALPHA_BLEND)
@@ -27,6 +29,7 @@ static int absorbs(const e3d_physical *p)
     return p->thickness != 0.0f && (p->absorption[0] != 0.0f || p->absorption[1] != 0.0f || p->absorption[2] != 0.0f);
 }
 
+/* R134 */
 void ref_transmittance(const e3d_frame *frame, const ref_surface *surface, float out[3])
 {
     const e3d_physical *p = &surface->piece->primitive.material->physical;
@@ -40,6 +43,7 @@ void ref_transmittance(const e3d_frame *frame, const ref_surface *surface, float
     }
 }
 
+/* R135 */
 void ref_lay_transmitting(const float color[3], float alpha, const float transmittance[3], float under[3], float *under_alpha)
 {
     float rest[3];

@@ -1,4 +1,4 @@
-/* The user interface's triangles again, a pixel at a time, from section 11 of docs/exactness.md alone.
+/* The user interface's triangles again, a pixel at a time, from section 11 of docs/exactness alone.
  *
  * In:  a picture and a list whose counts, sizes and indices csrc/ui/ui.c has checked.
  * Out: the picture's pixels.
@@ -52,6 +52,7 @@ static int64_t snap(float position) { return ref_rint(ref_clamp(position, -0x1p2
 
 static int is_finite(const e3d_ui_vertex *vertex) { return isfinite(vertex->x) && isfinite(vertex->y); }
 
+/* R38 */
 static corner corner_of(const e3d_ui_vertex *vertex, const e3d_ui_texture *texture)
 {
     corner c = {.x = snap(vertex->x), .y = snap(vertex->y)};
@@ -113,6 +114,7 @@ static void rectangle_planes(shape *s)
         s->planes[k] = (plane){(float)a->value[k], 0.0f, 0.0f};
 }
 
+/* R40 */
 static float plane_at(const shape *s, int which, int64_t x, int64_t y)
 {
     const plane *p = &s->planes[which];
@@ -185,6 +187,7 @@ static void draw_pixel(const shape *s, const e3d_ui_texture *texture, int64_t x,
         pixel[k] = (uint8_t)over255(source[k] * alpha + pixel[k] * (255 - alpha));
 }
 
+/* R37 */
 static void draw_shape(const shape *s, const e3d_ui_command *command, const e3d_ui_texture *texture, const e3d_canvas *picture)
 {
     for (int64_t y = greatest(s->pixels.top, command->top); y <= s->pixels.bottom && y < command->bottom; y++)

@@ -1,4 +1,4 @@
-"""Coordinates far from the origin, as maps have them: the origin is moved near the model.
+"""Coordinates far from the origin, as maps have them: the origin is moved near the model (R144).
 
 In: positions in float64, as a file has them. Out: positions that 32-bit floats hold finely, and
 where their origin is in the file's coordinates.

@@ -1,7 +1,7 @@
 """Between two values: straight lines, the shorter way round, cubic splines.
 
 In: values at keys, as float64 arrays with a row each, and shares of the way. Out: float64, with the
-same bits on every machine. Sources: glTF 2.0, Appendix C; Shoemake 1985 (slerp).
+same bits on every machine (R76). Sources: glTF 2.0, Appendix C; Shoemake 1985 (slerp).
 """
 
 from __future__ import annotations

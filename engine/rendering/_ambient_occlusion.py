@@ -1,7 +1,7 @@
 """Ambient occlusion: what of the light from all around reaches each pixel of a picture.
 
 In: depths of what the picture shows, at one sample a pixel, and its view. Out: a share of light for
-each pixel, which the core multiplies ambient light by (docs/exactness.md, section 21).
+each pixel, which the core multiplies ambient light by (docs/exactness, section 21).
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ RADIUS_SHARE = 0.1
 
 
 class PixelRays(NamedTuple):
-    """Where pixels look: R125 in docs/exactness.md."""
+    """Where pixels look: R125 in docs/exactness."""
 
     across: tuple[float, float]
     down: tuple[float, float]

@@ -1,6 +1,6 @@
 """Hemisphere lights and light probes of a frame as one polynomial of the normal.
 
-In: lights and how their nodes turn them. Out: the nine terms of R130 in docs/exactness.md, three
+In: lights and how their nodes turn them. Out: the nine terms of R130 in docs/exactness, three
 channels each. All of it is float64 arithmetic of single operations (R131, R132).
 
 The constants are those of Ramamoorthi and Hanrahan, "An Efficient Representation for Irradiance

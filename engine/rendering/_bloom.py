@@ -1,4 +1,4 @@
-"""Bloom: what is brighter than a screen can show glows (docs/exactness.md, R124).
+"""Bloom: what is brighter than a screen can show glows (docs/exactness, R124).
 
 In: the options of a frame, and what was drawn. Out: the frame's colour, changed. The light that
 glows is the radiance of the same frame; where nobody asked for that, it has an array here, which

@@ -2,7 +2,7 @@
 
 In: a scene whose draw list is up to date, its lights without shadows or with maps. Out: the native
 draw list holds what casts shadows, in the picture or not. The core finds, sample by sample, whether
-any of it is between the sample and the light (docs/exactness.md, section 17); what it found out
+any of it is between the sample and the light (docs/exactness, section 17); what it found out
 about the casters it keeps for as long as they have the same version.
 """
 

@@ -1,10 +1,10 @@
 """From where the maps of shadows are drawn, and where samples are in them.
 
 In: a light, where it is, the box around the scene, and for directional lights what the camera sees.
-Out: `ShadowViews`: matrices to draw each map with, and the numbers by which the core finds samples
-in it (R92 of docs/exactness.md). These are float32, so the matrices are made of what they round to.
-Source of the cascades: Zhang et al. 2006 (parallel-split shadow maps); that they are as large as
-spheres, and move by whole texels, is Valient 2008.
+Out: `ShadowViews`: matrices to draw each map with (R95, R96 of docs/exactness), and the numbers by
+which the core finds samples in it (R92). These are float32, so the matrices are made of what they
+round to. Source of the cascades: Zhang et al. 2006 (parallel-split shadow maps); that they are as
+large as spheres, and move by whole texels, is Valient 2008.
 """
 
 from __future__ import annotations

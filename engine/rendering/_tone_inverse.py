@@ -1,6 +1,6 @@
 """Which light a tone mapper shows as a colour.
 
-In: a colour that a screen can show, linear. Out: light that shows so (docs/exactness.md, R118 and
+In: a colour that a screen can show, linear. Out: light that shows so (docs/exactness, R118 and
 R119, backwards, in float64). Fog over lit surfaces takes it: what is all fog shows the fog's colour
 then, as the background beside it does.
 """

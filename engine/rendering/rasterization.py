@@ -1,6 +1,6 @@
 """Low-level rasterization: triangles in clip space in, visibility out; no camera and no scene.
 
-For tests, and for programs with a pipeline of their own. docs/exactness.md, sections 2 to 6, says
+For tests, and for programs with a pipeline of their own. docs/exactness, sections 2 to 6, says
 exactly which pixels, depths and barycentrics come out.
 """
 

@@ -1,7 +1,7 @@
 """Lights that shine from all around: plain data that a scene's nodes turn, but do not place.
 
 A `HemisphereLight` has a colour above and one below, a `LightProbe` spherical harmonics of light
-that was measured or computed somewhere. What they add to `Scene.ambient` is in docs/exactness.md,
+that was measured or computed somewhere. What they add to `Scene.ambient` is in docs/exactness,
 section 21.
 """
 

@@ -64,7 +64,7 @@ def _check_size(width: int, height: int) -> None:
 def _enlarged(matrix: NDArray[np.float64], znear: float) -> NDArray[np.float64]:
     """A projection of what may be tiny: the same, times a power of two if the near plane is near.
 
-    What has a w of less than a millionth is clipped away (WMIN in docs/exactness.md).
+    What has a w of less than a millionth is clipped away (WMIN in docs/exactness).
     """
     if znear >= _SMALL:
         return matrix

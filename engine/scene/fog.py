@@ -1,7 +1,7 @@
 """Fog: what is far away takes on a colour.
 
 In: a colour, and how fast it closes in. Out: a value that a scene holds, and that never changes.
-docs/exactness.md, section 20, has the formulas.
+docs/exactness, section 20, has the formulas.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """A background that goes from one colour to another.
 
 In: two colours. Out: a value that a scene holds as its background, and that never changes.
-docs/exactness.md, R122, has the formula.
+docs/exactness, R122, has the formula.
 """
 
 from __future__ import annotations

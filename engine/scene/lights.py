@@ -2,7 +2,7 @@
 
 A light has a colour (floats are linear light, 8-bit integers sRGB) times an intensity. Directional
 lights shine along their node's rotated ``direction``, point lights from their node's origin, spot
-lights from there along its -Z. docs/exactness.md, sections 9 and 12, has the formulas;
+lights from there along its -Z. docs/exactness, sections 9 and 12, has the formulas;
 docs/conventions.md says in which units intensities are.
 """
 

@@ -2,7 +2,7 @@
 
 In:  lists as Dear ImGui makes them: vertices, indices, commands with a scissor rectangle and a
      texture each.
-Out: the picture, changed in place: the same bytes on every backend. docs/exactness.md, section 11,
+Out: the picture, changed in place: the same bytes on every backend. docs/exactness, section 11,
      has the rules.
 """
 

@@ -1,4 +1,4 @@
-"""R146 to R150 and R152 of docs/exactness.md in NumPy: what visible triangles show, to the bit.
+"""R146 to R150 and R152 of docs/exactness in NumPy: what visible triangles show, to the bit.
 
 Written from the rules, array by array: each operation is one of IEEE, in the rules' order.
 Everything is float32 unless it says otherwise; a fragment is a row.

@@ -44,7 +44,11 @@ def types():
 
 def source():
     """What the project wrote, but for the glossary, in small letters."""
-    files = [*ROOT.glob("docs/*.md"), *ROOT.glob("engine/**/*.py")]
+    files = [
+        *ROOT.glob("docs/*.md"),
+        *ROOT.glob("docs/exactness/*.md"),
+        *ROOT.glob("engine/**/*.py"),
+    ]
     files += [path for path in ROOT.glob("csrc/**/*") if path.suffix in (".c", ".h", ".inl")]
     return "".join(path.read_text(encoding="utf-8") for path in files if path != PAGE).lower()
 

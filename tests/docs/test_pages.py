@@ -15,14 +15,13 @@ from engine3d.viewer.window import Window
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "data" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+RULES = sorted((ROOT / "docs" / "exactness").glob("*.md"))
 FOLDERS = [ROOT, *(ROOT / name for name in ("benchmarks", "data", "docs"))]
 FOLDERS += [
     path
     for name in ("csrc", "engine", "tests")
     for path in (ROOT / name, *(ROOT / name).glob("**/"))
 ]
-# Those of engine/ that architecture.md takes apart.
-PACKAGES = ("_support", "files", "geometry", "materials", "rendering", "scene", "spatial")
 FILE_NAME = re.compile(r"`((?:[\w.-]+/)*[\w-]+\.(?:py|pyx|c|h|inl|md|pxd))`")
 
 
@@ -30,7 +29,7 @@ def page_id(page):
     return page.relative_to(ROOT).as_posix()
 
 
-@pytest.mark.parametrize("page", PAGES, ids=page_id)
+@pytest.mark.parametrize("page", [*PAGES, *RULES], ids=page_id)
 def test_links_lead_somewhere(page):
     for target in re.findall(r"\]\(([^)\s]+)\)", page.read_text(encoding="utf-8")):
         path = target.partition("#")[0]
@@ -38,7 +37,9 @@ def test_links_lead_somewhere(page):
             assert (page.parent / path).exists(), target
 
 
-@pytest.mark.parametrize("name", ["architecture.md", "rasteriser.md", "hacking.md", "canvas.md"])
+@pytest.mark.parametrize(
+    "name", ["architecture.md", "core.md", "rasteriser.md", "hacking.md", "canvas.md"]
+)
 def test_files_that_pages_name_exist(name):
     names = FILE_NAME.findall((ROOT / "docs" / name).read_text(encoding="utf-8"))
     assert names
@@ -57,23 +58,6 @@ def test_what_the_page_of_the_rasteriser_names_exists():
     missing = names - words - {item.lower() for item in plan}
     assert len(names) > 50
     assert not missing, "renamed or gone: say so in docs/rasteriser.md"
-
-
-@pytest.mark.parametrize(
-    "pattern",
-    [
-        "csrc/pipeline/*/*.c",
-        "csrc/kernels/generic/*.inl",
-        "engine/[a-z]*.py",
-        *(f"engine/{package}/*[a-z].py" for package in PACKAGES),
-    ],
-)
-def test_the_architecture_names_every_file(pattern):
-    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
-    paths = [path for path in ROOT.glob(pattern) if path.name != "__init__.py"]
-    missing = [path.name for path in paths if f"{path.name}`" not in text]
-    assert paths
-    assert missing == [], "say in docs/architecture.md what these are for"
 
 
 def commands(page):

@@ -22,9 +22,8 @@ def test_examples_run_and_draw(path):
 
 
 def test_every_page_has_its_place_in_the_site():
-    pages = {page.stem for page in DOCS.glob("*.md")} - {"index"}
-    parents = [
-        (DOCS / name).read_text(encoding="utf-8") for name in ("index.md", "guides.md", "inside.md")
-    ]
-    placed = {line for text in parents for line in text.split("```{toctree}")[1].splitlines()}
+    pages = {page.stem for page in (*DOCS.glob("*.md"), *DOCS.glob("exactness/*.md"))} - {"index"}
+    parents = ("index.md", "guides.md", "inside.md", "exactness/index.md")
+    texts = [(DOCS / name).read_text(encoding="utf-8") for name in parents]
+    placed = {line for text in texts for line in text.split("```{toctree}")[1].splitlines()}
     assert pages <= placed, "name it in a toctree of docs/guides.md or docs/inside.md"

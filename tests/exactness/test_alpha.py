@@ -1,4 +1,4 @@
-"""Section 15 of docs/exactness.md: masks and blending, by sums in float32 of their own.
+"""Section 15 of docs/exactness: masks and blending, by sums in float32 of their own.
 
 A square that fills the image exactly, seen without perspective, makes every pixel's place on the
 surface known; colours are linear and unlit, so that a pixel is what its layers add up to.

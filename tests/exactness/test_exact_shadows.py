@@ -1,4 +1,4 @@
-"""Section 17 of docs/exactness.md: exact shadows, against rays cast in float64 in NumPy.
+"""Section 17 of docs/exactness: exact shadows, against rays cast in float64 in NumPy.
 
 A white scene without ambient light is drawn with the shadow and without: where the pictures differ,
 the light is hidden. For each pixel a ray goes from its world position to the light, past every

@@ -1,4 +1,4 @@
-"""Multisampling (section 18 of exactness.md): coverage by integers at the exact positions.
+"""Multisampling (section 18 of docs/exactness): coverage by integers at the exact positions.
 
 Triangles are in clip space with w = 1; white on black in the linear space, so that a pixel tells
 how many of its samples are covered.

@@ -1,4 +1,4 @@
-"""Single rules of docs/exactness.md, from clip space to barycentrics, by oracles of their own.
+"""Single rules of docs/exactness, from clip space to barycentrics, by oracles of their own.
 
 Each test computes what a rule says in Python integers, fractions or float64 and compares it with
 `engine3d.rasterize`. Positions are given in 1/256 pixel, which clip space holds exactly where the

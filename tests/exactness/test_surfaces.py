@@ -1,4 +1,4 @@
-"""Single rules of docs/exactness.md, from surfaces to bytes, by oracles of their own.
+"""Single rules of docs/exactness, from surfaces to bytes, by oracles of their own.
 
 A square that fills the image exactly, seen without perspective, makes every pixel's place on the
 surface known. Expected values come from the sRGB formula in float64 and from integers, not from the

@@ -1,4 +1,4 @@
-"""The words of docs/exactness.md on NumPy arrays of float32: one IEEE operation each, in order.
+"""The words of docs/exactness on NumPy arrays of float32: one IEEE operation each, in order.
 
 NumPy rounds every operation by itself, so that an expression written here gives what the rules say.
 """

@@ -1,6 +1,6 @@
 """Triangles of user interfaces: every backend against the reference, all of them against rules.
 
-The rules are section 11 of docs/exactness.md.
+The rules are section 11 of docs/exactness.
 """
 
 import numpy as np

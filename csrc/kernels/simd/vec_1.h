@@ -1,6 +1,6 @@
 /* The vector words, one lane wide: plain C for any processor (backend `portable`).
  *
- * Every word means the same in each vec_*.h: see docs/exactness.md for min, max and the conversions.
+ * Every word means the same in each vec_*.h: see docs/exactness for min, max and the conversions.
  * v_min(a, b) = a < b ? a : b, v_max(a, b) = a > b ? a : b; v_rint is to nearest even, v_trunc
  * towards zero, of values that fit int32; of others v_rint gives INT32_MIN. A zero of v_floor has either sign.
  */

@@ -1,4 +1,4 @@
-/* What may hide lights: triangles, and for each light grids that tell which of them may be over a sample (docs/exactness.md, section
+/* What may hide lights: triangles, and for each light grids that tell which of them may be over a sample (docs/exactness, section
  * 17). */
 #ifndef E3D_KERNELS_CASTERS_H
 #define E3D_KERNELS_CASTERS_H

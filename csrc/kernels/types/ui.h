@@ -1,4 +1,4 @@
-/* What the kernel of the user interface draws: rows of pixels, and what comes over them (docs/exactness.md, section 11). */
+/* What the kernel of the user interface draws: rows of pixels, and what comes over them (docs/exactness, section 11). */
 #ifndef E3D_KERNELS_TYPES_UI_H
 #define E3D_KERNELS_TYPES_UI_H
 

@@ -26,7 +26,7 @@ from .primitive import Primitive
 from .scene import Scene
 from .settings import settings
 
-_TINY = 2.0**-18  # near planes below it need a larger w (R143 in docs/exactness.md)
+_TINY = 2.0**-18  # near planes below it need a larger w (R143 in docs/exactness)
 _FAR = 1e6  # how many times as far as the near plane the far one counts as infinite
 _PLAIN = ((1.0, 1.0, 1.0, 1.0), 1.0, 1.0, (0.0, 0.0, 0.0), (None,) * 5)
 _BLACK = ((0.0, 0.0, 0.0, 1.0), 1.0, 1.0, (0.0, 0.0, 0.0), (None,) * 5)

@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from ..desktop.recent_files import RecentFiles
 from ..errors import Engine3DError, printable
 from .actions import reset_view, toggle_walking
 from .model_files import ModelFiles
-from .recent_files import remember
 from .viewpoint import Sphere
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ class Opening:
             viewer.say(_reason(error))
             return
         if self.files.remembered:
-            remember(paths)
+            RecentFiles().add(*paths)
         viewer.view_renderer.turned_up = None
         self._show(viewed, keep_appearance=keep_appearance)
         viewer.time = 0.0

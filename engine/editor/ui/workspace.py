@@ -15,6 +15,7 @@ import numpy as np
 
 from ... import linalg
 from ...choices import Mode
+from ...desktop.recent_files import RecentFiles
 from ...errors import Engine3DError
 from ...loaders import load_mesh, load_texture
 from ...materials.material import Material
@@ -28,7 +29,6 @@ from ..document import SceneDocument
 from ..dropping import drop_file
 from ..hierarchy import Hierarchy
 from ..history import Command
-from ..recent_files import RecentFiles
 from ..resource_list import ResourceList
 from ..value_commands import SetValues
 

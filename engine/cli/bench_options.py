@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..benchmarking.names import WORKLOADS
+from ..demos import WORKLOAD_NAMES
 from . import values
 from .picture_options import BACKENDS
 
@@ -11,8 +11,8 @@ def add(command) -> None:
     """Add what is measured, and how long."""
     command.add_argument(
         "--workloads",
-        type=values.some_of(tuple(WORKLOADS)),
-        default=list(WORKLOADS),
+        type=values.some_of(WORKLOAD_NAMES),
+        default=list(WORKLOAD_NAMES),
         metavar="NAME,…",
         help="workloads to measure (default: all of those below)",
     )

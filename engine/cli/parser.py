@@ -10,7 +10,7 @@ import functools
 import importlib
 from collections.abc import Sequence
 
-from ..benchmarking.names import WORKLOADS
+from ..demos import SCENES, WORKLOAD_NAMES
 from ..version import __version__
 from . import (
     batch_options,
@@ -251,7 +251,9 @@ def _add_bench(commands) -> None:
         description="Measure how fast this machine draws, stage by stage. The scenes are\n"
         "generated; nothing is downloaded. Scripts of the source distribution, in\n"
         "benchmarks/, draw charts of the results and compare with Mesa's llvmpipe.",
-        epilog="\n  ".join(["workloads:", *(f"{one:<15} {WORKLOADS[one]}" for one in WORKLOADS)]),
+        epilog="\n  ".join(
+            ["workloads:", *(f"{one:<15} {SCENES[one].about}" for one in WORKLOAD_NAMES)]
+        ),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     bench_options.add(command)

@@ -17,7 +17,8 @@ import llvmpipe
 import numpy as np
 
 import engine3d as e3d
-from engine3d.benchmarking import measuring, names, report, workloads
+from engine3d.benchmarking import measuring, report
+from engine3d.demos import WORKLOAD_NAMES, workloads
 from engine3d.materials.colors import linear_color
 
 ROUNDS = 5
@@ -113,7 +114,7 @@ def line(row):
 
 def measure(arguments):
     """Yield a row for each workload."""
-    for name in arguments.workload or names.WORKLOADS:
+    for name in arguments.workload or WORKLOAD_NAMES:
         made = workloads.make(name, plain=True)
         peer = llvmpipe.Peer(made, arguments.resolution, arguments.threads)
         try:
@@ -132,7 +133,7 @@ def main():
     parser = argparse.ArgumentParser(description="Measure engine3d beside Mesa's llvmpipe.")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument(
-        "--workload", action="append", choices=names.WORKLOADS, help="by default all"
+        "--workload", action="append", choices=WORKLOAD_NAMES, help="by default all"
     )
     parser.add_argument("--threads", type=int, default=0, help="of both (default: all CPUs)")
     parser.add_argument("--resolution", type=resolution, default=(1920, 1080), metavar="WxH")

@@ -14,7 +14,8 @@ import statistics
 import subprocess
 import sys
 
-from engine3d.benchmarking import measuring, names, report, workloads
+from engine3d.benchmarking import measuring, report
+from engine3d.demos import WORKLOAD_NAMES, workloads
 
 SIZE = (1280, 720)
 WORKLOADS = ("textured", "mesh", "city-street")
@@ -65,7 +66,7 @@ def main():
     parser = argparse.ArgumentParser(description="Measure threads while other programs run.")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument(
-        "--workload", action="append", choices=names.WORKLOADS, help="by default three"
+        "--workload", action="append", choices=WORKLOAD_NAMES, help="by default three"
     )
     parser.add_argument("--busy", type=int, default=cpus, help="processes (default: one a CPU)")
     parser.add_argument("--apart", action="store_true", help="each of them in a session of its own")

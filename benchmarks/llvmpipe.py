@@ -22,7 +22,7 @@ from engine3d import (
     Texture,
     linalg,
 )
-from engine3d.benchmarking.workloads import Workload
+from engine3d.demos.workloads import Workload
 from engine3d.materials.colors import linear_color
 
 NAME = "llvmpipe"

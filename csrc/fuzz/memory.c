@@ -57,7 +57,7 @@ static int write_png(input in)
     const size_t width = 1 + in.at[0] % 16, all = in.left / 4, height = all / width;
     if (height == 0)
         return 1;
-    const int done = e3d_png_encode(in.at, (int32_t)width, (int32_t)height, (ptrdiff_t)(4 * width), &file, &size);
+    const int done = e3d_png_encode(in.at, (int32_t)width, (int32_t)height, (ptrdiff_t)(4 * width), 4, 8, &file, &size);
     if (done)
         free(file);
     return done;

@@ -108,7 +108,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     uint8_t *pixels = room_for(stride * (height - 1) + row, 1), *file = NULL;
     for (size_t k = 0; k < stride * (height - 1) + row; k++)
         pixels[k] = in.left ? in.at[k % in.left] : 0;
-    CLAIM(e3d_png_encode(pixels, (int32_t)width, (int32_t)height, (ptrdiff_t)stride, &file, &size));
+    CLAIM(e3d_png_encode(pixels, (int32_t)width, (int32_t)height, (ptrdiff_t)stride, PIXEL, 8, &file, &size));
     claim_file(file, size, pixels, width, height, stride);
     free(file);
     free(pixels);

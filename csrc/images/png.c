@@ -1,4 +1,4 @@
-/* PNG files of RGBA, RGB or grey pixels.
+/* PNG files of RGBA, RGB or grey pixels, of 8 or 16 bits a channel.
  *
  * In:  rows of pixels.
  * Out: signature, header, one chunk of compressed rows, end.
@@ -13,17 +13,14 @@
 #include "deflate.h"
 #include "e3d_images.h"
 
-/* Bytes of a pixel. */
-#define GREY_16 2
-#define RGB 3
-#define RGBA 4
+#define RGBA 4 /* bytes of a pixel of 8 bits a channel */
 #define ADLER_MODULUS 65521u
 #define ADLER_SUMMANDS 5552 /* bytes until the sums could overflow 32 bits */
 #define CRC_POLYNOMIAL 0xEDB88320u
 
 typedef enum filter { SUB = 1, UP = 2, AVERAGE = 3, PAETH = 4 } filter;
 
-/* Filters. A pixel has 1 to 4 bytes, which the compiler knows where it matters. So many bytes of zero
+/* Filters. A pixel has 1 to 8 bytes, which the compiler knows where it matters. So many bytes of zero
  * stand before a row, so that every byte has a left neighbour. */
 
 static inline uint8_t paeth(int16_t left, int16_t up, int16_t corner)
@@ -210,12 +207,12 @@ static void end_chunk(bit_writer *out, size_t start, const crc_table *table)
     write_u32(out, crc(table, out->bytes + start + 4, out->size - start - 4));
 }
 
-static void write_header(bit_writer *out, int32_t width, int32_t height, int pixel, const crc_table *table)
+static void write_header(bit_writer *out, int32_t width, int32_t height, int channels, int bits, const crc_table *table)
 {
     static const uint8_t signature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-    /* Bits a channel; grey, RGB or RGBA; compressed and filtered as always; not interlaced. */
-    const uint8_t color_type = pixel == RGBA ? 6 : pixel == RGB ? 2 : 0;
-    const uint8_t form[] = {pixel == GREY_16 ? 16 : 8, color_type, 0, 0, 0};
+    static const uint8_t color_types[] = {0, 4, 2, 6}; /* grey, with alpha, RGB, RGBA */
+    /* Compressed and filtered as always; not interlaced. */
+    const uint8_t form[] = {(uint8_t)bits, color_types[channels - 1], 0, 0, 0};
     writer_bytes(out, signature, sizeof signature);
     const size_t start = begin_chunk(out, "IHDR");
     write_u32(out, (uint32_t)width);
@@ -250,16 +247,17 @@ static void write_rows(bit_writer *out, const uint8_t *pixels, size_t count, int
     write_u32(out, sums);
 }
 
-static bool encode(const uint8_t *pixels, int32_t width, int32_t height, ptrdiff_t stride, int pixel,
-                   uint8_t **file, size_t *size)
+bool e3d_png_encode(const uint8_t *pixels, int32_t width, int32_t height, ptrdiff_t stride,
+                    int32_t channels, int32_t bits, uint8_t **file, size_t *size)
 {
+    const int pixel = channels * bits / 8;
     bit_writer out = {0};
     crc_table table;
     const size_t count = (size_t)pixel * (size_t)width;
     uint8_t *rows = calloc(2, (size_t)pixel + count);
     out.failed = rows == NULL;
     make_crc_table(&table);
-    write_header(&out, width, height, pixel, &table);
+    write_header(&out, width, height, channels, bits, &table);
     size_t start = begin_chunk(&out, "IDAT");
     if (rows != NULL) {
         write_rows(&out, pixels, count, height, stride, pixel, rows);
@@ -275,16 +273,4 @@ static bool encode(const uint8_t *pixels, int32_t width, int32_t height, ptrdiff
     *file = out.bytes;
     *size = out.size;
     return true;
-}
-
-bool e3d_png_encode(const uint8_t *pixels, int32_t width, int32_t height, ptrdiff_t stride,
-                    uint8_t **file, size_t *size)
-{
-    return encode(pixels, width, height, stride, RGBA, file, size);
-}
-
-bool e3d_png_encode_opaque(const uint8_t *pixels, int32_t width, int32_t height, ptrdiff_t stride,
-                         int32_t pixel_bytes, uint8_t **file, size_t *size)
-{
-    return encode(pixels, width, height, stride, pixel_bytes, file, size);
 }

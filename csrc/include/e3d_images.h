@@ -12,16 +12,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Encodes RGBA pixels, top row first, as a PNG file.
+/* Encodes pixels, top row first, as a PNG file.
  *
- * In:  width and height from 1 to 16384; the rows lie `stride` bytes apart.
+ * In:  width and height from 1 to 16384; the rows lie `stride` bytes apart. 1 to 4 channels: grey, grey with
+ *      alpha, RGB, RGBA; 8 bits each, or 16 with the higher byte first.
  * Out: *file is to be freed with free(); false, and nothing to free, if memory runs out. */
 bool e3d_png_encode(const uint8_t *pixels, int32_t width, int32_t height, ptrdiff_t stride,
-                    uint8_t **file, size_t *size);
-
-/* The same of grey pixels of 1 byte, of grey pixels of 2 with the higher one first, or of RGB pixels of 3. */
-bool e3d_png_encode_opaque(const uint8_t *pixels, int32_t width, int32_t height, ptrdiff_t stride,
-                           int32_t pixel_bytes, uint8_t **file, size_t *size);
+                    int32_t channels, int32_t bits, uint8_t **file, size_t *size);
 
 /* Unpacks the run-length packets of a TGA file until `count` pixels of `pixel_bytes` (1 to 4) are
  * there, into pixels[count * pixel_bytes]. Returns how many pixels the data held, at most `count`:

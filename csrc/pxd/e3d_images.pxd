@@ -7,11 +7,7 @@ from libc.stdint cimport int32_t, uint8_t
 cdef extern from "e3d_images.h" nogil:
     bint e3d_png_encode(
         const uint8_t *pixels, int32_t width, int32_t height, ptrdiff_t stride,
-        uint8_t **file, size_t *size,
-    )
-    bint e3d_png_encode_opaque(
-        const uint8_t *pixels, int32_t width, int32_t height, ptrdiff_t stride, int32_t pixel_bytes,
-        uint8_t **file, size_t *size,
+        int32_t channels, int32_t bits, uint8_t **file, size_t *size,
     )
     size_t e3d_tga_unpack(
         const uint8_t *data, size_t length, int32_t pixel_bytes, uint8_t *pixels, size_t count,

@@ -22,23 +22,20 @@ cdef dict RGBE_FAULTS = {
 }
 
 
-def encode_png(const uint8_t[:, :, :] pixels not None):
-    """Return a PNG file of (H, W, 4) uint8 RGBA pixels, each side from 1 to 16384."""
-    if pixels.shape[2] != 4:
-        raise InvalidArgumentError("pixels must be (height, width, 4), each row contiguous")
-    return _encoded(pixels)
+def encode_png(const uint8_t[:, :, :] pixels not None, int32_t bits=8):
+    """Return a PNG file of pixels, each side from 1 to 16384.
 
-
-def encode_opaque_png(const uint8_t[:, :, :] pixels not None):
-    """Return a PNG file of (H, W, 1) uint8 grey pixels, (H, W, 2) of 16 bits, high byte first, or RGB."""
-    if pixels.shape[2] not in (1, 2, 3):
-        raise InvalidArgumentError("pixels must be (height, width, 1 to 3), each row contiguous")
-    return _encoded(pixels)
-
-
-cdef bytes _encoded(const uint8_t[:, :, :] pixels):
+    Parameters
+    ----------
+    pixels : (H, W, C) uint8
+        The bytes of a pixel: 1 to 4 channels are grey, grey with alpha, RGB, RGBA.
+    bits : {8, 16}
+        Of a channel; of 16, the higher byte is the first.
+    """
     cdef int32_t height = <int32_t>pixels.shape[0], width = <int32_t>pixels.shape[1]
     cdef int32_t pixel_bytes = <int32_t>pixels.shape[2]
+    if bits not in (8, 16) or pixel_bytes * 8 not in (bits, 2 * bits, 3 * bits, 4 * bits):
+        raise InvalidArgumentError("pixels must be (height, width, 1 to 4), of 8 or 16 bits a channel")
     if not (0 < pixels.shape[0] <= MAX_SIDE and 0 < pixels.shape[1] <= MAX_SIDE):
         raise InvalidArgumentError(f"a side is from 1 to {MAX_SIDE} pixels")
     if pixels.strides[2] != 1 or pixels.strides[1] != pixel_bytes:
@@ -47,12 +44,9 @@ cdef bytes _encoded(const uint8_t[:, :, :] pixels):
     cdef size_t size = 0
     cdef bint done
     with nogil:
-        if pixel_bytes == 4:
-            done = e3d_png_encode(&pixels[0, 0, 0], width, height, pixels.strides[0], &file, &size)
-        else:
-            done = e3d_png_encode_opaque(
-                &pixels[0, 0, 0], width, height, pixels.strides[0], pixel_bytes, &file, &size
-            )
+        done = e3d_png_encode(
+            &pixels[0, 0, 0], width, height, pixels.strides[0], pixel_bytes * 8 // bits, bits, &file, &size
+        )
     if not done:
         raise OutOfMemoryError("no memory for a PNG file")
     try:

@@ -1,5 +1,5 @@
 """The engine measured on this machine, for ``engine3d bench`` and the scripts of benchmarks/.
 
-`names` says what can be drawn, `workloads` makes it, `measuring` times it, `report` shows the
-figures as text, `city_views` walks through the city. Charts and the peer are in benchmarks/.
+`measuring` times what `engine3d.demos.workloads` makes, `report` shows the figures as text. Charts
+and the peer are in benchmarks/.
 """

@@ -13,8 +13,8 @@ import time
 
 import numpy as np
 
+from ..demos.workloads import Workload
 from ..rendering.renderer import Renderer
-from .workloads import Workload
 
 #: Milliseconds: a frame as slow is not drawn many times.
 SLOW = 1500.0

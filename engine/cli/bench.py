@@ -8,7 +8,8 @@ import time
 from collections.abc import Iterator
 
 from .._support.system import usable_processors
-from ..benchmarking import measuring, report, workloads
+from ..benchmarking import measuring, report
+from ..demos import workloads
 from ..files.atomic_write import atomic_write
 from ..files.making_folders import make_folder_of
 from ..rendering.backend_selection import backends, resolve_backend

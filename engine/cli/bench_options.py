@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from ..benchmarking.names import WORKLOADS
+import argparse
+
+from ..demos import SCENES, WORKLOAD_NAMES
 from . import values
 from .picture_options import BACKENDS
 
 
 def add(command) -> None:
     """Add what is measured, and how long."""
+    command.epilog = "workloads:"
+    command.epilog += "".join(f"\n  {n:<15} {SCENES[n].about}" for n in WORKLOAD_NAMES)
+    command.formatter_class = argparse.RawDescriptionHelpFormatter
     command.add_argument(
         "--workloads",
-        type=values.some_of(tuple(WORKLOADS)),
-        default=list(WORKLOADS),
+        type=values.some_of(WORKLOAD_NAMES),
+        default=list(WORKLOAD_NAMES),
         metavar="NAME,…",
         help="workloads to measure (default: all of those below)",
     )

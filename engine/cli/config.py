@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from collections.abc import Iterator, Sequence
 
+from ..desktop.user_folders import user_path
 from ..errors import FileFormatError
 from . import suggestions
 from .scene_options import OF_MODELS
@@ -51,20 +51,6 @@ def add_config(parser) -> None:
         default=[],
         help="set an option as a file would: -D grid=true, -D grid=false",
     )
-
-
-def user_config() -> str:
-    """Return the path of the user's own file, which need not be there."""
-    home = os.path.expanduser("~")
-    if sys.platform == "win32":
-        root = os.environ.get("APPDATA") or home
-    elif sys.platform == "darwin":
-        root = os.path.join(home, "Library", "Application Support")
-    else:
-        root = os.environ.get("XDG_CONFIG_HOME", "")
-        if not os.path.isabs(root):  # which the specification has ignored
-            root = os.path.join(home, ".config")
-    return os.path.join(root, "engine3d", "config.json")
 
 
 def set_defaults(
@@ -192,7 +178,7 @@ def _entries(
     """Yield file, number of the entry, name and value of all options that count for the models."""
     if args.no_config:
         return
-    path = args.config or user_config()
+    path = args.config or str(user_path("config", "config.json"))
     if args.config is None and not os.path.isfile(path):
         return
     for number, entry in enumerate(_read(path)):

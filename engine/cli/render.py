@@ -176,10 +176,14 @@ def _compare(args: argparse.Namespace, pixels) -> int:
     """Compare with the reference if one was given; return the exit status."""
     if args.reference is None:
         return 0
-    from .comparison import compare
+    from ..golden.comparison import compare, root_mean_square
+    from ..loaders import load_texture
 
-    result = compare(pixels, args.reference)
-    if result.difference <= (args.reference_threshold or 0.0):
+    reference = load_texture(args.reference).pixels
+    apart = root_mean_square(pixels, reference)
+    if apart <= (args.reference_threshold or 0.0):
         return 0
-    say(f"error: {args.reference}: {result}")
+    found = compare(pixels, reference)
+    told = f"it differs by {apart:.6g} ({found.different} of {found.total} pixels)"
+    say(f"error: {args.reference}: {found.kinds or told}")
     return 1

@@ -117,9 +117,9 @@ def _show(
     args: argparse.Namespace, found: list[argparse.Namespace], viewed, report: Report
 ) -> None:
     """Open a window and stay until it closes."""
+    from ..desktop.recent_files import RecentFiles
     from ..stage.walkable_ground import told
     from ..viewer.model_files import ModelFiles
-    from ..viewer.recent_files import remember
     from ..viewer.sampling import AT_REST, Sampling
     from ..viewer.viewer import Viewer
 
@@ -144,7 +144,8 @@ def _show(
             sampling=Sampling(1 if args.antialiasing == "none" else args.samples),
         )
         viewer.time = (args.animation_time or 0.0) % viewed.period
-        remember([] if STANDARD_INPUT in args.models else args.models)
+        if STANDARD_INPUT not in args.models:
+            RecentFiles().add(*args.models)
         still = viewed.update is not None and not viewer.playing
         if viewer.walker is None:
             viewer.say("H: help" + ("; Space: play" if still else ""))

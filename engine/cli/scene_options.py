@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 
+from ..demos import DEMO_NAMES, SCENES
 from . import scalar_options, values
 from .input_options import add_inputs, check_inputs
 from .inputs import model_files
@@ -11,10 +12,6 @@ from .loading_bar import LoadingBar
 from .outputs import not_the_output
 from .usage import UsageError
 
-SCENES = (
-    *("default", "vertices", "edges", "faces", "cube", "shapes"),
-    *("textured", "asc", "city", "solar", "spheres", "lod", "parcels"),
-)
 #: Options that say how models are read or dressed; built-in scenes are neither.
 OF_MODELS = (
     *("texture", "variant", "animation_index", "animation_time", "crease_angle"),
@@ -39,7 +36,7 @@ def add_viewed_scene(parser) -> None:
         help="stand several models in a row, upright and in their own sizes",
     )
     group.add_argument(
-        "--scene", choices=SCENES, metavar="NAME", help=f"a scene: {', '.join(SCENES)}"
+        "--scene", choices=DEMO_NAMES, metavar="NAME", help=f"a scene: {', '.join(DEMO_NAMES)}"
     )
     group.add_argument(
         "--triangles",
@@ -111,12 +108,7 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
         raise UsageError("give a MODEL or --scene, not both")
     if args.side_by_side and len(args.models) < 2:
         raise UsageError("--side-by-side needs several MODELs")
-    if args.triangles is not None and args.scene != "city":
-        raise UsageError("--triangles goes with --scene city")
-    if args.dusk and args.scene != "city":
-        raise UsageError("--dusk goes with --scene city")
-    if args.subdivisions is not None and args.scene != "shapes":
-        raise UsageError("--subdivisions goes with --scene shapes")
+    of_scene = _of_scene(args)
     if not args.models:
         for option in OF_MODELS:
             given = getattr(args, option, None)
@@ -126,10 +118,7 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
             raise UsageError("give a MODEL or --scene NAME")
         from ..demos import load_demo
 
-        how = {} if args.triangles is None else {"triangles": args.triangles}
-        how |= {"dusk": True} if args.dusk else {}
-        how |= {} if args.subdivisions is None else {"subdivisions": args.subdivisions}
-        viewed = load_demo(args.scene or default_scene, **how)
+        viewed = load_demo(args.scene or default_scene, **of_scene)
         if args.color is not None:
             from ..stage.open_model import dress_scene
 
@@ -140,6 +129,18 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
     check_inputs(args)
     with LoadingBar() as progress:
         return open_models(model_files(args.models), **opening(args), progress=progress)
+
+
+def _of_scene(args: argparse.Namespace) -> dict:
+    """Return the options that were given of those that only some scenes have."""
+    given = {}
+    for name, scene in SCENES.items():
+        for option in scene.options:
+            if getattr(args, option) not in (None, False):
+                if args.scene != name:
+                    raise UsageError(f"--{option} goes with --scene {name}")
+                given[option] = getattr(args, option)
+    return given
 
 
 def opening(args: argparse.Namespace) -> dict:

@@ -27,9 +27,9 @@ from .._support.numbers import shown
 from .._support.validation import positive
 from ..errors import InvalidArgumentError
 from ..files import json_records as records
+from ..files.png import encode_pixels
 from .bop_models import has_shapes, shape_name, shape_of, write_models
 from .cameras import cv_from_camera, intrinsics_of, rigid_parts
-from .opaque_png import color_png, grey_png, mask_png
 from .samples import Sample, Thing, box_of
 from .silhouettes import Silhouette, silhouette_of
 from .writer import (
@@ -129,8 +129,8 @@ class BopWriter(DatasetWriter):
         folder, image = self._place(sample.index)
         depth = sample.frame.depth
         files: dict[str, Content] = {
-            f"{folder}/rgb/{image:06d}.png": color_png(sample.frame),
-            f"{folder}/depth/{image:06d}.png": grey_png(self._steps(depth)),
+            f"{folder}/rgb/{image:06d}.png": encode_pixels(sample.frame.color[..., :3]),
+            f"{folder}/depth/{image:06d}.png": encode_pixels(self._steps(depth)),
         }
         truth, info, shapes = [], [], []
         for number, thing in enumerate(sample.things()):
@@ -139,8 +139,8 @@ class BopWriter(DatasetWriter):
             whole = silhouette_of(thing, sample)
             visible = thing.mask(sample.frame.object_id)
             info.append(_counts(whole, visible, depth))
-            files[f"{folder}/mask/{image:06d}_{number:06d}.png"] = mask_png(whole.mask)
-            files[f"{folder}/mask_visib/{image:06d}_{number:06d}.png"] = mask_png(visible)
+            files[f"{folder}/mask/{image:06d}_{number:06d}.png"] = encode_pixels(whole.mask)
+            files[f"{folder}/mask_visib/{image:06d}_{number:06d}.png"] = encode_pixels(visible)
             shape, files_of_shape = shape_of(thing, self.millimetres)
             shapes.append(shape)
             files.update(files_of_shape)

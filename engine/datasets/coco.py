@@ -14,10 +14,10 @@ from typing import Any
 
 from .._support.calls import checks_types
 from ..files import json_records as records
+from ..files.png import encode_pixels
 from ..rendering.frame import Output
 from ..rendering.options import check_outputs
 from .folders import encoded
-from .opaque_png import color_png
 from .rle import encode_rle
 from .samples import Sample, box_of
 from .writer import (
@@ -67,7 +67,7 @@ class CocoWriter(DatasetWriter):
 
     @checks_types
     def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
-        files = {f"images/{sample.name}.png": color_png(sample.frame)}
+        files = {f"images/{sample.name}.png": encode_pixels(sample.frame.color[..., :3])}
         for output in self.written:
             if output != "color":
                 suffix, data = encoded(sample.frame, output)

@@ -9,7 +9,6 @@ from __future__ import annotations
 import numpy as np
 
 from .. import linalg
-from ..benchmarking.workloads import make
 from ..geometry.mesh import Mesh
 from ..lod import DetailedInstances
 from ..materials.material import Material
@@ -17,6 +16,7 @@ from ..primitives import box, icosphere
 from ..scene.lights import DirectionalLight
 from ..scene.scene import Scene
 from ..stage.viewed_scene import ViewedScene
+from .workloads import make
 
 BACKGROUND = (26, 31, 38)
 SUN_DIRECTION, SUN_COLOR = (-0.4, -0.7, -0.6), (0.8, 0.8, 0.8)

@@ -15,11 +15,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from .._support.system import NO_LINK, READ_WRITE, locked
+from ..desktop.user_folders import user_path
 from ..errors import FileAccessError, FileFormatError, warn
 from ..files import json_records
 from ..files.atomic_write import LEFT_BEHIND, atomic_write
 from ..writers.scene import scene_text
-from .user_folders import cache_folder
 
 if TYPE_CHECKING:
     from .document import SceneDocument
@@ -179,7 +179,7 @@ def content_of(copy: Recovery) -> tuple[str, bytes]:
 
 
 def _folder() -> Path:
-    return cache_folder() / "unsaved"
+    return user_path("cache", "unsaved")
 
 
 def _lock_of(path: Path) -> Path:

@@ -48,6 +48,8 @@ class SceneDocument:
         Absolute; None until the scene is saved for the first time.
     scene : Scene
         Change it by `do` only, so that it can be undone.
+    up : str
+        As of the `Document` that it was made of.
     resources : ResourceList
         What it is made of, and what waits to be used.
     history : History
@@ -61,6 +63,7 @@ class SceneDocument:
     def __init__(self, scene: Scene | None = None, *, console: Console | None = None) -> None:
         self.scene = Scene() if scene is None else scene
         self.path: str | None = None
+        self.up = "+Y"
         self._state: FileState | None = None  # of the file, as it was opened or saved
         self.resources = ResourceList(self.scene)
         self.history = History()
@@ -116,6 +119,7 @@ class SceneDocument:
         with console.warnings_noted():
             loaded = load_document(name)
             document = cls(scene_from_document(loaded), console=console)
+        document.up = loaded.up
         if loaded.scene is not None:
             document.path, document._state = name, state
         console.write("action", f"Open {name}")

@@ -95,6 +95,21 @@ def compare(actual: np.ndarray, expected: np.ndarray, tolerance: float = 0) -> D
     return Difference(mask, amount, largest, kinds)
 
 
+def root_mean_square(actual: np.ndarray, expected: np.ndarray) -> float:
+    """Return the root mean square of what the channels of two pictures differ by, 0 to 1.
+
+    Parameters
+    ----------
+    actual, expected : (H, W, 1 to 4) uint8 arrays
+        Those of two sizes differ by 1.
+    """
+    if actual.shape[:2] != expected.shape[:2]:
+        return 1.0
+    offsets = np.subtract(*_alike(actual, expected), dtype=np.int32)
+    squares = int((offsets * offsets).sum(dtype=np.int64))
+    return (squares / (offsets.size * 255.0 * 255.0)) ** 0.5
+
+
 def _all_different(actual: np.ndarray, expected: np.ndarray, kinds: str) -> Difference:
     height, width = (max(a, b) for a, b in zip(actual.shape[:2], expected.shape[:2], strict=True))
     ones = np.ones((height, width), np.float32)

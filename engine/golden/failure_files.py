@@ -11,11 +11,11 @@ import os
 import numpy as np
 
 from ..files.atomic_write import atomic_write
+from ..files.png import encode_pixels
 from .comparison import Difference
 from .difference_picture import difference_picture
 from .display import displayed
 from .golden_files import write_golden
-from .png_files import encode
 from .results import Result
 
 
@@ -33,4 +33,4 @@ def write_failure(
     if expected is not None and difference is not None:
         result.difference = f"{stem}.difference.png"
         with atomic_write(result.difference, below=folder) as file:
-            file.write(encode(difference_picture(displayed(expected), difference)))
+            file.write(encode_pixels(difference_picture(displayed(expected), difference)))

@@ -19,11 +19,11 @@ from .._support.side_by_side import side_by_side
 from ..errors import Engine3DError, FileAccessError, FileFormatError
 from ..files.atomic_write import atomic_write
 from ..files.making_folders import make_folder_of
+from ..files.png import encode_pixels
 from .comparison import Difference, compare
 from .difference_picture import difference_picture
 from .display import displayed
 from .picture_files import SUFFIXES, Picture
-from .png_files import encode
 from .reading import read_picture
 from .results import CHANGED, DELETED, FAILED, NEW, PASSED, Result
 
@@ -156,7 +156,7 @@ def _judge(result: Result, pair: Pair, pictures: tuple[Picture, Picture], rules:
         result.difference = pair.difference
         make_folder_of(pair.difference, below=pair.folder)
         with atomic_write(pair.difference, below=pair.folder) as file:
-            file.write(encode(difference_picture(displayed(shown[1]), difference)))
+            file.write(encode_pixels(difference_picture(displayed(shown[1]), difference)))
 
 
 def _same_bytes(a: str, b: str) -> bool:

@@ -24,6 +24,7 @@ from ..errors import FileAccessError, FileFormatError
 from ..files import json_records as shapes
 from ..files.atomic_write import atomic_write
 from ..files.making_folders import make_folder_of
+from ..files.png import encode_pixels
 from . import png_files
 from .display import displayed
 from .picture_files import decode_picture
@@ -106,10 +107,8 @@ def write_golden(path: str, pixels: np.ndarray, *, below: str | None = None) -> 
 
 def encode_golden(pixels: np.ndarray) -> bytes:
     """Return the bytes of a golden file."""
-    shown = displayed(pixels) if needs_numbers(pixels) else pixels.astype(_stored_type(pixels))
-    if pixels.dtype == np.bool_:
-        shown = shown * np.uint8(255)
-    header, *body, end = png_files.split_chunks(png_files.encode(shown))
+    shown = displayed(pixels) if needs_numbers(pixels) else pixels
+    header, *body, end = png_files.split_chunks(encode_pixels(shown))
     if needs_numbers(pixels):
         body.append((_NUMBERS, zlib.compress(_by_place(pixels), 9)))
     identity = {
@@ -190,10 +189,6 @@ def _seal(chunks: list[tuple[bytes, bytes]]) -> str:
         summary.update(name + len(content).to_bytes(4, "big"))
         summary.update(content)
     return summary.hexdigest()
-
-
-def _stored_type(pixels: np.ndarray) -> np.dtype:
-    return np.dtype(np.uint16 if pixels.dtype == np.uint16 else np.uint8)
 
 
 def _by_place(pixels: np.ndarray) -> bytes:

@@ -1,8 +1,7 @@
-"""PNG files chunk by chunk: written from arrays of 8 and 16 bits, taken apart, 16 bits read whole.
+"""PNG files chunk by chunk: taken apart, put together, 16 bits read whole.
 
-In:  arrays, or the bytes of a file. Out: the bytes of a file, or its chunks. Pillow keeps only the
-     upper bytes of colours with 16 bits a channel, and writes none. Source: PNG specification,
-     third edition (W3C, 2025).
+In:  the bytes of a file. Out: its chunks, or its pixels: Pillow keeps only the upper bytes of
+     colours with 16 bits a channel. Source: PNG specification, third edition (W3C, 2025).
 """
 
 from __future__ import annotations
@@ -14,13 +13,9 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from .._native.images import encode_png
-
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
-_COLOR_TYPES = {1: 0, 2: 4, 3: 2, 4: 6}  # by the number of channels
-_CHANNELS = {kind: channels for channels, kind in _COLOR_TYPES.items()}
+_CHANNELS = {0: 1, 4: 2, 2: 3, 6: 4}  # by the type of colours
 _HEADER = struct.Struct(">IIBBBBB")
-_UP = 2  # a filter: each row less the one above
 
 
 class DamagedPng(ValueError):
@@ -57,22 +52,6 @@ def split_chunks(file: bytes) -> list[tuple[bytes, bytes]]:
         chunks.append((name, content))
         at = end
     return chunks
-
-
-def encode(pixels: np.ndarray) -> bytes:
-    """Return the file of (H, W) or (H, W, 1 to 4) pixels, uint8 or uint16."""
-    if pixels.dtype == np.uint8 and pixels.shape[2:] == (4,):
-        return encode_png(pixels)
-    height, width = pixels.shape[:2]
-    channels = pixels.shape[2] if pixels.ndim == 3 else 1
-    bits = 8 * pixels.dtype.itemsize
-    rows = pixels.astype(pixels.dtype.newbyteorder(">")).reshape(height, -1).view(np.uint8)
-    lines = np.full((height, rows.shape[1] + 1), _UP, np.uint8)
-    lines[0, 1:] = rows[0]
-    np.subtract(rows[1:], rows[:-1], out=lines[1:, 1:])
-    header = _HEADER.pack(width, height, bits, _COLOR_TYPES[channels], 0, 0, 0)
-    body = zlib.compress(lines.tobytes(), 9)
-    return join_chunks([(b"IHDR", header), (b"IDAT", body), (b"IEND", b"")])
 
 
 def is_deep(file: bytes) -> bool:

@@ -16,9 +16,9 @@ from importlib.resources import files
 
 from ..errors import Engine3DError
 from ..files.atomic_write import atomic_write
+from ..files.png import encode_pixels
 from ..version import __version__
 from .display import displayed
-from .png_files import encode
 from .reading import read_picture
 from .results import CHANGED, DELETED, FAILED, NEW, PASSED, UNUSED, UPDATED, Result
 
@@ -101,7 +101,7 @@ class Report:
 
     def _figure(self, kind: str, shown, result: Result) -> str:
         height, width = shown.shape[:2]
-        data = base64.b64encode(encode(shown)).decode("ascii")
+        data = base64.b64encode(encode_pixels(shown)).decode("ascii")
         label = escape(self._labels[kind])
         return (
             f'<figure class="{kind}"><figcaption>{label}</figcaption><div class="picture">'

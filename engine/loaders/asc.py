@@ -378,4 +378,8 @@ def _resembles_asc(head: bytes, size: int) -> bool:
     return head.lstrip().startswith((b"Ambient light color", b"Named object"))
 
 
-READERS = (Reader("asc", "3D Studio ASCII", "mesh", (".asc",), read_asc, resembles=_resembles_asc),)
+READERS = (
+    Reader(
+        "asc", "3D Studio ASCII", "mesh", (".asc",), read_asc, resembles=_resembles_asc, up="+Z"
+    ),
+)

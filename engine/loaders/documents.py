@@ -415,6 +415,8 @@ class Document:
         The symbol of the coordinates' unit, such as ``"mm"``; empty where the format has none.
     arrays : dict of str to list of str
         Names of what ``scalars`` can hold, of ``"vertices"`` and of ``"faces"``.
+    up : str
+        Which axis is up, by custom, in files of the format: ``"+Y"`` or ``"+Z"``.
     """
 
     format: str
@@ -427,6 +429,7 @@ class Document:
     tree: TreeRecord | None = None
     unit: str = ""
     arrays: dict[str, list[str]] = field(default_factory=dict)
+    up: str = "+Y"
 
     @property
     def scalars(self) -> list[dict[str, np.ndarray]]:

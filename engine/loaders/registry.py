@@ -41,6 +41,8 @@ class Reader(NamedTuple):
         like this format.
     read_linear : callable, optional
         Of images whose pixels are light: as ``read``, with codes proportional to it.
+    up : str
+        Which axis of a mesh is up, by custom.
     """
 
     name: str
@@ -51,6 +53,7 @@ class Reader(NamedTuple):
     signature: Callable[[bytes], bool] | None = None
     resembles: Callable[[bytes, int], bool] | None = None
     read_linear: Callable | None = None
+    up: str = "+Y"
 
 
 class Format(NamedTuple):

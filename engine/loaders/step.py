@@ -86,6 +86,8 @@ def _is_step(head: bytes) -> bool:
 
 
 READERS = (
-    Reader("step", "STEP, through cascadio", "mesh", (".step", ".stp"), read_step, _is_step),
-    Reader("iges", "IGES, through cascadio", "mesh", (".iges", ".igs"), _read_iges),
+    Reader(
+        "step", "STEP, through cascadio", "mesh", (".step", ".stp"), read_step, _is_step, up="+Z"
+    ),
+    Reader("iges", "IGES, through cascadio", "mesh", (".iges", ".igs"), _read_iges, up="+Z"),
 )

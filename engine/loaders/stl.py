@@ -299,5 +299,13 @@ def _resembles_stl(head: bytes, size: int) -> bool:
 
 
 READERS = (
-    Reader("stl", "STL, text and binary", "mesh", (".stl",), read_stl, resembles=_resembles_stl),
+    Reader(
+        "stl",
+        "STL, text and binary",
+        "mesh",
+        (".stl",),
+        read_stl,
+        resembles=_resembles_stl,
+        up="+Z",
+    ),
 )

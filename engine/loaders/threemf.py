@@ -151,5 +151,7 @@ def _resembles(head: bytes, size: int) -> bool:
 
 
 READERS = (
-    Reader("3mf", "3D Manufacturing Format", "mesh", (".3mf",), read_3mf, resembles=_resembles),
+    Reader(
+        "3mf", "3D Manufacturing Format", "mesh", (".3mf",), read_3mf, resembles=_resembles, up="+Z"
+    ),
 )

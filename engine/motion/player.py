@@ -14,9 +14,10 @@ import numpy as np
 
 from .._support.calls import checks_types
 from .._support.numbers import real, shown
-from .._support.validation import Closed, choose, finite, not_negative
+from .._support.validation import choose, finite, not_negative
 from ..choices import Loop
 from ..errors import InvalidArgumentError
+from ..scene.clock import Clock
 from ..scene.nodes import Node
 from ..scene.scene import Scene
 from .animated_parts import AnimatedParts
@@ -27,7 +28,7 @@ from .properties import PropertyChannel
 LOOPS = get_args(Loop)
 
 
-class AnimationPlayer(Closed):
+class AnimationPlayer(Clock):
     """Plays clips of a scene.
 
     Parameters
@@ -52,23 +53,13 @@ class AnimationPlayer(Closed):
     InvalidArgumentError
     """
 
-    time: float
-    paused: bool
-
     def __init__(self, scene: Scene, clips: Iterable[AnimationClip] | None = None) -> None:
-        if not isinstance(scene, Scene):
-            raise InvalidArgumentError(f"scene must be a Scene, not {type(scene).__name__}")
-        self._scene = scene
+        super().__init__(scene)
         self._clips = _check_clips(scene.animations.values() if clips is None else clips, scene)
-        self.time = 0.0
-        self.paused = False
         self.speed = 1.0
         self.loop = "repeat"
         self._layers: list[Layer] = []  # the last one plays, those before are faded out
         self._parts = AnimatedParts(scene, self._clips)
-
-    def __reduce_ex__(self, protocol):
-        raise TypeError("an AnimationPlayer belongs to its Scene: it cannot be copied or pickled")
 
     @property
     def clips(self) -> tuple[AnimationClip, ...]:
@@ -151,17 +142,6 @@ class AnimationPlayer(Closed):
         """Play nothing, and put back what was moved to where it was."""
         self._put_back(self._layers)
         self._layers = []
-
-    def seek(self, time: float) -> None:
-        """Move everything to where it is at a time of the clip, in seconds."""
-        self.time = finite(time, "time")
-        self._move()
-
-    def advance(self, seconds: float) -> None:
-        """Let time go on, unless paused."""
-        if not self.paused:
-            self.time += finite(seconds, "seconds") * self._speed
-            self._move()
 
     def _find(self, clip) -> tuple[AnimationClip, ...]:
         if isinstance(clip, Iterable) and not isinstance(clip, str):

@@ -15,16 +15,17 @@ from numpy.typing import ArrayLike
 
 from .. import linalg
 from .._support.numbers import floats, real
-from .._support.validation import Closed, finite, flag, frozen_floats, vector3
+from .._support.validation import finite, flag, frozen_floats, vector3
 from ..errors import InvalidArgumentError
 from ..motion.interpolation import slerp
+from .clock import Clock
 from .nodes import Node
 from .scene import Scene
 
 _SLOWEST = 6  # far nodes move at least every 2**6 updates
 
 
-class Animator(Closed):
+class Animator(Clock):
     """Moves nodes of a scene.
 
     Parameters
@@ -46,25 +47,15 @@ class Animator(Closed):
     InvalidArgumentError
     """
 
-    time: float
-    paused: bool
-
     def __init__(self, scene: Scene, *, full_rate_distance: float = math.inf) -> None:
-        if not isinstance(scene, Scene):
-            raise InvalidArgumentError(f"scene must be a Scene, not {type(scene).__name__}")
+        super().__init__(scene)
         if not real(full_rate_distance) > 0:
             raise InvalidArgumentError("full_rate_distance must be greater than 0")
-        self.time = 0.0
-        self.paused = False
-        self._scene = scene
         self._full_rate_distance = real(full_rate_distance)
         self._updates = 0
         self._spins: list[Spin] = []
         self._tracks: list[Track] = []
         self._moving: _Moving | None = None
-
-    def __reduce_ex__(self, protocol):
-        raise TypeError("an Animator belongs to its Scene: it cannot be copied or pickled")
 
     def spin(
         self,
@@ -131,11 +122,6 @@ class Animator(Closed):
         self._tracks += tracks
         self._moving = None
 
-    def seek(self, time: float) -> None:
-        """Move all nodes to where they are at a time, in seconds."""
-        self.time = finite(time, "time")
-        self._move(None)
-
     def advance(self, seconds: float, eye: ArrayLike | None = None) -> None:
         """Let time go on, unless paused.
 
@@ -145,8 +131,7 @@ class Animator(Closed):
         eye : (3,) float, optional
             World position of the viewer: nodes far from there move less often.
         """
-        if not self.paused:
-            self.time += finite(seconds, "seconds")
+        if self._goes_on(seconds):
             self._updates += 1
             self._move(None if eye is None else vector3(eye, "eye"))
 
@@ -160,7 +145,7 @@ class Animator(Closed):
         self._spins, self._tracks = map(list, value)
         self._moving = None
 
-    def _move(self, eye: np.ndarray | None) -> None:
+    def _move(self, eye: np.ndarray | None = None) -> None:
         if self._moving is None or self._moving.removals != self._scene._removals:
             # What only an animator remembers is gone for good.
             self._spins = [spin for spin in self._spins if spin.node is not None]

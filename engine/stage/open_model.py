@@ -22,9 +22,6 @@ from .theme import DARK
 from .viewed_scene import ViewedScene
 from .visibility import DRAWABLE, mesh_of
 
-#: Formats whose models, by custom, stand on the XY plane.
-Z_UP_FORMATS = ("3mf", "asc", "iges", "step", "stl")
-
 
 class OpenedModel(NamedTuple):
     """A file that was read.
@@ -162,7 +159,7 @@ def view_document(document, path: str | None, variant: str | int | None = None) 
     return ViewedScene(
         scene,
         "model" if path is None else printable(os.path.basename(path)),
-        up=usual_up(document),
+        up=document.up,
         update=None if scene.animator is None else scene.animator.seek,
         themed=document.scene is None,
         # glTF says of each material which sides show; other files don't, or are often wrong.
@@ -173,11 +170,6 @@ def view_document(document, path: str | None, variant: str | int | None = None) 
         warnings=list(scene.warnings),
         unit=document.unit,
     )
-
-
-def usual_up(document) -> str:
-    """Return the direction that is up, by custom, in files of a document's format."""
-    return "+Z" if document.format in Z_UP_FORMATS else "+Y"
 
 
 def _no_image(path: str) -> bool:

@@ -9,11 +9,11 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
+from ..desktop.recent_files import RecentFiles
 from ..errors import printable
 from ..files.folder_listing import Item, list_folder
 from .model_files import MODEL_EXTENSIONS
 from .panels import Panel, Row
-from .recent_files import recent_files
 
 if TYPE_CHECKING:
     from .viewer import Viewer
@@ -161,7 +161,7 @@ class RecentPanel(_FilePanel):
 
     def __init__(self, viewer: Viewer):
         super().__init__(viewer)
-        self._all = recent_files()
+        self._all = RecentFiles().paths()
 
     @property
     def _paths(self) -> list[str]:

@@ -31,7 +31,7 @@ class ModelFiles:
     watch : bool
         Look whether they change.
     remembered : bool
-        Whether files that are opened are remembered (`recent_files`).
+        Whether files that are opened are remembered (`RecentFiles`).
     side_by_side, up
         As in `open_models`, for files that are dropped, too.
     **options

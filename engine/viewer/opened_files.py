@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from ..desktop.recent_files import RecentFiles
 from ..errors import Engine3DError, printable
 from ..stage.viewpoint import Sphere
 from .actions import reset_view, toggle_walking
 from .model_files import ModelFiles
-from .recent_files import remember
 
 if TYPE_CHECKING:
     from ..stage.viewed_scene import ViewedScene
@@ -53,7 +53,7 @@ class Opening:
             viewer.say(_reason(error))
             return
         if self.files.remembered:
-            remember(paths)
+            RecentFiles().add(*paths)
         viewer.view_renderer.turned_up = None
         self._show(viewed, keep_appearance=keep_appearance)
         viewer.time = 0.0

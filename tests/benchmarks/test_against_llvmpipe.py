@@ -11,7 +11,8 @@ import pytest
 from patience import HUNG
 from PIL import Image
 
-from engine3d.benchmarking import measuring, workloads
+from engine3d.benchmarking import measuring
+from engine3d.demos import workloads
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 

@@ -5,8 +5,9 @@ import json
 import numpy as np
 import pytest
 
-from engine3d.benchmarking import measuring, names, report, workloads
+from engine3d.benchmarking import measuring, report
 from engine3d.cli import main
+from engine3d.demos import WORKLOAD_NAMES, workloads
 
 SMALL = ("--resolution", "64x36", "--seconds", "0.01")
 
@@ -63,10 +64,10 @@ def test_wrong_usage(arguments, capsys):
 def test_help_lists_the_workloads(capsys):
     assert main(["bench", "--help"]) == 0
     printed = capsys.readouterr().out
-    assert [line.split()[0] for line in printed.splitlines()[-12:]] == list(names.WORKLOADS)
+    assert [line.split()[0] for line in printed.splitlines()[-12:]] == list(WORKLOAD_NAMES)
 
 
-@pytest.mark.parametrize("name", [n for n in names.WORKLOADS if not n.startswith("city")])
+@pytest.mark.parametrize("name", [n for n in WORKLOAD_NAMES if not n.startswith("city")])
 def test_workloads_show_something_and_move(name):
     made = workloads.make(name)
     assert made.triangles >= 64

@@ -1,10 +1,11 @@
 """Options that stand in files, and -D."""
 
 import json
+import sys
 
 import pytest
 
-from engine3d.cli import config, main
+from engine3d.cli import main
 from engine3d.cli.parser import parse
 
 MODEL = "part.stl"
@@ -13,7 +14,7 @@ MODEL = "part.stl"
 @pytest.fixture
 def own(tmp_path, monkeypatch):
     """Write the user's own file."""
-    monkeypatch.setattr(config.sys, "platform", "linux")
+    monkeypatch.setattr(sys, "platform", "linux")
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
 
     def write(*entries):

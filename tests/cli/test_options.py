@@ -1,16 +1,17 @@
 """The values of options, and how options become settings."""
 
 import argparse
+import inspect
 
 import pytest
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.cli import appearance_options, main, options, scene_options, values
+from engine3d.cli import appearance_options, main, options, values
 from engine3d.cli.joined_values import join_values
 from engine3d.cli.parser import make_parser
 from engine3d.cli.usage import UsageError
-from engine3d.demos import DEMO_NAMES
+from engine3d.demos import DEMO_NAMES, SCENES, function_of
 from engine3d.stage.appearance import CULLS, HIDDEN_SURFACES, MODES
 from engine3d.stage.viewpoint import UP_DIRECTIONS
 from engine3d.worlds.city import LEAST, MOST
@@ -141,7 +142,6 @@ def test_values_may_start_with_a_minus_sign():
 def test_choices_are_those_of_the_display_package():
     assert appearance_options.MODES == MODES
     assert tuple(UP_DIRECTIONS) == values.UPS
-    assert scene_options.SCENES == DEMO_NAMES
     parser = argparse.ArgumentParser()
     appearance_options.add_appearance(parser)
     choices = {action.dest: action.choices for action in parser._actions}
@@ -243,3 +243,12 @@ def test_ambient_occlusion_shows_in_a_picture(tmp_path):
             return picture.convert("RGB").tobytes()
 
     assert drawn() != drawn("-q")
+
+
+def test_scenes_take_the_options_that_their_rows_have():
+    for name in DEMO_NAMES:
+        scene = SCENES[name]
+        assert set(inspect.signature(function_of(scene.viewed)).parameters) == set(scene.options)
+        assert scene.about
+    for row in ("--triangles=20000", "--dusk", "--subdivisions=2"):
+        assert main(["render", "--scene", "solar", row, "-o", "a.png"]) == 2

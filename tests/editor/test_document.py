@@ -1,6 +1,5 @@
 """Opening and saving: nothing is overwritten unasked, and at most a minute is lost."""
 
-import os
 import subprocess
 import sys
 
@@ -205,14 +204,3 @@ def test_undoing_all_gives_the_file_that_was_opened(folder):
     while document.redo():
         pass
     assert scene_text(document.scene, str(folder))[0] == after
-
-
-def test_the_users_folder_is_where_the_system_says(monkeypatch, tmp_path):
-    from engine3d.editor import user_folders
-
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    assert user_folders.cache_folder() == tmp_path / "engine3d"
-    monkeypatch.setenv("XDG_STATE_HOME", "relative")
-    monkeypatch.setenv("HOME", str(tmp_path))
-    assert user_folders.state_folder() == tmp_path / ".local" / "state" / "engine3d"
-    assert os.environ["XDG_STATE_HOME"] == "relative"

@@ -36,9 +36,9 @@ from engine3d.batch import Task, run
 from engine3d.batch.manifest import read_manifest
 from engine3d.cli import main
 from engine3d.datasets import BopWriter, CocoWriter, FolderWriter, WebDatasetWriter
+from engine3d.desktop.recent_files import RecentFiles
 from engine3d.editor.autosave import Autosave, content_of, left_behind
 from engine3d.editor.document import SceneDocument
-from engine3d.editor.recent_files import RecentFiles
 from engine3d.errors import Engine3DError
 from engine3d.files.json_records import sealed
 from engine3d.golden import golden_files, png_files

@@ -148,9 +148,9 @@ def test_folders_are_synced(tmp_path, monkeypatch):
 
 #: Modules whose files somebody else names, one by one: what they give is followed where it leads.
 NAMED_BY_OTHERS = {
-    "cli/bench.py", "cli/sheet.py", "compat/pyrender/viewer.py", "editor/recent_files.py",
+    "cli/bench.py", "cli/sheet.py", "compat/pyrender/viewer.py", "desktop/recent_files.py",
     "editor/ui/layout.py", "files/animation_files.py", "files/video_files.py", "golden/report.py",
-    "golden/result_files.py", "rendering/frame.py", "sheet/sheet.py", "viewer/recent_files.py",
+    "golden/result_files.py", "rendering/frame.py", "sheet/sheet.py",
     "writers/gltf.py", "writers/obj.py", "writers/ply.py", "writers/scene.py", "writers/stl.py",
 }  # fmt: skip
 

@@ -12,7 +12,7 @@ from files.own_files import KINDS, Batch, try_kind
 
 import engine3d as e3d
 from engine3d.datasets import CocoWriter
-from engine3d.editor.recent_files import RecentFiles
+from engine3d.desktop.recent_files import RecentFiles
 from engine3d.errors import FileAccessError, FileFormatError
 from engine3d.files import json_records
 from engine3d.golden.result_files import read_json
@@ -28,7 +28,7 @@ WRITERS = {
     "datasets/folders.py": "the data set itself",
     "datasets/writer.py": "the data set itself",
     "editor/autosave.py": "copies",
-    "editor/recent_files.py": "recent",
+    "desktop/recent_files.py": "recent",
     "files/json_records.py": "batch-plain",
     "golden/golden_files.py": "golden",
     "golden/result_files.py": "results",

@@ -9,6 +9,8 @@ from PIL import Image
 
 import engine3d as e3d
 from engine3d._native.images import encode_png
+from engine3d.files.png import encode_pixels
+from engine3d.golden.png_files import is_deep, read_deep
 
 
 def decoded(data):
@@ -30,12 +32,15 @@ def test_rows_may_lie_apart():
         np.testing.assert_array_equal(decoded(encode_png(view)), view)
 
 
-@pytest.mark.parametrize("shape", [(0, 4, 4), (4, 0, 4), (4, 4, 3), (1, 16385, 4)])
+@pytest.mark.parametrize("shape", [(0, 4, 4), (4, 0, 2), (4, 4, 5), (1, 16385, 4)])
 def test_shapes_that_are_refused(shape):
     with pytest.raises(e3d.InvalidArgumentError):
         encode_png(np.zeros(shape, np.uint8))
     with pytest.raises(e3d.InvalidArgumentError):
         encode_png(np.zeros((4, 8, 4), np.uint8)[:, ::2])
+    for channels, bits in ((3, 16), (10, 16), (4, 32)):
+        with pytest.raises(e3d.InvalidArgumentError):
+            encode_png(np.zeros((4, 8, channels), np.uint8), bits)
 
 
 @pytest.mark.parametrize("shape", [(1, 16384), (16384, 1), (40, 16384), (2000, 700)])
@@ -81,3 +86,25 @@ def test_bytes_are_those_of_every_machine():
     pixels = np.stack([x ^ y, (x * y) >> 3, x + y, np.full(x.shape, 255)], axis=-1)
     data = encode_png(np.ascontiguousarray(pixels.astype(np.uint8)))
     assert hashlib.sha256(data).hexdigest()[:16] == "83222f41c817420c"
+
+
+@pytest.mark.parametrize("size", [(1, 1), (37, 53), (64, 300)])
+@pytest.mark.parametrize("channels", [0, 1, 2, 3, 4])
+def test_every_kind_of_pixels_is_kept(size, channels):
+    shape = (*size, channels) if channels else size
+    random = np.random.default_rng(channels)
+    steps = 1 + np.arange(size[1]).reshape(1, -1, *([1] if channels else []))
+    deep = (random.integers(0, 65536, shape) // steps).astype(np.uint16)
+    for pixels in (deep >> 8).astype(np.uint8), (deep >> 8).astype(np.uint8)[::-1, ::-1]:
+        with Image.open(io.BytesIO(encode_pixels(pixels))) as image:
+            assert image.mode == ("L", "L", "LA", "RGB", "RGBA")[channels]
+            assert np.array_equal(np.asarray(image).reshape(shape), pixels)
+    data = encode_pixels(deep)
+    if is_deep(data):
+        assert np.array_equal(read_deep(data), deep)
+    else:
+        with Image.open(io.BytesIO(data)) as image:
+            assert image.mode.startswith("I")
+            assert np.array_equal(np.asarray(image).reshape(shape), deep)
+    mask = deep > 5000
+    assert encode_pixels(mask) == encode_pixels(np.where(mask, np.uint8(255), np.uint8(0)))

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from engine3d.golden import png_files
+from engine3d.files.png import encode_pixels
 
 
 def colors(height=6, width=8, channels=4, dtype=np.uint8, seed=0):
@@ -22,7 +22,7 @@ def changed(pixels, x=3, y=2, by=1):
 def write_png(path, pixels):
     """Write a PNG as any program would, without chunks of our own."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_bytes(png_files.encode(np.ascontiguousarray(pixels)))
+    path.write_bytes(encode_pixels(pixels))
     return path
 
 

@@ -5,7 +5,7 @@ import pytest
 from golden.samples import changed, colors, slope
 
 from engine3d import InvalidArgumentError
-from engine3d.golden.comparison import compare
+from engine3d.golden.comparison import compare, root_mean_square
 from engine3d.golden.difference_picture import difference_picture
 from engine3d.golden.display import displayed
 from engine3d.golden.flip import mean_flip
@@ -25,6 +25,14 @@ def test_one_pixel():
     assert difference.largest == (9 if colors()[2, 3, 2] < 247 else 247)
     assert str(difference).startswith("1 of 48 pixels differ by up to ")
     assert str(difference).endswith("within (3, 2) to (3, 2)")
+
+
+def test_root_mean_square():
+    assert root_mean_square(colors(), colors()) == 0.0
+    black, white = np.zeros((4, 5, 4), np.uint8), np.full((4, 5, 4), 255, np.uint8)
+    assert root_mean_square(black, white) == root_mean_square(white, black) == 1.0
+    assert root_mean_square(changed(black, by=51), black) == pytest.approx(0.2 / 20**0.5)
+    assert root_mean_square(black, white[1:]) == 1.0
 
 
 def test_tolerance_is_per_channel():

@@ -12,7 +12,7 @@ from shared_corpus import CONFORMANCE, cases_of, needs_conformance
 
 from engine3d import Mesh, box
 from engine3d.errors import Engine3DError, FileFormatError, InvalidArgumentError
-from engine3d.loaders import formats, load_document, load_mesh, load_texture, loading
+from engine3d.loaders import formats, load_document, load_mesh, load_texture, loading, registry
 
 MIB = 1 << 20
 
@@ -116,3 +116,11 @@ def test_memory_for_rows_of_next_to_nothing(write, name, content):
         assert tracemalloc.get_traced_memory()[1] <= 64 * MIB + 40 * len(content)
     finally:
         tracemalloc.stop()
+
+
+def test_a_document_knows_which_way_is_up_by_custom():
+    assert load_document(b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", format="off").up == "+Y"
+    facet = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+    assert load_document(f"{facet}endloop\nendfacet\nendsolid\n".encode(), format="stl").up == "+Z"
+    standing = {reader.name for reader in registry.readers() if reader.up == "+Z"}
+    assert standing >= {"3mf", "asc", "iges", "step", "stl"}

@@ -197,13 +197,13 @@ def test_each_use_of_a_file_has_materials_of_its_own(folder):
 
 
 def test_files_are_read_once_however_often_they_are_named(folder, monkeypatch):
-    from engine3d.loaders import scene_file
+    from engine3d.loaders import scene_looks, scene_parts
 
     reads = []
-    for name in ("document_of", "texture_of"):
-        read = getattr(scene_file, name)
+    for module, name in ((scene_parts, "document_of"), (scene_looks, "texture_of")):
+        read = getattr(module, name)
         monkeypatch.setattr(
-            scene_file, name, lambda *a, read=read, **k: reads.append(a[0].path) or read(*a, **k)
+            module, name, lambda *a, read=read, **k: reads.append(a[0].path) or read(*a, **k)
         )
     (folder / "damaged.obj").write_bytes(b"v 0 0 x\n")
     tree = json.loads(FILES["a.json"])
@@ -217,7 +217,7 @@ def test_files_are_read_once_however_often_they_are_named(folder, monkeypatch):
         "damaged.obj", "house.obj", "house.obj", "house.tga",
     ]  # fmt: skip
     assert len({id(mesh.positions) for mesh in document.scene.meshes.values()}) < 60
-    monkeypatch.setattr(scene_file, "_MAX_COPIES", 10)
+    monkeypatch.setattr(scene_parts, "_MAX_COPIES", 10)
     with pytest.warns(e3d.Engine3DWarning, match="more than 10 materials of repeated"):
         e3d.load_scene(folder / "case.json")
 

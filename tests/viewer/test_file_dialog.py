@@ -4,12 +4,12 @@ import pytest
 from viewer.scripted_window import ScriptedWindow
 
 from engine3d import events
+from engine3d.desktop.recent_files import RecentFiles
 from engine3d.stage.open_model import open_model
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
 from engine3d.viewer.file_dialog import FolderPanel, RecentPanel, _size
 from engine3d.viewer.model_files import ModelFiles
-from engine3d.viewer.recent_files import remember
 from engine3d.viewer.viewer import Viewer
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -21,7 +21,6 @@ def home(tmp_path_factory, monkeypatch):
     folder = tmp_path_factory.mktemp("home")
     for name in ("XDG_STATE_HOME", "LOCALAPPDATA", "HOME", "USERPROFILE"):
         monkeypatch.setenv(name, str(folder))
-    monkeypatch.setattr("pathlib.Path.home", lambda: folder)
     return folder
 
 
@@ -173,8 +172,8 @@ def test_a_long_folder_scrolls_to_what_the_keys_choose(viewer, tmp_path):
 
 
 def test_tab_goes_to_the_files_that_were_opened_before(viewer, tmp_path):
-    remember([tmp_path / "cart.stl"])
-    remember([tmp_path / "parts" / "wheel.obj"])
+    RecentFiles().add(tmp_path / "cart.stl")
+    RecentFiles().add(tmp_path / "parts" / "wheel.obj")
     press(viewer, "O", control=True)
     press(viewer, "Tab")
     assert isinstance(viewer.panel, RecentPanel) and viewer.walker is None

@@ -8,11 +8,11 @@ import pytest
 from viewer.scripted_window import ScriptedWindow
 
 from engine3d import events
+from engine3d.desktop.recent_files import RecentFiles
 from engine3d.stage.open_model import open_model
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
 from engine3d.viewer.model_files import ModelFiles
-from engine3d.viewer.recent_files import MOST, NAME, recent_files, remember, state_folder
 from engine3d.viewer.viewer import Viewer
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -22,9 +22,8 @@ SIZE = (320, 240)
 @pytest.fixture(autouse=True)
 def state(tmp_path_factory, monkeypatch):
     folder = tmp_path_factory.mktemp("state")
-    monkeypatch.setenv("XDG_STATE_HOME", str(folder))
-    monkeypatch.setenv("LOCALAPPDATA", str(folder))
-    monkeypatch.setattr("pathlib.Path.home", lambda: folder)
+    for name in ("XDG_STATE_HOME", "LOCALAPPDATA", "HOME", "USERPROFILE"):
+        monkeypatch.setenv(name, str(folder))
     return folder
 
 
@@ -132,22 +131,12 @@ def test_alone_in_a_folder_or_without_a_file_nothing_happens(viewer, tmp_path):
 def test_files_that_were_opened_are_remembered(viewer, tmp_path, state):
     for key in ("PageDown", "PageDown"):
         press(viewer, key)
-    names = [os.path.basename(path) for path in recent_files()]
+    names = [os.path.basename(path) for path in RecentFiles().paths()]
     assert names == ["a.OBJ", "c.obj"]
-    remember([tmp_path / "c.obj"])
-    (tmp_path / "a.OBJ").unlink()
-    assert [os.path.basename(path) for path in recent_files()] == ["c.obj"]
-    remember([tmp_path / "gone.obj"])
-    assert len(recent_files()) == 1
-    for number in range(2 * MOST):
-        (tmp_path / f"{number}.obj").write_text("")
-        remember([tmp_path / f"{number}.obj"])
-    assert len(recent_files()) == MOST
-    assert os.path.basename(recent_files()[0]) == f"{2 * MOST - 1}.obj"
 
 
 def test_a_list_of_them_opens_one(viewer, tmp_path):
-    remember([tmp_path / "c.obj"])
+    RecentFiles().add(tmp_path / "c.obj")
     press(viewer, "O", control=True, shift=True)
     viewer.draw()
     left, top, width, _ = viewer.panel._box
@@ -155,15 +144,3 @@ def test_a_list_of_them_opens_one(viewer, tmp_path):
     assert viewer.panel.covers(x, y)
     viewer.handle(events.MouseButton("left", True, x=x, y=y))
     assert title(viewer) == "c.obj" and viewer.panel is None
-
-
-def test_what_cannot_be_remembered_is_forgotten(tmp_path, state):
-    state_folder().parent.mkdir(parents=True, exist_ok=True)
-    state_folder().write_text("a file, no folder")
-    (tmp_path / "a.obj").write_text("")
-    remember([tmp_path / "a.obj"])
-    assert recent_files() == []
-    state_folder().unlink()
-    state_folder().mkdir()
-    (state_folder() / NAME).write_bytes(b"\xff\xfe\n\0\n")
-    assert recent_files() == []

@@ -11,10 +11,10 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
+from ...desktop.recent_files import RecentFiles
 from ...files.folder_listing import Item, Listing, list_folder
 from ...ui.imgui_painter import ImguiPainter
 from ..file_pictures import FilePictures
-from ..recent_files import RecentFiles
 
 _SIZE = 62, 30  # in heights of the font
 PICTURE = 192

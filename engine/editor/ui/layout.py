@@ -14,10 +14,10 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
+from ...desktop.user_folders import user_path
 from ...errors import FileAccessError, FileFormatError, warn
 from ...files.atomic_write import atomic_write
 from ...files.json_records import read_small
-from ..user_folders import state_folder
 from .workspace import PANELS, Workspace
 
 _HEAD = "[engine3d][Editor]"
@@ -26,7 +26,7 @@ _LARGEST = 1 << 20  # bytes
 
 def layout_path() -> Path:
     """Return where the layout is kept."""
-    return state_folder() / "editor.ini"
+    return user_path("state", "editor.ini")
 
 
 def load_layout(workspace: Workspace) -> bool:

@@ -15,6 +15,7 @@ import numpy as np
 
 from ... import linalg
 from ...choices import Mode
+from ...desktop.recent_files import RecentFiles
 from ...errors import Engine3DError
 from ...loaders import load_mesh, load_texture
 from ...materials.material import Material
@@ -28,7 +29,6 @@ from ..document import SceneDocument
 from ..dropping import drop_file
 from ..hierarchy import Hierarchy
 from ..history import Command
-from ..recent_files import RecentFiles
 from ..resource_list import ResourceList
 from ..value_commands import SetValues
 
@@ -38,8 +38,6 @@ PANELS = ("Hierarchy", "Scene", "Properties", "Resources", "Console")
 FOCUSING = 6
 #: How far one picture may move time on, in seconds, however long it took.
 LONGEST_STEP = 0.1
-#: Formats whose files say that +Z is up, as in the viewer.
-_Z_UP = (".asc", ".stl")
 
 
 class Workspace:
@@ -156,8 +154,8 @@ class Workspace:
         self._take(document)
         if os.path.exists(path):
             self.recent.add(path)
-        if path.lower().endswith(_Z_UP):
-            self.view.up = UP_DIRECTIONS["+Z"]
+        if document.up != "+Y":
+            self.view.up = UP_DIRECTIONS[document.up]
             self.frame(())
 
     def recover(self, copy: Recovery) -> None:

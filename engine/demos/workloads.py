@@ -1,6 +1,6 @@
 """What the benchmark draws: scenes made here, each with a camera that moves by a hair a frame.
 
-In:  a name of `names.WORKLOADS`, and whether the picture is plain.
+In:  a name of `SCENES`, and whether the picture is plain.
 Out: a `Workload`. The plain picture is what every renderer can draw alike: 8-bit values as they
      are, bilinear textures without mip levels, matte surfaces. Meshes stand in world coordinates,
      instances are offsets and scales, so that a peer needs no tree of nodes.
@@ -26,7 +26,7 @@ from ..scene.instances import InstancedMesh
 from ..scene.lights import DirectionalLight
 from ..scene.scene import Scene
 from ..worlds import city
-from . import city_views
+from . import SCENES, city_views, function_of
 
 MODELS = Path(str(files("engine3d.data"))) / "models"
 CITY_TRIANGLES = 1_000_000
@@ -86,8 +86,8 @@ def _triangles(thing) -> int:
 
 
 def make(name: str, plain: bool = False) -> Workload:
-    """Return a workload by its name."""
-    return _workload(name, _MAKERS[name](plain), plain)
+    """Return a workload by its name, one of `WORKLOAD_NAMES`."""
+    return _workload(name, function_of(SCENES[name].measured)(plain), plain)
 
 
 def _workload(name: str, parts, plain: bool = False) -> Workload:
@@ -106,7 +106,7 @@ def _workload(name: str, parts, plain: bool = False) -> Workload:
 
 def layers(count: int) -> Workload:
     """Return a number of walls behind each other that fill the picture, back to front."""
-    return _workload("layers", _layers(False, count, back_to_front=True))
+    return _workload("layers", fill_front(False, count, back_to_front=True))
 
 
 def spheres_on_a_plane(side: int) -> Workload:
@@ -132,7 +132,7 @@ def _matte(materials) -> list[Material]:
     ]
 
 
-def _textured(plain):
+def textured(plain):
     scene = _scene()
     mesh = load_mesh(MODELS / "teapot.obj")
     if plain:
@@ -152,13 +152,13 @@ def bumpy_sphere() -> Mesh:
     )
 
 
-def _mesh(plain):
+def mesh(plain):
     scene = _scene()
     scene.add(bumpy_sphere())
     return scene, ((0.3, 0.4, 2.9), (0.0, 0.0, 0.0), (0.66, 0.5, 10.0)), {}
 
 
-def _grid(plain, output="color"):
+def grid(plain, output="color"):
     scene = _scene()
     scene.add(InstancedMesh(bumpy_sphere(), _rows(GRID_SIDE, 1.35, 0.62)))
     eye, target = (0.0, 1.05 * GRID_SIDE, 1.25 * GRID_SIDE), (0.0, 0.0, 0.12 * GRID_SIDE)
@@ -182,17 +182,17 @@ def _city(plain):
     return world
 
 
-def _street(plain, lights=0):
+def city_street(plain, lights=0):
     scene, _ = city_views.city_scene(_city(plain), lights)
     return scene, (city_views.START, city_views.TARGET, (1.0, 0.1, 4000.0)), {}
 
 
-def _above(plain):
+def city_above(plain):
     scene, _ = city_views.city_scene(_city(plain), 0)
     return scene, (city_views.ABOVE, city_views.ABOVE_TARGET, (0.9, 5.0, 6000.0)), {}
 
 
-def _layers(plain, count=LAYERS, back_to_front=False):
+def fill_front(plain, count=LAYERS, back_to_front=False):
     """Walls behind each other that fill the picture, as one mesh."""
     distance = np.linspace(2.0, 40.0, count)
     distance = distance[::-1] if back_to_front else distance
@@ -213,7 +213,7 @@ def _layers(plain, count=LAYERS, back_to_front=False):
     return scene, ((0.0, 0.0, 0.0), (0.0, 0.0, -10.0), (1.0, 0.5, 100.0)), {"mode": "unlit"}
 
 
-def _spheres(view):
+def _spheres(plain, view):
     places = np.arange(SPHERES_SIDE) - (SPHERES_SIDE - 1) / 2
     grid = np.stack(np.meshgrid(places, places, places, indexing="ij"), axis=-1).reshape(-1, 3)
     poses = np.column_stack([grid, np.full(len(grid), 0.33)])
@@ -224,17 +224,11 @@ def _spheres(view):
     return scene, view, {}
 
 
-_MAKERS = {
-    "textured": _textured,
-    "mesh": _mesh,
-    "grid": _grid,
-    "grid-depth": lambda plain: _grid(plain, "ndc_depth"),
-    "grid-ids": lambda plain: _grid(plain, "instance_id"),
-    "city-street": _street,
-    "city-above": _above,
-    "city-lights": lambda plain: _street(plain, LIGHTS),
-    "fill-front": _layers,
-    "fill-back": lambda plain: _layers(plain, back_to_front=True),
-    "spheres": lambda plain: _spheres(((34, 26, 44), (0, 0, 0), (0.94, 1.0, 150.0))),
-    "spheres-inside": lambda plain: _spheres(((4.5, 2.5, 3.5), (-2, -1, -17), (0.7, 0.2, 80.0))),
-}
+grid_depth = functools.partial(grid, output="ndc_depth")
+grid_ids = functools.partial(grid, output="instance_id")
+city_lights = functools.partial(city_street, lights=LIGHTS)
+fill_back = functools.partial(fill_front, back_to_front=True)
+spheres = functools.partial(_spheres, view=((34, 26, 44), (0, 0, 0), (0.94, 1.0, 150.0)))
+spheres_inside = functools.partial(
+    _spheres, view=((4.5, 2.5, 3.5), (-2, -1, -17), (0.7, 0.2, 80.0))
+)

@@ -1,4 +1,4 @@
-"""The files that were opened lately, over all runs of the editor.
+"""The files that were opened lately, over all runs of the viewer and of the editor.
 
 In: paths. Out: the same, the latest first, of those that are still there. What is stored is only
 for convenience: a list that is damaged is a warning, one that cannot be written nothing at all.
@@ -14,10 +14,11 @@ from pathlib import Path
 from ..errors import FileAccessError, FileFormatError, warn
 from ..files import json_records
 from ..files.atomic_write import atomic_write
-from .user_folders import state_folder
+from .user_folders import user_path
 
 MOST = 20
 _LIST = json_records.listed(json_records.path_text)
+_LARGEST = 1 << 20  # bytes
 
 
 class RecentFiles:
@@ -26,27 +27,33 @@ class RecentFiles:
     Parameters
     ----------
     path : path-like, optional
-        The list; ``recent.json`` in the user's folder if left out.
+        The list; the one that the user's programs share if left out.
     """
 
     def __init__(self, path: str | os.PathLike[str] | None = None) -> None:
-        self._path = state_folder() / "recent.json" if path is None else Path(path)
+        self._path = user_path("state", "recent.json") if path is None else Path(path)
+        # The viewer of earlier versions had a list of its own, a path a line.
+        self._earlier = user_path("state", "recent-files") if path is None else None
         self._told = False
 
     def paths(self) -> tuple[str, ...]:
         """Return the paths of the files that are there, the latest first."""
-        return tuple(path for path in self._stored() if os.path.isfile(path))
+        return tuple(path for path in self._stored() if os.path.isfile(path))[:MOST]
 
-    def add(self, path: str | os.PathLike[str]) -> None:
-        """Put a path at the top."""
-        added = os.path.abspath(os.fspath(path))
-        self._store([added, *(other for other in self._stored() if other != added)][:MOST])
+    def add(self, *paths: str | os.PathLike[str]) -> None:
+        """Put files at the top, the first of them first."""
+        added = [os.path.abspath(os.fsdecode(path)) for path in paths if os.path.isfile(path)]
+        if added:
+            self._store(list(dict.fromkeys([*added, *self._stored()]))[:MOST])
 
     def clear(self) -> None:
         """Forget all of them."""
         self._store([])
 
     def _stored(self) -> list[str]:
+        return list(dict.fromkeys([*self._listed(), *_lines(self._earlier)]))
+
+    def _listed(self) -> list[str]:
         if not os.path.lexists(self._path):
             return []
         try:
@@ -62,3 +69,14 @@ class RecentFiles:
             self._path.parent.mkdir(parents=True, exist_ok=True)
             with atomic_write(self._path) as file:
                 file.write(json.dumps(paths, indent=1).encode("ascii"))
+            if self._earlier is not None:
+                self._earlier.unlink(missing_ok=True)
+
+
+def _lines(path: Path | None) -> list[str]:
+    """The lines of a file, if it can be read."""
+    try:
+        text = b"" if path is None else json_records.read_small(path, _LARGEST)
+    except (FileAccessError, FileFormatError):
+        return []
+    return [os.fsdecode(line) for line in text.splitlines() if b"\0" not in line]

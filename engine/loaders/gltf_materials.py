@@ -310,7 +310,7 @@ class GltfMaterials:
             "flat_shading": flat,
             "extras": self._extras(entry, where),
         }
-        material = Material._plain(values.pop("name"))
+        material = Material(name=values.pop("name"))
         with certainly_linear():
             for field, value in values.items():
                 self._file.sound(f"{where}.{field}", self._put, material, field, value)

@@ -46,19 +46,18 @@ _LEFT_OUT = {"color": (1.0, 1.0, 1.0, 1.0), "metallic": 1.0, "roughness": 1.0}
 
 def _parts() -> dict[str, tuple[Numbers | Map, ...]]:
     """The parameters of `Material` by the parts of a file that they are in, textures last."""
-    places = {row.gltf: field for field, row in PARAMETERS.items() if row.gltf}
-    besides = {place.partition(".")[0]: place for place in places if "." in place}
+    rows = {field: row for field, row in PARAMETERS.items() if row.gltf}
+    texts = [(*row.gltf.partition("."), field) for field, row in rows.items()]
+    beside = {texture: (field, key) for texture, dot, key, field in texts if dot}
     found: dict[str, list[Numbers | Map]] = {}
-    for place, field in sorted(places.items(), key=lambda item: item[1] in TEXTURE_SLOTS):
-        part, _, key = place.rpartition("/")
+    for field, row in sorted(rows.items(), key=lambda item: item[0] in TEXTURE_SLOTS):
+        key = row.gltf.rpartition("/")[2]
         if field in TEXTURE_SLOTS:
-            beside = besides.get(place, "")
-            words = (places[beside], beside.partition(".")[2]) if beside else ()
-            found.setdefault(part, []).append(Map(field, key, *words))
-        elif "." not in place:
-            default = _LEFT_OUT.get(field, PARAMETERS[field].default)
+            found[row.part].append(Map(field, key, *beside.get(row.gltf, ())))
+        elif "." not in key:
+            default = _LEFT_OUT.get(field, row.default)
             linear = tuple(map(float, default)) if isinstance(default, tuple) else default
-            found.setdefault(part, []).append(Numbers(field, key, linear))
+            found.setdefault(row.part, []).append(Numbers(field, key, linear))
     return {part: tuple(items) for part, items in found.items()}
 
 

@@ -108,15 +108,13 @@ class Material(Versioned):
     extras: Parameter[dict[str, Any] | None, dict[str, Any]] = Parameter(
         DICT,
         default=None,
-        doc="What else a file says about the material, by the file's own keys; not read by the "
-        "renderer.",
+        doc="What else a file says about the material, by its own keys; the renderer reads none.",
     )
     metallic: OptionalNumber = Parameter(
         SHARE_OR_NONE,
         default=None,
         gltf="pbrMetallicRoughness/metallicFactor",
-        doc="If this or ``roughness`` is given, the material is physical, and the other counts as"
-        " 1.",
+        doc="If this or ``roughness`` is given, the material is physical. The other counts as 1.",
     )
     roughness: OptionalNumber = Parameter(
         SHARE_OR_NONE,
@@ -132,8 +130,7 @@ class Material(Versioned):
     alpha_mode: Parameter[AlphaMode, AlphaMode] = Parameter(
         ALPHA_MODE,
         default="opaque",
-        doc="What alpha means: nothing; nothing shows below ``alpha_cutoff``; how much hides what"
-        " is behind.",
+        doc="Alpha means nothing, holes below ``alpha_cutoff``, or how much hides what is behind.",
     )
     alpha_cutoff: Number = Parameter(
         NOT_NEGATIVE,
@@ -156,78 +153,69 @@ class Material(Versioned):
     emissive_strength: Number = Parameter(
         NOT_NEGATIVE,
         default=1.0,
-        gltf="KHR_materials_emissive_strength/emissiveStrength",
+        gltf="emissive_strength/emissiveStrength",
         doc="Multiplies ``emissive`` of physical materials.",
     )
     ior: Number = Parameter(
-        IOR,
-        default=1.5,
-        gltf="KHR_materials_ior/ior",
-        doc="Index of refraction; 0 reflects everything.",
+        IOR, default=1.5, gltf="ior/ior", doc="Index of refraction; 0 reflects everything."
     )
     specular_intensity: Number = Parameter(
         SHARE,
         default=1.0,
-        gltf="KHR_materials_specular/specularFactor",
+        gltf="specular/specularFactor",
         doc="Strength of what is reflected by what is no metal.",
     )
     specular_color: ColorNumbers = Parameter(
         COLOR,
         default=(1, 1, 1),
-        gltf="KHR_materials_specular/specularColorFactor",
+        gltf="specular/specularColorFactor",
         doc="Its colour seen from straight above.",
     )
     clearcoat: Number = Parameter(
-        SHARE,
-        default=0.0,
-        gltf="KHR_materials_clearcoat/clearcoatFactor",
-        doc="Strength of a coat of varnish.",
+        SHARE, default=0.0, gltf="clearcoat/clearcoatFactor", doc="Strength of a coat of varnish."
     )
     clearcoat_roughness: Number = Parameter(
-        SHARE,
-        default=0.0,
-        gltf="KHR_materials_clearcoat/clearcoatRoughnessFactor",
-        doc="Of the coat.",
+        SHARE, default=0.0, gltf="clearcoat/clearcoatRoughnessFactor", doc="Of the coat."
     )
     clearcoat_normal_scale: Number = Parameter(
         NUMBER,
         default=1.0,
-        gltf="KHR_materials_clearcoat/clearcoatNormalTexture.scale",
+        gltf="clearcoat/clearcoatNormalTexture.scale",
         doc="Multiplies the first two components of ``clearcoat_normal_texture``.",
     )
     sheen_color: ColorNumbers = Parameter(
         COLOR,
         default=(0, 0, 0),
-        gltf="KHR_materials_sheen/sheenColorFactor",
+        gltf="sheen/sheenColorFactor",
         doc="Of the fuzz of cloth; black means none.",
     )
     sheen_roughness: Number = Parameter(
-        SHARE, default=0.0, gltf="KHR_materials_sheen/sheenRoughnessFactor", doc="Of the fuzz."
+        SHARE, default=0.0, gltf="sheen/sheenRoughnessFactor", doc="Of the fuzz."
     )
     transmission: Number = Parameter(
         SHARE,
         default=0.0,
-        gltf="KHR_materials_transmission/transmissionFactor",
+        gltf="transmission/transmissionFactor",
         doc="Share of the light that passes. It is neither bent nor blurred.",
     )
     thickness: Number = Parameter(
         NOT_NEGATIVE,
         default=0.0,
         unit="units of the mesh",
-        gltf="KHR_materials_volume/thicknessFactor",
+        gltf="volume/thicknessFactor",
         doc="What lies below the surface, which the mesh's pose scales; 0 for a thin wall.",
     )
     attenuation_color: ColorNumbers = Parameter(
         COLOR,
         default=(1, 1, 1),
-        gltf="KHR_materials_volume/attenuationColor",
+        gltf="volume/attenuationColor",
         doc="What white becomes after ``attenuation_distance``.",
     )
     attenuation_distance: Number = Parameter(
         REACH,
         default=math.inf,
         unit="world units",
-        gltf="KHR_materials_volume/attenuationDistance",
+        gltf="volume/attenuationDistance",
         doc="Infinite: nothing is absorbed.",
     )
     metallic_roughness_texture: TextureSlot = TextureSlot(
@@ -253,98 +241,89 @@ class Material(Versioned):
         default=None, is_color=True, gltf="emissiveTexture", doc="RGB."
     )
     clearcoat_texture: TextureSlot = TextureSlot(
-        default=None, is_color=False, gltf="KHR_materials_clearcoat/clearcoatTexture", doc="R."
+        default=None, is_color=False, gltf="clearcoat/clearcoatTexture", doc="R."
     )
     clearcoat_roughness_texture: TextureSlot = TextureSlot(
-        default=None,
-        is_color=False,
-        gltf="KHR_materials_clearcoat/clearcoatRoughnessTexture",
-        doc="G.",
+        default=None, is_color=False, gltf="clearcoat/clearcoatRoughnessTexture", doc="G."
     )
     clearcoat_normal_texture: TextureSlot = TextureSlot(
         default=None,
         is_color=False,
-        gltf="KHR_materials_clearcoat/clearcoatNormalTexture",
+        gltf="clearcoat/clearcoatNormalTexture",
         doc="As ``normal_texture``, of the coat.",
     )
     specular_texture: TextureSlot = TextureSlot(
         default=None,
         is_color=False,
-        gltf="KHR_materials_specular/specularTexture",
+        gltf="specular/specularTexture",
         doc="Alpha: multiplies ``specular_intensity``.",
     )
     specular_color_texture: TextureSlot = TextureSlot(
-        default=None, is_color=True, gltf="KHR_materials_specular/specularColorTexture", doc="RGB."
+        default=None, is_color=True, gltf="specular/specularColorTexture", doc="RGB."
     )
     sheen_color_texture: TextureSlot = TextureSlot(
-        default=None, is_color=True, gltf="KHR_materials_sheen/sheenColorTexture", doc="RGB."
+        default=None, is_color=True, gltf="sheen/sheenColorTexture", doc="RGB."
     )
     sheen_roughness_texture: TextureSlot = TextureSlot(
-        default=None, is_color=False, gltf="KHR_materials_sheen/sheenRoughnessTexture", doc="Alpha."
+        default=None, is_color=False, gltf="sheen/sheenRoughnessTexture", doc="Alpha."
     )
     transmission_texture: TextureSlot = TextureSlot(
-        default=None,
-        is_color=False,
-        gltf="KHR_materials_transmission/transmissionTexture",
-        doc="R.",
+        default=None, is_color=False, gltf="transmission/transmissionTexture", doc="R."
     )
     thickness_texture: TextureSlot = TextureSlot(
-        default=None, is_color=False, gltf="KHR_materials_volume/thicknessTexture", doc="G."
+        default=None, is_color=False, gltf="volume/thicknessTexture", doc="G."
     )
     anisotropy: Number = Parameter(
         SHARE,
         default=0.0,
-        gltf="KHR_materials_anisotropy/anisotropyStrength",
+        gltf="anisotropy/anisotropyStrength",
         doc="How much rougher the surface is along a direction than across it: brushed metal.",
     )
     anisotropy_rotation: Number = Parameter(
         ANGLE,
         default=0.0,
         unit="radians",
-        gltf="KHR_materials_anisotropy/anisotropyRotation",
+        gltf="anisotropy/anisotropyRotation",
         doc="From the tangent to that direction, counter-clockwise.",
     )
     iridescence: Number = Parameter(
         SHARE,
         default=0.0,
-        gltf="KHR_materials_iridescence/iridescenceFactor",
+        gltf="iridescence/iridescenceFactor",
         doc="How much a thin film on the surface counts.",
     )
     iridescence_ior: Number = Parameter(
         AT_LEAST_ONE,
         default=1.3,
-        gltf="KHR_materials_iridescence/iridescenceIor",
+        gltf="iridescence/iridescenceIor",
         doc="The film's index of refraction.",
     )
     iridescence_thickness_minimum: Number = Parameter(
         NOT_NEGATIVE,
         default=100.0,
         unit="nanometres",
-        gltf="KHR_materials_iridescence/iridescenceThicknessMinimum",
+        gltf="iridescence/iridescenceThicknessMinimum",
         doc="Of the film where its texture is black.",
     )
     iridescence_thickness_maximum: Number = Parameter(
         NOT_NEGATIVE,
         default=400.0,
         unit="nanometres",
-        gltf="KHR_materials_iridescence/iridescenceThicknessMaximum",
+        gltf="iridescence/iridescenceThicknessMaximum",
         doc="Of the film where its texture is white, and where there is no texture.",
     )
     anisotropy_texture: TextureSlot = TextureSlot(
         default=None,
         is_color=False,
-        gltf="KHR_materials_anisotropy/anisotropyTexture",
+        gltf="anisotropy/anisotropyTexture",
         doc="R and G: a direction in tangent space, 0 … 255 for -1 … 1, which is then turned; B: "
         "the strength.",
     )
     iridescence_texture: TextureSlot = TextureSlot(
-        default=None, is_color=False, gltf="KHR_materials_iridescence/iridescenceTexture", doc="R."
+        default=None, is_color=False, gltf="iridescence/iridescenceTexture", doc="R."
     )
     iridescence_thickness_texture: TextureSlot = TextureSlot(
-        default=None,
-        is_color=False,
-        gltf="KHR_materials_iridescence/iridescenceThicknessTexture",
-        doc="G.",
+        default=None, is_color=False, gltf="iridescence/iridescenceThicknessTexture", doc="G."
     )
 
     if not TYPE_CHECKING:  # which make it of the parameters

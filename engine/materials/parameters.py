@@ -135,21 +135,26 @@ class Parameter(CheckedAttribute[Given, Kept]):
     unit : str
         Of numbers that have one.
     gltf : str
-        Where files of glTF have it: ``"extension/key"``, or ``"key"`` of the material itself. With
-        a dot it is a number beside a texture: ``"normalTexture.scale"``.
+        Where files of glTF have it: ``"sheen/key"`` of the extension KHR_materials_sheen, or
+        ``"key"`` of the material itself. What follows a dot is beside a texture.
     """
 
     def __init__(
         self, kind: Kind, *, default: Given, doc: str, unit: str = "", gltf: str = ""
     ) -> None:
-        super().__init__(kind.check, doc)
-        self.kind, self.default, self.unit, self.gltf = kind, default, unit, gltf
+        super().__init__(kind.check)
+        self.kind, self.default, self.doc, self.unit, self.gltf = kind, default, doc, unit, gltf
+
+    @property
+    def part(self) -> str:
+        """The part of a material of glTF that it is in, an extension mostly."""
+        part = self.gltf.rpartition("/")[0]
+        return part if part in ("pbrMetallicRoughness", "") else f"KHR_materials_{part}"
 
     @property
     def title(self) -> str:
         """What it is called where people read it."""
-        name = self._name.replace("_", " ").capitalize()
-        return f"{name} ({self.unit})" if self.unit else name
+        return self._name.replace("_", " ").replace("color", "colour").capitalize()
 
     @property
     def words(self) -> str:
@@ -199,7 +204,7 @@ def made_of_parameters(cls: Class) -> Class:
     made.__signature__ = inspect.Signature([mine, *keywords], return_annotation="None")
     if cls.__doc__ is not None:  # which -OO leaves out
         entries = "\n    ".join(
-            f"{name} : {row.words}\n        {row.__doc__}".rstrip() for name, row in rows.items()
+            f"{name} : {row.words}\n        {row.doc}".rstrip() for name, row in rows.items()
         )
         cls.__doc__ = cls.__doc__.replace("{parameters}", entries)
     return cls

@@ -356,15 +356,12 @@ cdef class NativeDrawList:
             draw.instance_colors_f32 = &colors_f32[0, 0]
         self.borrowed[index] = self.borrowed[index][0], (poses, colors_u8, colors_f32, ids)
 
-    def set_material(
-        self, int index, color, specular, float shininess, emissive, dict textures not None, int32_t id,
-        bint two_sided, bint flat, bint unlit, float normal_scale, float alpha,
-        int alpha_mode, float alpha_cutoff,
-    ):
+    def set_material(self, int index, dict numbers not None, dict physical, dict textures not None):
         """Say what a material is, or the next one.
 
-        ``textures`` are by the names of `TEXTURE_SLOTS`: a NativeTexture, the number of its set of
-        coordinates, and the six numbers of the matrix that these are moved by, or None.
+        ``numbers`` are those of e3d_material, by name; ``physical`` all of e3d_physical, or None where the material is
+        none. ``textures`` are by the names of `TEXTURE_SLOTS`: a NativeTexture, the number of its set of coordinates,
+        and the six numbers of the matrix that these are moved by, or None.
         """
         require(0 <= index <= self.material_count, "no such material")
         self.casts_others = True
@@ -373,10 +370,21 @@ cdef class NativeDrawList:
         )
         cdef e3d_material *material = &self.materials[index]
         memset(material, 0, sizeof(e3d_material))
-        copy_vector(material.color, color, 3)
-        copy_vector(material.specular, specular, 3)
-        copy_vector(material.emissive, emissive, 3)
-        material.shininess = shininess
+        copy_vector(material.color, numbers["color"], 3)
+        copy_vector(material.specular, numbers["specular"], 3)
+        copy_vector(material.emissive, numbers["emissive"], 3)
+        material.shininess = numbers["shininess"]
+        material.id = numbers["id"]
+        material.two_sided = numbers["two_sided"]
+        material.flat = numbers["flat"]
+        material.is_unlit = numbers["is_unlit"]
+        material.normal_scale = numbers["normal_scale"]
+        material.alpha = numbers["alpha"]
+        material.alpha_mode = <e3d_alpha_mode><int>numbers["alpha_mode"]
+        material.alpha_cutoff = numbers["alpha_cutoff"]
+        if physical is not None:
+            material.is_physical = True
+            material.physical = physical
         cdef e3d_texture_use use
         for slot, (texture, uv_set, matrix) in textures.items():
             memset(&use, 0, sizeof(use))
@@ -387,45 +395,7 @@ cdef class NativeDrawList:
                 copy_vector(use.matrix, matrix, 6)
             e3d_material_set_texture(material, TEXTURE_SLOTS[slot], &use)
         self.textures[index] = textures
-        material.id = id
-        material.two_sided = two_sided
-        material.flat = flat
-        material.is_unlit = unlit
-        material.normal_scale = normal_scale
-        material.alpha = alpha
-        material.alpha_mode = <e3d_alpha_mode>alpha_mode
-        material.alpha_cutoff = alpha_cutoff
         self.material_count = max(self.material_count, index + 1)
-
-    def set_physical(
-        self, int index, *, float metallic, float roughness, float occlusion_strength, reflectance, float specular_intensity, float clearcoat,
-        float clearcoat_roughness, float clearcoat_normal_scale, sheen_color, float sheen_roughness,
-        float transmission, float thickness, absorption, float anisotropy, anisotropy_turn, float iridescence,
-        float iridescence_ior, iridescence_thickness,
-    ):
-        """Say what a material that was set is as a physically based one."""
-        require(0 <= index < self.material_count, "no such material")
-        self.casts_others = True
-        self.materials[index].is_physical = True
-        cdef e3d_physical *physical = &self.materials[index].physical
-        physical.metallic = metallic
-        physical.roughness = roughness
-        physical.occlusion_strength = occlusion_strength
-        copy_vector(physical.reflectance, reflectance, 3)
-        physical.specular_intensity = specular_intensity
-        physical.clearcoat = clearcoat
-        physical.clearcoat_roughness = clearcoat_roughness
-        physical.clearcoat_normal_scale = clearcoat_normal_scale
-        copy_vector(physical.sheen_color, sheen_color, 3)
-        physical.sheen_roughness = sheen_roughness
-        physical.transmission = transmission
-        physical.thickness = thickness
-        copy_vector(physical.absorption, absorption, 3)
-        physical.anisotropy = anisotropy
-        copy_vector(physical.anisotropy_turn, anisotropy_turn, 2)
-        physical.iridescence = iridescence
-        physical.iridescence_ior = iridescence_ior
-        copy_vector(physical.iridescence_thickness, iridescence_thickness, 2)
 
     # `lux` is the colour times the intensity as physically based materials take it.
 

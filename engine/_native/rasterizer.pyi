@@ -1,6 +1,7 @@
 """Types of the gateway to the rendering core; the docstrings are in rasterizer.pyx."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +26,7 @@ POINT_SHAPES: dict[str, int]
 CULLINGS: dict[str, int]
 SHADINGS: dict[str, int]
 TEXTURE_SLOTS: dict[str, int]
+PHYSICAL_NUMBERS: tuple[str, ...]
 NORMALS: dict[str, int]
 TONE_MAPPINGS: dict[str, int]
 BACKENDS: dict[str, int]
@@ -174,42 +176,9 @@ class NativeDrawList:
     def set_material(
         self,
         index: int,
-        color: Sequence[float] | _Floats,
-        specular: Sequence[float] | _Floats,
-        shininess: float,
-        emissive: Sequence[float] | _Floats,
+        numbers: dict[str, Any],
+        physical: dict[str, float | Sequence[float]] | None,
         textures: dict[str, tuple[NativeTexture, int, Sequence[float] | None]],
-        id: int,
-        two_sided: bool,
-        flat: bool,
-        unlit: bool,
-        normal_scale: float,
-        alpha: float,
-        alpha_mode: int,
-        alpha_cutoff: float,
-    ) -> None: ...
-    def set_physical(
-        self,
-        index: int,
-        *,
-        metallic: float,
-        roughness: float,
-        occlusion_strength: float,
-        reflectance: Sequence[float],
-        specular_intensity: float,
-        clearcoat: float,
-        clearcoat_roughness: float,
-        clearcoat_normal_scale: float,
-        sheen_color: Sequence[float],
-        sheen_roughness: float,
-        transmission: float,
-        thickness: float,
-        absorption: Sequence[float],
-        anisotropy: float,
-        anisotropy_turn: Sequence[float],
-        iridescence: float,
-        iridescence_ior: float,
-        iridescence_thickness: Sequence[float],
     ) -> None: ...
     def add_directional_light(
         self, color: Sequence[float], lux: Sequence[float], to_light: Sequence[float] | _Doubles

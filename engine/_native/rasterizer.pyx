@@ -54,6 +54,16 @@ WRAPS = values_of(E3D_OPTION_WRAP)
 # Every backend that the interface knows, whether this machine can run it or not.
 BACKENDS = values_of(E3D_OPTION_BACKEND)
 
+
+cdef tuple names_of_physical():
+    cdef e3d_physical numbers
+    memset(&numbers, 0, sizeof(numbers))
+    return tuple(<dict>numbers)
+
+
+# What the core wants to know of a physically based material.
+PHYSICAL_NUMBERS = names_of_physical()
+
 cdef extern from *:
     const char *E3D_BUILD
     const char *_compiler "__VERSION__"

@@ -58,6 +58,12 @@ class Closed:
             object.__setattr__(self, name, value)
 
 
+class Versioned(Closed):
+    """Base of what gets another version with each assignment to a `CheckedAttribute`."""
+
+    version: int
+
+
 def own(value):
     """Return what a copy keeps of a value: arrays that nobody can write to, its own containers."""
     if isinstance(value, np.ndarray):

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..errors import InvalidArgumentError
 from ..materials.colors import certainly_linear
-from ..materials.material import Material
+from ..materials.material import PARAMETERS, TEXTURE_SLOTS, Material
 from ..materials.textures import PlacedTexture, Texture
 from .gltf_file import GltfFile, whole_of
 from .gltf_textures import GltfTextures, changed
@@ -40,69 +40,29 @@ class Map(NamedTuple):
     beside_key: str = ""
 
 
+# What files mean that leave these out, where it is not what a `Material` is by default.
+_LEFT_OUT = {"color": (1.0, 1.0, 1.0, 1.0), "metallic": 1.0, "roughness": 1.0}
+
+
+def _parts() -> dict[str, tuple[Numbers | Map, ...]]:
+    """The parameters of `Material` by the parts of a file that they are in, textures last."""
+    rows = {field: row for field, row in PARAMETERS.items() if row.gltf}
+    texts = [(*row.gltf.partition("."), field) for field, row in rows.items()]
+    beside = {texture: (field, key) for texture, dot, key, field in texts if dot}
+    found: dict[str, list[Numbers | Map]] = {}
+    for field, row in sorted(rows.items(), key=lambda item: item[0] in TEXTURE_SLOTS):
+        key = row.gltf.rpartition("/")[2]
+        if field in TEXTURE_SLOTS:
+            found[row.part].append(Map(field, key, *beside.get(row.gltf, ())))
+        elif "." not in key:
+            default = _LEFT_OUT.get(field, row.default)
+            linear = tuple(map(float, default)) if isinstance(default, tuple) else default
+            found.setdefault(row.part, []).append(Numbers(field, key, linear))
+    return {part: tuple(items) for part, items in found.items()}
+
+
 #: The parts of a material by their names in files; "" for the material itself.
-PARTS: dict[str, tuple[Numbers | Map, ...]] = {
-    "pbrMetallicRoughness": (
-        Numbers("color", "baseColorFactor", (1.0, 1.0, 1.0, 1.0)),
-        Numbers("metallic", "metallicFactor", 1.0),
-        Numbers("roughness", "roughnessFactor", 1.0),
-        Map("texture", "baseColorTexture"),
-        Map("metallic_roughness_texture", "metallicRoughnessTexture"),
-    ),
-    "": (
-        Numbers("emissive", "emissiveFactor", (0.0, 0.0, 0.0)),
-        Numbers("alpha_cutoff", "alphaCutoff", 0.5),
-        Map("normal_texture", "normalTexture", "normal_scale", "scale"),
-        Map("occlusion_texture", "occlusionTexture", "occlusion_strength", "strength"),
-        Map("emissive_texture", "emissiveTexture"),
-    ),
-    "KHR_materials_emissive_strength": (Numbers("emissive_strength", "emissiveStrength", 1.0),),
-    "KHR_materials_ior": (Numbers("ior", "ior", 1.5),),
-    "KHR_materials_specular": (
-        Numbers("specular_intensity", "specularFactor", 1.0),
-        Numbers("specular_color", "specularColorFactor", (1.0, 1.0, 1.0)),
-        Map("specular_texture", "specularTexture"),
-        Map("specular_color_texture", "specularColorTexture"),
-    ),
-    "KHR_materials_clearcoat": (
-        Numbers("clearcoat", "clearcoatFactor", 0.0),
-        Numbers("clearcoat_roughness", "clearcoatRoughnessFactor", 0.0),
-        Map("clearcoat_texture", "clearcoatTexture"),
-        Map("clearcoat_roughness_texture", "clearcoatRoughnessTexture"),
-        Map(
-            "clearcoat_normal_texture", "clearcoatNormalTexture", "clearcoat_normal_scale", "scale"
-        ),
-    ),
-    "KHR_materials_sheen": (
-        Numbers("sheen_color", "sheenColorFactor", (0.0, 0.0, 0.0)),
-        Numbers("sheen_roughness", "sheenRoughnessFactor", 0.0),
-        Map("sheen_color_texture", "sheenColorTexture"),
-        Map("sheen_roughness_texture", "sheenRoughnessTexture"),
-    ),
-    "KHR_materials_transmission": (
-        Numbers("transmission", "transmissionFactor", 0.0),
-        Map("transmission_texture", "transmissionTexture"),
-    ),
-    "KHR_materials_volume": (
-        Numbers("thickness", "thicknessFactor", 0.0),
-        Numbers("attenuation_color", "attenuationColor", (1.0, 1.0, 1.0)),
-        Numbers("attenuation_distance", "attenuationDistance", float("inf")),
-        Map("thickness_texture", "thicknessTexture"),
-    ),
-    "KHR_materials_anisotropy": (
-        Numbers("anisotropy", "anisotropyStrength", 0.0),
-        Numbers("anisotropy_rotation", "anisotropyRotation", 0.0),
-        Map("anisotropy_texture", "anisotropyTexture"),
-    ),
-    "KHR_materials_iridescence": (
-        Numbers("iridescence", "iridescenceFactor", 0.0),
-        Numbers("iridescence_ior", "iridescenceIor", 1.3),
-        Numbers("iridescence_thickness_minimum", "iridescenceThicknessMinimum", 100.0),
-        Numbers("iridescence_thickness_maximum", "iridescenceThicknessMaximum", 400.0),
-        Map("iridescence_texture", "iridescenceTexture"),
-        Map("iridescence_thickness_texture", "iridescenceThicknessTexture"),
-    ),
-}
+PARTS = _parts()
 _GLOSSY_PARTS = (
     Numbers("color", "diffuseFactor", (1.0, 1.0, 1.0, 1.0)),
     Numbers("specular_color", "specularFactor", (1.0, 1.0, 1.0)),
@@ -310,7 +270,7 @@ class GltfMaterials:
             "flat_shading": flat,
             "extras": self._extras(entry, where),
         }
-        material = Material._plain(values.pop("name"))
+        material = Material(name=values.pop("name"))
         with certainly_linear():
             for field, value in values.items():
                 self._file.sound(f"{where}.{field}", self._put, material, field, value)

@@ -173,7 +173,7 @@ def _material(name: str, values: dict, maps: dict, textures, warnings, source) -
         extras["maps"] = {
             key: {k: v for k, v in entry.items() if k != "line"} for key, entry in maps.items()
         }
-    material = Material._plain(name)
+    material = Material(name=name)
     given = {
         "color": color if color != (1.0, 1.0, 1.0) else None,
         "texture": texture,

@@ -110,7 +110,7 @@ def _named(
         return library[others[0]]
     if library:
         warnings.add(f"material {shown(name)} is in no library", line)
-    return Material._plain(name)
+    return Material(name=name)
 
 
 def only_material(library: dict[str, Material], warnings: WarningList) -> Material | None:

@@ -133,7 +133,7 @@ class SceneLooks:
             with certainly_linear():
                 if not values.keys() <= _MATERIAL_FIELDS:
                     return Material(**values)  # which says what it does not know
-                material = Material._plain("")
+                material = Material()
                 for key, value in values.items():
                     setattr(material, key, value)
                 return material

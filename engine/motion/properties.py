@@ -17,7 +17,7 @@ from .._support.validation import choose
 from ..choices import Interpolation
 from ..errors import InvalidArgumentError
 from ..materials.colors import certainly_linear, linear_color
-from ..materials.material import TEXTURE_SLOTS, Material
+from ..materials.material import PARAMETERS, TEXTURE_SLOTS, Material
 from ..materials.textures import PlacedTexture, Texture
 from ..scene.cameras import OrthographicCamera, PerspectiveCamera
 from ..scene.lights import DirectionalLight, PointLight, SpotLight
@@ -46,31 +46,18 @@ class Range(NamedTuple):
     is_kept: bool = False
 
 
-_SHARE, _POSITIVE, _COLOR = Range(0.0, 1.0), Range(0.0), Range(0.0, width=3)
+_POSITIVE, _COLOR = Range(0.0), Range(0.0, width=3)
 _DEPTH = Range(_LEAST, is_kept=True)
 _CONE = Range(0.0, math.pi / 2, is_kept=True)
 _LAMP = {"color": _COLOR, "intensity": _POSITIVE}
 _PLACES = {"offset": Range(width=2), "rotation": Range(), "scale": Range(width=2)}
 _PROPERTIES: dict[type, dict[str, Range]] = {
     Material: {
-        "color": Range(0.0, width=4),
-        **dict.fromkeys(("emissive", "specular", "specular_color"), _COLOR),
-        **dict.fromkeys(("sheen_color", "attenuation_color"), _COLOR),
-        **dict.fromkeys(
-            (
-                *("metallic", "roughness", "occlusion_strength", "specular_intensity"),
-                *("clearcoat", "clearcoat_roughness", "sheen_roughness", "transmission"),
-                *("anisotropy", "iridescence"),
-            ),
-            _SHARE,
-        ),
-        **dict.fromkeys(("alpha_cutoff", "emissive_strength", "thickness", "shininess"), _POSITIVE),
-        **dict.fromkeys(
-            ("iridescence_thickness_minimum", "iridescence_thickness_maximum"), _POSITIVE
-        ),
-        **dict.fromkeys(("normal_scale", "clearcoat_normal_scale", "anisotropy_rotation"), Range()),
-        **dict.fromkeys(("ior", "iridescence_ior"), Range(1.0)),
-        "attenuation_distance": Range(_LEAST),
+        **{
+            name: Range(row.kind.low, row.kind.high, row.kind.width)
+            for name, row in PARAMETERS.items()
+            if row.kind.width
+        },
         **{f"{slot}.{name}": held for slot in TEXTURE_SLOTS for name, held in _PLACES.items()},
     },
     PerspectiveCamera: {"yfov": Range(1e-6, _WIDEST), "znear": _DEPTH, "zfar": _DEPTH},

@@ -11,16 +11,20 @@ from collections.abc import Iterable
 from typing import Any
 
 from .. import linalg
-from .._native.rasterizer import ALPHA_MODES, NativeDrawList, NativeTexture
+from .._native.rasterizer import ALPHA_MODES, PHYSICAL_NUMBERS, NativeDrawList, NativeTexture
 from .._support.side_by_side import side_by_side
 from ..materials.display_colors import shading_color
-from ..materials.material import Material, placed_textures_of
+from ..materials.material import PARAMETERS, Material, placed_textures_of
 from ..materials.textures import PlacedTexture
 from ._native_handles import is_new, native_texture
 
 _SMALLEST_SHININESS = 1e-3  # the core wants an exponent above 0; this one shows as 0 would
 _LEAST_LEFT = 2.0**-126  # of light that is absorbed: its logarithm is finite
 _LARGE = 512 * 512  # pixels of a texture whose levels take as long as starting a thread, and longer
+# What the core calls as `Material` does is the same number, or the same colour.
+_SAME = [name for name in PHYSICAL_NUMBERS if name in PARAMETERS]
+_SAME_NUMBERS = [name for name in _SAME if PARAMETERS[name].kind.width == 1]
+_SAME_COLORS = [name for name in _SAME if PARAMETERS[name].kind.width == 3]
 
 
 def set_material(
@@ -51,24 +55,23 @@ def set_material(
     """
     strength = material.emissive_strength if material.is_physical else 1.0
     emissive = shading_color(material.emissive, color_space)
-    native.set_material(
-        index,
-        shading_color(material.rgb, color_space),
-        shading_color(material.specular, color_space),
-        max(material.shininess, _SMALLEST_SHININESS),
-        tuple(component * strength for component in emissive),
-        {slot: _use(slot, placed, color_space) for slot, placed in textures.items()},
-        id,
-        two_sided,
-        material.flat_shading,
-        material.unlit,
-        material.normal_scale,
-        material.alpha,
-        ALPHA_MODES[material.alpha_mode],
-        material.alpha_cutoff,
-    )
-    if material.is_physical:
-        native.set_physical(index, **_physical(material, color_space))
+    numbers = {
+        "color": shading_color(material.rgb, color_space),
+        "specular": shading_color(material.specular, color_space),
+        "shininess": max(material.shininess, _SMALLEST_SHININESS),
+        "emissive": tuple(component * strength for component in emissive),
+        "id": id,
+        "two_sided": two_sided,
+        "flat": material.flat_shading,
+        "is_unlit": material.unlit,
+        "normal_scale": material.normal_scale,
+        "alpha": material.alpha,
+        "alpha_mode": ALPHA_MODES[material.alpha_mode],
+        "alpha_cutoff": material.alpha_cutoff,
+    }
+    physical = _physical(material, color_space) if material.is_physical else None
+    uses = {slot: _use(slot, placed, color_space) for slot, placed in textures.items()}
+    native.set_material(index, numbers, physical, uses)
 
 
 def make_textures(materials: Iterable[Material], color_space: str, threads: int) -> None:
@@ -94,7 +97,7 @@ def make_textures(materials: Iterable[Material], color_space: str, threads: int)
 
 
 def _space(slot: str, color_space: str) -> str:
-    return color_space if vars(Material)[slot].is_color else "linear"
+    return color_space if PARAMETERS[slot].is_color else "linear"
 
 
 def _use(
@@ -111,24 +114,15 @@ def _physical(material: Material, color_space: str) -> dict[str, Any]:
     tint = shading_color(material.specular_color, color_space)
     left = shading_color(material.attenuation_color, color_space)
     depth, turn = material.attenuation_distance, material.anisotropy_rotation
+    held = vars(material)
     return {
+        **{name: held[name] for name in _SAME_NUMBERS},
+        **{name: shading_color(held[name], color_space) for name in _SAME_COLORS},
         "metallic": 1.0 if material.metallic is None else material.metallic,
         "roughness": 1.0 if material.roughness is None else material.roughness,
-        "occlusion_strength": material.occlusion_strength,
         "reflectance": tuple(root * root * component for component in tint),
-        "specular_intensity": material.specular_intensity,
-        "clearcoat": material.clearcoat,
-        "clearcoat_roughness": material.clearcoat_roughness,
-        "clearcoat_normal_scale": material.clearcoat_normal_scale,
-        "sheen_color": shading_color(material.sheen_color, color_space),
-        "sheen_roughness": material.sheen_roughness,
-        "transmission": material.transmission,
-        "thickness": material.thickness,
         "absorption": tuple(_absorption(component, depth) for component in left),
-        "anisotropy": material.anisotropy,
         "anisotropy_turn": (linalg.cos(turn), linalg.sin(turn)),
-        "iridescence": material.iridescence,
-        "iridescence_ior": material.iridescence_ior,
         "iridescence_thickness": (
             material.iridescence_thickness_minimum,
             material.iridescence_thickness_maximum,

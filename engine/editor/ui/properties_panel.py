@@ -16,7 +16,8 @@ from ...environments.environment import BUILT_IN, named_environment
 from ...geometry.mesh import Mesh
 from ...materials.colors import split_alpha
 from ...materials.display_colors import display_color
-from ...materials.material import TEXTURE_SLOTS, Material, textures_of
+from ...materials.material import PARAMETERS, Material, textures_of
+from ...materials.parameters import FLAG, Parameter, TextureSlot
 from ...scene.ambient_lights import HemisphereLight, LightProbe
 from ...scene.cameras import Camera, OrthographicCamera, PerspectiveCamera
 from ...scene.instances import InstancedMesh
@@ -37,8 +38,6 @@ _COLLIDERS = {
     "sphere": lambda mesh: SphereCollider(*_ball(mesh)),
     "mesh": lambda mesh: MeshCollider(),
 }
-# Of physically based materials.
-_SHARES = ("metallic", "roughness", "clearcoat", "clearcoat_roughness", "transmission")
 _KINDS = {BoxCollider: "box", SphereCollider: "sphere", MeshCollider: "mesh"}
 _SHADOWS = {False: "none", True: "map", "exact": "exact"}  # of lights
 
@@ -242,25 +241,27 @@ class PropertiesPanel:
         imgui.end_combo()
 
     def _draw_material(self, material: Material) -> None:
-        self._color(material, "color", "Colour")
-        if material.is_physical:
-            for name in _SHARES:
-                if getattr(material, name) is not None:
-                    self._share(material, name, name.replace("_", " ").capitalize())
-        else:
-            self._color(material, "specular", "Specular")
-            self._number(material, "shininess", "Shininess", 0.5, 0.0)
-        self._color(material, "emissive", "Emissive")
-        self._flag([material], "two_sided", "Two-sided")
-        imgui.same_line()
-        self._flag([material], "flat_shading", "Flat")
-        for slot in TEXTURE_SLOTS:
-            self._draw_slot(material, slot)
+        for name, row in PARAMETERS.items():
+            if _counts(row, material):
+                self._draw_parameter(material, name, row)
 
-    def _draw_slot(self, material: Material, slot: str) -> None:
+    def _draw_parameter(self, material: Material, name: str, row: Parameter) -> None:
+        kind = row.kind
+        if isinstance(row, TextureSlot):
+            self._draw_slot(material, name, row.title)
+        elif kind is FLAG:
+            self._flag([material], name, row.title)
+        elif kind.width > 1:
+            self._color(material, name, row.title)
+        elif kind.high == 1.0 and getattr(material, name) is not None:
+            self._share(material, name, row.title)
+        elif kind.width == 1 and kind.high > 1.0:
+            speed = 0.01 * max(getattr(material, name), 1.0)
+            self._number(material, name, row.title, speed, max(kind.low, -1e9))
+
+    def _draw_slot(self, material: Material, slot: str, label: str) -> None:
         texture = textures_of(material).get(slot)
         imgui.push_id(slot)
-        label = slot.replace("_", " ").capitalize()
         self._choose(label, "texture", texture, lambda chosen: {slot: chosen}, [material])
         if imgui.button("Load ..."):
             self._files.load_texture(material, slot)
@@ -353,6 +354,13 @@ def _ball(mesh: Mesh) -> tuple[float, np.ndarray]:
     """The radius and the middle of a sphere that is as wide as a mesh."""
     low, high = mesh.bounds
     return max(float(np.max(high - low)) / 2, 1e-6), (low + high) / 2
+
+
+def _counts(row: Parameter, material: Material) -> bool:
+    """Whether a material of its kind shows what the row says: only physical ones are all glTF's."""
+    if material.is_physical:
+        return bool(row.gltf) or not row.kind.width
+    return not row.part.startswith("KHR")
 
 
 def _in_place(mesh: Mesh, number: int):

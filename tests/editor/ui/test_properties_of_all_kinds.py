@@ -8,6 +8,7 @@ import pytest
 
 import engine3d as e3d
 from engine3d.editor.scene_state import SceneState
+from engine3d.materials.material import PARAMETERS
 from engine3d.scene import lights
 from engine3d.scene.object_kinds import KINDS
 
@@ -214,3 +215,12 @@ def test_what_all_kinds_of_lights_have_in_common_is_shown(editor, hand):
     assert {"Colour", "Intensity", "Inner cone", "Outer cone", "Range"} <= set(
         lay_out(editor, hand)
     )
+
+
+def test_all_that_lights_a_physical_material_has_a_field(editor, hand):
+    editor.workspace.new()
+    node = editor.workspace.scene.add(_painted(metallic=0.5, roughness=0.5))
+    editor.workspace.document.selection.set([node])
+    numbers = {row.title for row in PARAMETERS.values() if row.gltf and row.kind.width}
+    infinite = {PARAMETERS["attenuation_distance"].title}  # until it is given
+    assert numbers - infinite <= set(lay_out(editor, hand))

@@ -7,31 +7,13 @@ gives the same bytes on every backend and every number of threads.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from .._native import rasterizer as _native
-from .._support.calls import hinted, refuse_unknown
+from .._support.calls import refuse_unknown
 from .._support.image_size import check_side, check_size
 from .._support.validation import Closed, choose, is_one_of
-from ..choices import (
-    Antialias,
-    Backend,
-    ColorLike,
-    ColorSpace,
-    Culling,
-    FrameCull,
-    HiddenSurfaces,
-    LineShape,
-    Mode,
-    Normals,
-    PointShape,
-    Samples,
-    Shading,
-    SizeUnit,
-    ToneMapping,
-    Wireframe,
-)
+from ..choices import Antialias, Backend, ColorSpace, Samples
 from ..errors import InvalidArgumentError, SceneChangedError
 from ..geometry.mesh import Mesh
 from ..materials.colors import COLOR_SPACES
@@ -52,8 +34,15 @@ from ._turn import RendererTurn
 from ._view import CameraChoice
 from ._viewpoint import Viewpoint, frustum_of
 from .backend_selection import resolve_backend, resolve_threads
-from .frame import Frame, Output
-from .options import WHITE, RenderKeywords, RenderOptions, either, shows_light, with_both_sides
+from .frame import Frame
+from .options import (
+    OptionKeywords,
+    RenderKeywords,
+    RenderOptions,
+    shows_light,
+    shows_options,
+    with_both_sides,
+)
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -192,15 +181,13 @@ class Renderer(Closed):
     def __exit__(self, *exception: object) -> None:
         self.close()
 
+    @shows_options
     def prepare(
         self,
         scene: Scene,
         *,
-        mode: Mode = "lit",
-        wireframe: Wireframe | None = None,
-        outputs: Iterable[Output] = ("color",),
-        normals: Normals = "auto",
         options: RenderOptions | None = None,
+        **keywords: Unpack[OptionKeywords],
     ) -> None:
         """Do beforehand what the first frame of a scene would do, so that it is as fast as others.
 
@@ -211,7 +198,7 @@ class Renderer(Closed):
         Parameters
         ----------
         scene : Scene
-        mode, wireframe, outputs, normals, options
+        options, **keywords
             As the frames will be drawn: see `render`.
 
         Raises
@@ -220,10 +207,7 @@ class Renderer(Closed):
         """
         with self._turn.taken():
             self._check_drawable(scene)
-            keywords = RenderOptions(
-                mode=mode, wireframe=wireframe, outputs=outputs, normals=normals
-            )
-            options = either(options, keywords)
+            options = self._options.named(options, keywords)
             frame_options = self._options.get(scene, options, self._height)
             headlight = (*frame_options.headlight, (0.0, 0.0, 1.0))
             needs = frame_options.needs(options.outputs)
@@ -253,38 +237,16 @@ class Renderer(Closed):
         if self._native is None:
             raise InvalidArgumentError("the renderer is closed")
 
-    @hinted
-    @hinted
+    @shows_options
     def render(
         self,
         scene: Scene,
         camera: CameraChoice = None,
         *,
-        mode: Mode = "lit",
-        wireframe: Wireframe | None = None,
-        cull: FrameCull = "back",
-        shading: Shading = "deferred",
-        outputs: Iterable[Output] = ("color",),
         out: Frame | None = None,
-        normals: Normals = "auto",
-        hidden_surfaces: HiddenSurfaces = "zbuffer",
-        line_width: float = 1.0,
-        line_color: ColorLike = WHITE,
-        hidden_lines: bool = False,
-        point_size: float = 1.0,
-        culling: Culling = "all",
         culling_camera: CameraChoice = None,
-        batching: bool = True,
-        transparent_outputs: bool = False,
-        tone_mapping: ToneMapping = "none",
-        bloom: float = 0.0,
-        line_shape: LineShape = "plain",
-        point_shape: PointShape = "square",
-        size_unit: SizeUnit = "pixels",
-        alpha_to_coverage: bool = False,
-        ambient_occlusion: bool = False,
-        ambient_occlusion_radius: float | None = None,
         options: RenderOptions | None = None,
+        **keywords: Unpack[OptionKeywords],
     ) -> Frame:
         """Draw a frame.
 
@@ -294,84 +256,16 @@ class Renderer(Closed):
         camera : None, Node or (Camera, pose)
             A node of this scene. None is its first visible camera; a scene without one is framed
             automatically.
-        mode : {"lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"}
-            What the colour shows: light, plain surface colour, a random colour per triangle,
-            nearness, view-space normals, identities as colours, or how often each pixel was
-            covered.
-        wireframe : {None, "overlay", "only"}
-            Draw the visible edges over the picture, or instead of its faces.
-        cull : {"back", "front", "none", "auto"}
-            Which faces are left out: those that show their back, or those that show their front.
-            ``"auto"`` shows both sides, but leaves the backs out of opaque meshes that enclose a
-            volume, their fronts outside, where the picture is the same.
-        shading : {"deferred", "forward"}
-            When pixels are shaded: once each, or as they are drawn. Both give the same bytes.
-        outputs : iterable of str
-            Which arrays the frame holds: ``color``, ``depth``, ``ndc_depth``, ``triangle_id``,
-            ``object_id``, ``instance_id``, ``material_id``, ``albedo``, ``normal``, ``position``,
-            ``world_normal``, ``world_position``, ``uv``, ``barycentric``, ``metallic_roughness``,
-            ``emissive``, ``tangent``, ``radiance``: see `Frame`.
         out : Frame, optional
             An earlier frame of the same size to draw into; its outputs are drawn, and it is
             returned.
-        normals : {"auto", "smooth", "flat", "facet"}
-            Vertex or face normals; ``"auto"`` follows each material's ``flat_shading``. With
-            ``"facet"`` each triangle also has one light, that of its middle.
-        hidden_surfaces : {"zbuffer", "painter", "none"}
-            The method of hidden-surface removal: depth buffer, painter's algorithm (drawing from
-            far to near), or none.
-        line_width, point_size : float
-            In ``size_unit``, more than 0 and up to 256.
-        line_color : sequence of 3 numbers
-            Colour of the wireframe.
-        hidden_lines : bool
-            With ``wireframe="only"``: show the edges that faces hide as well.
-        culling : {"all", "tree", "frustum", "none", "always"}
-            What is left out before it is drawn. ``"all"``: nodes and parts of meshes outside of the
-            view frustum, or that face away, and what is hidden by what is drawn already, tested
-            where that may pay; ``"always"`` tests it in every frame. ``"tree"``: only nodes (and
-            instances) outside of the frustum, found by the scene's tree of boxes. ``"frustum"``:
-            the same ones, found by testing their boxes one by one. ``"none"``: nothing.
-            The picture is the same; ``frame.stats["boxes_tested"]`` counts the tests.
         culling_camera : Node or (Camera, pose), optional
             Cull as seen from this camera, but draw as seen from ``camera``, to look at what culling
             leaves out.
-        batching : bool
-            Hand nodes of the same mesh to the core as one draw. The picture is the same.
-        transparent_outputs : bool
-            Outputs other than ``color`` are of the nearest surface, even if it is blended; else of
-            the nearest that isn't. ``radiance`` has all layers in any case. Modes other than "lit"
-            and "unlit" show blended surfaces as opaque ones anyway.
-        tone_mapping : {"none", "neutral", "aces", "agx"}
-            How light of any brightness becomes what a screen can show, in mode "lit": of lit
-            surfaces and of an environment behind them. ``"none"`` shows what is above 1 as 1;
-            ``"neutral"`` (Khronos PBR Neutral) keeps colours up to 0.8 and makes room above;
-            ``"aces"`` and ``"agx"`` look like film, the latter with softer contrast.
-        bloom : float
-            How much of the light above 1 glows around where it comes from, in modes "lit" and
-            "unlit", 0 to 100; 1 is a lot. It changes no alpha, so that before a transparent
-            background only what is drawn glows.
-        line_shape : {"plain", "round"}
-            Of lines and of a wireframe's edges. ``"plain"``: their ends are cut along a row or a
-            column, and lines of up to a pixel take one pixel for each step, so that slanted ones
-            are thinner across. ``"round"``: as wide as they say at any angle, with half a disc at
-            each end, so that lines that meet have round joins.
-        point_shape : {"square", "round"}
-        size_unit : {"pixels", "picture"}
-            What line_width and point_size count: pixels, or thousandths of the picture's height, so
-            that a scene looks alike at every size; of these at least 1 pixel is drawn, and at
-            most 256.
-        alpha_to_coverage : bool
-            With ``antialias="msaa"``: the alpha of materials of ``alpha_mode="mask"`` tells how
-            many of a pixel's samples they cover, half of them at ``alpha_cutoff``: foliage gets
-            smooth edges. Else alpha leaves all that they cover, or none.
-        ambient_occlusion : bool
-            In mode "lit": less of the light from all around reaches corners and hollows.
-        ambient_occlusion_radius : float, optional
-            World units: what is farther away is in no light's way. By default a share of the
-            diagonal of the scene's box.
         options : RenderOptions, optional
-            Instead of the arguments above that it holds, which must then be left out.
+            Instead of keyword arguments that it holds, which must then be left out.
+        **keywords
+            As of `RenderOptions`: ``mode``, ``wireframe``, ``outputs`` and so on.
 
         Returns
         -------
@@ -390,31 +284,8 @@ class Renderer(Closed):
         """
         with self._turn.taken():
             self._check_drawable(scene)
-            given = (
-                mode,
-                wireframe,
-                cull,
-                shading,
-                normals,
-                hidden_surfaces,
-                line_width,
-                line_color,
-                hidden_lines,
-                point_size,
-                culling,
-                batching,
-                transparent_outputs,
-                tone_mapping,
-                bloom,
-                line_shape,
-                point_shape,
-                size_unit,
-                alpha_to_coverage,
-                ambient_occlusion,
-                ambient_occlusion_radius,
-            )
-            named = self._options.of_keywords(given, outputs)
-            return self._draw(scene, camera, either(options, named), out, culling_camera)
+            options = self._options.named(options, keywords)
+            return self._draw(scene, camera, options, out, culling_camera)
 
     def _draw(
         self,

@@ -10,6 +10,9 @@ import math
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from .. import linalg
 from .._native import rasterizer as _native
 from .._native.rasterizer import same_objects
@@ -20,7 +23,9 @@ from ..scene.fog import Fog
 from ..scene.gradients import Gradient
 from ..scene.scene import Scene
 from ..scene.surroundings import SCENE_VALUES
+from ._draw_list import Listing
 from ._native_handles import MeshNeeds, native_environment
+from ._placement import Placing
 from ._tone_inverse import light_that_shows
 from .options import (
     DEFAULTS,
@@ -73,8 +78,6 @@ class FrameOptions:
         what it lights.
     has_backdrop : bool
         Whether an environment shows as the background.
-    mark_size : float
-        Pixels; lines and points reach less than half of this beyond where they are.
     """
 
     def __init__(
@@ -86,7 +89,7 @@ class FrameOptions:
         height: int,
     ) -> None:
         self._options = options
-        self._needs: dict[tuple[str, ...], MeshNeeds] = {}
+        self._listings: dict[tuple[str, ...], Listing] = {}
         encoded = options.mode in _ENCODED_MODES and color_space == "srgb"
         convert = shading_color if encoded else display_color
         backdrop, gradient = None, {}
@@ -138,27 +141,39 @@ class FrameOptions:
             _fog(scene, color_space, options),
         )
         self.has_backdrop = backdrop is not None
-        # Twice as far from its middle as the widest line or point reaches, and for rounding.
-        self.mark_size = 2.0 * (max(line_width, point_size) + 2.0)
+        # Pixels: twice as far from its middle as the widest line or point reaches, for rounding.
+        self._mark_size = 2.0 * (max(line_width, point_size) + 2.0)
 
     @cached_property
     def surfaces(self) -> _native.NativeOptions:
         """Options that draw what these keep, without colour."""
         return _native.NativeOptions(self._numbers | _WITHOUT_COLOR)
 
-    def needs(self, outputs: tuple[str, ...]) -> MeshNeeds:
-        """Return which derived arrays of meshes a frame with these outputs reads."""
-        known, options = self._needs.get(outputs), self._options
+    def listing(self, outputs: tuple[str, ...]) -> Listing:
+        """Return how objects are listed for a frame with these outputs."""
+        known, options = self._listings.get(outputs), self._options
         if known is None:
             shaded = shows_light(outputs)
             reads_normals = "normal" in outputs or "world_normal" in outputs
             reads_normals = reads_normals or (shaded and options.mode in ("lit", "normal"))
-            known = self._needs[outputs] = MeshNeeds(
+            needs = MeshNeeds(
                 vertex_normals=reads_normals and options.normals not in ("flat", "facet"),
                 face_normals=reads_normals and options.normals != "smooth",
                 edges="color" in outputs and options.wireframe is not None,
             )
+            known = Listing(needs, options.normals, options.cull == "auto")
+            self._listings[outputs] = known
         return known
+
+    def placing(self, frustum: NDArray[np.float64], size: tuple[int, int]) -> Placing:
+        """Return how nodes are placed in a picture of some size that shows a frustum."""
+        culling = self._options.culling
+        return Placing(
+            None if culling == "none" else frustum,
+            self._mark_size / min(size),
+            culling == "frustum",
+            self._options.batching,
+        )
 
 
 def _fog(scene: Scene, color_space: str, options: RenderOptions):

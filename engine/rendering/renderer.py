@@ -21,15 +21,13 @@ from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.scene import Scene
 from ..scene.scenes_of_things import scene_of
-from ._ambient_occlusion import AmbientOcclusion, radius_of, shows_occlusion
-from ._bloom import Bloom
 from ._draw_list import DrawList
-from ._exact_shadows import ExactShadows
 from ._frame_memory import FrameMemory
 from ._frame_options import OptionsCache
-from ._output_pool import OutputPool, shapes_of
-from ._shadow_maps import ShadowMaps
-from ._surface_pass import SurfacePass
+from ._output_pool import OutputPool
+from ._pass import Picture, Tools
+from ._passes import Passes
+from ._placement import Placing
 from ._turn import RendererTurn
 from ._view import CameraChoice
 from ._viewpoint import Viewpoint, frustum_of
@@ -39,7 +37,6 @@ from .options import (
     OptionKeywords,
     RenderKeywords,
     RenderOptions,
-    shows_light,
     shows_options,
     with_both_sides,
 )
@@ -116,16 +113,15 @@ class Renderer(Closed):
         threads = resolve_threads(threads)
         self._native = _native.NativeRenderer(number, threads)
         self._draw_list = DrawList(self._color_space, threads)
-        self._shadow_maps = ShadowMaps(self._native, self._draw_list)
-        self._exact_shadows = ExactShadows(self._draw_list)
         self._options = OptionsCache(self._color_space, threads)
         self._pool = OutputPool()
-        self._bloom = Bloom(number, threads, self._color_space == "srgb")
-        self._asked, self._wanted = (), {}
         self._viewpoint = Viewpoint(self._draw_list)
-        self._surfaces = SurfacePass()
-        self._occlusion = AmbientOcclusion(number, threads)
-        self._memory = FrameMemory(*_SAMPLES[antialias][samples], threads)
+        per_pixel = _SAMPLES[antialias][samples]
+        memory = FrameMemory(*per_pixel, threads)
+        is_srgb = color_space == "srgb"
+        self._passes: Passes | None = Passes(
+            Tools(self._native, self._draw_list, memory, number, threads, is_srgb, per_pixel)
+        )
         self._turn = RendererTurn(self._native)
 
     @property
@@ -157,20 +153,19 @@ class Renderer(Closed):
         width, height = check_side(width, "width"), check_side(height, "height")
         with self._turn.taken():
             self._width, self._height = width, height
-            self._asked = ()
             self._forget_arrays()
 
     def close(self) -> None:
         """Free what the renderer holds; frames stay valid. Drawing afterwards raises."""
         with self._turn.taken(closing=True):
-            self._native = self._draw_list = self._viewpoint = None
-            self._shadow_maps = self._exact_shadows = None
+            self._native = self._draw_list = self._viewpoint = self._passes = None
             self._turn.let_go()
-            self._forget_arrays()
+            self._pool.forget()
 
     def _forget_arrays(self) -> None:
-        for memory in (self._pool, self._bloom, self._surfaces, self._occlusion):
-            memory.forget()
+        self._pool.forget()
+        if self._passes is not None:
+            self._passes.forget()
 
     def __reduce_ex__(self, protocol):
         raise TypeError("a Renderer cannot be copied or pickled: make one in each process")
@@ -209,25 +204,16 @@ class Renderer(Closed):
             self._check_drawable(scene)
             options = self._options.named(options, keywords)
             frame_options = self._options.get(scene, options, self._height)
+            size = self._width, self._height
+            plan = self._passes.plan(options, options.outputs, size)
             headlight = (*frame_options.headlight, (0.0, 0.0, 1.0))
-            needs = frame_options.needs(options.outputs)
-            census = scene._census()
+            listing, census = frame_options.listing(options.outputs), scene._census()
             try:
-                self._draw_list.update(
-                    scene,
-                    needs,
-                    options.normals,
-                    headlight,
-                    None,
-                    0.0,
-                    True,
-                    by_mesh=options.cull == "auto",
-                )
+                self._draw_list.update(scene, listing, headlight, Placing())
             except Exception as error:
                 _blame_change(scene, census, error)
                 raise
-            self._memory.begin(options, self._width, self._height)
-            self._pool.prepare(shapes_of(options.outputs, self._width, self._height))
+            self._pool.prepare(plan.outputs)
             axis, multiple = _SAMPLES[self._antialias][self._samples]
             self._native.prepare(self._width * axis, self._height * axis, multiple or 1)
 
@@ -296,86 +282,61 @@ class Renderer(Closed):
         culling_camera: CameraChoice,
     ) -> Frame:
         """Draw a frame in the turn that the caller has."""
-        frame_options = self._options.get(scene, options, self._height)
-        self._memory.begin(options, self._width, self._height)
-        frame = self._new_frame(options.outputs) if out is None else self._check_out(out)
-        census = scene._census()
+        size = self._width, self._height
+        outputs = options.outputs if out is None else self._check_out(out).outputs
+        plan = self._passes.plan(options, outputs, size)
+        frame = Frame(*size, self._pool.take(plan.outputs)) if out is None else out
+        census, reads_scene = scene._census(), True
         try:
-            view = self._viewpoint.look(scene, camera, self._width, self._height)
-            headlight = (*frame_options.headlight, view.towards_viewer)
-            chosen = frustum_of(scene, culling_camera, self._width, self._height)
-            frustum = view.clip_from_world if chosen is None else chosen
-            by_mesh = options.cull == "auto"
-            self._draw_list.update(
-                scene,
-                frame_options.needs(frame.outputs),
-                options.normals,
-                headlight,
-                None if options.culling == "none" else frustum,
-                frame_options.mark_size / min(self._width, self._height),
-                options.batching,
-                options.culling == "frustum",
-                by_mesh,
-            )
-            shadow_cull = options.cull
-            self._draw_list.native.close_windows()
-            if by_mesh:
-                windows = self._draw_list.open_windows(scene, view, (self._width, self._height))
-                shadow_cull = "none" if self._draw_list.has_holes else "back"
-                if windows is None:
-                    frame_options = self._options.get(scene, with_both_sides(options), self._height)
-            if options.mode == "lit" and shows_light(frame.outputs):
-                self._shadow_maps.update(scene, view, shadow_cull, self._memory)
+            picture = self._look(scene, camera, options, frame, culling_camera)
+            picture.targets, picture.arrays = self._passes.arrays(plan, frame._outputs)
+            for one in plan.passes:
+                reads_scene = "scene" in one.reads
+                one.draw(picture)
                 self._turn.check()
-                self._exact_shadows.update(scene, self._memory)
-            near, far = 0.0, 1.0
-            if options.mode == "depth":
-                near, far = view.depth_range(scene.bounds)
         except Exception as error:
-            _blame_change(scene, census, error)
+            if reads_scene:
+                _blame_change(scene, census, error)
             raise
-        visibility = None
-        if shows_occlusion(options, frame.outputs):
-            depth = self._surfaces.draw(
-                *(self._native, self._draw_list, frame_options, view),
-                (self._width, self._height),
-                ("depth",),
-                frozen_clip_from_world=chosen,
-            )["depth"]
-            visibility = self._occlusion.find(depth, view, radius_of(options, scene.bounds))
-        targets = self._bloom.targets(frame._outputs, options)
-        drawn = self._native.render(
-            self._draw_list.native,
-            targets,
-            frame_options.native,
-            self._width,
-            self._height,
-            *_SAMPLES[self._antialias][self._samples],
-            view.clip_from_world,
-            view.view_from_world,
-            view.eye,
-            id(view.camera),
-            near,
-            far,
-            chosen,
-            view.rays if frame_options.has_backdrop else None,
-            visibility,
-        )
-        self._turn.check()
-        drawn.shadow_maps, drawn.shadow_maps_drawn = (
-            self._shadow_maps.count,
-            self._shadow_maps.drawn,
-        )
-        self._bloom.add(targets, options)
-        frame._seen = view, "none" if by_mesh else options.cull
-        frame._drawn = scene._arrays.count - scene._removed, drawn
+        frame._seen = picture.view, "none" if options.cull == "auto" else options.cull
+        frame._drawn = scene._arrays.count - scene._removed, picture.drawn
         return frame
 
-    def _new_frame(self, outputs: tuple[str, ...]) -> Frame:
-        if outputs is not self._asked:
-            self._wanted = shapes_of(outputs, self._width, self._height)
-            self._asked = outputs
-        return Frame(self._width, self._height, self._pool.take(self._wanted))
+    def _look(
+        self,
+        scene: Scene,
+        camera: CameraChoice,
+        options: RenderOptions,
+        frame: Frame,
+        culling_camera: CameraChoice,
+    ) -> Picture:
+        """Bring the draw list up to date, and return what passes begin with."""
+        size = self._width, self._height
+        frame_options = self._options.get(scene, options, self._height)
+        view = self._viewpoint.look(scene, camera, *size)
+        chosen = frustum_of(scene, culling_camera, *size)
+        frustum = view.clip_from_world if chosen is None else chosen
+        self._draw_list.update(
+            scene,
+            frame_options.listing(frame.outputs),
+            (*frame_options.headlight, view.towards_viewer),
+            frame_options.placing(frustum, size),
+        )
+        picture = Picture(scene, options, frame_options, view, size, chosen, options.cull)
+        self._draw_list.native.close_windows()
+        if options.cull == "auto":
+            self._let_backs_show(picture)
+        if options.mode == "depth":
+            picture.depth_range = view.depth_range(scene.bounds)
+        return picture
+
+    def _let_backs_show(self, picture: Picture) -> None:
+        """Leave out backs of closed meshes only, and only where nobody looks into their holes."""
+        windows = self._draw_list.open_windows(picture.scene, picture.view, picture.size)
+        picture.shadow_cull = "none" if self._draw_list.has_holes else "back"
+        if windows is None:
+            options = with_both_sides(picture.options)
+            picture.frame_options = self._options.get(picture.scene, options, self._height)
 
     def _check_out(self, out: Frame) -> Frame:
         if not isinstance(out, Frame):

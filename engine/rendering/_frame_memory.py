@@ -19,7 +19,6 @@ from .._native.rasterizer import thread_count
 from .._support.system import machine_memory
 from ..errors import InvalidArgumentError
 from . import options as limits
-from ._memo import Memo
 from ._output_pool import shapes_of
 
 #: Bytes that a frame may take for each pixel. Bloom and ambient occlusion together need fewer.
@@ -56,13 +55,12 @@ class FrameMemory:
 
     def __init__(self, axis: int, multiple: int, threads: int) -> None:
         self._axis, self._multiple, self._threads = axis, multiple, threads or thread_count()
-        self._checked = Memo()
         self._size = 0, 0
         self._of_options: list[Use] = []
         self._of_maps: list[Use] = []
 
-    def begin(self, outputs: tuple[str, ...], size: tuple[int, int], of_passes: list[Use]) -> None:
-        """Begin a frame with these outputs, of which passes take so much.
+    def check(self, outputs: tuple[str, ...], size: tuple[int, int], of_passes: list[Use]) -> None:
+        """Check what frames with these outputs take, and what passes take by their options.
 
         Raises
         ------
@@ -70,13 +68,14 @@ class FrameMemory:
             Its outputs are larger than the machine's memory, or what else goes by its options takes
             more than a frame may.
         """
+        self._size = size
+        _check_outputs(outputs, *size)
+        self._of_options = of_passes + self._uses_of(*size)
+        self._check(self._of_options)
+
+    def forget_maps(self) -> None:
+        """Begin a frame that has no maps of shadows so far."""
         self._of_maps = []
-        if self._checked.differs(outputs, size, of_passes, limits.MAX_FRAME_BYTES):
-            self._size = size
-            _check_outputs(outputs, *size)
-            self._of_options = of_passes + self._uses_of(*size)
-            self._check(self._of_options)
-            self._checked.done()
 
     def add_maps(self, lights: Iterable[tuple[str, int, int]]) -> None:
         """Add maps of shadows: of each light its kind, how many it has, and texels a side.

@@ -7,6 +7,7 @@ an option or a colour changes, and kept from frame to frame meanwhile.
 from __future__ import annotations
 
 import math
+import operator
 from functools import cached_property
 from typing import Any
 
@@ -40,6 +41,7 @@ from .options import (
 
 _NO_CLAMP = (0.0, math.inf)
 _MOST_BLURRED = 8.0  # the last level of an environment: E3D_ENVIRONMENT_LEVELS - 1
+_scene_values = operator.attrgetter(*SCENE_VALUES)
 _MAX_KEPT = 16  # programs that draw ever other pictures keep no more options than these
 # What differs where a picture's surfaces are drawn without their colours.
 _WITHOUT_COLOR = {
@@ -237,7 +239,7 @@ class OptionsCache:
 
     def get(self, scene: Scene, options: RenderOptions, height: int) -> FrameOptions:
         """Return what the options are for a scene as it is now, in a picture of some height."""
-        seen = options, height, *(getattr(scene, name) for name in SCENE_VALUES)
+        seen = options, height, *_scene_values(scene)
         known = self._found.get(id(options))
         if known is None or not same_objects(seen, known[0]):
             known = seen, FrameOptions(scene, self._color_space, options, self._threads, height)

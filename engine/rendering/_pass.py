@@ -54,12 +54,12 @@ class Picture:
         Of the camera whose frustum holds what is drawn.
     shadow_cull : {"none", "back", "front"}
         Which faces cast no shadow.
-    depth_range : (float, float)
-        Metric depths that mode "depth" shows white and black.
     targets : dict of str to array
         The frame's outputs, and others that a pass reads.
     arrays : dict of str to array
         All else that passes declare.
+    depth_range : (float, float)
+        Metric depths that mode "depth" shows white and black.
     shadow_maps : (int, int)
         How many there are, and how many were drawn.
     drawn : NativeStats or None
@@ -72,9 +72,9 @@ class Picture:
     size: tuple[int, int]
     frozen_clip_from_world: NDArray[np.float64] | None
     shadow_cull: FrameCull
+    targets: dict[str, np.ndarray] = field(init=False)
+    arrays: dict[str, np.ndarray] = field(init=False)
     depth_range: tuple[float, float] = (0.0, 1.0)
-    targets: dict[str, np.ndarray] = field(default_factory=dict)
-    arrays: dict[str, np.ndarray] = field(default_factory=dict)
     shadow_maps: tuple[int, int] = (0, 0)
     drawn: NativeStats | None = None
 

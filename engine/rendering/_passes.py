@@ -11,6 +11,7 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from . import options as limits
 from ._ambient_occlusion import AmbientOcclusion
 from ._bloom import Bloom
 from ._color_pass import ColorPass
@@ -104,10 +105,10 @@ class Passes:
         InvalidArgumentError
             It takes more memory than a frame may.
         """
-        if self._planned.differs(options, outputs, size):
+        if self._planned.differs(options, outputs, size, limits.MAX_FRAME_BYTES):
             self._plan = plan_of(self._all, options, outputs, size)
+            self._memory.check(outputs, size, self._plan.uses)
             self._planned.done()
-        self._memory.begin(outputs, size, self._plan.uses)
         return self._plan
 
     def arrays(self, plan: Plan, outputs: Arrays) -> tuple[Arrays, Arrays]:

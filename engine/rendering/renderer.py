@@ -288,7 +288,7 @@ class Renderer(Closed):
         frame = Frame(*size, self._pool.take(plan.outputs)) if out is None else out
         census, reads_scene = scene._census(), True
         try:
-            picture = self._look(scene, camera, options, frame, culling_camera)
+            picture = self._look(scene, camera, options, outputs, culling_camera)
             picture.targets, picture.arrays = self._passes.arrays(plan, frame._outputs)
             for one in plan.passes:
                 reads_scene = "scene" in one.reads
@@ -307,7 +307,7 @@ class Renderer(Closed):
         scene: Scene,
         camera: CameraChoice,
         options: RenderOptions,
-        frame: Frame,
+        outputs: tuple[str, ...],
         culling_camera: CameraChoice,
     ) -> Picture:
         """Bring the draw list up to date, and return what passes begin with."""
@@ -318,7 +318,7 @@ class Renderer(Closed):
         frustum = view.clip_from_world if chosen is None else chosen
         self._draw_list.update(
             scene,
-            frame_options.listing(frame.outputs),
+            frame_options.listing(outputs),
             (*frame_options.headlight, view.towards_viewer),
             frame_options.placing(frustum, size),
         )

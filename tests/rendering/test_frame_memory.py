@@ -114,7 +114,7 @@ def test_a_few_bytes_of_a_scene_file_take_no_gigabytes(tmp_path):
 def test_large_maps_are_no_error(sides):
     memory = _frame_memory.FrameMemory(1, 0, 1)
     options, size = e3d.RenderOptions(bloom=1.0, ambient_occlusion=True), (1920, 1080)
-    memory.begin(options.outputs, size, plan_of(options, size, 1).uses)
+    memory.check(options.outputs, size, plan_of(options, size, 1).uses)
     memory.add_maps(("PointLight", 6, side) for side in sides)
 
 

@@ -156,7 +156,7 @@ class FrameOptions:
         known, options = self._listings.get(outputs), self._options
         if known is None:
             shaded = shows_light(outputs)
-            reads_normals = "normal" in outputs or "world_normal" in outputs
+            reads_normals = any(name.endswith("normal") for name in outputs)
             reads_normals = reads_normals or (shaded and options.mode in ("lit", "normal"))
             needs = MeshNeeds(
                 vertex_normals=reads_normals and options.normals not in ("flat", "facet"),

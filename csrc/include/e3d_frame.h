@@ -137,6 +137,9 @@ typedef struct e3d_frame {
                                            * shows, but for blended ones (R129) */
 } e3d_frame;
 
+/* Set a member that options or a scene's surroundings decide, by its name; return 0 where none has that name and count. */
+int e3d_frame_set(e3d_frame *frame, const char *name, const double *values, int32_t count);
+
 #ifdef __cplusplus
 }
 #endif

@@ -390,6 +390,8 @@ cdef extern from "e3d.h" nogil:
         e3d_ambient_light ambient_light
         const float *ambient_visibility
 
+    int e3d_frame_set(e3d_frame *frame, const char *name, const double *values, int32_t count)
+
     ctypedef enum e3d_output_kind:
         E3D_OUTPUT_NDC_DEPTH
         E3D_OUTPUTS

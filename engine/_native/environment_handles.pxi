@@ -58,12 +58,3 @@ cdef class LevelTexels:
         buffer.suboffsets = NULL
         buffer.internal = NULL
 
-
-cdef int set_environment(e3d_environment_light *light, NativeEnvironment environment, turn, float intensity) except -1:
-    """turn: cosine and sine of the angle about +Y. Without an environment there is no light."""
-    if environment is None:
-        return 0
-    light.environment = environment.handle
-    light.cosine, light.sine = turn
-    light.intensity = intensity
-    return 0

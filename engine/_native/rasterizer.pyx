@@ -212,72 +212,29 @@ cdef class NativeOptions:
 
     def __cinit__(
         self,
-        *,
-        int mode,
-        int cull,
-        int wireframe,
-        int hidden,
-        int shading,
-        int normals,
-        int culling,
-        bint remove_hidden_lines,
-        bint transparent_outputs,
-        bint alpha_to_coverage,
-        float line_width,
-        float point_size,
-        int line_shape,
-        int point_shape,
-        line_color,
-        background,
-        bint encode_srgb,
-        bint decode_srgb,
-        ambient,
-        light_clamp,
-        float exposure,
+        dict numbers not None,
         NativeEnvironment environment=None,
-        environment_turn=(1.0, 0.0),
-        float environment_intensity=1.0,
         NativeEnvironment backdrop=None,
-        float backdrop_intensity=1.0,
-        float backdrop_level=0.0,
-        int tone_mapping=0,
-        fog=None,
-        gradient=None,
+        tuple fog=None,
     ):
-        cdef e3d_frame *frame = &self.frame
-        memset(frame, 0, sizeof(e3d_frame))
-        frame.mode = <e3d_mode>mode
-        frame.cull = <e3d_cull>cull
-        frame.wireframe = <e3d_wireframe>wireframe
-        frame.hidden = <e3d_hidden>hidden
-        frame.shading = <e3d_shading>shading
-        frame.normals = <e3d_normals>normals
-        frame.culling = <e3d_culling>culling
-        frame.remove_hidden_lines = remove_hidden_lines
-        frame.transparent_outputs = transparent_outputs
-        frame.alpha_to_coverage = alpha_to_coverage
-        frame.line_width = line_width
-        frame.point_size = point_size
-        frame.line_shape = <e3d_line_shape>line_shape
-        frame.point_shape = <e3d_point_shape>point_shape
-        copy_vector(frame.line_color, line_color, 3)
-        copy_vector(frame.background, background, 4)
-        frame.encode_srgb = encode_srgb
-        frame.decode_srgb = decode_srgb
-        copy_vector(frame.ambient, ambient, 3)
-        copy_vector(frame.light_clamp, light_clamp, 2)
-        frame.exposure = exposure
-        set_environment(&frame.environment, environment, environment_turn, environment_intensity)
-        set_environment(&frame.backdrop.light, backdrop, environment_turn, backdrop_intensity)
-        frame.backdrop.level = backdrop_level
-        frame.tone_mapping = <e3d_tone_mapping>tone_mapping
+        """`numbers`: a number, or a sequence of them, for each member of e3d_frame that has such a name."""
+        memset(&self.frame, 0, sizeof(e3d_frame))
+        for name, value in numbers.items():
+            set_numbers(&self.frame, name.encode(), value if isinstance(value, (tuple, list)) else (value,))
+        self.frame.environment.environment = NULL if environment is None else environment.handle
+        self.frame.backdrop.light.environment = NULL if backdrop is None else backdrop.handle
         if fog is not None:
-            set_fog(&frame.fog, fog)
-        if gradient is not None:
-            frame.gradient.shows = 1
-            copy_vector(frame.gradient.top, gradient[0], 3)
-            copy_vector(frame.gradient.bottom, gradient[1], 3)
+            set_fog(&self.frame.fog, fog)
         self.held = environment, backdrop
+
+
+cdef int set_numbers(e3d_frame *frame, bytes name, values) except -1:
+    cdef double numbers[4]
+    cdef int count = <int>len(values)
+    require(count <= 4, "no member has more numbers")
+    for k in range(count):
+        numbers[k] = values[k]
+    return require(e3d_frame_set(frame, name, numbers, count), f"no numbers of a frame: {name.decode()}")
 
 
 cdef class NativeStats:

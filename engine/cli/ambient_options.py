@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
-
 from . import values
 
 
@@ -23,11 +21,3 @@ def add_ambient(parser) -> None:
         help="how far away things are in the way of that light, in units of the scene; a tenth of "
         "its diagonal by default",
     )
-
-
-def appearance_of(args: argparse.Namespace) -> dict:
-    """Return the fields of `Appearance` that the options name."""
-    return {
-        "ambient_occlusion": args.ambient_occlusion or None,
-        "ambient_occlusion_radius": args.ambient_occlusion_radius,
-    }

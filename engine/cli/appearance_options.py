@@ -6,7 +6,7 @@ import argparse
 from typing import get_args
 
 from ..choices import Culling, FrameCull, HiddenSurfaces, Mode, OutputMode, Shading, Wireframe
-from . import ambient_options, values
+from . import values
 from .filter_options import add_line_shapes, add_texture_filters
 from .usage import UsageError
 
@@ -103,28 +103,20 @@ def add_appearance(parser) -> None:
 
 
 def appearance_of(args: argparse.Namespace) -> dict:
-    """Return the fields of `Appearance` that the options name."""
+    """Return the fields of `Appearance` that the options name: those that are called alike."""
     if args.unlit and args.mode not in (None, "unlit"):
         raise UsageError(f"--unlit does not go with --mode {args.mode}")
     if args.edges and args.wireframe == "only":
         raise UsageError("--edges does not go with --wireframe only")
-    named = {
-        "mode": "unlit" if args.unlit else args.mode,
-        "wireframe": "overlay" if args.edges else args.wireframe,
-        "cull": args.cull,
-        "culling": args.culling,
-        "shading": args.shading,
-        "normals": args.normals,
-        "hidden_surfaces": args.hidden_surfaces,
-        "line_width": args.line_width,
-        "line_color": args.line_color,
-        "hidden_lines": args.hidden_lines or None,
-        "point_size": args.point_size,
-        "line_shape": args.line_shape,
-        "point_shape": args.point_shape,
-        "size_unit": args.size_unit,
-        "tone_mapping": args.tone_mapping,
-        "bloom": args.bloom,
-        **ambient_options.appearance_of(args),
+    from ..viewer.appearance import DEFAULTS
+
+    named = {name: value for name, value in vars(args).items() if name in DEFAULTS}
+    if args.unlit:
+        named["mode"] = "unlit"
+    if args.edges:
+        named["wireframe"] = "overlay"
+    return {
+        name: value
+        for name, value in named.items()
+        if value is not None and value is not False  # a switch that is off leaves it to the scene
     }
-    return {name: value for name, value in named.items() if value is not None}

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from .. import linalg
 from .._native.rasterizer import find_occlusion
-from ._output_pool import OutputPool
+from ._pass import Pass, Picture, Shapes
 from ._view import View
 from .options import RenderOptions, shows_light
 
@@ -48,13 +48,6 @@ def pixel_rays(view: View, width: int, height: int) -> PixelRays | None:
     return PixelRays(tuple(across), tuple(down), is_perspective) if usable else None
 
 
-def shows_occlusion(options: RenderOptions, outputs: tuple[str, ...]) -> bool:
-    """Whether a picture with these outputs shows ambient occlusion."""
-    if not options.ambient_occlusion or options.mode != "lit" or not shows_light(outputs):
-        return False
-    return options.wireframe != "only"
-
-
 def radius_of(options: RenderOptions, bounds: NDArray[np.float64]) -> float:
     """Return how far away things count, in world units; ``bounds`` are the scene's."""
     if options.ambient_occlusion_radius is not None:
@@ -67,47 +60,35 @@ def view_scale(view: View) -> float:
     return float(linalg.length(view.view_from_world[2, :3]))
 
 
-class AmbientOcclusion:
-    """Finds the ambient visibility of one renderer's pictures."""
+class AmbientOcclusion(Pass):
+    """Finds the ambient visibility of each pixel from its metric depth, 0 where nothing shows."""
 
-    def __init__(self, backend: int, threads: int) -> None:
-        self._backend, self._threads = backend, threads
-        self._pool = OutputPool()
+    reads = ("surface_depth", "scene")
+    writes = ("ambient_visibility",)
+    name, advice = "ambient occlusion", "ambient_occlusion=False"
 
-    def find(self, depth: NDArray[np.float32], view: View, radius: float) -> NDArray[np.float32]:
-        """Return the visibility of each pixel.
+    def is_in(self, options, outputs, read) -> bool:
+        if not options.ambient_occlusion or options.mode != "lit" or not shows_light(outputs):
+            return False
+        return options.wireframe != "only"
 
-        Parameters
-        ----------
-        depth : (height, width) float32
-            Metric, 0 where nothing shows.
-        view : View
-            Of the picture that has these pixels.
-        radius : float
-            World units: how far away things are in the way.
+    def arrays(self, width: int, height: int) -> Shapes:
+        form = (height, width), np.dtype(np.float32)
+        return {"ambient_visibility": form, "occlusion": form}
 
-        Returns
-        -------
-        visibility : (height, width) float32
-        """
-        height, width = depth.shape
-        form = (depth.shape, depth.dtype)
-        arrays = self._pool.take({"scratch": form, "visibility": form})
-        rays = pixel_rays(view, width, height)
-        if rays is None or not 0.0 < radius * view_scale(view) < math.inf:
-            arrays["visibility"].fill(1.0)
-            return arrays["visibility"]
+    def draw(self, picture: Picture) -> None:
+        visibility = picture.arrays["ambient_visibility"]
+        rays = pixel_rays(picture.view, *picture.size)
+        radius = radius_of(picture.options, picture.scene.bounds) * view_scale(picture.view)
+        if rays is None or not 0.0 < radius < math.inf:
+            visibility.fill(1.0)
+            return
         find_occlusion(
-            depth,
+            picture.arrays["surface_depth"],
             *rays,
-            radius * view_scale(view),
-            self._backend,
-            self._threads,
-            arrays["scratch"],
-            arrays["visibility"],
+            radius,
+            self.tools.backend,
+            self.tools.threads,
+            picture.arrays["occlusion"],
+            visibility,
         )
-        return arrays["visibility"]
-
-    def forget(self) -> None:
-        """Free what is not in use."""
-        self._pool.forget()

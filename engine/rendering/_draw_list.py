@@ -9,25 +9,43 @@ changed, at all of them only where many did, and never at every node.
 from __future__ import annotations
 
 import weakref
+from typing import NamedTuple
 
 import numpy as np
 
 from .._native.rasterizer import NativeDrawList
 from .._support.dirty_tracking import Watch
 from ..geometry.mesh import Mesh
-from ..materials.material import Material, placed_textures_of
-from ..materials.textures import Texture
+from ..materials.material import Material
 from ..motion.posed_mesh import PosedMesh
-from ..scene.instances import MANY, InstancedMesh
-from ..scene.node_arrays import NodeArrays
+from ..scene.instances import InstancedMesh
 from ..scene.scene import Scene
 from ._enclosing import Holes, holes_of
+from ._instance_trees import InstanceTrees
 from ._light_list import LightList
+from ._material_list import MaterialList
 from ._native_handles import MeshNeeds, native_mesh
-from ._native_materials import make_textures, set_material
+from ._native_materials import make_textures
+from ._placement import Placement, Placing
 from ._view import View
 
-_SETTLED = 3  # frames in which they did not change
+
+class Listing(NamedTuple):
+    """How a picture's objects are listed.
+
+    Attributes
+    ----------
+    needs : MeshNeeds
+        Which derived arrays the picture reads; which of the two kinds of normals a mesh needs is
+        decided for each mesh.
+    normals : {"auto", "smooth", "flat", "facet"}
+    by_mesh : bool
+        Materials of meshes that enclose no volume show both sides.
+    """
+
+    needs: MeshNeeds
+    normals: str
+    by_mesh: bool
 
 
 class DrawList:
@@ -43,8 +61,6 @@ class DrawList:
     Attributes
     ----------
     native : NativeDrawList
-    changes : int
-        Grows whenever `update` finds that something else is to be drawn, or elsewhere.
     renewals : int
         Grows when objects or materials changed, or meshes were bent anew.
     lights : LightList
@@ -52,82 +68,49 @@ class DrawList:
 
     def __init__(self, color_space: str, threads: int) -> None:
         self.native = NativeDrawList()
-        self._color_space = color_space
-        self._threads = threads
+        self._color_space, self._threads = color_space, threads
         self._scene = lambda: None
         self._objects_version = -1
-        self._needs: MeshNeeds | None = None
-        self._normals, self._by_mesh = "", False
-        self._listed_for: tuple | None = None  # needs, normals and by_mesh
+        self._listing: Listing | None = None
         # Numbers of the objects that enclose a volume.
         self._closed: set[int] = set()
         self._with_holes: set[int] = set()  # of these, those that have holes
         self._watch = Watch()
         self._changed: list = []  # of what is watched, since the list was made
-        # Where they are, as whose, and whether both sides show anyway.
-        self._materials: dict[Material, list[tuple[int, int, bool]]] = {}
-        # Which normals they asked for, and whether nothing shows through them.
-        self._traits: dict[Material, tuple[bool, bool]] = {}
-        self._textured: dict[Material, set[Texture]] = {}
-        self._users: dict[Texture, set[Material]] = {}
-        # Where materials begin, by their ids, and whether both sides show anyway.
-        self._bases: dict[tuple[tuple[int, ...], bool], int] = {}
+        self._materials = MaterialList(self.native, color_space, self._watch)
         self._listed: list = []  # what the objects were made of, by number: things, materials' ids
         self._left = 0  # how often an object went, or took other materials, since all were listed
         self._marks = False
-        self._many: dict[int, InstancedMesh] = {}  # by number
-        self._trees, self._frames = False, 0
-        self._placed: tuple | None = None
-        self._frustum: np.ndarray | None = None
-        self._how = 1.0, False, True
-        self._selected: bytes | None = None
+        self._trees = InstanceTrees(self.native)
+        self._placement = Placement(self.native)
         self._posed: tuple | None = None  # what poses the scene's meshes, and its moment
         self.lights = LightList(self.native, color_space)
-        self.changes = self.renewals = 0
+        self.renewals = 0
 
-    def update(
-        self,
-        scene: Scene,
-        needs: MeshNeeds,
-        normals: str,
-        headlight,
-        frustum: np.ndarray | None,
-        marks: float,
-        batching: bool,
-        flat: bool = False,
-        by_mesh: bool = False,
-    ) -> None:
+    @property
+    def changes(self) -> int:
+        """Grows whenever `update` finds that something else is to be drawn, or elsewhere."""
+        return self._placement.changes
+
+    def update(self, scene: Scene, listing: Listing, headlight, placing: Placing) -> None:
         """Make the native list draw ``scene``.
 
         Parameters
         ----------
         scene : Scene
-        needs : MeshNeeds
-            Which derived arrays the picture reads; which of the two kinds of normals a mesh needs
-            is decided for each mesh.
-        normals : {"auto", "smooth", "flat", "facet"}
+        listing : Listing
         headlight : tuple of three vectors, or None
             Colour, lux and direction towards the light, for a scene that has no light.
-        frustum : (4, 4) float64 or None
-            clip_from_world of a camera: nodes outside of what it shows are left out.
-        marks : float
-            How far lines and points may reach beyond where they are, as a share of half the image.
-        batching : bool
-            Nodes of one mesh are drawn as one.
-        flat : bool
-            What is outside of the frustum is found box by box, without the trees of boxes.
-        by_mesh : bool
-            Materials of meshes that enclose no volume show both sides.
+        placing : Placing
         """
         scene._update(self._threads)
-        how = needs, normals, by_mesh
-        if self._listed_for != how or not self._lists(scene):
-            self._renew(scene, *how)
+        if self._listing != listing or not self._lists(scene):
+            self._renew(scene, listing)
         self._follow_poses(scene)
-        if self._many and not self._trees:
-            self._settle()
-        widen = 1.0 + marks if self._marks or needs.edges else 1.0
-        self._place(scene._arrays, frustum, (widen, flat, batching))
+        if self._trees.settle():
+            self._placement.forget()
+        has_marks = self._marks or listing.needs.edges
+        self._placement.place(scene._arrays, placing, has_marks, self._trees.made)
         self.lights.update(scene, headlight)
 
     def _follow_poses(self, scene: Scene) -> None:
@@ -136,23 +119,9 @@ class DrawList:
         posed = None if posing is None else (posing, posing.moment)
         if posed != self._posed and posing is not None:
             self.native.set_meshes(posing.numbers, posing.poses)
-            self._placed = None
+            self._placement.forget()
             self.renewals += 1
         self._posed = posed
-
-    def _settle(self) -> None:
-        """Make trees of many instances, once these have stayed as they are for some frames."""
-        self._frames += 1
-        if self._frames == _SETTLED:
-            for number, instances in self._many.items():
-                self.native.set_instance_tree(number, instances._tree()[0])
-            self._trees = True
-            self._placed = None
-
-    def _unsettle(self) -> None:
-        for number in self._many:
-            self.native.set_instance_tree(number, None)
-        self._trees, self._frames = False, 0
 
     def open_windows(self, scene: Scene, view: View, size: tuple[int, int]) -> int | None:
         """Let backs show where the camera may look into holes of meshes that enclose a volume.
@@ -186,7 +155,7 @@ class DrawList:
 
     def shows(self, scene: Scene) -> bool:
         """Whether everything in the scene is still as and where it was at the last update."""
-        return self._placed == (scene._arrays, scene._arrays.changes) and self._lists(scene)
+        return self._placement.shows(scene._arrays) and self._lists(scene)
 
     def _lists(self, scene: Scene) -> bool:
         """Whether the objects are those of the scene, as they are now."""
@@ -197,21 +166,19 @@ class DrawList:
             and not self._changed
         )
 
-    def _renew(self, scene: Scene, needs: MeshNeeds, normals: str, by_mesh: bool) -> None:
+    def _renew(self, scene: Scene, listing: Listing) -> None:
         """Make the list of objects anew, or only what changed of it."""
         self.renewals += 1
         self._changed += self._watch.changed()
-        same = self._scene() is scene and self._listed_for == (needs, normals, by_mesh)
+        same = self._scene() is scene and self._listing == listing
         numbers = self._numbers_that_changed(scene) if same else None
         self._scene = lambda: None  # if anything below raises, the list is not current
+        self._listing = listing
         if numbers is None:
-            self._needs, self._normals, self._by_mesh = needs, normals, by_mesh
-            self._listed_for = None
             self._rebuild(scene)
         else:
             self._replace(scene, sorted(numbers))
         self._objects_version = scene._objects.version
-        self._listed_for = needs, normals, by_mesh
         self._scene = weakref.ref(scene)
 
     def _numbers_that_changed(self, scene: Scene) -> set[int] | None:
@@ -223,7 +190,7 @@ class DrawList:
         for thing in self._changed:
             if isinstance(thing, (Mesh, InstancedMesh)):
                 numbers |= objects.drawn_by(thing)
-            elif isinstance(thing, Material) and self._traits[thing] != _traits_of(thing):
+            elif isinstance(thing, Material) and self._materials.is_listed_otherwise(thing):
                 numbers |= self._numbers_with(thing)
         # Materials that nothing shows any longer are let go of when the list is made anew.
         few = 4 * (self._left + len(numbers)) <= len(objects.objects)
@@ -234,38 +201,25 @@ class DrawList:
         key = id(material)
         return {number for number, (_, surfaces) in enumerate(self._listed) if key in surfaces}
 
-    def _materials_that_changed(self) -> set[Material]:
-        """Those that did, and those of textures that did."""
-        materials = {thing for thing in self._changed if isinstance(thing, Material)}
-        return materials.union(*(self._users.get(thing, ()) for thing in self._changed))
-
     def _replace(self, scene: Scene, numbers: list[int]) -> None:
         """Renew the materials that changed, and the objects of some numbers."""
-        for material in self._materials_that_changed():
-            for index, number, both in self._materials[material]:
-                self._set_material(index, material, number, both)
+        self._materials.renew(self._changed)
         self._changed = []
-        if not numbers:
-            return
-        self._placed = None
-        many = set(self._many)
+        if numbers:
+            self._placement.forget()
         for number in numbers:
             self._forget(scene, number)
             self._set_object(number, scene._objects.objects[number])
-        if not many.union(self._many).isdisjoint(numbers):
-            self._unsettle()
 
     def _rebuild(self, scene: Scene) -> None:
-        self._placed = None
+        self._placement.forget()
         self._closed, self._with_holes = set(), set()
         self.native.clear()
         self.lights.forget()
         self._watch, self._changed = Watch(), []
-        self._materials, self._traits, self._textured, self._users = {}, {}, {}, {}
-        self._bases, self._listed = {}, []
-        self._left = 0
-        self._marks = self._trees = False
-        self._many, self._frames = {}, 0
+        self._materials = MaterialList(self.native, self._color_space, self._watch)
+        self._trees = InstanceTrees(self.native)
+        self._listed, self._left, self._marks = [], 0, False
         self._make_textures(scene)
         for number, obj in enumerate(scene._objects.objects):
             self._set_object(number, obj)
@@ -277,7 +231,7 @@ class DrawList:
 
     def _set_object(self, number: int, obj) -> None:
         """List a mesh, once or at many poses, or nothing, under a number or the next one."""
-        self._many.pop(number, None)
+        self._trees.note(number, obj)
         self._closed.discard(number)
         self._with_holes.discard(number)
         if obj is None:
@@ -288,30 +242,28 @@ class DrawList:
         things = (mesh, obj) if isinstance(obj, InstancedMesh) else (mesh,)
         for thing in things:
             self._watch.add(thing)  # before it is read
-        surfaces = tuple(map(id, mesh.materials))
         holes = self._holes_of(obj)
-        both = self._by_mesh and holes is None
+        both = self._listing.by_mesh and holes is None
         if holes is not None:
             self._closed.add(number)
             if len(holes.ends):
                 self._with_holes.add(number)
-        if (surfaces, both) not in self._bases:
-            self._bases[surfaces, both] = self._add_materials(mesh.materials, both)
-        needs = _needs_of(mesh, self._needs, self._normals)
+        base = self._materials.base_of(mesh.materials, both)
+        needs = _needs_of(mesh, self._listing.needs, self._listing.normals)
         if isinstance(obj, PosedMesh):
             native = obj.handle(needs, self._threads)
         else:
             native = native_mesh(mesh, needs, self._threads)
         closed = () if holes is None else (True, holes.ends, holes.points)
-        self.native.set_object(number, native, self._bases[surfaces, both], *closed)
+        self.native.set_object(number, native, base, *closed)
         self._marks = self._marks or len(mesh.lines) > 0 or len(mesh.points) > 0
-        self._note(number, things, surfaces)
+        self._note(number, things, tuple(map(id, mesh.materials)))
         if isinstance(obj, InstancedMesh):
             self._set_instances(number, obj)
 
     def _holes_of(self, obj) -> Holes | None:
         """The holes of an object that encloses a volume but for them."""
-        if not self._by_mesh or isinstance(obj, PosedMesh):
+        if not self._listing.by_mesh or isinstance(obj, PosedMesh):
             return None
         holes = holes_of(obj if isinstance(obj, Mesh) else obj.mesh)
         if holes is not None and len(holes.ends) and not isinstance(obj, Mesh):
@@ -319,8 +271,6 @@ class DrawList:
         return holes
 
     def _set_instances(self, number: int, obj: InstancedMesh) -> None:
-        if len(obj) >= MANY:
-            self._many[number] = obj
         colors = obj.colors
         eight_bit = colors is not None and colors.dtype == np.uint8
         self.native.set_instances(
@@ -344,73 +294,6 @@ class DrawList:
             for thing in self._listed[number][0]:
                 if not scene._objects.drawn_by(thing):
                     self._watch.remove(thing)
-
-    def _add_materials(self, materials: list[Material], both: bool) -> int:
-        """Add materials to the native list; return the first one's number."""
-        base = self.native.material_count
-        for number, material in enumerate(materials):
-            index = base + number
-            self._materials.setdefault(material, []).append((index, number, both))
-            self._set_material(index, material, number, both)
-        return base
-
-    def _place(
-        self, arrays: NodeArrays, frustum: np.ndarray | None, how: tuple[float, bool, bool]
-    ) -> None:
-        """List the draws of what may show, where it is now; how: widen, flat and batching."""
-        placed = arrays, arrays.updated  # what is assigned after the update shows in the next frame
-        moved = self._placed != placed
-        widen, flat, batching = how
-        if not moved and self._frustum is frustum and self._how == how:
-            return
-        self._placed = None  # for if anything below raises
-        selection, tested = None, 0
-        if frustum is not None:
-            selection = np.empty((arrays.count + 63) // 64, np.uint64)
-            tested = arrays.select(frustum, widen, flat, selection)
-        self.native.node_boxes_tested = tested
-        selected = None if selection is None else selection.tobytes()
-        same = selected is not None and selected == self._selected and batching == self._how[2]
-        if moved or self._trees or not same:
-            self.native.place(
-                arrays.count,
-                arrays.columns,
-                selection,
-                frustum,
-                widen,
-                flat,
-                batching,
-                moved,
-            )
-        self.changes += moved
-        self._placed, self._selected = placed, selected
-        self._frustum, self._how = frustum, how
-
-    def _set_material(self, index: int, material: Material, number: int, both: bool) -> None:
-        self._watch.add(material)
-        self._traits[material] = _traits_of(material)
-        placed = placed_textures_of(material)
-        self._note_textures(material, {use.texture for use in placed.values()})
-        two_sided = both or material.two_sided
-        set_material(self.native, index, number, material, placed, self._color_space, two_sided)
-
-    def _note_textures(self, material: Material, textures: set[Texture]) -> None:
-        """Look at the textures of a material, and no longer at those that no material has now."""
-        for gone in self._textured.pop(material, set()) - textures:
-            self._users[gone].discard(material)
-            if not self._users[gone]:
-                del self._users[gone]
-                self._watch.remove(gone)
-        for texture in textures:
-            self._watch.add(texture)
-            self._users.setdefault(texture, set()).add(material)
-        if textures:
-            self._textured[material] = textures
-
-
-def _traits_of(material: Material) -> tuple[bool, bool]:
-    """What of a material decides how meshes with it are listed."""
-    return material.flat_shading, material.alpha_mode == "opaque"
 
 
 def _needs_of(mesh: Mesh, needs: MeshNeeds, normals: str) -> MeshNeeds:

@@ -14,69 +14,64 @@ import numpy as np
 
 from ..scene.node_arrays import NodeArrays
 from ..scene.scene import Scene
-from ._draw_list import DrawList
-from ._frame_memory import FrameMemory
 from ._lamps import lamp_slots
+from ._memo import Memo
+from ._pass import Pass, Picture, Tools
 from .casters import placed_casters
+from .options import shows_light
 
 _versions = itertools.count(1)
 
 
-class ExactShadows:
-    """What may hide the lights of one renderer's scene.
+class ExactShadows(Pass):
+    """Lets lights whose ``shadow`` is "exact" have it.
 
-    Parameters
-    ----------
-    draw_list : DrawList
+    There may be more such lights than the core takes, or their shadows may take more memory than a
+    frame may: these are InvalidArgumentErrors.
     """
 
-    def __init__(self, draw_list: DrawList) -> None:
-        self._draw_list = draw_list
-        self._moment: tuple | None = None  # of the scene, when its casters were listed
-        self._casters: tuple | None = None
+    reads = ("scene",)
+    writes = ("exact_shadows",)
+
+    def __init__(self, tools: Tools) -> None:
+        super().__init__(tools)
+        self._moment, self._casters = Memo(), Memo()  # when casters were listed, and which
         self._version = 0
 
-    def update(self, scene: Scene, memory: FrameMemory) -> None:
-        """Let lights whose ``shadow`` is "exact" have it, for a frame with lit surfaces.
+    def is_in(self, options, outputs, read) -> bool:
+        return options.mode == "lit" and shows_light(outputs)
 
-        Raises
-        ------
-        InvalidArgumentError
-            There are more such lights than the core takes, or their shadows take more memory than a
-            frame may.
-        """
-        native = self._draw_list.native
-        lights = [at for at in self._draw_list.lights.placed() if at[1].shadow == "exact"]
+    def draw(self, picture: Picture) -> None:
+        draw_list, scene = self.tools.draw_list, picture.scene
+        lights = [at for at in draw_list.lights.placed() if at[1].shadow == "exact"]
         for number, *_ in lights:
-            native.set_exact_shadow(number)
+            draw_list.native.set_exact_shadow(number)
         if lights:
             spared = [self._spared(scene, number, place) for number, _, (_, place) in lights]
             self._list_casters(scene._arrays, spared)
-            memory.add_exact(len(lights), native.hiding_faces())
+            self.tools.memory.add_exact(len(lights), draw_list.native.hiding_faces())
 
     def _spared(self, scene: Scene, number: int, place) -> tuple[int, ...]:
         """The slots of what does not hide a light."""
         if place is None:
             return ()
-        return lamp_slots(scene, self._draw_list.lights.slot_of(number), place)
+        return lamp_slots(scene, self.tools.draw_list.lights.slot_of(number), place)
 
     def _list_casters(self, arrays: NodeArrays, spared: list[tuple[int, ...]]) -> None:
         """List the casters, unless they are listed; a version is theirs until one is another.
 
         ``spared`` are, for each light, the slots of what does not hide it.
         """
-        renewals = self._draw_list.renewals
-        moment = arrays, arrays.updated, renewals, spared
-        if moment == self._moment:
+        draw_list = self.tools.draw_list
+        if not self._moment.differs(arrays, arrays.updated, draw_list.renewals, spared):
             return
-        casters = arrays, renewals, spared, *placed_casters(arrays)
-        if casters != self._casters:
+        if self._casters.differs(arrays, draw_list.renewals, spared, *placed_casters(arrays)):
             self._version = next(_versions)
-        self._moment = self._casters = None  # for if anything below raises
         bits = None
         if any(spared):
             bits = np.zeros(arrays.count, np.uint32)
             for number, slots in enumerate(spared):
                 bits[list(slots)] |= np.uint32(1 << number)
-        self._draw_list.native.place_hiding(arrays.count, arrays.columns, self._version, bits)
-        self._moment, self._casters = moment, casters
+        draw_list.native.place_hiding(arrays.count, arrays.columns, self._version, bits)
+        self._casters.done()
+        self._moment.done()

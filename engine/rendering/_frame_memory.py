@@ -15,21 +15,16 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from .._native.rasterizer import bloom_scratch, thread_count
+from .._native.rasterizer import thread_count
 from .._support.system import machine_memory
 from ..errors import InvalidArgumentError
 from . import options as limits
-from ._ambient_occlusion import shows_occlusion
-from ._bloom import glows
 from ._output_pool import shapes_of
-from .options import RenderOptions
 
 #: Bytes that a frame may take for each pixel. Bloom and ambient occlusion together need fewer.
 BYTES_A_PIXEL = 32
 
 _FLOAT = 4
-_OCCLUSION = 3 * _FLOAT  # depth, scratch, visibility
-_RADIANCE = 3 * _FLOAT
 _KEPT_SAMPLE = 8  # a depth and an ID: csrc/pipeline/tile/kept.c
 _MOST_KEPT = 1 << 25  # samples of a picture: E3D_MOST_KEPT_SAMPLES of csrc/pipeline/pass/plan.h
 _TILE_PLANE = 24 * 4096  # of a sample of a tile its depth, ID, colour and count
@@ -60,13 +55,12 @@ class FrameMemory:
 
     def __init__(self, axis: int, multiple: int, threads: int) -> None:
         self._axis, self._multiple, self._threads = axis, multiple, threads or thread_count()
-        self._checked: tuple | None = None
         self._size = 0, 0
         self._of_options: list[Use] = []
         self._of_maps: list[Use] = []
 
-    def begin(self, options: RenderOptions, width: int, height: int) -> None:
-        """Begin a frame of these options.
+    def check(self, outputs: tuple[str, ...], size: tuple[int, int], of_passes: list[Use]) -> None:
+        """Check what frames with these outputs take, and what passes take by their options.
 
         Raises
         ------
@@ -74,15 +68,14 @@ class FrameMemory:
             Its outputs are larger than the machine's memory, or what else goes by its options takes
             more than a frame may.
         """
-        self._of_maps = []
-        asked = options, width, height, limits.MAX_FRAME_BYTES
-        if self._checked == asked:
-            return
-        self._size = width, height
-        _check_outputs(options.outputs, width, height)
-        self._of_options = self._uses_of(options, width, height)
+        self._size = size
+        _check_outputs(outputs, *size)
+        self._of_options = of_passes + self._uses_of(*size)
         self._check(self._of_options)
-        self._checked = asked
+
+    def forget_maps(self) -> None:
+        """Begin a frame that has no maps of shadows so far."""
+        self._of_maps = []
 
     def add_maps(self, lights: Iterable[tuple[str, int, int]]) -> None:
         """Add maps of shadows: of each light its kind, how many it has, and texels a side.
@@ -111,16 +104,10 @@ class FrameMemory:
         exact = Use(size, what, "shadow=True, or fewer nodes that cast shadows")
         self._check([*self._of_options, *self._of_maps, exact])
 
-    def _uses_of(self, options: RenderOptions, width: int, height: int) -> list[Use]:
-        pixels, planes = width * height, self._multiple or 1
-        samples = pixels * self._axis**2 * planes
+    def _uses_of(self, width: int, height: int) -> list[Use]:
+        planes = self._multiple or 1
+        samples = width * height * self._axis**2 * planes
         uses = []
-        if glows(options) and "color" in options.outputs:
-            size = _FLOAT * bloom_scratch(width, height, self._threads)
-            size += _RADIANCE * pixels * ("radiance" not in options.outputs)
-            uses.append(Use(size, "bloom", "bloom=0"))
-        if shows_occlusion(options, options.outputs):
-            uses.append(Use(_OCCLUSION * pixels, "ambient occlusion", "ambient_occlusion=False"))
         if samples <= _MOST_KEPT:
             uses.append(Use(_KEPT_SAMPLE * samples, f"{samples} samples", "fewer samples"))
         if self._multiple:

@@ -7,28 +7,52 @@ an option or a colour changes, and kept from frame to frame meanwhile.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import fields
+import operator
 from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from .. import linalg
 from .._native import rasterizer as _native
 from .._native.rasterizer import same_objects
+from .._support.calls import refuse_unknown
 from ..environments.environment import Environment
 from ..materials.display_colors import display_color, exact_display_color, shading_color
 from ..scene.fog import Fog
 from ..scene.gradients import Gradient
 from ..scene.scene import Scene
 from ..scene.surroundings import SCENE_VALUES
+from ._draw_list import Listing
 from ._native_handles import MeshNeeds, native_environment
+from ._placement import Placing
 from ._tone_inverse import light_that_shows
-from .options import RenderOptions, check_outputs, shows_light
+from .options import (
+    DEFAULTS,
+    WHITE,
+    RenderKeywords,
+    RenderOptions,
+    check_outputs,
+    core_numbers,
+    either,
+    shows_light,
+)
 
 _NO_CLAMP = (0.0, math.inf)
 _MOST_BLURRED = 8.0  # the last level of an environment: E3D_ENVIRONMENT_LEVELS - 1
-#: The keyword arguments of a frame that name options, without the outputs.
-KEYWORDS = tuple(one.name for one in fields(RenderOptions) if one.name != "outputs")
+_scene_values = operator.attrgetter(*SCENE_VALUES)
 _MAX_KEPT = 16  # programs that draw ever other pictures keep no more options than these
+# What differs where a picture's surfaces are drawn without their colours.
+_WITHOUT_COLOR = {
+    "mode": _native.MODES["unlit"],  # what is blended is left out, as in mode lit
+    "wireframe": _native.WIREFRAMES[None],
+    "remove_hidden_lines": True,
+    "transparent_outputs": False,
+    "tone_mapping": _native.TONE_MAPPINGS["none"],
+    "light_clamp": _NO_CLAMP,
+    "exposure": 1.0,
+}
 # Modes whose colours go through the sRGB encoder; the others give display values.
 _ENCODED_MODES = ("lit", "unlit")
 
@@ -56,8 +80,6 @@ class FrameOptions:
         what it lights.
     has_backdrop : bool
         Whether an environment shows as the background.
-    mark_size : float
-        Pixels; lines and points reach less than half of this beyond where they are.
     """
 
     def __init__(
@@ -69,14 +91,15 @@ class FrameOptions:
         height: int,
     ) -> None:
         self._options = options
-        self._needs: dict[tuple[str, ...], MeshNeeds] = {}
+        self._listings: dict[tuple[str, ...], Listing] = {}
         encoded = options.mode in _ENCODED_MODES and color_space == "srgb"
         convert = shading_color if encoded else display_color
-        backdrop = gradient = None
+        backdrop, gradient = None, {}
         if isinstance(scene.background, Gradient):
             background = (0.0, 0.0, 0.0, 1.0)
             ends = scene.background.top, scene.background.bottom
-            gradient = tuple(exact_display_color(color, color_space) for color in ends)
+            top, bottom = (exact_display_color(color, color_space) for color in ends)
+            gradient = {"gradient.shows": True, "gradient.top": top, "gradient.bottom": bottom}
         elif isinstance(scene.background, Environment):
             background = (0.0, 0.0, 0.0, 1.0)
             if options.mode in _ENCODED_MODES:
@@ -95,76 +118,64 @@ class FrameOptions:
         self.headlight = color, tuple(lux * component for component in color)
         line_width = options.pixels_of(options.line_width, height)
         point_size = options.pixels_of(options.point_size, height)
-        self._shapes = {  # which samples surfaces cover
-            "cull": _native.CULLS["back" if options.cull == "auto" else options.cull],
-            "hidden": _native.HIDDEN_SURFACES[options.hidden_surfaces],
-            "shading": _native.SHADINGS[options.shading],
-            "normals": _native.NORMALS[options.normals],
-            "culling": _native.CULLINGS[options.culling],
-            "line_width": line_width,
-            "point_size": point_size,
-            "line_shape": _native.LINE_SHAPES[options.line_shape],
-            "point_shape": _native.POINT_SHAPES[options.point_shape],
-            "alpha_to_coverage": options.alpha_to_coverage,
-        }
+        self._numbers = core_numbers(options) | {"line_width": line_width, "point_size": point_size}
         self.native = _native.NativeOptions(
-            **self._shapes,
-            mode=_native.MODES[options.mode],
-            wireframe=_native.WIREFRAMES[options.wireframe],
-            remove_hidden_lines=not options.hidden_lines,
-            transparent_outputs=options.transparent_outputs,
-            line_color=convert(options.line_color, color_space),
-            background=background,
-            encode_srgb=encoded,
-            decode_srgb=color_space == "srgb",
-            ambient=ambient,
-            light_clamp=scene.light_clamp or _NO_CLAMP,
-            exposure=2.0**scene.exposure,
-            environment=environment,
-            environment_turn=(linalg.cos(turn), linalg.sin(turn)),
-            environment_intensity=scene.environment_intensity,
-            backdrop=backdrop,
-            backdrop_intensity=scene.environment_intensity * 2.0**scene.exposure,
-            backdrop_level=scene.background_blur * _MOST_BLURRED,
-            tone_mapping=_native.TONE_MAPPINGS[options.tone_mapping],
-            fog=_fog(scene, color_space, options),
-            gradient=gradient,
+            self._numbers
+            | {
+                "line_color": convert(options.line_color, color_space),
+                "background": background,
+                "encode_srgb": encoded,
+                "decode_srgb": color_space == "srgb",
+                "ambient": ambient,
+                "light_clamp": scene.light_clamp or _NO_CLAMP,
+                "exposure": 2.0**scene.exposure,
+                "environment.cosine": linalg.cos(turn),
+                "environment.sine": linalg.sin(turn),
+                "environment.intensity": scene.environment_intensity,
+                "backdrop.light.cosine": linalg.cos(turn),
+                "backdrop.light.sine": linalg.sin(turn),
+                "backdrop.light.intensity": scene.environment_intensity * 2.0**scene.exposure,
+                "backdrop.level": scene.background_blur * _MOST_BLURRED,
+                **gradient,
+            },
+            environment,
+            backdrop,
+            _fog(scene, color_space, options),
         )
         self.has_backdrop = backdrop is not None
-        # Twice as far from its middle as the widest line or point reaches, and for rounding.
-        self.mark_size = 2.0 * (max(line_width, point_size) + 2.0)
+        # Pixels: twice as far from its middle as the widest line or point reaches, for rounding.
+        self._mark_size = 2.0 * (max(line_width, point_size) + 2.0)
 
     @cached_property
     def surfaces(self) -> _native.NativeOptions:
         """Options that draw what these keep, without colour."""
-        return _native.NativeOptions(
-            **self._shapes,
-            mode=_native.MODES["unlit"],  # what is blended is left out, as in mode lit
-            wireframe=_native.WIREFRAMES[None],
-            remove_hidden_lines=True,
-            transparent_outputs=False,
-            line_color=(0.0, 0.0, 0.0),
-            background=(0.0, 0.0, 0.0, 0.0),
-            encode_srgb=False,
-            decode_srgb=False,
-            ambient=(0.0, 0.0, 0.0),
-            light_clamp=_NO_CLAMP,
-            exposure=1.0,
-        )
+        return _native.NativeOptions(self._numbers | _WITHOUT_COLOR)
 
-    def needs(self, outputs: tuple[str, ...]) -> MeshNeeds:
-        """Return which derived arrays of meshes a frame with these outputs reads."""
-        known, options = self._needs.get(outputs), self._options
+    def listing(self, outputs: tuple[str, ...]) -> Listing:
+        """Return how objects are listed for a frame with these outputs."""
+        known, options = self._listings.get(outputs), self._options
         if known is None:
             shaded = shows_light(outputs)
-            reads_normals = "normal" in outputs or "world_normal" in outputs
+            reads_normals = any(name.endswith("normal") for name in outputs)
             reads_normals = reads_normals or (shaded and options.mode in ("lit", "normal"))
-            known = self._needs[outputs] = MeshNeeds(
+            needs = MeshNeeds(
                 vertex_normals=reads_normals and options.normals not in ("flat", "facet"),
                 face_normals=reads_normals and options.normals != "smooth",
                 edges="color" in outputs and options.wireframe is not None,
             )
+            known = Listing(needs, options.normals, options.cull == "auto")
+            self._listings[outputs] = known
         return known
+
+    def placing(self, frustum: NDArray[np.float64], size: tuple[int, int]) -> Placing:
+        """Return how nodes are placed in a picture of some size that shows a frustum."""
+        culling = self._options.culling
+        return Placing(
+            None if culling == "none" else frustum,
+            self._mark_size / min(size),
+            culling == "frustum",
+            self._options.batching,
+        )
 
 
 def _fog(scene: Scene, color_space: str, options: RenderOptions):
@@ -189,40 +200,46 @@ class OptionsCache:
     def __init__(self, color_space: str, threads: int) -> None:
         self._color_space = color_space
         self._threads = threads
-        # By outputs: the other keyword arguments, and what they name.
+        # By outputs and the other keywords: their values, and what they name.
         self._named: dict[tuple, tuple[tuple, RenderOptions]] = {}
         # By the identity of options: these, the scene's colours, and what they are together.
         self._found: dict[int, tuple[tuple, FrameOptions]] = {}
 
-    def of_keywords(self, given: tuple, outputs: Iterable[str]) -> RenderOptions:
-        """Return the options that the keyword arguments of a frame name.
-
-        Parameters
-        ----------
-        given : tuple
-            Their values, in the order of `KEYWORDS`.
-        outputs : iterable of str
+    def named(self, options: RenderOptions | None, keywords: dict[str, Any]) -> RenderOptions:
+        """Return the options of a call: those that it was given, or that its keywords name.
 
         Raises
         ------
         InvalidArgumentError
+            They are wrong, or both were given.
+        TypeError
+            No option has the name of a keyword.
         """
-        names = outputs if type(outputs) is tuple else check_outputs(outputs)
+        if not keywords and options is None:
+            return DEFAULTS
+        return either(options, self._of_keywords(keywords))
+
+    def _of_keywords(self, keywords: dict[str, Any]) -> RenderOptions:
+        names = keywords.pop("outputs", DEFAULTS.outputs)
+        if type(names) is not tuple:
+            names = check_outputs(names)
+        key = names, *keywords
+        given = tuple(keywords.values())
         try:
-            known = self._named.get(names)
+            known = self._named.get(key)
         except TypeError:  # what cannot be hashed names no output
             names = check_outputs(names)
         if known is not None and same_objects(given, known[0]):
             return known[1]
-        keywords = dict(zip(KEYWORDS, given, strict=True))
+        refuse_unknown("render", keywords, RenderKeywords.__annotations__)
         options = RenderOptions(outputs=names, **keywords)
-        if type(keywords["line_color"]) is tuple:
-            _keep(self._named, names, (given, options))
+        if type(keywords.get("line_color", WHITE)) is tuple:
+            _keep(self._named, key, (given, options))
         return options
 
     def get(self, scene: Scene, options: RenderOptions, height: int) -> FrameOptions:
         """Return what the options are for a scene as it is now, in a picture of some height."""
-        seen = options, height, *(getattr(scene, name) for name in SCENE_VALUES)
+        seen = options, height, *_scene_values(scene)
         known = self._found.get(id(options))
         if known is None or not same_objects(seen, known[0]):
             known = seen, FrameOptions(scene, self._color_space, options, self._threads, height)

@@ -10,13 +10,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .._native.rasterizer import CULLS, NativeRenderer, find_shadow_ranges, shadow_ranges_side
-from ..choices import Cull
+from .._native.rasterizer import CULLS, find_shadow_ranges, shadow_ranges_side
 from ..scene.lights import DirectionalLight, SpotLight
-from ..scene.scene import Scene
-from ._draw_list import DrawList
-from ._frame_memory import FrameMemory
 from ._lamps import lamp_slots
+from ._memo import Memo
+from ._pass import Pass, Picture, Tools
 from ._shadow_views import (
     MapView,
     ShadowViews,
@@ -26,6 +24,7 @@ from ._shadow_views import (
 )
 from ._view import View
 from .casters import placed_casters
+from .options import shows_light
 
 
 class _LightMaps:
@@ -62,50 +61,37 @@ class _Drawn:
     And by which comparisons it is looked up, if its ranges are found.
     """
 
-    clip = b""
-    moment: tuple | None = None
-    casters: tuple | None = None
-    is_new = True
-    compared: tuple[int, int] | None = None
+    def __init__(self) -> None:
+        self.moment, self.casters = Memo(), Memo()
+        self.is_new = True
+        self.compared: tuple[int, int] | None = None
 
 
-class ShadowMaps:
-    """The maps of one renderer.
+class ShadowMaps(Pass):
+    """Draws the maps of lights, for pictures with lit surfaces.
 
-    Parameters
-    ----------
-    native : NativeRenderer
-    draw_list : DrawList
-
-    Attributes
-    ----------
-    drawn : int
-        Maps that the last update drew.
-    count : int
-        Maps that there are.
+    A light's shadow_radius may be too wide for its maps, or the maps may take more memory than a
+    frame may: these are InvalidArgumentErrors.
     """
 
-    def __init__(self, native: NativeRenderer, draw_list: DrawList) -> None:
-        self._native = native
-        self._draw_list = draw_list
+    reads = ("scene",)
+    writes = ("shadow_maps",)
+
+    def __init__(self, tools: Tools) -> None:
+        super().__init__(tools)
         self._kept: dict[int, _LightMaps] = {}
         # From where each light's maps are drawn, by its number, and what that was found from.
         self._found: dict[int, tuple[tuple, ShadowViews | None]] = {}
-        self.drawn = self.count = 0
 
-    def update(self, scene: Scene, view: View, cull: Cull, memory: FrameMemory) -> None:
-        """Give the lights their maps, for a frame with lit surfaces that leaves out these faces.
+    def is_in(self, options, outputs, read) -> bool:
+        return options.mode == "lit" and shows_light(outputs)
 
-        Raises
-        ------
-        InvalidArgumentError
-            A light's shadow_radius is too wide for its maps, or the maps take more memory than a
-            frame may.
-        """
-        native = self._draw_list.native
-        self.drawn = self.count = 0
-        native.clear_shadows()
-        lights = [entry for entry in self._draw_list.lights.placed() if entry[1].shadow is True]
+    def draw(self, picture: Picture) -> None:
+        scene, draw_list = picture.scene, self.tools.draw_list
+        self._drawn = self._count = 0
+        draw_list.native.clear_shadows()
+        self.tools.memory.forget_maps()
+        lights = [entry for entry in draw_list.lights.placed() if entry[1].shadow is True]
         for number in self._kept.keys() - {number for number, _, _ in lights}:
             del self._kept[number]
         for number in self._found.keys() - {number for number, _, _ in lights}:
@@ -113,20 +99,22 @@ class ShadowMaps:
         if not lights:
             return
         bounds = scene.bounds
-        moment = scene._arrays, scene._arrays.updated, self._draw_list.renewals, CULLS[cull]
+        cull = CULLS[picture.shadow_cull]
+        moment = scene._arrays, scene._arrays.updated, draw_list.renewals, cull
         seen = [
-            (number, light, pose, self._views_of(number, light, pose, bounds, view))
+            (number, light, pose, self._views_of(number, light, pose, bounds, picture.view))
             for number, light, pose in lights
         ]
         seen = [each for each in seen if each[-1] is not None]
-        memory.add_maps(
+        self.tools.memory.add_maps(
             (type(light).__name__, len(views.maps), light.shadow_map_size)
             for _, light, _, views in seen
         )
         for number, light, (_, place), views in seen:
-            slot = self._draw_list.lights.slot_of(number)
+            slot = draw_list.lights.slot_of(number)
             spared = () if place is None else lamp_slots(scene, slot, place)
             self._update_light(number, light, views, (*moment, spared))
+        picture.shadow_maps = self._count, self._drawn
 
     def _views_of(self, number: int, light, pose: tuple, bounds, view: View) -> ShadowViews | None:
         """From where a light's maps are drawn: as before, if nothing that decides it changed."""
@@ -145,9 +133,9 @@ class ShadowMaps:
             kept = self._kept[number] = _LightMaps(count, size)
         for k, seen in enumerate(views.maps):
             self._update_map(kept.depths[k], kept.drawn[k], seen, moment)
-        self.count += count
+        self._count += count
         taps, step = light.shadow_taps, round(256 * light.shadow_radius)
-        self._draw_list.native.set_shadow(
+        self.tools.draw_list.native.set_shadow(
             number,
             kept.depths,
             views.places,
@@ -164,22 +152,22 @@ class ShadowMaps:
     def _update_map(self, depths, drawn: _Drawn, seen: MapView, moment: tuple) -> None:
         """Draw a map, unless it would show the same again."""
         clip = seen.clip_from_world.tobytes()
-        if clip == drawn.clip and moment == drawn.moment:
+        if not drawn.moment.differs(clip, moment):
             return
         arrays, _, renewals, cull, spared = moment
         selection = np.empty((arrays.count + 63) // 64, np.uint64)
         arrays.select(seen.clip_from_world, 1.0, False, selection)
         for slot in spared:
             selection[slot >> 6] &= ~np.uint64(1 << (slot & 63))
-        casters = arrays, renewals, cull, placed_casters(arrays, selection)
-        if clip != drawn.clip or casters != drawn.casters:
-            drawn.clip, drawn.casters = b"", None  # for if anything below raises
+        casters = placed_casters(arrays, selection)
+        if drawn.casters.differs(clip, arrays, renewals, cull, casters):
             drawn.is_new, drawn.compared = True, None
-            native = self._draw_list.native
+            native = self.tools.draw_list.native
             native.place_casters(arrays.count, arrays.columns, selection, seen.clip_from_world)
-            self._native.draw_shadow_map(native, depths, *seen, cull, id(drawn))
-            self.drawn += 1
-        drawn.clip, drawn.moment, drawn.casters = clip, moment, casters
+            self.tools.native.draw_shadow_map(native, depths, *seen, cull, id(drawn))
+            self._drawn += 1
+            drawn.casters.done()
+        drawn.moment.done()
 
 
 def _find_views(light, pose: tuple, bounds: np.ndarray, view: View) -> ShadowViews | None:

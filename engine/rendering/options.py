@@ -7,14 +7,15 @@ scene as well is found for each frame (_frame_options.py).
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, TypedDict, get_args
+import inspect
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import TYPE_CHECKING, Any, TypedDict, get_args
 
 from .._native import rasterizer as _native
-from .._support.calls import checks_types, hints_keywords
+from .._support.calls import Function, checks_types, hints_keywords
 from .._support.numbers import real, shown
-from .._support.validation import choose, flag, optional_positive
+from .._support.validation import choose, flag, one_of, optional_positive
 from ..choices import (
     ColorLike,
     Culling,
@@ -39,7 +40,6 @@ if TYPE_CHECKING:
 
 #: Bytes that a frame may take beside its outputs, and a few for each pixel: docs/reliability.md.
 MAX_FRAME_BYTES = 1 << 30
-_CULLS = (*_native.CULLS, "auto")
 WHITE = (1.0, 1.0, 1.0)
 MAX_LINE = 256.0  # pixels: the widest line, the largest point
 _MAX_BLOOM = 100.0
@@ -76,22 +76,41 @@ def _line_size(value, what: str) -> float:
     return number
 
 
-def _strength(value) -> float:
+def _strength(value, what: str) -> float:
     number = real(value)
     if not 0 <= number <= _MAX_BLOOM:
-        raise InvalidArgumentError(f"bloom must be in 0..{_MAX_BLOOM:g}, not {shown(value)}")
+        raise InvalidArgumentError(f"{what} must be in 0..{_MAX_BLOOM:g}, not {shown(value)}")
     return number
 
 
-class RenderKeywords(TypedDict, total=False):
-    """The keyword arguments of `Renderer.render`, for functions that pass them on."""
+def _option(default: Any, check: Callable, core: str = "", numbers: Mapping | None = None) -> Any:
+    """A row of `RenderOptions`.
+
+    Parameters
+    ----------
+    default
+    check : callable
+        ``check(value, name)`` returns what to keep, or raises.
+    core : str
+        The member of e3d_frame that takes it; none where more than its value decides.
+    numbers : mapping, optional
+        What the core calls each value; by default the same.
+    """
+    return field(default=default, metadata={"check": check, "core": core, "numbers": numbers})
+
+
+def _choice(default: str | None, numbers: Mapping, core: str) -> Any:
+    return _option(default, one_of(tuple(numbers)), core, numbers)
+
+
+class OptionKeywords(TypedDict, total=False):
+    """The fields of `RenderOptions` as keyword arguments, for type checkers."""
 
     mode: Mode
     wireframe: Wireframe | None
     cull: FrameCull
     shading: Shading
     outputs: Iterable[Output]
-    out: Frame | None
     normals: Normals
     hidden_surfaces: HiddenSurfaces
     line_width: float
@@ -99,7 +118,6 @@ class RenderKeywords(TypedDict, total=False):
     hidden_lines: bool
     point_size: float
     culling: Culling
-    culling_camera: CameraChoice
     batching: bool
     transparent_outputs: bool
     tone_mapping: ToneMapping
@@ -110,6 +128,13 @@ class RenderKeywords(TypedDict, total=False):
     alpha_to_coverage: bool
     ambient_occlusion: bool
     ambient_occlusion_radius: float | None
+
+
+class RenderKeywords(OptionKeywords, total=False):
+    """The keyword arguments of `Renderer.render`, for functions that pass them on."""
+
+    out: Frame | None
+    culling_camera: CameraChoice
     options: RenderOptions | None
 
 
@@ -123,64 +148,108 @@ class RenderOptions:
 
     Parameters
     ----------
-    mode, wireframe, cull, ...
-        All keywords of `Renderer.render` but the camera's, read under the same names.
+    mode : {"lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"}
+        What the colour shows: light, plain surface colour, a random colour per triangle,
+        nearness, view-space normals, identities as colours, or how often each pixel was
+        covered.
+    wireframe : {None, "overlay", "only"}
+        Draw the visible edges over the picture, or instead of its faces.
+    cull : {"back", "front", "none", "auto"}
+        Which faces are left out: those that show their back, or those that show their front.
+        ``"auto"`` shows both sides, but leaves the backs out of opaque meshes that enclose a
+        volume, their fronts outside, where the picture is the same.
+    shading : {"deferred", "forward"}
+        When pixels are shaded: once each, or as they are drawn. Both give the same bytes.
+    outputs : iterable of str
+        Which arrays the frame holds: ``color``, ``depth``, ``ndc_depth``, ``triangle_id``,
+        ``object_id``, ``instance_id``, ``material_id``, ``albedo``, ``normal``, ``position``,
+        ``world_normal``, ``world_position``, ``uv``, ``barycentric``, ``metallic_roughness``,
+        ``emissive``, ``tangent``, ``radiance``: see `Frame`.
+    normals : {"auto", "smooth", "flat", "facet"}
+        Vertex or face normals; ``"auto"`` follows each material's ``flat_shading``. With
+        ``"facet"`` each triangle also has one light, that of its middle.
+    hidden_surfaces : {"zbuffer", "painter", "none"}
+        The method of hidden-surface removal: depth buffer, painter's algorithm (drawing from
+        far to near), or none.
+    line_width, point_size : float
+        In ``size_unit``, more than 0 and up to 256.
+    line_color : sequence of 3 numbers
+        Colour of the wireframe.
+    hidden_lines : bool
+        With ``wireframe="only"``: show the edges that faces hide as well.
+    culling : {"all", "tree", "frustum", "none", "always"}
+        What is left out before it is drawn. ``"all"``: nodes and parts of meshes outside of the
+        view frustum, or that face away, and what is hidden by what is drawn already, tested
+        where that may pay; ``"always"`` tests it in every frame. ``"tree"``: only nodes (and
+        instances) outside of the frustum, found by the scene's tree of boxes. ``"frustum"``:
+        the same ones, found by testing their boxes one by one. ``"none"``: nothing.
+        The picture is the same; ``frame.stats["boxes_tested"]`` counts the tests.
+    batching : bool
+        Hand nodes of the same mesh to the core as one draw. The picture is the same.
+    transparent_outputs : bool
+        Outputs other than ``color`` are of the nearest surface, even if it is blended; else of
+        the nearest that isn't. ``radiance`` has all layers in any case. Modes other than "lit"
+        and "unlit" show blended surfaces as opaque ones anyway.
+    tone_mapping : {"none", "neutral", "aces", "agx"}
+        How light of any brightness becomes what a screen can show, in mode "lit": of lit
+        surfaces and of an environment behind them. ``"none"`` shows what is above 1 as 1;
+        ``"neutral"`` (Khronos PBR Neutral) keeps colours up to 0.8 and makes room above;
+        ``"aces"`` and ``"agx"`` look like film, the latter with softer contrast.
+    bloom : float
+        How much of the light above 1 glows around where it comes from, in modes "lit" and
+        "unlit", 0 to 100; 1 is a lot. It changes no alpha, so that before a transparent
+        background only what is drawn glows.
+    line_shape : {"plain", "round"}
+        Of lines and of a wireframe's edges. ``"plain"``: their ends are cut along a row or a
+        column, and lines of up to a pixel take one pixel for each step, so that slanted ones
+        are thinner across. ``"round"``: as wide as they say at any angle, with half a disc at
+        each end, so that lines that meet have round joins.
+    point_shape : {"square", "round"}
+    size_unit : {"pixels", "picture"}
+        What line_width and point_size count: pixels, or thousandths of the picture's height, so
+        that a scene looks alike at every size; of these at least 1 pixel is drawn, and at
+        most 256.
+    alpha_to_coverage : bool
+        With ``antialias="msaa"``: the alpha of materials of ``alpha_mode="mask"`` tells how
+        many of a pixel's samples they cover, half of them at ``alpha_cutoff``: foliage gets
+        smooth edges. Else alpha leaves all that they cover, or none.
+    ambient_occlusion : bool
+        In mode "lit": less of the light from all around reaches corners and hollows.
+    ambient_occlusion_radius : float, optional
+        World units: what is farther away is in no light's way. By default a share of the
+        diagonal of the scene's box.
 
     Raises
     ------
     InvalidArgumentError
     """
 
-    mode: Mode = "lit"
-    wireframe: Wireframe | None = None
-    cull: FrameCull = "back"
-    shading: Shading = "deferred"
-    outputs: Iterable[Output] = ("color",)
-    normals: Normals = "auto"
-    hidden_surfaces: HiddenSurfaces = "zbuffer"
-    line_width: float = 1.0
-    line_color: ColorLike = WHITE
-    hidden_lines: bool = False
-    point_size: float = 1.0
-    culling: Culling = "all"
-    batching: bool = True
-    transparent_outputs: bool = False
-    tone_mapping: ToneMapping = "none"
-    bloom: float = 0.0
-    line_shape: LineShape = "plain"
-    point_shape: PointShape = "square"
-    size_unit: SizeUnit = "pixels"
-    alpha_to_coverage: bool = False
-    ambient_occlusion: bool = False
-    ambient_occlusion_radius: float | None = None
+    mode: Mode = _choice("lit", _native.MODES, "mode")
+    wireframe: Wireframe | None = _choice(None, _native.WIREFRAMES, "wireframe")
+    cull: FrameCull = _choice("back", {**_native.CULLS, "auto": _native.CULLS["back"]}, "cull")
+    shading: Shading = _choice("deferred", _native.SHADINGS, "shading")
+    outputs: Iterable[Output] = _option(("color",), lambda value, _: check_outputs(value))
+    normals: Normals = _choice("auto", _native.NORMALS, "normals")
+    hidden_surfaces: HiddenSurfaces = _choice("zbuffer", _native.HIDDEN_SURFACES, "hidden")
+    line_width: float = _option(1.0, _line_size)
+    line_color: ColorLike = _option(WHITE, check_color)
+    hidden_lines: bool = _option(False, flag, "remove_hidden_lines", {False: True, True: False})
+    point_size: float = _option(1.0, _line_size)
+    culling: Culling = _choice("all", _native.CULLINGS, "culling")
+    batching: bool = _option(True, flag)
+    transparent_outputs: bool = _option(False, flag, "transparent_outputs")
+    tone_mapping: ToneMapping = _choice("none", _native.TONE_MAPPINGS, "tone_mapping")
+    bloom: float = _option(0.0, _strength)
+    line_shape: LineShape = _choice("plain", _native.LINE_SHAPES, "line_shape")
+    point_shape: PointShape = _choice("square", _native.POINT_SHAPES, "point_shape")
+    size_unit: SizeUnit = _option("pixels", one_of(SIZE_UNITS))
+    alpha_to_coverage: bool = _option(False, flag, "alpha_to_coverage")
+    ambient_occlusion: bool = _option(False, flag)
+    ambient_occlusion_radius: float | None = _option(None, optional_positive)
 
     def __post_init__(self) -> None:
-        choose(self.mode, _native.MODES, "mode")
-        choose(self.wireframe, _native.WIREFRAMES, "wireframe")
-        choose(self.cull, _CULLS, "cull")
-        choose(self.shading, _native.SHADINGS, "shading")
-        choose(self.normals, _native.NORMALS, "normals")
-        choose(self.hidden_surfaces, _native.HIDDEN_SURFACES, "hidden_surfaces")
-        choose(self.culling, _native.CULLINGS, "culling")
-        choose(self.tone_mapping, _native.TONE_MAPPINGS, "tone_mapping")
-        choose(self.line_shape, _native.LINE_SHAPES, "line_shape")
-        choose(self.point_shape, _native.POINT_SHAPES, "point_shape")
-        choose(self.size_unit, SIZE_UNITS, "size_unit")
-        self.__dict__.update(  # past __setattr__, which refuses
-            outputs=check_outputs(self.outputs),
-            line_width=_line_size(self.line_width, "line_width"),
-            line_color=check_color(self.line_color, "line_color"),
-            hidden_lines=flag(self.hidden_lines, "hidden_lines"),
-            point_size=_line_size(self.point_size, "point_size"),
-            batching=flag(self.batching, "batching"),
-            transparent_outputs=flag(self.transparent_outputs, "transparent_outputs"),
-            bloom=_strength(self.bloom),
-            alpha_to_coverage=flag(self.alpha_to_coverage, "alpha_to_coverage"),
-            ambient_occlusion=flag(self.ambient_occlusion, "ambient_occlusion"),
-            ambient_occlusion_radius=optional_positive(
-                self.ambient_occlusion_radius, "ambient_occlusion_radius"
-            ),
-        )
+        for one in fields(self):  # past __setattr__, which refuses
+            self.__dict__[one.name] = one.metadata["check"](self.__dict__[one.name], one.name)
 
     @checks_types
     def pixels_of(self, size: float, height: int) -> float:
@@ -204,7 +273,32 @@ class RenderOptions:
         return min(max(1.0, size * height / _ROWS), MAX_LINE)
 
 
-_DEFAULTS = RenderOptions()
+DEFAULTS = RenderOptions()
+
+
+def core_numbers(options: RenderOptions) -> dict[str, float]:
+    """Return the options that the core takes as they are, by the members of e3d_frame."""
+    found = {}
+    for one in fields(options):
+        core, numbers = one.metadata["core"], one.metadata["numbers"]
+        if core:
+            value = getattr(options, one.name)
+            found[core] = value if numbers is None else numbers[value]
+    return found
+
+
+def shows_options(function: Function) -> Function:
+    """Let ``help`` show the options among the keyword arguments of a function."""
+    signature = inspect.signature(function)
+    own = list(signature.parameters.values())[:-1]
+    rows = [
+        inspect.Parameter(
+            one.name, inspect.Parameter.KEYWORD_ONLY, default=one.default, annotation=one.type
+        )
+        for one in fields(RenderOptions)
+    ]
+    function.__signature__ = signature.replace(parameters=own + rows)
+    return function
 
 
 @functools.lru_cache(16)
@@ -225,7 +319,7 @@ def either(options: RenderOptions | None, keywords: RenderOptions) -> RenderOpti
         return keywords
     if not isinstance(options, RenderOptions):
         raise InvalidArgumentError(f"options must be RenderOptions, not {type(options).__name__}")
-    if keywords != _DEFAULTS:
+    if keywords != DEFAULTS:
         raise InvalidArgumentError(
             "give options or keyword arguments, not both: dataclasses.replace makes other options"
         )

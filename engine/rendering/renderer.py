@@ -7,31 +7,13 @@ gives the same bytes on every backend and every number of threads.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from .._native import rasterizer as _native
-from .._support.calls import hinted, refuse_unknown
+from .._support.calls import refuse_unknown
 from .._support.image_size import check_side, check_size
 from .._support.validation import Closed, choose, is_one_of
-from ..choices import (
-    Antialias,
-    Backend,
-    ColorLike,
-    ColorSpace,
-    Culling,
-    FrameCull,
-    HiddenSurfaces,
-    LineShape,
-    Mode,
-    Normals,
-    PointShape,
-    Samples,
-    Shading,
-    SizeUnit,
-    ToneMapping,
-    Wireframe,
-)
+from ..choices import Antialias, Backend, ColorSpace, Samples
 from ..errors import InvalidArgumentError, SceneChangedError
 from ..geometry.mesh import Mesh
 from ..materials.colors import COLOR_SPACES
@@ -39,21 +21,25 @@ from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.scene import Scene
 from ..scene.scenes_of_things import scene_of
-from ._ambient_occlusion import AmbientOcclusion, radius_of, shows_occlusion
-from ._bloom import Bloom
 from ._draw_list import DrawList
-from ._exact_shadows import ExactShadows
 from ._frame_memory import FrameMemory
 from ._frame_options import OptionsCache
-from ._output_pool import OutputPool, shapes_of
-from ._shadow_maps import ShadowMaps
-from ._surface_pass import SurfacePass
+from ._output_pool import OutputPool
+from ._pass import Picture, Tools
+from ._passes import Passes
+from ._placement import Placing
 from ._turn import RendererTurn
 from ._view import CameraChoice
 from ._viewpoint import Viewpoint, frustum_of
 from .backend_selection import resolve_backend, resolve_threads
-from .frame import Frame, Output
-from .options import WHITE, RenderKeywords, RenderOptions, either, shows_light, with_both_sides
+from .frame import Frame
+from .options import (
+    OptionKeywords,
+    RenderKeywords,
+    RenderOptions,
+    shows_options,
+    with_both_sides,
+)
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -127,16 +113,15 @@ class Renderer(Closed):
         threads = resolve_threads(threads)
         self._native = _native.NativeRenderer(number, threads)
         self._draw_list = DrawList(self._color_space, threads)
-        self._shadow_maps = ShadowMaps(self._native, self._draw_list)
-        self._exact_shadows = ExactShadows(self._draw_list)
         self._options = OptionsCache(self._color_space, threads)
         self._pool = OutputPool()
-        self._bloom = Bloom(number, threads, self._color_space == "srgb")
-        self._asked, self._wanted = (), {}
         self._viewpoint = Viewpoint(self._draw_list)
-        self._surfaces = SurfacePass()
-        self._occlusion = AmbientOcclusion(number, threads)
-        self._memory = FrameMemory(*_SAMPLES[antialias][samples], threads)
+        per_pixel = _SAMPLES[antialias][samples]
+        memory = FrameMemory(*per_pixel, threads)
+        is_srgb = color_space == "srgb"
+        self._passes: Passes | None = Passes(
+            Tools(self._native, self._draw_list, memory, number, threads, is_srgb, per_pixel)
+        )
         self._turn = RendererTurn(self._native)
 
     @property
@@ -168,20 +153,19 @@ class Renderer(Closed):
         width, height = check_side(width, "width"), check_side(height, "height")
         with self._turn.taken():
             self._width, self._height = width, height
-            self._asked = ()
             self._forget_arrays()
 
     def close(self) -> None:
         """Free what the renderer holds; frames stay valid. Drawing afterwards raises."""
         with self._turn.taken(closing=True):
-            self._native = self._draw_list = self._viewpoint = None
-            self._shadow_maps = self._exact_shadows = None
+            self._native = self._draw_list = self._viewpoint = self._passes = None
             self._turn.let_go()
-            self._forget_arrays()
+            self._pool.forget()
 
     def _forget_arrays(self) -> None:
-        for memory in (self._pool, self._bloom, self._surfaces, self._occlusion):
-            memory.forget()
+        self._pool.forget()
+        if self._passes is not None:
+            self._passes.forget()
 
     def __reduce_ex__(self, protocol):
         raise TypeError("a Renderer cannot be copied or pickled: make one in each process")
@@ -192,15 +176,13 @@ class Renderer(Closed):
     def __exit__(self, *exception: object) -> None:
         self.close()
 
+    @shows_options
     def prepare(
         self,
         scene: Scene,
         *,
-        mode: Mode = "lit",
-        wireframe: Wireframe | None = None,
-        outputs: Iterable[Output] = ("color",),
-        normals: Normals = "auto",
         options: RenderOptions | None = None,
+        **keywords: Unpack[OptionKeywords],
     ) -> None:
         """Do beforehand what the first frame of a scene would do, so that it is as fast as others.
 
@@ -211,7 +193,7 @@ class Renderer(Closed):
         Parameters
         ----------
         scene : Scene
-        mode, wireframe, outputs, normals, options
+        options, **keywords
             As the frames will be drawn: see `render`.
 
         Raises
@@ -220,30 +202,18 @@ class Renderer(Closed):
         """
         with self._turn.taken():
             self._check_drawable(scene)
-            keywords = RenderOptions(
-                mode=mode, wireframe=wireframe, outputs=outputs, normals=normals
-            )
-            options = either(options, keywords)
+            options = self._options.named(options, keywords)
             frame_options = self._options.get(scene, options, self._height)
+            size = self._width, self._height
+            plan = self._passes.plan(options, options.outputs, size)
             headlight = (*frame_options.headlight, (0.0, 0.0, 1.0))
-            needs = frame_options.needs(options.outputs)
-            census = scene._census()
+            listing, census = frame_options.listing(options.outputs), scene._census()
             try:
-                self._draw_list.update(
-                    scene,
-                    needs,
-                    options.normals,
-                    headlight,
-                    None,
-                    0.0,
-                    True,
-                    by_mesh=options.cull == "auto",
-                )
+                self._draw_list.update(scene, listing, headlight, Placing())
             except Exception as error:
                 _blame_change(scene, census, error)
                 raise
-            self._memory.begin(options, self._width, self._height)
-            self._pool.prepare(shapes_of(options.outputs, self._width, self._height))
+            self._pool.prepare(plan.outputs)
             axis, multiple = _SAMPLES[self._antialias][self._samples]
             self._native.prepare(self._width * axis, self._height * axis, multiple or 1)
 
@@ -253,38 +223,16 @@ class Renderer(Closed):
         if self._native is None:
             raise InvalidArgumentError("the renderer is closed")
 
-    @hinted
-    @hinted
+    @shows_options
     def render(
         self,
         scene: Scene,
         camera: CameraChoice = None,
         *,
-        mode: Mode = "lit",
-        wireframe: Wireframe | None = None,
-        cull: FrameCull = "back",
-        shading: Shading = "deferred",
-        outputs: Iterable[Output] = ("color",),
         out: Frame | None = None,
-        normals: Normals = "auto",
-        hidden_surfaces: HiddenSurfaces = "zbuffer",
-        line_width: float = 1.0,
-        line_color: ColorLike = WHITE,
-        hidden_lines: bool = False,
-        point_size: float = 1.0,
-        culling: Culling = "all",
         culling_camera: CameraChoice = None,
-        batching: bool = True,
-        transparent_outputs: bool = False,
-        tone_mapping: ToneMapping = "none",
-        bloom: float = 0.0,
-        line_shape: LineShape = "plain",
-        point_shape: PointShape = "square",
-        size_unit: SizeUnit = "pixels",
-        alpha_to_coverage: bool = False,
-        ambient_occlusion: bool = False,
-        ambient_occlusion_radius: float | None = None,
         options: RenderOptions | None = None,
+        **keywords: Unpack[OptionKeywords],
     ) -> Frame:
         """Draw a frame.
 
@@ -294,84 +242,16 @@ class Renderer(Closed):
         camera : None, Node or (Camera, pose)
             A node of this scene. None is its first visible camera; a scene without one is framed
             automatically.
-        mode : {"lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"}
-            What the colour shows: light, plain surface colour, a random colour per triangle,
-            nearness, view-space normals, identities as colours, or how often each pixel was
-            covered.
-        wireframe : {None, "overlay", "only"}
-            Draw the visible edges over the picture, or instead of its faces.
-        cull : {"back", "front", "none", "auto"}
-            Which faces are left out: those that show their back, or those that show their front.
-            ``"auto"`` shows both sides, but leaves the backs out of opaque meshes that enclose a
-            volume, their fronts outside, where the picture is the same.
-        shading : {"deferred", "forward"}
-            When pixels are shaded: once each, or as they are drawn. Both give the same bytes.
-        outputs : iterable of str
-            Which arrays the frame holds: ``color``, ``depth``, ``ndc_depth``, ``triangle_id``,
-            ``object_id``, ``instance_id``, ``material_id``, ``albedo``, ``normal``, ``position``,
-            ``world_normal``, ``world_position``, ``uv``, ``barycentric``, ``metallic_roughness``,
-            ``emissive``, ``tangent``, ``radiance``: see `Frame`.
         out : Frame, optional
             An earlier frame of the same size to draw into; its outputs are drawn, and it is
             returned.
-        normals : {"auto", "smooth", "flat", "facet"}
-            Vertex or face normals; ``"auto"`` follows each material's ``flat_shading``. With
-            ``"facet"`` each triangle also has one light, that of its middle.
-        hidden_surfaces : {"zbuffer", "painter", "none"}
-            The method of hidden-surface removal: depth buffer, painter's algorithm (drawing from
-            far to near), or none.
-        line_width, point_size : float
-            In ``size_unit``, more than 0 and up to 256.
-        line_color : sequence of 3 numbers
-            Colour of the wireframe.
-        hidden_lines : bool
-            With ``wireframe="only"``: show the edges that faces hide as well.
-        culling : {"all", "tree", "frustum", "none", "always"}
-            What is left out before it is drawn. ``"all"``: nodes and parts of meshes outside of the
-            view frustum, or that face away, and what is hidden by what is drawn already, tested
-            where that may pay; ``"always"`` tests it in every frame. ``"tree"``: only nodes (and
-            instances) outside of the frustum, found by the scene's tree of boxes. ``"frustum"``:
-            the same ones, found by testing their boxes one by one. ``"none"``: nothing.
-            The picture is the same; ``frame.stats["boxes_tested"]`` counts the tests.
         culling_camera : Node or (Camera, pose), optional
             Cull as seen from this camera, but draw as seen from ``camera``, to look at what culling
             leaves out.
-        batching : bool
-            Hand nodes of the same mesh to the core as one draw. The picture is the same.
-        transparent_outputs : bool
-            Outputs other than ``color`` are of the nearest surface, even if it is blended; else of
-            the nearest that isn't. ``radiance`` has all layers in any case. Modes other than "lit"
-            and "unlit" show blended surfaces as opaque ones anyway.
-        tone_mapping : {"none", "neutral", "aces", "agx"}
-            How light of any brightness becomes what a screen can show, in mode "lit": of lit
-            surfaces and of an environment behind them. ``"none"`` shows what is above 1 as 1;
-            ``"neutral"`` (Khronos PBR Neutral) keeps colours up to 0.8 and makes room above;
-            ``"aces"`` and ``"agx"`` look like film, the latter with softer contrast.
-        bloom : float
-            How much of the light above 1 glows around where it comes from, in modes "lit" and
-            "unlit", 0 to 100; 1 is a lot. It changes no alpha, so that before a transparent
-            background only what is drawn glows.
-        line_shape : {"plain", "round"}
-            Of lines and of a wireframe's edges. ``"plain"``: their ends are cut along a row or a
-            column, and lines of up to a pixel take one pixel for each step, so that slanted ones
-            are thinner across. ``"round"``: as wide as they say at any angle, with half a disc at
-            each end, so that lines that meet have round joins.
-        point_shape : {"square", "round"}
-        size_unit : {"pixels", "picture"}
-            What line_width and point_size count: pixels, or thousandths of the picture's height, so
-            that a scene looks alike at every size; of these at least 1 pixel is drawn, and at
-            most 256.
-        alpha_to_coverage : bool
-            With ``antialias="msaa"``: the alpha of materials of ``alpha_mode="mask"`` tells how
-            many of a pixel's samples they cover, half of them at ``alpha_cutoff``: foliage gets
-            smooth edges. Else alpha leaves all that they cover, or none.
-        ambient_occlusion : bool
-            In mode "lit": less of the light from all around reaches corners and hollows.
-        ambient_occlusion_radius : float, optional
-            World units: what is farther away is in no light's way. By default a share of the
-            diagonal of the scene's box.
         options : RenderOptions, optional
-            Instead of the arguments above that it holds, which must then be left out.
+            Instead of keyword arguments that it holds, which must then be left out.
+        **keywords
+            As of `RenderOptions`: ``mode``, ``wireframe``, ``outputs`` and so on.
 
         Returns
         -------
@@ -390,31 +270,8 @@ class Renderer(Closed):
         """
         with self._turn.taken():
             self._check_drawable(scene)
-            given = (
-                mode,
-                wireframe,
-                cull,
-                shading,
-                normals,
-                hidden_surfaces,
-                line_width,
-                line_color,
-                hidden_lines,
-                point_size,
-                culling,
-                batching,
-                transparent_outputs,
-                tone_mapping,
-                bloom,
-                line_shape,
-                point_shape,
-                size_unit,
-                alpha_to_coverage,
-                ambient_occlusion,
-                ambient_occlusion_radius,
-            )
-            named = self._options.of_keywords(given, outputs)
-            return self._draw(scene, camera, either(options, named), out, culling_camera)
+            options = self._options.named(options, keywords)
+            return self._draw(scene, camera, options, out, culling_camera)
 
     def _draw(
         self,
@@ -425,86 +282,61 @@ class Renderer(Closed):
         culling_camera: CameraChoice,
     ) -> Frame:
         """Draw a frame in the turn that the caller has."""
-        frame_options = self._options.get(scene, options, self._height)
-        self._memory.begin(options, self._width, self._height)
-        frame = self._new_frame(options.outputs) if out is None else self._check_out(out)
-        census = scene._census()
+        size = self._width, self._height
+        outputs = options.outputs if out is None else self._check_out(out).outputs
+        plan = self._passes.plan(options, outputs, size)
+        frame = Frame(*size, self._pool.take(plan.outputs)) if out is None else out
+        census, reads_scene = scene._census(), True
         try:
-            view = self._viewpoint.look(scene, camera, self._width, self._height)
-            headlight = (*frame_options.headlight, view.towards_viewer)
-            chosen = frustum_of(scene, culling_camera, self._width, self._height)
-            frustum = view.clip_from_world if chosen is None else chosen
-            by_mesh = options.cull == "auto"
-            self._draw_list.update(
-                scene,
-                frame_options.needs(frame.outputs),
-                options.normals,
-                headlight,
-                None if options.culling == "none" else frustum,
-                frame_options.mark_size / min(self._width, self._height),
-                options.batching,
-                options.culling == "frustum",
-                by_mesh,
-            )
-            shadow_cull = options.cull
-            self._draw_list.native.close_windows()
-            if by_mesh:
-                windows = self._draw_list.open_windows(scene, view, (self._width, self._height))
-                shadow_cull = "none" if self._draw_list.has_holes else "back"
-                if windows is None:
-                    frame_options = self._options.get(scene, with_both_sides(options), self._height)
-            if options.mode == "lit" and shows_light(frame.outputs):
-                self._shadow_maps.update(scene, view, shadow_cull, self._memory)
+            picture = self._look(scene, camera, options, outputs, culling_camera)
+            picture.targets, picture.arrays = self._passes.arrays(plan, frame._outputs)
+            for one in plan.passes:
+                reads_scene = "scene" in one.reads
+                one.draw(picture)
                 self._turn.check()
-                self._exact_shadows.update(scene, self._memory)
-            near, far = 0.0, 1.0
-            if options.mode == "depth":
-                near, far = view.depth_range(scene.bounds)
         except Exception as error:
-            _blame_change(scene, census, error)
+            if reads_scene:
+                _blame_change(scene, census, error)
             raise
-        visibility = None
-        if shows_occlusion(options, frame.outputs):
-            depth = self._surfaces.draw(
-                *(self._native, self._draw_list, frame_options, view),
-                (self._width, self._height),
-                ("depth",),
-                frozen_clip_from_world=chosen,
-            )["depth"]
-            visibility = self._occlusion.find(depth, view, radius_of(options, scene.bounds))
-        targets = self._bloom.targets(frame._outputs, options)
-        drawn = self._native.render(
-            self._draw_list.native,
-            targets,
-            frame_options.native,
-            self._width,
-            self._height,
-            *_SAMPLES[self._antialias][self._samples],
-            view.clip_from_world,
-            view.view_from_world,
-            view.eye,
-            id(view.camera),
-            near,
-            far,
-            chosen,
-            view.rays if frame_options.has_backdrop else None,
-            visibility,
-        )
-        self._turn.check()
-        drawn.shadow_maps, drawn.shadow_maps_drawn = (
-            self._shadow_maps.count,
-            self._shadow_maps.drawn,
-        )
-        self._bloom.add(targets, options)
-        frame._seen = view, "none" if by_mesh else options.cull
-        frame._drawn = scene._arrays.count - scene._removed, drawn
+        frame._seen = picture.view, "none" if options.cull == "auto" else options.cull
+        frame._drawn = scene._arrays.count - scene._removed, picture.drawn
         return frame
 
-    def _new_frame(self, outputs: tuple[str, ...]) -> Frame:
-        if outputs is not self._asked:
-            self._wanted = shapes_of(outputs, self._width, self._height)
-            self._asked = outputs
-        return Frame(self._width, self._height, self._pool.take(self._wanted))
+    def _look(
+        self,
+        scene: Scene,
+        camera: CameraChoice,
+        options: RenderOptions,
+        outputs: tuple[str, ...],
+        culling_camera: CameraChoice,
+    ) -> Picture:
+        """Bring the draw list up to date, and return what passes begin with."""
+        size = self._width, self._height
+        frame_options = self._options.get(scene, options, self._height)
+        view = self._viewpoint.look(scene, camera, *size)
+        chosen = frustum_of(scene, culling_camera, *size)
+        frustum = view.clip_from_world if chosen is None else chosen
+        self._draw_list.update(
+            scene,
+            frame_options.listing(outputs),
+            (*frame_options.headlight, view.towards_viewer),
+            frame_options.placing(frustum, size),
+        )
+        picture = Picture(scene, options, frame_options, view, size, chosen, options.cull)
+        self._draw_list.native.close_windows()
+        if options.cull == "auto":
+            self._let_backs_show(picture)
+        if options.mode == "depth":
+            picture.depth_range = view.depth_range(scene.bounds)
+        return picture
+
+    def _let_backs_show(self, picture: Picture) -> None:
+        """Leave out backs of closed meshes only, and only where nobody looks into their holes."""
+        windows = self._draw_list.open_windows(picture.scene, picture.view, picture.size)
+        picture.shadow_cull = "none" if self._draw_list.has_holes else "back"
+        if windows is None:
+            options = with_both_sides(picture.options)
+            picture.frame_options = self._options.get(picture.scene, options, self._height)
 
     def _check_out(self, out: Frame) -> Frame:
         if not isinstance(out, Frame):

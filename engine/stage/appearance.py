@@ -6,10 +6,12 @@ In: option values. Out: the keyword arguments of one ``render`` call.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import get_args
+from dataclasses import fields
+from types import SimpleNamespace
+from typing import Any, get_args
 
 from .. import linalg
+from .._support.calls import refuse_unknown
 from ..choices import (
     Culling,
     FrameCull,
@@ -22,6 +24,7 @@ from ..choices import (
 from ..environments.environment import Environment
 from ..geometry.mesh import Mesh
 from ..materials.colors import linear_color
+from ..rendering.options import RenderOptions
 from ..scene.gradients import Gradient
 from ..scene.instances import InstancedMesh
 
@@ -42,33 +45,24 @@ MOST_PIXELS = 6.0
 _LUMINANCE = (0.2126, 0.7152, 0.0722)
 
 
-@dataclass
-class Appearance:
-    """The drawing options of one frame; the fields are those of `Renderer.render`.
+#: The options of pictures that views have, and what they are unless something says otherwise.
+DEFAULTS = {one.name: one.default for one in fields(RenderOptions) if one.name != "outputs"} | {
+    "line_color": None,
+    "point_size": None,
+}
+
+
+class Appearance(SimpleNamespace):
+    """The drawing options of one frame: those of `RenderOptions`, but its outputs, as attributes.
 
     ``line_color`` is (r, g, b), integers 0 to 255, sRGB; None is dark over faces, and without them
-    what is seen before the background. Widths and sizes are in ``size_unit``; a ``point_size`` of
-    None goes by the picture and by how many points there are.
+    what is seen before the background. A ``mode`` may be an output. A ``point_size`` of None goes
+    by the picture and by how many points there are.
     """
 
-    mode: str = "lit"
-    wireframe: str | None = None
-    cull: str = "back"
-    culling: str = "all"
-    shading: str = "deferred"
-    normals: str = "auto"
-    hidden_surfaces: str = "zbuffer"
-    line_width: float = 1.0
-    line_color: tuple[int, int, int] | None = None
-    hidden_lines: bool = False
-    point_size: float | None = None
-    line_shape: str = "plain"
-    point_shape: str = "square"
-    size_unit: str = "pixels"
-    tone_mapping: str = "none"
-    bloom: float = 0.0
-    ambient_occlusion: bool = False
-    ambient_occlusion_radius: float | None = None
+    def __init__(self, **given: Any) -> None:
+        refuse_unknown(Appearance, given, DEFAULTS)
+        super().__init__(**(DEFAULTS | given))
 
     def arguments(self, background, point_size: float) -> dict:
         """Return the keyword arguments for `Renderer.render`.

@@ -1,6 +1,7 @@
 """The choices that type checkers know are those that are accepted at run time."""
 
 import inspect
+from dataclasses import fields
 from itertools import permutations
 from typing import get_args, get_type_hints
 
@@ -31,7 +32,7 @@ ACCEPTED = {
     "OutputMode": {*frame.OUTPUTS} - {*native.MODES, "color", "ndc_depth"},
     "Wireframe": [name for name in native.WIREFRAMES if name is not None],
     "Cull": native.CULLS,
-    "FrameCull": render_options._CULLS,
+    "FrameCull": [*native.CULLS, "auto"],
     "Shading": native.SHADINGS,
     "Normals": native.NORMALS,
     "HiddenSurfaces": native.HIDDEN_SURFACES,
@@ -98,6 +99,8 @@ def passed_on(function):
 
 def test_options_that_functions_pass_on_are_those_of_the_function():
     declared = render_options.RenderKeywords.__annotations__
+    names = {one.name for one in fields(render_options.RenderOptions)}
+    assert render_options.OptionKeywords.__annotations__.keys() == names
     assert declared.keys() == passed_on(e3d.Renderer.render).keys()
     for name, annotation in passed_on(e3d.Renderer.render).items():
         assert declared[name].__forward_arg__ == annotation, name

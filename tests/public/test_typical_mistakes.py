@@ -202,5 +202,5 @@ def test_a_hexahedron_is_never_inside_out(order):
 def test_every_output_is_named_where_frames_are_asked_for():
     from engine3d.rendering.frame import OUTPUTS
 
-    documented = e3d.Renderer.render.__doc__
+    documented = e3d.RenderOptions.__doc__
     assert not [name for name in OUTPUTS if f"``{name}``" not in documented]

@@ -12,7 +12,9 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.rendering import _frame_memory, options
+from engine3d.rendering import _frame_memory, _passes, options
+from engine3d.rendering._pass import Tools
+from engine3d.rendering._shadow_maps import ShadowMaps
 from engine3d.rendering.frame import OUTPUTS
 
 LIGHTS = {
@@ -34,6 +36,18 @@ def scene_of(lights=()):
     for number, light in enumerate(lights):
         scene.add(light, translation=(2.0, 2.0, 2.0 + number))
     return scene
+
+
+def maps_of(renderer):
+    """The maps of shadows that a renderer keeps, by light."""
+    passes = renderer._passes._all
+    return next(one for one in passes if isinstance(one, ShadowMaps))._kept
+
+
+def plan_of(options, size, threads):
+    tools = Tools(None, None, None, 0, threads, True, (1, 0))
+    passes = [make(tools) for make in _passes.PASSES]
+    return _passes.plan_of(passes, options, options.outputs, size)
 
 
 def allow(monkeypatch, size, a_pixel=0):
@@ -68,13 +82,13 @@ def test_maps_of_shadows_are_counted(case, monkeypatch):
     lights = [LIGHTS[k](shadow=True, shadow_map_size=s) for k, s in zip(kinds, sizes, strict=True)]
     with e3d.Renderer(16, 16) as renderer:
         frame = renderer.render(scene_of(lights))
-        maps = renderer._shadow_maps._kept.values()
+        maps = maps_of(renderer).values()
         size = sum(kept.depths.nbytes for kept in maps) + 16 * 16 * 8
     with e3d.Renderer(16, 16) as renderer:
         allow(monkeypatch, size - 1)
         with pytest.raises(e3d.InvalidArgumentError, match="shadow_map_size") as refused:
             renderer.render(scene_of(lights))
-        assert renderer._shadow_maps._kept == {}
+        assert maps_of(renderer) == {}
         largest = max(zip(sizes, kinds, strict=True))[0]
         assert f"{largest}x{largest}" in str(refused.value) and "\n" not in str(refused.value)
         allow(monkeypatch, size)
@@ -99,7 +113,8 @@ def test_a_few_bytes_of_a_scene_file_take_no_gigabytes(tmp_path):
 @pytest.mark.parametrize("sides", [(4096, 4096), (2048,) * 8])
 def test_large_maps_are_no_error(sides):
     memory = _frame_memory.FrameMemory(1, 0, 1)
-    memory.begin(e3d.RenderOptions(bloom=1.0, ambient_occlusion=True), 1920, 1080)
+    options, size = e3d.RenderOptions(bloom=1.0, ambient_occlusion=True), (1920, 1080)
+    memory.check(options.outputs, size, plan_of(options, size, 1).uses)
     memory.add_maps(("PointLight", 6, side) for side in sides)
 
 
@@ -142,8 +157,10 @@ def test_what_goes_by_the_picture_alone_always_fits():
     """Bloom and ambient occlusion of the largest picture, with the most threads and samples."""
     memory = _frame_memory.FrameMemory(1, 16, 256)
     glowing = e3d.RenderOptions(bloom=1.0, ambient_occlusion=True)
-    memory._size = 16384, 16384
-    memory._check(memory._uses_of(glowing, 16384, 16384))
+    memory._size = size = 16384, 16384
+    plan = plan_of(glowing, size, 256)
+    assert {use.what for use in plan.uses} == {"bloom", "ambient occlusion"}
+    memory._check(plan.uses + memory._uses_of(*size))
 
 
 def test_the_limit_is_what_the_program_says(monkeypatch):

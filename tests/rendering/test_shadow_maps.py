@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
+from engine3d.rendering._shadow_maps import ShadowMaps
 
 DOWN = (0.0, -1.0, 0.0)
 
@@ -20,6 +21,11 @@ def stage(light=None, **light_options):
     )
     lamp = scene.add(light, name="light")
     return scene, floor, box, lamp
+
+
+def shadow_maps(renderer):
+    """The pass of a renderer that draws them."""
+    return next(one for one in renderer._passes._all if isinstance(one, ShadowMaps))
 
 
 def seen_from_above(scene, size=(160, 160), **options):
@@ -252,7 +258,7 @@ def test_the_ranges_of_kept_maps_change_no_pixel(kind):
                 expected = other.render(scene, camera).color
             for frame in range(3):
                 assert np.array_equal(renderer.render(scene, camera).color, expected)
-                kept = renderer._shadow_maps._kept[0]
+                kept = shadow_maps(renderer)._kept[0]
                 taps, step = light.shadow_taps, round(256 * light.shadow_radius)
                 found = [drawn.compared == (taps, step) for drawn in kept.drawn]
                 assert all(found) or frame == 0
@@ -277,7 +283,7 @@ def far_stage():
 def maps_of(renderer, scene, camera, pose):
     """The maps of the first light: what they show, and where they are."""
     renderer.render(scene, (camera, pose))
-    kept = renderer._shadow_maps._kept[0]
+    kept = shadow_maps(renderer)._kept[0]
     from engine3d.rendering import _shadow_views
 
     towards, _ = renderer._draw_list.lights.placed()[0][2]

@@ -195,7 +195,7 @@ class Guests:
 @pytest.mark.parametrize("seed", range(4))
 def test_whatever_comes_and_goes(seed, monkeypatch):
     """By a renderer that looks at each frame, one that looks now and then, and a new one."""
-    monkeypatch.setattr("engine3d.rendering._draw_list.MANY", 3)  # instances that get a tree
+    monkeypatch.setattr("engine3d.rendering._instance_trees.MANY", 3)  # instances that get a tree
     guests, outputs = Guests(seed), ("color", "object_id", "instance_id")
     camera, shows = VIEW[0], set()
     with e3d.Renderer(64, 48, threads=1) as always, e3d.Renderer(64, 48, threads=1) as seldom:

@@ -1,0 +1,123 @@
+"""The passes of a picture: which it has, in which order, and the arrays that they share.
+
+In: the options and outputs of a picture. Out: its passes, drawn one after the other. Arrays of
+passes are used again from frame to frame.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from . import options as limits
+from ._ambient_occlusion import AmbientOcclusion
+from ._bloom import Bloom
+from ._color_pass import ColorPass
+from ._exact_shadows import ExactShadows
+from ._frame_memory import Use
+from ._memo import Memo
+from ._output_pool import OutputPool, shapes_of
+from ._pass import Pass, Shapes, Tools
+from ._shadow_maps import ShadowMaps
+from ._surface_pass import SURFACE, SurfacePass
+from .frame import OUTPUTS
+from .options import RenderOptions
+
+Arrays: TypeAlias = dict[str, np.ndarray]
+#: All passes, in the order in which they are drawn.
+PASSES: tuple[type[Pass], ...] = (
+    ShadowMaps,
+    ExactShadows,
+    SurfacePass,
+    AmbientOcclusion,
+    ColorPass,
+    Bloom,
+)
+
+
+class Plan(NamedTuple):
+    """What pictures of the same options, outputs and size have in common."""
+
+    passes: list[Pass]
+    outputs: Shapes  # of the frame
+    others: Shapes  # outputs that passes read, though the frame has them not
+    arrays: Shapes  # of the passes
+    uses: list[Use]  # what passes take of memory
+
+
+def plan_of(
+    passes: list[Pass], options: RenderOptions, outputs: tuple[str, ...], size: tuple[int, int]
+) -> Plan:
+    """Return which of the passes a picture has, and their arrays."""
+    chosen: list[Pass] = []
+    read: set[str] = set()
+    for one in reversed(passes):
+        if one.is_in(options, outputs, read):
+            chosen.insert(0, one)
+            read.update(one.reads)
+    plan = Plan(chosen, shapes_of(outputs, *size), {}, {}, [])
+    for one in chosen:
+        _add_arrays(plan, one, size)
+    return plan
+
+
+def _add_arrays(plan: Plan, one: Pass, size: tuple[int, int]) -> None:
+    """Add the arrays of a pass that no earlier one has."""
+    read = tuple(name for name in one.reads if name in OUTPUTS and name not in plan.outputs)
+    others = shapes_of(read, *size)
+    arrays = one.arrays(*size)
+    for name in one.reads:
+        if name.startswith(SURFACE):
+            arrays |= {name: shapes_of((name.removeprefix(SURFACE),), *size).popitem()[1]}
+    added = [
+        *(form for name, form in others.items() if name not in plan.others),
+        *(form for name, form in arrays.items() if name not in plan.arrays),
+    ]
+    if added:
+        bytes_of = (dtype.itemsize * math.prod(shape) for shape, dtype in added)
+        plan.uses.append(Use(sum(bytes_of), one.name, one.advice))
+    plan.others.update(others)
+    plan.arrays.update(arrays)
+
+
+class Passes:
+    """The passes of one renderer.
+
+    Parameters
+    ----------
+    tools : Tools
+    """
+
+    def __init__(self, tools: Tools) -> None:
+        self._memory = tools.memory
+        self._all = [make(tools) for make in PASSES]
+        self._pool = OutputPool()
+        self._planned = Memo()
+        self._plan: Plan
+
+    def plan(self, options: RenderOptions, outputs: tuple[str, ...], size: tuple[int, int]) -> Plan:
+        """Return the plan of a picture, whose memory is checked.
+
+        Raises
+        ------
+        InvalidArgumentError
+            It takes more memory than a frame may.
+        """
+        if self._planned.differs(options, outputs, size, limits.MAX_FRAME_BYTES):
+            self._plan = plan_of(self._all, options, outputs, size)
+            self._memory.check(outputs, size, self._plan.uses)
+            self._planned.done()
+        return self._plan
+
+    def arrays(self, plan: Plan, outputs: Arrays) -> tuple[Arrays, Arrays]:
+        """Return what colours are drawn into, a frame's outputs and others; and all else."""
+        if not plan.uses:
+            return outputs, {}
+        taken = self._pool.take(plan.others | plan.arrays)
+        return outputs | {name: taken.pop(name) for name in plan.others}, taken
+
+    def forget(self) -> None:
+        """Free what is not in use."""
+        self._pool.forget()

@@ -1,0 +1,80 @@
+"""The list of passes: what one reads is there, whoever else asked for it."""
+
+import numpy as np
+import pytest
+
+import engine3d as e3d
+from engine3d.rendering import _passes
+from engine3d.rendering._color_pass import ColorPass
+from engine3d.rendering._pass import Pass
+
+
+def test_each_pass_reads_what_an_earlier_one_writes():
+    written = {"scene"}
+    for one in _passes.PASSES:
+        assert written.issuperset(one.reads), one
+        written.update(one.writes)
+
+
+def test_what_needs_arrays_says_what_takes_fewer():
+    for one in _passes.PASSES:
+        reads_arrays = any(name.startswith("surface_") for name in one.reads)
+        if reads_arrays or one.arrays is not Pass.arrays:
+            assert one.name and one.advice
+
+
+class Darker(Pass):
+    """Halves colours where surfaces face away from the viewer, by an output that it asks for."""
+
+    reads = ("normal", "color")
+    writes = ("color",)
+    name, advice = "shade", "no shade"
+
+    def is_in(self, options, outputs, read):
+        return "color" in outputs
+
+    def arrays(self, width, height):
+        return {"shade": ((height, width), np.dtype(np.float32))}
+
+    def draw(self, picture):
+        shade = picture.arrays["shade"]
+        np.maximum(picture.targets["normal"][..., 2], 0.5, out=shade)
+        picture.targets["color"][..., :3] = picture.targets["color"][..., :3] * shade[..., None]
+
+
+@pytest.fixture
+def scene():
+    scene = e3d.Scene()
+    scene.add(e3d.uv_sphere())
+    return scene
+
+
+def test_a_pass_gets_outputs_that_nobody_asked_for(monkeypatch, scene):
+    plain = e3d.render(scene, size=(40, 30), outputs=("color", "normal"))
+    monkeypatch.setattr(_passes, "PASSES", (ColorPass, Darker))
+    with e3d.Renderer(40, 30) as renderer:
+        for outputs in (("color",), ("normal", "color"), ("color",)):
+            frame = renderer.render(scene, outputs=outputs)
+            assert frame.outputs == outputs
+            shade = np.maximum(plain.normal[..., 2:], 0.5)
+            assert np.array_equal(
+                frame.color[..., :3], (plain.color[..., :3] * shade).astype(np.uint8)
+            )
+        depth = renderer.render(scene, outputs=("depth",)).depth
+    assert np.array_equal(depth, e3d.render(scene, size=(40, 30), outputs=("depth",)).depth)
+
+
+def test_a_pass_that_reads_no_scene_is_not_blamed_on_it(monkeypatch, scene):
+    class Wrong(Pass):
+        def is_in(self, options, outputs, read):
+            return True
+
+        def draw(self, picture):
+            picture.scene.add(e3d.box())
+            raise ArithmeticError
+
+    for reads, error in (((), ArithmeticError), (("scene",), e3d.SceneChangedError)):
+        monkeypatch.setattr(Wrong, "reads", reads)
+        monkeypatch.setattr(_passes, "PASSES", (Wrong, ColorPass))
+        with e3d.Renderer(8, 8) as renderer, pytest.raises(error):
+            renderer.render(scene)

@@ -66,11 +66,13 @@ int e3d_alpha_add(const e3d_tile_job *job, const e3d_piece *piece, e3d_alpha_act
     }
 }
 
-int e3d_alpha_shade(const e3d_tile_job *job, e3d_alpha_use use, float (*color)[4], float (*through)[4], float (*light)[4])
+int e3d_alpha_shade(const e3d_tile_job *job, e3d_sink sink, e3d_shaded_list to)
 {
-    e3d_alpha_shading shading = {.use = use, .alpha = job->memory->alpha.alpha, .color = color, .through = through, .light = light, .piece = -1};
     e3d_shade_out out = job->shades;
-    out.alpha = &shading;
+    to.alpha = job->memory->alpha.alpha;
+    to.piece = -1;
+    out.sink = sink;
+    out.list = &to;
     return e3d_shade_shown(job->in->shade, &job->tile, &out);
 }
 
@@ -82,7 +84,7 @@ static int act_on(const e3d_tile_job *job, sample_action act)
 {
     const e3d_shade_memory *shade = &job->memory->shade;
     const e3d_alpha_memory *memory = &job->memory->alpha;
-    if (!e3d_alpha_shade(job, E3D_ALPHA_TEST, NULL, NULL, NULL))
+    if (!e3d_alpha_shade(job, E3D_SINK_ALPHA_TEST, (e3d_shaded_list){0}))
         return 0;
     const e3d_visible_primitive *pieces = shade->pieces.data;
     const e3d_bucket *buckets = shade->buckets.data;

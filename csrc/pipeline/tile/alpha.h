@@ -22,7 +22,7 @@ typedef struct e3d_alpha_fragments {
     e3d_array sample; /* int32_t */
     e3d_array of;     /* int32_t: the number of its ID, of which there are fewer */
     e3d_array ids;    /* int32_t */
-    e3d_array color;  /* float[4]: clamped, with alpha (e3d_alpha_shading.color) */
+    e3d_array color;  /* float[4]: clamped, with alpha (e3d_shaded_list.color) */
     e3d_array through; /* float[4], where light passes through some material */
     e3d_array light;   /* float[4], where radiance is asked for */
     e3d_array depth, which;               /* sorted by sample: int32_t, greater is farther; uint32_t, the number of the fragment */
@@ -68,7 +68,7 @@ typedef int (*e3d_alpha_action)(const e3d_tile_job *job);
 int e3d_alpha_add(const e3d_tile_job *job, const e3d_piece *piece, e3d_alpha_action action);
 /* Begins a list of what is in front of the visible surface; `all`: of everything that is no farther than the far plane. */
 void e3d_alpha_begin(const e3d_tile_job *job, int all);
-/* Shades the list; `color`, `through` and `light`: of each entry, where these are kept, or NULL. */
-int e3d_alpha_shade(const e3d_tile_job *job, e3d_alpha_use use, float (*color)[4], float (*through)[4], float (*light)[4]);
+/* Shades the list; `to`: where what is kept of each entry goes, but for alphas that are tested. */
+int e3d_alpha_shade(const e3d_tile_job *job, e3d_sink sink, e3d_shaded_list to);
 
 #endif

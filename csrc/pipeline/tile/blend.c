@@ -187,8 +187,10 @@ static int keep_list(const e3d_tile_job *job)
         return 1;
     if (!e3d_alpha_reserve_fragments(f, first + count, ids + (size_t)shown->pieces, transmits) ||
         (lights && !e3d_array_reserve(&f->light, first + count, sizeof(float[4]))) ||
-        !e3d_alpha_shade(job, E3D_ALPHA_KEEP, (float (*)[4])f->color.data + first, transmits ? (float (*)[4])f->through.data + first : NULL,
-                         lights ? (float (*)[4])f->light.data + first : NULL))
+        !e3d_alpha_shade(job, E3D_SINK_A_BUFFER,
+                         (e3d_shaded_list){.color = (float (*)[4])f->color.data + first,
+                                           .through = transmits ? (float (*)[4])f->through.data + first : NULL,
+                                           .light = lights ? (float (*)[4])f->light.data + first : NULL}))
         return 0;
     memcpy((float *)f->z.data + first, memory->z, count * sizeof(float));
     memcpy((int32_t *)f->sample.data + first, shown->sample, count * sizeof(int32_t));
@@ -372,7 +374,7 @@ static int blend_rows(const e3d_tile_job *job, const e3d_piece *pieces, int32_t 
             return 0;
     }
     if (!memory->fragments.z.count && !memory->list.met && !keeps_all(job))
-        return !job->memory->shade.shown.count || e3d_alpha_shade(job, E3D_ALPHA_LAY, NULL, NULL, NULL);
+        return !job->memory->shade.shown.count || e3d_alpha_shade(job, E3D_SINK_SAMPLES, (e3d_shaded_list){0});
     return keep_list(job) && e3d_alpha_blend_fragments(job, &job->memory->pixels.samples);
 }
 
@@ -419,7 +421,7 @@ static int lay_later(const e3d_tile_job *job)
     if (!left)
         return 1;
     if (!keeps_all(job))
-        return e3d_alpha_shade(job, E3D_ALPHA_LAY, NULL, NULL, NULL);
+        return e3d_alpha_shade(job, E3D_SINK_SAMPLES, (e3d_shaded_list){0});
     e3d_alpha_clear_fragments(&memory->fragments);
     return keep_list(job) && e3d_alpha_blend_fragments(job, &job->memory->pixels.samples);
 }
@@ -454,7 +456,7 @@ static int shade_front(const e3d_tile_job *job)
             runs->rows[count++] = (e3d_run){front[s], (uint16_t)s, 1};
     }
     e3d_show_runs(e3d_sort_runs(runs->rows, runs->spare, count), count, &job->memory->shade.shown);
-    return !count || e3d_alpha_shade(job, E3D_ALPHA_OUTPUTS, NULL, NULL, NULL);
+    return !count || e3d_alpha_shade(job, E3D_SINK_OUTPUTS, (e3d_shaded_list){0});
 }
 
 void e3d_alpha_front(const e3d_tile_job *job)

@@ -152,7 +152,7 @@ static int show_list(const e3d_tile_job *job, const e3d_planes_list *list)
     const e3d_prepared *pass = job->in->pass;
     const e3d_shade_memory *shade = &job->memory->shade;
     const float *alpha = job->memory->alpha.alpha;
-    if (!e3d_alpha_shade(job, E3D_ALPHA_TEST, NULL, NULL, NULL))
+    if (!e3d_alpha_shade(job, E3D_SINK_ALPHA_TEST, (e3d_shaded_list){0}))
         return 0;
     const e3d_visible_primitive *primitives = shade->pieces.data;
     const e3d_bucket *buckets = shade->buckets.data;
@@ -195,7 +195,7 @@ typedef struct layer_entry {
     float through[4]; /* where light passes through some material: its shares that pass (e3d_alpha_layers) */
 } layer_entry;
 
-static int append_entries(const e3d_tile_job *job, const e3d_planes_list *list, const float (*color)[4], const float (*through)[4])
+static int append_entries(const e3d_tile_job *job, const e3d_planes_list *list, float (*color)[4], float (*through)[4])
 {
     e3d_array *kept = &job->memory->multisample->kept;
     const e3d_shown *shown = list->shown;
@@ -220,8 +220,8 @@ static int keep_list(const e3d_tile_job *job, const e3d_planes_list *list)
     int transmits = job->in->pass->draws->any_transmits;
     if (!e3d_alpha_reserve_fragments(f, (size_t)list->shown->count, 0, transmits))
         return 0;
-    float (*through)[4] = transmits ? f->through.data : NULL;
-    return e3d_alpha_shade(job, E3D_ALPHA_KEEP, f->color.data, through, NULL) && append_entries(job, list, f->color.data, through);
+    const e3d_shaded_list to = {.color = f->color.data, .through = transmits ? f->through.data : NULL};
+    return e3d_alpha_shade(job, E3D_SINK_A_BUFFER, to) && append_entries(job, list, to.color, to.through);
 }
 
 /* The kept entries that cover a sample become its plane's fragments. */

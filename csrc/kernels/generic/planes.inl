@@ -490,14 +490,8 @@ static void kernel_raster_planes(e3d_visible_tile *planes, const e3d_sample_patt
     records_touched touched = {0, E3D_BEYOND_FAR};
     uint64_t open = ~records_behind(1.0f, planes);
     for (int i = 0; i < count; i += V_LANES) {
-        const uint32_t *id = ids + i;
-        int left = count - i, some = left < V_LANES ? left : V_LANES;
-        if (records_approach(e3d_record_at(table, id[0]), e3d_record_at(table, id[some - 1]))) {
-            records_turn(id, some, turned); /* the near ones hide the others */
-            id = turned;
-            left = some;
-        }
-        records_take(table, id, left, r);
+        int some = count - i < V_LANES ? count - i : V_LANES;
+        const uint32_t *id = records_next(table, ids + i, count - i, turned, r);
         planes_find(r, planes, pattern, &lanes);
         for (int l = 0; l < some; l++)
             planes_draw(&lanes, l, r[l], (int32_t)id[l], open, &touched, planes, pattern, table);

@@ -4,31 +4,18 @@
  */
 #include <math.h>
 
+#include "core/matrix.h"
 #include "pyrender/picture.h"
 
 /* The inverse, transposed, of the upper 3x3, but for its scale: normals become unit anyway. */
 static void set_normal_matrix(const double m[16], float out[9])
 {
-    double cofactor[9], det = 0, most = 0;
-    for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 3; c++) {
-            int r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
-            double v = m[4 * r1 + c1] * m[4 * r2 + c2] - m[4 * r1 + c2] * m[4 * r2 + c1];
-            cofactor[3 * r + c] = v;
-            most = fabs(v) > most ? fabs(v) : most;
-        }
-    for (int c = 0; c < 3; c++)
-        det += m[c] * cofactor[c];
+    double cofactor[9], det = e3d_find_cofactors(m, cofactor), most = 0;
+    for (int k = 0; k < 9; k++)
+        most = fabs(cofactor[k]) > most ? fabs(cofactor[k]) : most;
     double scale = most > 0 ? (det < 0 ? -1 / most : 1 / most) : 0;
     for (int k = 0; k < 9; k++)
         out[k] = (float)(cofactor[k] * scale);
-}
-
-static void multiply(const double a[16], const double b[16], double out[16])
-{
-    for (int r = 0; r < 4; r++)
-        for (int c = 0; c < 4; c++)
-            out[4 * r + c] = ((a[4 * r] * b[c] + a[4 * r + 1] * b[4 + c]) + a[4 * r + 2] * b[8 + c]) + a[4 * r + 3] * b[12 + c];
 }
 
 static void set_normal(const float m[9], const float n[3], float out[3])
@@ -46,7 +33,7 @@ void pyr_transform(const e3d_pyr_frame *frame, const e3d_pyr_draw *draw, int32_t
 {
     double clip[16];
     float normal[9];
-    multiply(frame->clip_from_world, draw->world, clip);
+    e3d_multiply(frame->clip_from_world, draw->world, clip);
     set_normal_matrix(draw->world, normal);
     int is_lit = frame->shading == E3D_PYR_LIT;
     for (int32_t i = first; i < end; i++) {

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "core/fpenv.h"
+#include "core/matrix.h"
 #include "e3d_scene.h"
 
 /* Finds the 2x2 determinants of two rows, by columns 01, 02, 03, 12, 13, 23. */
@@ -46,13 +47,6 @@ static int invert(const double m[16], double out[16])
     return finite;
 }
 
-static void multiply(const double a[16], const double b[16], double out[16])
-{
-    for (int r = 0; r < 4; r++)
-        for (int c = 0; c < 4; c++)
-            out[4 * r + c] = ((a[4 * r] * b[c] + a[4 * r + 1] * b[4 + c]) + a[4 * r + 2] * b[8 + c]) + a[4 * r + 3] * b[12 + c];
-}
-
 static void normalize(const double v[3], double out[3])
 {
     double largest = 0;
@@ -80,7 +74,7 @@ int e3d_camera_view(const double clip_from_view[16], const double world_from_vie
     e3d_fpenv saved = e3d_fpenv_enter();
     int good = invert(world_from_view, out->view_from_world);
     if (good) {
-        multiply(clip_from_view, out->view_from_world, out->clip_from_world);
+        e3d_multiply(clip_from_view, out->view_from_world, out->clip_from_world);
         const double axis[3] = {world_from_view[2], world_from_view[6], world_from_view[10]};
         normalize(axis, out->towards_viewer);
         int perspective = clip_from_view[12] != 0 || clip_from_view[13] != 0 || clip_from_view[14] != 0;

@@ -215,31 +215,6 @@ static ALWAYS_INLINE void alpha_over(const vf32 color[3], vf32 alpha, vf32 over[
     over[3] = v_add(alpha, v_mul(over[3], rest));
 }
 
-static void kernel_lay(const e3d_batch *batch, e3d_samples *samples)
-{
-    float *const planes[4] = {samples->color[0], samples->color[1], samples->color[2], samples->counts};
-    for (int i = 0; i < batch->count; i += V_LANES) {
-        const int32_t *sample = batch->sample + i;
-        int lanes = batch->count - i < V_LANES ? batch->count - i : V_LANES;
-        int neighbours = lanes == V_LANES && samples_are_neighbours(sample);
-        float room[4][V_LANES];
-        vf32 color[3], over[4], alpha = v_loadf(batch->alpha + i);
-        for (int k = 0; k < 3; k++)
-            color[k] = encode_clamp(v_loadf(batch->color[k] + i));
-        for (int k = 0; k < 4 && !neighbours; k++)
-            for (int lane = 0; lane < V_LANES; lane++)
-                room[k][lane] = planes[k][sample[lane]];
-        for (int k = 0; k < 4; k++)
-            over[k] = v_loadf(neighbours ? planes[k] + sample[0] : room[k]);
-        alpha_over(color, v_self(v_ge(alpha, v_setf(E3D_LEAST_ALPHA)), alpha, v_setf(0.0f)), over);
-        for (int k = 0; k < 4; k++)
-            v_storef(neighbours ? planes[k] + sample[0] : room[k], over[k]);
-        for (int k = 0; k < 4 && !neighbours; k++)
-            for (int lane = 0; lane < lanes; lane++)
-                planes[k][sample[lane]] = room[k][lane];
-    }
-}
-
 /* R135, of one vector. */
 static ALWAYS_INLINE void alpha_over_through(const vf32 color[3], vf32 alpha, const vf32 through[3], vf32 over[4])
 {
@@ -253,7 +228,8 @@ static ALWAYS_INLINE void alpha_over_through(const vf32 color[3], vf32 alpha, co
     over[3] = v_self(v_ge(most, v_setf(E3D_LEAST_ALPHA)), v_max(over[3], most), over[3]);
 }
 
-static void kernel_lay_through(const e3d_batch *batch, const e3d_map_batch *maps, e3d_samples *samples)
+/* Lays a batch over samples; `through`: NULL, or the shares of light that pass. */
+static ALWAYS_INLINE void alpha_lay_batch(const e3d_batch *batch, const e3d_lane_array *through, e3d_samples *samples)
 {
     float *const planes[4] = {samples->color[0], samples->color[1], samples->color[2], samples->counts};
     for (int i = 0; i < batch->count; i += V_LANES) {
@@ -261,23 +237,34 @@ static void kernel_lay_through(const e3d_batch *batch, const e3d_map_batch *maps
         int lanes = batch->count - i < V_LANES ? batch->count - i : V_LANES;
         int neighbours = lanes == V_LANES && samples_are_neighbours(sample);
         float room[4][V_LANES];
-        vf32 color[3], through[3], over[4], alpha = v_loadf(batch->alpha + i);
-        for (int k = 0; k < 3; k++) {
+        vf32 color[3], shares[3], over[4], alpha = v_loadf(batch->alpha + i);
+        alpha = v_self(v_ge(alpha, v_setf(E3D_LEAST_ALPHA)), alpha, v_setf(0.0f));
+        for (int k = 0; k < 3; k++)
             color[k] = encode_clamp(v_loadf(batch->color[k] + i));
-            through[k] = v_loadf(maps->through[k] + i);
-        }
+        for (int k = 0; k < 3 && through; k++)
+            shares[k] = v_loadf(through[k] + i);
         for (int k = 0; k < 4 && !neighbours; k++)
             for (int lane = 0; lane < V_LANES; lane++)
                 room[k][lane] = planes[k][sample[lane]];
         for (int k = 0; k < 4; k++)
             over[k] = v_loadf(neighbours ? planes[k] + sample[0] : room[k]);
-        alpha_over_through(color, v_self(v_ge(alpha, v_setf(E3D_LEAST_ALPHA)), alpha, v_setf(0.0f)), through, over);
+        if (through)
+            alpha_over_through(color, alpha, shares, over);
+        else
+            alpha_over(color, alpha, over);
         for (int k = 0; k < 4; k++)
             v_storef(neighbours ? planes[k] + sample[0] : room[k], over[k]);
         for (int k = 0; k < 4 && !neighbours; k++)
             for (int lane = 0; lane < lanes; lane++)
                 planes[k][sample[lane]] = room[k][lane];
     }
+}
+
+static void kernel_lay(const e3d_batch *batch, e3d_samples *samples) { alpha_lay_batch(batch, NULL, samples); }
+
+static void kernel_lay_through(const e3d_batch *batch, const e3d_map_batch *maps, e3d_samples *samples)
+{
+    alpha_lay_batch(batch, maps->through, samples);
 }
 
 /* ---- sorting ---- */

@@ -307,6 +307,20 @@ static void __attribute__((noinline, cold)) records_turn(const uint32_t *ids, in
         out[i] = ids[count - 1 - i];
 }
 
+/* The next vector of records, r, of the `count` that are left; returns their IDs, which are turned where records come from far to near. */
+static ALWAYS_INLINE const uint32_t *records_next(const e3d_record_table *table, const uint32_t *ids, int count, uint32_t turned[V_LANES],
+                                                  const e3d_record *r[V_LANES])
+{
+    int some = count < V_LANES ? count : V_LANES;
+    if (records_approach(e3d_record_at(table, ids[0]), e3d_record_at(table, ids[some - 1]))) {
+        records_turn(ids, some, turned); /* the near ones hide the others */
+        ids = turned;
+        count = some;
+    }
+    records_take(table, ids, count, r);
+    return ids;
+}
+
 static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count)
 {
     const e3d_record *r[V_LANES];
@@ -315,14 +329,8 @@ static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table
     records_touched touched = {0, E3D_BEYOND_FAR};
     uint64_t open = ~records_behind(1.0f, tile); /* where little is hidden, most blocks that are met: their zmax needs no look */
     for (int i = 0; i < count; i += V_LANES) {
-        const uint32_t *id = ids + i;
-        int left = count - i, some = left < V_LANES ? left : V_LANES;
-        if (records_approach(e3d_record_at(table, id[0]), e3d_record_at(table, id[some - 1]))) {
-            records_turn(id, some, turned); /* the near ones hide the others */
-            id = turned;
-            left = some;
-        }
-        records_take(table, id, left, r);
+        int some = count - i < V_LANES ? count - i : V_LANES;
+        const uint32_t *id = records_next(table, ids + i, count - i, turned, r);
         records_find(r, tile, &in);
         for (int l = 0; l < some; l++)
             if (r[l]->meta & E3D_RECORD_TINY)

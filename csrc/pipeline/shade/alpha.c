@@ -1,4 +1,5 @@
-/* shade: the alphas of samples (R80), which are tested, kept with their colours to be sorted, or laid over the tile at once (R84). */
+/* shade, the last steps of samples with alpha: their alphas (R80) are kept to be tested, or with their colours to be sorted, or they are laid
+ * over the tile at once (R84). */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -9,10 +10,10 @@
 #include "kernels/kernels.h"
 #include "kernels/types/maps.h"
 #include "kernels/types/shading.h"
-#include "pipeline/pass/prepared.h"
 #include "pipeline/shade/alpha.h"
 #include "pipeline/shade/maps.h"
 #include "pipeline/shade/shade.h"
+#include "pipeline/shade/steps.h"
 #include "pipeline/shade/surface.h"
 
 float e3d_alpha_cutoff(const e3d_material *material)
@@ -34,22 +35,22 @@ int e3d_alpha_wanted(const e3d_bucket *bucket)
 }
 
 /* The place in the list of the batch's next sample, which is of that piece: those of a piece follow each other. */
-static int32_t next_place(const e3d_visible_primitive *pieces, int32_t piece, e3d_alpha_shading *alpha)
+static int32_t next_place(const e3d_visible_primitive *pieces, int32_t piece, e3d_shaded_list *list)
 {
-    if (piece != alpha->piece) {
-        alpha->piece = piece;
-        alpha->at = pieces[piece].first;
+    if (piece != list->piece) {
+        list->piece = piece;
+        list->at = pieces[piece].first;
     }
-    return alpha->at++;
+    return list->at++;
 }
 
-static void test(e3d_shade_memory *memory, e3d_alpha_shading *alpha)
+void e3d_keep_alphas(const e3d_steps *s)
 {
+    const e3d_shade_memory *memory = s->out->memory;
     const e3d_batch *batch = &memory->batch;
-    for (int i = 0; i < batch->count; i++) {
-        int32_t piece = memory->surfaces.piece[batch->surface[i]];
-        alpha->alpha[next_place(memory->pieces.data, piece, alpha)] = batch->alpha[i];
-    }
+    e3d_shaded_list *list = s->out->list;
+    for (int i = 0; i < batch->count; i++)
+        list->alpha[next_place(memory->pieces.data, memory->surfaces.piece[batch->surface[i]], list)] = batch->alpha[i];
 }
 
 /* The colours of four samples, channel by channel, clamped, as rows. */
@@ -102,32 +103,32 @@ static void keep_light(const e3d_lane_array *radiance, const float *alpha, int f
 
 /* Where the samples end that stand side by side in the batch and in the list, from sample i and that place on. Mostly all of them do, of
  * one piece or of several that follow each other in the list. */
-static int end_of_run(const e3d_shade_memory *memory, int i, int32_t place, e3d_alpha_shading *alpha)
+static int end_of_run(const e3d_shade_memory *memory, int i, int32_t place, e3d_shaded_list *list)
 {
     const e3d_batch *batch = &memory->batch;
     const e3d_visible_primitive *pieces = memory->pieces.data;
     int end = i + 1;
     for (; end < batch->count; end++) {
         int32_t piece = memory->surfaces.piece[batch->surface[end]];
-        if (piece != alpha->piece && pieces[piece].first != place + (end - i))
+        if (piece != list->piece && pieces[piece].first != place + (end - i))
             break;
-        alpha->piece = piece;
+        list->piece = piece;
     }
     return end;
 }
 
-static void keep(e3d_shade_memory *memory, int transmits, float sign, e3d_alpha_shading *alpha)
+static void keep(e3d_shade_memory *memory, int transmits, float sign, e3d_shaded_list *list)
 {
     const e3d_batch *batch = &memory->batch;
     for (int i = 0, end; i < batch->count; i = end) {
-        int32_t place = next_place(memory->pieces.data, memory->surfaces.piece[batch->surface[i]], alpha);
-        end = end_of_run(memory, i, place, alpha);
-        keep_run(batch, i, end, sign, alpha->color + place);
-        if (alpha->through)
-            keep_through(transmits ? &memory->maps.batch : NULL, i, end, alpha->through + place);
-        if (alpha->light)
-            keep_light(memory->light, batch->alpha, i, end, alpha->light + place);
-        alpha->at = place + (end - i);
+        int32_t place = next_place(memory->pieces.data, memory->surfaces.piece[batch->surface[i]], list);
+        end = end_of_run(memory, i, place, list);
+        keep_run(batch, i, end, sign, list->color + place);
+        if (list->through)
+            keep_through(transmits ? &memory->maps.batch : NULL, i, end, list->through + place);
+        if (list->light)
+            keep_light(memory->light, batch->alpha, i, end, list->light + place);
+        list->at = place + (end - i);
     }
 }
 
@@ -138,28 +139,33 @@ static void round_alphas(const e3d_material *m, e3d_batch *batch)
         batch->alpha[i] = m->alpha_mode == E3D_ALPHA_OPAQUE || batch->alpha[i] >= m->alpha_cutoff ? 1.0f : 0.0f;
 }
 
-void e3d_alpha_batch(const e3d_prepared *pass, const e3d_bucket *bucket, const e3d_shade_out *out)
+void e3d_find_alphas(const e3d_steps *s)
 {
+    const e3d_bucket *bucket = s->bucket;
     const e3d_material *m = bucket->material;
-    e3d_batch *batch = &out->memory->batch;
-    if (out->alpha->use == E3D_SOLID_KEEP) {
-        for (int i = 0; i < batch->count; i++)
-            batch->alpha[i] = 1.0f;
-        keep(out->memory, 0, 1.0f, out->alpha);
-        return;
-    }
-    int hidden = bucket->face && pass->frame->wireframe == E3D_WIRE_ONLY;
-    const e3d_varying base = bucket->mapped ? e3d_mapped_alpha(bucket, &out->memory->maps) : (e3d_varying){NULL, m->alpha};
+    e3d_shade_memory *memory = s->out->memory;
+    const e3d_varying base = bucket->mapped ? e3d_mapped_alpha(bucket, &memory->maps) : (e3d_varying){NULL, m->alpha};
     const e3d_texture_view *texture = bucket->textured && !bucket->mapped ? e3d_texture_get_view(m->texture.texture) : NULL;
-    pass->kernels->alpha(batch, &out->memory->surfaces, texture, &base, bucket->by_vertex, bucket->by_instance);
+    s->pass->kernels->alpha(&memory->batch, &memory->surfaces, texture, &base, bucket->by_vertex, bucket->by_instance);
     if (bucket->transmits)
-        round_alphas(m, batch);
-    if (out->alpha->use == E3D_ALPHA_TEST)
-        test(out->memory, out->alpha);
-    else if (out->alpha->use == E3D_ALPHA_KEEP)
-        keep(out->memory, bucket->transmits, hidden ? -1.0f : 1.0f, out->alpha);
-    else if (!hidden && bucket->transmits)
-        pass->kernels->lay_through(batch, &out->memory->maps.batch, &out->pixels->samples);
-    else if (!hidden)
-        pass->kernels->lay(batch, &out->pixels->samples);
+        round_alphas(m, &memory->batch);
+}
+
+void e3d_keep_fragments(const e3d_steps *s) { keep(s->out->memory, s->bucket->transmits, s->bucket->hidden ? -1.0f : 1.0f, s->out->list); }
+
+void e3d_keep_solid(const e3d_steps *s)
+{
+    e3d_batch *batch = &s->out->memory->batch;
+    for (int i = 0; i < batch->count; i++)
+        batch->alpha[i] = 1.0f;
+    keep(s->out->memory, 0, 1.0f, s->out->list);
+}
+
+void e3d_lay_batch(const e3d_steps *s)
+{
+    e3d_shade_memory *memory = s->out->memory;
+    if (s->bucket->transmits)
+        s->pass->kernels->lay_through(&memory->batch, &memory->maps.batch, &s->out->pixels->samples);
+    else
+        s->pass->kernels->lay(&memory->batch, &s->out->pixels->samples);
 }

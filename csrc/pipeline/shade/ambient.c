@@ -38,7 +38,7 @@ void e3d_find_visibility(const e3d_prepared *pass, const e3d_shade_out *out)
     e3d_batch *batch = &out->memory->batch;
     if (!pass->frame->ambient_visibility)
         return;
-    if (!out->alpha || out->alpha->use == E3D_SOLID_KEEP)
+    if (out->sink == E3D_SINK_PIXELS || out->sink == E3D_SINK_SOLID)
         find(pass->frame, &out->pixels->tile, batch);
     else
         for (int i = 0; i < padded(batch); i++)

@@ -29,10 +29,8 @@ int e3d_map_counts(const e3d_bucket *bucket, const e3d_texture_use *use)
 
 /* ---- the textures of a bucket ---- */
 
-static int is_lit(const e3d_prepared *pass, const e3d_bucket *bucket)
-{
-    return e3d_plans(pass, E3D_PLAN_COLORS) && pass->frame->mode == E3D_MODE_LIT && !bucket->material->is_unlit;
-}
+/* Whether light is found on a bucket, for which its textures are read. */
+static int finds_light(const e3d_prepared *pass, const e3d_bucket *bucket) { return e3d_plans(pass, E3D_PLAN_COLORS) && bucket->lit; }
 
 static int is_coated(const e3d_physical *p) { return p->clearcoat != 0.0f; }
 static int has_sheen(const e3d_physical *p) { return e3d_adds(p->sheen_color); }
@@ -53,7 +51,7 @@ static int is_read(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_textu
 {
     const e3d_material *m = bucket->material;
     const e3d_physical *p = &m->physical;
-    int lit = m->is_physical && is_lit(pass, bucket), listed = m->is_physical && e3d_plans(pass, E3D_ASKED_MATERIALS);
+    int lit = m->is_physical && finds_light(pass, bucket), listed = m->is_physical && e3d_plans(pass, E3D_ASKED_MATERIALS);
     switch (slot) {
     case E3D_SLOT_TEXTURE: return e3d_plans(pass, E3D_PLAN_BASE_COLOR) || m->alpha_mode != E3D_ALPHA_OPAQUE;
     case E3D_SLOT_NORMAL: return e3d_plans(pass, E3D_PLAN_NORMAL);
@@ -135,7 +133,7 @@ void e3d_find_maps(const e3d_prepared *pass, const e3d_bucket *bucket, int wante
     if ((slot == E3D_SLOT_TEXTURE || all) && is_read(pass, bucket, slot) && e3d_map_counts(bucket, &m->name)) \
         out->of_slot[slot] = find_map(out, &m->name, reads_alpha(m, slot));
     E3D_EACH_TEXTURE_SLOT(FIND)
-    int stretched = m->is_physical && is_anisotropic(&m->physical) && is_lit(pass, bucket);
+    int stretched = m->is_physical && is_anisotropic(&m->physical) && finds_light(pass, bucket);
     if (out->of_slot[E3D_SLOT_NORMAL] >= 0 || out->of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0 ||
         (all && (pass->targets->tangent || stretched)))
         find_tangent_place(bucket, out);

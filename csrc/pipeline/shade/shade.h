@@ -47,31 +47,32 @@ typedef struct e3d_shade_memory {
     int64_t shaded;                     /* samples, of all tiles */
 } e3d_shade_memory;
 
-/* What is done with the samples of a list that are not to be stored as they are: a sample may be in it several times. */
-typedef enum e3d_alpha_use {
-    E3D_ALPHA_TEST = 0, /* their alphas are found */
-    E3D_ALPHA_KEEP,     /* their alphas and colours are found */
-    E3D_ALPHA_LAY,      /* they are laid over the tile's samples: each is in the list once */
-    E3D_ALPHA_OUTPUTS,  /* all but their colours and their radiance is stored */
-    E3D_SOLID_KEEP      /* their colours are found, whose alphas are 1 */
-} e3d_alpha_use;
+/* Where samples go. Those of a list, in which a sample may be several times, do not simply show. */
+typedef enum e3d_sink {
+    E3D_SINK_PIXELS = 0, /* what shows: colours go to pixels or to the samples that become pixels, and outputs are stored */
+    E3D_SINK_OUTPUTS,    /* all but colours and radiance is stored */
+    E3D_SINK_ALPHA_TEST, /* a list: alphas are found */
+    E3D_SINK_A_BUFFER,   /* a list: alphas and colours are found */
+    E3D_SINK_SOLID,      /* a list: colours are found, and alphas are 1 */
+    E3D_SINK_SAMPLES     /* a list that has each sample once: they are laid over the tile's samples */
+} e3d_sink;
 
-/* How, and where to: by the places of the list. */
-typedef struct e3d_alpha_shading {
-    e3d_alpha_use use;
-    float *alpha;       /* E3D_ALPHA_TEST */
-    float (*color)[4];  /* E3D_ALPHA_KEEP: clamped colours, with alpha; -alpha of a face that a wireframe doesn't show */
-    float (*through)[4]; /* E3D_ALPHA_KEEP: NULL, or the shares of light that pass (e3d_alpha_layers) */
-    float (*light)[4];   /* E3D_ALPHA_KEEP: NULL, or radiances, with alpha */
-    int32_t piece, at;  /* the piece of the last sample, and the place behind it */
-} e3d_alpha_shading;
+/* What is found of a list, by the places in it. */
+typedef struct e3d_shaded_list {
+    float *alpha;        /* E3D_SINK_ALPHA_TEST */
+    float (*color)[4];   /* E3D_SINK_A_BUFFER: clamped colours, with alpha; -alpha of a face that a wireframe doesn't show */
+    float (*through)[4]; /* E3D_SINK_A_BUFFER: NULL, or the shares of light that pass (e3d_alpha_layers) */
+    float (*light)[4];   /* E3D_SINK_A_BUFFER: NULL, or radiances, with alpha */
+    int32_t piece, at;   /* the piece of the last sample, and the place behind it */
+} e3d_shaded_list;
 
 /* Its own memory, a tile's pixels, and the tiles that are cleared meanwhile. */
 typedef struct e3d_shade_out {
     e3d_shade_memory *memory;
     e3d_store_memory *pixels;
     e3d_blank_state *blank;
-    e3d_alpha_shading *alpha; /* or NULL: what is shaded shows */
+    e3d_sink sink;
+    e3d_shaded_list *list; /* of those sinks that are lists */
 } e3d_shade_out;
 
 /* Finds the constants of a pass. */

@@ -1,4 +1,5 @@
 /* shade, first half: the pieces that show in a tile, and what each brings to its samples (R3, R18, R20-R24). */
+#include <stddef.h>
 #include <string.h>
 
 #include "core/always_inline.h"
@@ -63,10 +64,11 @@ static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *stat
     const e3d_frame *frame = pass->frame;
     const e3d_draw *draw = state->draw;
     const e3d_mesh_desc *mesh = &state->mesh->desc;
-    e3d_bucket g = {.material = &frame->materials[draw->material_base + (id < 0 ? 0 : id)],
-                   .face = id >= 0,
-                   .first = -1,
-                   .last = -1};
+    e3d_bucket g;
+    memset(&g, 0, sizeof g); /* what lies between its members, too: same_bucket */
+    g.material = &frame->materials[draw->material_base + (id < 0 ? 0 : id)];
+    g.first = g.last = -1;
+    g.face = id >= 0;
     g.flat = g.face && e3d_is_flat(frame->normals, g.material->flat) && mesh->face_normals;
     g.mapped = g.face && e3d_needs_maps(g.material, pass->targets);
     g.textured = g.face && g.material->texture.texture && mesh->uvs;
@@ -75,18 +77,15 @@ static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *stat
     g.has_tangents = g.mapped && mesh->tangents;
     g.unshadowed = draw->unshadowed != 0;
     g.transmits = g.face && e3d_transmits(frame, g.material);
+    g.lit = g.face && frame->mode == E3D_MODE_LIT && !g.material->is_unlit;
+    g.hidden = g.face && frame->wireframe == E3D_WIRE_ONLY;
     g.by_vertex = mesh->colors_u8 || mesh->colors_f32;
     g.by_instance = draw->instance_colors_u8 || draw->instance_colors_f32;
     return g;
 }
 
-static int same_bucket(const e3d_bucket *a, const e3d_bucket *b)
-{
-    return a->material == b->material && a->face == b->face && a->flat == b->flat &&
-           a->textured == b->textured && a->by_vertex == b->by_vertex &&
-           a->by_instance == b->by_instance && a->unshadowed == b->unshadowed && a->mapped == b->mapped && a->has_uvs == b->has_uvs &&
-           a->has_uvs1 == b->has_uvs1 && a->has_tangents == b->has_tangents;
-}
+/* Of all that the bucket depends on: what comes before the chain of its pieces. */
+static int same_bucket(const e3d_bucket *a, const e3d_bucket *b) { return !memcmp(a, b, offsetof(e3d_bucket, first)); }
 
 /* The bucket's number, or -1 when memory is out. */
 static int32_t number_bucket(e3d_shade_memory *memory, const e3d_bucket *bucket)

@@ -10,13 +10,14 @@
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/shade.h"
 
-/* Samples that are shaded by the same steps. */
+/* Samples that are shaded by the same steps: all before `first` tells which. */
 typedef struct e3d_bucket {
     const e3d_material *material;
     int8_t face, flat, textured, by_vertex, by_instance, unshadowed;
     int8_t mapped;                          /* by more than a texture of the base colour at the mesh's own coordinates: maps.h */
     int8_t has_uvs, has_uvs1, has_tangents; /* of mapped ones */
     int8_t transmits;                       /* R133 */
+    int8_t lit, hidden;                     /* light falls on it; faces that a wireframe leaves out */
     int32_t first, last; /* of its visible pieces */
 } e3d_bucket;
 

@@ -194,7 +194,7 @@ int e3d_mixed_shade(const e3d_tile_job *job, int layered)
     for (int32_t first = 0, next, count; first < list->pixels; first = next) {
         next = list_pixels(job, first, job->memory->shade.runs.rows, &count, list);
         show(job, count, list);
-        if (count && !e3d_alpha_shade(job, E3D_SOLID_KEEP, list->color, NULL, NULL))
+        if (count && !e3d_alpha_shade(job, E3D_SINK_SOLID, (e3d_shaded_list){.color = list->color}))
             return 0;
         if (layered)
             keep_list(job, first, next);

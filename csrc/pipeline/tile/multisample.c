@@ -22,6 +22,7 @@
 #include "pipeline/shade/shade.h"
 #include "pipeline/store/resolve.h"
 #include "pipeline/store/tile_state.h"
+#include "pipeline/tile/alpha.h"
 #include "pipeline/tile/multisample.h"
 #include "pipeline/tile/piece.h"
 #include "pipeline/tile/slots.h"
@@ -36,9 +37,7 @@ void e3d_multisample_free(e3d_multisample_memory *memory)
         return;
     free(memory->planes);
     free(memory->samples);
-    e3d_array_free(&memory->ids);
     e3d_array_free(&memory->covers);
-    e3d_array_free(&memory->kept);
     free(memory);
 }
 
@@ -154,14 +153,14 @@ int e3d_multisample_draw(const e3d_tile_job *job)
     e3d_tile_memory *memory = job->memory;
     int edges = e3d_plans(job->in->pass, E3D_PLAN_EDGES), layered = job->blended || edges;
     draw_planes(job, layered || job->masked);
-    if (job->masked && !e3d_multisample_cut(job))
+    if (!e3d_alpha_cut(job))
         return 0;
     e3d_lap(memory, &memory->ns_raster);
     if (layered)
         mix_all(job);
     else if (!shade_shared(job, split(job)))
         return 0;
-    if (!e3d_mixed_shade(job, layered) || (job->blended && !e3d_multisample_blend(job)))
+    if (!e3d_mixed_shade(job, layered) || !e3d_alpha_blend(job))
         return 0;
     e3d_lap(memory, &memory->ns_shade);
     if (edges && !e3d_slots_mark_planes(job))

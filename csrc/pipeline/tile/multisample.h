@@ -6,7 +6,7 @@
 
 #include "core/grow.h"
 #include "core/limits.h"
-#include "core/sample_patterns.h"
+#include "kernels/types/alpha.h"
 #include "kernels/types/mixed.h"
 #include "kernels/types/samples.h"
 #include "kernels/types/visible.h"
@@ -30,8 +30,8 @@ typedef struct e3d_multisample_memory {
     uint64_t mixed[E3D_TILE];
     e3d_mixed_list list;
     e3d_average average;
-    e3d_array ids, covers;   /* uint32_t, of records with alpha in a tile; of each entry of a list, a bit for each sample */
-    e3d_array kept;          /* of blended entries: e3d_layer_entry */
+    e3d_planes_list alpha; /* of records with alpha, */
+    e3d_array covers;      /* and what it holds: int32_t */
 } e3d_multisample_memory;
 
 /* Makes room for so many samples a pixel; 0 when memory is out. */
@@ -42,10 +42,6 @@ void e3d_multisample_free(e3d_multisample_memory *memory);
 
 /* Draws a tile to its pixels. */
 int e3d_multisample_draw(const e3d_tile_job *job);
-/* Adds what masked records show to the planes, whose samples are written. */
-int e3d_multisample_cut(const e3d_tile_job *job);
-/* Lays blended records over the samples of the planes. */
-int e3d_multisample_blend(const e3d_tile_job *job);
 /* Shades pixels (a bit each, row by row), and averages them to pixels, or, if `layered`, leaves their colours in the samples. */
 int e3d_mixed_shade(const e3d_tile_job *job, int layered);
 /* Averages the colours of the samples of all pixels. */

@@ -80,8 +80,7 @@ class Headers:
     def add(self, name):
         """Read a header of csrc/include/ or csrc/, unless it was read."""
         path = next(p for p in (FOLDER / "include" / name, FOLDER / name) if p.is_file())
-        text = re.sub(r"/\*.*?\*/|//[^\n]*", " ", path.read_text("utf-8"), flags=re.S)
-        lines = list(_without_conditions(text.replace("\\\n", " ").splitlines()))
+        lines = list(_lines(path))
         includes = re.findall(r'^\s*#\s*include\s+"(.+?)"', "\n".join(lines), re.M)
         for other in includes:
             if other not in self.read:
@@ -97,6 +96,12 @@ class Headers:
         """The whole number that an expression of constants is."""
         plain = re.sub(r"\b(0[xX][0-9a-fA-F]+|\d+)[uUlL]+\b", r"\1", expression)
         return eval(plain.replace("/", "//"), {"__builtins__": {}}, self.constants)
+
+    def rows(self, macro):
+        """The rows X(...) of a list E3D_EACH_...(X), as their arguments; none if it isn't there."""
+        _, body = self._macros.get(macro, (None, []))
+        calls = "".join(body).split("X(")[1:]
+        return [split(_inside("(" + call)[0]) for call in calls]
 
     def _define(self, line):
         """Keep a macro, and return its name."""
@@ -255,10 +260,18 @@ def _statements(text):
             at += 1
 
 
-def _without_conditions(lines):
-    """The lines that hold for a compiler of C: not those of C++, nor of one machine alone."""
+def _lines(path):
+    """The lines of a header that hold for C: not those of C++, nor of one machine alone.
+
+    Without comments, and with those of the .inl files that it includes, which are lists of rows.
+    """
+    text = re.sub(r"/\*.*?\*/|//[^\n]*", " ", path.read_text("utf-8"), flags=re.S)
     holds = []
-    for line in lines:
+    for line in text.replace("\\\n", " ").splitlines():
+        listed = re.match(r'\s*#\s*include "(.*\.inl)"', line)
+        if listed:
+            yield from _lines(FOLDER / listed[1])
+            continue
         found = re.match(r"\s*#\s*(ifndef|ifdef|if|elif|else|endif)\b", line)
         if not found:
             if all(holds):

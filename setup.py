@@ -271,7 +271,7 @@ class BuildExtensions(build_ext):
             str(translated),
             "",
             macros=extension.define_macros,
-            include_dirs=[*extension.include_dirs, *self.include_dirs],
+            include_dirs=[*extension.include_dirs, *self.include_dirs, self.mirrors()],
             flags=extension.extra_compile_args,
         )
         extension.extra_objects.append(target)

@@ -1,4 +1,4 @@
-"""Writes the Cython mirrors of the C headers: a .pxd of the same name for each of csrc/include/.
+"""Writes what follows from the C headers, such as a .pxd for each of csrc/include/, for Cython.
 
 In:  headers.py, which reads the headers.
 Out: the files, in a folder of the build; what another header declares is cimported from its mirror,
@@ -13,6 +13,7 @@ from pathlib import Path
 from headers import FOLDER, Enum, Headers, Struct, Typedef, Variable
 
 FIRST = "# Written by csrc/mirrors.py from {}, which explains every name."
+KERNELS = "kernels/kernels.h"
 # What the declarations take from C's own headers.
 HOMES = {f"{u}int{bits}_t": "libc.stdint" for u in ("", "u") for bits in (8, 16, 32, 64)}
 HOMES["ptrdiff_t"] = "libc.stddef"
@@ -77,18 +78,36 @@ def mirror(header, homes):
     return "\n".join([first, *cimports, *lines, ""])
 
 
+def rounds(kernel):
+    """A function in C that calls a kernel of a table several times, with the same arguments."""
+    parameters = ", ".join(spelled(one) for one in kernel.parameters)
+    call = f"repeated_table->{kernel.name}({', '.join(one.name for one in kernel.parameters)})"
+    head = f"static {kernel.type} rounds_{kernel.name}({parameters})"
+    loop = f"for (int i = 1; i < repeated_rounds; i++) {call};"
+    return f"{head} {{ {loop} {'return ' * (kernel.type != 'void')}{call}; }}"
+
+
+def write(path, text):
+    """Write a file unless it is there and the same."""
+    if not path.exists() or path.read_text("utf-8") != text:
+        path.write_text(text, "utf-8")
+
+
 def write_mirrors(folder):
-    """Write those of the mirrors that aren't there or differ."""
+    """Write the mirrors to a folder, and kernel_rounds.inl, which benchmarks call kernels by."""
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
     headers = Headers(*sorted(path.name for path in (FOLDER / "include").glob("*.h")))
     homes = dict(HOMES)
     for header in headers.read.values():
         for made in header.declarations:
             homes |= dict.fromkeys(names_of(made), Path(header.name).stem)
-    Path(folder).mkdir(parents=True, exist_ok=True)
     for header in headers.read.values():
-        path, text = Path(folder, header.name).with_suffix(".pxd"), mirror(header, homes)
-        if not path.exists() or path.read_text("utf-8") != text:
-            path.write_text(text, "utf-8")
+        write(folder / f"{Path(header.name).stem}.pxd", mirror(header, homes))
+    if (FOLDER / KERNELS).exists():
+        kernels = Headers(KERNELS).types["e3d_kernels"].members
+        lines = [f"/* Written by csrc/mirrors.py from csrc/{KERNELS}. */", *map(rounds, kernels)]
+        write(folder / "kernel_rounds.inl", "\n".join([*lines, ""]))
 
 
 if __name__ == "__main__":

@@ -23,7 +23,8 @@
 
 #include <emmintrin.h>
 typedef uint32_t e3d_float_control; /* MXCSR */
-enum { E3D_FLOAT_FLUSH = 0x8040, E3D_FLOAT_ROUND_UP = 0x4000 };
+enum { E3D_FLOAT_FLUSH = 0x8040,
+       E3D_FLOAT_ROUND_UP = 0x4000 };
 static inline e3d_float_control e3d_float_control_get(void) { return _mm_getcsr(); }
 static inline void e3d_float_control_set(e3d_float_control value) { _mm_setcsr(value); }
 static inline void e3d_float_control_reset(void) { _mm_setcsr(0x1F80); }
@@ -32,7 +33,8 @@ static inline void e3d_pause(void) { _mm_pause(); }
 #elif defined(__aarch64__)
 
 typedef uint64_t e3d_float_control; /* FPCR */
-enum { E3D_FLOAT_FLUSH = 1 << 24, E3D_FLOAT_ROUND_UP = 1 << 22 };
+enum { E3D_FLOAT_FLUSH = 1 << 24,
+       E3D_FLOAT_ROUND_UP = 1 << 22 };
 static inline e3d_float_control e3d_float_control_get(void)
 {
     e3d_float_control value;
@@ -47,7 +49,8 @@ static inline void e3d_pause(void) { __asm__ volatile("yield"); }
 
 #include <fenv.h>
 typedef fenv_t e3d_float_control;
-enum { E3D_FLOAT_FLUSH = 0, E3D_FLOAT_ROUND_UP = 0 }; /* whatever they are */
+enum { E3D_FLOAT_FLUSH = 0,
+       E3D_FLOAT_ROUND_UP = 0 }; /* whatever they are */
 static inline e3d_float_control e3d_float_control_get(void)
 {
     e3d_float_control value;

@@ -40,6 +40,7 @@ from build_rules import (
     link_flags,
     static_libraries,
 )
+from mirrors import write_mirrors
 
 # Before 11.2.1, Pillow wrote opaque GIFs wrong from the second frame on. Not those that mend holes,
 # since others hold back the newest: `engine3d info --system` names the holes.
@@ -246,6 +247,7 @@ class BuildExtensions(build_ext):
 
     def build_extensions(self):
         prepare(self.compiler)
+        write_mirrors(self.mirrors())
         jobs = [(e, module_of(source), source) for e in self.extensions for source in e.sources]
         jobs.sort(key=lambda job: -os.path.getsize(job[2]))
         common = [(e, COMMON_MODULE, None) for e in self.extensions if e.name == CORE_MODULE]
@@ -255,16 +257,21 @@ class BuildExtensions(build_ext):
             extension.extra_objects.sort()
         super().build_extensions()
 
+    def mirrors(self):
+        """The folder of what Cython knows of the core's headers."""
+        return os.path.join(self.build_temp, "mirrors")
+
     def make_object(self, extension, name, source):
         """Add the object of module `name` to those that `extension` links."""
         folder = Path(self.build_temp, "engine", "_native")
-        translated = translate_changed(name, source, folder / f"{name.rpartition('.')[2]}.c")
+        target = folder / f"{name.rpartition('.')[2]}.c"
+        translated = translate_changed(name, source, target, ["csrc/pxd", self.mirrors()])
         target = compile_changed(
             self.compiler,
             str(translated),
             "",
             macros=extension.define_macros,
-            include_dirs=[*extension.include_dirs, *self.include_dirs],
+            include_dirs=[*extension.include_dirs, *self.include_dirs, self.mirrors()],
             flags=extension.extra_compile_args,
         )
         extension.extra_objects.append(target)
@@ -296,10 +303,10 @@ def run_in_parallel(function, jobs):
             job.result()
 
 
-def translate_changed(name, source, target):
+def translate_changed(name, source, target, include_dirs):
     """Translate `source`, the .pyx file of module `name`, unless it was; return the C file.
 
-    The module of what the others have in common has no source.
+    include_dirs: where .pxd files are. The module of what the others have in common has no source.
     """
     import Cython
 
@@ -307,7 +314,8 @@ def translate_changed(name, source, target):
     if source is None:
         command += ["--generate-shared", str(target)]
     else:
-        command += ["-3", "-X", "embedsignature=True", "--depfile", "-I", "csrc/pxd"]
+        command += ["-3", "-X", "embedsignature=True", "--depfile"]
+        command += [word for folder in include_dirs for word in ("-I", folder)]
         command += ["--shared", COMMON_MODULE, source, "-o", str(target)]
     # A build in isolation has a Cython of its own each time, so its version stands for its files.
     noted = [Cython.__version__, *command[1:]]

@@ -1,6 +1,6 @@
 """Calls of single kernels to measure, made from fixed random numbers.
 
-In:  a `Kernels` object of engine3d._native.kernels_testing, with `rounds` calls at a time.
+In:  a `Kernels` object of tests/kernels/, with `rounds` calls at a time.
 Out: KERNEL_WORKLOADS, name -> (unit, maker); a maker returns (elements a round, function), and the
      function takes a Kernels object and makes its rounds.
 

@@ -29,8 +29,7 @@ from engine3d._native import rasterizer
 KERNEL_WORKLOADS = {}
 if importlib.util.find_spec("engine3d._native.kernels_testing"):
     from kernel_workloads import KERNEL_WORKLOADS
-
-    from engine3d._native import kernels_testing
+    from kernels.kernels import Kernels
 
 ENOUGH = 0.001  # seconds that one measurement of a kernel lasts at least
 REFERENCES = ("scalar", "portable")
@@ -58,7 +57,7 @@ def measure_kernel(name, backends, repeats):
     unit, make = KERNEL_WORKLOADS[name]
     elements, run = make()
     tables = {
-        backend: kernels_testing.Kernels(rasterizer.BACKENDS[backend])
+        backend: Kernels(rasterizer.BACKENDS[backend])
         for backend in backends
         if backend != "scalar"
     }

@@ -10,8 +10,12 @@ CFLAGS. The baseline is plain x86-64, so that only the ISA files hold code that 
 
 import os
 import re
+import sys
 import sysconfig
 from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parent))
+from headers import Headers
 
 # A release has nothing that only debuggers and profilers read: neither unwind tables nor symbols.
 BUILDS = {
@@ -51,25 +55,27 @@ ELF_LINK_FLAGS = ["-Wl,-z,relro,-z,now"]
 STRIPPED = {"release": ["-s"]}
 
 
+# The machines that have kernels: what platforms call them, and the flags of every file. The header
+# e3d_backends.h has a list of backends for each.
+MACHINES = {
+    "X86": (r"x86_64|amd64", ["-march=x86-64", "-mtune=generic"]),
+    "AARCH64": (r"aarch64(?!_be)|arm64", []),
+}
+
+
 def isa_flags(machine):
     """The flags of each set of SIMD kernels for `machine`, from the core's own list of backends.
 
     machine: as in `MACHINE`.
     """
-    header = Path(__file__).with_name("include") / "e3d_backends.h"
-    _, _, rows = header.read_text("utf-8").partition(f"#define E3D_EACH_{machine}_BACKEND(X)")
-    rows = rows.partition("\n\n")[0].split("X(E3D_BACKEND_")[1:]
-    flags = {}
-    for row in rows:
-        name = re.match(r"\w+, (\w+)", row)[1]
-        flags[name] = [f"-m{instructions}" for instructions in re.findall(r'HAS\("(.+?)"\)', row)]
-    return flags
+    rows = Headers("e3d_backends.h").rows(f"E3D_EACH_{machine}_BACKEND")
+    return {name: [f"-m{one}" for one in re.findall(r'"(.+?)"', has)] for _, name, has in rows}
 
 
 def machine_of(platform):
     """X86 or AARCH64, as the core calls them, or an empty text: of a name of a platform."""
-    names = {"X86": r"x86_64|amd64", "AARCH64": r"aarch64(?!_be)|arm64"}
-    return next((name for name, pattern in names.items() if re.search(pattern, platform)), "")
+    names = (name for name, (pattern, _) in MACHINES.items() if re.search(pattern, platform))
+    return next(names, "")
 
 
 def is_windows(platform):
@@ -87,7 +93,7 @@ def common_flags():
     """The flags of every C file, the kernels too."""
     if BUILD not in BUILDS:
         raise SystemExit(f"ENGINE3D_BUILD={BUILD}: expected one of {', '.join(BUILDS)}")
-    baseline = ["-march=x86-64", "-mtune=generic"] if MACHINE == "X86" else []
+    baseline = [*MACHINES[MACHINE][1]] if MACHINE else []
     if IS_WINDOWS:
         baseline += ["-include", "csrc/windows/memory.h"]
     return [*baseline, *BUILDS[BUILD], *EXACT, *HYGIENE, *SANITIZERS.get(BUILD, [])]

@@ -5,13 +5,10 @@
  */
 #include <stdio.h>
 
-#include "core/built_backends.h"
 #include "core/limits.h"
+#include "core/machine.h"
 #include "core/system.h"
 #include "e3d.h"
-#ifdef E3D_HAVE_X86
-#include "core/instructions.h"
-#endif
 
 const char *e3d_backend_name(e3d_backend backend)
 {

@@ -15,17 +15,9 @@
 #include "core/fpenv.h"
 #include "core/helping.h"
 #include "core/limits.h"
+#include "core/machine.h"
 #include "core/system.h"
 #include "e3d.h"
-
-#if defined(__SSE2__)
-#include <emmintrin.h>
-static inline void pause_briefly(void) { _mm_pause(); }
-#elif defined(__aarch64__)
-static inline void pause_briefly(void) { __asm__ volatile("yield"); }
-#else
-static inline void pause_briefly(void) {}
-#endif
 
 static struct {
     pthread_mutex_t owner; /* held by the caller whose job runs */
@@ -74,7 +66,7 @@ static void watch(const atomic_ulong *number, unsigned long job)
     if (!atomic_load(&pool.watches))
         return;
     for (int64_t end = e3d_now_ns() + WAKING_NS; atomic_load(number) < job && e3d_now_ns() < end;)
-        pause_briefly();
+        e3d_pause();
 }
 
 /* Waits for a job to join after the one that was seen; returns its number, with the lock held. */

@@ -1,5 +1,5 @@
 /* Which table of kernels serves which backend. */
-#include "core/built_backends.h"
+#include "core/machine.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
 

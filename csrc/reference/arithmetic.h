@@ -1,6 +1,6 @@
 /* The scalar operations that docs/exactness allows, and its log2, exp2 and pow (R27).
  *
- * Always: IEEE 754, round to nearest even, denormals kept (ref_float_environment_enter), nothing
+ * Always: IEEE 754, round to nearest even, denormals kept (core/fpenv.h), nothing
  * contracted or reassociated. Conversions to integers are only given values that fit.
  */
 #ifndef E3D_REFERENCE_ARITHMETIC_H

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 
 #include "core/bloom_levels.h"
+#include "core/fpenv.h"
 #include "core/srgb_tables.h"
 #include "reference/arithmetic.h"
-#include "reference/float_environment.h"
 #include "reference/reference.h"
 #include "reference/stages.h"
 
@@ -111,7 +111,7 @@ e3d_status e3d_reference_bloom(const e3d_bloom *bloom)
 {
     bloom_image images[1 + E3D_BLOOM_LEVELS] = {{0}}; /* the bright picture, and the levels */
     int count = e3d_bloom_level_count(bloom->height), made = 1;
-    ref_float_environment saved = ref_float_environment_enter();
+    e3d_fpenv saved = e3d_fpenv_enter();
     for (int n = 0; n <= count; n++)
         made &= make_image(e3d_bloom_side(bloom->width, n - 1), e3d_bloom_side(bloom->height, n - 1), &images[n]);
     if (made) {
@@ -124,6 +124,6 @@ e3d_status e3d_reference_bloom(const e3d_bloom *bloom)
     }
     for (int n = 0; n <= count; n++)
         free(images[n].pixels);
-    ref_float_environment_leave(saved);
+    e3d_fpenv_leave(saved);
     return made ? E3D_OK : E3D_OUT_OF_MEMORY;
 }

@@ -7,9 +7,9 @@
  */
 #include "reference/occlusion.h"
 
+#include "core/fpenv.h"
 #include "core/occlusion_pattern.h"
 #include "reference/arithmetic.h"
-#include "reference/float_environment.h"
 
 enum { SPAN = E3D_OCCLUSION_SPAN,
        MIDDLE = E3D_OCCLUSION_FILTER };
@@ -182,7 +182,7 @@ __attribute__((noinline)) static void find(const e3d_depth_picture *p, float rad
 
 void e3d_reference_occlusion(const e3d_depth_picture *picture, float radius, float *scratch, float *visibility)
 {
-    ref_float_environment environment = ref_float_environment_enter();
+    e3d_fpenv environment = e3d_fpenv_enter();
     find(picture, radius, scratch, visibility);
-    ref_float_environment_leave(environment);
+    e3d_fpenv_leave(environment);
 }

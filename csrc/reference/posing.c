@@ -1,8 +1,8 @@
 /* posing: one vertex after the other, as R71 to R74 say. */
 #include <math.h>
 
+#include "core/fpenv.h"
 #include "e3d_posing.h"
-#include "reference/float_environment.h"
 
 /* R71: x, y and z of a row of `width` */
 static void morph(const float *base, int width, const float *deltas, int32_t targets, const float *weights, int32_t vertices,
@@ -77,7 +77,7 @@ static void keep(const float v[3], int moved, float out[3])
 void e3d_reference_pose(const e3d_mesh_desc *mesh, const e3d_pose_desc *d, const float *matrices, const float *weights,
                         float *positions, float *normals, float *tangents)
 {
-    ref_float_environment saved = ref_float_environment_enter();
+    e3d_fpenv saved = e3d_fpenv_enter();
     int32_t targets = weights ? d->targets : 0, count = mesh->vertices;
     int skinned = matrices && d->influences;
     for (int32_t v = 0; v < count; v++) {
@@ -103,5 +103,5 @@ void e3d_reference_pose(const e3d_mesh_desc *mesh, const e3d_pose_desc *d, const
             tangents[4 * v + 3] = d->tangents[4 * v + 3];
         }
     }
-    ref_float_environment_leave(saved);
+    e3d_fpenv_leave(saved);
 }

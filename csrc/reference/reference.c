@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "core/fpenv.h"
 #include "core/shadows.h"
-#include "reference/float_environment.h"
 #include "reference/stages.h"
 
 enum { BAND_SAMPLES = 1 << 20 };
@@ -154,12 +154,12 @@ e3d_status e3d_reference_render(const e3d_frame *frame, const e3d_targets *targe
     e3d_status status = check_frame(frame, targets);
     if (status != E3D_OK)
         return status;
-    ref_float_environment environment = ref_float_environment_enter();
+    e3d_fpenv environment = e3d_fpenv_enter();
     ref_scene scene;
     init_scene(&scene, frame);
     status = draw_frame(&scene, targets);
     free_scene(&scene);
-    ref_float_environment_leave(environment);
+    e3d_fpenv_leave(environment);
     scene.stats.ms_total = milliseconds() - start;
     if (stats && status == E3D_OK)
         *stats = scene.stats;

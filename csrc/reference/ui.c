@@ -8,8 +8,8 @@
 
 #include <math.h>
 
+#include "core/fpenv.h"
 #include "reference/arithmetic.h"
-#include "reference/float_environment.h"
 
 enum { U,
        V,
@@ -252,7 +252,7 @@ static void draw_rectangle(const e3d_ui_vertex *const vertices[3], const e3d_ui_
 
 void e3d_reference_ui(const e3d_canvas *picture, const e3d_ui_list *list)
 {
-    ref_float_environment environment = ref_float_environment_enter();
+    e3d_fpenv environment = e3d_fpenv_enter();
     for (uint32_t k = 0; k < list->command_count; k++) {
         const e3d_ui_command *command = &list->commands[k];
         const e3d_ui_texture *texture = &list->textures[command->texture];
@@ -270,5 +270,5 @@ void e3d_reference_ui(const e3d_canvas *picture, const e3d_ui_list *list)
             }
         }
     }
-    ref_float_environment_leave(environment);
+    e3d_fpenv_leave(environment);
 }

@@ -38,7 +38,7 @@ def union(const double[:, ::1] boxes not None, double[::1] out not None):
     """Write the box (OBJECT_BOX,) around boxes (N, BOX); return whether there is one."""
     if boxes.shape[1] != E3D_BOX or out.shape[0] != E3D_OBJECT_BOX:
         raise InvalidArgumentError("boxes must be (N, BOX), and the box around them as told")
-    return e3d_boxes_union(&boxes[0, 0] if boxes.shape[0] else NULL, <int32_t>boxes.shape[0], &out[0])
+    return e3d_boxes_union(&boxes[0, 0] if boxes.shape[0] else NULL, <int32_t>boxes.shape[0], &out[0]) != 0
 
 
 cdef list boxes_by_level(const e3d_tree *tree):

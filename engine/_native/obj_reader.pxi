@@ -74,7 +74,7 @@ cdef class ObjReader:
         real = np.dtype(np.float64)
         colors = None
         if obj.colors != NULL:
-            colors = owned(<void **>&obj.colors, 4 * counts[E3D_OBJ_V], np.dtype(np.uint8))
+            colors = owned(<void **>&obj.colors, 4 * counts[<int>E3D_OBJ_V], np.dtype(np.uint8))
             colors = colors.reshape(-1, 4)
         # What holds words comes before the names go.
         found = {
@@ -84,10 +84,10 @@ cdef class ObjReader:
         }
         found["colors"] = colors
         found["positions"] = owned(
-            <void **>&obj.positions, 3 * counts[E3D_OBJ_V], real).reshape(-1, 3)
-        found["uvs"] = owned(<void **>&obj.uvs, 2 * counts[E3D_OBJ_VT], real).reshape(-1, 2)
+            <void **>&obj.positions, 3 * counts[<int>E3D_OBJ_V], real).reshape(-1, 3)
+        found["uvs"] = owned(<void **>&obj.uvs, 2 * counts[<int>E3D_OBJ_VT], real).reshape(-1, 2)
         found["normals"] = owned(
-            <void **>&obj.normals, 3 * counts[E3D_OBJ_VN], real).reshape(-1, 3)
+            <void **>&obj.normals, 3 * counts[<int>E3D_OBJ_VN], real).reshape(-1, 3)
         found["setters"] = owned(<void **>&obj.setters, obj.setter_count, SETTER)
         found["names"] = owned(<void **>&obj.names, obj.name_bytes, np.dtype(np.uint8)).data
         return found

@@ -19,6 +19,7 @@ from e3d cimport *
 from e3d_occlusion cimport *
 from e3d_posing cimport *
 from e3d_scene cimport *
+from e3d_windows cimport *
 
 from .scene_graph cimport NativeTree
 

@@ -148,7 +148,7 @@ cdef class NativeGraph:
                 raise InvalidArgumentError("before must be another child of the parent")
         self.changes += 1
         self.links += 1
-        return e3d_graph_link(&self.graph, slot, parent, before)
+        return e3d_graph_link(&self.graph, slot, parent, before) != 0
 
     def remove(self, int32_t slot):
         """Take out a node; return the slots of it and of all below."""

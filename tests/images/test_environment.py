@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from images.picture import digests
 from images.scenes import SCENES
-from kernels.layouts import kernels_testing
+from kernels.calls import kernels_testing
 from patience import HUNG
 
 import engine3d as e3d

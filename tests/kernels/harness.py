@@ -7,7 +7,8 @@ anything, and everything else must still be poison.
 
 import numpy as np
 import pytest
-from kernels.layouts import PAD, kernels_testing
+from kernels.kernels import Kernels
+from kernels.layouts import PAD
 
 from engine3d._native import rasterizer
 
@@ -22,7 +23,7 @@ all_backends = pytest.mark.parametrize(
 def kernels_of(name):
     """The kernels of a backend; the test is skipped where there are none."""
     try:
-        return kernels_testing.Kernels(rasterizer.BACKENDS[name])
+        return Kernels(rasterizer.BACKENDS[name])
     except LookupError:
         pytest.skip(f"{name}: this build or CPU lacks it")
 

@@ -2,11 +2,51 @@
 
 import numpy as np
 import pytest
-from kernels.layouts import kernels_testing
+from kernels.calls import at_address, of_core, record
+from kernels.layouts import CLUSTER_TRIANGLES
 
 from engine3d._native.rasterizer import bound_points
 
 THREADS = (1, 2, 3, 8)
+
+
+def clusters_of(positions, faces, threads):
+    """What a mesh is cut into: the order of its faces, clusters and groups.
+
+    Each cluster is (first, triangles, vertices, positions, indices, box, cone): first of its
+    triangles in the order, their number and the vertices', plane after plane the positions' bytes,
+    (3, 64) local indices as bytes, the box as six numbers or None, the cone as axis, cosine and
+    least altitude or None. Each group is (first cluster, clusters, triangles, box).
+    """
+    made, (count, components) = np.zeros(1, np.uintp), positions.shape
+    given = {"components": components, "vertices": count, "faces_count": len(faces)}
+    desc = record("mesh_desc", positions=positions, faces=faces, **given)
+    if of_core("e3d_mesh_create")(desc, threads, made) != 0:
+        raise ValueError("the mesh is not valid, or too large")
+    (mesh,) = at_address("e3d_mesh", int(made[0]))
+    try:
+        clusters = at_address("e3d_cluster", int(mesh["clusters"]), mesh["cluster_count"])
+        groups = at_address("e3d_group_box", int(mesh["groups"]), mesh["group_count"])
+        order = at_address("int32_t", int(mesh["faces"]), len(faces)).tolist()
+        found = [parts_of(one, components) for one in clusters]
+        names = ("first_cluster", "clusters", "triangles")
+        return order, found, [(*(int(g[name]) for name in names), box(g)) for g in groups]
+    finally:
+        of_core("e3d_mesh_destroy")(int(made[0]))
+
+
+def box(one):
+    return (*one["lo"].tolist(), *one["hi"].tolist()) if one["any_finite"] else None
+
+
+def parts_of(cluster, components):
+    floats = components * int(cluster["stride"])
+    memory = at_address("char", int(cluster["positions"]), 4 * floats + 3 * CLUSTER_TRIANGLES)
+    planes, indices = memory[: 4 * floats].tobytes(), memory[4 * floats :].tobytes()
+    axis, cosine, altitude = (cluster[name] for name in ("axis", "cosine", "altitude"))
+    cone = (tuple(axis.tolist()), float(cosine), float(altitude)) if altitude > 0 else None
+    counts = (int(cluster[name]) for name in ("first", "triangles", "vertices"))
+    return (*counts, planes, indices, box(cluster), cone)
 
 
 def bumpy_grid(side, rng):
@@ -79,7 +119,7 @@ MESHES = (
 @pytest.fixture(scope="module", params=(*MESHES, "clip"))
 def built(request):
     positions, faces = make(request.param)
-    return request.param, positions, faces, *kernels_testing.clusters_of(positions, faces, 1)
+    return request.param, positions, faces, *clusters_of(positions, faces, 1)
 
 
 def corners_of(cluster, components):
@@ -172,7 +212,7 @@ def test_cones_hold_all_normals(built):
 def test_threads_change_nothing(built):
     _, positions, faces, *parts = built
     for threads in THREADS[1:]:
-        assert repr(kernels_testing.clusters_of(positions, faces, threads)) == repr(tuple(parts))
+        assert repr(clusters_of(positions, faces, threads)) == repr(tuple(parts))
 
 
 @pytest.mark.parametrize("name", ["grid", "outlier"])
@@ -182,9 +222,7 @@ def test_neighbours_come_together(name):
     So it does where one face lies a million times farther out than the others are apart.
     """
     positions, faces = make(name)
-    boxes = np.array(
-        [cluster[5] for cluster in kernels_testing.clusters_of(positions, faces, 2)[1]]
-    )
+    boxes = np.array([cluster[5] for cluster in clusters_of(positions, faces, 2)[1]])
     sides = np.sort(boxes[:, 3:] - boxes[:, :3], axis=1)
     assert np.median(sides[:, 2]) < 0.1 * 180
 
@@ -193,7 +231,7 @@ def test_negative_and_too_large_indices_are_refused():
     positions = np.zeros((3, 3), np.float32)
     for index in (-1, 3, -(2**31), 2**31 - 1):
         with pytest.raises(ValueError, match="not valid"):
-            kernels_testing.clusters_of(positions, np.array([(0, 1, index)], np.int32), 1)
+            clusters_of(positions, np.array([(0, 1, index)], np.int32), 1)
 
 
 @pytest.mark.parametrize("count", [0, 1, 127, 128, 129, 1000])

@@ -4,8 +4,9 @@ import functools
 
 import numpy as np
 from kernels.arithmetic import ONE, ZERO, clamp, greatest, truncate
+from kernels.calls import kernels_testing
 from kernels.harness import POISON, all_backends, every_count, hostile
-from kernels.layouts import CELL_GROUP, CELLS, LOBE_BLOCK, PAD, kernels_testing
+from kernels.layouts import CELL_GROUP, CELLS, LOBE_BLOCK, PAD
 
 from engine3d._native.rasterizer import NativeEnvironment
 

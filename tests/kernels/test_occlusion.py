@@ -5,6 +5,7 @@ import pytest
 
 from engine3d._native import rasterizer
 
+COVERS = ("nearness", "occlusion", "occlusion_across", "occlusion_down")
 BACKENDS = [name for name, k in rasterizer.BACKENDS.items() if rasterizer.backend_available(k)]
 ACROSS, DOWN = (0.011, -0.6), (-0.009, 0.4)
 

@@ -17,6 +17,7 @@ from kernels.pieces import Triangle, piece_of
 
 BEYOND_FAR = np.float32(float.fromhex("0x1.000002p0"))
 GUARD = 128  # elements of poison before the tile; after it PAD may change, the next ones not
+COVERS = ("raster_depth", "raster_overwrite", "raster_count", "raster_mark")
 LARGEST = 65536  # samples a side of the largest viewport
 REGION = 256 * 33280  # 1/256 sample: half the guard band and a line's width, from the centre
 PIECES_A_TILE = 40

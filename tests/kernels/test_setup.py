@@ -56,7 +56,7 @@ def survivors(x, y, code, viewport, cull):
     every = code[0] & code[1] & code[2]
     some = code[0] | code[1] | code[2]
     keep = ((every & layouts.OUTSIDE) == 0) & ((some & layouts.NONFINITE) == 0)
-    clip = keep & ((some & layouts.NEEDS_CLIPPING) != 0)
+    clip = keep & ((some & layouts.CLIP) != 0)
     width, height = x.max(axis=0) - x.min(axis=0), y.max(axis=0) - y.min(axis=0)
     area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
     known = np.maximum(width, height) <= WIDE

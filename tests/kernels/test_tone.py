@@ -3,11 +3,11 @@
 import numpy as np
 from kernels.arithmetic import ONE, ZERO, clamp, dot, exp2, greatest, least
 from kernels.harness import POISON, all_backends, bits, every_count, hostile
-from kernels.layouts import BATCH, BATCH_RECORD, PAD, kernels_testing
+from kernels.kernels import Kernels
+from kernels.layouts import BATCH, BATCH_RECORD, PAD, SURFACES
 
 from engine3d._native.rasterizer import BACKENDS, TONE_MAPPINGS
 
-STRUCT_SIZES = kernels_testing.STRUCT_SIZES
 F = np.float32
 MOST = F(2.0**16)
 LINEAR, EXPONENTIAL = 1, 2
@@ -191,7 +191,7 @@ def test_light_that_shows_is_the_way_back():
     """A mapper makes a colour of the light that shows as it, where any does."""
     from engine3d.rendering._tone_inverse import light_that_shows
 
-    kernels = kernels_testing.Kernels(BACKENDS["portable"])
+    kernels = Kernels(BACKENDS["portable"])
     greys = np.repeat(np.linspace(0.01, 0.95, 40), 3).reshape(-1, 3)
     soft = 0.25 + 0.35 * np.random.default_rng(13).random((200, 3))
     for name in TONE_MAPPINGS:
@@ -254,7 +254,7 @@ def test_paint_does_both(kernels):
         kernels.tone(TONE_MAPPINGS[name], color, count)
         expected, got = (np.zeros(64 * 64 + PAD, np.uint32) for _ in range(2))
         kernels.encode(*color, count, srgb, expected)
-        surfaces = np.zeros(STRUCT_SIZES["surfaces"], np.uint8)
+        surfaces = np.zeros(1, SURFACES)
         arguments = (0, None, base, False, False, None, 0.0, None, None, srgb, got)
         mapping = TONE_MAPPINGS[name]
         kernels.paint(batch.view(np.uint8), surfaces, *arguments, None, fog, mapping)

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from kernels.calls import of_core, record
 
 import engine3d as e3d
-from engine3d._native import kernels_testing
 from engine3d._native.rasterizer import pose_meshes
 from engine3d.motion.posed_mesh import PosedMesh
 from engine3d.motion.skeletons import skeleton_of
@@ -106,15 +106,16 @@ def test_posed_vertices_are_those_of_the_reference(case):
     skinned = matrices is not None
     positions, normals = (np.empty_like(mesh.positions) for _ in range(2))
     tangents = np.empty_like(mesh.tangents)
-    kernels_testing.pose_by_reference(
-        mesh.positions,
-        mesh.normals,
-        mesh.tangents,
-        mesh.joints if skinned else None,
-        mesh.weights if skinned else None,
-        arrays.get("morph_positions"),
-        arrays.get("morph_normals"),
-        arrays.get("morph_tangents"),
+    given = {"normals": mesh.normals, "tangents": mesh.tangents}
+    if skinned:
+        given |= {"influences": mesh.joints.shape[1], "joints": mesh.joints}
+        given["weights"] = mesh.weights
+    targets = {name: arrays.get(f"morph_{name}") for name in ("positions", "normals", "tangents")}
+    given |= {f"target_{name}": array for name, array in targets.items()}
+    given["targets"] = max(0 if array is None else len(array) for array in targets.values())
+    of_core("e3d_reference_pose")(
+        record("mesh_desc", positions=mesh.positions, vertices=len(mesh.positions)),
+        record("pose_desc", **given),
         matrices,
         None if weights is None else np.float32(weights),
         positions,

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-
-from engine3d._native.kernels_testing import jobs_alone
+from kernels.calls import of_core, record
 
 MILLISECOND = 1_000_000
 
@@ -15,8 +14,15 @@ def shares_alone(*phases, jobs=2000):
     as it does not wait, and what it gets alone.
     """
     rates = np.repeat(np.array(phases, np.float64), jobs, axis=0)
-    alone = np.empty(len(rates), np.uint8)
-    jobs_alone(rates, 10 * MILLISECOND, alone)
+    alone, helping, passed = np.empty(len(rates), bool), record("helping"), 10 * MILLISECOND
+    note = of_core("e3d_helping_note")
+    for k, (helped, own, by_itself) in enumerate(rates):
+        alone[k] = is_alone = bool(helping["alone"][0])
+        working = passed if is_alone else passed // 2
+        done = int((by_itself if is_alone else helped) * passed)
+        given = {"own": done if is_alone else int(own * working), "all": done}
+        times = record("job_times", **given, working=working, passed=passed)
+        note(helping, times, (k + 1) * passed)
     return alone.reshape(len(phases), jobs).mean(axis=1)
 
 

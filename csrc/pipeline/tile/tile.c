@@ -3,8 +3,8 @@
 
 #include "core/clock.h"
 #include "core/limits.h"
+#include "core/machine.h"
 #include "core/pool.h"
-#include "core/stream.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
 #include "kernels/types/shown.h"

@@ -13,8 +13,8 @@ import numpy as np
 
 from ..errors import FileFormatError
 from ..geometry.mesh import Mesh
-from .documents import Document
-from .posed_parts import MAX_REPEATED, PosedPart, counts_of, document_objects
+from .documents import Document, DocumentObject
+from .posed_parts import MAX_REPEATED, counts_of, document_objects
 from .registry import Reader
 from .sources import Source
 from .text import shown
@@ -70,7 +70,7 @@ class _Package:
         self._meshes: dict[int, tuple[Mesh, np.ndarray | None]] = {}
         self._root = self._root_path()
         self._first = self._part(self._root)[0]
-        self._placed: list[PosedPart] = []
+        self._placed: list[DocumentObject] = []
         self._steps = 0
         self.unit = UNITS[self._first.unit][1]
 
@@ -105,7 +105,7 @@ class _Package:
             self._parts[key] = part, builder
         return self._parts[key]
 
-    def placed(self) -> list[PosedPart]:
+    def placed(self) -> list[DocumentObject]:
         """Return the meshes that the build places; all of them if it places nothing."""
         items = self._first.items
         if not items:
@@ -138,11 +138,13 @@ class _Package:
         for component in record.components:
             self._place(component, pose, path, own, depth + 1)
 
-    def _posed(self, record: ObjectRecord, builder: MeshBuilder, pose: np.ndarray) -> PosedPart:
+    def _posed(
+        self, record: ObjectRecord, builder: MeshBuilder, pose: np.ndarray
+    ) -> DocumentObject:
         if id(record) not in self._meshes:
             self._meshes[id(record)] = builder.mesh(record, self._split)
         mesh, back = self._meshes[id(record)]
-        return PosedPart(record.name, mesh, pose if back is None else pose @ back)
+        return DocumentObject(record.name, mesh, pose if back is None else pose @ back)
 
 
 def _resembles(head: bytes, size: int) -> bool:

@@ -35,19 +35,7 @@ _AT_ONCE, _RATIO_AT_ONCE = 4 << 20, 16
 
 
 def read_3mf(source: Source, split: bool = False) -> Document:
-    """Read a 3MF file.
-
-    Parameters
-    ----------
-    source : Source
-    split : bool
-        Make one object of each mesh that is placed, with its pose; otherwise poses are applied.
-
-    Raises
-    ------
-    FileFormatError
-        It is damaged, not what the specification allows, or far larger than its size lets expect.
-    """
+    """Read a 3MF file, as `Reader.read`; each mesh that is placed is an object."""
     if source.head(len(ZIP)) != ZIP:
         raise FileFormatError("not a 3mf file", source.path)
     warnings = WarningList(source.path)

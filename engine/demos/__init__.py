@@ -17,16 +17,17 @@ if TYPE_CHECKING:
     from ..stage.viewed_scene import ViewedScene
 
 
-class NamedScene(NamedTuple):
+class Named(NamedTuple):
     """A row of the list.
 
     Attributes
     ----------
     about : str
         What the scene shows, in a line.
-    viewed, measured : str
-        Module and function of this package that make a `ViewedScene` of it, and a `Workload`; empty
-        where it isn't for that.
+    viewed : str
+        Module and function of this package that make a `ViewedScene` of it; empty: none is made.
+    measured : str
+        Function of `workloads` that makes what is measured of it; empty: nothing is.
     options : tuple of str
         What of the command line the function takes that makes a `ViewedScene`.
     """
@@ -38,41 +39,31 @@ class NamedScene(NamedTuple):
 
 
 SCENES = {
-    "default": NamedScene("an island by day, turning slowly", "models.showcase"),
-    "vertices": NamedScene("a spinning cube as its vertices", "cubes.vertices"),
-    "edges": NamedScene("the cube as its edges", "cubes.edges"),
-    "faces": NamedScene("the cube as its faces", "cubes.faces"),
-    "cube": NamedScene("the cube as its vertices, edges and faces in turn", "cubes.cycle"),
-    "shapes": NamedScene(
+    "default": Named("an island by day, turning slowly", "models.showcase"),
+    "vertices": Named("a spinning cube as its vertices", "cubes.vertices"),
+    "edges": Named("the cube as its edges", "cubes.edges"),
+    "faces": Named("the cube as its faces", "cubes.faces"),
+    "cube": Named("the cube as its vertices, edges and faces in turn", "cubes.cycle"),
+    "shapes": Named(
         "a sphere and a box under three moving lamps", "shapes.shapes", options=("subdivisions",)
     ),
-    "textured": NamedScene(
-        "a textured model of 6,000 triangles", "models.textured", "workloads.textured"
-    ),
-    "asc": NamedScene("a train of several objects", "models.asc"),
-    "city": NamedScene("a city by day or at dusk", "city.city", options=("triangles", "dusk")),
-    "solar": NamedScene("Sun, Earth and Moon", "solar.solar"),
-    "mesh": NamedScene("one mesh of 70,200 triangles", measured="workloads.mesh"),
-    "grid": NamedScene("144 instances of it: 10 million triangles", measured="workloads.grid"),
-    "grid-depth": NamedScene("the same, depth alone", measured="workloads.grid_depth"),
-    "grid-ids": NamedScene("the same, numbers of instances alone", measured="workloads.grid_ids"),
-    "city-street": NamedScene(
-        "a city of a million triangles at street level", measured="workloads.city_street"
-    ),
-    "city-above": NamedScene("the city from above", measured="workloads.city_above"),
-    "city-lights": NamedScene(
-        "the street under 256 point lights", measured="workloads.city_lights"
-    ),
-    "fill-front": NamedScene(
-        "32 layers that fill the picture, front to back", measured="workloads.fill_front"
-    ),
-    "fill-back": NamedScene("the same layers, back to front", measured="workloads.fill_back"),
-    "spheres": NamedScene("39,304 spheres, all in view", "crowds.spheres", "workloads.spheres"),
-    "spheres-inside": NamedScene(
-        "the spheres from among them", measured="workloads.spheres_inside"
-    ),
-    "lod": NamedScene("3,600 balls in five levels of detail", "crowds.lod"),
-    "parcels": NamedScene("1,600 parcels of land, joined to blocks", "crowds.parcels"),
+    "textured": Named("a textured model of 6,000 triangles", "models.textured", "textured"),
+    "asc": Named("a train of several objects", "models.asc"),
+    "city": Named("a city by day or at dusk", "city.city", options=("triangles", "dusk")),
+    "solar": Named("Sun, Earth and Moon", "solar.solar"),
+    "mesh": Named("one mesh of 70,200 triangles", measured="mesh"),
+    "grid": Named("144 instances of it: 10 million triangles", measured="grid"),
+    "grid-depth": Named("the same, depth alone", measured="grid_depth"),
+    "grid-ids": Named("the same, numbers of instances alone", measured="grid_ids"),
+    "city-street": Named("a city of a million triangles at street level", measured="city_street"),
+    "city-above": Named("the city from above", measured="city_above"),
+    "city-lights": Named("the street under 256 point lights", measured="city_lights"),
+    "fill-front": Named("32 layers that fill the picture, front to back", measured="fill_front"),
+    "fill-back": Named("the same layers, back to front", measured="fill_back"),
+    "spheres": Named("39,304 spheres, all in view", "crowds.spheres", "spheres"),
+    "spheres-inside": Named("the spheres from among them", measured="spheres_inside"),
+    "lod": Named("3,600 balls in five levels of detail", "crowds.lod"),
+    "parcels": Named("1,600 parcels of land, joined to blocks", "crowds.parcels"),
 }
 DEMO_NAMES = tuple(name for name, scene in SCENES.items() if scene.viewed)
 WORKLOAD_NAMES = tuple(name for name, scene in SCENES.items() if scene.measured)

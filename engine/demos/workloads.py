@@ -26,7 +26,7 @@ from ..scene.instances import InstancedMesh
 from ..scene.lights import DirectionalLight
 from ..scene.scene import Scene
 from ..worlds import city
-from . import SCENES, city_views, function_of
+from . import SCENES, city_views
 
 MODELS = Path(str(files("engine3d.data"))) / "models"
 CITY_TRIANGLES = 1_000_000
@@ -87,7 +87,7 @@ def _triangles(thing) -> int:
 
 def make(name: str, plain: bool = False) -> Workload:
     """Return a workload by its name, one of `WORKLOAD_NAMES`."""
-    return _workload(name, function_of(SCENES[name].measured)(plain), plain)
+    return _workload(name, globals()[SCENES[name].measured](plain), plain)
 
 
 def _workload(name: str, parts, plain: bool = False) -> Workload:

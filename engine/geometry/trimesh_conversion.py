@@ -11,10 +11,10 @@ import numpy as np
 
 from .._support.numbers import shown
 from ..errors import InvalidArgumentError
+from ..loaders.documents import DocumentObject
 from ..loaders.far_coordinates import moved_near
 from ..loaders.images import check_image_size, made_pixels
 from ..loaders.indexed_mesh import IndexedGeometry, build_indexed_mesh
-from ..loaders.posed_parts import PosedPart
 from ..loaders.warning_list import WarningList
 from ..materials.colors import linear_color, srgb_bytes
 from ..materials.material import Material, textures_of
@@ -33,7 +33,7 @@ def mesh_from_trimesh(geometry) -> Mesh:
 
 def scene_parts(
     scene, warnings: WarningList | None = None, *, near: bool = False
-) -> list[PosedPart]:
+) -> list[DocumentObject]:
     """Return the nodes of a trimesh scene; those of the same geometry share a mesh.
 
     With ``warnings``, images that cannot be read are left out. With ``near``, coordinates far from
@@ -48,7 +48,7 @@ def scene_parts(
             meshes[name] = _near_mesh(scene.geometry[name], str(name), textures, near)
         mesh, back = meshes[name]
         pose = np.array(pose, np.float64)
-        parts.append(PosedPart(str(node), mesh, pose if back is None else pose @ back))
+        parts.append(DocumentObject(str(node), mesh, pose if back is None else pose @ back))
     return parts
 
 

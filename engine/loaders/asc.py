@@ -54,19 +54,9 @@ _MAX_OBJECTS = 5000
 
 
 def read_asc(source: Source, split: bool = False) -> Document:
-    """Read a 3D Studio ASCII file.
+    """Read a 3D Studio ASCII file, as `Reader.read`; each tri-mesh is an object in any case.
 
-    Parameters
-    ----------
-    source : Source
-    split : bool
-        Give coordinates far from the origin another one; every tri-mesh is an object of its own in
-        any case.
-
-    Raises
-    ------
-    FileFormatError
-        A list does not hold what its count announces, an index is out of range, a line is cut.
+    With ``split``, coordinates far from the origin get another one.
     """
     parser = _Parser(source)
     parser.parse()

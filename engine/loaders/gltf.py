@@ -34,19 +34,10 @@ _WORDS = (b'"asset"', b'"accessors"', b'"bufferView"', b'"extensionsUsed"')
 
 
 def read_gltf(source: Source, split: bool = False) -> Document:
-    """Read a glTF file.
+    """Read a glTF file, as `Reader.read`.
 
-    Parameters
-    ----------
-    source : Source
-    split : bool
-        Keep the nodes' poses apart, and meshes as they are stored; otherwise poses, skins and morph
-        targets are applied.
-
-    Raises
-    ------
-    FileFormatError
-        It is damaged, or needs an extension that is not read.
+    With ``split``, nodes' poses are kept apart, and meshes are as they are stored; otherwise poses,
+    skins and morph targets are applied.
     """
     file = GltfFile(source)
     check_extensions(file)

@@ -29,18 +29,7 @@ from .warning_list import WarningList
 
 
 def read_obj(source: Source, split: bool = False) -> Document:
-    """Read an OBJ file.
-
-    Parameters
-    ----------
-    source : Source
-    split : bool
-        Make one object of each ``o`` statement's faces; otherwise all are one mesh.
-
-    Raises
-    ------
-    FileFormatError
-    """
+    """Read an OBJ file, as `Reader.read`; an ``o`` statement begins an object."""
     warnings = WarningList(source.path)
     file = read_obj_file(source, warnings)
     states = ObjStates(file, warnings)

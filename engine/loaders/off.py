@@ -39,17 +39,9 @@ _COLOR_WIDTHS = (0, 3, 4)
 
 
 def read_off(source: Source, split: bool = False) -> Document:
-    """Read an OFF file.
+    """Read an OFF file, as `Reader.read`: one object.
 
-    Parameters
-    ----------
-    source : Source
-    split : bool
-        Give coordinates far from the origin another one; the format knows one object.
-
-    Raises
-    ------
-    FileFormatError
+    With ``split``, coordinates far from the origin get another one.
     """
     warnings = WarningList(source.path)
     reader = _OffReader(source, warnings)

@@ -37,17 +37,9 @@ from .warning_list import WarningList
 
 
 def read_ply(source: Source, split: bool = False) -> Document:
-    """Read a PLY file.
+    """Read a PLY file, as `Reader.read`: one object.
 
-    Parameters
-    ----------
-    source : Source
-    split : bool
-        Give coordinates far from the origin another one; the format knows one object.
-
-    Raises
-    ------
-    FileFormatError
+    With ``split``, coordinates far from the origin get another one.
     """
     warnings = WarningList(source.path)
     header = read_header(source, warnings)

@@ -6,12 +6,9 @@ applied. Any number of nodes may repeat a mesh, so that joined they are limited.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from ..errors import FileFormatError
-from ..geometry.mesh import Mesh
 from ..geometry.posing import posed_mesh
 from .documents import DocumentObject
 from .sources import Source
@@ -25,30 +22,16 @@ _ROUNDING = 1e-5
 _LAST_ROW = (0.0, 0.0, 0.0, 1.0)
 
 
-class PosedPart(NamedTuple):
-    """One node of a file that shows a mesh.
-
-    Attributes
-    ----------
-    name : str
-    mesh : Mesh
-    pose : (4, 4) float64
-    """
-
-    name: str
-    mesh: Mesh
-    pose: np.ndarray
-
-
 def document_objects(
-    source: Source, parts: list[PosedPart], most_vertices: int, split: bool
+    source: Source, parts: list[DocumentObject], most_vertices: int, split: bool
 ) -> list[DocumentObject]:
     """Return one object for each part.
 
     Parameters
     ----------
     source : Source
-    parts : list of PosedPart
+    parts : list of DocumentObject
+        All of them with a pose.
     most_vertices : int
         How many vertices all parts may have if their poses are applied.
     split : bool
@@ -73,7 +56,7 @@ def document_objects(
             source.path,
         )
     if split:
-        return [DocumentObject(*part) for part in parts]
+        return parts
     return [DocumentObject(part.name, posed_mesh(part.mesh, part.pose)) for part in parts]
 
 

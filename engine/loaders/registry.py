@@ -33,7 +33,9 @@ class Reader(NamedTuple):
         Lower case, with the dot.
     read : callable
         ``read(source, split=False) -> Document`` for meshes: with ``split`` every object of the
-        file becomes one of the document. ``read(source) -> (H, W, 4) uint8`` for images.
+        file becomes one of the document, with its pose; otherwise poses are applied.
+        ``read(source) -> (H, W, 4) uint8`` for images. Both raise `FileFormatError` where a file is
+        damaged, larger than it may be, or needs a package that is not installed.
     signature : callable, optional
         ``signature(head) -> bool``: whether the first bytes can be of this format only.
     resembles : callable, optional

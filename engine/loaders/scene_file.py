@@ -33,19 +33,7 @@ _SIGNATURE = re.compile(rb'\A(?:\xef\xbb\xbf)?\s*\{\s*"format"\s*:\s*"engine3d s
 
 
 def read_scene_file(source: Source, split: bool = False) -> Document:
-    """Read a scene.
-
-    Parameters
-    ----------
-    source : Source
-    split : bool
-        Keep the poses apart; otherwise they are applied to what shows.
-
-    Raises
-    ------
-    FileFormatError
-        The file is damaged, or of a newer version; the message names the place.
-    """
+    """Read a scene, as `Reader.read`; its objects are what shows."""
     root = parsed_json(source)
     _check_format(root)
     warnings = WarningList(source.path)

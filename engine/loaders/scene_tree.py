@@ -13,9 +13,8 @@ import numpy as np
 from .. import linalg
 from ..errors import FileFormatError
 from ..geometry.mesh import Mesh
-from .documents import SceneRecord
+from .documents import DocumentObject, SceneRecord
 from .json_values import JsonValue
-from .posed_parts import PosedPart
 from .sources import Source
 
 # Each instance takes some kilobytes as an object of the document.
@@ -72,10 +71,10 @@ def pose_parts(node: JsonValue) -> dict[str, list]:
     return found
 
 
-def shown_parts(record: SceneRecord, source: Source) -> list[PosedPart]:
+def shown_parts(record: SceneRecord, source: Source) -> list[DocumentObject]:
     """Return what shows, with poses in the world; an instance each."""
     worlds, is_shown = _world_poses(record), _shown(record)
-    parts: list[PosedPart] = []
+    parts: list[DocumentObject] = []
     for number, node in enumerate(record.nodes):
         held = node.get("object")
         if held is None or not is_shown[number]:
@@ -83,9 +82,9 @@ def shown_parts(record: SceneRecord, source: Source) -> list[PosedPart]:
         index = held.index(len(record.objects), "objects")
         name = "" if node.get("name") is None else node.need("name").text()
         if index in record.meshes:
-            parts.append(PosedPart(name, record.meshes[index], worlds[number]))
+            parts.append(DocumentObject(name, record.meshes[index], worlds[number]))
         for mesh, pose in _instances(record, index):
-            parts.append(PosedPart(name, mesh, linalg.multiply(worlds[number], pose)))
+            parts.append(DocumentObject(name, mesh, linalg.multiply(worlds[number], pose)))
             if len(parts) > _MAX_OBJECTS:
                 raise FileFormatError(f"more than {_MAX_OBJECTS} instances", source.path)
     return parts

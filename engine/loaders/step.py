@@ -26,20 +26,7 @@ _SIZE_FACTOR = 8
 
 
 def read_step(source: Source, split: bool = False, kind: str = "step") -> Document:
-    """Read a STEP or an IGES file with cascadio.
-
-    Parameters
-    ----------
-    source : Source
-    split : bool
-        Make one object of each part, with its pose; otherwise the poses are applied.
-    kind : {"step", "iges"}
-
-    Raises
-    ------
-    FileFormatError
-        It is damaged, needs more memory or time than it may, or cascadio is not installed.
-    """
+    """Read a STEP or an IGES file with cascadio, as `Reader.read`; each part is an object."""
     if kind == "step" and not source.head(64).lstrip().startswith(_STEP):
         raise FileFormatError("not a step file", source.path)
     if importlib.util.find_spec("cascadio") is None:

@@ -76,17 +76,9 @@ class _Facets(NamedTuple):
 
 
 def read_stl(source: Source, split: bool = False) -> Document:
-    """Read an STL file.
+    """Read an STL file, as `Reader.read`.
 
-    Parameters
-    ----------
-    source : Source
-    split : bool
-        Make one object of each solid; otherwise they are groups of one mesh.
-
-    Raises
-    ------
-    FileFormatError
+    With ``split``, each solid is an object; otherwise they are groups of one mesh.
     """
     warnings = WarningList(source.path)
     facets = (_read_text if _is_text(source) else _read_binary)(source, warnings, split)

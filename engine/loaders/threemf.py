@@ -13,8 +13,8 @@ import numpy as np
 
 from ..errors import FileFormatError
 from ..geometry.mesh import Mesh
-from .documents import Document
-from .posed_parts import MAX_REPEATED, PosedPart, counts_of, document_objects
+from .documents import Document, DocumentObject
+from .posed_parts import MAX_REPEATED, counts_of, document_objects
 from .registry import Reader
 from .sources import Source
 from .text import shown
@@ -35,19 +35,7 @@ _AT_ONCE, _RATIO_AT_ONCE = 4 << 20, 16
 
 
 def read_3mf(source: Source, split: bool = False) -> Document:
-    """Read a 3MF file.
-
-    Parameters
-    ----------
-    source : Source
-    split : bool
-        Make one object of each mesh that is placed, with its pose; otherwise poses are applied.
-
-    Raises
-    ------
-    FileFormatError
-        It is damaged, not what the specification allows, or far larger than its size lets expect.
-    """
+    """Read a 3MF file, as `Reader.read`; each mesh that is placed is an object."""
     if source.head(len(ZIP)) != ZIP:
         raise FileFormatError("not a 3mf file", source.path)
     warnings = WarningList(source.path)
@@ -70,7 +58,7 @@ class _Package:
         self._meshes: dict[int, tuple[Mesh, np.ndarray | None]] = {}
         self._root = self._root_path()
         self._first = self._part(self._root)[0]
-        self._placed: list[PosedPart] = []
+        self._placed: list[DocumentObject] = []
         self._steps = 0
         self.unit = UNITS[self._first.unit][1]
 
@@ -105,7 +93,7 @@ class _Package:
             self._parts[key] = part, builder
         return self._parts[key]
 
-    def placed(self) -> list[PosedPart]:
+    def placed(self) -> list[DocumentObject]:
         """Return the meshes that the build places; all of them if it places nothing."""
         items = self._first.items
         if not items:
@@ -138,11 +126,13 @@ class _Package:
         for component in record.components:
             self._place(component, pose, path, own, depth + 1)
 
-    def _posed(self, record: ObjectRecord, builder: MeshBuilder, pose: np.ndarray) -> PosedPart:
+    def _posed(
+        self, record: ObjectRecord, builder: MeshBuilder, pose: np.ndarray
+    ) -> DocumentObject:
         if id(record) not in self._meshes:
             self._meshes[id(record)] = builder.mesh(record, self._split)
         mesh, back = self._meshes[id(record)]
-        return PosedPart(record.name, mesh, pose if back is None else pose @ back)
+        return DocumentObject(record.name, mesh, pose if back is None else pose @ back)
 
 
 def _resembles(head: bytes, size: int) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ..errors import FileFormatError
 from .documents import DocumentObject, TreeRecord
-from .posed_parts import PosedPart, counts_of, document_objects
+from .posed_parts import counts_of, document_objects
 from .sources import Source
 from .tree_posing import RestPose
 
@@ -43,7 +43,7 @@ def tree_objects(
         raise FileFormatError(f"more than {_MAX_OBJECTS} objects", source.path)
     if not split:
         _check_vertices(source, tree, drawn, most_vertices)
-    parts: list[PosedPart] = []
+    parts: list[DocumentObject] = []
     for node in drawn:
         if split:
             record = tree.nodes[node.index]
@@ -53,14 +53,11 @@ def tree_objects(
         meshes = [(mesh, pose) for mesh, pose in meshes if len(mesh.positions)]
         name = tree.nodes[node.index].name or str(node.index)
         names = [name] if len(meshes) == 1 else [f"{name}_{k}" for k in range(len(meshes))]
-        parts += [PosedPart(*named) for named in _zipped(names, meshes)]
+        named = zip(names, meshes, strict=True)
+        parts += [DocumentObject(name, mesh, pose) for name, (mesh, pose) in named]
     if not parts and split:
         return []
     return document_objects(source, parts, most_vertices, split)
-
-
-def _zipped(names: list[str], meshes: list[tuple]):
-    return [(name, mesh, pose) for name, (mesh, pose) in zip(names, meshes, strict=True)]
 
 
 def _check_vertices(source: Source, tree: TreeRecord, drawn: list, most: int) -> None:

@@ -36,20 +36,7 @@ _BYTE_ORDER_MARKS = (b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")
 
 
 def read_with_trimesh(source: Source, split: bool = False) -> Document:
-    """Read a file with trimesh, in a process of its own.
-
-    Parameters
-    ----------
-    source : Source
-    split : bool
-        Make one object of each node, with its pose; otherwise the poses are applied.
-
-    Raises
-    ------
-    FileFormatError
-        It is damaged, needs more memory or time than it may, or trimesh is not installed or lacks
-        a package for it.
-    """
+    """Read a file with trimesh, in a process of its own, as `Reader.read`; a node is an object."""
     kind = source.extension.removeprefix(".")
     _check_beginning(source, kind)
     if importlib.util.find_spec("trimesh") is None:

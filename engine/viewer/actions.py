@@ -48,11 +48,22 @@ LEFT_OUT = {
 ISOMETRIC_ELEVATION = math.atan(1 / math.sqrt(2))
 
 
-def cycle_wireframe(viewer, step: int) -> None:
-    """Next of: no wireframe, over the faces, alone."""
-    appearance = viewer.view_renderer.appearance
-    appearance.wireframe = following(appearance.wireframe, WIREFRAMES, step)
-    viewer.say(f"wireframe: {appearance.wireframe or 'off'}")
+def _cycling(field: str, choices: tuple):
+    """Return what goes to the next value of a field of `Appearance`."""
+
+    def cycle(viewer, step: int) -> None:
+        appearance = viewer.view_renderer.appearance
+        setattr(appearance, field, following(getattr(appearance, field), choices, step))
+        viewer.say(f"{field.replace('_', ' ')}: {getattr(appearance, field) or 'off'}")
+
+    return cycle
+
+
+cycle_wireframe = _cycling("wireframe", WIREFRAMES)
+cycle_mode = _cycling("mode", MODES)
+cycle_cull = _cycling("cull", CULLS)
+cycle_hidden_surfaces = _cycling("hidden_surfaces", HIDDEN_SURFACES)
+cycle_tone_mapping = _cycling("tone_mapping", TONE_MAPPINGS)
 
 
 def toggle_edges(viewer, step: int) -> None:
@@ -60,13 +71,6 @@ def toggle_edges(viewer, step: int) -> None:
     appearance = viewer.view_renderer.appearance
     appearance.wireframe = None if appearance.wireframe == "overlay" else "overlay"
     viewer.say(f"edges: {'on' if appearance.wireframe else 'off'}")
-
-
-def cycle_mode(viewer, step: int) -> None:
-    """Next drawing mode."""
-    appearance = viewer.view_renderer.appearance
-    appearance.mode = following(appearance.mode, MODES, step)
-    viewer.say(f"mode: {appearance.mode}")
 
 
 def _toggle_mode(viewer, mode: str) -> None:
@@ -91,20 +95,6 @@ def toggle_flat(viewer, step: int) -> None:
     following = {"flat": "facet", "facet": "smooth"}
     appearance.normals = following.get(appearance.normals, "flat")
     viewer.say(f"normals: {appearance.normals}")
-
-
-def cycle_cull(viewer, step: int) -> None:
-    """Next of the faces to leave out: back, front, none."""
-    appearance = viewer.view_renderer.appearance
-    appearance.cull = following(appearance.cull, CULLS, step)
-    viewer.say(f"cull: {appearance.cull}")
-
-
-def cycle_hidden_surfaces(viewer, step: int) -> None:
-    """Next way to remove hidden surfaces."""
-    appearance = viewer.view_renderer.appearance
-    appearance.hidden_surfaces = following(appearance.hidden_surfaces, HIDDEN_SURFACES, step)
-    viewer.say(f"hidden surfaces: {appearance.hidden_surfaces}")
 
 
 def cycle_lights(viewer, step: int) -> None:
@@ -139,76 +129,38 @@ def narrow_lines(viewer, step: int) -> None:
     _scale_lines(viewer, 0.5)
 
 
-def _look_along(viewer, azimuth: float, elevation: float) -> None:
-    if viewer.walker is not None:
-        toggle_walking(viewer)
-    viewer.view.azimuth, viewer.view.elevation = azimuth, elevation
-    viewer.view_renderer.frame(viewer.view)
+def _looking(azimuth: float, elevation: float):
+    """Return what looks along a direction."""
+
+    def look(viewer, step: int) -> None:
+        if viewer.walker is not None:
+            toggle_walking(viewer)
+        viewer.view.azimuth, viewer.view.elevation = azimuth, elevation
+        viewer.view_renderer.frame(viewer.view)
+
+    return look
 
 
-def view_front(viewer, step: int) -> None:
-    """Look at the front."""
-    _look_along(viewer, 0.0, 0.0)
+view_front = _looking(0.0, 0.0)
+view_right = _looking(QUARTER_TURN, 0.0)
+view_top = _looking(0.0, QUARTER_TURN)
+view_isometric = _looking(QUARTER_TURN / 2, ISOMETRIC_ELEVATION)
 
 
-def view_right(viewer, step: int) -> None:
-    """Look at the right side."""
-    _look_along(viewer, QUARTER_TURN, 0.0)
+def _turning(right: float, up: float):
+    """Return what turns the camera by two angles round what it looks at."""
+
+    def turn(viewer, step: int) -> None:
+        if viewer.walker is None:
+            viewer.orbit.turn(right, up)
+
+    return turn
 
 
-def view_top(viewer, step: int) -> None:
-    """Look from the top."""
-    _look_along(viewer, 0.0, QUARTER_TURN)
-
-
-def view_isometric(viewer, step: int) -> None:
-    """Look along the diagonal of a cube."""
-    _look_along(viewer, QUARTER_TURN / 2, ISOMETRIC_ELEVATION)
-
-
-def _orbit(viewer, right: int, up: int, step: float = ORBIT_STEP) -> None:
-    if viewer.walker is None:
-        viewer.orbit.turn(right * step, up * step)
-
-
-def quarter_left(viewer, step: int) -> None:
-    """Turn the camera by a right angle to the left, round what it looks at."""
-    _orbit(viewer, -1, 0, QUARTER_TURN)
-
-
-def quarter_right(viewer, step: int) -> None:
-    """Turn the camera by a right angle to the right."""
-    _orbit(viewer, 1, 0, QUARTER_TURN)
-
-
-def quarter_up(viewer, step: int) -> None:
-    """Turn the camera by a right angle upwards."""
-    _orbit(viewer, 0, 1, QUARTER_TURN)
-
-
-def quarter_down(viewer, step: int) -> None:
-    """Turn the camera by a right angle downwards."""
-    _orbit(viewer, 0, -1, QUARTER_TURN)
-
-
-def orbit_left(viewer, step: int) -> None:
-    """Turn the camera to the left, round what it looks at."""
-    _orbit(viewer, -1, 0)
-
-
-def orbit_right(viewer, step: int) -> None:
-    """Turn the camera to the right."""
-    _orbit(viewer, 1, 0)
-
-
-def orbit_up(viewer, step: int) -> None:
-    """Turn the camera upwards."""
-    _orbit(viewer, 0, 1)
-
-
-def orbit_down(viewer, step: int) -> None:
-    """Turn the camera downwards."""
-    _orbit(viewer, 0, -1)
+quarter_left, quarter_right = _turning(-QUARTER_TURN, 0.0), _turning(QUARTER_TURN, 0.0)
+quarter_down, quarter_up = _turning(0.0, -QUARTER_TURN), _turning(0.0, QUARTER_TURN)
+orbit_left, orbit_right = _turning(-ORBIT_STEP, 0.0), _turning(ORBIT_STEP, 0.0)
+orbit_down, orbit_up = _turning(0.0, -ORBIT_STEP), _turning(0.0, ORBIT_STEP)
 
 
 def _turn_up(viewer, up: str) -> None:
@@ -279,13 +231,6 @@ def toggle_occlusion(viewer, step: int) -> None:
     viewer.say(f"ambient occlusion: {'on' if appearance.ambient_occlusion else 'off'}")
 
 
-def cycle_tone_mapping(viewer, step: int) -> None:
-    """Next way in which light becomes what a screen can show."""
-    appearance = viewer.view_renderer.appearance
-    appearance.tone_mapping = following(appearance.tone_mapping, TONE_MAPPINGS, step)
-    viewer.say(f"tone mapping: {appearance.tone_mapping}")
-
-
 def toggle_split(viewer, step: int) -> None:
     """Nine outputs side by side, or the picture alone."""
     viewer.view_renderer.split = not viewer.view_renderer.split
@@ -349,15 +294,19 @@ def toggle_grid(viewer, step: int) -> None:
     viewer.view_renderer.show_grid(not viewer.view_renderer.settings.grid)
 
 
-def toggle_axes(viewer, step: int) -> None:
-    """The axes in the corner, or none."""
-    viewer.view_renderer.settings.axes = not viewer.view_renderer.settings.axes
+def _toggling(setting: str):
+    """Return what turns one of the `Settings` on or off."""
+
+    def toggle(viewer, step: int) -> None:
+        settings = viewer.view_renderer.settings
+        setattr(settings, setting, not getattr(settings, setting))
+
+    return toggle
 
 
-def toggle_axes_grid(viewer, step: int) -> None:
-    """A grid around the scene with numbers, or none."""
-    settings = viewer.view_renderer.settings
-    settings.axes_grid = not settings.axes_grid
+toggle_axes = _toggling("axes")
+toggle_axes_grid = _toggling("axes_grid")
+toggle_metadata = _toggling("metadata")
 
 
 def cycle_statistics(viewer, step: int) -> None:
@@ -401,11 +350,6 @@ def previous_file(viewer, step: int) -> None:
 def load_again(viewer, step: int) -> None:
     """Show the file as it is now."""
     viewer.opening.load_again()
-
-
-def toggle_metadata(viewer, step: int) -> None:
-    """What the file holds, or nothing."""
-    viewer.view_renderer.settings.metadata = not viewer.view_renderer.settings.metadata
 
 
 def toggle_help(viewer, step: int) -> None:

@@ -8,6 +8,7 @@ import pytest
 
 from engine3d._support.image_size import MAX_SIZE
 from engine3d.cli.parser import make_parser
+from engine3d.demos import DEMO_NAMES, SCENES
 from engine3d.loaders import formats
 from engine3d.loaders.images import MAX_PIXELS
 from engine3d.materials.textures import MAX_SIDE
@@ -63,6 +64,13 @@ def test_keys_are_those_of_the_viewer():
     expected = key_table()
     missing = [row for row in expected if row not in lines]
     assert not missing, "README.md should have these rows:\n" + "\n".join(expected)
+
+
+def test_scenes_are_those_of_the_command_line():
+    lines = (ROOT / "docs" / "viewer.md").read_text(encoding="utf-8").splitlines()
+    start = lines.index("| `--scene` | What it shows |") + 2
+    expected = [f"| `{name}` | {SCENES[name].about} |" for name in DEMO_NAMES]
+    assert lines[start : start + len(expected) + 1] == [*expected, ""]
 
 
 def test_limits_are_those_of_the_code():

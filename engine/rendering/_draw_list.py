@@ -58,6 +58,7 @@ class DrawList:
         self._objects_version = -1
         self._needs: MeshNeeds | None = None
         self._normals, self._by_mesh = "", False
+        self._untextured: frozenset[Material] = frozenset()
         self._listed_for: tuple | None = None  # needs, normals and by_mesh
         # Numbers of the objects that enclose a volume.
         self._closed: set[int] = set()
@@ -204,6 +205,7 @@ class DrawList:
         same = self._scene() is scene and self._listed_for == (needs, normals, by_mesh)
         numbers = self._numbers_that_changed(scene) if same else None
         self._scene = lambda: None  # if anything below raises, the list is not current
+        self._untextured = scene._untextured
         if numbers is None:
             self._needs, self._normals, self._by_mesh = needs, normals, by_mesh
             self._listed_for = None
@@ -273,7 +275,7 @@ class DrawList:
     def _make_textures(self, scene: Scene) -> None:
         meshes = (getattr(obj, "mesh", obj) for obj in scene._objects.objects if obj is not None)
         materials = {material for mesh in meshes for material in mesh.materials}
-        make_textures(materials, self._color_space, self._threads)
+        make_textures(materials - self._untextured, self._color_space, self._threads)
 
     def _set_object(self, number: int, obj) -> None:
         """List a mesh, once or at many poses, or nothing, under a number or the next one."""
@@ -389,7 +391,7 @@ class DrawList:
     def _set_material(self, index: int, material: Material, number: int, both: bool) -> None:
         self._watch.add(material)
         self._traits[material] = _traits_of(material)
-        placed = placed_textures_of(material)
+        placed = {} if material in self._untextured else placed_textures_of(material)
         self._note_textures(material, {use.texture for use in placed.values()})
         two_sided = both or material.two_sided
         set_material(self.native, index, number, material, placed, self._color_space, two_sided)

@@ -39,6 +39,7 @@ from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.scene import Scene
 from ..scene.scenes_of_things import scene_of
+from ..scene.staged_scene import StagedScene
 from ._ambient_occlusion import AmbientOcclusion, radius_of, shows_occlusion
 from ._bloom import Bloom
 from ._draw_list import DrawList
@@ -248,7 +249,7 @@ class Renderer(Closed):
             self._native.prepare(self._width * axis, self._height * axis, multiple or 1)
 
     def _check_drawable(self, scene) -> None:
-        if not isinstance(scene, Scene):
+        if not isinstance(scene, (Scene, StagedScene)):
             raise InvalidArgumentError(f"scene must be a Scene, not {type(scene).__name__}")
         if self._native is None:
             raise InvalidArgumentError("the renderer is closed")

@@ -17,7 +17,7 @@ from .appearance import Appearance, count_points, point_size
 from .blank import BlankWatch, Reason, Sight
 from .culling_study import CullingStudy
 from .debug_lines import draw_lines
-from .free_region import Taken, frame_beside
+from .free_region import Taken
 from .labels import draw_labels, taken_by_bar
 from .lighting import Lighting, OnlyLight
 from .output_pictures import (
@@ -212,7 +212,7 @@ class ViewRenderer:
 
     def frame(self, view: Viewpoint) -> None:
         """Move a view along its direction to where all of the scene shows."""
-        frame_beside(view, self._outline, self.aspect, self._taken())
+        view.frame_beside(self._outline, self.aspect, self._taken())
 
     def fill(self, view: Viewpoint) -> None:
         """Move a view to where the scene, as it first stands, fills the picture.
@@ -220,7 +220,7 @@ class ViewRenderer:
         That is nearer than `frame`, which leaves room for the scene to turn.
         """
         if self.settings.axes_grid:
-            frame_beside(view, self.staging.box.corners, self.aspect, self._taken())
+            view.frame_beside(self.staging.box.corners, self.aspect, self._taken())
             view.distance *= _LABEL_ROOM
         elif self._support is None:
             self.frame(view)

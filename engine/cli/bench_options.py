@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import argparse
+
 from ..benchmarking.names import WORKLOADS
 from . import values
 from .picture_options import BACKENDS
@@ -9,6 +11,9 @@ from .picture_options import BACKENDS
 
 def add(command) -> None:
     """Add what is measured, and how long."""
+    command.epilog = "workloads:"
+    command.epilog += "".join(f"\n  {n:<15} {WORKLOADS[n]}" for n in WORKLOADS)
+    command.formatter_class = argparse.RawDescriptionHelpFormatter
     command.add_argument(
         "--workloads",
         type=values.some_of(tuple(WORKLOADS)),

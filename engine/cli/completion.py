@@ -37,7 +37,9 @@ class Command:
 
 def completion(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
-    print("\n".join(SCRIPTS[args.shell](command_list(args.parser))))
+    from .parser import make_parser
+
+    print("\n".join(SCRIPTS[args.shell](command_list(make_parser()))))
     return 0
 
 

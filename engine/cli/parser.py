@@ -1,7 +1,4 @@
-"""The parser of the command line: its commands, each with the options of its file.
-
-A command's module is imported only when it runs, so that ``--help`` is quick.
-"""
+"""The parser of the command line, and what it makes of arguments."""
 
 from __future__ import annotations
 
@@ -10,25 +7,9 @@ import functools
 import importlib
 from collections.abc import Sequence
 
-from ..benchmarking.names import WORKLOADS
 from ..version import __version__
-from . import (
-    batch_options,
-    bench_options,
-    city_options,
-    config,
-    convert_options,
-    diff_options,
-    input_options,
-    learn_options,
-    options,
-    render_options,
-    run_options,
-    scene_options,
-    sheet_options,
-    suggestions,
-    values,
-)
+from . import config, suggestions
+from .commands import COMMANDS
 from .joined_values import join_values
 from .suggestions import Parser
 from .usage import UsageError
@@ -91,196 +72,20 @@ def make_parser() -> Parser:
         help="print the file formats that can be read",
     )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command")
-    _add_run(commands)
-    _add_edit(commands)
-    _add_render(commands)
-    _add_info(commands)
-    _add_diff(commands)
-    _add_sheet(commands)
-    _add_convert(commands)
-    _add_batch(commands)
-    _add_city(commands)
-    _add_learn(commands)
-    _add_bench(commands)
-    _add_completion(commands, parser)
+    for name, row in COMMANDS.items():
+        command = commands.add_parser(
+            name, allow_abbrev=False, help=row.help, description=row.description
+        )
+        command.set_defaults(load_command=functools.partial(_load, name))
+        for add in row.options:
+            add(command)
     parser.commands = commands.choices
-    for name in ("run", "edit", "render", "info", "sheet", "diff", "convert", "batch", "city"):
-        options.add_quiet(commands.choices[name])
     return parser
 
 
-def _add_run(commands) -> None:
-    command = _add(
-        commands,
-        "run",
-        help="show a model or a scene in a window",
-        description="Show a model or a scene in a window. H in the window lists the keys.",
-    )
-    scene_options.add_viewed_scene(command)
-    run_options.add_run(command)
-    options.add_shared(command)
-
-
-def _add_edit(commands) -> None:
-    command = _add(
-        commands,
-        "edit",
-        help="put a scene together in a window with panels",
-        description="Open the editor: a window with panels for the tree of nodes, the scene, what "
-        "nodes are made of, and a console. It needs pip install 'engine3d[editor]'.",
-    )
-    command.add_argument("model", metavar="FILE", nargs="?", help="the file to edit, of any format")
-    command.add_argument(
-        "--resolution",
-        type=values.resolution,
-        metavar="WxH",
-        help="size of the window in pixels; 1600x900 by default",
-    )
-
-
-def _add_render(commands) -> None:
-    command = _add(
-        commands,
-        "render",
-        help="draw a model or a scene to a file",
-        description="Draw a model or a scene to a picture (PNG, JPEG, TGA, WebP) or, with "
-        "--turntable, to an animation (GIF, WebP, APNG).",
-    )
-    scene_options.add_viewed_scene(command)
-    render_options.add_render(command)
-    options.add_shared(command)
-
-
-def _add_info(commands) -> None:
-    command = _add(
-        commands,
-        "info",
-        help="print what model files hold, or what a report of a bug should say",
-        description="Print the lists that model files hold, their bounds and their warnings; or, "
-        "with --system, what a report of a bug should say of the machine and the installation.",
-    )
-    command.add_argument(
-        "models", metavar="MODEL", nargs="*", help="the files; - for standard input"
-    )
-    command.add_argument(
-        "--system",
-        action="store_true",
-        help="print the processor, backends, versions of packages, SDL and the locale instead; "
-        "names of users and machines, and paths, are not in it",
-    )
-    command.add_argument(
-        "--json", action="store_true", help="print JSON: a list where there are several files"
-    )
-    input_options.add_root(command)
-
-
-def _add_diff(commands) -> None:
-    command = _add(
-        commands,
-        "diff",
-        help="compare pictures, or folders of them",
-        description="Compare two pictures, or the pictures of two folders: what was drawn with "
-        "what it should be. Exit status 1 if one changed. Options are those of reg-cli.",
-    )
-    diff_options.add_diff(command)
-
-
-def _add_sheet(commands) -> None:
-    command = _add(
-        commands,
-        "sheet",
-        help="draw a model from several sides, with dimensions and a report",
-        description="Draw models from several sides on one sheet (PNG), with dimensions, axes and "
-        "a scale, and report as JSON what shows where and how pixels and the world are related.",
-    )
-    sheet_options.add(command)
-
-
-def _add_convert(commands) -> None:
-    command = _add(
-        commands,
-        "convert",
-        help="write a model in another format",
-        description="Write a model as OBJ (with MTL), PLY or STL; the extension of OUT decides. A "
-        "warning names what that format cannot hold. Coordinates do not change, whichever axis is "
-        "up.",
-    )
-    convert_options.add(command)
-
-
-def _add_batch(commands) -> None:
-    command = _add(
-        commands,
-        "batch",
-        help="draw many pictures, or a data set, with many processes",
-        description="Draw the pictures that a manifest lists (docs/batches.md tells its format), "
-        "with many processes. A picture is there whole or not at all. Ends with status 1 if some "
-        "could not be drawn; they are listed at the end.",
-    )
-    batch_options.add(command)
-
-
-def _add_city(commands) -> None:
-    command = _add(
-        commands,
-        "city",
-        help="generate a city and write it as a model",
-        description="Generate a city and write it as OBJ (with MTL), PLY or STL; the extension of "
-        "OUT decides. The same options give the same bytes on every machine.",
-    )
-    city_options.add(command)
-
-
-def _add_learn(commands) -> None:
-    command = _add(
-        commands,
-        "learn",
-        help="show how a 3D engine works, lesson by lesson",
-        description="Show the lessons of the course in a window, step by step. Each is a short "
-        "program that draws as a student would. Right and left arrow go from step to step, N and P "
-        "from lesson to lesson, Q leaves.",
-    )
-    learn_options.add(command)
-
-
-def _add_bench(commands) -> None:
-    command = _add(
-        commands,
-        "bench",
-        help="measure how fast this machine draws",
-        description="Measure how fast this machine draws, stage by stage. The scenes are\n"
-        "generated; nothing is downloaded. Scripts of the source distribution, in\n"
-        "benchmarks/, draw charts of the results and compare with Mesa's llvmpipe.",
-        epilog="\n  ".join(["workloads:", *(f"{one:<15} {WORKLOADS[one]}" for one in WORKLOADS)]),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    bench_options.add(command)
-
-
-def _add_completion(commands, parser: Parser) -> None:
-    command = _add(
-        commands,
-        "completion",
-        help="print what lets a shell complete commands and options",
-        description="Print a script for a shell. To try it: source <(engine3d completion bash), "
-        "the same with zsh, or engine3d completion fish | source.",
-    )
-    command.set_defaults(parser=parser)
-    command.add_argument("shell", choices=("bash", "zsh", "fish"), help="which shell")
-
-
 def _missing_command():
-    raise UsageError(
-        "say which command: run, edit, render, info, sheet, diff, convert, batch, city, learn, "
-        "bench or completion (see engine3d --help)"
-    )
-
-
-def _add(commands, name: str, **texts) -> argparse.ArgumentParser:
-    """Add a command; the function that runs it has its name, in the module of that name."""
-    command = commands.add_parser(name, allow_abbrev=False, **texts)
-    command.set_defaults(load_command=functools.partial(_load, name))
-    return command
+    *names, last = COMMANDS
+    raise UsageError(f"say which command: {', '.join(names)} or {last} (see engine3d --help)")
 
 
 def _load(command: str):

@@ -128,8 +128,6 @@ class View(RemoteFrameBuffer):
         if self._page is None:
             return  # Python takes away what an error kept from being made
         if self._view_renderer is not None:
-            self._viewer.visibility.restore()
-            self._view_renderer.leave_scene()
             if self._view_renderer.viewed.player is not None:
                 self._view_renderer.viewed.player.stop()
             self._view_renderer.close()

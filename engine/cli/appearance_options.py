@@ -108,7 +108,7 @@ def appearance_of(args: argparse.Namespace) -> dict:
         raise UsageError(f"--unlit does not go with --mode {args.mode}")
     if args.edges and args.wireframe == "only":
         raise UsageError("--edges does not go with --wireframe only")
-    from ..viewer.appearance import DEFAULTS
+    from ..stage.appearance import DEFAULTS
 
     named = {name: value for name, value in vars(args).items() if name in DEFAULTS}
     if args.unlit:

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
+from typing import NamedTuple
 
 from ..desktop.user_folders import user_path
 from ..errors import FileFormatError
@@ -54,37 +55,38 @@ def add_config(parser) -> None:
 
 
 def set_defaults(
-    commands: dict[str, argparse.ArgumentParser], args: argparse.Namespace, models: Sequence[str]
-) -> bool:
-    """Let the options of files and of ``-D`` be the defaults of a command's; return if any are.
+    command: argparse.ArgumentParser,
+    said: Sequence[Said],
+    args: argparse.Namespace,
+    models: Sequence[str],
+) -> None:
+    """Let the options of files and of ``-D`` be the defaults of a command's.
 
     Parameters
     ----------
-    commands : dict of str to ArgumentParser
-        All commands; options that only others have are passed over.
+    command : ArgumentParser
+    said : sequence of Said
+        As of `options_in_files`; options that only other commands have are passed over.
     args : Namespace
         What was parsed before.
     models : sequence of str
-        The files to be shown, which entries may be for.
+        The files to be shown.
 
     Raises
     ------
-    FileFormatError, FileAccessError
-        A file cannot be read, or says what it may not.
+    FileFormatError
+        A file says what it may not.
     UsageError
         ``-D`` does.
     """
-    known = {name for command in commands.values() for name in _options(command)}
-    command = commands[args.command]
     options = _options(command)
     usual = {action.dest: command.get_default(action.dest) for action in options.values()}
     said_at: dict[str, int] = {}  # place of the last entry that has an option
-    for path, number, name, value in _entries(args, models):
+    for path, number, name, value in said:
         place = f"[{number}].options.{name}"
-        if name not in known:
-            hint = suggestions.meant(name, known) or "; engine3d COMMAND --help lists them"
-            raise FileFormatError(f"{place}: there is no such option{hint}", path)
-        if name in options and (models or options[name].dest not in OF_MODELS):
+        if name not in options:
+            _check_is_known(name, place, path)
+        elif models or options[name].dest not in OF_MODELS:
             said_at[options[name].dest] = number
             try:
                 _set(command, options[name], value)
@@ -101,13 +103,22 @@ def set_defaults(
             raise UsageError(f"-D {text}: there is no option {name!r}{hint}")
         said_at[options[name].dest] = _DEFINED
         try:
-            said = {"true": True, "false": False}.get(value, value)
-            _set(command, options[name], said)
+            given = {"true": True, "false": False}.get(value, value)
+            _set(command, options[name], given)
         except ValueError as error:
             raise UsageError(f"-D {text}: {error}") from None
     typed = {name: _TYPED for name, value in usual.items() if getattr(args, name) != value}
     _give_way(command, usual, said_at | typed)
-    return bool(said_at)
+
+
+def _check_is_known(name: str, place: str, path: str) -> None:
+    """Raise unless some command has an option of that name."""
+    from .parser import make_parser
+
+    known = {one for command in make_parser().commands.values() for one in _options(command)}
+    if name not in known:
+        hint = suggestions.meant(name, known) or "; engine3d COMMAND --help lists them"
+        raise FileFormatError(f"{place}: there is no such option{hint}", path)
 
 
 def _give_way(
@@ -172,15 +183,27 @@ def _parsed(command: argparse.ArgumentParser, action: argparse.Action, text: str
     return value
 
 
-def _entries(
-    args: argparse.Namespace, models: Sequence[str]
-) -> Iterator[tuple[str, int, str, object]]:
-    """Yield file, number of the entry, name and value of all options that count for the models."""
-    if args.no_config:
-        return
+class Said(NamedTuple):
+    """An option in a file: its place there, its name and its value."""
+
+    path: str
+    number: int
+    name: str
+    value: object
+
+
+def options_in_files(args: argparse.Namespace, models: Sequence[str]) -> list[Said]:
+    """Return all options that count for the models.
+
+    Raises
+    ------
+    FileFormatError, FileAccessError
+        The file cannot be read, or holds something else.
+    """
     path = args.config or str(user_path("config", "config.json"))
-    if args.config is None and not os.path.isfile(path):
-        return
+    if args.no_config or (args.config is None and not os.path.isfile(path)):
+        return []
+    found = []
     for number, entry in enumerate(_read(path)):
         place = f"[{number}]"
         if not isinstance(entry, dict) or not isinstance(entry.get("options"), dict):
@@ -188,8 +211,8 @@ def _entries(
         if wrong := entry.keys() - _ENTRY:
             raise FileFormatError(f"{place}.{min(wrong)}: there is no such key", path)
         if _counts(entry.get("files"), models, place, path):
-            for name, value in entry["options"].items():
-                yield path, number, name, value
+            found += [Said(path, number, *option) for option in entry["options"].items()]
+    return found
 
 
 def _counts(patterns, models: Sequence[str], place: str, path: str) -> bool:

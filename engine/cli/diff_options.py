@@ -5,7 +5,7 @@ from __future__ import annotations
 from . import values
 
 
-def add_diff(command) -> None:
+def add(command) -> None:
     """Add what is compared, what may differ, and what is written."""
     command.add_argument(
         "pictures",

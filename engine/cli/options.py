@@ -39,11 +39,6 @@ def add_shared(command) -> None:
     camera_options.add_camera(command)
 
 
-def add_quiet(parser) -> None:
-    """Add what says less."""
-    parser.add_argument("--quiet", action="store_true", help="print errors only, no warnings")
-
-
 def settings(args: argparse.Namespace):
     """Return the `Settings` that the options name."""
     from ..stage.stage_settings import Settings

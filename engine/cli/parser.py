@@ -8,7 +8,7 @@ import importlib
 from collections.abc import Sequence
 
 from ..version import __version__
-from . import config, options, suggestions
+from . import config, suggestions
 from .commands import COMMANDS
 from .joined_values import join_values
 from .suggestions import Parser
@@ -20,14 +20,17 @@ def parse(arguments: list[str]) -> argparse.Namespace:
 
     Raises `UsageError`, or `SystemExit` after argparse has printed its line.
     """
-    args = _parsed(arguments, make_parser())
+    command = next((word for word in arguments if not _is_option(word)), "")
+    args = _parsed(arguments, make_parser(command))
     if "define" not in args:
         return args
 
     def configured(models: Sequence[str]) -> argparse.Namespace:
-        parser = make_parser()
-        is_changed = config.set_defaults(parser.commands, args, models)
-        found = _parsed(arguments, parser) if is_changed else args
+        found, said = args, config.options_in_files(args, models)
+        if said or args.define:
+            parser = make_parser(command)
+            config.set_defaults(parser.commands[command], said, args, models)
+            found = _parsed(arguments, parser)
         found.configured = configured
         return found
 
@@ -55,8 +58,14 @@ def _is_option(argument: str) -> bool:
     return argument.startswith("-") and argument != "-"
 
 
-def make_parser() -> Parser:
-    """Return the parser; ``load_command()`` of what it parsed returns the command's function."""
+def make_parser(asked: str | None = None) -> Parser:
+    """Return the parser; ``load_command()`` of what it parsed returns the command's function.
+
+    Parameters
+    ----------
+    asked : str, optional
+        The only command that gets its options; all do if left out.
+    """
     parser = Parser(
         prog="engine3d",
         description="Draw 3D models on the CPU: in a window, or to a file.",
@@ -77,12 +86,17 @@ def make_parser() -> Parser:
             name, allow_abbrev=False, help=row.help, description=row.description
         )
         command.set_defaults(load_command=functools.partial(_load, name))
-        for add in row.options:
-            add(command)
-        if row.quiet:
-            options.add_quiet(command)
+        if asked in (None, name):
+            row.add(command)
+            if row.is_quiet:
+                add_quiet(command)
     parser.commands = commands.choices
     return parser
+
+
+def add_quiet(command: argparse.ArgumentParser) -> None:
+    """Add what says less."""
+    command.add_argument("--quiet", action="store_true", help="print errors only, no warnings")
 
 
 def _missing_command():

@@ -12,7 +12,6 @@ import json
 import os
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
 
 from .._support.system import NO_LINK, READ_WRITE, locked
 from ..desktop.user_folders import user_path
@@ -20,9 +19,8 @@ from ..errors import FileAccessError, FileFormatError, warn
 from ..files import json_records
 from ..files.atomic_write import LEFT_BEHIND, atomic_write
 from ..writers.scene import scene_text
-
-if TYPE_CHECKING:
-    from .document import SceneDocument
+from .document import SceneDocument
+from .recovery import ROOT, Recovery
 
 #: Seconds between two copies of a scene that goes on changing.
 PERIOD = 30.0
@@ -36,26 +34,7 @@ _HEAD = json_records.members(
         )
     }
 )
-_LONGEST_LINE, _LARGEST = 1 << 16, 1 << 40  # bytes
-_ROOT = "/"  # what a copy names is named from here, so that it may stand anywhere
-
-
-class Recovery(NamedTuple):
-    """A copy that an editor left behind.
-
-    Attributes
-    ----------
-    path : str
-        Of the copy.
-    document : str or None
-        The file of which it is a later state; None if it never had one.
-    time : float
-        When it was made, in seconds since the epoch.
-    """
-
-    path: str
-    document: str | None
-    time: float
+_LONGEST_LINE = 1 << 16  # bytes
 
 
 class Autosave:
@@ -105,7 +84,7 @@ class Autosave:
         self._version, self._changed_since = document.history.version, None
         try:
             path = self._owned_path()
-            content, _ = scene_text(document.scene, _ROOT)
+            content, _ = scene_text(document.scene, ROOT)
             saying = {"document": document.path, "time": time.time()}
             with atomic_write(path, below=self._folder) as file:
                 file.write(b'{"autosave": ' + json.dumps(saying).encode("ascii") + b",\n")
@@ -165,17 +144,6 @@ def _remove_half_written(place: Path) -> None:
 def forget(copy: Recovery) -> None:
     """Remove a copy that was left behind."""
     _remove(Path(copy.path))
-
-
-def content_of(copy: Recovery) -> tuple[str, bytes]:
-    """Return a path that the names in a copy start from, and the copy's scene.
-
-    Raises
-    ------
-    FileAccessError, FileFormatError
-    """
-    data = json_records.read_small(copy.path, _LARGEST)  # a scene may be large
-    return os.path.join(_ROOT, os.path.basename(copy.path)), b"{" + data.partition(b"\n")[2]
 
 
 def _folder() -> Path:

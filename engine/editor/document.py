@@ -21,10 +21,10 @@ from ..scene.animation import Animator
 from ..scene.loading import scene_from_document
 from ..scene.scene import Scene
 from ..writers.scene import save_scene
-from .autosave import Recovery, content_of
 from .console import Console
 from .history import Command, History
 from .prompt import Prompt
+from .recovery import Recovery, content_of
 from .resource_list import ResourceList
 from .selection import Selection
 

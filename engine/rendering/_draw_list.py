@@ -72,6 +72,7 @@ class DrawList:
         self._scene = lambda: None
         self._objects_version = -1
         self._listing: Listing | None = None
+        self._untextured: frozenset[Material] = frozenset()
         # Numbers of the objects that enclose a volume.
         self._closed: set[int] = set()
         self._with_holes: set[int] = set()  # of these, those that have holes
@@ -174,6 +175,7 @@ class DrawList:
         numbers = self._numbers_that_changed(scene) if same else None
         self._scene = lambda: None  # if anything below raises, the list is not current
         self._listing = listing
+        self._untextured = self._materials.untextured = scene._untextured
         if numbers is None:
             self._rebuild(scene)
         else:
@@ -218,6 +220,7 @@ class DrawList:
         self.lights.forget()
         self._watch, self._changed = Watch(), []
         self._materials = MaterialList(self.native, self._color_space, self._watch)
+        self._materials.untextured = self._untextured
         self._trees = InstanceTrees(self.native)
         self._listed, self._left, self._marks = [], 0, False
         self._make_textures(scene)
@@ -227,7 +230,7 @@ class DrawList:
     def _make_textures(self, scene: Scene) -> None:
         meshes = (getattr(obj, "mesh", obj) for obj in scene._objects.objects if obj is not None)
         materials = {material for mesh in meshes for material in mesh.materials}
-        make_textures(materials, self._color_space, self._threads)
+        make_textures(materials - self._untextured, self._color_space, self._threads)
 
     def _set_object(self, number: int, obj) -> None:
         """List a mesh, once or at many poses, or nothing, under a number or the next one."""

@@ -24,10 +24,16 @@ class MaterialList:
     color_space : {"srgb", "linear"}
         How 8-bit colours are read.
     watch : Watch
+
+    Attributes
+    ----------
+    untextured : frozenset of Material
+        Set without their textures.
     """
 
     def __init__(self, native: NativeDrawList, color_space: str, watch: Watch) -> None:
         self._native, self._color_space, self._watch = native, color_space, watch
+        self.untextured: frozenset[Material] = frozenset()
         # Where they are, as whose, and whether both sides show anyway.
         self._places: dict[Material, list[tuple[int, int, bool]]] = {}
         # Which normals they asked for, and whether nothing shows through them.
@@ -70,7 +76,7 @@ class MaterialList:
     def _set(self, index: int, material: Material, number: int, both: bool) -> None:
         self._watch.add(material)
         self._traits[material] = _traits_of(material)
-        placed = placed_textures_of(material)
+        placed = {} if material in self.untextured else placed_textures_of(material)
         self._note_textures(material, {use.texture for use in placed.values()})
         two_sided = both or material.two_sided
         set_material(self._native, index, number, material, placed, self._color_space, two_sided)

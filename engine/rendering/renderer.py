@@ -21,6 +21,7 @@ from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.scene import Scene
 from ..scene.scenes_of_things import scene_of
+from ..scene.staged_scene import StagedScene
 from ._draw_list import DrawList
 from ._frame_memory import FrameMemory
 from ._frame_options import OptionsCache
@@ -218,7 +219,7 @@ class Renderer(Closed):
             self._native.prepare(self._width * axis, self._height * axis, multiple or 1)
 
     def _check_drawable(self, scene) -> None:
-        if not isinstance(scene, Scene):
+        if not isinstance(scene, (Scene, StagedScene)):
             raise InvalidArgumentError(f"scene must be a Scene, not {type(scene).__name__}")
         if self._native is None:
             raise InvalidArgumentError("the renderer is closed")

@@ -19,7 +19,7 @@ from ..motion.posed_mesh import PosedMesh
 from .instances import InstancedMesh, mesh_box
 
 _REMEMBERED = 1024  # numbers that got other objects
-_NO_BOX = np.array((np.inf,) * 3 + (-np.inf,) * 3 + (0.0,) * 3)
+NO_BOX = np.array((np.inf,) * 3 + (-np.inf,) * 3 + (0.0,) * 3)
 
 
 class ObjectTable:
@@ -181,4 +181,4 @@ def _box(obj) -> np.ndarray:
         return mesh_box(obj)
     if isinstance(obj, PosedMesh):
         return obj.box()
-    return _NO_BOX if obj is None else obj._box_in_node()
+    return NO_BOX if obj is None else obj._box_in_node()

@@ -46,6 +46,7 @@ from .selection import NodeSelection
 from .surroundings import Surroundings
 
 if TYPE_CHECKING:
+    from ..materials.material import Material
     from ..motion.clips import AnimationClip
     from ..motion.skins import Skin
     from .animation import Animator
@@ -100,6 +101,7 @@ class Scene(Surroundings, SceneQueries):
     """
 
     warnings: list[str]
+    _untextured: frozenset[Material] = frozenset()  # what is drawn without its textures
 
     def __init__(
         self,

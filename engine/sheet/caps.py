@@ -14,7 +14,7 @@ from .. import linalg
 from ..scene.cameras import Camera
 from .cutting import Plane, area_of, cut_nodes, gaps_of, inside
 from .layout import Rectangle
-from .panel_renderer import Studio
+from .panel_renderer import PanelRenderer
 
 #: Cut material and its hatching.
 _CUT, _HATCH = (232, 164, 124), (150, 78, 44)
@@ -45,7 +45,7 @@ class Caps(NamedTuple):
 
 
 def find_caps(
-    studio: Studio, plane: Plane, camera: Camera, pose: np.ndarray, rectangle: Rectangle
+    studio: PanelRenderer, plane: Plane, camera: Camera, pose: np.ndarray, rectangle: Rectangle
 ) -> Caps:
     """Return the cut faces of a panel.
 
@@ -54,8 +54,7 @@ def find_caps(
     studio, plane, camera, pose, rectangle
         Of the panel.
     """
-    wanted = set(studio.own_ids.tolist())
-    outlines = cut_nodes([node for node in studio.scene.nodes if node.id in wanted], plane)
+    outlines = cut_nodes(studio.scene.nodes, plane)
     areas = [area_of(outline.segments, plane) for outline in outlines]
     gaps = [gaps_of(outline.segments) for outline in outlines]
     ids = np.full((rectangle.height, rectangle.width), -1, np.int64)

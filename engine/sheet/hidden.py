@@ -31,18 +31,11 @@ class AloneScene:
     Parameters
     ----------
     scene : Scene
-    own_ids : ndarray of int
-        The ids of the nodes that count.
     """
 
-    def __init__(self, scene: Scene, own_ids: np.ndarray) -> None:
+    def __init__(self, scene: Scene) -> None:
         scene._update()
-        wanted = set(own_ids.tolist())
-        nodes = [
-            node
-            for node in scene.nodes
-            if node.id in wanted and node.shown and isinstance(node.object, DRAWABLE)
-        ]
+        nodes = [node for node in scene.nodes if node.shown and isinstance(node.object, DRAWABLE)]
         self.ids = [node.id for node in nodes]
         self._scene = Scene(background=None)
         self._nodes = [self._copy(node) for node in nodes] if 1 < len(nodes) <= _MOST_NODES else []

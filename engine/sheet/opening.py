@@ -1,13 +1,13 @@
 """What a sheet shows, opened: files, meshes and scenes alike.
 
-In: what the caller gives. Out: a `SheetModel`.
+In: what the caller gives. Out: a `ViewedScene`.
 """
 
 from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from typing import Any, BinaryIO, NamedTuple, TypeAlias
+from typing import Any, BinaryIO, TypeAlias
 
 from ..errors import InvalidArgumentError, printable
 from ..geometry.mesh import Mesh
@@ -18,24 +18,7 @@ from ..stage.viewed_scene import ViewedScene
 SheetSource: TypeAlias = str | os.PathLike[str] | BinaryIO | Mesh | Scene
 
 
-class SheetModel(NamedTuple):
-    """Something to draw.
-
-    Attributes
-    ----------
-    viewed : ViewedScene
-    title : str
-        Fit for printing.
-    file : str or None
-        The path, as given.
-    """
-
-    viewed: ViewedScene
-    title: str
-    file: str | None
-
-
-def open_sources(sources: SheetSource | Iterable[SheetSource], **options: Any) -> list[SheetModel]:
+def open_sources(sources: SheetSource | Iterable[SheetSource], **options: Any) -> list[ViewedScene]:
     """Return what one or several sources hold.
 
     Parameters
@@ -61,20 +44,16 @@ def open_sources(sources: SheetSource | Iterable[SheetSource], **options: Any) -
     return [_open(source, options) for source in given]
 
 
-def _open(source: Any, options: dict[str, Any]) -> SheetModel:
+def _open(source: Any, options: dict[str, Any]) -> ViewedScene:
     if isinstance(source, Scene):
-        viewed = ViewedScene(source, "scene", themed=True)
-        return SheetModel(viewed, "scene", None)
+        return ViewedScene(source, "scene", themed=True)
     if isinstance(source, Mesh):
         scene = Scene()
         scene.add(source, name=source.name)
         title = printable(source.name) or "mesh"
-        viewed = ViewedScene(scene, title, themed=True, appearance={"cull": "auto"})
-        return SheetModel(viewed, title, None)
+        return ViewedScene(scene, title, themed=True, appearance={"cull": "auto"})
     if not isinstance(source, (str, os.PathLike)) and not hasattr(source, "read"):
         raise InvalidArgumentError(
             f"a model is a path, a Mesh or a Scene, not {type(source).__name__}"
         )
-    viewed = open_models([source], **options)
-    file = None if hasattr(source, "read") else os.fsdecode(source)
-    return SheetModel(viewed, viewed.title, file)
+    return open_models([source], **options)

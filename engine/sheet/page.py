@@ -14,12 +14,12 @@ from ..canvas import Canvas, text_size
 from ..errors import InvalidArgumentError, printable
 from ..rendering.support_functions import support_of_box, support_of_scene
 from ..scene.cameras import Camera
+from ..stage.viewed_scene import ViewedScene
 from ..stage.viewpoint import UP_DIRECTIONS
 from . import marks
 from .hidden import AloneScene
 from .layout import Padding, Reach, Rectangle, lay_out
-from .opening import SheetModel
-from .panel_renderer import Studio
+from .panel_renderer import PanelRenderer
 from .panels import Panel, Place, draw_panel
 from .placing import Extent, find_extent, place_camera
 from .report import ModelReport
@@ -46,7 +46,7 @@ class Pages(NamedTuple):
 
 
 def draw_pages(
-    models: list[SheetModel],
+    models: list[ViewedScene],
     specs: list[ViewSpec],
     size: tuple[int, int] | None,
     up: str | None,
@@ -72,7 +72,7 @@ def draw_pages(
         columns = len(specs)
         if len(models) == 1:
             columns = 2 if len(specs) == 4 else None
-        page = _Page(canvas, area, model, up or model.viewed.up, unit)
+        page = _Page(canvas, area, model, up or model.up, unit)
         drawn, report = page.draw(specs, columns, drawing)
         panels.append(drawn)
         reports.append(report)
@@ -83,20 +83,20 @@ class _Page:
     """The part of a sheet that shows one model."""
 
     def __init__(
-        self, canvas: Canvas, area: Rectangle, model: SheetModel, up: str, unit: str | None
+        self, canvas: Canvas, area: Rectangle, model: ViewedScene, up: str, unit: str | None
     ) -> None:
         self._canvas, self._area, self._model = canvas, area, model
         self._up = up
-        self._unit = model.viewed.unit or None if unit is None else printable(unit)
+        self._unit = model.unit or None if unit is None else printable(unit)
         large = area.height >= _LARGE and area.width >= _WIDE
         self._text = 2 if large else 1
 
     def draw(self, specs, columns: int | None, drawing) -> tuple[list[Panel], dict[str, Any]]:
-        scene, text = self._model.viewed.scene, self._text
+        scene, text = self._model.scene, self._text
         cameras = [node for node in scene.nodes if isinstance(node.object, Camera)]
         self._check_cameras(specs, cameras)
-        studio = Studio(self._model.viewed, self._up, drawing)
-        alone = AloneScene(scene, studio.own_ids)
+        studio = PanelRenderer(self._model, self._up, drawing)
+        alone = AloneScene(scene)
         extents = self._extents(studio, specs)
         x, y, width, height = self._area
         margin, title, foot = (side * text for side in (_MARGIN, _TITLE, _FOOT))
@@ -109,7 +109,7 @@ class _Page:
             panels = []
             for spec, extent, rectangle in zip(specs, extents, rectangles, strict=True):
                 place = self._place(spec, extent, rectangle, scale)
-                origin = self._model.viewed.origin
+                origin = self._model.origin
                 panels.append(draw_panel(studio, place, self._canvas, alone, cameras, origin))
             report = ModelReport(self._model, studio, self._unit)
             told = report.as_dict(self._up, panels)
@@ -130,7 +130,7 @@ class _Page:
     def _padding(self, padding: Padding) -> Padding:
         return Padding(*(side * self._text for side in padding))
 
-    def _extents(self, studio: Studio, specs) -> list[Extent]:
+    def _extents(self, studio: PanelRenderer, specs) -> list[Extent]:
         support = support_of_scene(studio.scene)
         if support is None:
             support = support_of_box(studio.bounds)
@@ -141,7 +141,7 @@ class _Page:
             found.append(find_extent(support, center, sight.axes(studio.up)))
         return found
 
-    def _choose_theme(self, studio: Studio, specs, extent: Extent) -> None:
+    def _choose_theme(self, studio: PanelRenderer, specs, extent: Extent) -> None:
         if studio.has_faces and not any(spec.kind == "isometric" for spec in specs):
             return  # lines make drawings of faces stand out from any ground
         area = Rectangle(0, 0, 160, 120)
@@ -155,7 +155,7 @@ class _Page:
         own = _fitting_scale(extent, rectangle, padding)
         return Place(spec, rectangle, extent, padding, own)
 
-    def _mark_panel(self, panel: Panel, studio: Studio) -> None:
+    def _mark_panel(self, panel: Panel, studio: PanelRenderer) -> None:
         canvas, text = self._canvas, self._text
         theme = studio.stage_theme if panel.spec.kind == "isometric" else studio.paper
         x, y, width, height = panel.rectangle
@@ -177,7 +177,7 @@ class _Page:
             window.text(place, 7 * text, reason, theme.key, scale=text)
         marks.draw_frame(canvas, panel.rectangle, studio.paper)
 
-    def _draw_dimensions(self, window: Canvas, panel: Panel, studio: Studio) -> None:
+    def _draw_dimensions(self, window: Canvas, panel: Panel, studio: PanelRenderer) -> None:
         across, upward, _ = panel.extent.size
         text, theme, pad = self._text, studio.paper, self._padding(_DRAWING)
         _, _, width, height = panel.rectangle
@@ -192,7 +192,7 @@ class _Page:
             length = marks.length_text(upward, self._unit)
             marks.draw_height(window, top, bottom, round(left) - 14 * text, length, theme, text)
 
-    def _write_title(self, told: dict[str, Any], studio: Studio) -> None:
+    def _write_title(self, told: dict[str, Any], studio: PanelRenderer) -> None:
         x, y, width, _ = self._area
         text, theme = self._text, studio.paper
         columns = (width - 2 * _MARGIN * text) // (8 * text)
@@ -203,7 +203,7 @@ class _Page:
         place = x + width - _MARGIN * text - text_size(facts, text)[0]
         self._canvas.text(place, y + 14 * text, facts, theme.text, scale=text)
 
-    def _write_foot(self, told: dict[str, Any], scale: float, studio: Studio) -> None:
+    def _write_foot(self, told: dict[str, Any], scale: float, studio: PanelRenderer) -> None:
         x, y, width, height = self._area
         text, theme = self._text, studio.paper
         row = y + height - (_FOOT - 8) * text

@@ -1,8 +1,4 @@
-"""The light and the grounds of a sheet, in a scene for as long as it is drawn.
-
-In: what is shown. Out: panels as frames: drawings on paper, and pictures in the studio look. The
-scene is left as it was.
-"""
+"""The panels of a sheet as frames: drawings on paper, and pictures in the studio look."""
 
 from __future__ import annotations
 
@@ -16,13 +12,14 @@ from ..materials.material import Material
 from ..rendering.frame import Frame
 from ..rendering.renderer import Renderer
 from ..scene.cameras import Camera
+from ..scene.staged_scene import StagedScene
 from ..scene.usage import uses_in
 from ..stage.appearance import count_points, point_size
 from ..stage.blank import Sight
 from ..stage.chosen_surroundings import Surroundings
 from ..stage.lighting import Lighting
 from ..stage.scene_bounds import sphere_of_box
-from ..stage.studio import Stage, theme_for
+from ..stage.studio import Studio, theme_for
 from ..stage.theme import LIGHT, Theme
 from ..stage.viewed_scene import ViewedScene
 from ..stage.viewpoint import UP_DIRECTIONS
@@ -33,11 +30,10 @@ _SMALL = (160, 120)
 _SAMPLES = 4
 #: How far ambient occlusion reaches, in radii of the model.
 _OCCLUSION = 0.2
-_KEPT = ("background", "ambient", "environment", "environment_intensity", "fog")
 
 
-class Studio:
-    """A scene with the light of a sheet; a context manager, which takes it away again.
+class PanelRenderer:
+    """Draws panels of a scene in the light of a sheet; a context manager, which frees the buffers.
 
     Parameters
     ----------
@@ -49,8 +45,8 @@ class Studio:
 
     Attributes
     ----------
-    own_ids : ndarray of int32
-        The ids of the nodes that are the scene's own.
+    staged : StagedScene
+        The scene in that light.
     bounds : (2, 3) ndarray of float64
         Of the model.
     sphere : Sphere
@@ -72,28 +68,23 @@ class Studio:
             isinstance(thing, Material) and thing.normal_texture is not None
             for thing in uses_in([self.scene])
         )
-        self.own_ids = np.array([node.id for node in self.scene.nodes], np.int64)
-        self._kept = {name: getattr(self.scene, name) for name in _KEPT}
         self._options = {"samples": _SAMPLES, "antialias": "msaa", **drawing}
         self._drawing = dict(drawing)
         self._cull = viewed.appearance.get("cull", "back")
         self._points = count_points(self.scene)
         self.has_faces = any(isinstance(t, Mesh) and len(t.faces) for t in uses_in([self.scene]))
         self._renderer: Renderer | None = None
-
-    def __enter__(self) -> Studio:
-        Surroundings().put(self.scene)
-        self.scene.fog = None
-        self._lighting = Lighting(self.scene, self.up)
+        self.staged = StagedScene(self.scene)
+        Surroundings().put(self.staged)
+        self.staged.fog = None
+        self._lighting = Lighting(self.staged, self.up)
         self._lighting.choose("studio")
-        self._stage = Stage(self.scene, self.up, self.scene.environment is None)
+        self._studio = Studio(self.staged, self.up, self.staged.environment is None)
+
+    def __enter__(self) -> PanelRenderer:
         return self
 
     def __exit__(self, *exception: object) -> None:
-        self._stage.leave()
-        self._lighting.leave()
-        for name, value in self._kept.items():
-            setattr(self.scene, name, value)
         if self._renderer is not None:
             self._renderer.close()
 
@@ -102,10 +93,10 @@ class Studio:
 
         Without, it is drawn on light ground.
         """
-        self.scene.background = None
+        self.staged.background = None
         self._lighting.follow(pose)
         with Renderer(*_SMALL, **self._drawing) as renderer:
-            color = renderer.render(self.scene, (camera, pose), cull=self._cull).color
+            color = renderer.render(self.staged, (camera, pose), cull=self._cull).color
         self.stage_theme = theme_for(color)
         if not self.has_faces:
             self.paper = self.stage_theme
@@ -140,13 +131,13 @@ class Studio:
             options["cull"] = "none"
         if on_stage:
             cull = options.get("cull", self._cull)
-            self._stage.lay_shadow(self.sphere, azimuth, cull, (*pose[:3, 2], 0.0))
+            self._studio.lay_shadow(self.sphere, azimuth, cull, (*pose[:3, 2], 0.0))
             options["ambient_occlusion"] = True
             options["ambient_occlusion_radius"] = _OCCLUSION * self.sphere.radius
         else:
-            self._stage.show_shadow(False)
+            self._studio.show_shadow(False)
         ground = self.stage_theme.gradient if on_stage else self.paper.background
-        self.scene.background = ground
+        self.staged.background = ground
         outputs = OUTPUTS if on_stage else (*OUTPUTS, "world_normal")
         return self.render(camera, pose, rectangle, outputs=outputs, **options)
 
@@ -162,7 +153,7 @@ class Studio:
         """Return what a camera looks at, to ask why it sees nothing."""
         size = rectangle.width, rectangle.height
         options = {"cull": self._cull, "point_size": self._point_size(rectangle)}
-        return Sight(self.scene, camera, pose, size, self.own_ids, options, self._options)
+        return Sight(self.scene, camera, pose, size, options, self._options)
 
     def render(
         self, camera: Camera, pose: np.ndarray, rectangle: Rectangle, **options: Any
@@ -175,5 +166,5 @@ class Studio:
             self._renderer.resize(*size)
         options = {"cull": self._cull, "point_size": self._point_size(rectangle), **options}
         return self._renderer.render(
-            self.scene, (camera, pose), transparent_outputs=True, **options
+            self.staged, (camera, pose), transparent_outputs=True, **options
         )

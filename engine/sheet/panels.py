@@ -15,13 +15,13 @@ from ..canvas import Canvas
 from ..rendering.frame import Frame
 from ..scene.cameras import Camera
 from ..scene.nodes import Node
-from ..stage.blank import Reason, covered, reason_of
+from ..stage.blank import Reason, reason_of
 from .caps import Caps, find_caps, paint_caps
 from .cutting import Plane
 from .hidden import AloneScene
 from .layout import Padding, Rectangle
 from .outlines import draw_outlines
-from .panel_renderer import Studio
+from .panel_renderer import PanelRenderer
 from .placing import Extent, Matrices, cut, cut_obliquely, find_matrices, place_camera
 from .views import ViewSpec
 from .visible import SAME_COLOUR, box_of, contrast
@@ -91,7 +91,7 @@ class Place:
 
 
 def draw_panel(
-    studio: Studio,
+    studio: PanelRenderer,
     place: Place,
     canvas: Canvas,
     alone: AloneScene,
@@ -102,7 +102,7 @@ def draw_panel(
 
     Parameters
     ----------
-    studio : Studio
+    studio : PanelRenderer
     place : Place
     canvas : Canvas
         Over the sheet.
@@ -115,7 +115,7 @@ def draw_panel(
     spec, rectangle = place.spec, place.rectangle
     camera, pose, scale = _camera(studio, place, cameras, origin)
     frame = _draw(studio, spec, camera, pose, rectangle)
-    shown = covered(frame, studio.own_ids)
+    shown = studio.staged.own_pixels(frame.object_id)
     panel = Panel(
         spec,
         rectangle,
@@ -157,7 +157,7 @@ def _show_caps(panel: Panel, plane: Plane, origin) -> None:
     panel.shown[rows, columns] = True
 
 
-def _look_for_reasons(panel: Panel, studio: Studio) -> None:
+def _look_for_reasons(panel: Panel, studio: PanelRenderer) -> None:
     """Find out whether anything is to be seen, and if not, why."""
     panel.contrast = _contrast(studio, panel)
     if not panel.shown.any():
@@ -166,7 +166,7 @@ def _look_for_reasons(panel: Panel, studio: Studio) -> None:
         panel.reason = Reason("same_colour", "what shows has the colour of the ground")
 
 
-def _camera(studio: Studio, place: Place, cameras: list[Node], origin):
+def _camera(studio: PanelRenderer, place: Place, cameras: list[Node], origin):
     spec = place.spec
     if spec.camera is not None:
         node = cameras[spec.camera]
@@ -182,7 +182,7 @@ def _camera(studio: Studio, place: Place, cameras: list[Node], origin):
     return camera, pose, place.scale
 
 
-def _plane(studio: Studio, spec: ViewSpec, origin) -> Plane | None:
+def _plane(studio: PanelRenderer, spec: ViewSpec, origin) -> Plane | None:
     """The plane of a section, in the scene.
 
     One that misses the model is moved close to it: it cuts off as much, all or nothing, and a far
@@ -197,21 +197,21 @@ def _plane(studio: Studio, spec: ViewSpec, origin) -> Plane | None:
     return Plane(axis, coordinate - origin[axis], spec.section.from_above)
 
 
-def _draw(studio: Studio, spec: ViewSpec, camera, pose, rectangle) -> Frame:
+def _draw(studio: PanelRenderer, spec: ViewSpec, camera, pose, rectangle) -> Frame:
     if spec.kind == "isometric":
         azimuth = math.radians(spec.angles[0])
         return studio.draw(camera, pose, rectangle, on_stage=True, azimuth=azimuth)
     return studio.draw(camera, pose, rectangle, both_sides=spec.section is not None)
 
 
-def _contrast(studio: Studio, panel: Panel) -> int:
+def _contrast(studio: PanelRenderer, panel: Panel) -> int:
     ground = studio.paper.background
     if panel.spec.kind == "isometric":
         ground = studio.stage_theme.gradient.bottom
     return contrast(panel.frame, panel.shown, ground)
 
 
-def _ink(panel: Panel, studio: Studio) -> None:
+def _ink(panel: Panel, studio: PanelRenderer) -> None:
     """Draw the lines of a drawing into a panel's colours, and the cut faces of a section."""
     box = panel.box
     if box is None:

@@ -16,8 +16,8 @@ from ..errors import printable
 from ..materials.colors import linear_color, split_alpha
 from ..scene.cameras import Camera, OrthographicCamera, PerspectiveCamera
 from ..scene.instances import InstancedMesh
-from .opening import SheetModel
-from .panel_renderer import Studio
+from ..stage.viewed_scene import ViewedScene
+from .panel_renderer import PanelRenderer
 from .panels import Panel
 from .placing import is_parallel_projection
 from .visible import Shown, count_by_key, count_parts, joined, mesh_of_node
@@ -48,22 +48,17 @@ class ModelReport:
 
     Parameters
     ----------
-    model : SheetModel
-    studio : Studio
+    model : ViewedScene
+    studio : PanelRenderer
     unit : str or None
     """
 
-    def __init__(self, model: SheetModel, studio: Studio, unit: str | None) -> None:
-        self._viewed, self._scene = model.viewed, model.viewed.scene
-        wanted = set(studio.own_ids.tolist())
-        self._nodes = [
-            node
-            for node in self._scene.nodes
-            if node.id in wanted and mesh_of_node(node) is not None
-        ]
+    def __init__(self, model: ViewedScene, studio: PanelRenderer, unit: str | None) -> None:
+        self._model, self._scene = model, model.scene
+        self._nodes = [node for node in self._scene.nodes if mesh_of_node(node) is not None]
         self._names = {node.id: printable(node.name) for node in self._nodes}
         self._materials = _materials_of(self._nodes)
-        self._model, self._studio, self._unit = model, studio, unit
+        self._studio, self._unit = studio, unit
 
     def as_dict(self, up: str, panels: list[Panel]) -> dict[str, Any]:
         """Return the report of the model and its panels."""
@@ -72,9 +67,9 @@ class ModelReport:
         meshes = [mesh_of_node(node) for node in self._nodes]
         times = [_times(node) for node in self._nodes]
         return {
-            "file": self._model.file,
+            "file": self._model.path,
             "title": self._model.title,
-            "format": self._viewed.format,
+            "format": self._model.format,
             "unit": self._unit,
             "up": up,
             "bounds": self.bounds(),
@@ -86,7 +81,7 @@ class ModelReport:
             "materials": [_material(number, m) for number, m in enumerate(self._materials)],
             "nodes": [self._node(node) for node in self._nodes],
             "never_visible": [node.id for node in self._nodes if node.id not in seen],
-            "warnings": [printable(str(line)) for line in self._viewed.warnings],
+            "warnings": [printable(str(line)) for line in self._model.warnings],
             "views": views,
         }
 
@@ -94,7 +89,7 @@ class ModelReport:
         """Return the box of the model in the file's coordinates, or None without vertices."""
         if not any(len(mesh_of_node(node).positions) for node in self._nodes):
             return None
-        low, high = (_moved(corner, self._viewed.origin) for corner in self._studio.bounds)
+        low, high = (_moved(corner, self._model.origin) for corner in self._studio.bounds)
         size = (self._studio.bounds[1] - self._studio.bounds[0]).tolist()
         center = [(a + b) * 0.5 for a, b in zip(low, high, strict=True)]
         return {"low": low, "high": high, "size": size, "center": center}
@@ -106,7 +101,7 @@ class ModelReport:
             "id": node.id,
             "name": self._names[node.id],
             "triangles": len(mesh.faces) * _times(node),
-            "bounds": None if box is None else [_moved(b, self._viewed.origin) for b in box],
+            "bounds": None if box is None else [_moved(b, self._model.origin) for b in box],
         }
 
     def _view(self, panel: Panel) -> dict[str, Any]:
@@ -117,7 +112,7 @@ class ModelReport:
             "kind": panel.spec.kind,
             "rectangle": list(panel.rectangle),
             "to_scale": panel.spec.to_scale,
-            "camera": _camera(panel, self._viewed.origin),
+            "camera": _camera(panel, self._model.origin),
             "blank": reason is not None,
             "why": None if reason is None else reason.word,
             "sentence": None if reason is None else reason.sentence,

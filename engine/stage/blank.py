@@ -8,9 +8,9 @@ no cost which pictures certainly show something; only the others are looked into
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -25,6 +25,9 @@ from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.scene import Scene
 from .visibility import DRAWABLE, mesh_of
+
+if TYPE_CHECKING:
+    from .staging import Staging
 
 _MANY = 1024
 _SMALL = 240  # pixels of the longer side of a first look
@@ -47,8 +50,6 @@ class Sight:
     camera, pose
     size : (int, int)
         Of the picture, in pixels.
-    own_ids : ndarray of int
-        The ids of the nodes that count.
     options : Mapping
         ``cull`` and ``point_size`` of `Renderer.render`.
     drawing : Mapping
@@ -59,12 +60,11 @@ class Sight:
     camera: Camera
     pose: np.ndarray
     size: tuple[int, int]
-    own_ids: np.ndarray
     options: Mapping[str, Any]
     drawing: Mapping[str, Any] = field(default_factory=dict)
 
     def shows(self, size: tuple[int, int], **options: Any) -> bool:
-        """Whether any pixel of a picture of a size shows something that counts."""
+        """Whether any pixel of a picture of a size shows something."""
         with Renderer(*size, **self.drawing) as renderer:
             frame = renderer.render(
                 self.scene,
@@ -73,15 +73,42 @@ class Sight:
                 transparent_outputs=True,
                 **{**self.options, **options},
             )
-        return bool(covered(frame, self.own_ids).any())
+        return bool((frame.object_id >= 0).any())
 
 
-def covered(frame: Frame, own_ids: np.ndarray) -> np.ndarray:
-    """Return which pixels show nodes of the scene's own, (H, W) bool."""
-    ids = frame.object_id
-    known = np.zeros(max(int(ids.max()), int(own_ids.max(initial=-1))) + 2, bool)
-    known[own_ids] = True  # the last one is of the background's -1
-    return known[ids]
+class BlankWatch:
+    """Looks whether any of the frames of a scene has shown something of it."""
+
+    def __init__(self) -> None:
+        self._has_shown = False
+        self._doubtful: Sight | None = None
+
+    def look(self, frame: Frame, staging: Staging, sight: Callable[[], Sight]) -> None:
+        """Note whether a frame certainly shows something; else keep the first such sight.
+
+        Parameters
+        ----------
+        frame : Frame
+        staging : Staging
+            What it was drawn with.
+        sight : callable
+            Returns what the frame looks at.
+        """
+        if self._has_shown:
+            return
+        if not staging.shows_more:
+            self._has_shown = not may_be_blank(frame.stats, staging.viewed.scene)
+        elif staging.alone is not None and not staging.shows_grids:
+            self._has_shown = bool(staging.alone[..., 3].any())
+        staging.alone = None
+        if not self._has_shown and self._doubtful is None:
+            self._doubtful = sight()
+
+    def reason(self) -> Reason | None:
+        """Return why no frame so far has shown anything; None if one has."""
+        if self._has_shown or self._doubtful is None:
+            return None
+        return why_blank(self._doubtful)
 
 
 def may_be_blank(stats: Mapping[str, Any], scene: Scene) -> bool:
@@ -125,9 +152,8 @@ def reason_of(sight: Sight) -> Reason:
 
 
 def _drawables(sight: Sight) -> list[Node]:
-    """The nodes of the scene's own that hold something to draw."""
-    wanted = set(sight.own_ids.tolist())
-    return [n for n in sight.scene.nodes if n.id in wanted and isinstance(n.object, DRAWABLE)]
+    """The nodes that hold something to draw."""
+    return [node for node in sight.scene.nodes if isinstance(node.object, DRAWABLE)]
 
 
 def _of_content(sight: Sight, nodes: list[Node]) -> Reason | None:

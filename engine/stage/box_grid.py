@@ -1,6 +1,6 @@
 """The grid around what is shown, which goes to the far sides as the camera moves.
 
-In: a scene to view. Out: a node in it while the grid is shown, and text over the picture.
+In: a scene to view. Out: a node beside it, and text over the picture.
 """
 
 from __future__ import annotations
@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..rendering.frame import Frame
+from ..scene.staged_scene import StagedScene
 from .axes_grid import AxesGrid
 from .theme import Theme
 from .viewed_scene import ViewedScene
@@ -21,10 +22,12 @@ class BoxGrid:
     ----------
     viewed : ViewedScene
         As it first stands.
+    staged : StagedScene
+        Of its scene.
     """
 
-    def __init__(self, viewed: ViewedScene):
-        self._scene = viewed.scene
+    def __init__(self, viewed: ViewedScene, staged: StagedScene):
+        self._staged = staged
         low, high = viewed.scene.bounds
         self._grid = AxesGrid(low, high, np.array(viewed.origin), viewed.unit)
         self._node = None
@@ -37,9 +40,9 @@ class BoxGrid:
         return np.array([[ends[k >> axis & 1, axis] for axis in range(3)] for k in range(8)])
 
     @property
-    def nodes(self) -> tuple:
-        """What was added to the scene."""
-        return () if self._node is None else (self._node,)
+    def shows(self) -> bool:
+        """Whether the grid is drawn."""
+        return self._node is not None and self._node.visible
 
     def follow(self, view: Viewpoint, shown: bool) -> None:
         """Show the grid as it is seen by a view, or hide it."""
@@ -51,7 +54,7 @@ class BoxGrid:
             if self._node is None or far != self._far:
                 mesh = self._grid.lines(far)
                 if self._node is None:
-                    self._node = self._scene.add(mesh, name=mesh.name, cast_shadows=False)
+                    self._node = self._staged.beside.add(mesh, name=mesh.name, cast_shadows=False)
                 self._node.object, self._far = mesh, far
         if self._node is not None:
             self._node.visible = shown
@@ -60,9 +63,3 @@ class BoxGrid:
         """Write the numbers of the grid, if it is shown in the frame."""
         if self._node is not None and self._far is not None:
             self._grid.label(frame, self._far, scale, theme)
-
-    def leave(self) -> None:
-        """Leave the scene as it was."""
-        if self._node is not None:
-            self._scene.remove(self._node)
-            self._node = None

@@ -1,6 +1,6 @@
 """What of a scene's surroundings the user asked for: its environment, and whether that shows.
 
-In: plain values. Out: a scene that has them; what was left open stays as the scene has it.
+In: plain values. Out: a staged scene that has them; what was left open stays as the scene has it.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from ..materials.display_colors import display_color
 from ..materials.material import Material
 from ..scene.gradients import Gradient
 from ..scene.scene import Scene
+from ..scene.staged_scene import StagedScene
 from ..scene.usage import uses_in
 
 _USUAL_INTENSITY = 0.5  # of the environment that scenes get by themselves, beside their lights
@@ -42,11 +43,11 @@ class Surroundings:
     shows: bool = False
     blur: float | None = None
 
-    def put(self, scene: Scene) -> None:
-        """Give them to a scene."""
+    def put(self, scene: StagedScene) -> None:
+        """Draw a scene in them."""
         if self.environment is not None or self.without:
             scene.environment = self.environment
-        elif scene.environment is None and _has_physical(scene):
+        elif scene.environment is None and _has_physical(scene.scene):
             scene.environment = Environment.studio()
             scene.environment_intensity = _USUAL_INTENSITY
         if self.rotation is not None:

@@ -34,9 +34,9 @@ class Lines(NamedTuple):
     color: tuple[int, int, int, int]
 
 
-def box_lines(scene: Scene, besides=()) -> list[Lines]:
+def box_lines(scene: Scene) -> list[Lines]:
     """Return the boxes of the objects that show."""
-    boxes = [node.bounds for node in scene.nodes if node not in besides]
+    boxes = [node.bounds for node in scene.nodes]
     boxes = [box for box in boxes if box is not None][:MOST_BOXES]
     return [Lines(_edges(np.array(boxes)), BOX)] if boxes else []
 

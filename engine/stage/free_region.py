@@ -7,17 +7,12 @@ fits a model into even planes serves for both.
 
 from __future__ import annotations
 
-import math
-from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from .. import linalg
 from ..rendering.support_functions import SupportFunction
-
-if TYPE_CHECKING:
-    from .viewpoint import Viewpoint
 
 _LEAST = 0.2  # of the picture: less is not kept for the model
 
@@ -27,6 +22,11 @@ class Taken(NamedTuple):
 
     right: float = 0.0
     bottom: float = 0.0
+
+    @property
+    def around_middle(self) -> tuple[float, float]:
+        """Free shares of the width, evenly on both sides of the middle, and of the height."""
+        return max(1.0 - 2.0 * self.right, _LEAST), max(1.0 - self.bottom, _LEAST)
 
     def narrowed(self, slopes: tuple[float, float]) -> tuple[float, float]:
         """Return the slopes of even planes around what is left."""
@@ -64,17 +64,3 @@ def sheared(
         return support(turned) + linalg.dot(directions - turned, center)
 
     return of_sheared
-
-
-def frame_beside(view: Viewpoint, points: np.ndarray, aspect: float, taken: Taken) -> None:
-    """As `Viewpoint.frame`, in what is left; the target stays on the axis that views turn about."""
-    if taken == NOTHING:
-        view.frame(points, aspect)
-        return
-    slope = math.tan(view.yfov / 2)
-    width, height = max(1.0 - 2.0 * taken.right, _LEAST), max(1.0 - taken.bottom, _LEAST)
-    narrow = replace(view, yfov=2.0 * math.atan(slope * height))
-    narrow.frame(points, aspect * width / height)
-    view.target, view.distance = narrow.target, narrow.distance
-    rise = float(linalg.dot(np.array(view.up), view.rotation()[:, 1]))
-    view.target -= np.array(view.up) * (taken.bottom * slope * view.distance * rise)

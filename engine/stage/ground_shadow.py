@@ -24,6 +24,7 @@ from ..rendering.renderer import Renderer
 from ..scene.cameras import Camera
 from ..scene.instances import InstancedMesh
 from ..scene.orbiting import cosine, sine
+from ..scene.staged_scene import StagedScene
 from .viewpoint import Sphere
 
 #: The square reaches so many radii from the middle of the model, in so many texels a side.
@@ -51,15 +52,15 @@ class GroundShadow:
 
     Parameters
     ----------
-    scene : Scene
+    staged : StagedScene
     ground : Mesh
-        What shows the shadow in the scene; casts none.
+        What shows the shadow beside the scene; casts none.
     axes : (3, 3) ndarray of float64
         Those of `home_axes`: rows right, up and back.
     """
 
-    def __init__(self, scene, ground: Mesh, axes: np.ndarray) -> None:
-        self._scene = scene
+    def __init__(self, staged: StagedScene, ground: Mesh, axes: np.ndarray) -> None:
+        self._scene = staged
         self._ground = ground
         self._axes = axes
         self._renderers: dict[bool, Renderer] = {}
@@ -118,7 +119,7 @@ class GroundShadow:
                 versions[material] = material.version
                 if material.alpha_mode != "opaque":  # its textures have holes
                     versions.update((t, t.version) for t in textures_of(material).values())
-        return versions, posing, placed_casters(scene._arrays)
+        return versions, scene._shows_textures, posing, placed_casters(scene._arrays)
 
     def _heights(self, slant, lowest: float, sphere: Sphere, cull: str):
         """Where along rays the model begins and ends: two of (SIDE, SIDE) float32, in radii.

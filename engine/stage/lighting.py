@@ -1,6 +1,7 @@
-"""Lights that the viewer adds to a scene, in set-ups to choose from.
+"""Lights beside a scene, in set-ups to choose from.
 
-In: a scene and, each frame, the camera's pose. Out: light nodes of which one set-up is visible.
+In: a scene and, each frame, the camera's pose. Out: light nodes beside it, of which one set-up is
+visible.
 The set-ups but "sun" move with the camera, so that what is looked at is never dark; the scene's own
 lights, if it has any, are the first set-up.
 """
@@ -14,6 +15,7 @@ import numpy as np
 from .. import linalg
 from ..scene.lights import LIGHTS, DirectionalLight, PointLight
 from ..scene.orbiting import home_axes
+from ..scene.staged_scene import StagedScene
 from .viewpoint import Sphere
 
 #: Per set-up: the way the light travels, in camera space (or the home frame, if fixed), the linear
@@ -40,28 +42,28 @@ _IN_ENVIRONMENT = 0.6  # how bright set-ups are in an environment, which lights 
 
 
 class Lighting:
-    """The lights of a scene: its own, and the set-ups added here.
+    """The lights of a scene: its own, and the set-ups put beside it.
 
     Parameters
     ----------
-    scene : Scene
-        The scene to light; light nodes are added to it.
+    staged : StagedScene
+        The scene to light.
     up : (3,) sequence of float
         The world's up direction.
     intensity : float
         Factor on the set-ups' intensities. In an environment they are dimmer.
     """
 
-    def __init__(self, scene, up, intensity: float = 1.0):
-        own = [node for node in scene.nodes if is_light(node) and node.visible]
-        self._scene = scene
+    def __init__(self, staged: StagedScene, up, intensity: float = 1.0):
+        own = [node for node in staged.scene.nodes if is_light(node) and node.visible]
+        self._staged = staged
         self._nodes = {OWN_LIGHTS: own} if own else {}
         self._home = np.stack(home_axes(up), axis=1)
-        if scene.environment is not None:
+        if staged.environment is not None:
             intensity *= _IN_ENVIRONMENT
         for name, lights in SETUPS.items():
             self._nodes[name] = [
-                scene.add(DirectionalLight(direction, color, strength * intensity, "white"))
+                staged.beside.add(DirectionalLight(direction, color, strength * intensity, "white"))
                 for direction, color, strength in lights
             ]
         self.names = tuple(self._nodes)
@@ -71,20 +73,14 @@ class Lighting:
         """Light the scene with one set-up and no other."""
         self.name = name
         self._turn: np.ndarray | None = None
-        for setup, nodes in self._nodes.items():
-            for node in nodes:
+        self._staged.keeps_lights = name == OWN_LIGHTS
+        for setup in self._nodes.keys() - {OWN_LIGHTS}:
+            for node in self._nodes[setup]:
                 node.visible = setup == name
 
     def groups(self) -> list[list]:
         """Return the lights that shine together: those of each set-up."""
         return [[node.object for node in nodes] for nodes in self._nodes.values()]
-
-    def leave(self) -> None:
-        """Light the scene with its own lights again, and take away all others."""
-        self.choose(self.names[0])
-        for name, nodes in self._nodes.items():
-            for node in nodes if name != OWN_LIGHTS else ():
-                self._scene.remove(node)
 
     def follow(self, pose: np.ndarray) -> None:
         """Turn the set-up with the camera, whose pose is (4, 4)."""
@@ -120,31 +116,22 @@ class OnlyLight:
 
     Parameters
     ----------
-    scene : Scene
+    staged : StagedScene
         The scene to light.
     light : DirectionalLight or PointLight
     position : (3,) sequence of float
         Where a point light is, in world space.
     """
 
-    def __init__(self, scene, light, position=(0.0, 0.0, 0.0)):
+    def __init__(self, staged: StagedScene, light, position=(0.0, 0.0, 0.0)):
         self.name = "placed light" if isinstance(light, PointLight) else "directed light"
         self.names = (self.name,)
-        self._scene = scene
-        self._hidden = [node for node in scene.nodes if is_light(node) and node.visible]
-        for node in self._hidden:
-            node.visible = False
-        self._node = scene.add(light, translation=position)
+        staged.keeps_lights = False
+        self._node = staged.beside.add(light, translation=position)
 
     def groups(self) -> list[list]:
         """As of `Lighting`."""
         return [[self._node.object]]
-
-    def leave(self) -> None:
-        """Light the scene with its own lights again."""
-        self._scene.remove(self._node)
-        for node in self._hidden:
-            node.visible = True
 
     def choose(self, name: str) -> None:
         """Do nothing: there is one set-up."""
@@ -161,12 +148,14 @@ class OnlyLight:
         """Do nothing: the light stays where it was put."""
 
 
-def placed_light(scene, position, bounds: Sphere, intensity: float | None = None) -> OnlyLight:
+def placed_light(
+    staged: StagedScene, position, bounds: Sphere, intensity: float | None = None
+) -> OnlyLight:
     """Light a scene with one point light.
 
     Parameters
     ----------
-    scene : Scene
+    staged : StagedScene
     position : (3,) sequence of float
         Where, in world space.
     bounds : Sphere
@@ -177,7 +166,7 @@ def placed_light(scene, position, bounds: Sphere, intensity: float | None = None
     if intensity is None:
         intensity = sum((p - c) * (p - c) for p, c in zip(position, bounds.center, strict=True))
         intensity = intensity if intensity > 0.0 and math.isfinite(intensity) else 1.0
-    return OnlyLight(scene, PointLight((1.0, 1.0, 1.0), intensity, unit="white"), position)
+    return OnlyLight(staged, PointLight((1.0, 1.0, 1.0), intensity, unit="white"), position)
 
 
 def _seen_turn(pose: np.ndarray, dx: float, dy: float) -> np.ndarray:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import NamedTuple
 
 from ..errors import Engine3DWarning, InvalidArgumentError, printable
 from ..geometry.creases import CREASE_ANGLE
@@ -23,33 +22,27 @@ from .viewed_scene import ViewedScene
 from .visibility import DRAWABLE, mesh_of
 
 
-class OpenedModel(NamedTuple):
-    """A file that was read.
+def color_by(viewed: ViewedScene, document: Document, scalars: ScalarColoring) -> None:
+    """Colour a model's meshes by numbers, in the place of what colours them so far.
 
-    Attributes
+    Parameters
     ----------
     viewed : ViewedScene
     document : Document
         What its scene is made of; both hold the same meshes.
+    scalars : ScalarColoring
+
+    Raises
+    ------
+    InvalidArgumentError
+        The file has no such numbers.
     """
-
-    viewed: ViewedScene
-    document: Document
-
-    def color(self, scalars: ScalarColoring) -> None:
-        """Colour the meshes by numbers, in the place of what colours them so far.
-
-        Raises
-        ------
-        InvalidArgumentError
-            The file has no such numbers.
-        """
-        try:
-            self.viewed.bar = scalars.dress(self.document, self.viewed.up)
-        except InvalidArgumentError as error:
-            if self.viewed.path is None:
-                raise
-            raise InvalidArgumentError(f"{printable(self.viewed.path)}: {error}") from None
+    try:
+        viewed.bar = scalars.dress(document, viewed.up)
+    except InvalidArgumentError as error:
+        if viewed.path is None:
+            raise
+        raise InvalidArgumentError(f"{printable(viewed.path)}: {error}") from None
 
 
 def open_model(path, *, animation=None, **options) -> ViewedScene:
@@ -75,7 +68,7 @@ def open_model(path, *, animation=None, **options) -> ViewedScene:
     InvalidArgumentError
         It has no such variant, numbers or animation.
     """
-    viewed = read_model(path, **options).viewed
+    viewed, _ = read_model(path, **options)
     if animation is not None:
         animation(viewed)
     return viewed
@@ -93,7 +86,7 @@ def read_model(
     format=None,
     scalars=None,
     root=None,
-) -> OpenedModel:
+) -> tuple[ViewedScene, Document]:
     """Load a file to look at, which may be coloured by other numbers later.
 
     Parameters
@@ -118,7 +111,7 @@ def read_model(
 
     Returns
     -------
-    OpenedModel
+    ViewedScene, Document
 
     Raises
     ------
@@ -140,15 +133,15 @@ def read_model(
         scalars=None if scalars is None else scalars.kind,
         root=root,
     )
-    path = None if hasattr(path, "read") else os.fspath(path)
+    path = None if hasattr(path, "read") else os.fsdecode(path)
     if is_dressed:
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
-    opened = OpenedModel(view_document(document, path, variant), document)
+    viewed = view_document(document, path, variant)
     if scalars is not None:
-        opened.color(scalars)
+        color_by(viewed, document, scalars)
         # Tone mapping would change the colours that the bar shows.
-        opened.viewed.appearance = {**opened.viewed.appearance, "tone_mapping": "none"}
-    return opened
+        viewed.appearance = {**viewed.appearance, "tone_mapping": "none"}
+    return viewed, document
 
 
 def view_document(document, path: str | None, variant: str | int | None = None) -> ViewedScene:

@@ -14,12 +14,13 @@ import numpy as np
 from .. import linalg
 from ..errors import Engine3DWarning
 from ..geometry.mesh import Mesh
+from ..loaders.documents import Document
 from ..motion.shown import placing_pose, shown_object
 from ..scene.instances import InstancedMesh
 from ..scene.lights import LIGHTS
 from ..scene.scene import Scene
 from .near_origin import moved_near
-from .open_model import OpenedModel, read_model
+from .open_model import color_by, read_model
 from .scalars import ScalarColoring
 from .viewed_scene import ViewedScene
 from .viewpoint import UP_DIRECTIONS, home_axes
@@ -70,7 +71,7 @@ def open_models(
     opened = [read_model(path, **options) for path in paths]
     if len(opened) > 1:
         _share_range(opened, options.get("scalars"))
-    viewed_scenes = [one.viewed for one in opened]
+    viewed_scenes = [viewed for viewed, _ in opened]
     if animation is not None:
         for viewed in viewed_scenes:
             animation(viewed)
@@ -97,15 +98,17 @@ def open_models(
     return moved_near(viewed)
 
 
-def _share_range(opened: list[OpenedModel], scalars: ScalarColoring | None) -> None:
+def _share_range(
+    opened: list[tuple[ViewedScene, Document]], scalars: ScalarColoring | None
+) -> None:
     """Let one colour mean one number in all models; which, is known only when all were read."""
-    ranges = {one.viewed.bar[1:3] for one in opened if one.viewed.bar is not None}
+    ranges = {viewed.bar[1:3] for viewed, _ in opened if viewed.bar is not None}
     if scalars is None or len(ranges) < 2:
         return
     lows, highs = zip(*ranges, strict=True)
     shared = replace(scalars, range=(min(lows), max(highs)))
-    for one in opened:
-        one.color(shared)
+    for viewed, document in opened:
+        color_by(viewed, document, shared)
 
 
 def _brightest(viewed_scenes: list[ViewedScene]) -> tuple[float, ...]:

@@ -18,18 +18,16 @@ OUTLINE = (255, 160, 40, 255)
 WIDTH = 2
 
 
-def selection_lines(hit: RayHit, thing, origin=(0.0, 0.0, 0.0)) -> list[str]:
+def selection_lines(hit: RayHit, origin=(0.0, 0.0, 0.0)) -> list[str]:
     """Return what a corner of the window says of what was clicked at.
 
     Parameters
     ----------
     hit : RayHit
-        Its face is one of the mesh's.
-    thing : Mesh, InstancedMesh or None
-        What the node holds, hidden or not.
     origin : (3,) sequence of float
         Where the scene's origin is in the file's coordinates, which are shown.
     """
+    thing = hit.node.object
     lines = [hit.node.name or f"object {hit.node.id}"]
     if isinstance(thing, InstancedMesh):
         lines.append(f"instance {hit.instance:,} of {len(thing.poses):,}")

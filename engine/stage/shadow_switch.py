@@ -1,8 +1,4 @@
-"""Shadows of all lights of a scene, switched as the user asked for.
-
-In: groups of lights that shine together. Out: their main lights cast shadows, or none does; at the
-end all are as they were.
-"""
+"""Shadows of the lights of a model, switched as the user asked for."""
 
 from __future__ import annotations
 
@@ -15,29 +11,20 @@ _MOST_LAMPS = 4  # each draws six maps
 _MAIN = 0.5  # of the brightest: what is dimmer only lightens the shadows of others
 
 
-class ShadowSwitch:
-    """Lets lights cast shadows, or not, until `leave`.
+def switch_shadows(groups: Iterable[list[Light]], shadow: LightShadow) -> None:
+    """Let lights cast shadows, or not.
 
     Parameters
     ----------
     groups : iterable of list of Light
-        Of a group with more than four point lights, these cast none.
+        Those that shine together. Of a group with more than four point lights, these cast none.
     shadow : {False, True, "exact"}
-        What ``shadow`` of the lights that cast some is to be.
+        What ``shadow`` of the main lights is to be; the others cast none.
     """
-
-    def __init__(self, groups: Iterable[list[Light]], shadow: LightShadow) -> None:
-        self._before: list[tuple[Light, LightShadow]] = []
-        for lights in groups:
-            self._before += [(light, light.shadow) for light in lights]
-            main = _main_lights(lights)
-            for light in lights:
-                light.shadow = shadow if light in main else False
-
-    def leave(self) -> None:
-        """Let the lights cast what they did before."""
-        for light, shadow in self._before:
-            light.shadow = shadow
+    for lights in groups:
+        main = _main_lights(lights)
+        for light in lights:
+            light.shadow = shadow if light in main else False
 
 
 def _main_lights(lights: list[Light]) -> list[Light]:

@@ -1,7 +1,7 @@
-"""What a model stands in: light from all around, its shadow on the ground, a background.
+"""The studio a model stands in: light from all around, its shadow on the ground, a background.
 
-In: a scene and how it is looked at. Out: nodes that are added to it, and a theme whose background
-the model stands out from.
+In: a scene and how it is looked at. Out: nodes beside it, and a theme whose background the model
+stands out from.
 
 The ground is nowhere drawn over the model. It lies no higher than anything of it, and shows from
 above only. So each line of sight meets the model first, and what lies on the ground in the same
@@ -21,6 +21,7 @@ from ..materials.material import Material
 from ..materials.textures import Texture
 from ..scene.ambient_lights import HemisphereLight
 from ..scene.orbiting import home_axes
+from ..scene.staged_scene import StagedScene
 from .ground_shadow import REACH, SIDE, GroundShadow
 from .theme import DARK, LIGHT, Theme
 from .viewpoint import Sphere
@@ -36,13 +37,13 @@ BEHIND = 1 / 4
 _LEVEL = 2e-3
 
 
-class Stage:
+class Studio:
     """The light from all around a model, and its shadow.
 
     Parameters
     ----------
-    scene : Scene
-        Nodes are added to it.
+    staged : StagedScene
+        Nodes are put beside it.
     up : (3,) sequence of float
         The world's up direction.
     is_lit : bool
@@ -51,26 +52,24 @@ class Stage:
         How far the scene reaches as it moves, in world space; by default it stays where it is.
     """
 
-    def __init__(self, scene, up, is_lit: bool, places: np.ndarray | None = None):
-        self._scene = scene
-        self._ambient = scene.ambient
-        self._nodes = []
+    def __init__(self, staged: StagedScene, up, is_lit: bool, places: np.ndarray | None = None):
+        self._staged = staged
         self._axes = home_axes(up)
         if is_lit:
             pose = np.eye(4)
             pose[:3, :3] = np.stack(self._axes, axis=1)
-            self._nodes.append(scene.add(HemisphereLight(_SKY, _GROUND), pose=pose))
-            scene.ambient = (0.0, 0.0, 0.0)
+            staged.beside.add(HemisphereLight(_SKY, _GROUND), pose=pose)
+            staged.ambient = (0.0, 0.0, 0.0)
         self._ground = None
         self._square = _square()
-        self._shadow = GroundShadow(scene, self._square, self._axes)
-        places = scene.bounds if places is None else places
+        self._shadow = GroundShadow(staged, self._square, self._axes)
+        places = staged.scene.bounds if places is None else places
         self._usual = float(linalg.dot(places, self._axes[1]).min())
 
     @property
-    def nodes(self) -> tuple:
-        """What was added that is drawn."""
-        return () if self._ground is None else (self._ground,)
+    def shows_shadow(self) -> bool:
+        """Whether the shadow is drawn."""
+        return self._ground is not None and self._ground.visible
 
     def lay_shadow(self, bounds: Sphere, azimuth: float, cull: str, eye) -> None:
         """Show the shadow of the scene as it is on the ground.
@@ -102,13 +101,13 @@ class Stage:
 
     def _lowest(self) -> float:
         """How low the scene reaches now."""
-        return float(linalg.dot(self._scene.bounds, self._axes[1]).min())
+        return float(linalg.dot(self._staged.bounds, self._axes[1]).min())
 
     def _darkened(self, alphas: np.ndarray):
         """Return the ground with a shadow on it; it is added when it is needed first."""
         if self._ground is None:
-            self._ground = self._scene.add(self._square, name="shadow", cast_shadows=False)
-            self._nodes.append(self._ground)
+            ground = self._staged.beside.add(self._square, name="shadow", cast_shadows=False)
+            self._ground = ground
         material = self._square.materials[0]
         known = material.texture
         if known is None or (known.pixels[..., 3] != alphas).any():
@@ -121,12 +120,6 @@ class Stage:
         """Show the shadow that was laid, or not, if there is one."""
         if self._ground is not None:
             self._ground.visible = shown
-
-    def leave(self) -> None:
-        """Leave the scene as it was."""
-        for node in self._nodes:
-            self._scene.remove(node)
-        self._scene.ambient = self._ambient
 
 
 def _square() -> Mesh:

@@ -115,3 +115,7 @@ class ViewedScene:
     def bounds(self) -> Sphere:
         """The bounding sphere of the scene as it first was, in world space."""
         return bounding_sphere(self.scene)
+
+    def metadata(self) -> list[str]:
+        """Return what the file holds, line by line."""
+        return [self.title, *self.details]

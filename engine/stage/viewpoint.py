@@ -149,6 +149,18 @@ class Viewpoint:
         self.target = middle + up * height
         self.distance = FRAMING_MARGIN * max(distance - height * approach, parallel) or 1.0
 
+    def frame_beside(self, points: np.ndarray, aspect: float, taken: Taken) -> None:
+        """As `frame`, in what is left; the target stays on the axis that views turn about."""
+        if taken == NOTHING:
+            self.frame(points, aspect)
+            return
+        slope, (width, height) = math.tan(self.yfov / 2), taken.around_middle
+        narrow = replace(self, yfov=2.0 * math.atan(slope * height))
+        narrow.frame(points, aspect * width / height)
+        self.target, self.distance = narrow.target, narrow.distance
+        rise = float(linalg.dot(np.array(self.up), self.rotation()[:, 1]))
+        self.target -= np.array(self.up) * (taken.bottom * slope * self.distance * rise)
+
     def fit(
         self, support: SupportFunction, center: np.ndarray, aspect: float, taken: Taken = NOTHING
     ) -> None:

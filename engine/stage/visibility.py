@@ -1,11 +1,12 @@
 """Which objects and materials of a scene are hidden in the viewer.
 
-In: a scene; what the user hides, shows, or wants to see alone. Out: the scene's nodes hold nothing,
-or a mesh without the faces of hidden materials, until they are shown again or the scene is left.
+In: a scene; what the user hides, shows, or wants to see alone. Out: a staged scene without the
+hidden nodes, and with meshes that lack the faces of hidden materials; the scene itself has all.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -13,9 +14,10 @@ import numpy as np
 from ..geometry.mesh import Mesh
 from ..geometry.vertex_attributes import attributes_of
 from ..materials.material import Material
+from ..rendering.frame import Frame
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
-from ..scene.scene import Scene
+from ..scene.staged_scene import StagedScene
 
 DRAWABLE = (Mesh, InstancedMesh)
 
@@ -29,36 +31,35 @@ class Entry(NamedTuple):
 
 
 class Visibility:
-    """Hides parts of a scene.
+    """Hides parts of a scene where it is drawn.
 
     Parameters
     ----------
-    scene : Scene
-    besides : tuple of Node
-        Nodes that are none of the scene's own.
+    staged : StagedScene
     """
 
-    def __init__(self, scene: Scene, besides: tuple[Node, ...] = ()):
-        self._objects = {
-            node: node.object
-            for node in scene.nodes
-            if isinstance(node.object, DRAWABLE) and node not in besides
-        }
-        self._nodes = list(self._objects)
-        self._materials = list(dict.fromkeys(map(_key, self._used())))
+    def __init__(self, staged: StagedScene):
+        self._staged = staged
+        nodes = staged.scene.nodes
+        self._nodes = [node for node in nodes if isinstance(node.object, DRAWABLE)]
+        used = [material for mesh in self._meshes() for material in mesh.materials]
+        self._materials = list(dict.fromkeys(map(_key, used)))
         self._hidden_nodes: set[Node] = set()
         self._hidden_materials: set = set()
 
-    def _used(self) -> list[Material]:
-        meshes = map(mesh_of, self._objects.values())
-        return [material for mesh in meshes for material in mesh.materials]
+    def _meshes(self) -> Iterator[Mesh]:
+        return (mesh_of(thing) for thing in self._things())
+
+    def _things(self) -> Iterator[Mesh | InstancedMesh]:
+        things = (node.object for node in self._nodes)
+        return (thing for thing in things if isinstance(thing, DRAWABLE))
 
     def objects(self) -> list[Entry]:
         """Return the objects, in the order of the scene."""
         return [
             Entry(
                 node.name or f"object {node.id}",
-                _triangles(self._objects[node]),
+                _triangles(node.object) if isinstance(node.object, DRAWABLE) else 0,
                 node not in self._hidden_nodes,
             )
             for node in self._nodes
@@ -67,12 +68,12 @@ class Visibility:
     def materials(self) -> list[Entry]:
         """Return the materials; those of one name are one."""
         counts = dict.fromkeys(self._materials, 0)
-        for thing in self._objects.values():
+        for thing in self._things():
             mesh = mesh_of(thing)
             times = len(thing.poses) if isinstance(thing, InstancedMesh) else 1
             faces = np.bincount(mesh.material_ids, minlength=len(mesh.materials))
             for material, count in zip(mesh.materials, faces.tolist(), strict=False):
-                counts[_key(material)] += count * times
+                counts[_key(material)] = counts.get(_key(material), 0) + count * times
         names = [key if isinstance(key, str) else "unnamed" for key in self._materials]
         shown = [key not in self._hidden_materials for key in self._materials]
         return list(map(Entry, names, counts.values(), shown))
@@ -87,27 +88,20 @@ class Visibility:
         self._hidden_materials = _toggled(self._hidden_materials, self._materials, number, alone)
         self._apply()
 
-    def restore(self) -> None:
-        """Show all."""
-        self._hidden_nodes, self._hidden_materials = set(), set()
-        self._apply()
-
-    def object_of(self, node: Node):
-        """Return what a node holds when nothing is hidden."""
-        return self._objects.get(node, node.object)
-
-    def face_of(self, node: Node, face: int) -> int:
-        """Return the index in the whole mesh of a face of the one that shows."""
-        thing = self._objects.get(node)
-        if thing is None or face < 0 or node.object is thing:
-            return face
-        return int(np.flatnonzero(self._kept(mesh_of(thing)))[face])
+    def tell_whole_face(self, frame: Frame, x: int, y: int) -> None:
+        """Let a pixel of a frame name the face of the whole mesh, of which a part was drawn."""
+        face = int(frame.triangle_id[y, x])
+        if face < 0 or not self._hidden_materials:
+            return
+        number = int(frame.object_id[y, x])
+        node = next((node for node in self._nodes if node.id == number), None)
+        if node is not None:
+            kept = self._kept(mesh_of(node.object))
+            frame.triangle_id[y, x] = np.flatnonzero(kept)[face]
 
     def _apply(self) -> None:
-        for node, thing in self._objects.items():
-            wanted = None if node in self._hidden_nodes else self._visible_part(thing)
-            if wanted is not node.object:
-                node.object = wanted
+        part_of = self._visible_part if self._hidden_materials else None
+        self._staged.hide(self._hidden_nodes, part_of)
 
     def _kept(self, mesh: Mesh) -> np.ndarray:
         """Return which faces of a mesh have no hidden material."""
@@ -117,7 +111,7 @@ class Visibility:
     def _visible_part(self, thing):
         """Return a mesh, or instances of one, without the faces of hidden materials."""
         mesh = mesh_of(thing)
-        kept = self._kept(mesh) if self._hidden_materials else np.ones(len(mesh.faces), bool)
+        kept = self._kept(mesh)
         if kept.all():
             return thing
         part = _with_faces(mesh, kept)

@@ -238,7 +238,7 @@ def toggle_split(viewer, step: int) -> None:
 
 def cycle_debug(viewer, step: int) -> None:
     """Next of what culling works with: boxes, trees of them, the frustum from here, nothing."""
-    drawing = following(viewer.view_renderer.debug, DEBUG_DRAWINGS, step)
+    drawing = following(viewer.view_renderer.culling.drawing, DEBUG_DRAWINGS, step)
     viewer.view_renderer.choose_debug(drawing, viewer.view)
     viewer.say(f"drawn besides: {drawing or 'nothing'}")
 
@@ -246,7 +246,7 @@ def cycle_debug(viewer, step: int) -> None:
 def toggle_textures(viewer, step: int) -> None:
     """Draw with textures, or with the colours of the materials alone."""
     view_renderer = viewer.view_renderer
-    view_renderer.show_textures(not view_renderer.settings.textures)
+    view_renderer.staging.show_textures(not view_renderer.settings.textures)
     viewer.say(f"textures: {'on' if view_renderer.settings.textures else 'off'}")
 
 
@@ -291,7 +291,7 @@ def cycle_animations(viewer, step: int) -> None:
 
 def toggle_grid(viewer, step: int) -> None:
     """A grid under the scene, or none."""
-    viewer.view_renderer.show_grid(not viewer.view_renderer.settings.grid)
+    viewer.view_renderer.staging.show_grid(not viewer.view_renderer.settings.grid)
 
 
 def _toggling(setting: str):
@@ -316,8 +316,9 @@ def cycle_statistics(viewer, step: int) -> None:
 
 def cycle_theme(viewer, step: int) -> None:
     """Dark, or light."""
-    viewer.view_renderer.theme = following(viewer.view_renderer.theme, THEMES, step)
-    viewer.say(f"{viewer.view_renderer.theme.name} theme")
+    staging = viewer.view_renderer.staging
+    staging.theme = following(staging.theme, THEMES, step)
+    viewer.say(f"{staging.theme.name} theme")
 
 
 def cycle_lists(viewer, step: int) -> None:

@@ -147,10 +147,10 @@ class ObjectPanel(Panel):
     hint = "click: hide, show; right: alone"
 
     def rows(self) -> list[Row]:
-        return [_row(entry) for entry in self.viewer.visibility.objects()]
+        return [_row(entry) for entry in self.viewer.view_renderer.visibility.objects()]
 
     def press(self, number: int, alone: bool) -> None:
-        self.viewer.visibility.toggle_object(number, alone)
+        self.viewer.view_renderer.visibility.toggle_object(number, alone)
 
 
 class MaterialPanel(Panel):
@@ -160,10 +160,10 @@ class MaterialPanel(Panel):
     hint = "click: hide, show; right: alone"
 
     def rows(self) -> list[Row]:
-        return [_row(entry) for entry in self.viewer.visibility.materials()]
+        return [_row(entry) for entry in self.viewer.view_renderer.visibility.materials()]
 
     def press(self, number: int, alone: bool) -> None:
-        self.viewer.visibility.toggle_material(number, alone)
+        self.viewer.view_renderer.visibility.toggle_material(number, alone)
 
 
 def _row(entry) -> Row:

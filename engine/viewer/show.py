@@ -1,6 +1,6 @@
 """`show`: a scene, a part of one or a picture, in a window, until the user closes it.
 
-In: what to show. Out: nothing; a scene is afterwards as it was before.
+In: what to show. Out: nothing; what lights and grounds a scene stands beside it.
 """
 
 from __future__ import annotations
@@ -167,13 +167,11 @@ def _show_scene(viewed: ViewedScene, size: tuple[int, int] | None) -> None:
         ViewRenderer(viewed, Settings({}), size) as view_renderer,
     ):
         view = first_view(view_renderer)
-        viewer = Viewer(view_renderer, window, view=view, sampling=Sampling())
         try:
+            viewer = Viewer(view_renderer, window, view=view, sampling=Sampling())
             viewer.say("H: help")
             viewer.run()
         finally:
-            viewer.visibility.restore()
-            view_renderer.leave_scene()
             if viewed.player is not None:
                 viewed.player.stop()
 

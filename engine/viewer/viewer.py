@@ -101,7 +101,6 @@ class Viewer:
         self._title_due = 0.0
         self._last_turn = clock.monotonic()
         self.panel: Panel | None = None
-        self.visibility = view_renderer.visibility()
         self.opening = Opening(self, files or ModelFiles())
         if walking:
             viewer_actions.toggle_walking(self)
@@ -220,8 +219,7 @@ class Viewer:
         return lines + self.messages.lines()
 
     def _selection(self) -> list[str]:
-        thing = self.visibility.object_of(self.selected.node)
-        return selection_lines(self.selected, thing, self.view_renderer.viewed.origin)
+        return selection_lines(self.selected, self.view_renderer.viewed.origin)
 
     def _statistics(self) -> list[str]:
         view_renderer = self.view_renderer
@@ -261,17 +259,13 @@ class Viewer:
     def forget_scene(self) -> None:
         """Forget what was known of the scene before: another one is shown now."""
         self.selected = None
-        self.visibility = self.view_renderer.visibility()
         self.messages.trouble = ""
         self.sampling.start_anew()
         self._title_due = 0.0
 
     def select(self, x: int, y: int) -> None:
         """Select what shows at a pixel; where nothing does, nothing is selected any more."""
-        hit = self.view_renderer.pick(self.view, self.time, x, y)
-        if hit is not None:
-            hit = hit._replace(face=self.visibility.face_of(hit.node, hit.face))
-        self.selected = hit
+        self.selected = self.view_renderer.pick(self.view, self.time, x, y)
         self.changed = True
 
     def turn_light(self, dx: int, dy: int) -> None:

@@ -36,7 +36,7 @@ def test_a_click_tells_the_place_in_the_file(paths):
     hit = far.scene.raycast((0.3, 0.2, 9), (0, 0, -1)) or far.scene.raycast(
         np.append(far.scene.bounds.mean(axis=0)[:2], 9), (0, 0, -1)
     )
-    line = selection_lines(hit, hit.node.object, far.origin)[-1]
+    line = selection_lines(hit, far.origin)[-1]
     assert [float(part) for part in line.removeprefix("at ").split(",")] == pytest.approx(
         hit.position + far.origin, abs=1e-3
     )

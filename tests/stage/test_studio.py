@@ -8,6 +8,8 @@ import pytest
 import engine3d as e3d
 from engine3d.motion.clips import AnimationClip, Channel
 from engine3d.scene.orbiting import home_axes
+from engine3d.scene.staged_scene import StagedScene
+from engine3d.scene.surroundings import SCENE_VALUES
 from engine3d.stage.ground_shadow import SIDE, GroundShadow
 from engine3d.stage.played_clips import play_clips
 from engine3d.stage.stage_settings import Settings
@@ -28,8 +30,9 @@ def staged(color=(0.2, 0.2, 0.2), settings=None, **options):
     return scene, ViewRenderer(ViewedScene(scene, "box", themed=True), settings, SIZE, **options)
 
 
-def shadow_of(scene):
-    return next((node for node in scene.nodes if node.name == "shadow"), None)
+def shadow_of(renderer):
+    beside = renderer.staging.scene.beside
+    return next((node for node in beside.nodes if node.name == "shadow"), None)
 
 
 def test_a_model_casts_a_shadow_on_the_ground():
@@ -37,9 +40,11 @@ def test_a_model_casts_a_shadow_on_the_ground():
     with renderer:
         view = renderer.view()
         shown = renderer.draw(view).color.astype(int)
-        shadow_of(scene).visible = False
-        bare = renderer.renderer.render(scene, (renderer._camera(view), view.pose())).color
-        shadow = shadow_of(scene).object
+        shadow_of(renderer).visible = False
+        bare = renderer.renderer.render(
+            renderer.staging.scene, (renderer._camera(view), view.pose())
+        ).color
+        shadow = shadow_of(renderer).object
     alpha = shadow.materials[0].texture.pixels[..., 3]
     middle = len(alpha) // 2
     assert alpha[middle, middle] > 100 and alpha[0].max() == 0 == alpha[:, -1].max()
@@ -51,8 +56,8 @@ def test_the_shadow_is_none_of_the_models_parts():
     scene, renderer = staged()
     with renderer:
         renderer.draw(renderer.view())
-        assert shadow_of(scene) is not None
-        assert [entry.name for entry in renderer.visibility().objects()] == ["box"]
+        assert shadow_of(renderer) is not None
+        assert [entry.name for entry in renderer.visibility.objects()] == ["box"]
 
 
 @pytest.mark.parametrize("change", [{"mode": "normal"}, {"wireframe": "overlay"}])
@@ -61,28 +66,27 @@ def test_it_shows_in_pictures_of_faces_alone(change):
     with renderer:
         view = renderer.view()
         renderer.draw(view)
-        assert shadow_of(scene).visible
+        assert shadow_of(renderer).visible
         for name, value in change.items():
             setattr(renderer.appearance, name, value)
         renderer.draw(view)
-        assert not shadow_of(scene).visible
+        assert not shadow_of(renderer).visible
 
 
 def test_a_transparent_picture_has_none():
     scene, renderer = staged(transparent=True)
     with renderer:
         renderer.draw(renderer.view())
-    assert shadow_of(scene) is None and scene.background is None
+    assert shadow_of(renderer) is None and renderer.staging.scene.background is None
 
 
-def test_the_scene_is_left_as_it_was():
+def test_the_scene_stays_as_it_is():
     scene, renderer = staged()
-    before = len(list(scene.nodes)), scene.ambient
+    before = {name: getattr(scene, name) for name in SCENE_VALUES}
     with renderer:
         renderer.draw(renderer.view())
-        renderer.leave_scene()
-    assert [node.name for node in scene.nodes] == ["box"]
-    assert before[0] > 1 and scene.ambient == (0.1, 0.2, 0.3)
+        assert [node.name for node in scene.nodes] == ["box"]
+        assert {name: getattr(scene, name) for name in SCENE_VALUES} == before
 
 
 def staged_points():
@@ -113,8 +117,8 @@ def test_the_background_is_one_that_the_model_stands_out_from(theme):
     viewed = ViewedScene(scene, "model", themed=True)
     with ViewRenderer(viewed, Settings({}, look="studio"), SIZE) as renderer:
         renderer.draw(renderer.view())
-        assert renderer.theme is theme and scene.background == theme.gradient
-        renderer.theme = DARK if theme is LIGHT else LIGHT  # the user's word stands
+        assert renderer.theme is theme and renderer.staging.scene.background == theme.gradient
+        renderer.staging.theme = DARK if theme is LIGHT else LIGHT  # the user's word stands
         renderer.draw(renderer.view())
         assert renderer.theme is not theme
 
@@ -127,7 +131,7 @@ def test_scenes_of_their_own_and_the_plain_look_have_no_stage():
     scene, renderer = staged(settings=Settings({}))
     with renderer:
         renderer.draw(renderer.view())
-    assert shadow_of(scene) is None and scene.background == DARK.background
+    assert shadow_of(renderer) is None and renderer.staging.scene.background == DARK.background
 
 
 # ---- the ground is behind the model, and shows from above only ----
@@ -155,9 +159,11 @@ def ground_of(scene, size, view_of, **settings):
             view_of(view)
             renderer.fill(view)
             frame = renderer.draw(view, outputs=("color", "object_id"))
-            renderer._stage.show_shadow(False)
+            renderer.staging._studio.show_shadow(False)
             look = (renderer._camera(view), view.pose())
-            bare = renderer.renderer.render(scene, look, **renderer._appearance()).color
+            bare = renderer.renderer.render(
+                renderer.staging.scene, look, **renderer._appearance()
+            ).color
             yield elevation, frame.color, frame.object_id >= 0, bare
 
 
@@ -186,9 +192,11 @@ def test_what_moves_lower_than_before_is_not_hidden_by_the_ground():
         renderer.draw(view)
         next(iter(scene.nodes)).translation = (0.0, -0.4, 0.0)
         frame = renderer.draw(view, outputs=("color", "object_id"))
-        renderer._stage.show_shadow(False)
+        renderer.staging._studio.show_shadow(False)
         look = (renderer._camera(view), view.pose())
-        bare = renderer.renderer.render(scene, look, **renderer._appearance()).color
+        bare = renderer.renderer.render(
+            renderer.staging.scene, look, **renderer._appearance()
+        ).color
         model = frame.object_id >= 0
         assert (frame.color[model] == bare[model]).all()
 
@@ -202,7 +210,7 @@ def shadow_alphas(mesh, azimuth=0.0, cull="back"):
     up = (0.0, 1.0, 0.0)
     low = float(scene.bounds[0][1])
     bounds = ViewedScene(scene, "model").bounds
-    shadow = GroundShadow(scene, e3d.plane(), home_axes(up))
+    shadow = GroundShadow(StagedScene(scene), e3d.plane(), home_axes(up))
     return shadow.alphas(low, bounds, azimuth, cull).astype(int)
 
 
@@ -273,12 +281,12 @@ def test_the_shadow_follows_each_picture_of_an_animation():
         view, before = renderer.view(), None
         for time in (0.0, 0.03, 0.06, 0.5, 0.03):
             renderer.draw(view, time)
-            pixels = shadow_of(renderer.viewed.scene).object.materials[0].texture.pixels
+            pixels = shadow_of(renderer).object.materials[0].texture.pixels
             assert before is None or (pixels != before).any()
             before = pixels.copy()
             with ViewRenderer(moving(), settings, SIZE) as fresh:
                 fresh.draw(view, time)
-                alone = shadow_of(fresh.viewed.scene).object.materials[0].texture.pixels
+                alone = shadow_of(fresh).object.materials[0].texture.pixels
                 assert (alone == pixels).all()
 
 

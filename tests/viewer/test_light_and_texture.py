@@ -85,7 +85,6 @@ def test_textures_can_be_left_out_and_come_back():
     viewer.handle(events.KeyDown("T", "T"))
     np.testing.assert_array_equal(viewer.view_renderer.draw(viewer.view).color, plain)
     viewer.handle(events.KeyDown("T", "T"))
-    viewer.view_renderer.leave_scene()
     assert material.texture is texture
 
 

@@ -91,7 +91,7 @@ def test_materials_are_listed_by_name_hidden_and_seen_alone():
     press(viewer, "O")
     press(viewer, "O")
     assert [row.text for row in viewer.panel.rows()] == ["[x] red", "[x] green", "[x] unnamed"]
-    assert [entry.triangles for entry in viewer.visibility.materials()][1:] == [6, 36]
+    assert [entry.triangles for entry in viewer.view_renderer.visibility.materials()][1:] == [6, 36]
     assert {red, green, white} <= colors(viewer)
     click_row(viewer, 0)
     assert red not in colors(viewer) and {green, white} <= colors(viewer)
@@ -112,7 +112,7 @@ def test_a_triangle_keeps_its_number_while_others_are_hidden():
     viewer.select(x, y)
     number = viewer.selected.face
     assert number >= 6
-    viewer.visibility.toggle_material(0)
+    viewer.view_renderer.visibility.toggle_material(0)
     viewer.select(x, y)
     assert viewer.selected.face == number
     assert viewer._selection()[1:3] == [f"triangle {number} of 12", "material green"]
@@ -131,7 +131,9 @@ def test_a_long_list_scrolls_and_the_wheel_elsewhere_zooms():
     viewer.draw()
     assert viewer.view.distance == distance
     click_row(viewer, viewer.panel._fit - 1)
-    assert [entry.name for entry in viewer.visibility.objects() if not entry.shown] == ["part 99"]
+    assert [
+        entry.name for entry in viewer.view_renderer.visibility.objects() if not entry.shown
+    ] == ["part 99"]
     viewer.handle(events.Wheel(1, 5, 200))
     assert viewer.view.distance < distance
 
@@ -154,8 +156,8 @@ def test_the_theme_changes_texts_and_the_background_of_models():
     blocks = np.abs(viewer.frame.color[..., :3].astype(int) - LIGHT.block[:3]).max(axis=2) < 20
     assert blocks.mean() > 0.3
     press(viewer, "K")
-    assert viewer.view_renderer.viewed.scene.background == pytest.approx(
-        make_viewer().view_renderer.viewed.scene.background
+    assert viewer.view_renderer.staging.scene.background == pytest.approx(
+        make_viewer().view_renderer.staging.scene.background
     )
 
 
@@ -166,8 +168,8 @@ def test_a_background_that_was_chosen_stays():
         (ViewedScene(scene, "model", themed=True), Settings({}, background=(0, 0, 0))),
     ):
         view_renderer = ViewRenderer(viewed, settings, SIZE)
-        view_renderer.theme = LIGHT
-        assert tuple(viewed.scene.background) == (0, 0, 0)
+        view_renderer.staging.theme = LIGHT
+        assert tuple(view_renderer.staging.scene.background) == (0, 0, 0)
 
 
 def test_statistics_are_a_line_then_all_then_none():

@@ -77,11 +77,11 @@ def test_the_look_stays_from_file_to_file(viewer):
 
 
 def test_up_loads_the_file_again(viewer, tmp_path):
-    assert viewer.view_renderer.metadata()[-1].split() == ["triangles", "1"]
+    assert viewer.view_renderer.viewed.metadata()[-1].split() == ["triangles", "1"]
     azimuth = viewer.view.azimuth = 1.0
     (tmp_path / "b.obj").write_text(TRIANGLE + "f 3 2 1\n")
     press(viewer, "Up")
-    assert viewer.view_renderer.metadata()[-1].split() == ["triangles", "2"]
+    assert viewer.view_renderer.viewed.metadata()[-1].split() == ["triangles", "2"]
     assert viewer.view.azimuth == azimuth and "loaded b.obj again" in viewer.messages.said
     (tmp_path / "b.obj").unlink()
     press(viewer, "Up")

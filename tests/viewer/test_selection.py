@@ -138,16 +138,17 @@ def test_the_wheel_zooms_to_where_the_mouse_is(viewer, orthographic):
 
 
 def test_a_key_chooses_which_way_is_up(viewer):
-    viewer.view_renderer.show_grid(True)
-    lights = len(viewer.view_renderer.viewed.scene.nodes)
+    staging = viewer.view_renderer.staging
+    staging.show_grid(True)
+    added = len(staging.scene.beside.nodes)
     for name, shift, up in [("Z", False, "+Z"), ("Z", True, "-Z"), ("Y", False, "+Y")]:
         viewer.handle(events.KeyDown(name, name, control=True, shift=shift))
-        assert viewer.view_renderer.up == up
+        assert staging.up == up
         axis = viewer.view.up
         assert (axis[1], axis[2]) == {"+Z": (0, 1), "-Z": (0, -1), "+Y": (1, 0)}[up]
         assert viewer.first_view.up == axis
-        assert len(viewer.view_renderer.viewed.scene.nodes) == lights
-        grid = viewer.view_renderer._grid.object.positions
+        assert len(staging.scene.beside.nodes) == added
+        grid = staging.scene.beside.find("grid").object.positions
         assert np.ptp(grid @ np.array(axis)) < 1e-6
 
 
@@ -165,4 +166,4 @@ def test_which_way_is_up_is_chosen_for_one_model_only(viewer, tmp_path):
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     viewer.handle(events.KeyDown("Z", "Z", control=True))
     viewer.opening.open([str(path)])
-    assert viewer.view_renderer.up == "+Y" and viewer.view.up == (0, 1, 0)
+    assert viewer.view_renderer.staging.up == "+Y" and viewer.view.up == (0, 1, 0)

@@ -16,8 +16,9 @@ from ...loaders import formats
 from ...materials.material import Material
 from ...scene.nodes import Node
 from ...ui.imgui_painter import ImguiPainter
-from ..autosave import Recovery, forget, left_behind
+from ..autosave import forget, left_behind
 from ..document import SCENE_EXTENSION
+from ..recovery import Recovery
 from .file_dialog import FileDialog
 from .workspace import Workspace
 

@@ -23,12 +23,13 @@ from ...scene.nodes import Node
 from ...scene.scene import Scene
 from ...stage.orbit import OrbitController
 from ...stage.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
-from ..autosave import Autosave, Recovery
+from ..autosave import Autosave
 from ..console import Console
 from ..document import SceneDocument
 from ..dropping import drop_file
 from ..hierarchy import Hierarchy
 from ..history import Command
+from ..recovery import Recovery
 from ..resource_list import ResourceList
 from ..value_commands import SetValues
 

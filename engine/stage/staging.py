@@ -1,0 +1,233 @@
+"""A model on its stage: what lights, grounds and surrounds it, beside its scene.
+
+In: a `ViewedScene` and what the user asked for. Out: a `StagedScene`, which follows the camera; the
+model's scene holds nothing of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from .. import linalg
+from ..scene.lights import DirectionalLight
+from ..scene.nodes import Node
+from ..scene.scene import Scene
+from ..scene.staged_scene import StagedScene
+from .appearance import Appearance
+from .box_grid import BoxGrid
+from .chosen_surroundings import fog_color
+from .grid_lines import grid
+from .lighting import OWN_LIGHTS, Lighting, OnlyLight, placed_light
+from .near_origin import from_file
+from .shadow_switch import switch_shadows
+from .stage_settings import Settings
+from .studio import BEHIND, Studio, theme_for
+from .theme import Theme
+from .viewed_scene import ViewedScene
+from .viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
+from .visibility import Visibility
+
+#: A box around a sphere reaches no farther than this, in radii.
+_BOX_REACH = 1.75
+
+
+class Staging:
+    """What a model is drawn with.
+
+    Parameters
+    ----------
+    viewed : ViewedScene
+    settings : Settings
+    up : str
+        As in `stand`.
+    transparent : bool
+        Whether there is no background.
+    lights : str
+        As in `stand`.
+
+    Attributes
+    ----------
+    scene : StagedScene
+        What to draw.
+    lighting : Lighting or OnlyLight
+    visibility : Visibility
+    box : BoxGrid
+    up : str
+    alone : (H, W, 4) uint8 or None
+        A small picture of the model before a transparent background, if one was drawn.
+    """
+
+    def __init__(
+        self, viewed: ViewedScene, settings: Settings, up: str, transparent: bool, lights: str = ""
+    ) -> None:
+        self.viewed = viewed
+        self.settings = settings
+        self._transparent = transparent
+        self.scene = scene = StagedScene(viewed.scene)
+        self.visibility = Visibility(scene)
+        self.alone: np.ndarray | None = None
+        settings.filtering.put(viewed.scene)
+        self.show_textures(settings.textures)
+        if settings.light_clamp is not None:
+            scene.light_clamp = settings.light_clamp
+        if settings.exposure is not None:
+            scene.exposure = settings.exposure
+        if transparent:
+            scene.background = None
+        elif settings.background is not None:
+            scene.background = settings.background
+        elif viewed.themed:
+            scene.background = self.theme.background
+        settings.surroundings.put(scene)
+        self._lay_fog()
+        self.stand(up, lights)
+
+    def stand(self, up: str, lights: str = "") -> None:
+        """Set the stage anew, with a direction that points up.
+
+        Parameters
+        ----------
+        up : str
+            A key of `UP_DIRECTIONS`.
+        lights : str
+            The set-up of lights, if there is one of that name; the first one by default.
+        """
+        self.up = up
+        self.scene.beside = Scene()
+        self.box = BoxGrid(self.viewed, self.scene)
+        self._grid: Node | None = None
+        self.lighting = self._light()
+        if self.settings.shadow is not None:
+            switch_shadows(self.lighting.groups(), self.settings.shadow)
+        if lights in self.lighting.names:
+            self.lighting.choose(lights)
+        self._studio = self._make_studio()
+        self.show_grid(self.settings.grid)
+
+    def _light(self) -> Lighting | OnlyLight:
+        viewed, settings = self.viewed, self.settings
+        intensity = settings.light_intensity
+        if settings.light_position is not None:
+            position = from_file(viewed, settings.light_position)
+            return placed_light(self.scene, position, viewed.bounds, intensity)
+        intensity = 1.0 if intensity is None else intensity
+        if settings.light_direction is not None:
+            light = DirectionalLight(settings.light_direction, (1.0, 1.0, 1.0), intensity, "white")
+            return OnlyLight(self.scene, light)
+        return Lighting(self.scene, UP_DIRECTIONS[self.up], intensity)
+
+    def _make_studio(self) -> Studio | None:
+        """Return what the model stands in; None where the scene or the user's look says so."""
+        if self.settings.look != "studio" or not self.viewed.themed:
+            return None
+        lights = isinstance(self.lighting, Lighting) and self.lighting.names[0] != OWN_LIGHTS
+        is_lit = lights and self.scene.environment is None
+        self._chooses_theme = self._shows_theme()
+        return Studio(self.scene, UP_DIRECTIONS[self.up], is_lit, self.viewed.focus)
+
+    def _shows_theme(self) -> bool:
+        """Whether the theme's background is what is behind the model."""
+        settings = self.settings
+        kept = self._transparent or settings.background or settings.surroundings.shows
+        return self.viewed.themed and not kept
+
+    def follow(
+        self,
+        view: Viewpoint,
+        appearance: Appearance,
+        split: bool,
+        draw_alone: Callable[[Viewpoint], np.ndarray],
+    ) -> None:
+        """Set the stage for a frame: its background, its shadow, the grid round the model.
+
+        Parameters
+        ----------
+        view : Viewpoint
+        appearance : Appearance
+        split : bool
+            Whether outputs stand side by side.
+        draw_alone : callable
+            Draws a small picture of the model before a transparent background.
+        """
+        if self._studio is not None:
+            self._set_studio(self._studio, view, appearance, split, draw_alone)
+        self.box.follow(view, self.settings.axes_grid and not split)
+
+    def _set_studio(self, studio: Studio, view, appearance, split: bool, draw_alone) -> None:
+        if self._chooses_theme:
+            studio.show_shadow(False)
+            self.alone = None if self.settings.keeps_theme else draw_alone(view)
+            self.theme = self.theme if self.alone is None else theme_for(self.alone)
+        is_plain = appearance.mode in ("lit", "unlit") and appearance.wireframe is None
+        if is_plain and not split and not self._transparent:
+            studio.lay_shadow(self.viewed.bounds, view.azimuth, appearance.cull, view.eye())
+        else:
+            studio.show_shadow(False)
+
+    @property
+    def theme(self) -> Theme:
+        """The colours of texts over the picture, and of the background of models."""
+        return self.settings.theme
+
+    @theme.setter
+    def theme(self, theme: Theme) -> None:
+        self.settings.theme = theme
+        self._chooses_theme = False
+        if self._shows_theme():
+            self.scene.background = theme.background if self._studio is None else theme.gradient
+            self._lay_fog()
+
+    def _lay_fog(self) -> None:
+        """Give the scene the fog that the user asked for."""
+        fog = self.settings.fog
+        if fog is not None:
+            color = fog_color(self.scene.background) if self.settings.fog_follows else None
+            self.scene.fog = fog if color is None else replace(fog, color=color)
+
+    def show_textures(self, shown: bool) -> None:
+        """Draw with textures, or without."""
+        self.settings.textures = shown
+        self.scene.show_textures(shown)
+
+    def show_grid(self, shown: bool) -> None:
+        """Draw a grid under the model, or not."""
+        self.settings.grid = shown
+        if shown and self._grid is None:
+            lines = grid(self._lowest(), self.viewed.bounds, UP_DIRECTIONS[self.up])
+            self._grid = self.scene.beside.add(lines, name="grid")
+        if self._grid is not None:
+            self._grid.visible = shown
+
+    def _lowest(self) -> float:
+        """Return how low the scene reaches along the up direction, however it moves."""
+        up, bounds = UP_DIRECTIONS[self.up], self.viewed.bounds
+        if self.viewed.update is not None:
+            return float(linalg.dot(bounds.center, up)) - bounds.radius
+        return float(linalg.dot(self.viewed.scene.bounds, up).min())
+
+    @property
+    def shows_grids(self) -> bool:
+        """Whether a grid is drawn."""
+        return self.settings.grid or self.box.shows
+
+    @property
+    def shows_more(self) -> bool:
+        """Whether more is drawn than the model."""
+        return self.shows_grids or (self._studio is not None and self._studio.shows_shadow)
+
+    def reach(self, view: Viewpoint) -> Sphere:
+        """Return what clip planes must enclose: animated parts, grids and ground included."""
+        bounds = self.viewed.bounds
+        margin = 1.0 if self.viewed.update is None else 1.6
+        if self.settings.grid or self._studio is not None:
+            margin = max(margin, 3.2)
+        if self.settings.axes_grid:
+            margin = max(margin, _BOX_REACH)
+        radius = bounds.radius * margin
+        if self._studio is not None:
+            distance = float(linalg.length(view.position() - np.array(bounds.center)))
+            radius += BEHIND * (distance + radius)
+        return bounds._replace(radius=radius)

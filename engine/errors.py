@@ -10,6 +10,10 @@ from __future__ import annotations
 import os
 import sys
 import warnings
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from types import FrameType
 
 __all__ = [
     "BackendError",
@@ -50,7 +54,7 @@ class FileFormatError(Engine3DError, ValueError):
     """
 
     def __init__(
-        self, message: str, path: str | os.PathLike | None = None, line: int | None = None
+        self, message: str, path: str | os.PathLike[str] | None = None, line: int | None = None
     ) -> None:
         super().__init__(message)
         self.message = message
@@ -60,7 +64,7 @@ class FileFormatError(Engine3DError, ValueError):
     def __str__(self) -> str:
         return located(self.message, self.path, self.line)
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self.message, self.path, self.line)
 
 
@@ -80,7 +84,7 @@ class FileAccessError(Engine3DError, OSError):
     path : str or None
     """
 
-    def __init__(self, message: str, path: str | os.PathLike | None = None) -> None:
+    def __init__(self, message: str, path: str | os.PathLike[str] | None = None) -> None:
         super().__init__(message)
         self.message = message
         self.path = _name_of(path)
@@ -88,7 +92,7 @@ class FileAccessError(Engine3DError, OSError):
     def __str__(self) -> str:
         return located(self.message, self.path)
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self.message, self.path)
 
 
@@ -124,7 +128,7 @@ class Engine3DWarning(UserWarning):
     """Something was left out or replaced; the rest of the work went on."""
 
 
-def _name_of(path) -> str | None:
+def _name_of(path: Any) -> str | None:
     """Return a path as text, whatever it is: an error of an error helps nobody."""
     if path is None or isinstance(path, str):
         return path
@@ -133,7 +137,8 @@ def _name_of(path) -> str | None:
 
 def warn(message: str) -> None:
     """Give an `Engine3DWarning` that points to the line outside of engine3d that led to it."""
-    package, level, frame = __name__.partition(".")[0], 1, sys._getframe()
+    package, level = __name__.partition(".")[0], 1
+    frame: FrameType | None = sys._getframe()
     while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == package:
         level, frame = level + 1, frame.f_back
     warnings.warn(message, Engine3DWarning, stacklevel=level)

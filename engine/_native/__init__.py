@@ -8,10 +8,13 @@ threads, and a handle of one module is plain memory to another. Python looks for
 its own name: `_CoreFinder` leads it to that library.
 """
 
+from __future__ import annotations
+
 import sys
-from importlib.machinery import EXTENSION_SUFFIXES, ExtensionFileLoader
+from importlib.machinery import EXTENSION_SUFFIXES, ExtensionFileLoader, ModuleSpec
 from importlib.util import spec_from_file_location
 from os.path import dirname, exists, join
+from typing import Any
 
 MODULES = (
     *(
@@ -35,7 +38,7 @@ class _CoreFinder:
     _places = [join(dirname(__file__), f"_core{suffix}") for suffix in EXTENSION_SUFFIXES]
 
     @classmethod
-    def find_spec(cls, name, path=None, target=None):
+    def find_spec(cls, name: str, path: Any = None, target: Any = None) -> ModuleSpec | None:
         library = next(filter(exists, cls._places), None) if name in cls._names else None
         if library is None:
             return None

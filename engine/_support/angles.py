@@ -7,8 +7,10 @@ which nobody means but who counts in degrees.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import InvalidArgumentError, warn
 from .numbers import floats, real, shown
@@ -39,7 +41,7 @@ def limited_angle(value: float, what: str, most: float, words: str, *, open: boo
     return number
 
 
-def angles(value, what: str) -> np.ndarray:
+def angles(value: Any, what: str) -> NDArray[np.float64]:
     """Return a float64 copy of angles; whether they are finite is for others to say."""
     array = floats(value, what)
     if (np.abs(array) > FOUR_TURNS).any():

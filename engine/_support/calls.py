@@ -14,7 +14,7 @@ import numbers
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from types import UnionType
-from typing import Any, Literal, TypeVar, Union, get_args, get_origin, is_typeddict
+from typing import Any, Literal, TypeVar, Union, cast, get_args, get_origin, is_typeddict
 
 import numpy as np
 
@@ -38,15 +38,15 @@ def hinted(function: Function, owner: type | None = None) -> Function:
     """
 
     @functools.wraps(function)
-    def call(*args, **kwargs):
+    def call(*args: Any, **kwargs: Any) -> Any:
         try:
             return function(*args, **kwargs)
         except TypeError as error:
-            if kwargs and error.__traceback__.tb_next is None:  # no line of the function has run
+            if kwargs and _is_of_the_call(error):
                 _raise_hint(function, owner, kwargs)
             raise
 
-    return call
+    return cast(Function, call)
 
 
 def checks_types(function: Function) -> Function:
@@ -54,7 +54,7 @@ def checks_types(function: Function) -> Function:
     found: dict[str, _Kind | None] = {}  # when it is first called: by then all names are there
 
     @functools.wraps(function)
-    def call(*args, **kwargs):
+    def call(*args: Any, **kwargs: Any) -> Any:
         if not found:
             found.update(_kinds_of(function))
         for name, value in (*zip(found, args, strict=False), *kwargs.items()):
@@ -64,16 +64,21 @@ def checks_types(function: Function) -> Function:
         try:
             return function(*args, **kwargs)
         except TypeError as error:
-            if kwargs and error.__traceback__.tb_next is None:
+            if kwargs and _is_of_the_call(error):
                 _raise_hint(function, None, kwargs)
             raise
 
-    return call
+    return cast(Function, call)
+
+
+def _is_of_the_call(error: TypeError) -> bool:
+    """Whether no line of the function that was called has run."""
+    return error.__traceback__ is not None and error.__traceback__.tb_next is None
 
 
 def hints_keywords(kind: Kind) -> Kind:
     """Let a class's constructor give hints, as `hinted` says."""
-    kind.__init__ = hinted(kind.__init__, kind)
+    kind.__init__ = hinted(kind.__init__, kind)  # type: ignore[misc]
     return kind
 
 
@@ -84,7 +89,9 @@ def shows_annotations(kind: Kind) -> Kind:
     return kind
 
 
-def _raise_hint(function, owner: type | None, keywords: Mapping[str, Any]) -> None:
+def _raise_hint(
+    function: Callable[..., Any], owner: type | None, keywords: Mapping[str, Any]
+) -> None:
     """Raise a TypeError of a keyword that a function does not have, if there is one."""
     name = function.__qualname__.removesuffix(".__init__")
     refuse_unknown(owner or name, keywords, inspect.signature(function).parameters)
@@ -107,7 +114,7 @@ def refuse_unknown(owner: type | str, keywords: Iterable[str], known: Iterable[s
             ) from None
 
 
-def _kinds_of(function) -> dict[str, _Kind | None]:
+def _kinds_of(function: Callable[..., Any]) -> dict[str, _Kind | None]:
     """Return what each parameter takes; None where anything may be right."""
     return {
         name: _kind(ast.parse(parameter.annotation, mode="eval").body, function)
@@ -118,7 +125,7 @@ def _kinds_of(function) -> dict[str, _Kind | None]:
     }
 
 
-def _kind(node: ast.expr, function) -> _Kind | None:
+def _kind(node: ast.expr, function: Callable[..., Any]) -> _Kind | None:
     """Return what an annotation allows, as Python's grammar has it."""
     if isinstance(node, ast.BinOp):
         return _either([_kind(part, function) for part in (node.left, node.right)])
@@ -126,7 +133,7 @@ def _kind(node: ast.expr, function) -> _Kind | None:
         return _NOTHING if node.value is None else None
     of = ""
     if isinstance(node, ast.Subscript):
-        node, of = node.value, ast.unparse(node.slice)
+        of, node = ast.unparse(node.slice), node.value
     name = ast.unparse(node)
     if name in _UNCHECKED:
         return None
@@ -137,7 +144,7 @@ def _kind(node: ast.expr, function) -> _Kind | None:
     return _PLAIN[name] if name in _PLAIN else _kind_of(_named(name, function), name)
 
 
-def _named(name: str, function) -> Any:
+def _named(name: str, function: Any) -> Any:
     """Return what a name means to a function, perhaps to type checkers only."""
     if name in function.__globals__:
         return function.__globals__[name]
@@ -172,29 +179,30 @@ def _kind_of(named: Any, name: str) -> _Kind | None:
 
 
 def _either(kinds: list[_Kind | None]) -> _Kind | None:
-    if None in kinds:
+    known = [kind for kind in kinds if kind is not None]
+    if len(known) < len(kinds):
         return None
-    return lambda value: any(fits(value) for fits, _ in kinds), " or ".join(w for _, w in kinds)
+    return lambda value: any(fits(value) for fits, _ in known), " or ".join(w for _, w in known)
 
 
 def _is_choice(allowed: tuple[str, ...]) -> Callable[[Any], bool]:
     return lambda value: isinstance(value, str) and value in allowed
 
 
-def is_flag(value) -> bool:
+def is_flag(value: Any) -> bool:
     """Whether a value is True or False, or as good as one of these: NumPy's, 0 and 1."""
     return isinstance(value, (bool, np.bool_)) or (isinstance(value, int) and value in (0, 1))
 
 
-def _is_path(value) -> bool:
+def _is_path(value: Any) -> bool:
     return hasattr(value, "__fspath__") or isinstance(value, bytes)
 
 
-def _is_many(value) -> bool:
+def _is_many(value: Any) -> bool:
     return isinstance(value, Iterable) and not isinstance(value, (str, bytes))
 
 
-def _is_file(value) -> bool:
+def _is_file(value: Any) -> bool:
     return hasattr(value, "read") or hasattr(value, "write")
 
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import Any
+from typing import Any, SupportsIndex
 from weakref import ref
 
 
-class CheckedList(list):
+class CheckedList(list[Any]):
     """A list that belongs to a thing.
 
     Parameters
@@ -24,37 +24,37 @@ class CheckedList(list):
     content : list
     """
 
-    def __init__(self, owner: Any, take: Callable[..., None], content: list) -> None:
+    def __init__(self, owner: Any, take: Callable[..., None], content: list[Any]) -> None:
         super().__init__(content)
         self._owner, self._take = ref(owner), take
 
-    def __reduce_ex__(self, protocol):
+    def __reduce_ex__(self, protocol: SupportsIndex) -> tuple[Any, ...]:
         return list, (list(self),)  # a copy belongs to nobody
 
-    def _put(self, content: list) -> None:
+    def _put(self, content: list[Any]) -> None:
         list.__setitem__(self, slice(None), content)
 
 
-class CheckedDict(dict):
+class CheckedDict(dict[Any, Any]):
     """A dict that belongs to a thing; as `CheckedList`."""
 
-    def __init__(self, owner: Any, take: Callable[..., None], content: dict) -> None:
+    def __init__(self, owner: Any, take: Callable[..., None], content: dict[Any, Any]) -> None:
         super().__init__(content)
         self._owner, self._take = ref(owner), take
 
-    def __reduce_ex__(self, protocol):
+    def __reduce_ex__(self, protocol: SupportsIndex) -> tuple[Any, ...]:
         return dict, (dict(self),)
 
-    def _put(self, content: dict) -> None:
+    def _put(self, content: dict[Any, Any]) -> None:
         dict.clear(self)
         dict.update(self, content)
 
 
-def _checked(kind: type, change: Callable) -> Callable:
+def _checked(kind: type, change: Callable[..., Any]) -> Callable[..., Any]:
     """A method that makes a change of a copy, and has that taken over."""
 
     @functools.wraps(change)
-    def method(self, *args, **options):
+    def method(self: Any, *args: Any, **options: Any) -> Any:
         content = kind(self)
         result = change(content, *args, **options)
         owner = self._owner()

@@ -14,6 +14,7 @@ from __future__ import annotations
 import itertools
 from collections import deque
 from collections.abc import Iterable
+from typing import Any
 
 from .system import after_fork
 
@@ -23,7 +24,7 @@ _versions = itertools.count(1)  # no number twice, even where two count at once
 _changed: deque[list[int]] = deque([[0]], _REMEMBERED)  # ids of what changed last, in order
 
 
-def renew(thing) -> None:
+def renew(thing: Any) -> None:
     """Give a thing another version, and say so: once what was assigned is in its place."""
     thing.__dict__["version"] = next(_versions)
     _changed.append([id(thing)])
@@ -35,7 +36,7 @@ def _since(moment: list[int]) -> tuple[set[int] | None, list[int]]:
     A moment is the last entry that there was, the very object.
     """
     entries = list(_changed)
-    ids = set()
+    ids: set[int] = set()
     for entry in reversed(entries):
         if entry is moment:
             return ids, entries[-1]
@@ -58,22 +59,22 @@ class Watch:
     `saw`, that it took it in.
     """
 
-    def __init__(self, things: Iterable = ()) -> None:
-        self._seen: dict[int, tuple[object, int]] = {}
+    def __init__(self, things: Iterable[Any] = ()) -> None:
+        self._seen: dict[int, tuple[Any, int]] = {}
         self._moment = _changed[-1]
         self._found: dict[int, None] = {}  # ids of what may have changed and was not taken in
         for thing in things:
             self.add(thing)
 
-    def add(self, thing) -> None:
+    def add(self, thing: Any) -> None:
         """Look at a thing from now on: before anything is read of it."""
         self._seen.setdefault(id(thing), (thing, thing.version))
 
-    def remove(self, thing) -> None:
+    def remove(self, thing: Any) -> None:
         """Look at a thing no longer, if it was looked at."""
         self._seen.pop(id(thing), None)
 
-    def found(self) -> list[tuple]:
+    def found(self) -> list[tuple[Any, int]]:
         """Return what changed and was not taken in: pairs of a thing and its version."""
         if self._moment is not _changed[-1]:
             ids, moment = _since(self._moment)
@@ -91,18 +92,18 @@ class Watch:
                 pairs.append((thing, thing.version))
         return pairs
 
-    def saw(self, thing, version: int) -> None:
+    def saw(self, thing: Any, version: int) -> None:
         """Say that a thing was taken in as it was at a version, or later."""
         if id(thing) in self._seen:
             self._seen[id(thing)] = thing, version
             self._take_in(id(thing), thing, version)
 
-    def _take_in(self, key: int, thing, version: int) -> None:
+    def _take_in(self, key: int, thing: Any, version: int) -> None:
         self._found.pop(key, None)
         if thing.version != version:  # since: found again by the next who looks
             self._found[key] = None
 
-    def changed(self) -> list:
+    def changed(self) -> list[Any]:
         """Return the things that changed since they were last looked at; each is told once."""
         pairs = self.found()
         for thing, version in pairs:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
-from typing import TypeVar
+from typing import Any, NoReturn, TypeVar
 
 Kind = TypeVar("Kind", bound=type)
 
@@ -345,10 +345,10 @@ class _Foreign:
     def __init__(self, name: str) -> None:
         self._name = name
 
-    def __get__(self, thing, kind: type):
+    def __get__(self, thing: Any, kind: type) -> NoReturn:
         raise UnknownName(kind, self._name)
 
-    def __set__(self, thing, value) -> None:
+    def __set__(self, thing: Any, value: Any) -> None:
         raise UnknownName(type(thing), self._name)
 
 
@@ -361,11 +361,11 @@ def refuses_foreign_names(kind: Kind) -> Kind:
     for name in foreign:
         setattr(kind, name, _Foreign(name))
     if foreign:
-        kind.__dir__ = _own_names
+        kind.__dir__ = _own_names  # type: ignore[method-assign,assignment]
     return kind
 
 
-def _own_names(thing) -> list[str]:
+def _own_names(thing: Any) -> list[str]:
     """What ``dir`` shows: not what is there to refuse."""
     refused = {
         n for kind in type(thing).__mro__ for n, v in vars(kind).items() if type(v) is _Foreign

@@ -9,23 +9,25 @@ from __future__ import annotations
 
 import math
 import numbers
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import InvalidArgumentError
 
 
-def real(value) -> float:
+def real(value: Any) -> float:
     """Return a number as a float; not-a-number for what is none."""
     if not isinstance(value, numbers.Real):
         return math.nan
     try:
         return float(value)
     except OverflowError:
-        return math.inf if value > 0 else -math.inf
+        return math.inf if value > 0 else -math.inf  # type: ignore[operator]
 
 
-def shown(value) -> str:
+def shown(value: Any) -> str:
     """Return a value as a message shows it: on one line, and short."""
     try:
         text = " ".join(repr(value).split())
@@ -34,7 +36,7 @@ def shown(value) -> str:
     return text if len(text) <= 80 else f"{text[:60]} …"
 
 
-def as_array(value, what: str) -> np.ndarray:
+def as_array(value: Any, what: str) -> NDArray[Any]:
     """Return an array of any type."""
     try:
         return np.asarray(value)
@@ -42,7 +44,7 @@ def as_array(value, what: str) -> np.ndarray:
         raise InvalidArgumentError(f"{what} is not an array: {error}") from None
 
 
-def floats(value, what: str) -> np.ndarray:
+def floats(value: Any, what: str) -> NDArray[np.float64]:
     """Return a float64 copy of numbers, C-contiguous."""
     kind = value.__class__
     if kind is tuple or kind is list:  # the common case first: this is called for every node

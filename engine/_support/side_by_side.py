@@ -57,9 +57,9 @@ def side_by_side(
 class _Work:
     """Items that are taken one by one, and what became of them."""
 
-    def __init__(self, function: Callable[[Any], Any], items: Sequence) -> None:
+    def __init__(self, function: Callable[[Any], Any], items: Sequence[Any]) -> None:
         self._function, self._items = function, items
-        self._outcomes: list = [None] * len(items)
+        self._outcomes: list[Any] = [None] * len(items)
         self._errors: list[BaseException | None] = [None] * len(items)
         self._places = iter(range(len(items)))  # of which each number is given to one thread alone
 
@@ -82,7 +82,7 @@ class _Work:
         for _ in self._places:
             pass
 
-    def results(self) -> list:
+    def results(self) -> list[Any]:
         for error in self._errors:
             if error is not None:
                 raise error

@@ -11,6 +11,7 @@ import contextlib
 import errno
 import os
 from collections.abc import Callable
+from typing import Any
 
 _BINARY = getattr(os, "O_BINARY", 0)  # or else Windows changes the ends of lines
 _OWN = getattr(os, "O_CLOEXEC", getattr(os, "O_NOINHERIT", 0))
@@ -46,7 +47,7 @@ def machine_memory() -> int | None:
         return None
 
 
-def ending_signals() -> tuple:
+def ending_signals() -> tuple[Any, ...]:
     """The signals by which a system asks a program to end."""
     import signal
 

@@ -11,7 +11,7 @@ import functools
 import math
 import numbers
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -35,18 +35,20 @@ class Closed:
     what comes from a pickle, hold read-only arrays as well, and lists and dicts of their own.
     """
 
-    _FORGOTTEN = ()  # attributes that are computed anew in a copy; the class has their first values
+    _FORGOTTEN: tuple[
+        str, ...
+    ] = ()  # attributes that are computed anew in a copy; the class has their first values
 
-    def __getstate__(self) -> dict:
+    def __getstate__(self) -> dict[str, Any]:
         return {key: self.__dict__[key] for key in self.__dict__ if key not in self._FORGOTTEN}
 
-    def __setstate__(self, state: dict) -> None:
+    def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update({key: own(value) for key, value in state.items()})
 
-    def __init_subclass__(cls, **keywords) -> None:
+    def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
         if "__init__" in vars(cls):
-            cls.__init__ = hinted(cls.__init__, cls)
+            cls.__init__ = hinted(cls.__init__, cls)  # type: ignore[method-assign]
         refuses_foreign_names(cls)
 
     if not TYPE_CHECKING:  # to a type checker, any attribute could be assigned
@@ -64,7 +66,7 @@ class Versioned(Closed):
     version: int
 
 
-def own(value):
+def own(value: Any) -> Any:
     """Return what a copy keeps of a value: arrays that nobody can write to, its own containers."""
     if isinstance(value, np.ndarray):
         return frozen(value if is_frozen(value) or value.flags.owndata else value.copy())
@@ -97,12 +99,14 @@ class CheckedAttribute(Generic[Given, Kept]):
         self._name = name
 
     @overload
-    def __get__(self, owner: None, owner_type: type | None = None) -> CheckedAttribute: ...
+    def __get__(
+        self, owner: None, owner_type: type | None = None
+    ) -> CheckedAttribute[Given, Kept]: ...
 
     @overload
     def __get__(self, owner: object, owner_type: type | None = None) -> Kept: ...
 
-    def __get__(self, owner, owner_type=None):
+    def __get__(self, owner: Any, owner_type: type | None = None) -> Any:
         if owner is None:
             return self
         try:
@@ -126,12 +130,12 @@ def one_of(allowed: tuple[Kept, ...]) -> Callable[[Kept, str], Kept]:
     """Return a check that a value is one of a few."""
 
     def check(value: Kept, what: str) -> Kept:
-        return choose(value, allowed, what)
+        return cast(Kept, choose(value, allowed, what))
 
     return check
 
 
-def choose(value, allowed, what: str):
+def choose(value: Any, allowed: Any, what: str) -> Any:
     """Return ``value`` if it is one of ``allowed``; the message lists what is allowed."""
     if is_one_of(value, allowed):
         return value
@@ -165,7 +169,7 @@ def whole_number(value: int, what: str, least: int, most: int) -> int:
     return int(value)
 
 
-def is_one_of(value, allowed) -> bool:
+def is_one_of(value: Any, allowed: Any) -> bool:
     """Whether a value, whatever it is, is among those that are allowed."""
     try:
         return bool(value in allowed)

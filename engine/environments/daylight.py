@@ -10,7 +10,7 @@ as white under the midday sun.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,7 +72,9 @@ class _Sky(NamedTuple):
     zenith: tuple[float, float, float]
 
 
-def pixels(sun: tuple[float, float, float], turbidity: float, has_disc: bool) -> NDArray:
+def pixels(
+    sun: tuple[float, float, float], turbidity: float, has_disc: bool
+) -> NDArray[np.float32]:
     """Return the picture, (H, W, 3) float32.
 
     Parameters
@@ -133,7 +135,7 @@ def _chromaticity(rows: tuple[tuple[float, ...], ...], t: float, angle: float) -
     return total
 
 
-def _colors(sky: _Sky, up, cosine):
+def _colors(sky: _Sky, up: Any, cosine: Any) -> list[Any]:
     """Red, green and blue, by the cosines from the zenith and from the sun."""
     straight = [_distribution(row, 1.0, sky.sun[1], sky.angle) for row in sky.perez]
     bent = np.clip(cosine, -1.0, 1.0)
@@ -147,13 +149,15 @@ def _colors(sky: _Sky, up, cosine):
     return [np.maximum(r * big_x + g * luminance + b * big_z, 0.0) for r, g, b in _SRGB]
 
 
-def _distribution(row: tuple[float, ...], up, cosine, gamma):
+def _distribution(row: tuple[float, ...], up: Any, cosine: Any, gamma: Any) -> Any:
     """Perez's formula."""
     a, b, c, d, e = row
     return (1.0 + a * _exp(b / up)) * (1.0 + c * _exp(d * gamma) + e * (cosine * cosine))
 
 
-def _ground(sun, turbidity: float, light) -> list[float]:
+def _ground(
+    sun: tuple[float, float, float], turbidity: float, light: tuple[float, float, float]
+) -> list[float]:
     """What bare ground shows: of the sun, and of the sky, which some directions stand for."""
     sky = _sky_of(sun, turbidity)
     total, weights = [0.0, 0.0, 0.0], 0.0
@@ -174,7 +178,7 @@ def _from_zenith(sun: tuple[float, float, float]) -> float:
     return linalg.atan2(math.sqrt(sun[0] * sun[0] + sun[2] * sun[2]), sun[1])
 
 
-def _exp(x):
+def _exp(x: Any) -> Any:
     """The exponential function, of the same bits everywhere: 2 to a whole number times a series."""
     x = np.maximum(x, -700.0)
     whole = np.rint(x * 1.4426950408889634)

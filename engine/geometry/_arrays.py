@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable, Mapping
+from types import FrameType
 from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
@@ -36,32 +37,32 @@ class ArrayAttribute(Generic[Given, Kept]):
         self._name = name
 
     @overload
-    def __get__(self, mesh: None, owner: type | None = None) -> ArrayAttribute: ...
+    def __get__(self, mesh: None, owner: type | None = None) -> ArrayAttribute[Any, Any]: ...
 
     @overload
     def __get__(self, mesh: object, owner: type | None = None) -> Kept: ...
 
-    def __get__(self, mesh, owner: type | None = None):
+    def __get__(self, mesh: Any, owner: type | None = None) -> Any:
         return self if mesh is None else mesh._arrays[self._name]
 
-    def __set__(self, mesh, value: Given) -> None:
+    def __set__(self, mesh: Any, value: Given) -> None:
         if value is None and not self._optional:
             raise InvalidArgumentError(f"{self._name} cannot be None")
         name = self._name.removeprefix("_given_")
         mesh._replace(self._name, None if value is None else self._check(value, name))
 
 
-def check_vectors2(value, what: str) -> np.ndarray:
+def check_vectors2(value: Any, what: str) -> np.ndarray:
     """(N, 2) float32."""
     return _frozen(_floats(value, what, 2), np.float32)
 
 
-def check_vectors3(value, what: str) -> np.ndarray:
+def check_vectors3(value: Any, what: str) -> np.ndarray:
     """(N, 3) float32."""
     return _frozen(_floats(value, what, 3), np.float32)
 
 
-def check_positions(value, what: str) -> np.ndarray:
+def check_positions(value: Any, what: str) -> np.ndarray:
     """(N, 3) float32; warns of what is not finite, but for arrays of loaders, which say it."""
     array = check_vectors3(value, what)
     if array is not value:
@@ -76,7 +77,7 @@ def check_positions(value, what: str) -> np.ndarray:
 
 def _is_loading() -> bool:
     """Whether a loader asks, which has words of its own for what its file holds."""
-    frame = sys._getframe()
+    frame: FrameType | None = sys._getframe()
     while frame is not None:
         if frame.f_globals.get("__name__", "").startswith("engine3d.loaders."):
             return True
@@ -84,12 +85,12 @@ def _is_loading() -> bool:
     return False
 
 
-def check_vectors4(value, what: str) -> np.ndarray:
+def check_vectors4(value: Any, what: str) -> np.ndarray:
     """(N, 4) float32."""
     return _frozen(_floats(value, what, 4), np.float32)
 
 
-def check_colors(value, what: str) -> np.ndarray:
+def check_colors(value: Any, what: str) -> np.ndarray:
     """(N, 4) uint8 or float32; three components get an opaque alpha."""
     array = as_array(value, what)
     if array.ndim != 2 or array.shape[1] not in (3, 4):
@@ -103,22 +104,22 @@ def check_colors(value, what: str) -> np.ndarray:
     return _frozen(widened, array.dtype)
 
 
-def check_indices(value, what: str) -> np.ndarray:
+def check_indices(value: Any, what: str) -> np.ndarray:
     """(N,) int32."""
     return _frozen(_integers(value, what, ()), np.int32)
 
 
-def check_pairs(value, what: str) -> np.ndarray:
+def check_pairs(value: Any, what: str) -> np.ndarray:
     """(N, 2) int32."""
     return _frozen(_integers(value, what, (2,)), np.int32)
 
 
-def check_triples(value, what: str) -> np.ndarray:
+def check_triples(value: Any, what: str) -> np.ndarray:
     """(N, 3) int32."""
     return _frozen(_integers(value, what, (3,)), np.int32)
 
 
-def check_flags3(value, what: str) -> np.ndarray:
+def check_flags3(value: Any, what: str) -> np.ndarray:
     """(N, 3) bool."""
     array = _shaped(as_array(value, what), what, (3,))
     if array.dtype.kind not in "biu" and array.size:
@@ -126,7 +127,7 @@ def check_flags3(value, what: str) -> np.ndarray:
     return _frozen(array, np.bool_)
 
 
-def check_groups(value, faces: int) -> dict[str, np.ndarray]:
+def check_groups(value: Any, faces: int) -> dict[str, np.ndarray]:
     """dict of str to (N,) int32, indices of that many faces."""
     if not isinstance(value, Mapping):
         raise InvalidArgumentError(f"groups must be a dict of names to indices, not {value!r}")
@@ -161,14 +162,14 @@ def _shaped(array: np.ndarray, what: str, row: tuple[int, ...]) -> np.ndarray:
     return array
 
 
-def _floats(value, what: str, components: int) -> np.ndarray:
+def _floats(value: Any, what: str, components: int) -> np.ndarray:
     array = _shaped(as_array(value, what), what, (components,))
     if array.dtype.kind not in "fiu":
         raise InvalidArgumentError(f"{what} must be numbers, got {array.dtype}")
     return array
 
 
-def _integers(value, what: str, row: tuple[int, ...]) -> np.ndarray:
+def _integers(value: Any, what: str, row: tuple[int, ...]) -> np.ndarray:
     array = _shaped(as_array(value, what), what, row)
     if array.dtype.kind not in "iu" and array.size:
         raise InvalidArgumentError(f"{what} must be integers, got {array.dtype}")
@@ -180,7 +181,7 @@ def _integers(value, what: str, row: tuple[int, ...]) -> np.ndarray:
     return array
 
 
-def _frozen(array: np.ndarray, dtype) -> np.ndarray:
+def _frozen(array: np.ndarray, dtype: Any) -> np.ndarray:
     """Return a read-only array of the type; a copy unless nobody can write to this one."""
     if not (is_frozen(array) and array.dtype == dtype and array.flags.c_contiguous):
         with np.errstate(over="ignore", invalid="ignore"):

@@ -7,6 +7,7 @@ the indices moved along. What only some of them have is filled in for the others
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from .posing import posed_mesh
 from .vertex_attributes import VertexAttribute, attributes_of, vertex_attributes
 
 
-def placed(mesh_type: type, meshes: list, poses) -> list:
+def placed(mesh_type: type, meshes: list[Any], poses: Any) -> list[Any]:
     """Return meshes with their poses applied; see `Mesh.concatenate`."""
     _check_types(mesh_type, meshes)
     if not isinstance(poses, Iterable):
@@ -32,7 +33,7 @@ def placed(mesh_type: type, meshes: list, poses) -> list:
     return [posed_mesh(mesh, matrix) for mesh, matrix in zip(meshes, matrices, strict=True)]
 
 
-def _pose_matrix(pose, number: int) -> np.ndarray:
+def _pose_matrix(pose: Any, number: int) -> np.ndarray:
     """A pose as a matrix: of a matrix, or of translation, rotation and scale."""
     what = f"poses[{number}]"
     if isinstance(pose, (list, tuple)) and len(pose) == 3:
@@ -43,13 +44,13 @@ def _pose_matrix(pose, number: int) -> np.ndarray:
     return matrix
 
 
-def _check_types(mesh_type: type, meshes: list) -> None:
+def _check_types(mesh_type: type, meshes: list[Any]) -> None:
     for mesh in meshes:
         if not isinstance(mesh, mesh_type):
             raise InvalidArgumentError(f"meshes must be Mesh, not {type(mesh).__name__}")
 
 
-def concatenate(mesh_type: type, meshes: list, name: str):
+def concatenate(mesh_type: type, meshes: list[Any], name: str) -> Any:
     """Return a ``mesh_type`` that holds everything of ``meshes``; see `Mesh.concatenate`."""
     _check_types(mesh_type, meshes)
     meshes = _alike(meshes)
@@ -76,7 +77,7 @@ def concatenate(mesh_type: type, meshes: list, name: str):
     return joined
 
 
-def _alike(meshes: list) -> list:
+def _alike(meshes: list[Any]) -> list[Any]:
     """Meshes of one crease angle without normals; or else all with those that are drawn."""
     angles = {mesh.crease_angle for mesh in meshes}
     if len(angles) <= 1 and not any(mesh.has_normals for mesh in meshes):
@@ -84,13 +85,13 @@ def _alike(meshes: list) -> list:
     return [mesh_with_creases(mesh) for mesh in meshes]
 
 
-def _moved(meshes, starts, what: str) -> np.ndarray:
+def _moved(meshes: Any, starts: Any, what: str) -> np.ndarray:
     """Index arrays, each raised by the number of vertices before its mesh."""
     parts = zip(meshes, starts, strict=True)
     return np.concatenate([getattr(mesh, what) + np.int32(start) for mesh, start in parts])
 
 
-def _joined_materials(meshes) -> tuple[list[Material], np.ndarray]:
+def _joined_materials(meshes: Any) -> tuple[list[Material], np.ndarray]:
     materials: list[Material] = []
     number: dict[int, int] = {}
     ids = []
@@ -103,24 +104,27 @@ def _joined_materials(meshes) -> tuple[list[Material], np.ndarray]:
     return materials, np.concatenate(ids)
 
 
-def _joined_normals(meshes):
+def _joined_normals(meshes: Any) -> Any:
     if not any(mesh.has_normals for mesh in meshes):
         return None
     return np.concatenate([mesh.normals for mesh in meshes])
 
 
-def _joined_attributes(meshes) -> dict[str, np.ndarray]:
+def _joined_attributes(meshes: Any) -> dict[str, np.ndarray]:
     """Those that some of the meshes have."""
     held = [attributes_of(mesh) for mesh in meshes]
+    kind: type = type(meshes[0])
     counts = [len(mesh.positions) for mesh in meshes]
     return {
         name: _joined_attribute(attribute, [arrays.get(name) for arrays in held], counts)
-        for name, attribute in vertex_attributes(type(meshes[0])).items()
+        for name, attribute in vertex_attributes(kind).items()
         if any(name in arrays for arrays in held)
     }
 
 
-def _joined_attribute(attribute: VertexAttribute, arrays: list, counts: list[int]) -> np.ndarray:
+def _joined_attribute(
+    attribute: VertexAttribute[Any, Any], arrays: list[Any], counts: list[int]
+) -> np.ndarray:
     """Bytes stay bytes; beside floats they become linear light."""
     given = [array for array in arrays if array is not None]
     if len({array.dtype for array in given}) > 1:
@@ -143,7 +147,7 @@ def _linear_from_bytes(colors: np.ndarray) -> np.ndarray:
     return linear
 
 
-def _joined_edge_flags(meshes):
+def _joined_edge_flags(meshes: Any) -> Any:
     if all(mesh.edge_visible is None for mesh in meshes):
         return None
     return np.concatenate(
@@ -154,7 +158,7 @@ def _joined_edge_flags(meshes):
     )
 
 
-def _joined_position_ids(meshes):
+def _joined_position_ids(meshes: Any) -> Any:
     if all(mesh.position_ids is None for mesh in meshes):
         return None
     parts = []
@@ -167,7 +171,7 @@ def _joined_position_ids(meshes):
     return np.concatenate(parts)
 
 
-def _joined_groups(meshes) -> dict[str, np.ndarray]:
+def _joined_groups(meshes: Any) -> dict[str, np.ndarray]:
     """Groups of the same name become one."""
     parts: dict[str, list[np.ndarray]] = {}
     start = 0

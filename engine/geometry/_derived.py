@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from . import normals as _normals
 from . import topology as _topology
 
 
-def derive(kept: dict[str, tuple[list, np.ndarray]], what: str, arrays: dict) -> Any:
+def derive(kept: dict[str, tuple[list[Any], np.ndarray]], what: str, arrays: dict[str, Any]) -> Any:
     """What follows from arrays, as they were at one moment: computed once for these."""
     if what == "normals" and arrays["_given_normals"] is not None:
         return arrays["_given_normals"]
@@ -26,7 +27,12 @@ def derive(kept: dict[str, tuple[list, np.ndarray]], what: str, arrays: dict) ->
     return array
 
 
-def _face_normals(positions, faces, position_ids, edge_visible) -> np.ndarray:
+def _face_normals(
+    positions: np.ndarray,
+    faces: np.ndarray,
+    position_ids: np.ndarray | None,
+    edge_visible: np.ndarray | None,
+) -> np.ndarray:
     polygons = _topology.polygon_ids(faces, edge_visible, position_ids)
     return _normals.face_normals(positions, faces, polygons)
 
@@ -35,7 +41,9 @@ def _bounds(positions: np.ndarray) -> np.ndarray:
     return np.array(bound_points(positions), np.float64)
 
 
-_DERIVED = {  # how each is computed, and from which arrays
+_DERIVED: dict[
+    str, tuple[Callable[..., np.ndarray], tuple[str, ...]]
+] = {  # how each is computed, and from which arrays
     "normals": (_normals.vertex_normals, ("positions", "faces", "position_ids")),
     "face_normals": (_face_normals, ("positions", "faces", "position_ids", "edge_visible")),
     "polygons": (_topology.polygon_ids, ("faces", "edge_visible", "position_ids")),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 
@@ -12,10 +13,11 @@ from ._arrays import require_range
 from .vertex_attributes import vertex_attributes
 
 
-def check_fit(mesh, what: str, array: np.ndarray | None, others: dict) -> None:
+def check_fit(mesh: Any, what: str, array: Any, others: dict[str, Any]) -> None:
     """Check an array against those that are there, and the number of materials."""
     if what == "positions":
-        _check_new_positions(array, others, vertex_attributes(type(mesh)))
+        kind: type = type(mesh)
+        _check_new_positions(array, others, vertex_attributes(kind))
     elif what == "faces":
         require_range(array, len(others["positions"]), what, "vertices")
         _check_length(others.get("edge_visible"), len(array), "edge_visible", "faces")
@@ -30,7 +32,9 @@ def check_fit(mesh, what: str, array: np.ndarray | None, others: dict) -> None:
         require_range(array, len(mesh.materials), what, "materials")
 
 
-def _check_new_positions(positions: np.ndarray, others: dict, attributes: Iterable[str]) -> None:
+def _check_new_positions(
+    positions: np.ndarray, others: dict[str, Any], attributes: Iterable[str]
+) -> None:
     count = len(positions)
     for what in ("_given_normals", *attributes, "position_ids"):
         other = others.get(what)

@@ -15,6 +15,7 @@ from .._native import loaders as native
 from ..errors import InvalidArgumentError
 from ._splitting import split_mesh
 from .creases import mesh_with_creases
+from .vertex_attributes import attributes_of
 
 if TYPE_CHECKING:
     from .mesh import Mesh
@@ -29,7 +30,7 @@ def mesh_with_tangents(mesh: Mesh, uv_set: int) -> Mesh:
         name = "uvs1" if uv_set else "uvs"
         raise InvalidArgumentError(f"tangents need texture coordinates, but there are no {name}")
     mesh = mesh_with_creases(mesh)
-    uvs = mesh.uvs1 if uv_set else mesh.uvs
+    uvs = attributes_of(mesh)["uvs1" if uv_set else "uvs"]
     rows = np.concatenate([mesh.positions, mesh.normals, uvs], axis=1)
     points, _ = native.number_rows(rows.view(np.uint32), True)
     groups, of_group = native.find_tangents(mesh.positions, mesh.normals, uvs, mesh.faces, points)

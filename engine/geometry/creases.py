@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -50,13 +50,13 @@ def check_crease_angle(value: float, what: str = "crease_angle") -> float:
     return limited_angle(value, what, math.pi, "from 0 to pi radians")
 
 
-def has_creases(arrays: dict, angle: float) -> bool:
+def has_creases(arrays: dict[str, Any], angle: float) -> bool:
     """Whether the arrays of a mesh get normals by creases: none are given, and nothing bends it."""
     movers = ("_given_normals", "joints", "morph_positions")
     return angle < SMOOTH and len(arrays["faces"]) > 0 and all(arrays[m] is None for m in movers)
 
 
-def find_creases(arrays: dict, angle: float) -> Creased:
+def find_creases(arrays: dict[str, Any], angle: float) -> Creased:
     """Return the triangles of a mesh and their normals.
 
     Parameters
@@ -90,7 +90,9 @@ def find_creases(arrays: dict, angle: float) -> Creased:
     )
 
 
-def creased_arrays(arrays: dict, attributes: Iterable[str], angle: float) -> dict:
+def creased_arrays(
+    arrays: dict[str, Any], attributes: Iterable[str], angle: float
+) -> dict[str, Any]:
     """Return the arrays of a mesh, with normals and the vertices that these need.
 
     Parameters

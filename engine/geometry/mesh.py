@@ -181,7 +181,8 @@ class Mesh(Closed):
         self.warnings = []
         self._arrays: dict[str, np.ndarray | None] = dict.fromkeys(_movers.VERTEX_AXES)
         self._morph_targets = ()
-        self._derived: dict[str, tuple[list, np.ndarray]] = {}  # with what it was computed from
+        # With what each was computed from.
+        self._derived: dict[str, tuple[list[Any], np.ndarray]] = {}
         self._materials = CheckedList(self, _take_materials, _check_materials(materials))
         self._crease_angle = check_crease_angle(crease_angle)
         self.positions = positions
@@ -462,7 +463,7 @@ class Mesh(Closed):
 
         save_mesh(self, path, format=format, **options)
 
-    def __setstate__(self, state: dict) -> None:
+    def __setstate__(self, state: dict[str, Any]) -> None:
         super().__setstate__({**state, "_derived": {}})
         for arrays in (self._arrays, self._scalars):
             arrays.update({name: own(array) for name, array in arrays.items()})
@@ -485,10 +486,10 @@ class Mesh(Closed):
         parts += [f"{len(self.points)} points"] if len(self.points) else []
         return f"Mesh({', '.join(parts)}, name={self.name!r})"
 
-    def _derive(self, what: str, arrays: dict) -> Any:
+    def _derive(self, what: str, arrays: dict[str, Any]) -> Any:
         return derive(self._derived, what, arrays)
 
-    def _replace(self, what: str, array: np.ndarray | None) -> None:
+    def _replace(self, what: str, array: Any) -> None:
         """Check an array against those that are there, and put it in its place."""
         while True:  # until nothing was assigned between the check and this
             others = dict(self._arrays)
@@ -505,10 +506,10 @@ class Mesh(Closed):
             self._take_groups({})
         self._changed()
 
-    def _put(self, fresh: dict) -> None:
+    def _put(self, fresh: dict[str, Any]) -> None:
         """Put arrays in their places together, which have a row for each vertex."""
         while True:
-            others = dict(self._arrays)
+            others: dict[str, Any] = dict(self._arrays)
             for what, array in fresh.items():
                 rows = None if array is None else array.shape[_movers.VERTEX_AXES[what]]
                 if rows not in (None, len(others["positions"])):
@@ -554,7 +555,7 @@ class Mesh(Closed):
         renew(self)
 
 
-def _take_materials(mesh: Mesh, materials: list, put: Callable[[list], None]) -> None:
+def _take_materials(mesh: Mesh, materials: list[Any], put: Callable[[list[Any]], None]) -> None:
     """Let a mesh's own list hold other materials."""
     if not materials:
         raise InvalidArgumentError(
@@ -573,7 +574,9 @@ def _require_used(mesh: Mesh, count: int) -> None:
         require_range(mesh.material_ids, count, what, "materials")
 
 
-def _take_changed_groups(mesh: Mesh, groups: dict, put: Callable[[dict], None]) -> None:
+def _take_changed_groups(
+    mesh: Mesh, groups: dict[str, Any], put: Callable[[dict[str, Any]], None]
+) -> None:
     """Let a mesh's own dict hold other groups."""
     put(check_groups(groups, len(mesh.faces)))
 

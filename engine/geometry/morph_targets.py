@@ -76,7 +76,8 @@ class MorphTarget(Closed):
         numbers = check_indices(numbers, "numbers")
         require_range(numbers, len(self), "numbers", "vertices")
         parts = (self._positions, self._normals, self._tangents)
-        return MorphTarget(*(None if p is None else p[numbers] for p in parts), name=self._name)
+        positions, normals, tangents = (None if p is None else p[numbers] for p in parts)
+        return MorphTarget(positions, normals, tangents, name=self._name)
 
     def __len__(self) -> int:
         return self._count

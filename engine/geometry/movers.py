@@ -6,6 +6,7 @@ In: whatever a caller gives. Out: checked arrays, by their names in the mesh.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 
@@ -25,7 +26,7 @@ VERTEX_AXES = {
 _MOST_JOINT = 2**16 - 1
 
 
-def check_influences(joints, weights, count: int) -> dict[str, np.ndarray | None]:
+def check_influences(joints: Any, weights: Any, count: int) -> dict[str, np.ndarray | None]:
     """Return joints (V, N) uint16 and weights (V, N) float32, whose rows sum to 1; both or none."""
     if joints is None and weights is None:
         return {"joints": None, "weights": None}
@@ -68,7 +69,7 @@ def shares(weights: np.ndarray) -> np.ndarray:
     return (scaled / total[:, np.newaxis]).astype(np.float32)
 
 
-def check_targets(value, count: int) -> tuple[MorphTarget, ...]:
+def check_targets(value: Any, count: int) -> tuple[MorphTarget, ...]:
     """Return morph targets that have a row for each of so many vertices."""
     if not isinstance(value, Iterable):
         raise InvalidArgumentError(f"morph_targets must be several MorphTarget, not {value!r}")
@@ -93,7 +94,7 @@ def stacked(targets: tuple[MorphTarget, ...], count: int) -> dict[str, np.ndarra
     }
 
 
-def _stack(offsets: list, count: int) -> np.ndarray | None:
+def _stack(offsets: list[Any], count: int) -> np.ndarray | None:
     if all(each is None for each in offsets):
         return None
     stack = np.zeros((len(offsets), count, 3), np.float32)

@@ -5,6 +5,8 @@ In: the arrays of a `Mesh`, as they were at one moment. Out: a `NativeMesh` that
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from .._native.rasterizer import VERTEX_ATTRIBUTES, NativeMesh
@@ -13,19 +15,22 @@ from .mesh import Mesh
 from .vertex_attributes import vertex_attributes
 
 
-def drawn_arrays(mesh: Mesh, arrays: dict) -> dict:
+def drawn_arrays(mesh: Mesh, arrays: dict[str, Any]) -> dict[str, Any]:
     """Return the arrays of a mesh as they are drawn: with the tangents that its file leaves out.
 
     They are found when it is drawn first: many meshes never are, and reading stays fast.
     """
-    uvs = {None: None, 0: "uvs", 1: "uvs1"}[mesh._tangent_uv_set]
-    lacks = uvs is not None and arrays["tangents"] is None and len(arrays["faces"]) > 0
-    if not lacks or arrays["_given_normals"] is None or arrays[uvs] is None:
+    uv_set = mesh._tangent_uv_set
+    if uv_set is None or arrays["tangents"] is not None or not len(arrays["faces"]):
         return arrays
-    return mesh_with_tangents(mesh, mesh._tangent_uv_set)._arrays
+    if arrays["_given_normals"] is None or arrays["uvs1" if uv_set else "uvs"] is None:
+        return arrays
+    return mesh_with_tangents(mesh, uv_set)._arrays
 
 
-def make_native_mesh(arrays: dict, threads: int, movers: np.ndarray | None = None) -> NativeMesh:
+def make_native_mesh(
+    arrays: dict[str, Any], threads: int, movers: np.ndarray | None = None
+) -> NativeMesh:
     """Return a handle of a mesh's arrays.
 
     Parameters

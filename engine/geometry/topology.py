@@ -7,6 +7,8 @@ a face's flags is the edge from its vertex k to its vertex (k + 1) % 3.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from .._native.loaders import find_edges
@@ -89,7 +91,7 @@ def half_edges(faces: np.ndarray) -> np.ndarray:
     return np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
 
 
-def _edge_keys(edges, position_ids):
+def _edge_keys(edges: np.ndarray, position_ids: np.ndarray | None) -> Any:
     """One number an undirected edge, and which edges join two different points."""
     ends = edges if position_ids is None else position_ids[edges]
     ends = ends.astype(np.int64)
@@ -97,7 +99,9 @@ def _edge_keys(edges, position_ids):
     return low * (high.max(initial=0) + 1) + high, low != high
 
 
-def _hidden_edge_pairs(faces, edge_visible, position_ids):
+def _hidden_edge_pairs(
+    faces: np.ndarray, edge_visible: np.ndarray, position_ids: np.ndarray | None
+) -> tuple[np.ndarray, np.ndarray]:
     """Pairs of faces, first < second, that share an edge hidden in exactly these two."""
     hidden = np.flatnonzero(~edge_visible.ravel())
     keys, proper = _edge_keys(half_edges(faces)[hidden], position_ids)

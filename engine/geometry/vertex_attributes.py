@@ -36,13 +36,14 @@ class VertexAttribute(ArrayAttribute[Given, Kept]):
 
 
 @functools.cache
-def vertex_attributes(mesh_type: type) -> dict[str, VertexAttribute]:
+def vertex_attributes(mesh_type: type) -> dict[str, VertexAttribute[Any, Any]]:
     """Return the attributes by name."""
     members = [item for cls in mesh_type.__mro__ for item in vars(cls).items()]
     return {name: value for name, value in members if isinstance(value, VertexAttribute)}
 
 
-def attributes_of(mesh) -> dict[str, np.ndarray]:
+def attributes_of(mesh: Any) -> dict[str, np.ndarray]:
     """Return the arrays that a mesh has, as parameters of another."""
-    held = {name: mesh._arrays[name] for name in vertex_attributes(type(mesh))}
+    kind: type = type(mesh)
+    held = {name: mesh._arrays[name] for name in vertex_attributes(kind)}
     return {name: array for name, array in held.items() if array is not None}

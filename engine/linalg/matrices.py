@@ -26,8 +26,9 @@ _SINGULAR = "the matrix has no inverse: it is singular or not finite"
 
 def as_matrices(name: str, values: npt.ArrayLike) -> FloatArray:
     """Return `values` as float64 of shape (..., 4, 4), or say which argument isn't."""
-    matrices = values
-    if type(values) is not np.ndarray or values.dtype != np.float64:
+    if type(values) is np.ndarray and values.dtype == np.float64:
+        matrices = values
+    else:
         matrices = floats(values, name)
     if matrices.shape[-2:] != (4, 4):
         raise InvalidArgumentError(f"{name} must have shape (..., 4, 4), not {matrices.shape}")

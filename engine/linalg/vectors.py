@@ -21,8 +21,9 @@ FloatArray = npt.NDArray[np.float64]
 
 def as_vectors(name: str, values: npt.ArrayLike, size: int = 3) -> FloatArray:
     """Return `values` as float64 whose last axis has length `size`, or say which argument isn't."""
-    vectors = values
-    if type(values) is not np.ndarray or values.dtype != np.float64:
+    if type(values) is np.ndarray and values.dtype == np.float64:
+        vectors = values
+    else:
         vectors = floats(values, name)
     if vectors.ndim == 0 or vectors.shape[-1] != size:
         raise InvalidArgumentError(f"{name} must have shape (..., {size}), not {vectors.shape}")

@@ -50,25 +50,27 @@ def look_at(
         If eye and target coincide, or a position isn't finite.
     """
     eye, target, up = _position("eye", eye), _position("target", target), _position("up", up)
-    offset = [e - t for e, t in zip(eye, target, strict=True)]
+    offset = eye[0] - target[0], eye[1] - target[1], eye[2] - target[2]
     if not any(offset) or not all(map(math.isfinite, offset)):
         raise InvalidArgumentError("eye and target must be two finite, different positions")
     backward = single.normalize(offset)
     right = single.cross(single.normalize(up), backward)
     if not single.length(right) > _PARALLEL:
         smallest = min(range(3), key=lambda axis: abs(backward[axis]))
-        right = single.cross([float(axis == smallest) for axis in range(3)], backward)
+        axis = float(smallest == 0), float(smallest == 1), float(smallest == 2)
+        right = single.cross(axis, backward)
     right = single.normalize(right)
     upward = single.cross(backward, right)
     rows = [list(row) for row in zip(right, upward, backward, eye, strict=True)]
     return np.array([*rows, [0.0, 0.0, 0.0, 1.0]])
 
 
-def _position(name: str, value: npt.ArrayLike) -> list[float]:
+def _position(name: str, value: npt.ArrayLike) -> single.Vector:
     vector = as_vectors(name, value)
     if vector.ndim != 1:
         raise InvalidArgumentError(f"{name} must have shape (3,), not {vector.shape}")
-    return vector.tolist()
+    x, y, z = vector.tolist()
+    return x, y, z
 
 
 def perspective(yfov: float, aspect: float, znear: float, zfar: float | None = None) -> FloatArray:

@@ -10,10 +10,10 @@ from __future__ import annotations
 import functools
 import math
 import numbers
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import get_args
+from typing import Any, cast, get_args
 
 import numpy as np
 
@@ -91,8 +91,8 @@ def split_alpha(color: SurfaceColor) -> tuple[Color, float]:
         return color, 1.0
     rgb = color[:3]
     if not is_8bit(color):
-        return tuple(map(float, rgb)), float(color[3])
-    return tuple(map(np.uint8, rgb)), int(color[3]) / 255
+        return cast(Color, tuple(map(float, rgb))), float(color[3])
+    return cast(Color, tuple(map(np.uint8, rgb))), int(color[3]) / 255
 
 
 def _three(value: ColorLike, what: str) -> Color:
@@ -102,7 +102,7 @@ def _three(value: ColorLike, what: str) -> Color:
     return components
 
 
-def _components(value: ColorLike, what: str) -> tuple:
+def _components(value: ColorLike, what: str) -> tuple[Any, ...]:
     components = tuple(_scalar(component) for component in _sequence(value, what))
     for component in components:
         if not isinstance(component, numbers.Real) or isinstance(component, bool):
@@ -192,7 +192,7 @@ def linear_color(value: ColorLike, color_space: ColorSpace = "srgb") -> np.ndarr
         return float32_of(np.array(components, np.float64))
     if color_space == "linear":
         return (np.array(components, np.float64) / 255).astype(np.float32)
-    return srgb_to_linear_table()[list(components)]
+    return srgb_to_linear_table()[np.asarray(components)]
 
 
 def srgb_bytes(colors: np.ndarray) -> np.ndarray:
@@ -216,14 +216,14 @@ def srgb_bytes(colors: np.ndarray) -> np.ndarray:
     return encoded
 
 
-def is_8bit(components) -> bool:
+def is_8bit(components: Sequence[Any]) -> bool:
     """Tell whether a colour of Python or NumPy scalars is meant as 8-bit values."""
     if not all(isinstance(c, numbers.Integral) for c in components):
         return False
     return max(components) > 1 or all(isinstance(c, np.uint8) for c in components)
 
 
-def _sequence(value, what: str) -> list:
+def _sequence(value: Any, what: str) -> list[Any]:
     try:
         if not isinstance(value, str):
             return list(value)
@@ -232,7 +232,7 @@ def _sequence(value, what: str) -> list:
     raise InvalidArgumentError(f"{what} must be a sequence of 3 numbers: {value!r}")
 
 
-def _scalar(component):
+def _scalar(component: Any) -> Any:
     """Python scalars for everything but uint8, whose type says that it is an 8-bit value."""
     if isinstance(component, np.generic) and not isinstance(component, np.uint8):
         return component.item()

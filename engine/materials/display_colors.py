@@ -8,35 +8,39 @@ from __future__ import annotations
 
 import functools
 import math
+from typing import Any
 
+from ..choices import ColorSpace
 from .colors import linear_color
 
 
-def shading_color(value: tuple, color_space: str) -> tuple[float, float, float]:
+def shading_color(value: tuple[Any, ...], color_space: ColorSpace) -> tuple[float, float, float]:
     """Return a colour in the space that lighting computes in."""
     return _shading_color(value, tuple(map(type, value)), color_space)
 
 
-def display_color(value: tuple, color_space: str) -> tuple[float, float, float]:
+def display_color(value: tuple[Any, ...], color_space: ColorSpace) -> tuple[float, float, float]:
     """Return the display values that the colour has after a lit frame's encoder."""
     return _display_color(value, tuple(map(type, value)), color_space)
 
 
 # The types are part of the key: 255 is an sRGB code, 255.0 a very bright light, and both are equal.
 @functools.lru_cache(maxsize=256)
-def _shading_color(value, types, color_space):
+def _shading_color(value: tuple[Any, ...], types: tuple[type, ...], color_space: ColorSpace) -> Any:
     return tuple(linear_color(value, color_space).tolist())
 
 
 @functools.lru_cache(maxsize=256)
-def _display_color(value, types, color_space):
+def _display_color(value: tuple[Any, ...], types: tuple[type, ...], color_space: ColorSpace) -> Any:
     linear = _shading_color(value, types, color_space)
     if color_space == "linear":
         return linear
     return tuple(encode_srgb(component) / 255 for component in linear)
 
 
-def exact_display_color(value: tuple, color_space: str) -> tuple[float, float, float]:
+def exact_display_color(
+    value: tuple[Any, ...], color_space: ColorSpace
+) -> tuple[float, float, float]:
     """Return the display values of a colour, clamped, without rounding them to 8-bit codes."""
     linear = shading_color(value, color_space)
     if color_space == "linear":

@@ -7,6 +7,7 @@ one by one, instances too; and the box around all.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from ..scene.scene import Scene
 _IDENTITY = np.eye(4)
 
 
-def placed_meshes(thing) -> list[tuple[Mesh, np.ndarray]]:
+def placed_meshes(thing: Any) -> list[tuple[Mesh, np.ndarray]]:
     """Return the meshes that have faces and the (4, 4) float64 matrices that place them."""
     if isinstance(thing, Scene):
         thing._update()
@@ -36,13 +37,13 @@ def placed_meshes(thing) -> list[tuple[Mesh, np.ndarray]]:
     return [(mesh, pose) for mesh, pose in placed if len(mesh.faces)]
 
 
-def _checked(item):
+def _checked(item: Any) -> Any:
     if not isinstance(item, (Mesh, InstancedMesh)):
         raise InvalidArgumentError(f"thing must be a scene or meshes, not {type(item).__name__}")
     return item
 
 
-def _placed(thing, pose: np.ndarray) -> Iterator[tuple[Mesh, np.ndarray]]:
+def _placed(thing: Any, pose: np.ndarray) -> Iterator[tuple[Mesh, np.ndarray]]:
     if isinstance(thing, Mesh):
         yield thing, pose
     elif isinstance(thing, InstancedMesh):

@@ -122,8 +122,9 @@ class NavigationGrid(Closed):
             raise InvalidArgumentError(f"{columns} x {rows} cells are too many: take larger ones")
         self.shape = (rows, columns)
         least = float(linalg.cos(max_slope))
+        x, z = low.tolist()
         native = _native.NativeGrid(
-            *low.tolist(), self.cell, columns, rows, least, self.step, self.headroom, radius
+            x, z, self.cell, columns, rows, least, self.step, self.headroom, radius
         )
         for choice, what in ((walkable, "walkable"), (ignore, "ignore")):
             _check_choice(choice, what)
@@ -134,9 +135,9 @@ class NavigationGrid(Closed):
                 native.add(ground, mesh.positions, mesh.faces, mesh.material_ids, kind, matrix)
             if ground:
                 native.sort()
-        arrays = native.layers()
-        self.origin, *arrays = map(frozen, (self.origin, *arrays))
-        self.starts, self.heights, self._slope_x, self._slope_z, self.walkable = arrays
+        self.origin, self.starts, self.heights, self._slope_x, self._slope_z, self.walkable = map(
+            frozen, (self.origin, *native.layers())
+        )
 
     def sample_ground(
         self, x: ArrayLike, z: ArrayLike, y: ArrayLike | None = None
@@ -175,7 +176,7 @@ class NavigationGrid(Closed):
             return float(heights[0]), bool(walkable[0])
         return heights.reshape(x.shape), walkable.reshape(x.shape)
 
-    def _layers(self, x, z, limit) -> tuple[np.ndarray, np.ndarray]:
+    def _layers(self, x: Any, z: Any, limit: Any) -> tuple[np.ndarray, np.ndarray]:
         """The highest layer below a limit at each point, or -1, and its height there."""
         rows, columns = self.shape
         with np.errstate(over="ignore", invalid="ignore"):
@@ -234,7 +235,7 @@ class NavigationGrid(Closed):
             raise InvalidArgumentError(f"layer must be in 0..{len(self.heights) - 1}, not {layer}")
         return self._height(int(layer), real(row), real(column), real(x), real(z))
 
-    def _height(self, layer: int, row: int, column: int, x: float, z: float) -> float:
+    def _height(self, layer: int, row: float, column: float, x: float, z: float) -> float:
         dx = x - (float(self.origin[0]) + (column + 0.5) * self.cell)
         dz = z - (float(self.origin[1]) + (row + 0.5) * self.cell)
         slopes = float(self._slope_x[layer]), float(self._slope_z[layer])
@@ -246,7 +247,7 @@ class NavigationGrid(Closed):
         return f"NavigationGrid({columns} x {rows} cells of {self.cell:g}, {count} walkable)"
 
 
-def _sizes(cell, step, headroom) -> tuple[float, float, float]:
+def _sizes(cell: Any, step: Any, headroom: Any) -> tuple[float, float, float]:
     cell, step, headroom = real(cell), real(step), real(headroom)
     if not 0.0 < cell < math.inf:
         raise InvalidArgumentError(f"cell must be greater than 0, not {cell!r}")
@@ -255,7 +256,7 @@ def _sizes(cell, step, headroom) -> tuple[float, float, float]:
     return cell, step, headroom
 
 
-def _area(placed, bounds) -> tuple[np.ndarray, np.ndarray]:
+def _area(placed: Any, bounds: Any) -> tuple[np.ndarray, np.ndarray]:
     """Least and greatest x and z."""
     if bounds is None:
         if not placed:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -149,7 +150,7 @@ class Walker(Closed):
 _BEYOND = 1e15  # cells from the grid: farther is as far
 
 
-def _cells_between(grid: NavigationGrid, x0: float, z0: float, x1: float, z1: float):
+def _cells_between(grid: NavigationGrid, x0: float, z0: float, x1: float, z1: float) -> Any:
     """Yield the cells that a segment enters, in order, the last one last; not where it starts.
 
     A segment shorter than a cell enters at most two. Where it goes through a corner it is taken
@@ -180,7 +181,7 @@ def _floor(number: float) -> int:
 
 
 @np.errstate(over="ignore")  # all places are equally far from beyond all counting
-def _nearest(grid: NavigationGrid, x: float, z: float, y: float | None):
+def _nearest(grid: NavigationGrid, x: float, z: float, y: float | None) -> Any:
     """The walkable layer nearest to a point, and x and z of the nearest place on it."""
     layers = np.flatnonzero(grid.walkable)
     if not len(layers):

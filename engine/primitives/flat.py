@@ -103,8 +103,8 @@ def plane(size: float | npt.ArrayLike = (1.0, 1.0), segments: int | npt.ArrayLik
     if segments.ndim == 0:
         segments = (integer("segments", segments.item(), 1, MAX_SEGMENTS),) * 2
     columns, rows = segment_pair("segments", segments, (1, 1))
-    v, u = np.meshgrid(np.arange(rows + 1) / rows, np.arange(columns + 1) / columns, indexing="ij")
-    u, v = u.ravel(), v.ravel()
+    grid = np.meshgrid(np.arange(rows + 1) / rows, np.arange(columns + 1) / columns, indexing="ij")
+    v, u = grid[0].ravel(), grid[1].ravel()
     faces, edge_visible = split_quads(grid_quads(rows, columns))
     return Mesh(
         np.stack(((u - 0.5) * width, np.zeros_like(u), (0.5 - v) * depth), axis=1),

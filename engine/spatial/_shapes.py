@@ -6,6 +6,7 @@ the object.
 
 from __future__ import annotations
 
+from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -15,15 +16,15 @@ from ..geometry.mesh import Mesh
 from ..motion.shown import as_shown
 from ..scene.instances import InstancedMesh
 
-_triangles: WeakKeyDictionary[Mesh, tuple[tuple, NativeTree]] = WeakKeyDictionary()
+_triangles: WeakKeyDictionary[Mesh, tuple[tuple[Any, ...], NativeTree]] = WeakKeyDictionary()
 
 
-def triangle_tree(mesh: Mesh, arrays: dict | None = None) -> NativeTree:
+def triangle_tree(mesh: Mesh, arrays: dict[str, Any] | None = None) -> NativeTree:
     """Return the tree of a mesh's faces as they are now, or as they were in some arrays."""
     arrays = dict(mesh._arrays) if arrays is None else arrays
     positions, faces = arrays["positions"], arrays["faces"]
-    made_of, tree = _triangles.get(mesh, (None, None))
-    if made_of is None or made_of[0] is not positions or made_of[1] is not faces:
+    made_of, tree = _triangles.get(mesh, ((None, None), None))
+    if tree is None or made_of[0] is not positions or made_of[1] is not faces:
         boxes = np.empty((len(faces), BOX))
         triangle_boxes(positions, faces, boxes)
         tree = NativeTree(boxes)
@@ -42,14 +43,14 @@ def way_to_face(
     mesh: Mesh, pose: np.ndarray, origin: np.ndarray, direction: np.ndarray, farthest: float
 ) -> float:
     """Return how far a ray of unit length goes to a face of a mesh; infinite if farther."""
-    arrays = dict(mesh._arrays)
+    arrays: dict[str, Any] = dict(mesh._arrays)
     tree = triangle_tree(mesh, arrays)
     return tree.nearest_triangle(
         arrays["positions"], arrays["faces"], pose, origin, direction, farthest
     )
 
 
-def tell(shapes: NativeShapes, number: int, obj) -> None:
+def tell(shapes: NativeShapes, number: int, obj: Any) -> None:
     """Tell the shape of a scene's object, as it is at one moment."""
     mesh, poses, tree = as_shown(obj), None, None
     if isinstance(obj, InstancedMesh):

@@ -8,6 +8,7 @@ an element at a time, and goes through the mesh's own tree for its faces.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -29,11 +30,11 @@ _quiet = np.errstate(over="ignore", invalid="ignore")  # what overflows is infin
 class _Placed:
     """The colliders of a scene where they are now: world boxes and spheres, and a tree of them."""
 
-    def __init__(self, scene) -> None:
+    def __init__(self, scene: Any) -> None:
         self.nodes = list(scene._colliders.values())
         self._selection = scene.select(self.nodes)
         self._removals = scene._removals
-        self._state: tuple | None = None
+        self._state: tuple[Any, ...] | None = None
         count = len(self.nodes)
         self._middles, self._halves = np.zeros((count, 3)), np.zeros((count, 3))
         self._radii = np.full(count, -1.0)  # of spheres
@@ -46,7 +47,7 @@ class _Placed:
 
     def _describe(self, row: int, node: Node) -> None:
         """Keep what a collider is in its node's space."""
-        collider = node.collider
+        collider: Any = node.collider
         if isinstance(collider, SphereCollider):
             self._middles[row], self._radii[row] = collider.center, collider.radius
             return
@@ -61,12 +62,12 @@ class _Placed:
         low, high = collider.box if mesh is None else mesh.bounds
         self._middles[row], self._halves[row] = (low + high) * 0.5, (high - low) * 0.5
 
-    def is_of(self, scene) -> bool:
+    def is_of(self, scene: Any) -> bool:
         """Whether these are the scene's colliders still."""
         posed = not self._bent or self._moment == _moment(scene)
         return posed and self._removals == scene._removals and not self._watch.found()
 
-    def follow(self, scene) -> None:
+    def follow(self, scene: Any) -> None:
         """Find where the colliders are, if anything moved."""
         state = scene._arrays, scene._arrays.updated
         if self._state == state:
@@ -109,12 +110,12 @@ class _Placed:
         return np.flatnonzero(np.unpackbits(bits.view(np.uint8), bitorder="little"))
 
 
-def _moment(scene) -> int:
+def _moment(scene: Any) -> int:
     """What grows when meshes were bent anew."""
     return 0 if scene._posing is None else scene._posing.moment
 
 
-def _placed(scene) -> _Placed:
+def _placed(scene: Any) -> _Placed:
     """The colliders, found anew when something moved or a mesh changed."""
     scene._update()
     placed = scene._placed_colliders
@@ -124,7 +125,7 @@ def _placed(scene) -> _Placed:
     return placed
 
 
-def _mesh_of(node: Node) -> Mesh | None:
+def _mesh_of(node: Node) -> Any:
     """The mesh that a node's collider depends on."""
     collider = node.collider
     if isinstance(collider, MeshCollider):
@@ -133,7 +134,7 @@ def _mesh_of(node: Node) -> Mesh | None:
 
 
 @_quiet
-def overlap_box(scene, low, high) -> tuple[Node, ...]:
+def overlap_box(scene: Any, low: Any, high: Any) -> tuple[Node, ...]:
     """See `Scene.overlap_box`."""
     low, high = vector3(low, "low"), vector3(high, "high")
     if (low > high).any():
@@ -148,7 +149,7 @@ def overlap_box(scene, low, high) -> tuple[Node, ...]:
 
 
 @_quiet
-def overlap_sphere(scene, center, radius) -> tuple[Node, ...]:
+def overlap_sphere(scene: Any, center: Any, radius: Any) -> tuple[Node, ...]:
     """See `Scene.overlap_sphere`."""
     center, radius = vector3(center, "center"), positive(radius, "radius")
     placed = _placed(scene)
@@ -162,7 +163,7 @@ def overlap_sphere(scene, center, radius) -> tuple[Node, ...]:
     return _those(placed, rows[meets], meshes)
 
 
-def _those(placed: _Placed, rows: np.ndarray, mesh_meets) -> tuple[Node, ...]:
+def _those(placed: _Placed, rows: np.ndarray, mesh_meets: Any) -> tuple[Node, ...]:
     meshes = placed.meshes
     return tuple(
         placed.nodes[row]
@@ -171,16 +172,16 @@ def _those(placed: _Placed, rows: np.ndarray, mesh_meets) -> tuple[Node, ...]:
     )
 
 
-def _mesh_meets_box(mesh: Mesh, pose, low, high) -> bool:
+def _mesh_meets_box(mesh: Mesh, pose: Any, low: Any, high: Any) -> bool:
     return bool(triangles_meet_box(_corners_near(mesh, pose, low, high), low, high).any())
 
 
-def _mesh_meets_sphere(mesh: Mesh, pose, center, radius: float) -> bool:
+def _mesh_meets_sphere(mesh: Mesh, pose: Any, center: Any, radius: float) -> bool:
     corners = _corners_near(mesh, pose, center - radius, center + radius)
     return bool(sphere_meets_triangles(corners, center, radius).any())
 
 
-def _corners_near(mesh: Mesh, pose, low, high) -> np.ndarray:
+def _corners_near(mesh: Mesh, pose: Any, low: Any, high: Any) -> np.ndarray:
     """Corners in the world of the faces whose boxes are near a world box, (N, 3, 3)."""
     try:
         back = linalg.inverse(pose)
@@ -195,7 +196,9 @@ def _corners_near(mesh: Mesh, pose, low, high) -> np.ndarray:
 
 
 @_quiet
-def raycast_colliders(scene, origin, direction, max_distance) -> ColliderHit | None:
+def raycast_colliders(
+    scene: Any, origin: Any, direction: Any, max_distance: Any
+) -> ColliderHit | None:
     """See `Scene.raycast_colliders`."""
     origin, direction = vector3(origin, "origin"), vector3(direction, "direction")
     max_distance = how_far(max_distance, "max_distance")
@@ -223,7 +226,7 @@ def raycast_colliders(scene, origin, direction, max_distance) -> ColliderHit | N
     return ColliderHit(placed.nodes[row], nearest, origin + direction * nearest)
 
 
-def _into_boxes(boxes: np.ndarray, origin, direction) -> np.ndarray:
+def _into_boxes(boxes: np.ndarray, origin: Any, direction: Any) -> np.ndarray:
     """Where a ray enters boxes (N, 2, 3): 0 from inside, infinite where it does not."""
     with np.errstate(divide="ignore", invalid="ignore"):
         ways = (boxes - origin) / direction
@@ -234,7 +237,9 @@ def _into_boxes(boxes: np.ndarray, origin, direction) -> np.ndarray:
     return np.where(inside & (enters <= leaves) & (leaves >= 0.0), np.maximum(enters, 0.0), np.inf)
 
 
-def _into_spheres(centers: np.ndarray, radii: np.ndarray, origin, direction) -> np.ndarray:
+def _into_spheres(
+    centers: np.ndarray, radii: np.ndarray, origin: Any, direction: Any
+) -> np.ndarray:
     """Where a ray of unit length enters spheres: 0 from inside, infinite where it does not."""
     away = centers - origin
     along = linalg.dot(away, direction)

@@ -6,7 +6,7 @@ it (collider_queries.py).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,11 +33,11 @@ class BoxCollider(Closed):
     box: NDArray[np.float64] | None
 
     def __init__(self, low: ArrayLike | None = None, high: ArrayLike | None = None) -> None:
-        if (low is None) != (high is None):
-            raise InvalidArgumentError("give both corners of a BoxCollider, low and high, or none")
         self.box = None
-        if low is None:
+        if low is None and high is None:
             return
+        if low is None or high is None:
+            raise InvalidArgumentError("give both corners of a BoxCollider, low and high, or none")
         self.box = frozen(np.stack([vector3(low, "low"), vector3(high, "high")]))
         if (self.box[0] > self.box[1]).any():
             raise InvalidArgumentError("low must not be above high")
@@ -97,7 +97,7 @@ class ColliderHit(NamedTuple):
     position: NDArray[np.float64]
 
 
-def check_collider(obj, collider) -> None:
+def check_collider(obj: Any, collider: Any) -> None:
     """Raise unless a node that holds an object can have the collider."""
     kinds = (BoxCollider, SphereCollider, MeshCollider)
     if collider is not None and not isinstance(collider, kinds):

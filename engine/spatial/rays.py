@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import numbers
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,7 +78,7 @@ class RayHits(NamedTuple):
     barycentric: NDArray[np.float64]
 
 
-def raycast(scene, origin, direction, max_distance, cull) -> RayHit | None:
+def raycast(scene: Any, origin: Any, direction: Any, max_distance: Any, cull: Any) -> RayHit | None:
     """See `Scene.raycast`."""
     origin, direction = vector3(origin, "origin"), vector3(direction, "direction")
     ids, values = _cast(scene, origin[np.newaxis], direction[np.newaxis], max_distance, cull)
@@ -90,7 +90,9 @@ def raycast(scene, origin, direction, max_distance, cull) -> RayHit | None:
     return RayHit(node, instance, face, float(values[0, 0]), position, normal, barycentric)
 
 
-def raycast_many(scene, origins, directions, max_distance, cull) -> RayHits:
+def raycast_many(
+    scene: Any, origins: Any, directions: Any, max_distance: Any, cull: Any
+) -> RayHits:
     """See `Scene.raycast_many`."""
     origins, directions = _vectors(origins, "origins"), _vectors(directions, "directions")
     try:
@@ -103,10 +105,15 @@ def raycast_many(scene, origins, directions, max_distance, cull) -> RayHits:
     values[~met, 0] = np.inf
     ids[met, 0] = scene._arrays.columns["id"][ids[met, 0]]
     parts = values[:, 1:4], values[:, 4:7], values[:, 7:]
-    return RayHits(*ids.T.copy(), values[:, 0].copy(), *(part.copy() for part in parts))
+    object_id, instance, face = ids.T.copy()
+    position, normal, barycentric = (part.copy() for part in parts)
+    distance = values[:, 0].copy()
+    return RayHits(object_id, instance, face, distance, position, normal, barycentric)
 
 
-def _cast(scene, origins, directions, max_distance, cull) -> tuple[np.ndarray, np.ndarray]:
+def _cast(
+    scene: Any, origins: Any, directions: Any, max_distance: Any, cull: Any
+) -> tuple[np.ndarray, np.ndarray]:
     if not directions.any(axis=1).all():
         raise InvalidArgumentError("direction must not be the zero vector")
     max_distance = how_far(max_distance, "max_distance")
@@ -127,7 +134,7 @@ def _cast(scene, origins, directions, max_distance, cull) -> tuple[np.ndarray, n
     return ids, values
 
 
-def _vectors(value, what: str) -> np.ndarray:
+def _vectors(value: Any, what: str) -> np.ndarray:
     vectors = np.atleast_2d(floats(value, what))
     if vectors.ndim != 2 or vectors.shape[1] != 3:
         raise InvalidArgumentError(f"{what} must have shape (N, 3), not {vectors.shape}")
@@ -136,7 +143,7 @@ def _vectors(value, what: str) -> np.ndarray:
     return vectors
 
 
-def pick(scene, frame, x: int, y: int) -> RayHit | None:
+def pick(scene: Any, frame: Any, x: int, y: int) -> RayHit | None:
     """See `Scene.pick`."""
     if not isinstance(frame, Frame):
         raise InvalidArgumentError(f"frame must be a Frame, not {type(frame).__name__}")
@@ -172,7 +179,7 @@ def pick(scene, frame, x: int, y: int) -> RayHit | None:
     return _from(eye, hit)
 
 
-def _pixel_ray(frame, x: int, y: int):
+def _pixel_ray(frame: Any, x: int, y: int) -> Any:
     """The ray through a pixel's centre, from the near plane on: origin, unit direction, length."""
     view, _ = frame._seen
     world_from_clip = linalg.inverse(view.clip_from_world)
@@ -186,7 +193,7 @@ def _pixel_ray(frame, x: int, y: int):
     return near, direction, length, view.eye
 
 
-def _unproject(world_from_clip: np.ndarray, x: float, y: float, z: float) -> np.ndarray | None:
+def _unproject(world_from_clip: np.ndarray, x: float, y: float, z: float) -> Any:
     rows = world_from_clip
     point = rows[:, 0] * x + rows[:, 1] * y + rows[:, 2] * z + rows[:, 3]
     if not abs(point[3]) > 1e-12 * np.abs(rows[3]).max():
@@ -194,7 +201,7 @@ def _unproject(world_from_clip: np.ndarray, x: float, y: float, z: float) -> np.
     return point[:3] / point[3]
 
 
-def _drawn_hit(scene, origin, direction, length: float, cull: str) -> RayHit | None:
+def _drawn_hit(scene: Any, origin: Any, direction: Any, length: float, cull: str) -> RayHit | None:
     """The nearest face that is drawn: the sides that were culled are looked through."""
     gone = 0.0
     for _ in range(_LAYERS):
@@ -213,18 +220,18 @@ def _is_drawn(hit: RayHit, direction: np.ndarray, cull: str) -> bool:
     return (linalg.dot(hit.normal, direction) < 0.0) == (cull == "back")
 
 
-def _mesh_of(node: Node):
+def _mesh_of(node: Node) -> Any:
     obj = node.object
     return obj.mesh if isinstance(obj, InstancedMesh) else obj
 
 
-def _has_face(obj, instance: int, face: int) -> bool:
+def _has_face(obj: Any, instance: int, face: int) -> bool:
     """Whether what a frame showed is there still."""
     many = isinstance(obj, InstancedMesh)
     return instance < (len(obj) if many else 1) and face < len((obj.mesh if many else obj).faces)
 
 
-def _hit_of_face(node: Node, instance: int, face: int, origin, direction) -> RayHit:
+def _hit_of_face(node: Node, instance: int, face: int, origin: Any, direction: Any) -> RayHit:
     """Where a ray meets the plane of a face that the frame says it shows; of a line, nowhere."""
     unknown = np.full(3, np.nan)
     if face < 0:
@@ -254,7 +261,7 @@ def _hit_of_face(node: Node, instance: int, face: int, origin, direction) -> Ray
     )
 
 
-def _from(eye, hit: RayHit | None) -> RayHit | None:
+def _from(eye: Any, hit: RayHit | None) -> RayHit | None:
     """Measure the distance from the camera; without perspective, from the near plane."""
     if hit is None or eye[3] == 0.0:
         return hit

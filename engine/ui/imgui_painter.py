@@ -8,7 +8,7 @@ Out: the picture, changed in place. Dear ImGui comes with ``pip install engine3d
 from __future__ import annotations
 
 import ctypes
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,9 +94,10 @@ class ImguiPainter:
             backend=self._backend,
         )
 
-    def _commands(self, lists: list) -> tuple[NDArray, list[int]]:
+    def _commands(self, lists: list[Any]) -> tuple[NDArray[Any], list[int]]:
         """The commands of all lists as one, and the numbers of the textures that they count."""
-        rows, places = [], {}
+        rows: list[Any] = []
+        places: dict[Any, int] = {}
         first_vertex = first_index = 0
         for drawn in lists:
             for command in drawn.cmd_buffer:
@@ -130,7 +131,7 @@ class ImguiPainter:
             texture.set_status(status.destroyed)
 
 
-def _joined(vectors: list, dtype: np.dtype) -> NDArray:
+def _joined(vectors: list[Any], dtype: np.dtype) -> NDArray[Any]:
     """A copy of some of ImGui's vectors, one after the other.
 
     It is made of their bytes: NumPy would copy structures a field at a time.

@@ -9,7 +9,7 @@ Out: the picture, changed in place: the same bytes on every backend. docs/exactn
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,7 +55,7 @@ class Texture:
         filter: Literal["bilinear", "nearest"] = "bilinear",
         *,
         opaque: bool = False,
-    ):
+    ) -> None:
         if filter not in native.FILTERS:
             raise InvalidArgumentError(f"filter is one of {', '.join(native.FILTERS)}")
         try:
@@ -67,9 +67,9 @@ class Texture:
 
 def draw_triangles(
     pixels: NDArray[np.uint8],
-    vertices: NDArray,
+    vertices: NDArray[Any],
     indices: NDArray[np.uint16] | NDArray[np.uint32],
-    commands: NDArray,
+    commands: NDArray[Any],
     textures: Sequence[Texture],
     *,
     backend: Backend = "auto",

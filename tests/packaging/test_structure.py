@@ -224,6 +224,18 @@ def test_no_files_of_a_folder_call_each_other_in_a_circle():
     assert [circle for folder in FOLDERS for circle in circles(calls_within(folder))] == []
 
 
+def unit_of(name):
+    """A header and the .c file of its name are one unit; other files are one each."""
+    return name.removesuffix(".c").removesuffix(".h")
+
+
+def test_no_headers_with_their_c_files_include_each_other_in_a_circle():
+    graph = defaultdict(set)
+    for name, headers in INCLUDES.items():
+        graph[unit_of(name)] |= {unit_of(header) for header in headers} - {unit_of(name)}
+    assert circles(dict(graph)) == []
+
+
 def test_no_macro_is_an_enumerator_too():
     # Files that no other includes keep their names to themselves.
     shared = [CODE[name] for name in CODE if not name.endswith(".c")]

@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "core/grow.h"
-#include "core/tone_tables.h"
 #include "core/sample_patterns.h"
+#include "core/tone_tables.h"
 #include "e3d.h"
 #include "pipeline/cast/casters.h"
 #include "pipeline/cull/history.h"
@@ -20,8 +20,9 @@
 #include "pipeline/store/resolve.h"
 #include "pipeline/store/store.h"
 #include "pipeline/store/tile_state.h"
+#include "pipeline/tile/job.h"
+#include "pipeline/tile/memory.h"
 #include "pipeline/tile/multisample.h"
-#include "pipeline/tile/tile.h"
 
 /* Before a pass, no tile is drawn and no instance shows. */
 static int clear_marks(e3d_renderer *renderer)

@@ -17,6 +17,7 @@
 #include "pipeline/geometry/records.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/tile/job.h"
 #include "pipeline/tile/kept.h"
 #include "pipeline/tile/tile.h"
 

@@ -11,8 +11,8 @@
 #include "kernels/types/shading.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/shade/alpha.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/shade/maps.h"
-#include "pipeline/shade/shade.h"
 #include "pipeline/shade/surface.h"
 
 float e3d_alpha_cutoff(const e3d_material *material)

@@ -4,8 +4,7 @@
 
 #include "e3d.h"
 #include "pipeline/pass/prepared.h"
-#include "pipeline/shade/shade.h"
-#include "pipeline/shade/surface.h"
+#include "pipeline/shade/job.h"
 
 /* What finding the alphas of a bucket needs of its surfaces: E3D_WANT_... */
 int e3d_alpha_wanted(const e3d_bucket *bucket);

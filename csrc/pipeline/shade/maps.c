@@ -11,9 +11,8 @@
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/shade/maps.h"
-#include "pipeline/shade/shade.h"
-#include "pipeline/shade/surface.h"
 
 int e3d_needs_maps(const e3d_material *material, const e3d_targets *targets)
 {

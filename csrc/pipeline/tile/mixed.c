@@ -17,17 +17,17 @@
 #include "kernels/types/samples.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
-#include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/records.h"
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/shade/runs.h"
-#include "pipeline/shade/shade.h"
 #include "pipeline/store/backdrop.h"
 #include "pipeline/store/store.h"
 #include "pipeline/tile/alpha.h"
-#include "pipeline/tile/multisample.h"
-#include "pipeline/tile/tile.h"
+#include "pipeline/tile/job.h"
+#include "pipeline/tile/memory.h"
+#include "pipeline/tile/mixed.h"
 
 /* ---- what is listed ---- */
 

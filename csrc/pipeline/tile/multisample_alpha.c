@@ -20,12 +20,13 @@
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/shade/alpha.h"
-#include "pipeline/shade/shade.h"
-#include "pipeline/shade/surface.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/tile/alpha.h"
-#include "pipeline/tile/multisample.h"
+#include "pipeline/tile/blend.h"
+#include "pipeline/tile/job.h"
+#include "pipeline/tile/memory.h"
+#include "pipeline/tile/multisample_alpha.h"
 #include "pipeline/tile/piece.h"
-#include "pipeline/tile/tile.h"
 
 enum { MOST_FRAGMENTS = 1 << 17 }; /* of rows that are done together, as far as can be foreseen */
 

@@ -3,18 +3,23 @@
 from libc.stdint cimport uint64_t
 
 cdef extern from "pipeline/pass/plan.h" nogil:
-    ctypedef uint64_t e3d_plan
-    ctypedef enum e3d_plan_item:
-        E3D_PLAN_FIRST
+    enum:
+        E3D_ASKED_ITEMS
         E3D_PLAN_ITEMS
 
     ctypedef struct e3d_plan_rule:
-        e3d_plan_item item
-        e3d_plan all
-        e3d_plan none
+        int item
+        uint64_t asked
+        uint64_t planned
+        uint64_t unless_asked
+        uint64_t unless_planned
 
     const e3d_plan_rule E3D_PLAN_RULES[]
     const int E3D_PLAN_RULE_COUNT
 
-    const char *e3d_plan_name(e3d_plan_item item)
-    const char *e3d_plan_text(e3d_plan_item item)
+    ctypedef struct e3d_plan_word:
+        const char *name
+        const char *text
+
+    const e3d_plan_word E3D_ASKED_WORDS[]
+    const e3d_plan_word E3D_PLAN_WORDS[]

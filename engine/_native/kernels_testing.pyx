@@ -23,10 +23,7 @@ from e3d_clusters cimport *
 from e3d_helping cimport e3d_helping, e3d_helping_note, e3d_job_times
 from e3d_kernels cimport *
 from e3d_posing cimport e3d_pose_desc, e3d_reference_pose
-from e3d_plan cimport (
-    E3D_PLAN_FIRST, E3D_PLAN_ITEMS, E3D_PLAN_RULE_COUNT, E3D_PLAN_RULES, e3d_plan_item, e3d_plan_rule,
-    e3d_plan_name, e3d_plan_text
-)
+from e3d_plan cimport E3D_ASKED_ITEMS, E3D_ASKED_WORDS, E3D_PLAN_ITEMS, E3D_PLAN_RULE_COUNT, E3D_PLAN_RULES, E3D_PLAN_WORDS, e3d_plan_rule
 
 STRUCT_SIZES = {
     "cluster": sizeof(e3d_cluster),
@@ -75,30 +72,31 @@ LIMITS = {
 def plan_rules():
     """The rules of a frame's plan: (item, the items that it needs, those that it must not have).
 
-    Each item is named, and has its meaning in plan_items().
+    Each item is named, and has its meaning in asked_items() or planned_items().
     """
     cdef const e3d_plan_rule *rule
+    asked, planned = asked_items(), planned_items()
 
-    def names(bits):
-        return [e3d_plan_name(<e3d_plan_item>k).decode() for k in range(E3D_PLAN_ITEMS) if bits >> k & 1]
+    def names(items, bits):
+        return [name for k, (name, _) in enumerate(items) if bits >> k & 1]
 
     rules = []
     for r in range(E3D_PLAN_RULE_COUNT):
         rule = &E3D_PLAN_RULES[r]
-        rules.append((e3d_plan_name(rule.item).decode(), names(rule.all), names(rule.none)))
+        needs = names(asked, rule.asked) + names(planned, rule.planned)
+        forbids = names(asked, rule.unless_asked) + names(planned, rule.unless_planned)
+        rules.append((planned[rule.item][0], needs, forbids))
     return rules
 
 
-def plan_items():
-    """What may be asked for and what is planned, in their order: (name, meaning, is planned)."""
-    return [
-        (
-            e3d_plan_name(<e3d_plan_item>k).decode(),
-            e3d_plan_text(<e3d_plan_item>k).decode(),
-            k >= E3D_PLAN_FIRST,
-        )
-        for k in range(E3D_PLAN_ITEMS)
-    ]
+def asked_items():
+    """What may be asked for, in the order of its bits: (name, meaning)."""
+    return [(E3D_ASKED_WORDS[k].name.decode(), E3D_ASKED_WORDS[k].text.decode()) for k in range(E3D_ASKED_ITEMS)]
+
+
+def planned_items():
+    """What is planned, in the order of its bits: (name, meaning)."""
+    return [(E3D_PLAN_WORDS[k].name.decode(), E3D_PLAN_WORDS[k].text.decode()) for k in range(E3D_PLAN_ITEMS)]
 
 
 def dfg_table(int kind):

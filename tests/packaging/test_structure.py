@@ -236,6 +236,11 @@ def test_no_headers_with_their_c_files_include_each_other_in_a_circle():
     assert circles(dict(graph)) == []
 
 
+def test_stages_ask_what_is_planned_and_not_what_was_asked_for():
+    files = {name for name, code in CODE.items() if re.search(r"\bE3D_ASKED_", code)}
+    assert files == {"pipeline/pass/plan.c", "pipeline/pass/plan.h"}
+
+
 def test_no_macro_is_an_enumerator_too():
     # Files that no other includes keep their names to themselves.
     shared = [CODE[name] for name in CODE if not name.endswith(".c")]

@@ -108,5 +108,5 @@ void e3d_count(const e3d_prepared *pass, const e3d_renderer *renderer, e3d_stats
     stats->threads = renderer->threads;
     stats->tiles = (int32_t)e3d_tile_count(pass->view);
     stats->backend = renderer->backend;
-    stats->plan = pass->plan >> E3D_PLAN_FIRST;
+    stats->plan = pass->plan;
 }

@@ -45,7 +45,7 @@ static int reads_alpha(const e3d_material *m, e3d_texture_slot slot)
 static int is_read(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_texture_slot slot)
 {
     const e3d_material *m = bucket->material;
-    int lit = m->is_physical && is_lit(pass, bucket), listed = m->is_physical && e3d_plans(pass, E3D_ASKED_MATERIALS);
+    int lit = m->is_physical && is_lit(pass, bucket), listed = m->is_physical && e3d_plans(pass, E3D_PLAN_MATERIAL_VALUES);
     switch (slot) {
     case E3D_SLOT_TEXTURE: return e3d_plans(pass, E3D_PLAN_BASE_COLOR) || m->alpha_mode != E3D_ALPHA_OPAQUE;
     case E3D_SLOT_NORMAL: return e3d_plans(pass, E3D_PLAN_NORMAL);
@@ -233,7 +233,7 @@ void e3d_find_map_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int 
     }
     if (e3d_plans(pass, E3D_PLAN_BASE_COLOR))
         find_base(kernels, bucket, &memory->surfaces, maps, batch);
-    if (e3d_plans(pass, E3D_ASKED_MATERIALS))
+    if (e3d_plans(pass, E3D_PLAN_MATERIAL_VALUES))
         find_listed(kernels, bucket, batch->count, maps);
 }
 

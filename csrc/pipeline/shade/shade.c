@@ -161,7 +161,7 @@ static int is_lit(const e3d_prepared *pass, const e3d_bucket *bucket)
 
 static const e3d_fog_view *fog_of(const e3d_prepared *pass, const e3d_bucket *bucket)
 {
-    return e3d_plans(pass, E3D_ASKED_FOG) ? &pass->view->fog[is_lit(pass, bucket)] : NULL;
+    return e3d_plans(pass, E3D_PLAN_ADDS_FOG) ? &pass->view->fog[is_lit(pass, bucket)] : NULL;
 }
 
 static e3d_tone_mapping tone_of(const e3d_prepared *pass, const e3d_bucket *bucket)
@@ -252,7 +252,7 @@ static void paint_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int 
 static void put_outputs(const e3d_shade_in *in, const e3d_bucket *bucket, const e3d_shade_out *out)
 {
     e3d_outputs_batch(in->store, bucket, out->memory, out->pixels);
-    if (e3d_plans(in->pass, E3D_ASKED_RADIANCE) && e3d_plans(in->pass, E3D_PLAN_COLORS)) {
+    if (e3d_plans(in->pass, E3D_PLAN_KEEPS_RADIANCE)) {
         find_radiance(in->pass, bucket, out);
         e3d_outputs_radiance(in->store, &out->memory->batch, out->pixels);
     }
@@ -319,7 +319,7 @@ static void shade_batch(const e3d_shade_in *in, const e3d_bucket *bucket, int wa
         e3d_resolve_hidden(in->store, batch, out->pixels);
         return;
     }
-    if (!e3d_plans(pass, E3D_ASKED_RADIANCE))
+    if (!e3d_plans(pass, E3D_PLAN_KEEPS_RADIANCE))
         find_radiance(pass, bucket, out);
     map_tone(pass, bucket, batch);
     e3d_resolve_batch(in->store, batch, out->pixels);

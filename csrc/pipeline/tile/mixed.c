@@ -77,7 +77,7 @@ static int32_t list_pixels(const e3d_tile_job *job, int32_t first, e3d_run *runs
 {
     const e3d_prepared *pass = job->in->pass;
     int32_t samples = pass->pattern->count;
-    int only_edges = e3d_plans(pass, E3D_ASKED_WIRE_ONLY);
+    int only_edges = e3d_plans(pass, E3D_PLAN_EDGES_ALONE);
     *count = list->colors = 0;
     if (!only_edges && !e3d_plans(pass, E3D_PLAN_BACKDROP)) {
         first = pass->kernels->list_mixed(job->visible, samples, first, runs, list);

@@ -16,7 +16,7 @@ from pathlib import Path
 from generated_page import write_or_check
 
 import engine3d as e3d
-from engine3d._native.kernels_testing import plan_items, plan_rules
+from engine3d._native.kernels_testing import asked_items, plan_rules, planned_items
 
 PAGE = Path(__file__).resolve().parent / "plan.md"
 INTRODUCTION = """\
@@ -79,9 +79,9 @@ def example_rows() -> list[tuple[str, ...]]:
 
 
 def page() -> str:
-    items, where = plan_items(), rules_of_items()
-    asked = [(f"`{name.lower()}`", text) for name, text, planned in items if not planned]
-    planned = [(f"`{name.lower()}`", text, where[name]) for name, text, planned in items if planned]
+    where = rules_of_items()
+    asked = [(f"`{name.lower()}`", text) for name, text in asked_items()]
+    planned = [(f"`{name.lower()}`", text, where[name]) for name, text in planned_items()]
     return "\n".join(
         [
             INTRODUCTION,

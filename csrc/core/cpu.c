@@ -10,12 +10,6 @@
 #include "core/system.h"
 #include "e3d.h"
 
-const char *e3d_backend_name(e3d_backend backend)
-{
-    const char *name = e3d_option_name(E3D_OPTION_BACKEND, (int32_t)backend);
-    return name ? name : "unknown";
-}
-
 int e3d_backend_available(e3d_backend backend)
 {
     switch (backend) {

@@ -32,3 +32,9 @@ const char *e3d_option_name(e3d_option option, int32_t value)
     }
     return name && value == 0 ? *name : NULL;
 }
+
+const char *e3d_backend_name(e3d_backend backend)
+{
+    const char *name = e3d_option_name(E3D_OPTION_BACKEND, (int32_t)backend);
+    return name ? name : "unknown";
+}

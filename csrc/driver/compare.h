@@ -7,6 +7,7 @@
 #ifndef E3D_DRIVER_COMPARE_H
 #define E3D_DRIVER_COMPARE_H
 
+#include "driver/hash.h"
 #include "driver/random.h"
 #include "e3d.h"
 
@@ -15,15 +16,6 @@ typedef struct outcome {
     e3d_status status;
     int agrees; /* every backend and thread count gave this hash, and no NaN */
 } outcome;
-
-/* FNV-1a: the hash of some bytes after those that gave `hash`. */
-static const uint64_t HASH_START = 0xCBF29CE484222325u;
-static inline uint64_t hash_bytes(uint64_t hash, const uint8_t *bytes, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        hash = (hash ^ bytes[i]) * 0x100000001B3u;
-    return hash;
-}
 
 /* Which backends and thread counts to try. */
 typedef struct run_plan {

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "driver/compare.h"
+#include "driver/hash.h"
 
 static size_t output_size(const picture *p, int k)
 {

@@ -7,7 +7,7 @@
 #ifndef E3D_LOADERS_ROW_TABLE_H
 #define E3D_LOADERS_ROW_TABLE_H
 
-#include "loaders/rows.h"
+#include "loaders/row_hash.h"
 
 /* Rows that are looked for together: at least twice those of two facets. */
 #ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION

@@ -9,6 +9,7 @@
 #include "core/large_pages.h"
 #include "core/system.h"
 #include "loaders/row_table.h"
+#include "loaders/rows.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -34,19 +34,19 @@ cdef extern from *:
     void e3d_reference_pose()
 
 cdef extern from "pipeline/pass/plan.h" nogil:
+    ctypedef enum e3d_asked_item:
+        E3D_ASKED_ITEMS
     ctypedef enum e3d_plan_item:
-        E3D_PLAN_FIRST
         E3D_PLAN_ITEMS
-
     ctypedef struct e3d_plan_rule:
         e3d_plan_item item
-        uint64_t all
-        uint64_t none
-
+        uint64_t asked, planned, unless_asked, unless_planned
+    ctypedef struct e3d_plan_word:
+        const char *name
+        const char *text
     const e3d_plan_rule E3D_PLAN_RULES[]
     const int E3D_PLAN_RULE_COUNT
-    const char *e3d_plan_name(e3d_plan_item item)
-    const char *e3d_plan_text(e3d_plan_item item)
+    const e3d_plan_word E3D_ASKED_WORDS[], E3D_PLAN_WORDS[]
 
 # Functions of the core by their names.
 ADDRESSES = {
@@ -84,30 +84,31 @@ def repeat(int backend, int rounds):
 def plan_rules():
     """The rules of a frame's plan: (item, the items that it needs, those that it must not have).
 
-    Each item is named, and has its meaning in plan_items().
+    Each item is named, and has its meaning in asked_items() or planned_items().
     """
     cdef const e3d_plan_rule *rule
+    asked, planned = asked_items(), planned_items()
 
-    def names(bits):
-        return [e3d_plan_name(<e3d_plan_item>k).decode() for k in range(E3D_PLAN_ITEMS) if bits >> k & 1]
+    def names(items, bits):
+        return [name for k, (name, _) in enumerate(items) if bits >> k & 1]
 
     rules = []
     for r in range(E3D_PLAN_RULE_COUNT):
         rule = &E3D_PLAN_RULES[r]
-        rules.append((e3d_plan_name(rule.item).decode(), names(rule.all), names(rule.none)))
+        needs = names(asked, rule.asked) + names(planned, rule.planned)
+        forbids = names(asked, rule.unless_asked) + names(planned, rule.unless_planned)
+        rules.append((planned[rule.item][0], needs, forbids))
     return rules
 
 
-def plan_items():
-    """What may be asked for and what is planned, in their order: (name, meaning, is planned)."""
-    return [
-        (
-            e3d_plan_name(<e3d_plan_item>k).decode(),
-            e3d_plan_text(<e3d_plan_item>k).decode(),
-            k >= E3D_PLAN_FIRST,
-        )
-        for k in range(E3D_PLAN_ITEMS)
-    ]
+def asked_items():
+    """What may be asked for, in the order of its bits: (name, meaning)."""
+    return [(E3D_ASKED_WORDS[k].name.decode(), E3D_ASKED_WORDS[k].text.decode()) for k in range(E3D_ASKED_ITEMS)]
+
+
+def planned_items():
+    """What is planned, in the order of its bits: (name, meaning)."""
+    return [(E3D_PLAN_WORDS[k].name.decode(), E3D_PLAN_WORDS[k].text.decode()) for k in range(E3D_PLAN_ITEMS)]
 
 
 def dfg_table(int kind):

@@ -224,6 +224,23 @@ def test_no_files_of_a_folder_call_each_other_in_a_circle():
     assert [circle for folder in FOLDERS for circle in circles(calls_within(folder))] == []
 
 
+def unit_of(name):
+    """A header and the .c file of its name are one unit; other files are one each."""
+    return name.removesuffix(".c").removesuffix(".h")
+
+
+def test_no_headers_with_their_c_files_include_each_other_in_a_circle():
+    graph = defaultdict(set)
+    for name, headers in INCLUDES.items():
+        graph[unit_of(name)] |= {unit_of(header) for header in headers} - {unit_of(name)}
+    assert circles(dict(graph)) == []
+
+
+def test_stages_ask_what_is_planned_and_not_what_was_asked_for():
+    files = {name for name, code in CODE.items() if re.search(r"\bE3D_ASKED_", code)}
+    assert files == {"pipeline/pass/plan.c", "pipeline/pass/plan.h"}
+
+
 def test_no_macro_is_an_enumerator_too():
     # Files that no other includes keep their names to themselves.
     shared = [CODE[name] for name in CODE if not name.endswith(".c")]
@@ -240,7 +257,11 @@ DECLARED = {
     for name, code in CODE.items()
     if not name.endswith(".c") and "/simd/" not in name
 }
-FRAME_FILES = [name for name in SOURCES if re.match(r"pipeline/|kernels/(?!simd/)", name)]
+FRAME_FILES = [
+    name
+    for name in SOURCES
+    if re.match(r"pipeline/|kernels/(?!simd/)", name) and name != "kernels/each_kernel.inl"
+]
 
 
 @pytest.mark.parametrize("name", FRAME_FILES)

@@ -5,7 +5,7 @@ from itertools import product
 import pytest
 
 import engine3d as e3d
-from engine3d._native.kernels_testing import plan_items, plan_rules
+from engine3d._native.kernels_testing import plan_rules, planned_items
 
 MODES = ("lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw")
 OUTPUTS = {
@@ -65,9 +65,7 @@ def planned(facts):
     for item, needs, forbids in plan_rules():
         if known.issuperset(needs) and known.isdisjoint(forbids):
             known.add(item)
-    return tuple(
-        name.lower() for name, _, is_planned in plan_items() if is_planned and name in known
-    )
+    return tuple(name.lower() for name, _ in planned_items() if name in known)
 
 
 def check(renderer, scene, scene_facts, **options):

@@ -77,7 +77,7 @@ typedef struct e3d_stretch_map {
 } e3d_stretch_map;
 
 /* What of a physically based material a texture varies: X(name, slot, channel, factor), with the factors of an e3d_material m. */
-#define E3D_EACH_VARYING(X) \
+#define E3D_VARYING_VALUES(X) \
     X(metallic, E3D_SLOT_METALLIC_ROUGHNESS, 2, m->physical.metallic) \
     X(roughness, E3D_SLOT_METALLIC_ROUGHNESS, 1, m->physical.roughness) \
     X(occlusion, E3D_SLOT_OCCLUSION, 0, 1.0f) /* before the strength */ \
@@ -89,7 +89,7 @@ typedef struct e3d_stretch_map {
     X(thickness, E3D_SLOT_THICKNESS, 1, m->physical.thickness) \
     X(iridescence, E3D_SLOT_IRIDESCENCE, 0, m->physical.iridescence)
 /* The same of colours, each of three channels: X(name, slot, factors). */
-#define E3D_EACH_VARYING_COLOR(X) \
+#define E3D_VARYING_COLORS(X) \
     X(reflectance, E3D_SLOT_SPECULAR_COLOR, m->physical.reflectance) \
     X(emissive, E3D_SLOT_EMISSIVE, m->emissive) \
     X(sheen, E3D_SLOT_SHEEN_COLOR, m->physical.sheen_color)
@@ -97,9 +97,9 @@ typedef struct e3d_stretch_map {
 /* A physically based material on a batch (R46, R49). */
 typedef struct e3d_surface_model {
 #define E3D_VARYING(name, ...) e3d_varying name;
-    E3D_EACH_VARYING(E3D_VARYING)
+    E3D_VARYING_VALUES(E3D_VARYING)
 #define E3D_VARYING_COLOR(name, ...) e3d_varying name[3];
-    E3D_EACH_VARYING_COLOR(E3D_VARYING_COLOR)
+    E3D_VARYING_COLORS(E3D_VARYING_COLOR)
     float occlusion_strength;
     int has_coat, has_sheen;
     int is_grey;         /* the reflectance is the same of all channels */

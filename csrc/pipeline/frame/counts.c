@@ -9,6 +9,7 @@
 #include "pipeline/frame/renderer.h"
 #include "pipeline/geometry/geometry.h"
 #include "pipeline/geometry/records.h"
+#include "pipeline/geometry/round.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
@@ -108,5 +109,5 @@ void e3d_count(const e3d_prepared *pass, const e3d_renderer *renderer, e3d_stats
     stats->threads = renderer->threads;
     stats->tiles = (int32_t)e3d_tile_count(pass->view);
     stats->backend = renderer->backend;
-    stats->plan = pass->plan >> E3D_PLAN_FIRST;
+    stats->plan = pass->plan;
 }

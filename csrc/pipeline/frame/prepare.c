@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "core/grow.h"
-#include "core/tone_tables.h"
 #include "core/sample_patterns.h"
+#include "core/tone_tables.h"
 #include "e3d.h"
 #include "pipeline/cast/casters.h"
 #include "pipeline/cull/history.h"
@@ -20,8 +20,9 @@
 #include "pipeline/store/resolve.h"
 #include "pipeline/store/store.h"
 #include "pipeline/store/tile_state.h"
+#include "pipeline/tile/job.h"
+#include "pipeline/tile/memory.h"
 #include "pipeline/tile/multisample.h"
-#include "pipeline/tile/tile.h"
 
 /* Before a pass, no tile is drawn and no instance shows. */
 static int clear_marks(e3d_renderer *renderer)
@@ -46,7 +47,7 @@ static int reset_workers(e3d_renderer *renderer, const e3d_store *store)
         if (store->pass->pattern && !e3d_multisample_reserve(&memory->multisample, store->pass->pattern->count))
             return 0;
     }
-    return e3d_bins_reset(&renderer->bins, e3d_tile_count(&renderer->view), e3d_plans(store->pass, E3D_ASKED_ALPHA));
+    return e3d_bins_reset(&renderer->bins, e3d_tile_count(&renderer->view), e3d_plans(store->pass, E3D_PLAN_ALPHA_BINS));
 }
 
 /* What the stages that shade and store read. */
@@ -102,7 +103,7 @@ e3d_status e3d_prepare(e3d_renderer *renderer, const e3d_pass *asked, e3d_contex
                                .pattern = e3d_sample_pattern_of(frame->msaa_samples),
                                .frustum = frame->frozen_clip_from_world ? &renderer->frozen : &renderer->view};
     out->history = e3d_history_of(&renderer->histories, frame);
-    e3d_status status = e3d_draws_prepare(&renderer->draws, frame, e3d_plans(&out->pass, E3D_PLAN_EDGES), e3d_plans(&out->pass, E3D_ASKED_ALPHA));
+    e3d_status status = e3d_draws_prepare(&renderer->draws, frame, e3d_plans(&out->pass, E3D_PLAN_EDGES), e3d_plans(&out->pass, E3D_PLAN_ALPHA_BINS));
     if (status != E3D_OK)
         return status;
     if (e3d_plans(&out->pass, E3D_PLAN_HIDES) && (status = e3d_casters_prepare(&renderer->casters, frame, renderer->threads)) != E3D_OK)

@@ -6,9 +6,9 @@
 #include "pipeline/cull/history.h"
 #include "pipeline/frame/renderer.h"
 #include "pipeline/pass/prepared.h"
-#include "pipeline/shade/shade.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/store/store.h"
-#include "pipeline/tile/tile.h"
+#include "pipeline/tile/job.h"
 
 /* The sum of what the stages read, which the frame hands to them. */
 typedef struct e3d_context {

@@ -16,10 +16,10 @@
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/tile/alpha.h"
+#include "pipeline/tile/job.h"
 #include "pipeline/tile/kept.h"
 #include "pipeline/tile/multisample.h"
 #include "pipeline/tile/slots.h"
-#include "pipeline/tile/tile.h"
 
 static e3d_worker *create_worker(void)
 {

@@ -13,8 +13,9 @@
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/store/queue.h"
+#include "pipeline/tile/job.h"
 #include "pipeline/tile/kept.h"
-#include "pipeline/tile/tile.h"
+#include "pipeline/tile/memory.h"
 
 /* A thread. Each stage finds its own part of all threads. */
 typedef struct e3d_worker {

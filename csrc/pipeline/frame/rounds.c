@@ -15,8 +15,10 @@
 #include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/geometry.h"
 #include "pipeline/geometry/records.h"
+#include "pipeline/geometry/round.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/tile/job.h"
 #include "pipeline/tile/kept.h"
 #include "pipeline/tile/tile.h"
 

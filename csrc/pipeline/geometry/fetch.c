@@ -7,7 +7,7 @@
 #include "e3d.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/geometry/fetch.h"
-#include "pipeline/geometry/geometry.h"
+#include "pipeline/geometry/round.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"

@@ -5,7 +5,7 @@
 #include "core/mesh.h"
 #include "e3d.h"
 #include "pipeline/cull/cull.h"
-#include "pipeline/geometry/geometry.h"
+#include "pipeline/geometry/round.h"
 
 /* Clusters of the next candidate, and those of them that are to be fetched yet: a bit each. */
 typedef struct e3d_next_clusters {

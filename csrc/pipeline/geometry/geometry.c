@@ -16,6 +16,7 @@
 #include "pipeline/geometry/group.h"
 #include "pipeline/geometry/lines.h"
 #include "pipeline/geometry/records.h"
+#include "pipeline/geometry/round.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"

@@ -11,7 +11,7 @@
 #include "pipeline/cull/depths.h"
 #include "pipeline/geometry/cluster.h"
 #include "pipeline/geometry/fetch.h"
-#include "pipeline/geometry/geometry.h"
+#include "pipeline/geometry/round.h"
 #include "pipeline/geometry/group.h"
 #include "pipeline/geometry/records.h"
 #include "pipeline/pass/boxes.h"

@@ -5,7 +5,7 @@
 #include "core/mesh.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/geometry/fetch.h"
-#include "pipeline/geometry/geometry.h"
+#include "pipeline/geometry/round.h"
 #include "pipeline/geometry/records.h"
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/prepared.h"

@@ -90,7 +90,7 @@ static void install(e3d_bins *bins, e3d_record_set *sorted)
 /* The list that a record goes to. */
 static int alpha_of(const e3d_prepared *pass, const e3d_record *record)
 {
-    if (!e3d_plans(pass, E3D_ASKED_ALPHA))
+    if (!e3d_plans(pass, E3D_PLAN_ALPHA_BINS))
         return E3D_ALPHA_NONE;
     const e3d_order_entry *entry = e3d_find_order_entry(pass->draws, record->order);
     const e3d_draw_state *draw = &pass->draws->states[entry->draw];

@@ -49,17 +49,20 @@ static int has_lines(const e3d_frame *frame)
 #define ASKED(name) (UINT64_C(1) << E3D_ASKED_##name)
 #define PLAN(name) (UINT64_C(1) << E3D_PLAN_##name)
 
-static e3d_plan asked_if(int is_asked, e3d_plan_item item) { return (e3d_plan)(is_asked != 0) << item; }
+/* A bit for each item that is asked for. */
+typedef uint64_t asked_items;
 
-static e3d_plan asked_outputs(const e3d_targets *t)
+static asked_items asked_if(int is_asked, e3d_asked_item item) { return (asked_items)(is_asked != 0) << item; }
+
+static asked_items asked_outputs(const e3d_targets *t)
 {
-    e3d_plan asked = 0;
+    asked_items asked = 0;
 #define ASK(output, name, type, channels, background, what) asked |= asked_if(t->name != NULL, E3D_ASKED_##what);
     E3D_EACH_OUTPUT(ASK)
     return asked;
 }
 
-static e3d_plan asked_mode(const e3d_frame *f)
+static asked_items asked_mode(const e3d_frame *f)
 {
     switch (f->mode) {
     case E3D_MODE_LIT:
@@ -77,7 +80,7 @@ static e3d_plan asked_mode(const e3d_frame *f)
     return 0;
 }
 
-static e3d_plan asked_wireframe(const e3d_frame *f)
+static asked_items asked_wireframe(const e3d_frame *f)
 {
     if (f->wireframe == E3D_WIRE_NONE)
         return 0;
@@ -87,7 +90,7 @@ static e3d_plan asked_wireframe(const e3d_frame *f)
            asked_if(has_lines(f), E3D_ASKED_LINES);
 }
 
-static e3d_plan asked_for(const e3d_frame *f, const e3d_targets *targets)
+static asked_items asked_for(const e3d_frame *f, const e3d_targets *targets)
 {
     int64_t a_pixel = f->msaa_samples ? f->msaa_samples : (int64_t)f->samples_axis * f->samples_axis, samples = a_pixel * f->width * f->height;
     return asked_outputs(targets) | asked_mode(f) | asked_wireframe(f) | asked_if(f->hidden == E3D_HIDDEN_ZBUFFER, E3D_ASKED_ZBUFFER) |
@@ -103,82 +106,98 @@ static e3d_plan asked_for(const e3d_frame *f, const e3d_targets *targets)
 /* ---- what is done about it ---- */
 
 const e3d_plan_rule E3D_PLAN_RULES[] = {
-    {E3D_PLAN_COLORS, ASKED(COLOR), ASKED(OVERDRAW_MODE)},
-    {E3D_PLAN_COLORS, ASKED(RADIANCE), ASKED(OVERDRAW_MODE)},
-    {E3D_PLAN_OUTPUTS, ASKED(POSITIONS), 0},
-    {E3D_PLAN_OUTPUTS, ASKED(NORMALS), 0},
-    {E3D_PLAN_OUTPUTS, ASKED(UVS), 0},
-    {E3D_PLAN_OUTPUTS, ASKED(ALBEDO), 0},
-    {E3D_PLAN_OUTPUTS, ASKED(IDENTITIES), 0},
-    {E3D_PLAN_OUTPUTS, ASKED(BARYCENTRIC), 0},
-    {E3D_PLAN_OUTPUTS, ASKED(MATERIALS), 0},
-    {E3D_PLAN_OUTPUTS, ASKED(TANGENTS), 0},
-    {E3D_PLAN_OUTPUTS, ASKED(RADIANCE), 0},
-    {E3D_PLAN_IDENTIFIES, ASKED(IDENTITIES) | ASKED(ZBUFFER),
-     ASKED(COLOR) | ASKED(RADIANCE) | ASKED(POSITIONS) | ASKED(NORMALS) | ASKED(UVS) | ASKED(ALBEDO) | ASKED(BARYCENTRIC) |
-         ASKED(MATERIALS) | ASKED(TANGENTS) | ASKED(MULTISAMPLING)},
-    {E3D_PLAN_SHADES, PLAN(COLORS), 0},
-    {E3D_PLAN_SHADES, PLAN(OUTPUTS), PLAN(IDENTIFIES)},
-    {E3D_PLAN_POSITION, PLAN(COLORS) | ASKED(LIT) | ASKED(LOCAL_LIGHT), 0},
-    {E3D_PLAN_POSITION, PLAN(COLORS) | ASKED(LIT) | ASKED(SHADOWS), 0},
-    {E3D_PLAN_POSITION, PLAN(COLORS) | ASKED(DEPTH_MODE), 0},
-    {E3D_PLAN_POSITION, PLAN(COLORS) | ASKED(FOG), 0},
-    {E3D_PLAN_POSITION, ASKED(POSITIONS), 0},
-    {E3D_PLAN_NORMAL, PLAN(COLORS) | ASKED(LIT), 0},
-    {E3D_PLAN_NORMAL, PLAN(COLORS) | ASKED(NORMAL_MODE), 0},
-    {E3D_PLAN_NORMAL, ASKED(NORMALS), 0},
-    {E3D_PLAN_NORMAL, ASKED(TANGENTS), 0},
-    {E3D_PLAN_POSITION, ASKED(TANGENTS), 0}, /* by which a face's tangent is found */
-    {E3D_PLAN_POSITION, PLAN(NORMAL) | ASKED(MAPPED_NORMALS), 0},
-    {E3D_PLAN_UV, ASKED(UVS), 0},
-    {E3D_PLAN_BASE_COLOR, PLAN(COLORS) | ASKED(LIT), 0},
-    {E3D_PLAN_BASE_COLOR, PLAN(COLORS) | ASKED(UNLIT), 0},
-    {E3D_PLAN_BASE_COLOR, ASKED(ALBEDO), 0},
-    {E3D_PLAN_FACES, 0, ASKED(WIRE_ONLY)},
-    {E3D_PLAN_FACES, ASKED(HIDDEN_LINES), 0},
-    {E3D_PLAN_FACES, ASKED(LINES), 0}, /* which faces hide, drawn or not (R36) */
-    {E3D_PLAN_FACES, PLAN(OUTPUTS), 0},
-    {E3D_PLAN_FACES, ASKED(NDC_DEPTH), 0},
-    {E3D_PLAN_SORTS, 0, ASKED(ZBUFFER)},
-    {E3D_PLAN_BLENDS, PLAN(COLORS) | ASKED(ALPHA) | ASKED(LIT), 0},
-    {E3D_PLAN_BLENDS, PLAN(COLORS) | ASKED(ALPHA) | ASKED(UNLIT), 0},
-    {E3D_PLAN_SOLID, ASKED(ALPHA), ASKED(LIT) | ASKED(UNLIT)},
-    {E3D_PLAN_SOLID, ASKED(ALPHA) | ASKED(TRANSPARENT_OUTPUTS), PLAN(COLORS)},
-    {E3D_PLAN_FRONT, PLAN(BLENDS) | PLAN(OUTPUTS) | ASKED(TRANSPARENT_OUTPUTS), 0},
-    {E3D_PLAN_FRONT, PLAN(BLENDS) | ASKED(NDC_DEPTH) | ASKED(TRANSPARENT_OUTPUTS), 0},
-    {E3D_PLAN_AT_ONCE, PLAN(SHADES) | ASKED(FORWARD), ASKED(ALPHA) | ASKED(MULTISAMPLING)}, /* what is cut out or laid over is known last */
-    {E3D_PLAN_SLOTS, PLAN(SORTS), 0},
-    {E3D_PLAN_SLOTS, PLAN(AT_ONCE), 0},
-    {E3D_PLAN_DEPTHS, ASKED(NDC_DEPTH), 0},
-    {E3D_PLAN_DEPTHS, ASKED(WIREFRAME), 0},
-    {E3D_PLAN_FRAGMENTS, 0, PLAN(SLOTS) | ASKED(OVERDRAW_MODE) | ASKED(WIREFRAME) | ASKED(MULTISAMPLING)},
-    {E3D_PLAN_SPANS, PLAN(SHADES), PLAN(SLOTS) | PLAN(DEPTHS) | ASKED(MULTISAMPLING)},
-    {E3D_PLAN_SPANS, PLAN(IDENTIFIES), PLAN(DEPTHS)},
-    {E3D_PLAN_LISTS, PLAN(SHADES), PLAN(SLOTS) | ASKED(MULTISAMPLING)},
-    {E3D_PLAN_HIDES, PLAN(COLORS) | ASKED(EXACT_SHADOWS), 0},
-    {E3D_PLAN_PAINTS, PLAN(COLORS) | ASKED(LIT), PLAN(OUTPUTS) | ASKED(MANY_LIGHTS) | PLAN(HIDES)},
-    {E3D_PLAN_PAINTS, PLAN(COLORS) | ASKED(UNLIT), PLAN(OUTPUTS)},
-    {E3D_PLAN_ROUNDS, PLAN(FACES) | ASKED(OCCLUSION),
-     PLAN(SLOTS) | ASKED(OVERDRAW_MODE) | ASKED(OTHER_FRUSTUM) | ASKED(HUGE)},
-    {E3D_PLAN_FINISHES, PLAN(ROUNDS), ASKED(WIREFRAME) | ASKED(ALPHA)},
-    {E3D_PLAN_COUNTS_OVERDRAW, ASKED(COLOR) | ASKED(OVERDRAW_MODE), ASKED(WIRE_ONLY)},
-    {E3D_PLAN_EDGES, ASKED(COLOR) | ASKED(WIREFRAME), 0},
-    {E3D_PLAN_EDGE_DEPTHS, PLAN(EDGES) | ASKED(ZBUFFER), ASKED(WIRE_ONLY)},
-    {E3D_PLAN_EDGE_DEPTHS, PLAN(EDGES) | ASKED(ZBUFFER) | ASKED(HIDDEN_LINES), 0},
-    {E3D_PLAN_BACKDROP, ASKED(COLOR) | ASKED(BACKDROP), 0},
-    {E3D_PLAN_ENCODES_SRGB, PLAN(COLORS) | ASKED(SRGB) | ASKED(LIT), 0},
-    {E3D_PLAN_ENCODES_SRGB, PLAN(COLORS) | ASKED(SRGB) | ASKED(UNLIT), 0},
+    {E3D_PLAN_COLORS, .asked = ASKED(COLOR), .unless_asked = ASKED(OVERDRAW_MODE)},
+    {E3D_PLAN_COLORS, .asked = ASKED(RADIANCE), .unless_asked = ASKED(OVERDRAW_MODE)},
+    {E3D_PLAN_OUTPUTS, .asked = ASKED(POSITIONS)},
+    {E3D_PLAN_OUTPUTS, .asked = ASKED(NORMALS)},
+    {E3D_PLAN_OUTPUTS, .asked = ASKED(UVS)},
+    {E3D_PLAN_OUTPUTS, .asked = ASKED(ALBEDO)},
+    {E3D_PLAN_OUTPUTS, .asked = ASKED(IDENTITIES)},
+    {E3D_PLAN_OUTPUTS, .asked = ASKED(BARYCENTRIC)},
+    {E3D_PLAN_OUTPUTS, .asked = ASKED(MATERIALS)},
+    {E3D_PLAN_OUTPUTS, .asked = ASKED(TANGENTS)},
+    {E3D_PLAN_OUTPUTS, .asked = ASKED(RADIANCE)},
+    {E3D_PLAN_IDENTIFIES, .asked = ASKED(IDENTITIES) | ASKED(ZBUFFER),
+     .unless_asked = ASKED(COLOR) | ASKED(RADIANCE) | ASKED(POSITIONS) | ASKED(NORMALS) | ASKED(UVS) |
+                     ASKED(ALBEDO) | ASKED(BARYCENTRIC) | ASKED(MATERIALS) | ASKED(TANGENTS) | ASKED(MULTISAMPLING)},
+    {E3D_PLAN_SHADES, .planned = PLAN(COLORS)},
+    {E3D_PLAN_SHADES, .planned = PLAN(OUTPUTS), .unless_planned = PLAN(IDENTIFIES)},
+    {E3D_PLAN_POSITION, .asked = ASKED(LIT) | ASKED(LOCAL_LIGHT), .planned = PLAN(COLORS)},
+    {E3D_PLAN_POSITION, .asked = ASKED(LIT) | ASKED(SHADOWS), .planned = PLAN(COLORS)},
+    {E3D_PLAN_POSITION, .asked = ASKED(DEPTH_MODE), .planned = PLAN(COLORS)},
+    {E3D_PLAN_POSITION, .asked = ASKED(FOG), .planned = PLAN(COLORS)},
+    {E3D_PLAN_POSITION, .asked = ASKED(POSITIONS)},
+    {E3D_PLAN_NORMAL, .asked = ASKED(LIT), .planned = PLAN(COLORS)},
+    {E3D_PLAN_NORMAL, .asked = ASKED(NORMAL_MODE), .planned = PLAN(COLORS)},
+    {E3D_PLAN_NORMAL, .asked = ASKED(NORMALS)},
+    {E3D_PLAN_NORMAL, .asked = ASKED(TANGENTS)},
+    {E3D_PLAN_POSITION, .asked = ASKED(TANGENTS)}, /* by which a face's tangent is found */
+    {E3D_PLAN_POSITION, .asked = ASKED(MAPPED_NORMALS), .planned = PLAN(NORMAL)},
+    {E3D_PLAN_UV, .asked = ASKED(UVS)},
+    {E3D_PLAN_BASE_COLOR, .asked = ASKED(LIT), .planned = PLAN(COLORS)},
+    {E3D_PLAN_BASE_COLOR, .asked = ASKED(UNLIT), .planned = PLAN(COLORS)},
+    {E3D_PLAN_BASE_COLOR, .asked = ASKED(ALBEDO)},
+    {E3D_PLAN_MATERIAL_VALUES, .asked = ASKED(MATERIALS)},
+    {E3D_PLAN_ADDS_FOG, .asked = ASKED(FOG), .planned = PLAN(COLORS)},
+    {E3D_PLAN_KEEPS_RADIANCE, .asked = ASKED(RADIANCE), .planned = PLAN(COLORS)},
+    {E3D_PLAN_FACES, .unless_asked = ASKED(WIRE_ONLY)},
+    {E3D_PLAN_FACES, .asked = ASKED(HIDDEN_LINES)},
+    {E3D_PLAN_FACES, .asked = ASKED(LINES)}, /* which faces hide, drawn or not (R36) */
+    {E3D_PLAN_FACES, .planned = PLAN(OUTPUTS)},
+    {E3D_PLAN_FACES, .asked = ASKED(NDC_DEPTH)},
+    {E3D_PLAN_SORTS, .unless_asked = ASKED(ZBUFFER)},
+    {E3D_PLAN_ALPHA_BINS, .asked = ASKED(ALPHA)},
+    {E3D_PLAN_BLENDS, .asked = ASKED(ALPHA) | ASKED(LIT), .planned = PLAN(COLORS)},
+    {E3D_PLAN_BLENDS, .asked = ASKED(ALPHA) | ASKED(UNLIT), .planned = PLAN(COLORS)},
+    {E3D_PLAN_SOLID, .asked = ASKED(ALPHA), .unless_asked = ASKED(LIT) | ASKED(UNLIT)},
+    {E3D_PLAN_SOLID, .asked = ASKED(ALPHA) | ASKED(TRANSPARENT_OUTPUTS), .unless_planned = PLAN(COLORS)},
+    {E3D_PLAN_FRONT, .asked = ASKED(TRANSPARENT_OUTPUTS), .planned = PLAN(BLENDS) | PLAN(OUTPUTS)},
+    {E3D_PLAN_FRONT, .asked = ASKED(NDC_DEPTH) | ASKED(TRANSPARENT_OUTPUTS), .planned = PLAN(BLENDS)},
+    /* what is cut out or laid over is known last */
+    {E3D_PLAN_AT_ONCE, .asked = ASKED(FORWARD), .planned = PLAN(SHADES),
+     .unless_asked = ASKED(ALPHA) | ASKED(MULTISAMPLING)},
+    {E3D_PLAN_SLOTS, .planned = PLAN(SORTS)},
+    {E3D_PLAN_SLOTS, .planned = PLAN(AT_ONCE)},
+    {E3D_PLAN_DEPTHS, .asked = ASKED(NDC_DEPTH)},
+    {E3D_PLAN_DEPTHS, .asked = ASKED(WIREFRAME)},
+    {E3D_PLAN_FRAGMENTS, .unless_asked = ASKED(OVERDRAW_MODE) | ASKED(WIREFRAME) | ASKED(MULTISAMPLING),
+     .unless_planned = PLAN(SLOTS)},
+    {E3D_PLAN_SPANS, .planned = PLAN(SHADES), .unless_asked = ASKED(MULTISAMPLING),
+     .unless_planned = PLAN(SLOTS) | PLAN(DEPTHS)},
+    {E3D_PLAN_SPANS, .planned = PLAN(IDENTIFIES), .unless_planned = PLAN(DEPTHS)},
+    {E3D_PLAN_LISTS, .planned = PLAN(SHADES), .unless_asked = ASKED(MULTISAMPLING),
+     .unless_planned = PLAN(SLOTS)},
+    {E3D_PLAN_HIDES, .asked = ASKED(EXACT_SHADOWS), .planned = PLAN(COLORS)},
+    {E3D_PLAN_PAINTS, .asked = ASKED(LIT), .planned = PLAN(COLORS), .unless_asked = ASKED(MANY_LIGHTS),
+     .unless_planned = PLAN(OUTPUTS) | PLAN(HIDES)},
+    {E3D_PLAN_PAINTS, .asked = ASKED(UNLIT), .planned = PLAN(COLORS), .unless_planned = PLAN(OUTPUTS)},
+    {E3D_PLAN_ROUNDS, .asked = ASKED(OCCLUSION), .planned = PLAN(FACES),
+     .unless_asked = ASKED(OVERDRAW_MODE) | ASKED(OTHER_FRUSTUM) | ASKED(HUGE), .unless_planned = PLAN(SLOTS)},
+    {E3D_PLAN_FINISHES, .planned = PLAN(ROUNDS), .unless_asked = ASKED(WIREFRAME) | ASKED(ALPHA)},
+    {E3D_PLAN_COUNTS_OVERDRAW, .asked = ASKED(COLOR) | ASKED(OVERDRAW_MODE), .unless_asked = ASKED(WIRE_ONLY)},
+    {E3D_PLAN_EDGES, .asked = ASKED(COLOR) | ASKED(WIREFRAME)},
+    {E3D_PLAN_EDGES_ALONE, .asked = ASKED(WIRE_ONLY)},
+    {E3D_PLAN_EDGE_DEPTHS, .asked = ASKED(ZBUFFER), .planned = PLAN(EDGES), .unless_asked = ASKED(WIRE_ONLY)},
+    {E3D_PLAN_EDGE_DEPTHS, .asked = ASKED(ZBUFFER) | ASKED(HIDDEN_LINES), .planned = PLAN(EDGES)},
+    {E3D_PLAN_BACKDROP, .asked = ASKED(COLOR) | ASKED(BACKDROP)},
+    {E3D_PLAN_ENCODES_SRGB, .asked = ASKED(SRGB) | ASKED(LIT), .planned = PLAN(COLORS)},
+    {E3D_PLAN_ENCODES_SRGB, .asked = ASKED(SRGB) | ASKED(UNLIT), .planned = PLAN(COLORS)},
 };
 const int E3D_PLAN_RULE_COUNT = (int)(sizeof E3D_PLAN_RULES / sizeof *E3D_PLAN_RULES);
 
+static int holds(const e3d_plan_rule *rule, asked_items asked, e3d_plan plan)
+{
+    return (asked & rule->asked) == rule->asked && (plan & rule->planned) == rule->planned && !(asked & rule->unless_asked) &&
+           !(plan & rule->unless_planned);
+}
+
 e3d_plan e3d_plan_of(const e3d_frame *frame, const e3d_targets *targets)
 {
-    e3d_plan plan = asked_for(frame, targets);
-    for (int r = 0; r < E3D_PLAN_RULE_COUNT; r++) {
-        const e3d_plan_rule *rule = &E3D_PLAN_RULES[r];
-        if ((plan & rule->all) == rule->all && !(plan & rule->none))
-            plan |= UINT64_C(1) << rule->item;
-    }
+    asked_items asked = asked_for(frame, targets);
+    e3d_plan plan = 0;
+    for (int r = 0; r < E3D_PLAN_RULE_COUNT; r++)
+        if (holds(&E3D_PLAN_RULES[r], asked, plan))
+            plan |= UINT64_C(1) << E3D_PLAN_RULES[r].item;
     return plan;
 }
 
@@ -190,22 +209,9 @@ int e3d_plan_inputs(e3d_plan plan)
 
 /* ---- what it is called ---- */
 
-#define NAME(name, text) #name,
-#define TEXT(name, text) text,
+#define WORD(name, text) {#name, text},
 
-const char *e3d_plan_name(e3d_plan_item item)
-{
-    static const char *const NAMES[E3D_PLAN_ITEMS] = {E3D_ASKED_FOR(NAME) E3D_PLANNED(NAME)};
-    return NAMES[item];
-}
+const e3d_plan_word E3D_ASKED_WORDS[] = {E3D_ASKED_FOR(WORD)};
+const e3d_plan_word E3D_PLAN_WORDS[] = {E3D_PLANNED(WORD)};
 
-const char *e3d_plan_step(int32_t bit)
-{
-    return bit < E3D_PLAN_ITEMS - E3D_PLAN_FIRST ? e3d_plan_name((e3d_plan_item)(E3D_PLAN_FIRST + bit)) : NULL;
-}
-
-const char *e3d_plan_text(e3d_plan_item item)
-{
-    static const char *const TEXTS[E3D_PLAN_ITEMS] = {E3D_ASKED_FOR(TEXT) E3D_PLANNED(TEXT)};
-    return TEXTS[item];
-}
+const char *e3d_plan_step(int32_t bit) { return bit < E3D_PLAN_ITEMS ? E3D_PLAN_WORDS[bit].name : NULL; }

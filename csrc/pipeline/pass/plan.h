@@ -58,8 +58,12 @@
     X(NORMAL, "shading needs the normal")                                                \
     X(UV, "shading needs the texture coordinates")                                       \
     X(BASE_COLOR, "shading needs the surface's own colour")                              \
+    X(MATERIAL_VALUES, "shading finds what materials are made of at each sample")        \
+    X(ADDS_FOG, "fog lies over what shows")                                              \
+    X(KEEPS_RADIANCE, "the light of samples is stored beside their colours")             \
     X(FACES, "faces are drawn, not only counted")                                        \
     X(SORTS, "records are sorted before they are binned, and the last one shows")        \
+    X(ALPHA_BINS, "records with alpha go to bins of their own")                          \
     X(BLENDS, "blended fragments are laid over what is behind them")                     \
     X(SOLID, "blended faces show wherever their alpha isn't 0, as masked ones do")         \
     X(FRONT, "outputs are those of the nearest fragment, where there is one")            \
@@ -75,38 +79,42 @@
     X(FINISHES, "tiles may be finished in the first of two rounds")                      \
     X(COUNTS_OVERDRAW, "faces are counted, sample by sample")                            \
     X(EDGES, "the edges of faces are drawn")                                             \
+    X(EDGES_ALONE, "nothing but edges is drawn to the colours")                          \
     X(EDGE_DEPTHS, "edges are tested against the depths of faces")                       \
     X(BACKDROP, "the background is found pixel by pixel")                                \
     X(ENCODES_SRGB, "colours go through the sRGB encoder")
 
 #define E3D_ASKED_NAME(name, text) E3D_ASKED_##name,
 #define E3D_PLAN_NAME(name, text) E3D_PLAN_##name,
-typedef enum e3d_plan_item {
-    E3D_ASKED_FOR(E3D_ASKED_NAME) E3D_PLANNED(E3D_PLAN_NAME) E3D_PLAN_ITEMS,
-    E3D_PLAN_FIRST = E3D_PLAN_COLORS, /* that isn't asked for, but planned */
-} e3d_plan_item;
+typedef enum e3d_asked_item { E3D_ASKED_FOR(E3D_ASKED_NAME) E3D_ASKED_ITEMS } e3d_asked_item;
+typedef enum e3d_plan_item { E3D_PLANNED(E3D_PLAN_NAME) E3D_PLAN_ITEMS } e3d_plan_item;
+_Static_assert(E3D_ASKED_ITEMS <= 64 && E3D_PLAN_ITEMS <= 64, "each item has a bit of its word");
 
-/* A bit for each item. */
+/* What is planned, a bit for each item. What was asked for stays in plan.c: stages do what is planned, whatever the reason. */
 typedef uint64_t e3d_plan;
-_Static_assert(E3D_PLAN_ITEMS <= 64, "each item has a bit");
 
 static inline int e3d_plan_has(e3d_plan plan, e3d_plan_item item) { return (int)(plan >> item & 1); }
 
-/* An item is planned where a frame has all of some others and none of some more. Rules hold in their order; an item may have several. */
+/* An item is planned where a frame asks for all of some things and none of some others, and likewise has planned them. Rules hold in their
+ * order; an item may have several. */
 typedef struct e3d_plan_rule {
     e3d_plan_item item;
-    e3d_plan all, none;
+    uint64_t asked, planned, unless_asked, unless_planned;
 } e3d_plan_rule;
 
 extern const e3d_plan_rule E3D_PLAN_RULES[];
 extern const int E3D_PLAN_RULE_COUNT;
 
+/* An item's name, and what it says. */
+typedef struct e3d_plan_word {
+    const char *name, *text;
+} e3d_plan_word;
+
+extern const e3d_plan_word E3D_ASKED_WORDS[E3D_ASKED_ITEMS], E3D_PLAN_WORDS[E3D_PLAN_ITEMS];
+
 e3d_plan e3d_plan_of(const e3d_frame *frame, const e3d_targets *targets);
 /* What shading needs of each surface: E3D_WANT_POSITION, E3D_WANT_NORMAL, E3D_WANT_UV. */
 int e3d_plan_inputs(e3d_plan plan);
-/* An item's name, and what it says. */
-const char *e3d_plan_name(e3d_plan_item item);
-const char *e3d_plan_text(e3d_plan_item item);
 
 /* Whether parts of meshes are left out: those outside the frustum, that face away, or that are hidden. */
 static inline int e3d_culls_parts(const e3d_frame *frame)

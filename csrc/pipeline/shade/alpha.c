@@ -11,9 +11,9 @@
 #include "kernels/types/maps.h"
 #include "kernels/types/shading.h"
 #include "pipeline/shade/alpha.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/shade/maps.h"
-#include "pipeline/shade/shade.h"
-#include "pipeline/shade/steps.h"
+#include "pipeline/shade/step.h"
 #include "pipeline/shade/surface.h"
 
 float e3d_alpha_cutoff(const e3d_material *material)

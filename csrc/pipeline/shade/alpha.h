@@ -3,8 +3,8 @@
 #define E3D_SHADE_ALPHA_H
 
 #include "e3d.h"
-#include "pipeline/shade/steps.h"
-#include "pipeline/shade/surface.h"
+#include "pipeline/shade/job.h"
+#include "pipeline/shade/step.h"
 
 /* What finding the alphas of a bucket needs of its surfaces: E3D_WANT_... */
 int e3d_alpha_wanted(const e3d_bucket *bucket);

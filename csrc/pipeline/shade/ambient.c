@@ -8,7 +8,7 @@
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/ambient.h"
-#include "pipeline/shade/shade.h"
+#include "pipeline/shade/job.h"
 
 /* Whole vectors are stored: what is past the batch's end repeats its last sample. */
 static int padded(const e3d_batch *batch) { return (batch->count + E3D_PAD - 1) / E3D_PAD * E3D_PAD; }

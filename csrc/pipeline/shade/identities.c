@@ -14,8 +14,8 @@
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/identities.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/shade/primitive.h"
-#include "pipeline/shade/shade.h"
 #include "pipeline/store/outputs.h"
 #include "pipeline/store/store.h"
 

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "pipeline/pass/view.h"
-#include "pipeline/shade/shade.h"
+#include "pipeline/shade/job.h"
 
 /* Writes the IDs of all pixels of a tile. The first `count` of the memory's runs, which IDs own, are all that shows, row by row. */
 void e3d_identify_runs(const e3d_shade_in *in, const e3d_tile *tile, int32_t count, const e3d_shade_out *out);

@@ -11,9 +11,8 @@
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/shade/maps.h"
-#include "pipeline/shade/shade.h"
-#include "pipeline/shade/surface.h"
 
 int e3d_needs_maps(const e3d_material *material, const e3d_targets *targets)
 {
@@ -42,7 +41,7 @@ static int is_iridescent(const e3d_physical *p) { return p->iridescence != 0.0f;
 static int reads_alpha(const e3d_material *m, e3d_texture_slot slot)
 {
 #define FOURTH(name, slot, channel, factor) | ((channel) == 3) << slot
-    enum { ALWAYS = 0 E3D_EACH_VARYING(FOURTH) };
+    enum { ALWAYS = 0 E3D_VARYING_VALUES(FOURTH) };
     return ((ALWAYS >> slot) & 1) || (slot == E3D_SLOT_TEXTURE && m->alpha_mode != E3D_ALPHA_OPAQUE);
 }
 
@@ -51,7 +50,7 @@ static int is_read(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_textu
 {
     const e3d_material *m = bucket->material;
     const e3d_physical *p = &m->physical;
-    int lit = m->is_physical && finds_light(pass, bucket), listed = m->is_physical && e3d_plans(pass, E3D_ASKED_MATERIALS);
+    int lit = m->is_physical && finds_light(pass, bucket), listed = m->is_physical && e3d_plans(pass, E3D_PLAN_MATERIAL_VALUES);
     switch (slot) {
     case E3D_SLOT_TEXTURE: return e3d_plans(pass, E3D_PLAN_BASE_COLOR) || m->alpha_mode != E3D_ALPHA_OPAQUE;
     case E3D_SLOT_NORMAL: return e3d_plans(pass, E3D_PLAN_NORMAL);
@@ -235,7 +234,7 @@ void e3d_find_map_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int 
     }
     if (e3d_plans(pass, E3D_PLAN_BASE_COLOR))
         find_base(kernels, bucket, &memory->surfaces, maps, batch);
-    if (e3d_plans(pass, E3D_ASKED_MATERIALS))
+    if (e3d_plans(pass, E3D_PLAN_MATERIAL_VALUES))
         find_listed(kernels, bucket, batch->count, maps);
 }
 
@@ -300,10 +299,10 @@ static e3d_surface_model model_of(const e3d_bucket *bucket, const e3d_map_memory
         .coat_is_mapped = maps->maps.of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0,
     };
 #define VARYING(name, slot, channel, factor) model.name = varying_of(maps, slot, channel, factor);
-    E3D_EACH_VARYING(VARYING)
+    E3D_VARYING_VALUES(VARYING)
     for (int k = 0; k < 3; k++) {
 #define VARYING_COLOR(name, slot, factors) model.name[k] = varying_of(maps, slot, k, factors[k]);
-        E3D_EACH_VARYING_COLOR(VARYING_COLOR)
+        E3D_VARYING_COLORS(VARYING_COLOR)
         model.absorption[k] = p->absorption[k];
     }
     add_rare(maps, p, &model);

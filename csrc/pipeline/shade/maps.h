@@ -6,8 +6,7 @@
 #include "kernels/kernels.h"
 #include "kernels/types/maps.h"
 #include "pipeline/pass/prepared.h"
-#include "pipeline/shade/shade.h"
-#include "pipeline/shade/surface.h"
+#include "pipeline/shade/job.h"
 
 /* Whether such a material's faces have to be looked at by maps at all. */
 int e3d_needs_maps(const e3d_material *material, const e3d_targets *targets);

@@ -7,9 +7,8 @@
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/shade/modes.h"
-#include "pipeline/shade/shade.h"
-#include "pipeline/shade/surface.h"
 
 static void set_bytes(e3d_batch *batch, int i, uint32_t bytes)
 {

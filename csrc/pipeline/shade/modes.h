@@ -3,7 +3,7 @@
 #define E3D_SHADE_MODES_H
 
 #include "pipeline/pass/prepared.h"
-#include "pipeline/shade/shade.h"
+#include "pipeline/shade/job.h"
 
 /* Colours the batch, which is interpolated, as the frame's mode says. */
 void e3d_show_mode(const e3d_prepared *pass, e3d_shade_memory *memory);

@@ -8,8 +8,10 @@
 #include "kernels/types/shown.h"
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/shade/runs.h"
 #include "pipeline/shade/shade.h"
+#include "pipeline/shade/step.h"
 #include "pipeline/shade/steps.h"
 #include "pipeline/shade/surface.h"
 

@@ -14,9 +14,10 @@
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/alpha.h"
 #include "pipeline/shade/ambient.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/shade/maps.h"
 #include "pipeline/shade/modes.h"
-#include "pipeline/shade/shade.h"
+#include "pipeline/shade/step.h"
 #include "pipeline/shade/steps.h"
 #include "pipeline/shade/surface.h"
 #include "pipeline/shade/values.h"
@@ -77,7 +78,7 @@ static void show_mode(const e3d_steps *s) { e3d_show_mode(s->pass, s->out->memor
 
 static const e3d_fog_view *fog_of(const e3d_prepared *pass, const e3d_bucket *bucket)
 {
-    return e3d_plans(pass, E3D_ASKED_FOG) ? &pass->view->fog[bucket->lit] : NULL;
+    return e3d_plans(pass, E3D_PLAN_ADDS_FOG) ? &pass->view->fog[bucket->lit] : NULL;
 }
 
 /* R117 */
@@ -180,7 +181,7 @@ static void add_radiance_steps(e3d_steps *s)
 
 static void add_pixel_steps(e3d_steps *s)
 {
-    int colors = e3d_plans(s->pass, E3D_PLAN_COLORS), radiance = colors && e3d_plans(s->pass, E3D_ASKED_RADIANCE), hidden = s->bucket->hidden;
+    int colors = e3d_plans(s->pass, E3D_PLAN_COLORS), radiance = e3d_plans(s->pass, E3D_PLAN_KEEPS_RADIANCE), hidden = s->bucket->hidden;
     add(s, e3d_plans(s->pass, E3D_PLAN_OUTPUTS), put_outputs);
     if (radiance || (colors && !hidden))
         add_radiance_steps(s);

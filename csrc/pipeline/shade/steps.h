@@ -3,23 +3,8 @@
 #define E3D_SHADE_STEPS_H
 
 #include "pipeline/pass/prepared.h"
-#include "pipeline/shade/shade.h"
-#include "pipeline/shade/surface.h"
-
-enum { E3D_MOST_STEPS = 16 };
-
-/* How a bucket is shaded: each batch takes all the steps, in their order. */
-typedef struct e3d_steps {
-    const e3d_shade_in *in;
-    const e3d_prepared *pass;
-    const e3d_bucket *bucket;
-    const e3d_shade_out *out;
-    int wanted; /* of its surfaces: E3D_WANT_... */
-    int count;
-    void (*step[E3D_MOST_STEPS])(const struct e3d_steps *s);
-} e3d_steps;
-
-typedef void (*e3d_shade_step)(const e3d_steps *s);
+#include "pipeline/shade/job.h"
+#include "pipeline/shade/step.h"
 
 /* Chooses the steps of a bucket, and finds what they want of its surfaces. */
 e3d_steps e3d_choose_steps(const e3d_shade_in *in, const e3d_bucket *bucket, const e3d_shade_out *out);

@@ -16,9 +16,9 @@
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/transmits.h"
 #include "pipeline/pass/view.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/shade/maps.h"
 #include "pipeline/shade/primitive.h"
-#include "pipeline/shade/shade.h"
 #include "pipeline/shade/surface.h"
 
 /* ---- which primitive a piece is of ---- */

@@ -3,8 +3,7 @@
 #define E3D_VALUES_H
 
 #include "kernels/types/shading.h"
-#include "pipeline/shade/shade.h"
-#include "pipeline/shade/surface.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/store/store.h"
 
 void e3d_outputs_radiance(const e3d_store *store, const e3d_batch *batch, e3d_store_memory *out);

@@ -16,12 +16,14 @@
 #include "pipeline/pass/draws.h"
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/store/outputs.h"
 #include "pipeline/tile/a_buffer.h"
 #include "pipeline/tile/alpha.h"
+#include "pipeline/tile/job.h"
+#include "pipeline/tile/memory.h"
 #include "pipeline/tile/piece.h"
-#include "pipeline/tile/tile.h"
 
 void e3d_a_buffer_free(e3d_a_buffer *f)
 {

@@ -19,12 +19,13 @@
 #include "pipeline/pass/prepared.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/alpha.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/shade/surface.h"
 #include "pipeline/tile/alpha.h"
-#include "pipeline/tile/multisample.h"
+#include "pipeline/tile/job.h"
+#include "pipeline/tile/memory.h"
 #include "pipeline/tile/piece.h"
-#include "pipeline/tile/tile.h"
 
 /* ---- lists ---- */
 

@@ -2,29 +2,10 @@
 #ifndef E3D_TILE_ALPHA_H
 #define E3D_TILE_ALPHA_H
 
-#include <stdint.h>
-
-#include "core/grow.h"
-#include "core/limits.h"
-#include "kernels/types/alpha.h"
-#include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
-#include "pipeline/shade/shade.h"
-#include "pipeline/tile/a_buffer.h"
-
-typedef struct e3d_tile_job e3d_tile_job;
-
-enum { E3D_ALPHA_SLICES = 512 };
-
-/* A thread's memory, of one tile. */
-typedef struct e3d_alpha_memory {
-    float z[E3D_SHOWN_ROOM + 2 * E3D_PAD]; /* of each entry of the list (e3d_shade_memory.shown) */
-    float alpha[E3D_SHOWN_ROOM];
-    e3d_alpha_list list;
-    e3d_array pieces, sorted;              /* e3d_piece of the blended records: as they are listed; by group, the farthest first */
-    e3d_array ranges, groups;              /* of each piece its depths (float[2]), and its group (int32_t) */
-    e3d_a_buffer fragments;
-} e3d_alpha_memory;
+#include "pipeline/shade/job.h"
+#include "pipeline/tile/job.h"
+#include "pipeline/tile/memory.h"
 
 void e3d_alpha_free(e3d_alpha_memory *memory);
 
@@ -34,10 +15,6 @@ void e3d_alpha_free(e3d_alpha_memory *memory);
 int e3d_alpha_cut(const e3d_tile_job *job);
 /* Adds the samples that faces with alpha show, hidden or not, to the overdraw counts. */
 int e3d_alpha_count(const e3d_tile_job *job);
-/* Lays blended records over the tile's samples, which are shaded. */
-int e3d_alpha_blend(const e3d_tile_job *job);
-/* The depths of the nearest fragments become those of the visible surface. */
-void e3d_alpha_front(const e3d_tile_job *job);
 
 /* What is done with a list when it is full, or done. */
 typedef int (*e3d_alpha_action)(const e3d_tile_job *job);

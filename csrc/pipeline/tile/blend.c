@@ -18,12 +18,15 @@
 #include "pipeline/geometry/records.h"
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/shade/runs.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/tile/a_buffer.h"
 #include "pipeline/tile/alpha.h"
+#include "pipeline/tile/blend.h"
+#include "pipeline/tile/job.h"
+#include "pipeline/tile/memory.h"
 #include "pipeline/tile/piece.h"
-#include "pipeline/tile/tile.h"
 
 enum { MOST_FRAGMENTS = 1 << 17 }; /* of rows that are done together, as far as can be foreseen */
 

@@ -16,8 +16,9 @@
 #include "pipeline/pass/view.h"
 #include "pipeline/store/queue.h"
 #include "pipeline/store/tile_state.h"
+#include "pipeline/tile/job.h"
 #include "pipeline/tile/kept.h"
-#include "pipeline/tile/tile.h"
+#include "pipeline/tile/memory.h"
 #include "pipeline/tile/visible.h"
 
 /* ---- memory ---- */

@@ -7,7 +7,7 @@
 
 #include "core/grow.h"
 #include "kernels/types/visible.h"
-#include "pipeline/tile/tile.h"
+#include "pipeline/tile/job.h"
 
 typedef struct e3d_kept_memory {
     e3d_visible_tile *tiles;

@@ -17,17 +17,17 @@
 #include "kernels/types/samples.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
-#include "pipeline/geometry/bin.h"
 #include "pipeline/geometry/records.h"
 #include "pipeline/pass/plan.h"
 #include "pipeline/pass/prepared.h"
+#include "pipeline/shade/job.h"
 #include "pipeline/shade/runs.h"
-#include "pipeline/shade/shade.h"
 #include "pipeline/store/backdrop.h"
 #include "pipeline/store/store.h"
 #include "pipeline/tile/alpha.h"
-#include "pipeline/tile/multisample.h"
-#include "pipeline/tile/tile.h"
+#include "pipeline/tile/job.h"
+#include "pipeline/tile/memory.h"
+#include "pipeline/tile/mixed.h"
 
 /* ---- what is listed ---- */
 
@@ -77,7 +77,7 @@ static int32_t list_pixels(const e3d_tile_job *job, int32_t first, e3d_run *runs
 {
     const e3d_prepared *pass = job->in->pass;
     int32_t samples = pass->pattern->count;
-    int only_edges = e3d_plans(pass, E3D_ASKED_WIRE_ONLY);
+    int only_edges = e3d_plans(pass, E3D_PLAN_EDGES_ALONE);
     *count = list->colors = 0;
     if (!only_edges && !e3d_plans(pass, E3D_PLAN_BACKDROP)) {
         first = pass->kernels->list_mixed(job->visible, samples, first, runs, list);

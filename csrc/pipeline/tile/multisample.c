@@ -23,10 +23,13 @@
 #include "pipeline/store/resolve.h"
 #include "pipeline/store/tile_state.h"
 #include "pipeline/tile/alpha.h"
+#include "pipeline/tile/blend.h"
+#include "pipeline/tile/job.h"
+#include "pipeline/tile/memory.h"
+#include "pipeline/tile/mixed.h"
 #include "pipeline/tile/multisample.h"
 #include "pipeline/tile/piece.h"
 #include "pipeline/tile/slots.h"
-#include "pipeline/tile/tile.h"
 #include "pipeline/tile/visible.h"
 
 /* ---- memory ---- */

@@ -16,14 +16,13 @@
 #include "pipeline/geometry/lines.h"
 #include "pipeline/geometry/records.h"
 #include "pipeline/pass/prepared.h"
-#include "pipeline/pass/view.h"
 #include "pipeline/shade/shade.h"
 #include "pipeline/store/resolve.h"
 #include "pipeline/tile/alpha.h"
-#include "pipeline/tile/multisample.h"
+#include "pipeline/tile/job.h"
+#include "pipeline/tile/memory.h"
 #include "pipeline/tile/piece.h"
 #include "pipeline/tile/slots.h"
-#include "pipeline/tile/tile.h"
 
 void e3d_marks_init(e3d_marks_memory *marks)
 {

@@ -2,23 +2,9 @@
 #ifndef E3D_SLOTS_H
 #define E3D_SLOTS_H
 
-#include "core/grow.h"
-#include "core/limits.h"
 #include "kernels/types/shown.h"
-
-typedef struct e3d_tile_job e3d_tile_job;
-
-/* A thread's memory: of each slot of a tile the record's ID and order (uint32_t). */
-typedef struct e3d_slots_state {
-    e3d_array ids, orders;
-} e3d_slots_state;
-
-/* What is counted or marked beside the visible surface, sample by sample. */
-typedef struct e3d_marks_memory {
-    float bound[E3D_TILE_SAMPLES + E3D_PAD];      /* E3D_BEYOND_FAR everywhere */
-    float edge_limit[E3D_TILE_SAMPLES + E3D_PAD]; /* what an edge's depth must be less than */
-    int32_t count[E3D_TILE_SAMPLES + E3D_PAD];    /* overdraw, then edges */
-} e3d_marks_memory;
+#include "pipeline/tile/job.h"
+#include "pipeline/tile/memory.h"
 
 void e3d_marks_init(e3d_marks_memory *marks);
 void e3d_slots_free(e3d_slots_state *slots);

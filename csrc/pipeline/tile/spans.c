@@ -12,8 +12,8 @@
 #include "pipeline/geometry/records.h"
 #include "pipeline/pass/view.h"
 #include "pipeline/shade/runs.h"
+#include "pipeline/tile/memory.h"
 #include "pipeline/tile/spans.h"
-#include "pipeline/tile/tile.h"
 
 /* Whether a tile has few records, and no fragments. Of many not all bins are looked through. */
 static int are_few(const e3d_bins *bins, int64_t tile)

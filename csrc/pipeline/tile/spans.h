@@ -8,15 +8,7 @@
 #include "kernels/types/shown.h"
 #include "pipeline/geometry/bin.h"
 #include "pipeline/pass/view.h"
-
-typedef struct e3d_tile_memory e3d_tile_memory;
-
-/* A thread's memory, of one tile, and what it found lately. */
-typedef struct e3d_spans_memory {
-    _Alignas(64) e3d_cover cover;
-    _Alignas(64) e3d_layers layers;
-    int32_t without, left; /* how many tiles go without spans since these did not pay, and how many of these are left */
-} e3d_spans_memory;
+#include "pipeline/tile/memory.h"
 
 /* Makes the list of what shows of few records; 0 where they are too large for that, or meet too much. */
 int e3d_show_spans(const e3d_kernels *kernels, const e3d_bins *bins, const e3d_tile *tile, int64_t number, e3d_tile_memory *out);

@@ -20,7 +20,9 @@ cdef extern from "e3d.h" nogil:
         E3D_OPTION_FALLOFF
         E3D_OPTION_FILTER
         E3D_OPTION_HIDDEN
+        E3D_OPTION_LIGHT_KIND
         E3D_OPTION_LINE_SHAPE
+        E3D_OPTION_MAP_LAYOUT
         E3D_OPTION_MODE
         E3D_OPTION_NORMALS
         E3D_OPTION_POINT_SHAPE
@@ -192,10 +194,21 @@ cdef extern from "e3d.h" nogil:
     void e3d_material_set_texture(e3d_material *material, e3d_texture_slot slot,
                                   const e3d_texture_use *use)
 
+    ctypedef enum e3d_emission:
+        E3D_EMITS_EVENLY
+
+    ctypedef enum e3d_map_layout:
+        pass
+
     ctypedef enum e3d_light_kind:
-        E3D_LIGHT_DIRECTIONAL
-        E3D_LIGHT_POINT
-        E3D_LIGHT_SPOT
+        pass
+
+    ctypedef struct e3d_light_traits:
+        int32_t has_position
+        e3d_emission emission
+        e3d_map_layout maps
+
+    e3d_light_traits e3d_light_traits_of(e3d_light_kind kind)
 
     ctypedef enum e3d_falloff:
         pass
@@ -214,8 +227,7 @@ cdef extern from "e3d.h" nogil:
         float y
         float texel
 
-    ctypedef struct e3d_light_shadow:
-        e3d_shadow_kind kind
+    ctypedef struct e3d_light_maps:
         int32_t first
         int32_t count
         int32_t size
@@ -228,6 +240,11 @@ cdef extern from "e3d.h" nogil:
         float depth[2]
         const float *depths
         const uint32_t *ranges
+
+    ctypedef struct e3d_light_shadow:
+        e3d_shadow_kind kind
+        int32_t exact
+        e3d_light_maps maps
 
     int32_t e3d_shadow_ranges_side(int32_t size)
     e3d_status e3d_find_shadow_ranges(const float *depths, int32_t size, int32_t taps, int32_t step, uint32_t *ranges)

@@ -1,6 +1,7 @@
 """Types of the gateway to the rendering core; the docstrings are in rasterizer.pyx."""
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -16,7 +17,9 @@ ALPHA_MODES: dict[str, int]
 FILTERS: dict[str, int]
 WRAPS: dict[str, int]
 FALLOFFS: dict[str, int]
+LIGHT_KINDS: dict[str, int]
 LINE_SHAPES: dict[str, int]
+MAP_LAYOUTS: dict[str, int]
 MODES: dict[str, int]
 CULLS: dict[str, int]
 WIREFRAMES: dict[str | None, int]
@@ -31,6 +34,13 @@ BACKENDS: dict[str, int]
 BUILD: tuple[str, str]
 OUTPUTS: dict[str, tuple[str, int]]
 VERTEX_ATTRIBUTES: dict[str, tuple[str, int]]
+
+class LightTraits(NamedTuple):
+    has_position: bool
+    is_turned: bool
+    maps: str
+
+LIGHT_TRAITS: dict[str, LightTraits]
 
 def backend_available(backend: int) -> bool: ...
 def best_backend() -> int: ...
@@ -211,24 +221,15 @@ class NativeDrawList:
         iridescence_ior: float,
         iridescence_thickness: Sequence[float],
     ) -> None: ...
-    def add_directional_light(
-        self, color: Sequence[float], lux: Sequence[float], to_light: Sequence[float] | _Doubles
-    ) -> None: ...
-    def add_point_light(
+    def add_light(
         self,
+        kind: int,
         color: Sequence[float],
         lux: Sequence[float],
-        position: Sequence[float] | _Doubles,
+        *,
         range: float,
         falloff: int,
-    ) -> None: ...
-    def add_spot_light(
-        self,
-        color: Sequence[float],
-        lux: Sequence[float],
-        range: float,
-        cone_cosine: float,
-        cone_scale: float,
+        cone: Sequence[float],
     ) -> None: ...
     def turn_light(self, number: int, to_light: Sequence[float] | _Doubles) -> None: ...
     def move_light(self, number: int, position: Sequence[float] | _Doubles) -> None: ...

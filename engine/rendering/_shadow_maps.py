@@ -10,20 +10,19 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .._native.rasterizer import CULLS, NativeRenderer, find_shadow_ranges, shadow_ranges_side
+from .._native.rasterizer import (
+    CULLS,
+    LIGHT_TRAITS,
+    NativeRenderer,
+    find_shadow_ranges,
+    shadow_ranges_side,
+)
 from ..choices import Cull
-from ..scene.lights import DirectionalLight, SpotLight
 from ..scene.scene import Scene
 from ._draw_list import DrawList
 from ._frame_memory import FrameMemory
 from ._lamps import lamp_slots
-from ._shadow_views import (
-    MapView,
-    ShadowViews,
-    directional_views,
-    point_views,
-    spot_views,
-)
+from ._shadow_views import VIEWS, MapView, ShadowViews
 from ._view import View
 from .casters import placed_casters
 
@@ -130,12 +129,13 @@ class ShadowMaps:
 
     def _views_of(self, number: int, light, pose: tuple, bounds, view: View) -> ShadowViews | None:
         """From where a light's maps are drawn: as before, if nothing that decides it changed."""
-        seen_by = view if isinstance(light, DirectionalLight) else None
+        layout = LIGHT_TRAITS[light.kind].maps
+        seen_by = view if layout == "cascades" else None
         found_from = light, light.version, pose, bounds.tobytes(), seen_by
         known = self._found.get(number)
         if known is None or known[0] != found_from:
             light.check()
-            known = self._found[number] = found_from, _find_views(light, pose, bounds, view)
+            known = self._found[number] = found_from, VIEWS[layout](light, pose, bounds, view)
         return known[1]
 
     def _update_light(self, number: int, light, views: ShadowViews, moment: tuple) -> None:
@@ -180,13 +180,3 @@ class ShadowMaps:
             self._native.draw_shadow_map(native, depths, *seen, cull, id(drawn))
             self.drawn += 1
         drawn.clip, drawn.moment, drawn.casters = clip, moment, casters
-
-
-def _find_views(light, pose: tuple, bounds: np.ndarray, view: View) -> ShadowViews | None:
-    """From where a light's maps are drawn; ``pose`` as `LightList.placed` has it."""
-    towards, position = pose
-    if isinstance(light, DirectionalLight):
-        return directional_views(light, towards, bounds, view)
-    if isinstance(light, SpotLight):
-        return spot_views(light, towards, position, bounds)
-    return point_views(light, position, bounds)

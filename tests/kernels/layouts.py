@@ -173,9 +173,8 @@ MAP_BATCH = np.dtype(
     + [("direct", "f4", (3, _LANES)), ("coat", "f4", (3, _LANES)), ("fuzz", "f4", (3, _LANES))]
     + [("depth", "f4", _LANES), ("through", "f4", (3, _LANES))]
 )
-LIGHT_SHADOW = np.dtype(
+LIGHT_MAPS = np.dtype(
     [
-        ("kind", "i4"),
         ("first", "i4"),
         ("count", "i4"),
         ("size", "i4"),
@@ -191,6 +190,7 @@ LIGHT_SHADOW = np.dtype(
     ],
     align=True,
 )
+LIGHT_SHADOW = np.dtype([("kind", "i4"), ("exact", "i4"), ("maps", LIGHT_MAPS)], align=True)
 SHADOW_MAP = np.dtype([(name, "f4") for name in ("scale", "x", "y", "texel")])
 LIGHT = np.dtype(
     [

@@ -2,7 +2,7 @@
 #ifndef E3D_SHADOW_RANGES_H
 #define E3D_SHADOW_RANGES_H
 
-/* A word of e3d_light_shadow.ranges stands for a block of 2 x 2 texels. It has the codes of the least depth, in its lower half, and of the
+/* A word of e3d_light_maps.ranges stands for a block of 2 x 2 texels. It has the codes of the least depth, in its lower half, and of the
  * greatest of all texels that may be compared where the first of them is in the block. The code of a depth is the integer part of
  * depth * SCALE within -LIMIT and LIMIT. It never falls as depths rise, so of two depths whose codes differ it tells which is the
  * greater; those whose codes are the same have to be compared. A NaN in a map has the code NONE, which is less than all others, since no

@@ -17,17 +17,21 @@ int e3d_has_shadows(const e3d_frame *frame)
     return 0;
 }
 
-/* How many maps a light has at least and at most. */
+/* Whether so many maps lie as a light's do. */
 static int has_maps(const e3d_light *light)
 {
-    int32_t count = light->shadow.count;
-    return light->kind == E3D_LIGHT_POINT ? count == 6 : light->kind == E3D_LIGHT_SPOT ? count == 1
-                                                                                       : count >= 1;
+    int32_t count = light->shadow.maps.count;
+    switch (e3d_light_traits_of(light->kind).maps) {
+    case E3D_MAPS_CASCADES: return count >= 1;
+    case E3D_MAPS_CUBE: return count == 6;
+    case E3D_MAPS_AHEAD: break;
+    }
+    return count == 1;
 }
 
 static int map_is_valid(const e3d_frame *frame, const e3d_light *light)
 {
-    const e3d_light_shadow *s = &light->shadow;
+    const e3d_light_maps *s = &light->shadow.maps;
     if (!s->depths || !has_maps(light) || s->first < 0 || s->count > frame->shadow_map_count - s->first || !frame->shadow_maps)
         return 0;
     if ((s->taps != 1 && s->taps != 3 && s->taps != 5) || s->size < 1 || s->size > E3D_MAX_SIZE || s->step < 0)
@@ -41,7 +45,7 @@ static int exact_lights_are_valid(const e3d_frame *frame)
 {
     int32_t count = 0;
     for (int32_t n = 0; n < frame->light_count; n++)
-        if (frame->lights[n].shadow.kind == E3D_SHADOW_EXACT && frame->lights[n].shadow.first != count++)
+        if (frame->lights[n].shadow.kind == E3D_SHADOW_EXACT && frame->lights[n].shadow.exact != count++)
             return 0;
     return count <= E3D_MAX_EXACT_LIGHTS;
 }

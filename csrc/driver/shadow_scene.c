@@ -37,7 +37,7 @@ static void fill_depths(float *depths, int32_t count, random_stream *r)
 }
 
 /* The ranges of a light's maps, as of maps that are kept. */
-static const uint32_t *ranges_of(scene *s, const e3d_light_shadow *shadow)
+static const uint32_t *ranges_of(scene *s, const e3d_light_maps *shadow)
 {
     size_t side = (size_t)e3d_shadow_ranges_side(shadow->size), texels = (size_t)shadow->size * (size_t)shadow->size;
     uint32_t *ranges = kept_array(s, (size_t)shadow->count * side * side, sizeof *ranges);
@@ -48,7 +48,7 @@ static const uint32_t *ranges_of(scene *s, const e3d_light_shadow *shadow)
 }
 
 /* Sometimes all samples are compared at one depth, which is that of a patch: neither is the greater. */
-static void level_depths(e3d_light_shadow *shadow, random_stream *r)
+static void level_depths(e3d_light_maps *shadow, random_stream *r)
 {
     shadow->depth[0] = shadow->depth[1] = 0.0f;
     shadow->bias = shadow->depths[random_below(r, shadow->size * shadow->size)];
@@ -56,12 +56,13 @@ static void level_depths(e3d_light_shadow *shadow, random_stream *r)
 
 static void add_map(scene *s, e3d_light *light, const float *depths, e3d_shadow_map *maps, int32_t *count, random_stream *r)
 {
-    e3d_light_shadow *shadow = &light->shadow;
+    e3d_light_maps *shadow = &light->shadow.maps;
+    e3d_map_layout layout = e3d_light_traits_of(light->kind).maps;
     int32_t taps = 1 + 2 * random_below(r, 3);
-    shadow->kind = E3D_SHADOW_MAP;
+    light->shadow.kind = E3D_SHADOW_MAP;
     shadow->first = *count;
-    shadow->count = light->kind == E3D_LIGHT_POINT ? CUBE : light->kind == E3D_LIGHT_SPOT ? 1
-                                                                                          : 1 + random_below(r, 3);
+    shadow->count = layout == E3D_MAPS_CUBE ? CUBE : layout == E3D_MAPS_AHEAD ? 1
+                                                                              : 1 + random_below(r, 3);
     shadow->size = 24 + random_below(r, MOST_SIDE - 24 + 1);
     shadow->taps = taps;
     shadow->step = random_once_in(r, 2) ? 256 : random_below(r, 1000);
@@ -101,7 +102,7 @@ static const e3d_casters *casters_of(scene *s, random_stream *r)
 static void add_exact(e3d_light *light, int32_t *count)
 {
     light->shadow.kind = E3D_SHADOW_EXACT;
-    light->shadow.first = (*count)++;
+    light->shadow.exact = (*count)++;
 }
 
 void scene_add_shadows(scene *s, random_stream *r)

@@ -50,7 +50,7 @@ static void look(const eye *e, const float p[3], float *x, float *y, float *z)
 
 static eye open_eye(const e3d_light *light, const float p[3])
 {
-    eye out = {.light = light, .is_point = light->kind != E3D_LIGHT_DIRECTIONAL};
+    eye out = {.light = light, .is_point = e3d_light_traits_of(light->kind).has_position};
     float d[3];
     for (int c = 0; c < 3; c++)
         d[c] = out.is_point ? p[c] - light->position[c] : light->to_light[c];
@@ -121,7 +121,7 @@ static plane plane_of(const ref_surface *s, const e3d_light *light)
         out.normal[c] = m[c] * i;
         out.slack[c] = ((most[c1] * sum[c2] + most[c2] * sum[c1]) * i) * E3D_PLANE_SLACK;
         share[c] = fabsf(out.normal[c]) * most[c];
-        towards[c] = light->kind == E3D_LIGHT_DIRECTIONAL ? light->to_light[c] : light->position[c] - s->lit_position[c];
+        towards[c] = e3d_light_traits_of(light->kind).has_position ? light->position[c] - s->lit_position[c] : light->to_light[c];
     }
     out.limit = ((share[0] + share[1]) + share[2]) * E3D_PLANE_SLACK;
     int away = ref_dot3(out.normal, towards) < 0.0f;
@@ -215,7 +215,7 @@ int ref_is_hidden(const e3d_light *light, const ref_surface *surface)
         const ref_caster *caster = &casters->items[n];
         seen s;
         float weight[3];
-        if (casters->instances[caster->instance].draw->spared_lights >> light->shadow.first & 1)
+        if (casters->instances[caster->instance].draw->spared_lights >> light->shadow.exact & 1)
             continue;
         see(&e, caster, &s);
         if (goes_through(&e, &s, weight) && is_above(&e, &plane, p, caster, &s, weight) && !has_hole(casters, caster, weight))

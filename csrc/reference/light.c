@@ -27,7 +27,7 @@ static float cone(const e3d_light *light, const float l[3])
 /* Unit vector towards the light and attenuation; returns 0 where the light is out of range. */
 int ref_light_reach(const e3d_light *light, const float p[3], int by_product, float l[3], float *attenuation)
 {
-    if (light->kind == E3D_LIGHT_DIRECTIONAL) {
+    if (!e3d_light_traits_of(light->kind).has_position) {
         for (int c = 0; c < 3; c++)
             l[c] = light->to_light[c];
         *attenuation = 1.0f;
@@ -43,7 +43,7 @@ int ref_light_reach(const e3d_light *light, const float p[3], int by_product, fl
     for (int c = 0; c < 3; c++)
         l[c] = d[c] * i;
     *attenuation = falloff(light, d2, d2 * (1.0f / range2), i, by_product);
-    if (light->kind == E3D_LIGHT_SPOT)
+    if (e3d_light_traits_of(light->kind).emission == E3D_EMITS_CONE)
         *attenuation = *attenuation * cone(light, l);
     return 1;
 }

@@ -15,7 +15,7 @@ typedef struct place {
 } place;
 
 /* R91 */
-static float shift_of(const e3d_light_shadow *shadow, float texel, float sine)
+static float shift_of(const e3d_light_maps *shadow, float texel, float sine)
 {
     float reach = ((float)(shadow->step * (shadow->taps - 1)) * (1.0f / 512.0f) + 1.0f) * E3D_SHADOW_CORNER;
     return shadow->normal_bias + (reach * texel) * (sine + E3D_SHADOW_SLACK);
@@ -27,13 +27,13 @@ static float sine_of(const float normal[3], const float l[3])
     return sqrtf(ref_max(1.0f - c * c, 0.0f));
 }
 
-static int is_inside(const e3d_light_shadow *shadow, float x, float y)
+static int is_inside(const e3d_light_maps *shadow, float x, float y)
 {
     float low = shadow->margin, high = (float)shadow->size - shadow->margin;
     return x >= low && high >= x && y >= low && high >= y;
 }
 
-static void turn(const e3d_light_shadow *shadow, const float v[3], float out[3])
+static void turn(const e3d_light_maps *shadow, const float v[3], float out[3])
 {
     for (int k = 0; k < 3; k++)
         out[k] = ref_dot3(v, shadow->axes[k]);
@@ -42,9 +42,8 @@ static void turn(const e3d_light_shadow *shadow, const float v[3], float out[3])
 /* ---- R92 ---- */
 
 /* R92 */
-static place place_directional(const e3d_light *light, const e3d_shadow_map *maps, const float p[3], const float normal[3], float sine)
+static place place_cascades(const e3d_light_maps *shadow, const e3d_shadow_map *maps, const float p[3], const float normal[3], float sine)
 {
-    const e3d_light_shadow *shadow = &light->shadow;
     float at[3], along[3];
     turn(shadow, p, at);
     turn(shadow, normal, along);
@@ -62,7 +61,7 @@ static place place_directional(const e3d_light *light, const e3d_shadow_map *map
     return (place){.map = -1};
 }
 
-static place project(const e3d_light_shadow *shadow, const e3d_shadow_map *map, const float at[3], int32_t number)
+static place project(const e3d_light_maps *shadow, const e3d_shadow_map *map, const float at[3], int32_t number)
 {
     float near = 1.0f / ref_max(at[2], 0x1p-100f);
     float x = (at[0] * near) * map->scale + map->x, y = (at[1] * near) * map->scale + map->y;
@@ -72,15 +71,15 @@ static place project(const e3d_light_shadow *shadow, const e3d_shadow_map *map, 
 }
 
 /* R92 */
-static place place_spot(const e3d_light *light, const e3d_shadow_map *map, const float p[3], const float normal[3], float sine)
+static place place_ahead(const e3d_light_maps *shadow, const e3d_shadow_map *map, const float p[3], const float normal[3], float sine)
 {
     float at[3], along[3];
-    turn(&light->shadow, p, at);
-    turn(&light->shadow, normal, along);
-    float shift = shift_of(&light->shadow, at[2] * map->texel, sine);
+    turn(shadow, p, at);
+    turn(shadow, normal, along);
+    float shift = shift_of(shadow, at[2] * map->texel, sine);
     for (int k = 0; k < 3; k++)
         at[k] = at[k] + along[k] * shift;
-    return project(&light->shadow, map, at, 0);
+    return project(shadow, map, at, 0);
 }
 
 /* To the right of each face of the cube and down, as axes and their signs: +x, -x, +y, -y, +z, -z. */
@@ -88,10 +87,10 @@ static const int FACE_AXES[6][2] = {{2, 1}, {2, 1}, {0, 2}, {0, 2}, {0, 1}, {0, 
 static const int FACE_SIGNS[6][2] = {{1, -1}, {-1, -1}, {1, -1}, {1, 1}, {-1, -1}, {1, -1}};
 
 /* R92 */
-static place place_point(const e3d_light *light, const e3d_shadow_map *map, const float p[3], const float normal[3], float sine)
+static place place_cube(const e3d_light_maps *shadow, const e3d_shadow_map *map, const float p[3], const float normal[3], float sine)
 {
     float most = ref_max(ref_max(fabsf(p[0]), fabsf(p[1])), fabsf(p[2])), moved[3], at[3];
-    float shift = shift_of(&light->shadow, most * map->texel, sine);
+    float shift = shift_of(shadow, most * map->texel, sine);
     for (int k = 0; k < 3; k++)
         moved[k] = p[k] + normal[k] * shift;
     float a = fabsf(moved[0]), b = fabsf(moved[1]), c = fabsf(moved[2]);
@@ -103,7 +102,17 @@ static place place_point(const e3d_light *light, const e3d_shadow_map *map, cons
         at[k] = FACE_SIGNS[face][k] < 0 ? 0.0f - v : v;
     }
     at[2] = fabsf(moved[axis]);
-    return project(&light->shadow, map, at, face);
+    return project(shadow, map, at, face);
+}
+
+static place place_of(const e3d_light *light, const e3d_shadow_map *maps, const float p[3], const float normal[3], float sine)
+{
+    switch (e3d_light_traits_of(light->kind).maps) {
+    case E3D_MAPS_CASCADES: return place_cascades(&light->shadow.maps, maps, p, normal, sine);
+    case E3D_MAPS_CUBE: return place_cube(&light->shadow.maps, maps, p, normal, sine);
+    case E3D_MAPS_AHEAD: break;
+    }
+    return place_ahead(&light->shadow.maps, maps, p, normal, sine);
 }
 
 /* ---- R93 ---- */
@@ -112,7 +121,7 @@ static int32_t within(int32_t a, int32_t most) { return a < 0 ? 0 : a > most ? m
                                                                              : a; }
 
 /* Four comparisons about a place in 1/256 texel, which share a weight of 65536. */
-static int32_t tap(const e3d_light_shadow *shadow, const float *map, int32_t x, int32_t y, float depth)
+static int32_t tap(const e3d_light_maps *shadow, const float *map, int32_t x, int32_t y, float depth)
 {
     int32_t sum = 0, fx = x & 255, fy = y & 255;
     for (int32_t down = 0; down < 2; down++)
@@ -125,7 +134,7 @@ static int32_t tap(const e3d_light_shadow *shadow, const float *map, int32_t x, 
 }
 
 /* R93 */
-static float compare(const e3d_light_shadow *shadow, const place *at)
+static float compare(const e3d_light_maps *shadow, const place *at)
 {
     int32_t across = shadow->step * (shadow->taps - 1), most = 256 * shadow->size - 257 - across, sum = 0;
     float size = (float)shadow->size;
@@ -142,7 +151,6 @@ static float compare(const e3d_light_shadow *shadow, const place *at)
 float ref_light_reached(const e3d_frame *frame, int32_t n, const ref_surface *surface, const float l[3])
 {
     const e3d_light *light = &frame->lights[n];
-    const e3d_shadow_map *maps = frame->shadow_maps + light->shadow.first;
     const float *normal = surface->shading_normal;
     float p[3], sine = sine_of(normal, l);
     if (surface->instance->draw->unshadowed)
@@ -150,9 +158,7 @@ float ref_light_reached(const e3d_frame *frame, int32_t n, const ref_surface *su
     if (light->shadow.kind == E3D_SHADOW_EXACT)
         return ref_is_hidden(light, surface) ? 0.0f : 1.0f;
     for (int k = 0; k < 3; k++)
-        p[k] = light->kind == E3D_LIGHT_DIRECTIONAL ? surface->lit_position[k] : surface->lit_position[k] - light->position[k];
-    place at = light->kind == E3D_LIGHT_DIRECTIONAL ? place_directional(light, maps, p, normal, sine)
-               : light->kind == E3D_LIGHT_SPOT      ? place_spot(light, maps, p, normal, sine)
-                                                    : place_point(light, maps, p, normal, sine);
-    return at.map < 0 ? 1.0f : compare(&light->shadow, &at);
+        p[k] = e3d_light_traits_of(light->kind).has_position ? surface->lit_position[k] - light->position[k] : surface->lit_position[k];
+    place at = place_of(light, frame->shadow_maps + light->shadow.maps.first, p, normal, sine);
+    return at.map < 0 ? 1.0f : compare(&light->shadow.maps, &at);
 }

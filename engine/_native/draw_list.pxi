@@ -397,24 +397,21 @@ cdef class NativeDrawList:
         self.textures[index] = textures
         self.material_count = max(self.material_count, index + 1)
 
-    # `lux` is the colour times the intensity as physically based materials take it.
+    def add_light(self, int kind, color, lux, *, float range, int falloff, cone):
+        """Add a light, which is then moved and turned to where it is.
 
-    def add_directional_light(self, color, lux, to_light):
-        cdef e3d_light *light = self.new_light(E3D_LIGHT_DIRECTIONAL, color, lux)
-        copy_vector(light.to_light, to_light, 3)
-
-    def add_point_light(self, color, lux, position, float range, int falloff):
-        cdef e3d_light *light = self.new_light(E3D_LIGHT_POINT, color, lux)
-        copy_vector(light.position, position, 3)
+        ``lux`` is the colour times the intensity as physically based materials take it.
+        """
+        self.lights = <e3d_light *>grown(self.lights, self.light_count, &self.light_capacity, sizeof(e3d_light))
+        cdef e3d_light *light = &self.lights[self.light_count]
+        memset(light, 0, sizeof(e3d_light))
+        light.kind = <e3d_light_kind>kind
+        copy_vector(light.color, color, 3)
+        copy_vector(light.lux, lux, 3)
         light.range = range
         light.falloff = <e3d_falloff>falloff
-
-    def add_spot_light(self, color, lux, float range, float cone_cosine, float cone_scale):
-        """A spot light, which is then moved and turned to where it is."""
-        cdef e3d_light *light = self.new_light(E3D_LIGHT_SPOT, color, lux)
-        light.range = range
-        light.falloff = <e3d_falloff><int>FALLOFFS["gltf"]
-        light.cone[0], light.cone[1] = cone_cosine, cone_scale
+        copy_vector(light.cone, cone, 2)
+        self.light_count += 1
 
     cdef e3d_light *light_at(self, int number) except NULL:
         if not 0 <= number < self.light_count:
@@ -422,11 +419,11 @@ cdef class NativeDrawList:
         return &self.lights[number]
 
     def turn_light(self, int number, to_light):
-        """Set where a directional light comes from, or the back of a spot light."""
+        """Set against which way a light shines."""
         copy_vector(self.light_at(number).to_light, to_light, 3)
 
     def move_light(self, int number, position):
-        """Set where a point or spot light is."""
+        """Set where a light is."""
         copy_vector(self.light_at(number).position, position, 3)
 
     def clear_shadows(self):
@@ -441,16 +438,17 @@ cdef class NativeDrawList:
         float margin, float bias, float normal_bias, axes, depth, const uint32_t[:, :, ::1] ranges=None,
     ):
         """Give a light its maps: (maps, size, size), the numbers of e3d_shadow_map of each, and their ranges, if these are found."""
-        cdef e3d_light_shadow *shadow = &self.light_at(number).shadow
+        cdef e3d_light *light = self.light_at(number)
+        cdef e3d_light_maps *maps = &light.shadow.maps
         cdef e3d_shadow_map *map
         require(depths.shape[0] == len(places) and depths.shape[1] == depths.shape[2] > 0, "maps are square")
-        memset(shadow, 0, sizeof(e3d_light_shadow))
-        shadow.first, shadow.count = self.shadow_map_count, <int32_t>depths.shape[0]
-        shadow.size, shadow.taps, shadow.step = <int32_t>depths.shape[1], taps, step
-        shadow.bias, shadow.normal_bias, shadow.margin = bias, normal_bias, margin
+        memset(maps, 0, sizeof(e3d_light_maps))
+        maps.first, maps.count = self.shadow_map_count, <int32_t>depths.shape[0]
+        maps.size, maps.taps, maps.step = <int32_t>depths.shape[1], taps, step
+        maps.bias, maps.normal_bias, maps.margin = bias, normal_bias, margin
         for k in range(3):
-            copy_vector(shadow.axes[k], axes[k], 3)
-        copy_vector(shadow.depth, depth, 2)
+            copy_vector(maps.axes[k], axes[k], 3)
+        copy_vector(maps.depth, depth, 2)
         for scale, x, y in places:
             self.shadow_maps = <e3d_shadow_map *>grown(
                 self.shadow_maps, self.shadow_map_count, &self.shadow_map_capacity, sizeof(e3d_shadow_map)
@@ -459,32 +457,18 @@ cdef class NativeDrawList:
             map.scale, map.x, map.y, map.texel = scale, x, y, 1.0 / scale
             self.shadow_map_count += 1
         self.depths.append(depths)
-        shadow.depths = &depths[0, 0, 0]
+        maps.depths = &depths[0, 0, 0]
         if ranges is not None:
-            require_ranges(ranges[0], shadow.size)
+            require_ranges(ranges[0], maps.size)
             require(ranges.shape[0] == depths.shape[0], "each map has its ranges")
             self.depths.append(ranges)
-            shadow.ranges = &ranges[0, 0, 0]
-        shadow.kind = E3D_SHADOW_MAP
+            maps.ranges = &ranges[0, 0, 0]
+        light.shadow.kind = E3D_SHADOW_MAP
 
     def set_exact_shadow(self, int number):
         """Give a light an exact shadow; lights get theirs in their order."""
         cdef e3d_light_shadow *shadow = &self.light_at(number).shadow
         require(self.exact_light_count < E3D_MAX_EXACT_LIGHTS,
                 f"at most {E3D_MAX_EXACT_LIGHTS} lights of a frame may have an exact shadow")
-        memset(shadow, 0, sizeof(e3d_light_shadow))
-        shadow.kind, shadow.first = E3D_SHADOW_EXACT, self.exact_light_count
+        shadow.kind, shadow.exact = E3D_SHADOW_EXACT, self.exact_light_count
         self.exact_light_count += 1
-
-    cdef e3d_light *new_light(self, e3d_light_kind kind, color, lux) except NULL:
-        self.lights = <e3d_light *>grown(
-            self.lights, self.light_count, &self.light_capacity, sizeof(e3d_light)
-        )
-        cdef e3d_light *light = &self.lights[self.light_count]
-        memset(light, 0, sizeof(e3d_light))
-        light.kind = kind
-        light.range = INFINITY
-        copy_vector(light.color, color, 3)
-        copy_vector(light.lux, lux, 3)
-        self.light_count += 1
-        return light

@@ -1,7 +1,7 @@
 """Types of the gateway to the rendering core; the docstrings are in rasterizer.pyx."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +17,9 @@ ALPHA_MODES: dict[str, int]
 FILTERS: dict[str, int]
 WRAPS: dict[str, int]
 FALLOFFS: dict[str, int]
+LIGHT_KINDS: dict[str, int]
 LINE_SHAPES: dict[str, int]
+MAP_LAYOUTS: dict[str, int]
 MODES: dict[str, int]
 CULLS: dict[str, int]
 WIREFRAMES: dict[str | None, int]
@@ -33,6 +35,13 @@ BACKENDS: dict[str, int]
 BUILD: tuple[str, str]
 OUTPUTS: dict[str, tuple[str, int]]
 VERTEX_ATTRIBUTES: dict[str, tuple[str, int]]
+
+class LightTraits(NamedTuple):
+    has_position: bool
+    is_turned: bool
+    maps: str
+
+LIGHT_TRAITS: dict[str, LightTraits]
 
 def backend_available(backend: int) -> bool: ...
 def best_backend() -> int: ...
@@ -180,24 +189,15 @@ class NativeDrawList:
         physical: dict[str, float | Sequence[float]] | None,
         textures: dict[str, tuple[NativeTexture, int, Sequence[float] | None]],
     ) -> None: ...
-    def add_directional_light(
-        self, color: Sequence[float], lux: Sequence[float], to_light: Sequence[float] | _Doubles
-    ) -> None: ...
-    def add_point_light(
+    def add_light(
         self,
+        kind: int,
         color: Sequence[float],
         lux: Sequence[float],
-        position: Sequence[float] | _Doubles,
+        *,
         range: float,
         falloff: int,
-    ) -> None: ...
-    def add_spot_light(
-        self,
-        color: Sequence[float],
-        lux: Sequence[float],
-        range: float,
-        cone_cosine: float,
-        cone_scale: float,
+        cone: Sequence[float],
     ) -> None: ...
     def turn_light(self, number: int, to_light: Sequence[float] | _Doubles) -> None: ...
     def move_light(self, number: int, position: Sequence[float] | _Doubles) -> None: ...

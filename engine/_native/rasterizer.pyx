@@ -8,6 +8,8 @@ Always: a handle holds the arrays that the core borrows; the GIL is released for
      take long; there is no algorithm here.
 """
 
+from typing import NamedTuple
+
 from cpython.exc cimport PyErr_CheckSignals
 from libc.math cimport INFINITY
 from cpython.ref cimport PyObject
@@ -40,7 +42,9 @@ CULLINGS = values_of(E3D_OPTION_CULLING)
 FALLOFFS = values_of(E3D_OPTION_FALLOFF)
 FILTERS = values_of(E3D_OPTION_FILTER)
 HIDDEN_SURFACES = values_of(E3D_OPTION_HIDDEN)
+LIGHT_KINDS = values_of(E3D_OPTION_LIGHT_KIND)
 LINE_SHAPES = values_of(E3D_OPTION_LINE_SHAPE)
+MAP_LAYOUTS = values_of(E3D_OPTION_MAP_LAYOUT)
 MODES = values_of(E3D_OPTION_MODE)
 NORMALS = values_of(E3D_OPTION_NORMALS)
 POINT_SHAPES = values_of(E3D_OPTION_POINT_SHAPE)
@@ -64,6 +68,23 @@ cdef tuple names_of_physical():
 
 # What the core wants to know of a physically based material.
 PHYSICAL_NUMBERS = names_of_physical()
+
+
+class LightTraits(NamedTuple):
+    """What is true of a kind of lights: e3d_light_traits; ``maps`` is one of `MAP_LAYOUTS`."""
+
+    has_position: bool
+    is_turned: bool
+    maps: str
+
+
+def _traits_of(int kind):
+    cdef e3d_light_traits traits = e3d_light_traits_of(<e3d_light_kind>kind)
+    is_turned = traits.emission != E3D_EMITS_EVENLY or not traits.has_position
+    return LightTraits(bool(traits.has_position), is_turned, list(MAP_LAYOUTS)[traits.maps])
+
+
+LIGHT_TRAITS = {name: _traits_of(kind) for name, kind in LIGHT_KINDS.items()}
 
 cdef extern from *:
     const char *E3D_BUILD

@@ -9,7 +9,7 @@ from typing import Any
 
 from .._support.held_values import kept
 from ..scene.cameras import Camera
-from ..scene.lights import PointLight, SpotLight
+from ..scene.lights import DirectLight
 from ..scene.nodes import Node
 from .history import Command
 
@@ -62,7 +62,7 @@ def check(thing: Any) -> None:
     """Raise if what a thing holds does not go together, such as its near and far planes."""
     if isinstance(thing, Camera):
         thing.projection(1, 1)
-    elif isinstance(thing, PointLight | SpotLight):
+    elif isinstance(thing, DirectLight):
         thing.check()
 
 

@@ -20,7 +20,7 @@ from ..materials.colors import certainly_linear, linear_color
 from ..materials.material import PARAMETERS, TEXTURE_SLOTS, Material
 from ..materials.textures import PlacedTexture, Texture
 from ..scene.cameras import OrthographicCamera, PerspectiveCamera
-from ..scene.lights import DirectionalLight, PointLight, SpotLight
+from ..scene.lights import DIRECT_LIGHTS
 from ..scene.nodes import Node
 from .keys import INTERPOLATIONS, Keyed, check_times, frozen_or_copied
 
@@ -49,7 +49,13 @@ class Range(NamedTuple):
 _POSITIVE, _COLOR = Range(0.0), Range(0.0, width=3)
 _DEPTH = Range(_LEAST, is_kept=True)
 _CONE = Range(0.0, math.pi / 2, is_kept=True)
-_LAMP = {"color": _COLOR, "intensity": _POSITIVE}
+_LIGHT = {  # as far as a kind has it
+    "color": _COLOR,
+    "intensity": _POSITIVE,
+    "range": Range(_LEAST),
+    "inner_cone_angle": _CONE,
+    "outer_cone_angle": _CONE,
+}
 _PLACES = {"offset": Range(width=2), "rotation": Range(), "scale": Range(width=2)}
 _PROPERTIES: dict[type, dict[str, Range]] = {
     Material: {
@@ -66,13 +72,9 @@ _PROPERTIES: dict[type, dict[str, Range]] = {
         "znear": Range(is_kept=True),
         "zfar": Range(is_kept=True),
     },
-    DirectionalLight: _LAMP,
-    PointLight: {**_LAMP, "range": Range(_LEAST)},
-    SpotLight: {
-        **_LAMP,
-        "range": Range(_LEAST),
-        "inner_cone_angle": _CONE,
-        "outer_cone_angle": _CONE,
+    **{
+        light: {name: held for name, held in _LIGHT.items() if hasattr(light, name)}
+        for light in DIRECT_LIGHTS.values()
     },
 }
 _WEIGHT = "weights."

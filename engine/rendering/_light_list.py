@@ -12,15 +12,16 @@ import math
 
 import numpy as np
 
-from .._native.rasterizer import FALLOFFS, NativeDrawList
+from .._native.rasterizer import FALLOFFS, LIGHT_KINDS, LIGHT_TRAITS, NativeDrawList
 from .._native.scene_graph import SHOWN
 from ..linalg.single import normalize
 from ..materials.display_colors import shading_color
 from ..scene.ambient_lights import AMBIENT_LIGHTS
-from ..scene.lights import DirectionalLight, SpotLight
+from ..scene.lights import DirectionalLight
 from ..scene.scene import Scene
 from ._ambient_terms import ambient_terms
 
+_HEADLIGHT = DirectionalLight()
 _NOT_KNOWN = (object(),)  # equal to nothing that a scene has, not even to no light at all
 
 
@@ -70,7 +71,8 @@ class LightList:
             self._native.clear_lights()
             self._at = {}
             if towards is not None:
-                self._native.add_directional_light(color, lux, towards)
+                self._add_native(color, lux, _HEADLIGHT)
+                self._native.turn_light(0, towards)
         elif towards is not None:
             self._native.turn_light(0, towards)
         self._listed = listed
@@ -134,21 +136,22 @@ class LightList:
         color = shading_color(light.color, self._color_space)
         color = [component * light.intensity for component in color]
         lux = color if light.unit == "photometric" else [math.pi * component for component in color]
-        if isinstance(light, DirectionalLight):
-            self._native.add_directional_light(color, lux, (0.0, 0.0, 1.0))
-        elif isinstance(light, SpotLight):
-            light.check()
-            self._native.add_spot_light(color, lux, light.range, *light.cone())
-        else:
-            light.check()
-            falloff = FALLOFFS[light.falloff]
-            self._native.add_point_light(color, lux, (0.0, 0.0, 0.0), light.range, falloff)
+        light.check()
+        self._add_native(color, lux, light)
+
+    def _add_native(self, color, lux, light) -> None:
+        """Add a light; what its kind does not have is as with those that reach everywhere."""
+        falloff = FALLOFFS[getattr(light, "falloff", "gltf")]
+        cone = light.cone() if hasattr(light, "cone") else (0.0, 0.0)
+        reach = getattr(light, "range", math.inf)
+        kind = LIGHT_KINDS[light.kind]
+        self._native.add_light(kind, color, lux, range=reach, falloff=falloff, cone=cone)
 
     def placed(self) -> list[tuple]:
         """Return the lights that show: number, light, and the pair of where it shines from.
 
-        That is the unit direction towards a directional or spot light, and the place of a point or
-        spot light; else None.
+        That is the unit direction towards a light that is turned, and the place of one that has a
+        position; else None.
         """
         return [(number, *at) for number, at in sorted(self._at.items())]
 
@@ -159,14 +162,15 @@ class LightList:
     def _place(self, number: int, light, pose: list[float]) -> None:
         """Put a light where the first three rows of its world pose say."""
         towards, position = None, None
-        if isinstance(light, DirectionalLight):
-            x, y, z = light.direction.tolist()
-            towards = [-(pose[k] * x + pose[k + 1] * y + pose[k + 2] * z) for k in (0, 4, 8)]
-        else:
+        traits = LIGHT_TRAITS[light.kind]
+        if traits.has_position:
             position = pose[3::4]
             self._native.move_light(number, position)
-        if isinstance(light, SpotLight):
-            towards = [pose[2], pose[6], pose[10]]
+            if traits.is_turned:
+                towards = [pose[2], pose[6], pose[10]]
+        else:
+            x, y, z = light.direction.tolist()
+            towards = [-(pose[k] * x + pose[k + 1] * y + pose[k + 2] * z) for k in (0, 4, 8)]
         if towards is not None:
             towards = normalize(towards)
             self._native.turn_light(number, towards)

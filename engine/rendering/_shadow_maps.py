@@ -10,18 +10,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .._native.rasterizer import CULLS, find_shadow_ranges, shadow_ranges_side
-from ..scene.lights import DirectionalLight, SpotLight
+from .._native.rasterizer import CULLS, LIGHT_TRAITS, find_shadow_ranges, shadow_ranges_side
 from ._lamps import lamp_slots
 from ._memo import Memo
 from ._pass import Pass, Picture, Tools
-from ._shadow_views import (
-    MapView,
-    ShadowViews,
-    directional_views,
-    point_views,
-    spot_views,
-)
+from ._shadow_views import VIEWS, MapView, ShadowViews
 from ._view import View
 from .casters import placed_casters
 from .options import shows_light
@@ -118,12 +111,13 @@ class ShadowMaps(Pass):
 
     def _views_of(self, number: int, light, pose: tuple, bounds, view: View) -> ShadowViews | None:
         """From where a light's maps are drawn: as before, if nothing that decides it changed."""
-        seen_by = view if isinstance(light, DirectionalLight) else None
+        layout = LIGHT_TRAITS[light.kind].maps
+        seen_by = view if layout == "cascades" else None
         found_from = light, light.version, pose, bounds.tobytes(), seen_by
         known = self._found.get(number)
         if known is None or known[0] != found_from:
             light.check()
-            known = self._found[number] = found_from, _find_views(light, pose, bounds, view)
+            known = self._found[number] = found_from, VIEWS[layout](light, pose, bounds, view)
         return known[1]
 
     def _update_light(self, number: int, light, views: ShadowViews, moment: tuple) -> None:
@@ -168,13 +162,3 @@ class ShadowMaps(Pass):
             self._drawn += 1
             drawn.casters.done()
         drawn.moment.done()
-
-
-def _find_views(light, pose: tuple, bounds: np.ndarray, view: View) -> ShadowViews | None:
-    """From where a light's maps are drawn; ``pose`` as `LightList.placed` has it."""
-    towards, position = pose
-    if isinstance(light, DirectionalLight):
-        return directional_views(light, towards, bounds, view)
-    if isinstance(light, SpotLight):
-        return spot_views(light, towards, position, bounds)
-    return point_views(light, position, bounds)

@@ -35,6 +35,7 @@ _FACES = (
 )
 
 Axes = NDArray[np.float64]
+Pose = tuple[Sequence[float], Sequence[float]]  # of a light, as `LightList.placed` has it
 
 
 class MapView(NamedTuple):
@@ -180,16 +181,14 @@ def _sphere(points: list[NDArray[np.float64]]) -> tuple[NDArray[np.float64], flo
     return middle, max(length(p - middle) for p in points)
 
 
-def directional_views(
-    light, to_light: Sequence[float], bounds: NDArray[np.float64], view: View
-) -> ShadowViews:
-    """The maps of a directional light.
+def _cascades(light, pose: Pose, bounds: NDArray[np.float64], view: View) -> ShadowViews:
+    """The maps of a light that is infinitely far away.
 
     The last map shows the whole scene, each before it a sphere around a part of what the camera
     sees, whichever way it looks, where that is smaller. It moves by whole texels, so that edges
     stay where they are. Along the light it reaches from the first thing of the scene to the last.
     """
-    axes = _axes_along(tuple(-part for part in to_light))
+    axes = _axes_along(tuple(-part for part in pose[0]))
     size, margin = light.shadow_map_size, light._shadow_margin()
     sides, downs, depths = (_extent(axis, bounds) for axis in axes)
     step = _rounded_up(depths[1] - depths[0], 1) / 32.0
@@ -269,10 +268,9 @@ def _local_views(
     return ShadowViews(maps, places, all_axes[0], depth, margin)
 
 
-def spot_views(
-    light, to_light: Sequence[float], position: Sequence[float], bounds: NDArray[np.float64]
-) -> ShadowViews | None:
+def _ahead(light, pose: Pose, bounds: NDArray[np.float64], view: View) -> ShadowViews | None:
     """The map of a spot light, which shows its cone; None where there is nothing in front of it."""
+    to_light, position = pose
     axes = _axes_along(tuple(-part for part in to_light))
     here = _dot(axes[2], np.asarray(position, np.float64))
     nearest, farthest = (depth - here for depth in _extent(axes[2], bounds))
@@ -285,10 +283,9 @@ def spot_views(
     return _local_views(light, position, [axes], tangent, between)
 
 
-def point_views(
-    light, position: Sequence[float], bounds: NDArray[np.float64]
-) -> ShadowViews | None:
-    """The six maps of a point light; None where there is nothing."""
+def _cube(light, pose: Pose, bounds: NDArray[np.float64], view: View) -> ShadowViews | None:
+    """The six maps around a light; None where there is nothing."""
+    position = pose[1]
     low, high = np.asarray(position) - bounds[0], bounds[1] - np.asarray(position)
     farthest = float(max(low.max(), high.max()))
     nearest = -float(min(low.min(), high.min()))  # positive where the light is outside of the box
@@ -298,3 +295,7 @@ def point_views(
     return _local_views(
         light, position, [np.array(axes, np.float64) for axes in _FACES], 1.0, between
     )
+
+
+#: From where the maps of a light are drawn, by their layout: its pose, the scene's box, the camera.
+VIEWS = {"cascades": _cascades, "cube": _cube, "ahead": _ahead}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TypeAlias, get_args
+from typing import Any, TypeAlias, get_args
 
 from .._support.numbers import shown
 from .._support.validation import (
@@ -56,6 +56,12 @@ class CastsShadows(Closed):
     shadow_normal_bias: NumberAttribute = CheckedAttribute(finite)
     shadow_radius: NumberAttribute = CheckedAttribute(_radius)
     shadow_taps: TapsAttribute = CheckedAttribute(one_of(TAPS))
+
+    def _keep(self, arguments: dict[str, Any]) -> None:
+        """Keep the arguments of a constructor: each is the attribute of its name."""
+        for name, value in arguments.items():
+            if name != "self":
+                setattr(self, name, value)
 
     def _check_shadow(self) -> None:
         """Raise unless the comparisons around a sample fit into the map."""

@@ -56,7 +56,20 @@ def _angle(value: float, what: str) -> float:
     return limited_angle(value, what, math.pi / 2, "from 0 to pi/2 radians")
 
 
-class DirectionalLight(CastsShadows):
+class DirectLight(CastsShadows):
+    """Base of lights that shine from one side: what all of them have."""
+
+    color: ColorAttribute = CheckedAttribute(check_color)
+    intensity: NumberAttribute = CheckedAttribute(not_negative)
+    unit: UnitAttribute = CheckedAttribute(one_of(UNITS))
+
+    @property
+    def kind(self) -> str:
+        """What the core and files call such a light: a name of `DIRECT_LIGHTS`."""
+        return next(name for name, kind in DIRECT_LIGHTS.items() if isinstance(self, kind))
+
+
+class DirectionalLight(DirectLight):
     """A light infinitely far away, such as the sun.
 
     Parameters
@@ -101,9 +114,6 @@ class DirectionalLight(CastsShadows):
 
     version: int
     direction: VectorAttribute = CheckedAttribute(_direction)
-    color: ColorAttribute = CheckedAttribute(check_color)
-    intensity: NumberAttribute = CheckedAttribute(not_negative)
-    unit: UnitAttribute = CheckedAttribute(one_of(UNITS))
     shadow_cascades: CountAttribute = CheckedAttribute(count_of(1, 8))
 
     def __init__(
@@ -121,17 +131,7 @@ class DirectionalLight(CastsShadows):
         shadow_taps: ShadowTaps = 3,
         shadow_cascades: int = 4,
     ) -> None:
-        self.direction = direction
-        self.color = color
-        self.intensity = intensity
-        self.unit = unit
-        self.shadow = shadow
-        self.shadow_map_size = shadow_map_size
-        self.shadow_bias = shadow_bias
-        self.shadow_normal_bias = shadow_normal_bias
-        self.shadow_radius = shadow_radius
-        self.shadow_taps = shadow_taps
-        self.shadow_cascades = shadow_cascades
+        self._keep(locals())
         self.check()
 
     def check(self) -> None:
@@ -167,7 +167,7 @@ class DirectionalLight(CastsShadows):
         return f"DirectionalLight({direction}, color={self.color}, intensity={self.intensity:g})"
 
 
-class PointLight(CastsShadows):
+class PointLight(DirectLight):
     """A light that shines from one point in all directions.
 
     Parameters
@@ -198,9 +198,6 @@ class PointLight(CastsShadows):
     """
 
     version: int
-    color: ColorAttribute = CheckedAttribute(check_color)
-    intensity: NumberAttribute = CheckedAttribute(not_negative)
-    unit: UnitAttribute = CheckedAttribute(one_of(UNITS))
     range: NumberAttribute = CheckedAttribute(_range)
     falloff: CheckedAttribute[Falloff, Falloff] = CheckedAttribute(one_of(FALLOFFS))
 
@@ -219,17 +216,7 @@ class PointLight(CastsShadows):
         shadow_radius: float = 1.0,
         shadow_taps: ShadowTaps = 3,
     ) -> None:
-        self.color = color
-        self.intensity = intensity
-        self.range = range
-        self.falloff = falloff
-        self.unit = unit
-        self.shadow = shadow
-        self.shadow_map_size = shadow_map_size
-        self.shadow_bias = shadow_bias
-        self.shadow_normal_bias = shadow_normal_bias
-        self.shadow_radius = shadow_radius
-        self.shadow_taps = shadow_taps
+        self._keep(locals())
         self.check()
 
     def check(self) -> None:
@@ -245,7 +232,7 @@ class PointLight(CastsShadows):
         )
 
 
-class SpotLight(CastsShadows):
+class SpotLight(DirectLight):
     """A light that shines from one point into a cone, along the -Z of its node.
 
     As KHR_lights_punctual has it: all of it inside of the inner cone, nothing outside of the outer
@@ -278,9 +265,6 @@ class SpotLight(CastsShadows):
     """
 
     version: int
-    color: ColorAttribute = CheckedAttribute(check_color)
-    intensity: NumberAttribute = CheckedAttribute(not_negative)
-    unit: UnitAttribute = CheckedAttribute(one_of(UNITS))
     range: NumberAttribute = CheckedAttribute(_range)
     inner_cone_angle: NumberAttribute = CheckedAttribute(_angle)
     outer_cone_angle: NumberAttribute = CheckedAttribute(_angle)
@@ -301,18 +285,7 @@ class SpotLight(CastsShadows):
         shadow_radius: float = 1.0,
         shadow_taps: ShadowTaps = 3,
     ) -> None:
-        self.color = color
-        self.intensity = intensity
-        self.range = range
-        self.inner_cone_angle = inner_cone_angle
-        self.outer_cone_angle = outer_cone_angle
-        self.unit = unit
-        self.shadow = shadow
-        self.shadow_map_size = shadow_map_size
-        self.shadow_bias = shadow_bias
-        self.shadow_normal_bias = shadow_normal_bias
-        self.shadow_radius = shadow_radius
-        self.shadow_taps = shadow_taps
+        self._keep(locals())
         self.check()
 
     def check(self) -> None:
@@ -337,5 +310,11 @@ class SpotLight(CastsShadows):
         )
 
 
-LIGHTS = (DirectionalLight, PointLight, SpotLight, *AMBIENT_LIGHTS)
+#: By what the core and files call them.
+DIRECT_LIGHTS: dict[str, type[DirectLight]] = {
+    "directional": DirectionalLight,
+    "point": PointLight,
+    "spot": SpotLight,
+}
+LIGHTS = (*DIRECT_LIGHTS.values(), *AMBIENT_LIGHTS)
 Light: TypeAlias = DirectionalLight | PointLight | SpotLight | HemisphereLight | LightProbe

@@ -15,12 +15,10 @@ import numpy as np
 
 from .ambient_lights import HemisphereLight, LightProbe
 from .cameras import Camera, IntrinsicsCamera, OrthographicCamera, PerspectiveCamera
-from .lights import DirectionalLight, PointLight, SpotLight
+from .lights import DIRECT_LIGHTS
 
 KINDS: dict[str, type] = {
-    "directional light": DirectionalLight,
-    "point light": PointLight,
-    "spot light": SpotLight,
+    **{f"{name} light": light for name, light in DIRECT_LIGHTS.items()},
     "hemisphere light": HemisphereLight,
     "light probe": LightProbe,
     "perspective camera": PerspectiveCamera,

@@ -29,8 +29,9 @@ from ..loaders.tree_posing import shown_nodes
 from ..materials.material import Material
 from .cameras import Camera, OrthographicCamera, PerspectiveCamera
 from .instances import InstancedMesh
-from .lights import DirectionalLight, Light, PointLight, SpotLight
+from .lights import DIRECT_LIGHTS, Light, PointLight
 from .nodes import Node
+from .object_kinds import parameters
 from .scene import Scene
 
 if TYPE_CHECKING:
@@ -322,12 +323,10 @@ def _camera(record: LensRecord) -> Camera:
 
 
 def _light(record: LampRecord) -> Light:
-    if record.kind == "directional":
-        return DirectionalLight(color=record.color, intensity=record.intensity)
-    if record.kind == "point":
-        falloff = "inverse_square" if math.isinf(record.range) else "gltf"
-        return PointLight(record.color, record.intensity, record.range, falloff)
-    if record.kind == "spot":
-        angles = record.inner_cone_angle, record.outer_cone_angle
-        return SpotLight(record.color, record.intensity, record.range, *angles)
-    raise InvalidArgumentError(f"no light is known of the kind {shown(record.kind)}")
+    light = DIRECT_LIGHTS.get(record.kind)
+    if light is None:
+        raise InvalidArgumentError(f"no light is known of the kind {shown(record.kind)}")
+    held = {name: getattr(record, name) for name in parameters(light) if hasattr(record, name)}
+    if light is PointLight:
+        held["falloff"] = "inverse_square" if math.isinf(record.range) else "gltf"
+    return light(**held)

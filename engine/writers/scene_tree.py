@@ -39,6 +39,7 @@ from ..scene.scene import Scene
 from ..scene.tree_records import FURTHER_PART, records
 
 _LIGHTS = (DirectionalLight, PointLight, SpotLight)
+_REACH = ("range", "inner_cone_angle", "outer_cone_angle")  # of those that have it
 _IDENTITY = {"translation": (0.0, 0.0, 0.0), "rotation": (0.0, 0.0, 0.0, 1.0)}
 _IDENTITY["scale"] = (1.0, 1.0, 1.0)
 
@@ -387,14 +388,9 @@ def _lamp(light) -> LampRecord:
     color = tuple(map(float, light.color))
     if not all(isinstance(part, float) for part in light.color):
         color = tuple(map(float, linear_color(light.color)))
+    held = {name: getattr(light, name) for name in _REACH if hasattr(light, name)}
     common = {"name": came.name, "color": color, "extras": came.extras}
-    if isinstance(light, DirectionalLight):
-        return LampRecord("directional", intensity=light.intensity, **common)
-    common |= {"intensity": light.intensity, "range": light.range}
-    if isinstance(light, PointLight):
-        return LampRecord("point", **common)
-    angles = light.inner_cone_angle, light.outer_cone_angle
-    return LampRecord("spot", **common, inner_cone_angle=angles[0], outer_cone_angle=angles[1])
+    return LampRecord(light.kind, intensity=light.intensity, **common, **held)
 
 
 def _across(direction: np.ndarray) -> tuple[float, float, float]:

@@ -105,7 +105,7 @@ def compare(shadow, depths, x, y, z, number):
 
 
 def reached_by(light, maps, depths, position, normal, direction):
-    shadow = light["shadow"]
+    shadow = light["shadow"]["maps"]
     of = maps[shadow["first"] : shadow["first"] + shadow["count"]]
     used = depths[: shadow["count"] * shadow["size"] ** 2]
     cosine = dot(normal, direction)
@@ -144,11 +144,12 @@ def random_maps(rng, lights):
     depths = np.ascontiguousarray(np.repeat(patches, 8, axis=1).ravel().astype(np.float32))
     maps = []
     for number, light in enumerate(lights):
-        shadow = light["shadow"]
+        shadow = light["shadow"]["maps"]
         count = {DIRECTIONAL: int(rng.integers(1, 4)), POINT: 6, SPOT: 1}[int(light["kind"])]
         taps = (1, 3, 5)[number % 3]
         axes = np.linalg.qr(rng.normal(size=(3, 3)))[0]
-        shadow["kind"], shadow["first"], shadow["count"] = 1, len(maps), count
+        light["shadow"]["kind"] = 1
+        shadow["first"], shadow["count"] = len(maps), count
         shadow["size"], shadow["taps"] = rng.integers(40, SIDE + 1), taps
         shadow["step"] = 256 if rng.random() < 0.6 else rng.integers(0, 700)
         shadow["bias"], shadow["normal_bias"] = rng.uniform(-0.1, 0.1, 2)
@@ -170,7 +171,7 @@ def give_ranges(lights, depths):
     """Gives the maps of lights their ranges, which are returned."""
     held = []
     for light in lights:
-        shadow = light["shadow"]
+        shadow = light["shadow"]["maps"]
         size, count = int(shadow["size"]), int(shadow["count"])
         side = shadow_ranges_side(size)
         ranges = np.empty((count, side, side), np.uint32)

@@ -241,6 +241,12 @@ def test_stages_ask_what_is_planned_and_not_what_was_asked_for():
     assert files == {"pipeline/pass/plan.c", "pipeline/pass/plan.h"}
 
 
+def test_lights_are_told_apart_by_their_traits_alone():
+    kinds = set(re.findall(r"\bX\((E3D_LIGHT_\w+),", SOURCES["include/e3d_light.h"]))
+    assert len(kinds) >= 3
+    assert {name for name, code in CODE.items() if words(code) & kinds} == {"include/e3d_light.h"}
+
+
 def test_no_macro_is_an_enumerator_too():
     # Files that no other includes keep their names to themselves.
     shared = [CODE[name] for name in CODE if not name.endswith(".c")]

@@ -289,7 +289,7 @@ def maps_of(renderer, scene, camera, pose):
     towards, _ = renderer._draw_list.lights.placed()[0][2]
     light = renderer._draw_list.lights.placed()[0][1]
     view = renderer._viewpoint.look(scene, (camera, pose), renderer.width, renderer.height)
-    views = _shadow_views.directional_views(light, towards, scene.bounds, view)
+    views = _shadow_views.VIEWS["cascades"](light, (towards, None), scene.bounds, view)
     return kept.depths.copy(), views
 
 

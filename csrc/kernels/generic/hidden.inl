@@ -322,12 +322,13 @@ static vmask hidden_point(hidden_lanes *at, const e3d_caster_light *caster_light
 static ALWAYS_INLINE vmask hidden_from(hidden_lanes *at, const e3d_lighting *lighting, const e3d_caster_light *caster_light, const vf32 normal[3])
 {
     const e3d_light *light = &lighting->lights[caster_light->number];
+    int has_position = e3d_light_traits_of(light->kind).has_position;
     vf32 l[3], attenuation = v_setf(1.0f), zero = v_setf(0.0f);
     vmask lanes = v_eqi(v_iota(), v_iota());
     at->has_plane = 0;
     for (int c = 0; c < 3; c++)
         l[c] = at->towards[c] = v_setf(light->to_light[c]);
-    if (light->kind != E3D_LIGHT_DIRECTIONAL) {
+    if (has_position) {
         lanes = light_towards(lighting, caster_light->number, at->position, 0, l, &attenuation);
         for (int c = 0; c < 3; c++)
             at->towards[c] = v_sub(v_setf(light->position[c]), at->position[c]);
@@ -335,7 +336,7 @@ static ALWAYS_INLINE vmask hidden_from(hidden_lanes *at, const e3d_lighting *lig
     lanes = v_mand(lanes, v_mand(v_gt(dot_three(normal, l), zero), v_gt(attenuation, zero)));
     if (!v_any(lanes))
         return lanes;
-    return light->kind == E3D_LIGHT_DIRECTIONAL ? hidden_directional(at, caster_light, light, lanes) : hidden_point(at, caster_light, lanes);
+    return has_position ? hidden_point(at, caster_light, lanes) : hidden_directional(at, caster_light, light, lanes);
 }
 
 static void kernel_hide(e3d_batch *batch, const e3d_lighting *lighting, const e3d_caster_index *index, const e3d_receivers *receivers)

@@ -32,7 +32,7 @@ static inline vf32 light_cone(const e3d_light *light, const vf32 l[3])
     return v_mul(t, t);
 }
 
-/* Finds the unit vector towards a point or spot light and its attenuation, in the way of R51 if by_product; returns the lanes within
+/* Finds the unit vector towards a light that has a position and its attenuation, in the way of R51 if by_product; returns the lanes within
  * its range. */
 static ALWAYS_INLINE vmask light_towards(const e3d_lighting *lighting, int n, const vf32 position[3], int by_product, vf32 l[3],
                                          vf32 *attenuation)
@@ -54,7 +54,7 @@ static ALWAYS_INLINE vmask light_towards(const e3d_lighting *lighting, int n, co
         vf32 window = light->falloff == E3D_FALLOFF_GLTF ? light_gltf_window(d2, lighting->reach[4][n]) : one;
         *attenuation = by_product ? v_mul(window, v_mul(inverse, inverse)) : v_div(window, d2);
     }
-    if (light->kind == E3D_LIGHT_SPOT)
+    if (e3d_light_traits_of(light->kind).emission == E3D_EMITS_CONE)
         *attenuation = v_mul(*attenuation, light_cone(light, l));
     return near;
 }
@@ -117,7 +117,7 @@ static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, const e
 {
     const e3d_light *light = &lighting->lights[n];
     vf32 l[3], attenuation = v_setf(1.0f);
-    if (light->kind == E3D_LIGHT_DIRECTIONAL) {
+    if (!e3d_light_traits_of(light->kind).has_position) {
         for (int k = 0; k < 3; k++)
             l[k] = v_setf(light->to_light[k]);
         if (varied)

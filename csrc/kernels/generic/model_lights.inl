@@ -73,7 +73,7 @@ static ALWAYS_INLINE int model_meet(const e3d_lighting *lighting, int n, const e
     vmask near = v_eq(zero, zero);
     load_three(batch->position, i, position);
     load_three(batch->normal, i, normal);
-    if (light->kind != E3D_LIGHT_DIRECTIONAL)
+    if (e3d_light_traits_of(light->kind).has_position)
         near = light_towards(lighting, n, position, 1, l, &attenuation);
     else
         for (int k = 0; k < 3; k++)

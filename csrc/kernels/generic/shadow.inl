@@ -32,13 +32,13 @@ static ALWAYS_INLINE vf32 shadow_sine(vf32 c)
 }
 
 /* R91: how far a sample moves along its normal, of which a texel is so wide there. */
-static ALWAYS_INLINE vf32 shadow_shift(const e3d_light_shadow *shadow, vf32 texel, vf32 sine)
+static ALWAYS_INLINE vf32 shadow_shift(const e3d_light_maps *shadow, vf32 texel, vf32 sine)
 {
     float reach = ((float)(shadow->step * (shadow->taps - 1)) * (1.0f / 512.0f) + 1.0f) * E3D_SHADOW_CORNER;
     return v_add(v_setf(shadow->normal_bias), v_mul(v_mul(v_setf(reach), texel), v_add(sine, v_setf(E3D_SHADOW_SLACK))));
 }
 
-static ALWAYS_INLINE vmask shadow_is_inside(const e3d_light_shadow *shadow, vf32 x, vf32 y)
+static ALWAYS_INLINE vmask shadow_is_inside(const e3d_light_maps *shadow, vf32 x, vf32 y)
 {
     vf32 low = v_setf(shadow->margin), high = v_setf((float)shadow->size - shadow->margin);
     vmask right = v_mand(v_ge(x, low), v_ge(high, x)), down = v_mand(v_ge(y, low), v_ge(high, y));
@@ -47,7 +47,7 @@ static ALWAYS_INLINE vmask shadow_is_inside(const e3d_light_shadow *shadow, vf32
 
 /* ---- where (R92) ---- */
 
-static ALWAYS_INLINE shadow_place shadow_place_directional(const e3d_light_shadow *shadow, const e3d_shadow_map *maps, const shadow_lanes *s)
+static ALWAYS_INLINE shadow_place shadow_place_cascades(const e3d_light_maps *shadow, const e3d_shadow_map *maps, const shadow_lanes *s)
 {
     shadow_place place;
     vf32 zero = v_setf(0.0f), scale = zero, texel = zero, x0 = zero, y0 = zero;
@@ -73,7 +73,7 @@ static ALWAYS_INLINE shadow_place shadow_place_directional(const e3d_light_shado
 }
 
 /* Of what is so far to the right, down and ahead of a light that shines from a point. */
-static ALWAYS_INLINE void shadow_project(const e3d_light_shadow *shadow, const e3d_shadow_map *map, const vf32 at[3], shadow_place *place)
+static ALWAYS_INLINE void shadow_project(const e3d_light_maps *shadow, const e3d_shadow_map *map, const vf32 at[3], shadow_place *place)
 {
     vf32 scale = v_setf(map->scale), near = v_div(v_setf(1.0f), v_max(at[2], v_setf(0x1p-100f)));
     place->x = v_add(v_mul(v_mul(at[0], near), scale), v_setf(map->x));
@@ -82,7 +82,7 @@ static ALWAYS_INLINE void shadow_project(const e3d_light_shadow *shadow, const e
     place->inside = v_mand(v_gt(at[2], v_setf(0.0f)), shadow_is_inside(shadow, place->x, place->y));
 }
 
-static ALWAYS_INLINE shadow_place shadow_place_spot(const e3d_light_shadow *shadow, const e3d_shadow_map *map, const shadow_lanes *s)
+static ALWAYS_INLINE shadow_place shadow_place_ahead(const e3d_light_maps *shadow, const e3d_shadow_map *map, const shadow_lanes *s)
 {
     shadow_place place;
     vf32 at[3], shift = shadow_shift(shadow, v_mul(s->at[2], v_setf(map->texel)), s->sine);
@@ -96,7 +96,7 @@ static ALWAYS_INLINE shadow_place shadow_place_spot(const e3d_light_shadow *shad
 static ALWAYS_INLINE vf32 shadow_abs(vf32 a) { return v_asf(v_andi(v_asi(a), v_seti(0x7FFFFFFF))); }
 
 /* The face of the cube, and what is to its right, down and ahead; `at` and `along` are in the world's axes. */
-static ALWAYS_INLINE shadow_place shadow_place_point(const e3d_light_shadow *shadow, const e3d_shadow_map *map, const shadow_lanes *s)
+static ALWAYS_INLINE shadow_place shadow_place_cube(const e3d_light_maps *shadow, const e3d_shadow_map *map, const shadow_lanes *s)
 {
     shadow_place place;
     vf32 zero = v_setf(0.0f), p[3], face[3];
@@ -128,7 +128,7 @@ static ALWAYS_INLINE vi32 shadow_compare(const float *depths, vi32 at, vf32 dept
 }
 
 /* Blends four comparisons about a place, in 1/256 texel. */
-static ALWAYS_INLINE vi32 shadow_tap(const e3d_light_shadow *shadow, vi32 base, vi32 x, vi32 y, vf32 depth)
+static ALWAYS_INLINE vi32 shadow_tap(const e3d_light_maps *shadow, vi32 base, vi32 x, vi32 y, vf32 depth)
 {
     vi32 all = v_seti(256), fx = v_andi(x, v_seti(255)), fy = v_andi(y, v_seti(255)), gx = v_subi(all, fx), one = v_seti(1);
     vi32 upper = v_addi(v_addi(base, v_muli(v_sra(y, 8), v_seti(shadow->size))), v_sra(x, 8)), lower = v_addi(upper, v_seti(shadow->size));
@@ -170,13 +170,13 @@ static ALWAYS_INLINE vi32 shadow_weigh(vi32 bits, const shadow_weights *x, const
 }
 
 /* What of the light sums of weights are. */
-static ALWAYS_INLINE vf32 shadow_share(const e3d_light_shadow *shadow, vi32 sum)
+static ALWAYS_INLINE vf32 shadow_share(const e3d_light_maps *shadow, vi32 sum)
 {
     return v_div(v_float(sum), v_setf((float)(65536 * shadow->taps * shadow->taps)));
 }
 
 /* Taps that are a texel apart share the comparisons between them: 3 x 3 are sixteen comparisons. */
-static ALWAYS_INLINE vf32 shadow_block(const e3d_light_shadow *shadow, vi32 at, vi32 x, vi32 y, vf32 depth)
+static ALWAYS_INLINE vf32 shadow_block(const e3d_light_maps *shadow, vi32 at, vi32 x, vi32 y, vf32 depth)
 {
     vi32 bits = v_ge16(shadow->depths, shadow->size, at, depth), all = v_seti(0xFFFF), low = v_seti(255);
     vmask none = v_eqi(bits, v_seti(0)), whole = v_eqi(bits, all);
@@ -187,7 +187,7 @@ static ALWAYS_INLINE vf32 shadow_block(const e3d_light_shadow *shadow, vi32 at, 
 }
 
 /* 5 x 5 taps: four such blocks, which overlap. */
-static ALWAYS_INLINE vf32 shadow_large_block(const e3d_light_shadow *shadow, vi32 at, vi32 x, vi32 y, vf32 depth)
+static ALWAYS_INLINE vf32 shadow_large_block(const e3d_light_maps *shadow, vi32 at, vi32 x, vi32 y, vf32 depth)
 {
     vi32 bits[4], every = v_seti(0xFFFF), some = v_seti(0), low = v_seti(255), sum = v_seti(0);
     for (int k = 0; k < 4; k++) {
@@ -207,7 +207,7 @@ static ALWAYS_INLINE vf32 shadow_large_block(const e3d_light_shadow *shadow, vi3
 
 /* R93: the column or row of the first tap in 1/256 texel, which lanes outside of the maps have somewhere inside. What is limited before
  * it is rounded need not be limited then: both limits are integers, and inside of 0 and the size. */
-static ALWAYS_INLINE vi32 shadow_first(const e3d_light_shadow *shadow, vf32 at, int32_t across)
+static ALWAYS_INLINE vi32 shadow_first(const e3d_light_maps *shadow, vf32 at, int32_t across)
 {
     int32_t least = 128 + across / 2, most = least + 256 * shadow->size - 257 - across;
     vf32 within = v_min(v_max(v_mul(at, v_setf(256.0f)), v_setf((float)least)), v_setf((float)most));
@@ -220,14 +220,14 @@ typedef struct shadow_taps {
     vf32 depth;
 } shadow_taps;
 
-static ALWAYS_INLINE shadow_taps shadow_taps_of(const e3d_light_shadow *shadow, const shadow_place *place)
+static ALWAYS_INLINE shadow_taps shadow_taps_of(const e3d_light_maps *shadow, const shadow_place *place)
 {
     int32_t across = shadow->step * (shadow->taps - 1);
     return (shadow_taps){shadow_first(shadow, place->x, across), shadow_first(shadow, place->y, across),
                          v_muli(place->map, v_seti(shadow->size * shadow->size)), place->depth};
 }
 
-static ALWAYS_INLINE vf32 shadow_blend(const e3d_light_shadow *shadow, const shadow_taps *taps)
+static ALWAYS_INLINE vf32 shadow_blend(const e3d_light_maps *shadow, const shadow_taps *taps)
 {
     int32_t step = shadow->step;
     vi32 x = taps->x, y = taps->y, sum = v_seti(0);
@@ -259,7 +259,7 @@ typedef struct shadow_sides {
 } shadow_sides;
 
 /* The block in which comparisons begin; `map` is the number of the map. */
-static ALWAYS_INLINE vi32 shadow_block_of(const e3d_light_shadow *shadow, vi32 map, vi32 x, vi32 y)
+static ALWAYS_INLINE vi32 shadow_block_of(const e3d_light_maps *shadow, vi32 map, vi32 x, vi32 y)
 {
     enum { TO_BLOCK = 8 + E3D_SHADOW_BLOCK_SHIFT };
     int32_t side = (shadow->size + (1 << E3D_SHADOW_BLOCK_SHIFT) - 1) >> E3D_SHADOW_BLOCK_SHIFT;
@@ -269,7 +269,7 @@ static ALWAYS_INLINE vi32 shadow_block_of(const e3d_light_shadow *shadow, vi32 m
     return v_addi(v_muli(row, v_seti(side)), v_sra(x, TO_BLOCK));
 }
 
-static ALWAYS_INLINE shadow_sides shadow_sides_of(const e3d_light_shadow *shadow, vi32 block, vi32 code)
+static ALWAYS_INLINE shadow_sides shadow_sides_of(const e3d_light_maps *shadow, vi32 block, vi32 code)
 {
     vi32 range = v_gatheri(shadow->ranges, block);
     return (shadow_sides){v_gti(v_sra(v_shl(range, 16), 16), code), v_gti(code, v_sra(range, 16))};
@@ -279,10 +279,11 @@ static ALWAYS_INLINE shadow_sides shadow_sides_of(const e3d_light_shadow *shadow
 
 static ALWAYS_INLINE void shadow_turn(const e3d_light *light, const vf32 v[3], vf32 out[3])
 {
+    int turns = e3d_light_traits_of(light->kind).maps != E3D_MAPS_CUBE;
     for (int k = 0; k < 3; k++) {
-        const float *a = light->shadow.axes[k];
+        const float *a = light->shadow.maps.axes[k];
         const vf32 axis[3] = {v_setf(a[0]), v_setf(a[1]), v_setf(a[2])};
-        out[k] = light->kind == E3D_LIGHT_POINT ? v[k] : dot_three(v, axis);
+        out[k] = turns ? dot_three(v, axis) : v[k];
     }
 }
 
@@ -291,16 +292,28 @@ static ALWAYS_INLINE shadow_lanes shadow_lanes_of(const e3d_light *light, const 
 {
     shadow_lanes s; /* not cleared first: what is written so cannot be loaded at once */
     vf32 p[3];
+    int has_position = e3d_light_traits_of(light->kind).has_position;
     s.sine = shadow_sine(dot_three(normal, l));
     for (int k = 0; k < 3; k++) /* minus 0 is the position itself: a copy would take longer */
-        p[k] = v_sub(position[k], v_setf(light->kind == E3D_LIGHT_DIRECTIONAL ? 0.0f : light->position[k]));
+        p[k] = v_sub(position[k], v_setf(has_position ? light->position[k] : 0.0f));
     shadow_turn(light, p, s.at);
     shadow_turn(light, normal, s.along);
     return s;
 }
 
+static ALWAYS_INLINE shadow_place shadow_place_of(const e3d_light *light, const e3d_shadow_map *maps, const shadow_lanes *s)
+{
+    const e3d_light_maps *shadow = &light->shadow.maps;
+    switch (e3d_light_traits_of(light->kind).maps) {
+    case E3D_MAPS_CASCADES: return shadow_place_cascades(shadow, maps, s);
+    case E3D_MAPS_CUBE: return shadow_place_cube(shadow, maps, s);
+    case E3D_MAPS_AHEAD: break;
+    }
+    return shadow_place_ahead(shadow, maps, s);
+}
+
 /* R93 of the samples that are in a map; those of the others mean nothing. */
-static ALWAYS_INLINE vf32 shadow_share_of(const e3d_light_shadow *shadow, const shadow_place *place)
+static ALWAYS_INLINE vf32 shadow_share_of(const e3d_light_maps *shadow, const shadow_place *place)
 {
     shadow_taps taps = shadow_taps_of(shadow, place);
     if (shadow->ranges) {
@@ -316,12 +329,10 @@ static __attribute__((noinline)) vf32 shadow_map_reached(const e3d_lighting *lig
                                                          const vf32 l[3])
 {
     const e3d_light *light = &lighting->lights[n];
-    const e3d_light_shadow *shadow = &light->shadow;
+    const e3d_light_maps *shadow = &light->shadow.maps;
     const e3d_shadow_map *maps = lighting->shadows + shadow->first;
     shadow_lanes s = shadow_lanes_of(light, position, normal, l);
-    shadow_place place = light->kind == E3D_LIGHT_DIRECTIONAL ? shadow_place_directional(shadow, maps, &s)
-                         : light->kind == E3D_LIGHT_SPOT      ? shadow_place_spot(shadow, maps, &s)
-                                                              : shadow_place_point(shadow, maps, &s);
+    shadow_place place = shadow_place_of(light, maps, &s);
     return v_any(place.inside) ? v_self(place.inside, shadow_share_of(shadow, &place), v_setf(1.0f)) : v_setf(1.0f);
 }
 
@@ -372,7 +383,7 @@ static ALWAYS_INLINE void shadow_normals_at(const e3d_light *light, const e3d_sh
     out->cosine = dot_three(normal, l);
     out->sine = shadow_sine(out->cosine);
     shadow_turn(light, normal, out->along);
-    vf32 shift = shadow_shift(&light->shadow, v_setf(map->texel), out->sine), scale = v_setf(map->scale);
+    vf32 shift = shadow_shift(&light->shadow.maps, v_setf(map->texel), out->sine), scale = v_setf(map->scale);
     for (int k = 0; k < 3; k++)
         out->moved[k] = v_mul(out->along[k], shift);
     for (int k = 0; k < 2; k++)
@@ -380,7 +391,7 @@ static ALWAYS_INLINE void shadow_normals_at(const e3d_light *light, const e3d_sh
 }
 
 /* Of a light that has one map. */
-static ALWAYS_INLINE shadow_place shadow_place_single(const e3d_light_shadow *shadow, const e3d_shadow_map *map, const vf32 at[3],
+static ALWAYS_INLINE shadow_place shadow_place_single(const e3d_light_maps *shadow, const e3d_shadow_map *map, const vf32 at[3],
                                                       const vf32 moved[3])
 {
     vf32 scale = v_setf(map->scale), x = v_add(v_mul(at[0], scale), v_setf(map->x)), y = v_add(v_mul(at[1], scale), v_setf(map->y));
@@ -392,7 +403,7 @@ static ALWAYS_INLINE shadow_place shadow_place_single(const e3d_light_shadow *sh
                           .inside = shadow_is_inside(shadow, x, y)};
 }
 
-static ALWAYS_INLINE void shadow_add_places(const e3d_light_shadow *shadow, const shadow_place *place, vmask faces, int i, shadow_batch *out)
+static ALWAYS_INLINE void shadow_add_places(const e3d_light_maps *shadow, const shadow_place *place, vmask faces, int i, shadow_batch *out)
 {
     shadow_taps taps = shadow_taps_of(shadow, place);
     vmask counts = v_mand(place->inside, faces);
@@ -430,9 +441,9 @@ static ALWAYS_INLINE void shadow_find_batch(const e3d_light *light, const e3d_sh
         shadow_lanes s = {.along = {of.along[0], of.along[1], of.along[2]}, .sine = of.sine};
         shadow_load(batch->position, i, position);
         shadow_turn(light, position, s.at);
-        shadow_place place = light->shadow.count == 1 ? shadow_place_single(&light->shadow, maps, s.at, of.moved)
-                                                      : shadow_place_directional(&light->shadow, maps, &s);
-        shadow_add_places(&light->shadow, &place, faces, i, out);
+        shadow_place place = light->shadow.maps.count == 1 ? shadow_place_single(&light->shadow.maps, maps, s.at, of.moved)
+                                                      : shadow_place_cascades(&light->shadow.maps, maps, &s);
+        shadow_add_places(&light->shadow.maps, &place, faces, i, out);
     }
 }
 
@@ -447,7 +458,7 @@ static ALWAYS_INLINE void shadow_add_open(const shadow_batch *places, int from, 
 }
 
 /* What ranges tell: 1 and 0 where they do. The others are open. */
-static ALWAYS_INLINE void shadow_find_sides(const e3d_light_shadow *shadow, const shadow_batch *places, float *reached, shadow_open *open)
+static ALWAYS_INLINE void shadow_find_sides(const e3d_light_maps *shadow, const shadow_batch *places, float *reached, shadow_open *open)
 {
     open->count = 0;
     for (int k = 0; k < places->count; k++) {
@@ -464,7 +475,7 @@ static ALWAYS_INLINE void shadow_find_sides(const e3d_light_shadow *shadow, cons
 }
 
 /* Compares those that are open. */
-static ALWAYS_INLINE void shadow_compare_open(const e3d_light_shadow *shadow, shadow_open *open, float *reached)
+static ALWAYS_INLINE void shadow_compare_open(const e3d_light_maps *shadow, shadow_open *open, float *reached)
 {
     v_storei(open->x + open->count, v_seti(0)); /* a place for the rest of the last vector */
     v_storei(open->y + open->count, v_seti(0));
@@ -493,8 +504,8 @@ static __attribute__((noinline)) void shadow_find_reached(const e3d_light *light
         shadow_find_batch(&of, maps, batch, 0, &places);
     for (int i = 0; i < batch->count; i += V_LANES)
         v_storef(reached + i, v_setf(1.0f));
-    shadow_find_sides(&of.shadow, &places, reached, &open);
-    shadow_compare_open(&of.shadow, &open, reached);
+    shadow_find_sides(&of.shadow.maps, &places, reached, &open);
+    shadow_compare_open(&of.shadow.maps, &open, reached);
 }
 
 /* The first directional lights that have maps: what of them reaches the samples of a batch. */
@@ -503,9 +514,9 @@ static inline void shadow_suns(const e3d_lighting *lighting, e3d_batch *batch)
     int found = 0;
     for (int n = 0; n < lighting->light_count && found < E3D_SUNS && lighting->shadows; n++) {
         const e3d_light *light = &lighting->lights[n];
-        if (light->kind != E3D_LIGHT_DIRECTIONAL || light->shadow.kind != E3D_SHADOW_MAP)
+        if (e3d_light_traits_of(light->kind).maps != E3D_MAPS_CASCADES || light->shadow.kind != E3D_SHADOW_MAP)
             continue;
-        shadow_find_reached(light, lighting->shadows + light->shadow.first, batch, batch->reached[found]);
+        shadow_find_reached(light, lighting->shadows + light->shadow.maps.first, batch, batch->reached[found]);
         batch->sun[found++] = n;
     }
     for (; found < E3D_SUNS; found++)
@@ -527,7 +538,7 @@ static ALWAYS_INLINE vf32 light_reached(const e3d_lighting *lighting, int n, con
 {
     const e3d_light_shadow *shadow = &lighting->lights[n].shadow;
     if (shadow->kind == E3D_SHADOW_EXACT) {
-        vi32 hidden = v_andi(v_loadi(batch->hidden_lights + i), v_seti((int32_t)(UINT32_C(1) << shadow->first)));
+        vi32 hidden = v_andi(v_loadi(batch->hidden_lights + i), v_seti((int32_t)(UINT32_C(1) << shadow->exact)));
         return v_self(v_eqi(hidden, v_seti(0)), v_setf(1.0f), v_setf(0.0f));
     }
     const float *found = shadow_found(batch, n);

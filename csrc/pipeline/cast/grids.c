@@ -55,7 +55,7 @@ static float most(const float v[3]) { return greater(greater(v[0], v[1]), v[2]);
 static void find_corners(void *argument, int task)
 {
     const grid_job *job = argument;
-    int directional = job->light->kind == E3D_LIGHT_DIRECTIONAL, k = job->out->axis;
+    int directional = !e3d_light_traits_of(job->light->kind).has_position, k = job->out->axis;
     const float *slope = job->out->slope, *at = job->light->position;
     int64_t end = ((int64_t)task + 1) * CASTERS_A_TASK;
     for (int64_t n = (int64_t)task * CASTERS_A_TASK; n < end && n < job->casters; n++)
@@ -76,7 +76,7 @@ static void leave_out_spared(const e3d_caster_faces *casters, const e3d_light *l
 {
     const e3d_caster_instance *instance = casters->instances.data;
     for (; instance->draw >= 0; instance++) {
-        if (!(casters->casters.draws[instance->draw].spared_lights >> light->shadow.first & 1))
+        if (!(casters->casters.draws[instance->draw].spared_lights >> light->shadow.exact & 1))
             continue;
         for (int64_t n = instance->first; n < instance[1].first; n++)
             corners[n][0] = NAN;
@@ -381,7 +381,7 @@ static void turn_to(const e3d_light *light, e3d_caster_light *out)
 
 int e3d_find_grids(const e3d_caster_faces *casters, const e3d_light *light, e3d_light_memory *memory, e3d_caster_light *out, int32_t threads)
 {
-    int tasks = tasks_of(casters->count, CASTERS_A_TASK), directional = light->kind == E3D_LIGHT_DIRECTIONAL;
+    int tasks = tasks_of(casters->count, CASTERS_A_TASK), directional = !e3d_light_traits_of(light->kind).has_position;
     memset(out->grids, 0, sizeof out->grids);
     if (directional)
         turn_to(light, out);

@@ -14,7 +14,7 @@
 static int has_local_light(const e3d_frame *frame)
 {
     for (int32_t n = 0; n < frame->light_count; n++)
-        if (frame->lights[n].kind != E3D_LIGHT_DIRECTIONAL)
+        if (e3d_light_traits_of(frame->lights[n].kind).has_position)
             return 1;
     for (int32_t m = 0; m < frame->material_count; m++)
         if (e3d_adds(frame->materials[m].specular) || frame->materials[m].is_physical)

@@ -69,7 +69,7 @@ static int find_lights(e3d_view *view, const e3d_frame *frame)
         lighting->reach[k] = rows + (size_t)k * room;
     for (size_t n = 0; n < room; n++) {
         const e3d_light *light = n < (size_t)frame->light_count ? &frame->lights[n] : NULL;
-        int point = light && light->kind != E3D_LIGHT_DIRECTIONAL;
+        int point = light && e3d_light_traits_of(light->kind).has_position;
         for (int k = 0; k < 3; k++)
             rows[(size_t)k * room + n] = point ? light->position[k] : 0.0f;
         rows[3 * room + n] = point ? light->range * light->range : NAN;

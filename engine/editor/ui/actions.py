@@ -8,7 +8,7 @@ from typing import Any
 from ... import primitives
 from ...scene.ambient_lights import HemisphereLight
 from ...scene.cameras import PerspectiveCamera
-from ...scene.lights import DirectionalLight, PointLight, SpotLight
+from ...scene.lights import DIRECT_LIGHTS
 from ...scene.nodes import Node
 from ..gizmo import on_ground
 from ..node_commands import (
@@ -31,9 +31,7 @@ ADDED: dict[str, Callable[[], Any]] = {
     "Cylinder": primitives.cylinder,
     "Torus": primitives.torus,
     "Plane": primitives.plane,
-    "Directional light": DirectionalLight,
-    "Point light": PointLight,
-    "Spot light": SpotLight,
+    **{f"{name.capitalize()} light": light for name, light in DIRECT_LIGHTS.items()},
     "Hemisphere light": HemisphereLight,
     "Camera": PerspectiveCamera,
 }

@@ -18,10 +18,9 @@ from ...materials.colors import split_alpha
 from ...materials.display_colors import display_color
 from ...materials.material import PARAMETERS, Material, textures_of
 from ...materials.parameters import FLAG, Parameter, TextureSlot
-from ...scene.ambient_lights import HemisphereLight, LightProbe
 from ...scene.cameras import Camera, OrthographicCamera, PerspectiveCamera
 from ...scene.instances import InstancedMesh
-from ...scene.lights import LIGHTS, DirectionalLight, Light, PointLight, SpotLight
+from ...scene.lights import LIGHTS, Light
 from ...scene.nodes import Node
 from ...scene.scene import Scene
 from ...scene.surroundings import MAX_EXPOSURE
@@ -39,7 +38,14 @@ _COLLIDERS = {
     "mesh": lambda mesh: MeshCollider(),
 }
 _KINDS = {BoxCollider: "box", SphereCollider: "sphere", MeshCollider: "mesh"}
-_SHADOWS = {False: "none", True: "map", "exact": "exact"}  # of lights
+# Of lights, as far as a kind has them; of numbers how fast they are dragged.
+_SHADOWS = {False: "none", True: "map", "exact": "exact"}
+_LIGHT_COLORS = {"sky_color": "Sky", "ground_color": "Ground", "color": "Colour"}
+_LIGHT_NUMBERS = {
+    "intensity": ("Intensity", 0.05),
+    "inner_cone_angle": ("Inner cone", 0.01),
+    "outer_cone_angle": ("Outer cone", 0.01),
+}
 
 
 class PropertiesPanel:
@@ -296,20 +302,17 @@ class PropertiesPanel:
     def _draw_light(self, light: Light) -> None:
         if not imgui.collapsing_header("Light", imgui.TreeNodeFlags_.default_open):
             return
-        if isinstance(light, HemisphereLight):
-            self._color(light, "sky_color", "Sky")
-            self._color(light, "ground_color", "Ground")
-        elif not isinstance(light, LightProbe):
-            self._color(light, "color", "Colour")
-        self._number(light, "intensity", "Intensity", 0.05, 0.0)
-        if isinstance(light, SpotLight):
-            self._number(light, "inner_cone_angle", "Inner cone", 0.01, 0.0)
-            self._number(light, "outer_cone_angle", "Outer cone", 0.01, 0.0)
-        if not isinstance(light, HemisphereLight | LightProbe):
+        for name, label in _LIGHT_COLORS.items():
+            if hasattr(light, name):
+                self._color(light, name, label)
+        for name, (label, speed) in _LIGHT_NUMBERS.items():
+            if hasattr(light, name):
+                self._number(light, name, label, speed, 0.0)
+        if hasattr(light, "shadow"):
             self._draw_shadow(light)
-        if isinstance(light, PointLight | SpotLight):
+        if hasattr(light, "range"):
             self._draw_range(light)
-        elif isinstance(light, DirectionalLight):
+        if hasattr(light, "direction"):
             direction = self._numbers("Direction", light.direction, 0.01)
             if direction is not None:
                 self._set([light], {"direction": direction})
@@ -323,12 +326,12 @@ class PropertiesPanel:
                 self._workspace.do(SetValues([light], {"shadow": shadow}))
         imgui.end_combo()
 
-    def _draw_range(self, light: PointLight | SpotLight) -> None:
+    def _draw_range(self, light: Light) -> None:
         """Lay out how far a light reaches; one that reaches everywhere gets the scene's size."""
         if math.isfinite(light.range):
             self._number(light, "range", "Range", 0.1, 0.001)
-        # A window ends at the range, so it needs one; spot lights have no window.
-        imgui.begin_disabled(isinstance(light, PointLight) and light.falloff == "window")
+        # A window ends at the range, so it needs one.
+        imgui.begin_disabled(getattr(light, "falloff", None) == "window")
         changed, endless = imgui.checkbox("Infinite range", not math.isfinite(light.range))
         imgui.end_disabled()
         if changed:

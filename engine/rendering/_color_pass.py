@@ -12,9 +12,6 @@ class ColorPass(Pass):
     reads = ("shadow_maps", "exact_shadows", "ambient_visibility")
     writes = tuple(OUTPUTS)
 
-    def is_in(self, options, outputs, read) -> bool:
-        return True
-
     def draw(self, picture: Picture) -> None:
         view, options = picture.view, picture.frame_options
         picture.drawn = self.tools.native.render(

@@ -100,18 +100,16 @@ class Pass:
     def __init__(self, tools: Tools) -> None:
         self.tools = tools
 
-    def is_in(self, options: RenderOptions, outputs: tuple[str, ...], read: set[str]) -> bool:
-        """Whether a picture has the pass: by default, if later ones read what it writes.
+    def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
+        """Whether a picture has the pass: by default, if what it writes is wanted.
 
         Parameters
         ----------
         options : RenderOptions
-        outputs : tuple of str
-            Of the frame.
-        read : set of str
-            What later passes of the picture read.
+        wanted : set of str
+            The frame's outputs, and what later passes of the picture read.
         """
-        return not read.isdisjoint(self.writes)
+        return not wanted.isdisjoint(self.writes)
 
     def arrays(self, width: int, height: int) -> Shapes:
         """Return the arrays that it needs, besides those that it reads."""

@@ -27,7 +27,7 @@ class Reader(Pass):
 
     reads = tuple(f"surface_{name}" for name in OUTPUTS)
 
-    def is_in(self, options, outputs, read):
+    def is_in(self, options, wanted):
         return True
 
     def draw(self, picture):

@@ -20,6 +20,7 @@ from .._native import rasterizer as _native
 from .._native.rasterizer import same_objects
 from .._support.calls import refuse_unknown
 from ..environments.environment import Environment
+from ..errors import InvalidArgumentError
 from ..materials.display_colors import display_color, exact_display_color, shading_color
 from ..scene.fog import Fog
 from ..scene.gradients import Gradient
@@ -36,7 +37,6 @@ from .options import (
     RenderOptions,
     check_outputs,
     core_numbers,
-    either,
     shows_light,
 )
 
@@ -226,9 +226,17 @@ class OptionsCache:
         TypeError
             No option has the name of a keyword.
         """
-        if not keywords and options is None:
-            return DEFAULTS
-        return either(options, self._of_keywords(keywords))
+        if options is None:
+            return self._of_keywords(keywords) if keywords else DEFAULTS
+        if not isinstance(options, RenderOptions):
+            given = type(options).__name__
+            raise InvalidArgumentError(f"options must be RenderOptions, not {given}")
+        if keywords and self._of_keywords(keywords) != DEFAULTS:
+            raise InvalidArgumentError(
+                "give options or keyword arguments, not both: "
+                "dataclasses.replace makes other options"
+            )
+        return options
 
     def _of_keywords(self, keywords: dict[str, Any]) -> RenderOptions:
         names = keywords.pop("outputs", DEFAULTS.outputs)

@@ -14,14 +14,13 @@ import numpy as np
 from . import options as limits
 from ._ambient_occlusion import AmbientOcclusion
 from ._bloom import Bloom
-from ._color_pass import ColorPass
 from ._exact_shadows import ExactShadows
 from ._frame_memory import Use
 from ._memo import Memo
+from ._output_passes import SURFACE, ColorPass, SurfacePass
 from ._output_pool import OutputPool, shapes_of
 from ._pass import Pass, Shapes, Tools
 from ._shadow_maps import ShadowMaps
-from ._surface_pass import SURFACE, SurfacePass
 from .frame import OUTPUTS
 from .options import RenderOptions
 

@@ -280,10 +280,9 @@ def core_numbers(options: RenderOptions) -> dict[str, float]:
     """Return the options that the core takes as they are, by the members of e3d_frame."""
     found = {}
     for one in fields(options):
-        core, numbers = one.metadata["core"], one.metadata["numbers"]
-        if core:
-            value = getattr(options, one.name)
-            found[core] = value if numbers is None else numbers[value]
+        value, numbers = getattr(options, one.name), one.metadata["numbers"]
+        if one.metadata["core"]:
+            found[one.metadata["core"]] = numbers[value] if numbers else value
     return found
 
 
@@ -305,22 +304,3 @@ def shows_options(function: Function) -> Function:
 def with_both_sides(options: RenderOptions) -> RenderOptions:
     """Return the options without culling of faces: the same object each time."""
     return replace(options, cull="none")
-
-
-def either(options: RenderOptions | None, keywords: RenderOptions) -> RenderOptions:
-    """Return the options that were given as such, or those that keyword arguments named.
-
-    Raises
-    ------
-    InvalidArgumentError
-        Both were given.
-    """
-    if options is None:
-        return keywords
-    if not isinstance(options, RenderOptions):
-        raise InvalidArgumentError(f"options must be RenderOptions, not {type(options).__name__}")
-    if keywords != DEFAULTS:
-        raise InvalidArgumentError(
-            "give options or keyword arguments, not both: dataclasses.replace makes other options"
-        )
-    return options

@@ -5,7 +5,7 @@ import pytest
 
 import engine3d as e3d
 from engine3d.rendering import _passes
-from engine3d.rendering._color_pass import ColorPass
+from engine3d.rendering._output_passes import ColorPass
 from engine3d.rendering._pass import Pass
 
 

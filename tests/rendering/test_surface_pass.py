@@ -5,9 +5,8 @@ import pytest
 import engine3d as e3d
 from engine3d import linalg
 from engine3d.rendering import _passes
-from engine3d.rendering._color_pass import ColorPass
+from engine3d.rendering._output_passes import ColorPass, SurfacePass
 from engine3d.rendering._pass import Pass
-from engine3d.rendering._surface_pass import SurfacePass
 
 OUTPUTS = ("ndc_depth", "depth", "world_position", "normal", "triangle_id", "object_id")
 

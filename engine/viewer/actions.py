@@ -11,15 +11,7 @@ from pathlib import Path
 
 from ..errors import Engine3DError
 from ..files.animation_files import numbered_path
-from .appearance import (
-    CULLINGS,
-    CULLS,
-    HIDDEN_SURFACES,
-    MODES,
-    TONE_MAPPINGS,
-    WIREFRAMES,
-    following,
-)
+from .appearance import CHOICES, following
 from .clips import play_clips
 from .debug_lines import DEBUG_DRAWINGS
 from .file_dialog import FolderPanel, RecentPanel
@@ -48,11 +40,17 @@ LEFT_OUT = {
 ISOMETRIC_ELEVATION = math.atan(1 / math.sqrt(2))
 
 
+def _cycle(viewer, option: str, step: int) -> None:
+    """Choose the next value of an option."""
+    appearance = viewer.view_renderer.appearance
+    value = following(getattr(appearance, option), CHOICES[option], step)
+    setattr(appearance, option, value)
+    viewer.say(f"{option.replace('_', ' ')}: {value or 'off'}")
+
+
 def cycle_wireframe(viewer, step: int) -> None:
     """Next of: no wireframe, over the faces, alone."""
-    appearance = viewer.view_renderer.appearance
-    appearance.wireframe = following(appearance.wireframe, WIREFRAMES, step)
-    viewer.say(f"wireframe: {appearance.wireframe or 'off'}")
+    _cycle(viewer, "wireframe", step)
 
 
 def toggle_edges(viewer, step: int) -> None:
@@ -64,9 +62,7 @@ def toggle_edges(viewer, step: int) -> None:
 
 def cycle_mode(viewer, step: int) -> None:
     """Next drawing mode."""
-    appearance = viewer.view_renderer.appearance
-    appearance.mode = following(appearance.mode, MODES, step)
-    viewer.say(f"mode: {appearance.mode}")
+    _cycle(viewer, "mode", step)
 
 
 def _toggle_mode(viewer, mode: str) -> None:
@@ -95,16 +91,12 @@ def toggle_flat(viewer, step: int) -> None:
 
 def cycle_cull(viewer, step: int) -> None:
     """Next of the faces to leave out: back, front, none."""
-    appearance = viewer.view_renderer.appearance
-    appearance.cull = following(appearance.cull, CULLS, step)
-    viewer.say(f"cull: {appearance.cull}")
+    _cycle(viewer, "cull", step)
 
 
 def cycle_hidden_surfaces(viewer, step: int) -> None:
     """Next way to remove hidden surfaces."""
-    appearance = viewer.view_renderer.appearance
-    appearance.hidden_surfaces = following(appearance.hidden_surfaces, HIDDEN_SURFACES, step)
-    viewer.say(f"hidden surfaces: {appearance.hidden_surfaces}")
+    _cycle(viewer, "hidden_surfaces", step)
 
 
 def cycle_lights(viewer, step: int) -> None:
@@ -281,9 +273,7 @@ def toggle_occlusion(viewer, step: int) -> None:
 
 def cycle_tone_mapping(viewer, step: int) -> None:
     """Next way in which light becomes what a screen can show."""
-    appearance = viewer.view_renderer.appearance
-    appearance.tone_mapping = following(appearance.tone_mapping, TONE_MAPPINGS, step)
-    viewer.say(f"tone mapping: {appearance.tone_mapping}")
+    _cycle(viewer, "tone_mapping", step)
 
 
 def toggle_split(viewer, step: int) -> None:
@@ -308,7 +298,7 @@ def toggle_textures(viewer, step: int) -> None:
 def cycle_culling(viewer, step: int) -> None:
     """Next of what is left out before it is drawn; the picture is the same."""
     appearance = viewer.view_renderer.appearance
-    appearance.culling = following(appearance.culling, CULLINGS, step)
+    appearance.culling = following(appearance.culling, CHOICES["culling"], step)
     viewer.say(f"culling {appearance.culling}: {LEFT_OUT[appearance.culling]}")
 
 

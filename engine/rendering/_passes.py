@@ -84,12 +84,7 @@ def _add_arrays(plan: Plan, one: Pass, size: tuple[int, int], uncounted: Shapes)
 
 
 class Passes:
-    """The passes of one renderer.
-
-    Parameters
-    ----------
-    tools : Tools
-    """
+    """The passes of one renderer."""
 
     def __init__(self, tools: Tools) -> None:
         self._memory = tools.memory

@@ -84,17 +84,10 @@ def _strength(value, what: str) -> float:
 
 
 def _option(default: Any, check: Callable, core: str = "", numbers: Mapping | None = None) -> Any:
-    """A row of `RenderOptions`.
+    """A row of `RenderOptions`: ``check(value, name)`` returns what to keep, or raises.
 
-    Parameters
-    ----------
-    default
-    check : callable
-        ``check(value, name)`` returns what to keep, or raises.
-    core : str
-        The member of e3d_frame that takes it; none where more than its value decides.
-    numbers : mapping, optional
-        What the core calls each value; by default the same.
+    ``core`` is the member of e3d_frame that takes it, if nothing else decides, and ``numbers`` what
+    each value is there.
     """
     return field(default=default, metadata={"check": check, "core": core, "numbers": numbers})
 

@@ -15,39 +15,15 @@ typedef struct number {
 #define FLOATS(member) {#member, offsetof(e3d_frame, member), sizeof(((e3d_frame *)0)->member) / sizeof(float), 1}
 
 static const number NUMBERS[] = {
-    INTEGER(mode),
-    INTEGER(cull),
-    INTEGER(wireframe),
-    INTEGER(hidden),
-    INTEGER(shading),
-    INTEGER(normals),
-    INTEGER(culling),
-    INTEGER(line_shape),
-    INTEGER(point_shape),
-    INTEGER(tone_mapping),
-    INTEGER(remove_hidden_lines),
-    INTEGER(transparent_outputs),
-    INTEGER(alpha_to_coverage),
-    FLOATS(line_width),
-    FLOATS(point_size),
-    FLOATS(line_color),
-    FLOATS(background),
-    INTEGER(gradient.shows),
-    FLOATS(gradient.top),
-    FLOATS(gradient.bottom),
-    INTEGER(encode_srgb),
-    INTEGER(decode_srgb),
-    FLOATS(ambient),
-    FLOATS(light_clamp),
-    FLOATS(exposure),
-    FLOATS(environment.cosine),
-    FLOATS(environment.sine),
-    FLOATS(environment.intensity),
-    FLOATS(backdrop.light.cosine),
-    FLOATS(backdrop.light.sine),
-    FLOATS(backdrop.light.intensity),
-    FLOATS(backdrop.level),
-};
+    INTEGER(mode), INTEGER(cull), INTEGER(wireframe), INTEGER(hidden), INTEGER(shading), INTEGER(normals),
+    INTEGER(culling), INTEGER(line_shape), INTEGER(point_shape), INTEGER(tone_mapping),
+    INTEGER(remove_hidden_lines), INTEGER(transparent_outputs), INTEGER(alpha_to_coverage),
+    FLOATS(line_width), FLOATS(point_size), FLOATS(line_color), FLOATS(background),
+    INTEGER(gradient.shows), FLOATS(gradient.top), FLOATS(gradient.bottom), INTEGER(encode_srgb),
+    INTEGER(decode_srgb), FLOATS(ambient), FLOATS(light_clamp), FLOATS(exposure),
+    FLOATS(environment.cosine), FLOATS(environment.sine), FLOATS(environment.intensity),
+    FLOATS(backdrop.light.cosine), FLOATS(backdrop.light.sine), FLOATS(backdrop.light.intensity),
+    FLOATS(backdrop.level)};
 
 static void set(void *to, const number *one, const double *values)
 {

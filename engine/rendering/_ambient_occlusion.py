@@ -67,8 +67,8 @@ class AmbientOcclusion(Pass):
     writes = ("ambient_visibility",)
     name, advice = "ambient occlusion", "ambient_occlusion=False"
 
-    def is_in(self, options, outputs, read) -> bool:
-        if not options.ambient_occlusion or options.mode != "lit" or not shows_light(outputs):
+    def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
+        if not options.ambient_occlusion or options.mode != "lit" or not shows_light(wanted):
             return False
         return options.wireframe != "only"
 

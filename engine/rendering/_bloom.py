@@ -9,6 +9,7 @@ import numpy as np
 
 from .._native import rasterizer as _native
 from ._pass import Pass, Picture, Shapes
+from .options import RenderOptions
 
 
 class Bloom(Pass):
@@ -18,8 +19,8 @@ class Bloom(Pass):
     writes = ("color",)
     name, advice = "bloom", "bloom=0"
 
-    def is_in(self, options, outputs, read) -> bool:
-        return options.bloom > 0 and options.mode in ("lit", "unlit") and "color" in outputs
+    def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
+        return options.bloom > 0 and options.mode in ("lit", "unlit") and "color" in wanted
 
     def arrays(self, width: int, height: int) -> Shapes:
         count = _native.bloom_scratch(width, height, self.tools.threads)

@@ -31,21 +31,11 @@ from ._view import View
 
 
 class Listing(NamedTuple):
-    """How a picture's objects are listed.
+    """How a picture's objects are listed."""
 
-    Attributes
-    ----------
-    needs : MeshNeeds
-        Which derived arrays the picture reads; which of the two kinds of normals a mesh needs is
-        decided for each mesh.
-    normals : {"auto", "smooth", "flat", "facet"}
-    by_mesh : bool
-        Materials of meshes that enclose no volume show both sides.
-    """
-
-    needs: MeshNeeds
+    needs: MeshNeeds  # which of the two kinds of normals a mesh needs is decided for each mesh
     normals: str
-    by_mesh: bool
+    by_mesh: bool  # materials of meshes that enclose no volume show both sides
 
 
 class DrawList:

@@ -18,7 +18,7 @@ from ._lamps import lamp_slots
 from ._memo import Memo
 from ._pass import Pass, Picture, Tools
 from .casters import placed_casters
-from .options import shows_light
+from .options import RenderOptions, shows_light
 
 _versions = itertools.count(1)
 
@@ -38,8 +38,8 @@ class ExactShadows(Pass):
         self._moment, self._casters = Memo(), Memo()  # when casters were listed, and which
         self._version = 0
 
-    def is_in(self, options, outputs, read) -> bool:
-        return options.mode == "lit" and shows_light(outputs)
+    def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
+        return options.mode == "lit" and shows_light(wanted)
 
     def draw(self, picture: Picture) -> None:
         draw_list, scene = self.tools.draw_list, picture.scene

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import operator
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
@@ -19,6 +20,7 @@ from .._native import rasterizer as _native
 from .._native.rasterizer import same_objects
 from .._support.calls import refuse_unknown
 from ..environments.environment import Environment
+from ..errors import InvalidArgumentError
 from ..materials.display_colors import display_color, exact_display_color, shading_color
 from ..scene.fog import Fog
 from ..scene.gradients import Gradient
@@ -35,7 +37,6 @@ from .options import (
     RenderOptions,
     check_outputs,
     core_numbers,
-    either,
     shows_light,
 )
 
@@ -94,24 +95,11 @@ class FrameOptions:
         self._listings: dict[tuple[str, ...], Listing] = {}
         encoded = options.mode in _ENCODED_MODES and color_space == "srgb"
         convert = shading_color if encoded else display_color
-        backdrop, gradient = None, {}
-        if isinstance(scene.background, Gradient):
-            background = (0.0, 0.0, 0.0, 1.0)
-            ends = scene.background.top, scene.background.bottom
-            top, bottom = (exact_display_color(color, color_space) for color in ends)
-            gradient = {"gradient.shows": True, "gradient.top": top, "gradient.bottom": bottom}
-        elif isinstance(scene.background, Environment):
-            background = (0.0, 0.0, 0.0, 1.0)
-            if options.mode in _ENCODED_MODES:
-                backdrop = native_environment(scene.background, threads)
-        elif scene.background is None:
-            background = (0.0, 0.0, 0.0, 0.0)
-        else:
-            background = (*convert(scene.background, color_space), 1.0)
-        environment = None
+        environment = backdrop = None
+        if isinstance(scene.background, Environment) and options.mode in _ENCODED_MODES:
+            backdrop = native_environment(scene.background, threads)
         if scene.environment is not None and options.mode == "lit":
             environment = native_environment(scene.environment, threads)
-        turn = scene.environment_rotation
         ambient = shading_color(scene.ambient, color_space)
         color = tuple(max(0.0, 1.0 - component) for component in ambient)
         lux = math.pi if environment is None else 0.0
@@ -120,23 +108,16 @@ class FrameOptions:
         point_size = options.pixels_of(options.point_size, height)
         self._numbers = core_numbers(options) | {"line_width": line_width, "point_size": point_size}
         self.native = _native.NativeOptions(
-            self._numbers
-            | {
+            {
+                **self._numbers,
+                **_background(scene, color_space, convert),
+                **_environment(scene),
                 "line_color": convert(options.line_color, color_space),
-                "background": background,
                 "encode_srgb": encoded,
                 "decode_srgb": color_space == "srgb",
                 "ambient": ambient,
                 "light_clamp": scene.light_clamp or _NO_CLAMP,
                 "exposure": 2.0**scene.exposure,
-                "environment.cosine": linalg.cos(turn),
-                "environment.sine": linalg.sin(turn),
-                "environment.intensity": scene.environment_intensity,
-                "backdrop.light.cosine": linalg.cos(turn),
-                "backdrop.light.sine": linalg.sin(turn),
-                "backdrop.light.intensity": scene.environment_intensity * 2.0**scene.exposure,
-                "backdrop.level": scene.background_blur * _MOST_BLURRED,
-                **gradient,
             },
             environment,
             backdrop,
@@ -178,6 +159,36 @@ class FrameOptions:
         )
 
 
+def _background(scene: Scene, color_space: str, convert: Callable) -> dict[str, Any]:
+    """What shows where nothing is drawn, as the core takes it; an environment comes beside."""
+    background = scene.background
+    if background is None:
+        return {"background": (0.0, 0.0, 0.0, 0.0)}
+    if isinstance(background, Environment):
+        return {"background": (0.0, 0.0, 0.0, 1.0)}
+    if isinstance(background, Gradient):
+        ends = background.top, background.bottom
+        top, bottom = (exact_display_color(color, color_space) for color in ends)
+        shown = {"gradient.shows": True, "gradient.top": top, "gradient.bottom": bottom}
+        return {"background": (0.0, 0.0, 0.0, 1.0), **shown}
+    return {"background": (*convert(background, color_space), 1.0)}
+
+
+def _environment(scene: Scene) -> dict[str, float]:
+    """How an environment is turned, how bright it is, and how blurred behind all, for the core."""
+    turn, intensity = scene.environment_rotation, scene.environment_intensity
+    cosine, sine = linalg.cos(turn), linalg.sin(turn)
+    return {
+        "environment.cosine": cosine,
+        "environment.sine": sine,
+        "environment.intensity": intensity,
+        "backdrop.light.cosine": cosine,
+        "backdrop.light.sine": sine,
+        "backdrop.light.intensity": intensity * 2.0**scene.exposure,
+        "backdrop.level": scene.background_blur * _MOST_BLURRED,
+    }
+
+
 def _fog(scene: Scene, color_space: str, options: RenderOptions):
     """A scene's fog as the core takes it: colours, depths and density; or None."""
     fog = scene.fog
@@ -215,9 +226,17 @@ class OptionsCache:
         TypeError
             No option has the name of a keyword.
         """
-        if not keywords and options is None:
-            return DEFAULTS
-        return either(options, self._of_keywords(keywords))
+        if options is None:
+            return self._of_keywords(keywords) if keywords else DEFAULTS
+        if not isinstance(options, RenderOptions):
+            given = type(options).__name__
+            raise InvalidArgumentError(f"options must be RenderOptions, not {given}")
+        if keywords and self._of_keywords(keywords) != DEFAULTS:
+            raise InvalidArgumentError(
+                "give options or keyword arguments, not both: "
+                "dataclasses.replace makes other options"
+            )
+        return options
 
     def _of_keywords(self, keywords: dict[str, Any]) -> RenderOptions:
         names = keywords.pop("outputs", DEFAULTS.outputs)

@@ -39,43 +39,19 @@ class Tools(NamedTuple):
 
 @dataclass(slots=True)
 class Picture:
-    """A picture that is being drawn.
-
-    Attributes
-    ----------
-    scene : Scene
-        The draw list is up to date with it.
-    options : RenderOptions
-    frame_options : FrameOptions
-    view : View
-    size : (int, int)
-        Width and height in pixels.
-    frozen_clip_from_world : (4, 4) float64 or None
-        Of the camera whose frustum holds what is drawn.
-    shadow_cull : {"none", "back", "front"}
-        Which faces cast no shadow.
-    targets : dict of str to array
-        The frame's outputs, and others that a pass reads.
-    arrays : dict of str to array
-        All else that passes declare.
-    depth_range : (float, float)
-        Metric depths that mode "depth" shows white and black.
-    shadow_maps : (int, int)
-        How many there are, and how many were drawn.
-    drawn : NativeStats or None
-    """
+    """A picture that is being drawn; the draw list is up to date with its scene."""
 
     scene: Scene
     options: RenderOptions
     frame_options: FrameOptions
     view: View
     size: tuple[int, int]
-    frozen_clip_from_world: NDArray[np.float64] | None
-    shadow_cull: FrameCull
-    targets: dict[str, np.ndarray] = field(init=False)
-    arrays: dict[str, np.ndarray] = field(init=False)
-    depth_range: tuple[float, float] = (0.0, 1.0)
-    shadow_maps: tuple[int, int] = (0, 0)
+    frozen_clip_from_world: NDArray[np.float64] | None  # the frustum that holds what is drawn
+    shadow_cull: FrameCull  # which faces cast no shadow
+    targets: dict[str, np.ndarray] = field(init=False)  # outputs: the frame's, and others
+    arrays: dict[str, np.ndarray] = field(init=False)  # all else that passes declare
+    depth_range: tuple[float, float] = (0.0, 1.0)  # white and black in mode "depth"
+    shadow_maps: tuple[int, int] = (0, 0)  # how many there are, and how many were drawn
     drawn: NativeStats | None = None
 
 
@@ -100,18 +76,16 @@ class Pass:
     def __init__(self, tools: Tools) -> None:
         self.tools = tools
 
-    def is_in(self, options: RenderOptions, outputs: tuple[str, ...], read: set[str]) -> bool:
-        """Whether a picture has the pass: by default, if later ones read what it writes.
+    def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
+        """Whether a picture has the pass: by default, if what it writes is wanted.
 
         Parameters
         ----------
         options : RenderOptions
-        outputs : tuple of str
-            Of the frame.
-        read : set of str
-            What later passes of the picture read.
+        wanted : set of str
+            The frame's outputs, and what later passes of the picture read.
         """
-        return not read.isdisjoint(self.writes)
+        return not wanted.isdisjoint(self.writes)
 
     def arrays(self, width: int, height: int) -> Shapes:
         """Return the arrays that it needs, besides those that it reads."""

@@ -14,14 +14,13 @@ import numpy as np
 from . import options as limits
 from ._ambient_occlusion import AmbientOcclusion
 from ._bloom import Bloom
-from ._color_pass import ColorPass
 from ._exact_shadows import ExactShadows
 from ._frame_memory import Use
 from ._memo import Memo
+from ._output_passes import SURFACE, ColorPass, SurfacePass
 from ._output_pool import OutputPool, shapes_of
 from ._pass import Pass, Shapes, Tools
 from ._shadow_maps import ShadowMaps
-from ._surface_pass import SURFACE, SurfacePass
 from .frame import OUTPUTS
 from .options import RenderOptions
 
@@ -41,6 +40,7 @@ class Plan(NamedTuple):
     """What pictures of the same options, outputs and size have in common."""
 
     passes: list[Pass]
+    listed: tuple[str, ...]  # outputs that draw lists are made for
     outputs: Shapes  # of the frame
     others: Shapes  # outputs that passes read, though the frame has them not
     arrays: Shapes  # of the passes
@@ -52,43 +52,39 @@ def plan_of(
 ) -> Plan:
     """Return which of the passes a picture has, and their arrays."""
     chosen: list[Pass] = []
-    read: set[str] = set()
+    wanted = set(outputs)
     for one in reversed(passes):
-        if one.is_in(options, outputs, read):
+        if one.is_in(options, wanted):
             chosen.insert(0, one)
-            read.update(one.reads)
-    plan = Plan(chosen, shapes_of(outputs, *size), {}, {}, [])
+            wanted.update(one.reads)
+    others = sorted(wanted.intersection(OUTPUTS).difference(outputs))
+    surfaces = {name.removeprefix(SURFACE) for name in wanted.intersection(SurfacePass.writes)}
+    listed = *outputs, *others, *sorted(surfaces.difference(outputs, others))
+    plan = Plan(chosen, listed, shapes_of(outputs, *size), shapes_of(others, *size), {}, [])
+    uncounted = dict(plan.others)
     for one in chosen:
-        _add_arrays(plan, one, size)
+        _add_arrays(plan, one, size, uncounted)
     return plan
 
 
-def _add_arrays(plan: Plan, one: Pass, size: tuple[int, int]) -> None:
-    """Add the arrays of a pass that no earlier one has."""
-    read = tuple(name for name in one.reads if name in OUTPUTS and name not in plan.outputs)
-    others = shapes_of(read, *size)
-    arrays = one.arrays(*size)
-    for name in one.reads:
-        if name.startswith(SURFACE):
-            arrays |= {name: shapes_of((name.removeprefix(SURFACE),), *size).popitem()[1]}
-    added = [
-        *(form for name, form in others.items() if name not in plan.others),
-        *(form for name, form in arrays.items() if name not in plan.arrays),
-    ]
-    if added:
-        bytes_of = (dtype.itemsize * math.prod(shape) for shape, dtype in added)
+def _add_arrays(plan: Plan, one: Pass, size: tuple[int, int], uncounted: Shapes) -> None:
+    """Add the arrays of a pass, and what it takes of memory: of what several read, the first."""
+    surfaces = {
+        name: shapes_of((name.removeprefix(SURFACE),), *size).popitem()[1]
+        for name in one.reads
+        if name.startswith(SURFACE)
+    }
+    arrays = one.arrays(*size) | surfaces
+    counted = [form for name, form in arrays.items() if name not in plan.arrays]
+    counted += [uncounted.pop(name) for name in one.reads if name in uncounted]
+    if counted:
+        bytes_of = (dtype.itemsize * math.prod(shape) for shape, dtype in counted)
         plan.uses.append(Use(sum(bytes_of), one.name, one.advice))
-    plan.others.update(others)
     plan.arrays.update(arrays)
 
 
 class Passes:
-    """The passes of one renderer.
-
-    Parameters
-    ----------
-    tools : Tools
-    """
+    """The passes of one renderer."""
 
     def __init__(self, tools: Tools) -> None:
         self._memory = tools.memory

@@ -16,24 +16,12 @@ from ._memo import Memo
 
 
 class Placing(NamedTuple):
-    """How a picture's nodes are selected and drawn.
+    """How a picture's nodes are selected and drawn."""
 
-    Attributes
-    ----------
-    frustum : (4, 4) float64 or None
-        clip_from_world of a camera: nodes outside of what it shows are left out.
-    marks : float
-        How far lines and points may reach beyond where they are, as a share of half the image.
-    flat : bool
-        What is outside of the frustum is found box by box, without the trees of boxes.
-    batching : bool
-        Nodes of one mesh are drawn as one.
-    """
-
-    frustum: np.ndarray | None = None
-    marks: float = 0.0
-    flat: bool = False
-    batching: bool = True
+    frustum: np.ndarray | None = None  # clip_from_world: what is outside is left out
+    marks: float = 0.0  # how far lines and points reach beyond, as a share of half the image
+    flat: bool = False  # boxes are tested one by one, without their trees
+    batching: bool = True  # nodes of one mesh are drawn as one
 
 
 class Placement:

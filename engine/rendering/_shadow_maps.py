@@ -17,7 +17,7 @@ from ._pass import Pass, Picture, Tools
 from ._shadow_views import VIEWS, MapView, ShadowViews
 from ._view import View
 from .casters import placed_casters
-from .options import shows_light
+from .options import RenderOptions, shows_light
 
 
 class _LightMaps:
@@ -76,8 +76,8 @@ class ShadowMaps(Pass):
         # From where each light's maps are drawn, by its number, and what that was found from.
         self._found: dict[int, tuple[tuple, ShadowViews | None]] = {}
 
-    def is_in(self, options, outputs, read) -> bool:
-        return options.mode == "lit" and shows_light(outputs)
+    def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
+        return options.mode == "lit" and shows_light(wanted)
 
     def draw(self, picture: Picture) -> None:
         scene, draw_list = picture.scene, self.tools.draw_list

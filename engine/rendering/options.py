@@ -84,17 +84,10 @@ def _strength(value, what: str) -> float:
 
 
 def _option(default: Any, check: Callable, core: str = "", numbers: Mapping | None = None) -> Any:
-    """A row of `RenderOptions`.
+    """A row of `RenderOptions`: ``check(value, name)`` returns what to keep, or raises.
 
-    Parameters
-    ----------
-    default
-    check : callable
-        ``check(value, name)`` returns what to keep, or raises.
-    core : str
-        The member of e3d_frame that takes it; none where more than its value decides.
-    numbers : mapping, optional
-        What the core calls each value; by default the same.
+    ``core`` is the member of e3d_frame that takes it, if nothing else decides, and ``numbers`` what
+    each value is there.
     """
     return field(default=default, metadata={"check": check, "core": core, "numbers": numbers})
 
@@ -280,10 +273,9 @@ def core_numbers(options: RenderOptions) -> dict[str, float]:
     """Return the options that the core takes as they are, by the members of e3d_frame."""
     found = {}
     for one in fields(options):
-        core, numbers = one.metadata["core"], one.metadata["numbers"]
-        if core:
-            value = getattr(options, one.name)
-            found[core] = value if numbers is None else numbers[value]
+        value, numbers = getattr(options, one.name), one.metadata["numbers"]
+        if one.metadata["core"]:
+            found[one.metadata["core"]] = numbers[value] if numbers else value
     return found
 
 
@@ -305,22 +297,3 @@ def shows_options(function: Function) -> Function:
 def with_both_sides(options: RenderOptions) -> RenderOptions:
     """Return the options without culling of faces: the same object each time."""
     return replace(options, cull="none")
-
-
-def either(options: RenderOptions | None, keywords: RenderOptions) -> RenderOptions:
-    """Return the options that were given as such, or those that keyword arguments named.
-
-    Raises
-    ------
-    InvalidArgumentError
-        Both were given.
-    """
-    if options is None:
-        return keywords
-    if not isinstance(options, RenderOptions):
-        raise InvalidArgumentError(f"options must be RenderOptions, not {type(options).__name__}")
-    if keywords != DEFAULTS:
-        raise InvalidArgumentError(
-            "give options or keyword arguments, not both: dataclasses.replace makes other options"
-        )
-    return options

@@ -208,7 +208,7 @@ class Renderer(Closed):
             size = self._width, self._height
             plan = self._passes.plan(options, options.outputs, size)
             headlight = (*frame_options.headlight, (0.0, 0.0, 1.0))
-            listing, census = frame_options.listing(options.outputs), scene._census()
+            listing, census = frame_options.listing(plan.listed), scene._census()
             try:
                 self._draw_list.update(scene, listing, headlight, Placing())
             except Exception as error:
@@ -289,7 +289,7 @@ class Renderer(Closed):
         frame = Frame(*size, self._pool.take(plan.outputs)) if out is None else out
         census, reads_scene = scene._census(), True
         try:
-            picture = self._look(scene, camera, options, outputs, culling_camera)
+            picture = self._look(scene, camera, options, plan.listed, culling_camera)
             picture.targets, picture.arrays = self._passes.arrays(plan, frame._outputs)
             for one in plan.passes:
                 reads_scene = "scene" in one.reads
@@ -308,7 +308,7 @@ class Renderer(Closed):
         scene: Scene,
         camera: CameraChoice,
         options: RenderOptions,
-        outputs: tuple[str, ...],
+        listed: tuple[str, ...],
         culling_camera: CameraChoice,
     ) -> Picture:
         """Bring the draw list up to date, and return what passes begin with."""
@@ -319,7 +319,7 @@ class Renderer(Closed):
         frustum = view.clip_from_world if chosen is None else chosen
         self._draw_list.update(
             scene,
-            frame_options.listing(outputs),
+            frame_options.listing(listed),
             (*frame_options.headlight, view.towards_viewer),
             frame_options.placing(frustum, size),
         )

@@ -12,15 +12,7 @@ from typing import Any, get_args
 
 from .. import linalg
 from .._support.calls import refuse_unknown
-from ..choices import (
-    Culling,
-    FrameCull,
-    HiddenSurfaces,
-    Mode,
-    OutputMode,
-    ToneMapping,
-    Wireframe,
-)
+from ..choices import Mode, OutputMode
 from ..environments.environment import Environment
 from ..geometry.mesh import Mesh
 from ..materials.colors import linear_color
@@ -29,11 +21,6 @@ from ..scene.gradients import Gradient
 from ..scene.instances import InstancedMesh
 
 MODES = (*get_args(Mode), *get_args(OutputMode))
-WIREFRAMES = (None, *get_args(Wireframe))
-CULLS = get_args(FrameCull)
-CULLINGS = get_args(Culling)
-HIDDEN_SURFACES = get_args(HiddenSurfaces)
-TONE_MAPPINGS = get_args(ToneMapping)
 DARK, LIGHT = (22, 24, 28), (225, 229, 236)
 #: Points are as large as this share of the distance from one to the next, were they spread evenly
 #: over the picture; but not smaller than one pixel of a picture this many pixels high, nor larger
@@ -50,6 +37,12 @@ DEFAULTS = {one.name: one.default for one in fields(RenderOptions) if one.name !
     "line_color": None,
     "point_size": None,
 }
+#: What the options with few choices can be, in the order in which keys go round.
+CHOICES = {
+    one.name: tuple(one.metadata["numbers"])
+    for one in fields(RenderOptions)
+    if one.metadata["numbers"]
+} | {"mode": MODES}
 
 
 class Appearance(SimpleNamespace):

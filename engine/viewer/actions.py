@@ -12,12 +12,7 @@ from pathlib import Path
 from ..errors import Engine3DError
 from ..files.animation_files import numbered_path
 from ..stage.appearance import (
-    CULLINGS,
-    CULLS,
-    HIDDEN_SURFACES,
-    MODES,
-    TONE_MAPPINGS,
-    WIREFRAMES,
+    CHOICES,
     following,
 )
 from ..stage.debug_lines import DEBUG_DRAWINGS
@@ -48,22 +43,23 @@ LEFT_OUT = {
 ISOMETRIC_ELEVATION = math.atan(1 / math.sqrt(2))
 
 
-def _cycling(field: str, choices: tuple):
-    """Return what goes to the next value of a field of `Appearance`."""
+def _cycling(option: str):
+    """Return what goes to the next value of an option."""
 
     def cycle(viewer, step: int) -> None:
         appearance = viewer.view_renderer.appearance
-        setattr(appearance, field, following(getattr(appearance, field), choices, step))
-        viewer.say(f"{field.replace('_', ' ')}: {getattr(appearance, field) or 'off'}")
+        value = following(getattr(appearance, option), CHOICES[option], step)
+        setattr(appearance, option, value)
+        viewer.say(f"{option.replace('_', ' ')}: {value or 'off'}")
 
     return cycle
 
 
-cycle_wireframe = _cycling("wireframe", WIREFRAMES)
-cycle_mode = _cycling("mode", MODES)
-cycle_cull = _cycling("cull", CULLS)
-cycle_hidden_surfaces = _cycling("hidden_surfaces", HIDDEN_SURFACES)
-cycle_tone_mapping = _cycling("tone_mapping", TONE_MAPPINGS)
+cycle_wireframe = _cycling("wireframe")
+cycle_mode = _cycling("mode")
+cycle_cull = _cycling("cull")
+cycle_hidden_surfaces = _cycling("hidden_surfaces")
+cycle_tone_mapping = _cycling("tone_mapping")
 
 
 def toggle_edges(viewer, step: int) -> None:
@@ -253,7 +249,7 @@ def toggle_textures(viewer, step: int) -> None:
 def cycle_culling(viewer, step: int) -> None:
     """Next of what is left out before it is drawn; the picture is the same."""
     appearance = viewer.view_renderer.appearance
-    appearance.culling = following(appearance.culling, CULLINGS, step)
+    appearance.culling = following(appearance.culling, CHOICES["culling"], step)
     viewer.say(f"culling {appearance.culling}: {LEFT_OUT[appearance.culling]}")
 
 

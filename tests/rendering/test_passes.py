@@ -5,7 +5,7 @@ import pytest
 
 import engine3d as e3d
 from engine3d.rendering import _passes
-from engine3d.rendering._color_pass import ColorPass
+from engine3d.rendering._output_passes import ColorPass
 from engine3d.rendering._pass import Pass
 
 
@@ -30,8 +30,8 @@ class Darker(Pass):
     writes = ("color",)
     name, advice = "shade", "no shade"
 
-    def is_in(self, options, outputs, read):
-        return "color" in outputs
+    def is_in(self, options, wanted):
+        return "color" in wanted
 
     def arrays(self, width, height):
         return {"shade": ((height, width), np.dtype(np.float32))}
@@ -50,11 +50,11 @@ def scene():
 
 
 def test_a_pass_gets_outputs_that_nobody_asked_for(monkeypatch, scene):
-    plain = e3d.render(scene, size=(40, 30), outputs=("color", "normal"))
+    plain = e3d.render(scene, size=(40, 30), mode="unlit", outputs=("color", "normal"))
     monkeypatch.setattr(_passes, "PASSES", (ColorPass, Darker))
     with e3d.Renderer(40, 30) as renderer:
         for outputs in (("color",), ("normal", "color"), ("color",)):
-            frame = renderer.render(scene, outputs=outputs)
+            frame = renderer.render(scene, mode="unlit", outputs=outputs)
             assert frame.outputs == outputs
             shade = np.maximum(plain.normal[..., 2:], 0.5)
             assert np.array_equal(
@@ -66,7 +66,7 @@ def test_a_pass_gets_outputs_that_nobody_asked_for(monkeypatch, scene):
 
 def test_a_pass_that_reads_no_scene_is_not_blamed_on_it(monkeypatch, scene):
     class Wrong(Pass):
-        def is_in(self, options, outputs, read):
+        def is_in(self, options, wanted):
             return True
 
         def draw(self, picture):

@@ -5,9 +5,8 @@ import pytest
 import engine3d as e3d
 from engine3d import linalg
 from engine3d.rendering import _passes
-from engine3d.rendering._color_pass import ColorPass
+from engine3d.rendering._output_passes import ColorPass, SurfacePass
 from engine3d.rendering._pass import Pass
-from engine3d.rendering._surface_pass import SurfacePass
 
 OUTPUTS = ("ndc_depth", "depth", "world_position", "normal", "triangle_id", "object_id")
 
@@ -27,7 +26,7 @@ class Reader(Pass):
 
     reads = tuple(f"surface_{name}" for name in OUTPUTS)
 
-    def is_in(self, options, outputs, read):
+    def is_in(self, options, wanted):
         return True
 
     def draw(self, picture):

@@ -9,7 +9,8 @@ enum { PYR_MOST_CORNERS = 3 + E3D_CLIP_PLANES,
 
 static inline double pyr_inside(const double p[4], int plane) { return e3d_inside(p, plane, 0x1p-60, PYR_SIDE, PYR_SIDE); }
 
-/* Cuts a polygon; returns how many corners are left. */
+/* Cuts a polygon; returns how many corners are left. Edges are cut as they run, those of frames from the inside to the outside (R7), which
+ * rounds other bits. */
 static inline int pyr_clip_polygon(double p[PYR_MOST_CORNERS][4], int count)
 {
     double out[PYR_MOST_CORNERS][4];

@@ -2,29 +2,19 @@
 #ifndef E3D_PYR_CLIP_H
 #define E3D_PYR_CLIP_H
 
-enum { PYR_CLIP_PLANES = 6,
-       PYR_MOST_CORNERS = 3 + PYR_CLIP_PLANES,
-       PYR_SIDE = 64 /* times the picture to each side is kept */ };
+#include "core/clip_planes.h"
 
-/* How far a point is inside: of the near plane, of w > 0, and of PYR_SIDE times the picture to each side, so that what is left has coordinates
- * that 64 bits multiply. */
-static inline double pyr_inside(const double p[4], int plane)
-{
-    switch (plane) {
-    case 0: return p[2] + p[3];
-    case 1: return p[3] - 0x1p-60;
-    case 2: return PYR_SIDE * p[3] + p[0];
-    case 3: return PYR_SIDE * p[3] - p[0];
-    case 4: return PYR_SIDE * p[3] + p[1];
-    default: return PYR_SIDE * p[3] - p[1];
-    }
-}
+enum { PYR_MOST_CORNERS = 3 + E3D_CLIP_PLANES,
+       PYR_SIDE = 64 /* times the picture to each side is kept, so that what is left has coordinates that 64 bits multiply */ };
 
-/* Cuts a polygon; returns how many corners are left. */
+static inline double pyr_inside(const double p[4], int plane) { return e3d_inside(p, plane, 0x1p-60, PYR_SIDE, PYR_SIDE); }
+
+/* Cuts a polygon; returns how many corners are left. Edges are cut as they run, those of frames from the inside to the outside (R7), which
+ * rounds other bits. */
 static inline int pyr_clip_polygon(double p[PYR_MOST_CORNERS][4], int count)
 {
     double out[PYR_MOST_CORNERS][4];
-    for (int plane = 0; plane < PYR_CLIP_PLANES && count; plane++) {
+    for (int plane = 0; plane < E3D_CLIP_PLANES && count; plane++) {
         int kept = 0;
         for (int i = 0; i < count; i++) {
             const double *a = p[i], *b = p[(i + 1) % count];

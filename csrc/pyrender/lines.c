@@ -27,7 +27,7 @@ typedef struct line_job {
 static int clip_segment(const double a[4], const double b[4], double range[2])
 {
     range[0] = 0, range[1] = 1;
-    for (int plane = 0; plane < PYR_CLIP_PLANES; plane++) {
+    for (int plane = 0; plane < E3D_CLIP_PLANES; plane++) {
         double da = pyr_inside(a, plane), db = pyr_inside(b, plane);
         if (da < 0 && db < 0)
             return 0;

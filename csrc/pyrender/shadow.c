@@ -1,4 +1,5 @@
-/* Shadows: what of a light its map lets through, blended over 4x4 texels (R150). */
+/* Shadows: what of a light its map lets through, blended over 4x4 texels of 24 bits, which repeat (R150). Maps of frames hold f32, and end at
+ * their sides (R93). */
 #include <math.h>
 
 #include "pyrender/picture.h"

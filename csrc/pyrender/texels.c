@@ -1,6 +1,7 @@
 /* Texels: a texture's color at a point, as OpenGL on a processor finds it (R148).
  *
- * In: a texture, coordinates, texels a pixel. Out: four channels. Always: 8-bit arithmetic, as Mesa's llvmpipe has it.
+ * In: a texture, coordinates, texels a pixel. Out: four channels. Always: 8-bit arithmetic, as Mesa's llvmpipe has it, which rounds after each
+ *      blend; textures of frames don't (R30), so that they share no code.
  */
 #include <math.h>
 #include <string.h>

@@ -11,10 +11,7 @@ from pathlib import Path
 
 from ..errors import Engine3DError
 from ..files.animation_files import numbered_path
-from ..stage.appearance import (
-    CHOICES,
-    following,
-)
+from ..stage.appearance import CHOICES, following
 from ..stage.debug_lines import DEBUG_DRAWINGS
 from ..stage.fps import FpsController
 from ..stage.played_clips import play_clips

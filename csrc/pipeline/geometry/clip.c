@@ -3,6 +3,7 @@
  * Sutherland and Hodgman (1974) in homogeneous space. Cut points run from the inside to the outside vertex, so
  * that both triangles of an edge get the same bits.
  */
+#include "core/clip_planes.h"
 #include "core/limits.h"
 #include "kernels/types/vertices.h"
 #include "pipeline/geometry/clip.h"
@@ -11,18 +12,9 @@ typedef struct exact_vertex {
     double v[4], c[3];
 } exact_vertex;
 
-enum { PLANES = 6 };
-
 static double distance(const exact_vertex *p, int plane, const e3d_viewport *viewport)
 {
-    switch (plane) {
-    case 0: return p->v[2] + p->v[3];
-    case 1: return p->v[3] - (double)E3D_W_MIN;
-    case 2: return (double)viewport->guard_x * p->v[3] + p->v[0];
-    case 3: return (double)viewport->guard_x * p->v[3] - p->v[0];
-    case 4: return (double)viewport->guard_y * p->v[3] + p->v[1];
-    default: return (double)viewport->guard_y * p->v[3] - p->v[1];
-    }
+    return e3d_inside(p->v, plane, (double)E3D_W_MIN, (double)viewport->guard_x, (double)viewport->guard_y);
 }
 
 static exact_vertex cut(const exact_vertex *inside, const exact_vertex *outside, double di, double d_out)
@@ -56,7 +48,7 @@ static int clip_all(exact_vertex *polygon, int count, int closed, const e3d_view
                     e3d_clip_vertex *out)
 {
     exact_vertex other[E3D_CLIP_MAX], *from = polygon, *to = other;
-    for (int plane = 0; plane < PLANES && count; plane++) {
+    for (int plane = 0; plane < E3D_CLIP_PLANES && count; plane++) {
         count = clip_plane(from, count, closed, plane, viewport, to);
         exact_vertex *swap = from;
         from = to;

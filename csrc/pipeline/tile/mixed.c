@@ -95,20 +95,13 @@ static void show(const e3d_tile_job *job, int32_t count, e3d_mixed_list *list)
     e3d_runs_memory *memory = &job->memory->shade.runs;
     e3d_shown *shown = &job->memory->shade.shown;
     const e3d_run *runs = e3d_sort_runs(memory->rows, memory->spare, count);
-    int32_t pieces = 0, before = E3D_NO_SLOT;
-    for (int32_t i = 0; i < count; i++) { /* see e3d_show_runs */
-        int32_t owner = runs[i].owner;
-        shown->piece[pieces] = (e3d_shown_piece){(uint32_t)owner, i};
-        pieces += owner != before;
-        before = owner;
+    e3d_show_runs(runs, count, shown);
+    shown->runs = 0;
+    shown->pattern = job->in->pass->pattern;
+    for (int32_t i = 0; i < count; i++) {
         shown->sample[i] = runs[i].sample;
-        shown->of[i] = pieces - 1;
         list->place[runs[i].length] = (uint16_t)i;
     }
-    e3d_shown_begin(shown, 0);
-    shown->pattern = job->in->pass->pattern;
-    shown->count = count;
-    shown->pieces = pieces;
 }
 
 /* ---- what becomes of it ---- */

@@ -66,15 +66,6 @@ int e3d_multisample_reserve(e3d_multisample_memory **memory, int32_t samples)
 
 /* ---- the planes ---- */
 
-static void clear_plane(e3d_visible_tile *plane)
-{
-    for (int i = 0; i < E3D_TILE_SAMPLES; i++) {
-        plane->z[i] = E3D_BEYOND_FAR;
-        plane->id[i] = E3D_NO_SLOT;
-    }
-    plane->noted = 0;
-}
-
 /* Where the last record in order shows, record after record; each keeps its ID. */
 static void overwrite_block(const e3d_tile_job *job, const e3d_bin_block *block)
 {
@@ -94,7 +85,7 @@ static void overwrite_planes(const e3d_tile_job *job)
 {
     const e3d_bins *bins = job->in->bins;
     for (int s = 0; s < job->in->pass->pattern->count; s++)
-        clear_plane(&job->visible[s]);
+        e3d_visible_empty(&job->visible[s]);
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
         const e3d_bin_block *block = e3d_first_records(set, 0, job->number);

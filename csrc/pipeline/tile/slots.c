@@ -23,6 +23,7 @@
 #include "pipeline/tile/memory.h"
 #include "pipeline/tile/piece.h"
 #include "pipeline/tile/slots.h"
+#include "pipeline/tile/visible.h"
 
 void e3d_marks_init(e3d_marks_memory *marks)
 {
@@ -179,15 +180,6 @@ static int act_forward(const e3d_tile_job *job, const e3d_piece *piece)
 
 /* ---- a tile ---- */
 
-static void clear_samples(e3d_visible_tile *visible)
-{
-    for (int i = 0; i < E3D_TILE_SAMPLES; i++) {
-        visible->z[i] = E3D_BEYOND_FAR;
-        visible->id[i] = E3D_NO_SLOT;
-    }
-    visible->noted = 0;
-}
-
 static void clear_marks(e3d_marks_memory *marks)
 {
     for (int i = 0; i < E3D_TILE_SAMPLES; i++)
@@ -196,7 +188,7 @@ static void clear_marks(e3d_marks_memory *marks)
 
 int e3d_slots_draw(const e3d_tile_job *job)
 {
-    clear_samples(job->visible);
+    e3d_visible_empty(job->visible);
     return visit_bins(job, E3D_SET_SCENE, e3d_plans(job->in->pass, E3D_PLAN_AT_ONCE) ? act_forward : act_visible);
 }
 

@@ -25,6 +25,15 @@ void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile)
     visible->y = tile->y;
 }
 
+void e3d_visible_empty(e3d_visible_tile *visible)
+{
+    for (int i = 0; i < E3D_TILE_SAMPLES; i++) {
+        visible->z[i] = E3D_BEYOND_FAR;
+        visible->id[i] = E3D_NO_SLOT;
+    }
+    visible->noted = 0;
+}
+
 /* The first records of a block are in no near cache when they are drawn. */
 static ALWAYS_INLINE void fetch_records(const e3d_record_table *table, const e3d_bin_block *block)
 {

@@ -12,6 +12,8 @@
 #include "pipeline/pass/view.h"
 
 void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile);
+/* The same for what writes sample by sample, and knows of no blocks. */
+void e3d_visible_empty(e3d_visible_tile *visible);
 /* Draws what is in a tile's bins, with multisampling into all planes; `earlier`: first what was in them when the tile was finished. */
 void e3d_visible_draw(const e3d_prepared *pass, const e3d_bins *bins, int64_t tile_number, int earlier, e3d_visible_tile *out);
 /* Makes the list of what shows, where the tile's bins hold all of it. */

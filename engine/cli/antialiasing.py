@@ -36,12 +36,17 @@ def add(group: argparse._ArgumentGroup) -> None:
     )
 
 
-def antialiasing(args: argparse.Namespace, method: str, samples: int) -> tuple[str, int]:
+def antialiasing(
+    asked: str | None, number: int | None, method: str, samples: int
+) -> tuple[str, int]:
     """Return the method, as `Renderer` takes it, and the samples.
 
     Parameters
     ----------
-    args : Namespace
+    asked : str or None
+        The method that was asked for.
+    number : int or None
+        Likewise of the samples.
     method, samples
         Where neither is asked for.
 
@@ -50,7 +55,6 @@ def antialiasing(args: argparse.Namespace, method: str, samples: int) -> tuple[s
     UsageError
         What is asked for does not go together.
     """
-    asked, number = args.antialiasing, args.samples
     if asked == _NONE:
         if number not in (None, 1):
             raise UsageError(f"--antialiasing none is one sample a pixel, not {number}")

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from . import (
     ambient_options,
     appearance_options,
-    backdrop_options,
     camera_options,
     config,
     environment_options,
@@ -22,7 +21,6 @@ from . import (
     scalar_options,
     tone_options,
 )
-from .antialiasing import antialiasing
 from .usage import UsageError
 
 if TYPE_CHECKING:
@@ -41,7 +39,7 @@ def add_shared(command) -> None:
     light_options.add_light(command)
     ambient_options.add_ambient(command)
     environment_options.add_environment(command)
-    backdrop_options.add_backdrop(command)
+    environment_options.add_backdrop(command)
     tone_options.add_tone(command)
     scalar_options.add_scalars(command)
     camera_options.add_camera(command)
@@ -98,7 +96,7 @@ class Viewing(NamedTuple):
         """
         from ..stage.view_renderer import ViewRenderer
 
-        method, samples = antialiasing(self.antialiasing, self.samples, *usual)
+        method, samples = picture_options.antialiasing(self.antialiasing, self.samples, *usual)
         return ViewRenderer(
             viewed,
             self.settings,
@@ -137,8 +135,8 @@ def settings(args: argparse.Namespace, **more) -> Settings:
         look=args.look,
         appearance=appearance_options.appearance_of(args),
         up=args.up,
-        background=backdrop_options.background(args),
-        **backdrop_options.fog(args),
+        background=environment_options.background(args),
+        **environment_options.fog(args),
         light_position=args.light_position,
         light_direction=args.light_direction,
         light_intensity=args.light_intensity,

@@ -14,7 +14,6 @@ from ..stage import headless
 from ..stage.view_renderer import ViewRenderer
 from ..stage.viewed_scene import NotInModelError
 from . import options, scene_options
-from .antialiasing import PICTURES
 from .input_options import jobs
 from .inputs import STANDARD_INPUT
 from .one_by_one import draw_each, tried
@@ -28,6 +27,7 @@ from .outputs import (
     with_progress,
     write_standard_output,
 )
+from .picture_options import PICTURES
 from .quietness import remark
 from .report import Report, warn_of_nothing
 from .said import say

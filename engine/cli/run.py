@@ -13,14 +13,14 @@ from ..files.frame_names import literal_name
 from ..files.making_folders import make_folder_of
 from ..stage import headless
 from ..stage.view_renderer import ViewRenderer
-from ..stage.walking import GroundController, controller
+from ..stage.walking import GroundController, controller, walk
 from . import options, scene_options
-from .antialiasing import WINDOW
 from .input_options import jobs
 from .inputs import STANDARD_INPUT
 from .one_by_one import draw_each
 from .options import Viewing
 from .outputs import check_animation, check_picture, remark_on_size, with_progress
+from .picture_options import WINDOW
 from .quietness import remark
 from .report import Report, warn_of_nothing
 from .usage import UsageError
@@ -185,7 +185,7 @@ def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report)
             view_renderer.draw(view).save(path)
         else:
             start = () if walks else (args.animation_time or 0.0,)
-            draw = headless.walk if walks else headless.animation
+            draw = walk if walks else headless.animation
             pictures = draw(view_renderer, view, count, *start)
             pictures = with_progress(pictures, count, "rendering")
             make_folder_of(path)

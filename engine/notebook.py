@@ -22,11 +22,12 @@ from .geometry.mesh import Mesh
 from .scene.instances import InstancedMesh
 from .scene.nodes import Node
 from .scene.scene import Scene
+from .stage.first_view import view_of_scene
 from .stage.stage_settings import Settings
 from .stage.view_renderer import ViewRenderer
 from .stage.viewed_scene import TURN_SECONDS
+from .stage.viewed_thing import check_motion, viewed_thing
 from .viewer.sampling import Sampling
-from .viewer.show import check_motion, first_view, viewed_thing
 from .viewer.viewer import Viewer
 
 try:
@@ -114,7 +115,7 @@ class View(RemoteFrameBuffer):
         self._viewer = Viewer(
             self._view_renderer,
             self._page,
-            view=first_view(self._view_renderer),
+            view=view_of_scene(self._view_renderer),
             sampling=Sampling(),
         )
 

@@ -195,10 +195,9 @@ class Drawer:
 
         if not may_be_blank(frame.stats, scene):
             return None
-        ids = np.array([node.id for node in scene.nodes], np.int64)
         look = {name: getattr(options, name) for name in ("cull", "point_size", "size_unit")}
         drawing = {"backend": self._backend, "threads": self._threads}
-        return why_blank(Sight(scene, camera, pose, tuple(task.size), ids, look, drawing))
+        return why_blank(Sight(scene, camera, pose, tuple(task.size), look, drawing))
 
     def _draw_look(self, task: Task, out: str, writer: DatasetWriter, inputs: InputFiles) -> None:
         """Draw a model as ``engine3d render`` does."""

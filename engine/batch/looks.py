@@ -15,6 +15,7 @@ from ..choices import Backend
 from ..errors import Engine3DWarning
 from ..rendering.frame import Frame
 from ..stage.blank import Reason
+from ..stage.first_view import DEFAULT_YFOV, FirstView
 from ..stage.open_models import open_models
 from ..stage.stage_settings import Settings
 from ..stage.view_renderer import ViewRenderer
@@ -50,16 +51,15 @@ def draw_look(
         samples=task.samples,
         antialias=task.antialias,
     ) as view_renderer:
-        frame = view_renderer.draw(_view(task.camera or {}, view_renderer))
+        view = _view(task.camera or {}).place(view_renderer, turns=False)
+        frame = view_renderer.draw(view)
         return frame, view_renderer.why_blank()
 
 
-def _view(said: Any, view_renderer: ViewRenderer):
-    if "view_angle" in said:
-        view = view_renderer.view(math.radians(said["view_angle"]))
-    else:
-        view = view_renderer.view()
-    view.azimuth += math.radians(said.get("azimuth", 0.0))
-    view.elevation += math.radians(said.get("elevation", 0.0))
-    view_renderer.fill(view)
-    return view
+def _view(said: dict[str, Any]) -> FirstView:
+    angle = said.get("view_angle")
+    return FirstView(
+        yfov=DEFAULT_YFOV if angle is None else math.radians(angle),
+        azimuth=math.radians(said.get("azimuth", 0.0)),
+        elevation=math.radians(said.get("elevation", 0.0)),
+    )

@@ -97,10 +97,9 @@ def _obey(arguments: list[str], begin: Callable[[], None] | None) -> int:
     except UsageError as error:
         return _usage(str(error))
     except InvalidArgumentError as error:
-        from ..stage.played_clips import NoSuchClipError
+        from ..stage.viewed_scene import NotInModelError
 
-        # As for a camera that isn't there.
-        if isinstance(error, NoSuchClipError):
+        if isinstance(error, NotInModelError):
             return _usage(str(error))
         raise
     except SystemExit as stop:

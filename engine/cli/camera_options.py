@@ -1,13 +1,16 @@
-"""The options of where to look from, and the view that they name."""
+"""The options of where to look from."""
 
 from __future__ import annotations
 
 import argparse
-import functools
 import math
+from typing import TYPE_CHECKING
 
 from . import values
 from .usage import UsageError
+
+if TYPE_CHECKING:
+    from ..stage.first_view import FirstView
 
 
 def add_up(group) -> None:
@@ -85,51 +88,23 @@ def add_camera(parser) -> None:
         )
 
 
-def place_view(args: argparse.Namespace, view_renderer, *, turns: bool = True):
-    """Return the first view of the scene, as the camera options say.
+def first_view(args: argparse.Namespace) -> FirstView:
+    """Return from where the options say to look first."""
+    from ..stage.first_view import DEFAULT_YFOV, FirstView
 
-    Where they leave it open, all of the scene shows: however it turns, or filling the picture.
-    """
-    from ..stage.near_origin import from_file
-
-    if args.camera_view_angle is None:
-        view = view_renderer.view()
-    else:
-        view = view_renderer.view(math.radians(args.camera_view_angle))
-    view.orthographic = args.camera_orthographic
-    if args.camera_index is not None and args.camera_index >= 0:
-        return _through_camera(args, view_renderer, view)
-    if args.camera_view_up is not None:
-        view.up = args.camera_view_up
-    place = functools.partial(from_file, view_renderer.viewed)
-    focal_point = None
-    if args.camera_focal_point is not None:
-        focal_point = place(args.camera_focal_point)
-    if args.camera_position is not None:
-        if args.camera_position == args.camera_focal_point:
-            raise UsageError("--camera-position and --camera-focal-point are the same")
-        view.look_from(place(args.camera_position), focal_point or view_renderer.bounds.center)
-    elif args.camera_direction is not None:
-        view.look_from(view.target - args.camera_direction, view.target)
-    view.azimuth += math.radians(args.camera_azimuth_angle or 0.0)
-    view.elevation += math.radians(args.camera_elevation_angle or 0.0)
-    if args.camera_position is None:
-        (view_renderer.frame if turns else view_renderer.fill)(view)
-        if args.camera_focal_point is not None:
-            view.target[:] = focal_point
-    view.distance /= args.camera_zoom_factor or 1.0
-    return view
-
-
-def _through_camera(args: argparse.Namespace, view_renderer, view):
-    """Return the view of one of the scene's cameras."""
-    from ..scene.cameras import Camera
-    from ..stage.viewpoint import look_through
-
-    title, scene = view_renderer.viewed.title, view_renderer.viewed.scene
-    nodes = [node for node in scene.nodes if isinstance(node.object, Camera)]
-    if args.camera_index >= len(nodes):
-        known = f"the last is {len(nodes) - 1}" if nodes else "there are none"
-        raise UsageError(f"{title} has no camera {args.camera_index} ({known})")
-    look_through(view, nodes[args.camera_index], view_renderer.bounds)
-    return view
+    angle, index, position = args.camera_view_angle, args.camera_index, args.camera_position
+    through = index is not None and index >= 0
+    if not through and position is not None and position == args.camera_focal_point:
+        raise UsageError("--camera-position and --camera-focal-point are the same")
+    return FirstView(
+        yfov=DEFAULT_YFOV if angle is None else math.radians(angle),
+        azimuth=math.radians(args.camera_azimuth_angle or 0.0),
+        elevation=math.radians(args.camera_elevation_angle or 0.0),
+        zoom=args.camera_zoom_factor or 1.0,
+        orthographic=args.camera_orthographic,
+        position=position,
+        focal_point=args.camera_focal_point,
+        direction=args.camera_direction,
+        up=args.camera_view_up,
+        camera=index if through else None,
+    )

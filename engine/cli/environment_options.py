@@ -1,4 +1,4 @@
-"""The options of environments: light from all around, and what is behind everything."""
+"""The options of what is around and behind things: environments, backgrounds and fog."""
 
 from __future__ import annotations
 
@@ -78,3 +78,74 @@ def _environment(name: str | None):
     if name is None or name == NONE:
         return None
     return named_environment(name) if name in BUILT_IN else Environment.load(name)
+
+
+def add_backdrop(parser) -> None:
+    """Add backgrounds and fog."""
+    group = parser.add_argument_group("background and fog")
+    group.add_argument(
+        "--background-gradient",
+        nargs=2,
+        type=values.color,
+        metavar=("TOP", "BOTTOM"),
+        help="a background that goes from one COLOR at the top to another at the bottom",
+    )
+    group.add_argument(
+        "--fog",
+        type=values.limits,
+        metavar="NEAR,FAR",
+        help="fog that begins at one distance from the camera, and hides all from another one on, "
+        "in units of the scene",
+    )
+    group.add_argument(
+        "--fog-density",
+        type=values.not_negative,
+        metavar="D",
+        help="fog that begins at the camera: at a distance of 1.5/D a tenth of a colour is left",
+    )
+    group.add_argument(
+        "--fog-color",
+        type=values.color,
+        metavar="COLOR",
+        help="colour of the fog; by default that of the background or of its middle, and white "
+        "before an environment",
+    )
+
+
+def background(args: argparse.Namespace):
+    """Return the background that the options name: a colour, a `Gradient` or None."""
+    if getattr(args, "background_gradient", None) is None:  # some commands have no gradients
+        return args.background_color
+    others = {
+        "--background-color": args.background_color,
+        "--background environment": args.background,
+        "--no-background": getattr(args, "no_background", False) or None,
+    }
+    for option, given in others.items():
+        if given is not None:
+            raise UsageError(f"--background-gradient does not go with {option}")
+    from ..scene.gradients import Gradient
+
+    return Gradient(*args.background_gradient)
+
+
+def fog(args: argparse.Namespace) -> dict:
+    """Return the fields of `Settings` that the options of fog name."""
+    if "fog" not in args:  # some commands have none
+        return {}
+    from ..scene.fog import ExponentialFog, Fog
+
+    if args.fog is not None and args.fog_density is not None:
+        raise UsageError("--fog and --fog-density do not go together")
+    color = args.fog_color or (255, 255, 255)
+    follows = args.fog_color is None
+    if args.fog is not None:
+        near, far = args.fog
+        if not near < far:
+            raise UsageError("--fog needs NEAR,FAR with NEAR less than FAR")
+        return {"fog": Fog(color, near, far), "fog_follows": follows}
+    if args.fog_density is not None:
+        return {"fog": ExponentialFog(color, args.fog_density), "fog_follows": follows}
+    if not follows:
+        raise UsageError("--fog-color goes with --fog or --fog-density")
+    return {}

@@ -11,11 +11,9 @@ from ..files.animation_files import ANIMATION_SUFFIXES, PICTURE_SUFFIXES, save_a
 from ..files.making_folders import make_folder_of
 from ..files.watch import CHECK_SECONDS, FileWatch
 from ..stage import headless
-from ..stage.played_clips import NoSuchClipError
 from ..stage.view_renderer import ViewRenderer
+from ..stage.viewed_scene import NotInModelError
 from . import options, scene_options
-from .antialiasing import PICTURES, antialiasing
-from .camera_options import place_view
 from .input_options import jobs
 from .inputs import STANDARD_INPUT
 from .one_by_one import draw_each, tried
@@ -29,6 +27,7 @@ from .outputs import (
     with_progress,
     write_standard_output,
 )
+from .picture_options import PICTURES
 from .quietness import remark
 from .report import Report, warn_of_nothing
 from .said import say
@@ -69,20 +68,11 @@ def _render(args: argparse.Namespace) -> int:
     report = Report(args.verbose)
     viewed = scene_options.viewed_scene(args)
     report.loaded(viewed)
-    settings = options.settings(args)
-    antialias, samples = antialiasing(args, *PICTURES[args.look])
-    with ViewRenderer(
-        viewed,
-        settings,
-        args.resolution or DEFAULT_SIZE,
-        backend=args.backend,
-        threads=args.threads,
-        samples=samples,
-        antialias=antialias,
-        transparent=args.no_background,
-        report=report.frame if args.verbose else None,
+    how = options.viewing(args)
+    with how.renderer(
+        viewed, DEFAULT_SIZE, PICTURES[args.look], report, transparent=args.no_background
     ) as view_renderer:
-        view = place_view(args, view_renderer, turns=args.turntable is not None)
+        view = how.first_view.place(view_renderer, turns=args.turntable is not None)
         if _count(args) is not None:
             _write_pictures(args, view_renderer, view)
             warn_of_nothing(view_renderer)
@@ -144,7 +134,7 @@ def _write_pictures(args: argparse.Namespace, view_renderer: ViewRenderer, view)
     if args.turntable is not None:
         pictures = headless.turntable(view_renderer, view, count, args.animation_time or 0.0)
     elif view_renderer.viewed.update is None:
-        raise NoSuchClipError(f"--animation: {view_renderer.viewed.title} has no animation")
+        raise NotInModelError(f"--animation: {view_renderer.viewed.title} has no animation")
     else:
         pictures = headless.animation(view_renderer, view, count, args.animation_time or 0.0)
     pictures = with_progress(pictures, count, "rendering")

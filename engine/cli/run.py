@@ -13,14 +13,14 @@ from ..files.frame_names import literal_name
 from ..files.making_folders import make_folder_of
 from ..stage import headless
 from ..stage.view_renderer import ViewRenderer
-from ..stage.walking import GroundController, controller
+from ..stage.walking import GroundController, controller, walk
 from . import options, scene_options
-from .antialiasing import WINDOW, antialiasing
-from .camera_options import place_view
 from .input_options import jobs
 from .inputs import STANDARD_INPUT
 from .one_by_one import draw_each
+from .options import Viewing
 from .outputs import check_animation, check_picture, remark_on_size, with_progress
+from .picture_options import WINDOW
 from .quietness import remark
 from .report import Report, warn_of_nothing
 from .usage import UsageError
@@ -92,24 +92,13 @@ def _missing_screen() -> str | None:
     return None
 
 
-def _view_renderer(
-    args: argparse.Namespace, viewed, size, method: str, samples: int, report: Report
-) -> ViewRenderer:
-    settings = options.settings(args)
-    asked = args.walkable is not None or args.slope is not None
-    settings.walks = args.camera == "fps" or asked
-    settings.walkable = args.walkable
-    settings.slope = None if args.slope is None else math.radians(args.slope)
-    antialias, samples = antialiasing(args, method, samples)
-    return ViewRenderer(
-        viewed,
-        settings,
-        args.resolution or size,
-        backend=args.backend,
-        threads=args.threads,
-        samples=samples,
-        antialias=antialias,
-        report=report.frame if args.verbose else None,
+def _viewing(args: argparse.Namespace) -> Viewing:
+    """Return how the options say that a model is drawn and walked on."""
+    return options.viewing(
+        args,
+        walks=args.camera == "fps" or args.walkable is not None or args.slope is not None,
+        walkable=args.walkable,
+        slope=None if args.slope is None else math.radians(args.slope),
     )
 
 
@@ -123,14 +112,15 @@ def _show(
     from ..viewer.sampling import AT_REST, Sampling
     from ..viewer.viewer import Viewer
 
+    how = _viewing(args)
     with (
         _window(args, viewed) as window,
-        _view_renderer(args, viewed, window.size, WINDOW, AT_REST, report) as view_renderer,
+        how.renderer(viewed, window.size, (WINDOW, AT_REST), report) as view_renderer,
     ):
         viewer = Viewer(
             view_renderer,
             window,
-            view=place_view(args, view_renderer),
+            view=how.first_view.place(view_renderer),
             walking=args.camera == "fps",
             playing=args.animate,
             statistics=args.fps,
@@ -185,8 +175,9 @@ def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report)
     path = args.output or literal_name(_new_path(viewed, count))
     if reason is not None:
         remark(f"{reason}: rendering a turntable to {path} instead")
-    with _view_renderer(args, viewed, FILE_SIZE, "msaa", FILE_SAMPLES, report) as view_renderer:
-        view = place_view(args, view_renderer)
+    how = _viewing(args)
+    with how.renderer(viewed, FILE_SIZE, ("msaa", FILE_SAMPLES), report) as view_renderer:
+        view = how.first_view.place(view_renderer)
         walks = args.camera == "fps"
         if count == 1:
             if walks:
@@ -195,7 +186,7 @@ def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report)
             view_renderer.draw(view).save(path)
         else:
             start = () if walks else (args.animation_time or 0.0,)
-            draw = headless.walk if walks else headless.animation
+            draw = walk if walks else headless.animation
             pictures = draw(view_renderer, view, count, *start)
             pictures = with_progress(pictures, count, "rendering")
             make_folder_of(path)

@@ -1,8 +1,8 @@
 """Frames without a screen: turntables and animations, one RGBA array after another.
 
-In: a `ViewRenderer` and a first `Viewpoint`. Out: a generator of (H, W, 4) uint8 arrays. But
-for a walk they loop without a jump: the scene's own animation over its period or, without one, a
-turn of the camera.
+In: a `ViewRenderer` and a first `Viewpoint`. Out: a generator of (H, W, 4) uint8 arrays, which
+loop without a jump: the scene's own animation over its period or, without one, a turn of the
+camera.
 """
 
 from __future__ import annotations
@@ -14,13 +14,10 @@ import numpy as np
 
 from .view_renderer import ViewRenderer
 from .viewpoint import Viewpoint
-from .walking import controller
 
 #: Viewers of animations falter outside these.
 SHORTEST_FRAME = 0.02
 LONGEST_FRAME = 0.1
-#: How long one turns where the way ends.
-TURN_SECONDS = 0.3
 
 
 def seconds_a_frame(view_renderer: ViewRenderer, count: int) -> float:
@@ -50,18 +47,3 @@ def animation(
     for index in range(count):
         time = start + view_renderer.viewed.period * index / count
         yield view_renderer.draw(view, time).color
-
-
-def walk(view_renderer: ViewRenderer, view: Viewpoint, count: int) -> Iterator[np.ndarray]:
-    """Yield ``count`` pictures of somebody who walks ahead, and turns right where the way ends."""
-    seconds = seconds_a_frame(view_renderer, count)
-    walker = controller(view_renderer, view)
-    view = view.copy()
-    for index in range(count):
-        walker.place(view)
-        yield view_renderer.draw(view, index * seconds % view_renderer.viewed.period).color
-        before = walker.position
-        walker.walk({"W"}, seconds)
-        ahead = walker.position - before
-        if ahead[0] * ahead[0] + ahead[2] * ahead[2] < (0.2 * walker.speed * seconds) ** 2:
-            walker.walk({"Right"}, TURN_SECONDS)

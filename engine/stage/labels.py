@@ -1,31 +1,24 @@
 """What is written over a picture: the numbers of the grid, the bar of numbers, axes, metadata.
 
-In: a frame and what it shows. Out: the same frame, and how much of a picture the bar takes.
+In: a frame and what it shows. Out: the same frame.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from ..rendering.frame import Frame
-from .free_region import NOTHING, Taken
-from .stage_settings import Settings
 from .staging import Staging
-from .viewed_scene import ViewedScene
 from .viewpoint import Viewpoint
 
 
-def taken_by_bar(
-    viewed: ViewedScene, settings: Settings, size: tuple[int, int], scale: int
-) -> Taken:
-    """What of a picture the bar of numbers takes; ``scale`` is that of texts."""
-    bar = viewed.bar if settings.bar else None
-    if bar is None:
-        return NOTHING
-    from .scalar_bar import place_bar
-
-    return place_bar(*size, bar, scale).taken(*size)
-
-
-def draw_labels(frame: Frame, view: Viewpoint, staging: Staging, split: bool, scale: int) -> None:
+def draw_labels(
+    frame: Frame,
+    view: Viewpoint,
+    staging: Staging,
+    split: bool,
+    text_scale: Callable[[Frame], int],
+) -> None:
     """Write what the settings say over a frame.
 
     Parameters
@@ -36,8 +29,8 @@ def draw_labels(frame: Frame, view: Viewpoint, staging: Staging, split: bool, sc
     staging : Staging
     split : bool
         Whether outputs stand side by side.
-    scale : int
-        Of texts.
+    text_scale : callable
+        Returns the scale of texts over a picture.
     """
     settings, viewed, theme = staging.settings, staging.viewed, staging.theme
     bar = viewed.bar if settings.bar else None
@@ -46,7 +39,7 @@ def draw_labels(frame: Frame, view: Viewpoint, staging: Staging, split: bool, sc
     from .overlay import draw_axes, draw_block
     from .scalar_bar import draw_scalar_bar
 
-    canvas = frame.canvas()
+    canvas, scale = frame.canvas(), text_scale(frame)
     if settings.axes_grid and not split:
         staging.box.label(frame, scale, theme)
     if bar is not None:

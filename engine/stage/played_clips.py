@@ -8,18 +8,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..errors import InvalidArgumentError
 from ..motion.clips import AnimationClip
 from ..motion.player import AnimationPlayer
 from .scene_bounds import sphere_of_box
-from .viewed_scene import ViewedScene
+from .viewed_scene import NotInModelError, ViewedScene
 
 #: Times of a clip at which is looked how far things reach.
 LOOKS = 16
-
-
-class NoSuchClipError(InvalidArgumentError):
-    """A clip is asked for that a scene doesn't have."""
 
 
 def choose_clips(viewed: ViewedScene, index: int | None) -> tuple[AnimationClip, ...]:
@@ -27,7 +22,7 @@ def choose_clips(viewed: ViewedScene, index: int | None) -> tuple[AnimationClip,
 
     Raises
     ------
-    NoSuchClipError
+    NotInModelError
     """
     clips = tuple(viewed.scene.animations.values())
     if index is None:
@@ -36,7 +31,7 @@ def choose_clips(viewed: ViewedScene, index: int | None) -> tuple[AnimationClip,
         return clips
     if not 0 <= index < len(clips):
         known = f"the last is {len(clips) - 1}" if clips else "there are none"
-        raise NoSuchClipError(f"{viewed.title} has no animation {index} ({known})")
+        raise NotInModelError(f"{viewed.title} has no animation {index} ({known})")
     return (clips[index],)
 
 
@@ -44,7 +39,7 @@ def stand_at(viewed: ViewedScene, index: int | None, time: float) -> None:
     """Let a scene stand as clips have it at a time; after the end as at the end."""
     clips = choose_clips(viewed, index)
     if not clips:
-        raise NoSuchClipError(f"{viewed.title} has no animation")
+        raise NotInModelError(f"{viewed.title} has no animation")
     player = AnimationPlayer(viewed.scene, clips)
     player.loop = "once"
     player.play(clips)

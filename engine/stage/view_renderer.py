@@ -17,8 +17,8 @@ from .appearance import Appearance, count_points, point_size
 from .blank import BlankWatch, Reason, Sight
 from .culling_study import CullingStudy
 from .debug_lines import draw_lines
-from .free_region import Taken
-from .labels import draw_labels, taken_by_bar
+from .free_region import NOTHING, Taken
+from .labels import draw_labels
 from .lighting import Lighting, OnlyLight
 from .output_pictures import (
     COVERAGE,
@@ -229,7 +229,12 @@ class ViewRenderer:
 
     def _taken(self) -> Taken:
         """What of the picture the bar of numbers takes."""
-        return taken_by_bar(self.viewed, self.settings, self.size, self._text_scale(*self.size))
+        bar = self.viewed.bar if self.settings.bar else None
+        if bar is None:
+            return NOTHING
+        from .scalar_bar import place_bar
+
+        return place_bar(*self.size, bar, self._text_scale(*self.size)).taken(*self.size)
 
     def draw(self, view: Viewpoint, time: float = 0.0, outputs=("color",)):
         """Return the frame at ``time`` (seconds) as seen by ``view``."""
@@ -239,7 +244,7 @@ class ViewRenderer:
             draw_lines(frame, lines, self.text_scale(frame))
         if self.split:
             split(frame, self.bounds, self.theme)
-        draw_labels(frame, view, self.staging, self.split, self.text_scale(frame))
+        draw_labels(frame, view, self.staging, self.split, self.text_scale)
         if self.culling.camera is None:
             self.stats = frame.stats
             if self._report is not None:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..errors import InvalidArgumentError
 from .scene_bounds import bounding_sphere
 from .viewpoint import DEFAULT_AZIMUTH, DEFAULT_ELEVATION, Sphere
 
@@ -24,6 +25,10 @@ if TYPE_CHECKING:
 
 #: Seconds of one turn of a turntable.
 TURN_SECONDS = 6.0
+
+
+class NotInModelError(InvalidArgumentError):
+    """An animation or a camera is asked for that a model doesn't have."""
 
 
 @dataclass

@@ -15,12 +15,17 @@ import numpy as np
 from .. import linalg
 from ..navigation import NavigationGrid
 from .fps import FpsController
+from .headless import seconds_a_frame
 from .viewpoint import Sphere, Viewpoint
 from .walkable_ground import Ground, find_ground
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from .view_renderer import ViewRenderer
 
+#: How long one turns where the way ends.
+_TURN_SECONDS = 0.3
 #: Metres a second.
 WALKING_SPEED = 3.5
 #: The share of a step's height that the eyes rise in a second, at first.
@@ -93,3 +98,18 @@ def controller(view_renderer: ViewRenderer, view: Viewpoint) -> FpsController:
         ground = find_ground(viewed.scene, bounds, view, settings.walkable, settings.slope)
         return GroundController(view, bounds, ground, (view.azimuth, 0.0))
     return FpsController(view, bounds)
+
+
+def walk(view_renderer: ViewRenderer, view: Viewpoint, count: int) -> Iterator[np.ndarray]:
+    """Yield ``count`` pictures of somebody who walks ahead, and turns right where the way ends."""
+    seconds = seconds_a_frame(view_renderer, count)
+    walker = controller(view_renderer, view)
+    view = view.copy()
+    for index in range(count):
+        walker.place(view)
+        yield view_renderer.draw(view, index * seconds % view_renderer.viewed.period).color
+        before = walker.position
+        walker.walk({"W"}, seconds)
+        ahead = walker.position - before
+        if ahead[0] * ahead[0] + ahead[2] * ahead[2] < (0.2 * walker.speed * seconds) ** 2:
+            walker.walk({"Right"}, _TURN_SECONDS)

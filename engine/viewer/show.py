@@ -13,7 +13,7 @@ import numpy as np
 
 from .._support.calls import checks_types
 from .._support.image_size import check_size
-from .._support.numbers import real, shown
+from .._support.numbers import shown
 from ..canvas import Canvas
 from ..choices import PixelFormat
 from ..errors import DisplayError, InvalidArgumentError
@@ -22,13 +22,11 @@ from ..rendering.frame import Frame
 from ..scene.instances import InstancedMesh
 from ..scene.nodes import Node
 from ..scene.scene import Scene
-from ..scene.scenes_of_things import scene_of
-from ..stage.played_clips import play_clips
+from ..stage.first_view import view_of_scene
 from ..stage.stage_settings import Settings
-from ..stage.theme import DARK
 from ..stage.view_renderer import ViewRenderer
 from ..stage.viewed_scene import TURN_SECONDS, ViewedScene
-from ..stage.viewpoint import UP_DIRECTIONS, Viewpoint, look_through
+from ..stage.viewed_thing import viewed_thing
 from .picture_window import PictureWindow, fitting_size
 from .pixels import Picture, as_pixels
 from .sampling import Sampling
@@ -117,56 +115,13 @@ def _show(thing, size, title, up, update, period, format) -> None:
     _show_scene(viewed, size)
 
 
-def viewed_thing(
-    thing,
-    *,
-    title: str | None,
-    up: str,
-    update: Callable[[float], None] | None,
-    period: float,
-) -> ViewedScene | None:
-    """Return what `show` shows of a scene, node or mesh; None for what is none of these."""
-    scene = scene_of(thing)
-    if scene is None:
-        return None
-    if scene is not thing:
-        scene.background = DARK.background
-    check_motion(update, "update")
-    if up not in UP_DIRECTIONS:
-        raise InvalidArgumentError(f"up must be one of {', '.join(UP_DIRECTIONS)}, not {up!r}")
-    if not real(period) > 0:
-        raise InvalidArgumentError(f"period must be a positive number, not {shown(period)}")
-    title = title or getattr(thing, "name", "") or type(thing).__name__.lower()
-    viewed = ViewedScene(scene, title, up, update=update, period=period, plays=update is not None)
-    viewed.themed = scene is not thing
-    if update is None:
-        play_clips(viewed)
-    return viewed
-
-
-def check_motion(function, what: str) -> None:
-    """Raise `InvalidArgumentError` unless it is None or can be called."""
-    if function is not None and not callable(function):
-        raise InvalidArgumentError(f"{what} must be a function of the time, not {shown(function)}")
-
-
-def first_view(view_renderer: ViewRenderer) -> Viewpoint | None:
-    """Return the view of the scene's first visible camera; None without one that has an eye."""
-    node = view_renderer.viewed.scene._camera_node()
-    if node is None:
-        return None
-    view = view_renderer.view()
-    look_through(view, node, view_renderer.bounds)
-    return view
-
-
 def _show_scene(viewed: ViewedScene, size: tuple[int, int] | None) -> None:
     size = size or SIZE
     with (
         Window(*size, f"{viewed.title} - engine3d") as window,
         ViewRenderer(viewed, Settings({}), size) as view_renderer,
     ):
-        view = first_view(view_renderer)
+        view = view_of_scene(view_renderer)
         try:
             viewer = Viewer(view_renderer, window, view=view, sampling=Sampling())
             viewer.say("H: help")

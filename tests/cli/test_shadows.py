@@ -6,7 +6,7 @@ from PIL import Image
 import engine3d as e3d
 from engine3d.cli import main
 from engine3d.scene.lights import DirectionalLight, PointLight
-from engine3d.stage.shadow_switch import ShadowSwitch
+from engine3d.stage.shadow_switch import switch_shadows
 
 SUN = ["--light-direction=-0.5,-1,-0.6"]
 
@@ -49,14 +49,11 @@ def test_other_kinds_are_refused(capsys, tmp_path):
     assert "--shadows" in capsys.readouterr().err
 
 
-def test_main_lights_cast_and_are_as_before_when_left():
+def test_only_main_lights_cast():
     key, fill = DirectionalLight(intensity=1.0), DirectionalLight(intensity=0.2, shadow=True)
     lamps = [PointLight(shadow=True) for _ in range(5)]
     few = [PointLight() for _ in range(2)]
-    switch = ShadowSwitch([[key, fill, *lamps], few], True)
+    switch_shadows([[key, fill, *lamps], few], True)
     assert [light.shadow for light in (key, fill)] == [True, False]
     assert not any(lamp.shadow for lamp in lamps)
     assert all(lamp.shadow for lamp in few)
-    switch.leave()
-    assert [light.shadow for light in (key, fill)] == [False, True]
-    assert all(lamp.shadow for lamp in lamps) and not any(lamp.shadow for lamp in few)

@@ -1,0 +1,46 @@
+"""A scene, a node or a mesh of a program as a scene to look at."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from .._support.numbers import real, shown
+from ..errors import InvalidArgumentError
+from ..scene.scenes_of_things import scene_of
+from .played_clips import play_clips
+from .theme import DARK
+from .viewed_scene import ViewedScene
+from .viewpoint import UP_DIRECTIONS
+
+
+def viewed_thing(
+    thing,
+    *,
+    title: str | None,
+    up: str,
+    update: Callable[[float], None] | None,
+    period: float,
+) -> ViewedScene | None:
+    """Return what `show` shows of a scene, node or mesh; None for what is none of these."""
+    scene = scene_of(thing)
+    if scene is None:
+        return None
+    if scene is not thing:
+        scene.background = DARK.background
+    check_motion(update, "update")
+    if up not in UP_DIRECTIONS:
+        raise InvalidArgumentError(f"up must be one of {', '.join(UP_DIRECTIONS)}, not {up!r}")
+    if not real(period) > 0:
+        raise InvalidArgumentError(f"period must be a positive number, not {shown(period)}")
+    title = title or getattr(thing, "name", "") or type(thing).__name__.lower()
+    viewed = ViewedScene(scene, title, up, update=update, period=period, plays=update is not None)
+    viewed.themed = scene is not thing
+    if update is None:
+        play_clips(viewed)
+    return viewed
+
+
+def check_motion(function, what: str) -> None:
+    """Raise `InvalidArgumentError` unless it is None or can be called."""
+    if function is not None and not callable(function):
+        raise InvalidArgumentError(f"{what} must be a function of the time, not {shown(function)}")

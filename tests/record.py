@@ -4,9 +4,10 @@
     python tests/record.py [FOLDER_OR_FILE...]
 
 In: the tests, a file in one process each; of a test with parameters, the first and the last set.
-Out: tests/covered.txt, for each file of engine/ and csrc/ the tests that are busiest in it, best
-first. What was recorded stays in build/recorded/, and only what is named, or missing, runs again.
-C needs a build that counts (above); without it, only Python is recorded. It takes half an hour.
+Out: tests/covered.txt, for each file of engine/ and csrc/ the tests that are busiest in it, those
+of its own folder before others. What was recorded stays in build/recorded/, and only what is named,
+or missing, runs again. C needs a build that counts (above); without it, only Python is recorded. It
+takes half an hour.
 """
 
 from __future__ import annotations
@@ -27,7 +28,17 @@ OUTPUT = "ENGINE3D_RECORDED"
 # These go through everything, or start programs: they say little of a single file.
 LEFT_OUT = ("benchmarks", "docs", "lessons", "packaging", "public")
 SECONDS = 40  # that all tests of a file may take together
-TESTS = 4  # of a file, at most
+TESTS = 3  # of a file, at most
+NEAR = 10  # how much better a test is that lies in the folder of the source's tests
+# Where the tests of folders of csrc/ lie that have none of their own name.
+HOMES = {
+    "core": {"kernels", "pipeline"},
+    "frame": {"exactness", "images", "pipeline"},
+    "images": {"files", "writers"},
+    "kernels": {"exactness"},
+    "pipeline": {"exactness", "images"},
+    "reference": {"exactness", "images"},
+}
 CO_OPTIMIZED = 1  # functions have it; modules and classes, which run when they are imported, don't
 
 _calls: Counter[str] = Counter()
@@ -125,8 +136,15 @@ def table() -> str:
         total = sum(one["entered"].values())
         test = path.stem.replace(".", "/")
         for name, count in one["entered"].items():
-            found[name].append((count / total, test, one["seconds"]))
+            near = NEAR if is_near(test, name) else 1
+            found[name].append((near * count / total, test, one["seconds"]))
     return "".join(f"{name}: {' '.join(chosen(tests))}\n" for name, tests in sorted(found.items()))
+
+
+def is_near(test: str, source: str) -> bool:
+    """Whether a test lies where those of a source file lie."""
+    folders = source.split("/")[1:-1]
+    return bool({*test.split("/")[:-1]} & set(folders).union(*(HOMES.get(f, ()) for f in folders)))
 
 
 def chosen(tests: list[tuple[float, str, float]]) -> list[str]:

@@ -36,6 +36,15 @@ def test_the_newest_python_is_taken(source_tree, tmp_path, there, wanted, found)
     assert (f"/versions/{found}.1/" in done.stdout) == (found is not None)
 
 
+def test_what_the_quick_one_tests_is_there(source_tree):
+    script = (source_tree / ".ci" / "quick").read_text("utf-8")
+    words = [word for word in script.split() if word.startswith("tests/")]
+    command = ["bash", "-c", f"printf '%s\\n' {' '.join(words)}"]
+    paths = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
+    assert len(paths) > 20
+    assert [path for path in paths if not (source_tree / path).exists()] == []
+
+
 def test_nothing_is_installed_between_the_halves_of_readmes_commands(source_tree):
     """What a newcomer lacks would be there, and hide tests that need it."""
     lines = (source_tree / ".ci" / "run").read_text("utf-8").splitlines()

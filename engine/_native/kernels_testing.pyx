@@ -46,7 +46,8 @@ cdef extern from "pipeline/pass/plan.h" nogil:
         const char *text
     const e3d_plan_rule E3D_PLAN_RULES[]
     const int E3D_PLAN_RULE_COUNT
-    const e3d_plan_word E3D_ASKED_WORDS[], E3D_PLAN_WORDS[]
+    const e3d_plan_word E3D_ASKED_WORDS[]
+    const e3d_plan_word E3D_PLAN_WORDS[]
 
 # Functions of the core by their names.
 ADDRESSES = {
@@ -97,18 +98,18 @@ def plan_rules():
         rule = &E3D_PLAN_RULES[r]
         needs = names(asked, rule.asked) + names(planned, rule.planned)
         forbids = names(asked, rule.unless_asked) + names(planned, rule.unless_planned)
-        rules.append((planned[rule.item][0], needs, forbids))
+        rules.append((planned[<int>rule.item][0], needs, forbids))
     return rules
 
 
 def asked_items():
     """What may be asked for, in the order of its bits: (name, meaning)."""
-    return [(E3D_ASKED_WORDS[k].name.decode(), E3D_ASKED_WORDS[k].text.decode()) for k in range(E3D_ASKED_ITEMS)]
+    return [(E3D_ASKED_WORDS[k].name.decode(), E3D_ASKED_WORDS[k].text.decode()) for k in range(<int>E3D_ASKED_ITEMS)]
 
 
 def planned_items():
     """What is planned, in the order of its bits: (name, meaning)."""
-    return [(E3D_PLAN_WORDS[k].name.decode(), E3D_PLAN_WORDS[k].text.decode()) for k in range(E3D_PLAN_ITEMS)]
+    return [(E3D_PLAN_WORDS[k].name.decode(), E3D_PLAN_WORDS[k].text.decode()) for k in range(<int>E3D_PLAN_ITEMS)]
 
 
 def dfg_table(int kind):

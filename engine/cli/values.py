@@ -22,6 +22,7 @@ MAX_EXPOSURE = 64  # stops
 MAX_BLOOM = 100
 CITY_TRIANGLES = 20_000, 50_000_000
 MAX_SUBDIVISIONS = 512
+_MOST = 999_999_999
 
 
 def resolution(text: str) -> tuple[int, int]:
@@ -46,143 +47,64 @@ def number(text: str) -> float:
     return value
 
 
-def index(text: str) -> int:
-    """Parse a whole number from -1 on."""
-    try:
-        value = int(text)
-    except ValueError:
-        value = -2
-    if value < -1:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number, -1 or greater")
-    return value
+def _real(wanted: str, fits: Callable[[float], bool]) -> Callable[[str], float]:
+    """Return a function that parses a finite number and refuses what does not fit."""
+
+    def parse(text: str) -> float:
+        value = number(text)
+        if not fits(value):
+            raise argparse.ArgumentTypeError(f"{text!r} is not {wanted}")
+        return value
+
+    return parse
 
 
-def component(text: str) -> int:
-    """Parse the number of a component, or what stands for their length or for colours."""
-    try:
-        value = int(text)
-    except ValueError:
-        value = -3
-    if value < -2:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number, -2 or greater")
-    return value
+positive = _real("above zero", lambda value: value > 0.0)
+not_negative = _real("zero or more", lambda value: value >= 0.0)
+fraction = _real("a number from 0 to 1", lambda value: 0.0 <= value <= 1.0)
+#: Of a line or a point, in pixels.
+width = _real(f"above 0 and at most {MAX_WIDTH} pixels", lambda value: 0.0 < value <= MAX_WIDTH)
+#: What is added to the level of detail of textures.
+lod_bias = _real(f"in -{MAX_LOD_BIAS} to {MAX_LOD_BIAS}", lambda value: abs(value) <= MAX_LOD_BIAS)
+#: Of exposure.
+stops = _real(
+    f"a number from -{MAX_EXPOSURE} to {MAX_EXPOSURE}", lambda value: abs(value) <= MAX_EXPOSURE
+)
+bloom = _real(f"a number from 0 to {MAX_BLOOM}", lambda value: 0.0 <= value <= MAX_BLOOM)
+#: Of ground, in degrees.
+slope = _real("from 0 to less than 90 degrees", lambda value: 0.0 <= value < 90.0)
+#: A vertical field of view in degrees.
+view_angle = _real("from 0.1 to 170 degrees", lambda value: 0.1 <= value <= 170.0)
 
 
-def positive(text: str) -> float:
-    """Parse a finite number above zero."""
-    value = number(text)
-    if value <= 0.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is not above zero")
-    return value
+def _whole(least: int = -_MOST, most: int = _MOST) -> Callable[[str], int]:
+    """Return a function that parses a whole number of up to nine digits, in a range."""
+    wanted = f" of at least {least}" if least > -_MOST else ""
+    wanted = f" from {least:,} to {most:,}" if most < _MOST else wanted
+
+    def parse(text: str) -> int:
+        if not (re.fullmatch(r"-?\d{1,9}", text) and least <= int(text) <= most):
+            raise argparse.ArgumentTypeError(f"{text!r} is not a whole number{wanted}")
+        return int(text)
+
+    return parse
 
 
-def width(text: str) -> float:
-    """Parse the width of a line or a point in pixels."""
-    value = positive(text)
-    if value > MAX_WIDTH:
-        raise argparse.ArgumentTypeError(f"{text!r} is above {MAX_WIDTH} pixels")
-    return value
-
-
-def anisotropy(text: str) -> int:
-    """Parse the most places at which a texture is read, 1 to 16."""
-    value = count(text)
-    if value > MAX_ANISOTROPY:
-        raise argparse.ArgumentTypeError(f"{text!r} is above {MAX_ANISOTROPY}")
-    return value
-
-
-def lod_bias(text: str) -> float:
-    """Parse what is added to the level of detail of textures."""
-    value = number(text)
-    if abs(value) > MAX_LOD_BIAS:
-        raise argparse.ArgumentTypeError(f"{text!r} is not in -{MAX_LOD_BIAS} to {MAX_LOD_BIAS}")
-    return value
-
-
-def not_negative(text: str) -> float:
-    """Parse a finite number, zero or more."""
-    value = number(text)
-    if value < 0.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is negative")
-    return value
-
-
-def stops(text: str) -> float:
-    """Parse a number of stops of exposure."""
-    value = number(text)
-    if not abs(value) <= MAX_EXPOSURE:
-        raise argparse.ArgumentTypeError(
-            f"{text!r} is not a number from -{MAX_EXPOSURE} to {MAX_EXPOSURE}"
-        )
-    return value
-
-
-def bloom(text: str) -> float:
-    """Parse the strength of a glow."""
-    value = not_negative(text)
-    if value > MAX_BLOOM:
-        raise argparse.ArgumentTypeError(f"{text!r} is above {MAX_BLOOM}")
-    return value
-
-
-def fraction(text: str) -> float:
-    """Parse a number from 0 to 1."""
-    value = not_negative(text)
-    if value > 1.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is above one")
-    return value
-
-
-def count(text: str) -> int:
-    """Parse an integer of at least one."""
-    if not re.fullmatch(r"\d{1,9}", text) or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of at least 1")
-    return int(text)
-
-
-def whole(text: str) -> int:
-    """Parse a whole number, zero or more."""
-    if not re.fullmatch(r"\d{1,9}", text):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of at least 0")
-    return int(text)
-
-
-def ui_scale(text: str) -> int:
-    """Parse a factor on the size of texts."""
-    if not re.fullmatch(r"\d", text) or not 1 <= int(text) <= MAX_UI_SCALE:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1 to {MAX_UI_SCALE}")
-    return int(text)
-
-
-def city_triangles(text: str) -> int:
-    """Parse how many triangles a city has."""
-    value, (least, most) = count(text), CITY_TRIANGLES
-    if not least <= value <= most:
-        raise argparse.ArgumentTypeError(f"{text!r} is not from {least:,} to {most:,}")
-    return value
-
-
-def subdivisions(text: str) -> int:
-    """Parse into how many parts edges are cut."""
-    value = count(text)
-    if not 1 <= value <= MAX_SUBDIVISIONS:
-        raise argparse.ArgumentTypeError(f"{text!r} is not from 1 to {MAX_SUBDIVISIONS}")
-    return value
-
-
-def integer(text: str) -> int:
-    """Parse an integer of up to nine digits."""
-    if not re.fullmatch(r"-?\d{1,9}", text):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number")
-    return int(text)
-
-
-def thread_count(text: str) -> int:
-    """Parse a number of threads, 0 for as many as the process may use."""
-    if not re.fullmatch(r"\d{1,3}", text) or int(text) > MAX_THREADS:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 0 to {MAX_THREADS}")
-    return int(text)
+integer = _whole()
+#: Of an animation; -1 for all of them.
+index = _whole(-1)
+#: Of a vector; -1 for its length, -2 for colours.
+component = _whole(-2)
+whole = _whole(0)
+count = _whole(1)
+#: The most places at which a texture is read.
+anisotropy = _whole(1, MAX_ANISOTROPY)
+ui_scale = _whole(1, MAX_UI_SCALE)
+city_triangles = _whole(*CITY_TRIANGLES)
+#: Into how many parts edges are cut.
+subdivisions = _whole(1, MAX_SUBDIVISIONS)
+#: 0 for as many threads as the process may use.
+thread_count = _whole(0, MAX_THREADS)
 
 
 def thread_counts(text: str) -> list[int]:
@@ -246,28 +168,12 @@ def names(text: str) -> tuple[str, ...]:
     return tuple(filter(None, (part.strip() for part in text.split(","))))
 
 
-def slope(text: str) -> float:
-    """Parse an angle of ground in degrees."""
-    value = not_negative(text)
-    if value >= 90.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is not less than 90 degrees")
-    return value
-
-
 def crease_angle(text: str) -> float:
     """Parse an angle between faces in degrees; return radians."""
     value = not_negative(text)
     if value > 180.0:
         raise argparse.ArgumentTypeError(f"{text!r} is more than 180 degrees")
     return math.radians(value)
-
-
-def view_angle(text: str) -> float:
-    """Parse a vertical field of view in degrees."""
-    value = number(text)
-    if not 0.1 <= value <= 170.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is not from 0.1 to 170 degrees")
-    return value
 
 
 def up_direction(text: str) -> str:

@@ -55,7 +55,7 @@ def test_fog_takes_the_middle_of_a_gradient(model):
         (["--fog", "2,2"], "NEAR less than FAR"),
         (["--fog", "1,2", "--fog-density", "1"], "do not go together"),
         (["--fog-color", "red"], "--fog-color goes with"),
-        (["--fog-density", "-1"], "negative"),
+        (["--fog-density", "-1"], "zero or more"),
         (["--background-gradient", "red"], "expected 2 arguments"),
         (["--background-gradient", "red", "blue", "--background-color", "red"], "--background-col"),
         (["--background-gradient", "red", "blue", "--no-background"], "--no-background"),

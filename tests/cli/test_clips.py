@@ -127,7 +127,7 @@ def test_run_plays_into_a_file(moving):
     ("arguments", "status", "message"),
     (
         (["--animation-index", "2"], 2, "flag.gltf has no animation 2 (the last is 1)"),
-        (["--animation-index", "-2"], 2, "'-2' is not a whole number, -1 or greater"),
+        (["--animation-index", "-2"], 2, "'-2' is not a whole number of at least -1"),
         (["--animation-time", "x"], 2, "'x' is not a number"),
         (["--camera-index", "2"], 2, "flag.gltf has no camera 2 (the last is 1)"),
         (["--variant", "red"], 1, "no variant 'red'"),

@@ -50,8 +50,8 @@ def test_the_studio_if_no_other_is_named(tmp_path):
         (["--background", "environment", "--background-color", "red"], "does not go with"),
         (["--background", "environment", "--no-background"], "does not go with"),
         (["--background", "sky"], "is not one of environment"),
-        (["--background-blur", "2"], "above one"),
-        (["--environment-intensity", "-1"], "negative"),
+        (["--background-blur", "2"], "from 0 to 1"),
+        (["--environment-intensity", "-1"], "zero or more"),
         (["--environment-rotation", "x"], "not a number"),
     ],
 )

@@ -35,8 +35,8 @@ def test_they_change_the_picture(tmp_path):
     [
         (["--tone-mapping", "filmic"], "is not one of none, neutral, aces, agx"),
         (["--exposure", "65"], "is not a number from -64 to 64"),
-        (["--bloom", "-1"], "negative"),
-        (["--bloom", "101"], "above 100"),
+        (["--bloom", "-1"], "from 0 to 100"),
+        (["--bloom", "101"], "from 0 to 100"),
     ],
 )
 def test_what_is_no_value(capsys, tmp_path, options, told):

@@ -8,7 +8,7 @@ import importlib
 from collections.abc import Sequence
 
 from ..version import __version__
-from . import config, suggestions
+from . import config, options, suggestions
 from .commands import COMMANDS
 from .joined_values import join_values
 from .suggestions import Parser
@@ -79,6 +79,8 @@ def make_parser() -> Parser:
         command.set_defaults(load_command=functools.partial(_load, name))
         for add in row.options:
             add(command)
+        if row.quiet:
+            options.add_quiet(command)
     parser.commands = commands.choices
     return parser
 

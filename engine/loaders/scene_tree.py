@@ -73,7 +73,7 @@ def pose_parts(node: JsonValue) -> dict[str, list]:
 
 def shown_parts(record: SceneRecord, source: Source) -> list[DocumentObject]:
     """Return what shows, with poses in the world; an instance each."""
-    worlds, is_shown = _world_poses(record), _shown(record)
+    worlds, is_shown = _standing(record)
     parts: list[DocumentObject] = []
     for number, node in enumerate(record.nodes):
         held = node.get("object")
@@ -112,23 +112,15 @@ def mesh_of(record: SceneRecord, number: JsonValue) -> Mesh:
     return record.meshes[index]
 
 
-def _shown(record: SceneRecord) -> list[bool]:
-    """Whether each node, and all above it, are not hidden."""
+def _standing(record: SceneRecord) -> tuple[np.ndarray, np.ndarray]:
+    """The poses of the nodes in the world, (N, 4, 4) float64, and which show, as all above them."""
     hidden = [node.get("hidden") for node in record.nodes]
-    is_shown = [held is None or not held.flag() for held in hidden]
-    for level in _levels(record):
-        for number in level:
-            is_shown[number] &= record.parents[number] < 0 or is_shown[record.parents[number]]
-    return is_shown
-
-
-def _world_poses(record: SceneRecord) -> np.ndarray:
-    """The poses of the nodes in the world, (N, 4, 4) float64."""
-    worlds = _poses(record.places)
-    parents = np.array(record.parents)
+    is_shown = np.array([held is None or not held.flag() for held in hidden], bool)
+    worlds, parents = _poses(record.places), np.array(record.parents)
     for level in _levels(record)[1:]:
         worlds[level] = linalg.multiply(worlds[parents[level]], worlds[level])
-    return worlds
+        is_shown[level] &= is_shown[parents[level]]
+    return worlds, is_shown
 
 
 def _levels(record: SceneRecord) -> list[list[int]]:

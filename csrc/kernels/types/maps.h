@@ -76,24 +76,42 @@ typedef struct e3d_stretch_map {
     float unit, strength, turn[2]; /* turn: cosine and sine */
 } e3d_stretch_map;
 
+/* What of a physically based material a texture varies: X(slot, channel, name, factor), with the factors of an e3d_material m. */
+#define E3D_EACH_VARYING(X) \
+    X(E3D_SLOT_METALLIC_ROUGHNESS, 2, metallic, m->physical.metallic) \
+    X(E3D_SLOT_METALLIC_ROUGHNESS, 1, roughness, m->physical.roughness) \
+    X(E3D_SLOT_OCCLUSION, 0, occlusion, 1.0f) /* before the strength */ \
+    X(E3D_SLOT_SPECULAR, 3, specular, m->physical.specular_intensity) \
+    X(E3D_SLOT_CLEARCOAT, 0, coat, m->physical.clearcoat) \
+    X(E3D_SLOT_CLEARCOAT_ROUGHNESS, 1, coat_roughness, m->physical.clearcoat_roughness) \
+    X(E3D_SLOT_SHEEN_ROUGHNESS, 3, sheen_roughness, m->physical.sheen_roughness) \
+    X(E3D_SLOT_TRANSMISSION, 0, transmission, m->physical.transmission) \
+    X(E3D_SLOT_THICKNESS, 1, thickness, m->physical.thickness) \
+    X(E3D_SLOT_IRIDESCENCE, 0, iridescence, m->physical.iridescence)
+/* The same of colours, each of three channels: X(slot, name, factors). */
+#define E3D_EACH_VARYING_COLOR(X) \
+    X(E3D_SLOT_SPECULAR_COLOR, reflectance, m->physical.reflectance) \
+    X(E3D_SLOT_EMISSIVE, emissive, m->emissive) \
+    X(E3D_SLOT_SHEEN_COLOR, sheen, m->physical.sheen_color)
+
 /* A physically based material on a batch (R46, R49). */
 typedef struct e3d_surface_model {
-    e3d_varying metallic, roughness, occlusion; /* occlusion: the channel times the unit, before the strength */
+#define E3D_VARYING(slot, channel, name, factor) e3d_varying name;
+    E3D_EACH_VARYING(E3D_VARYING)
+#define E3D_VARYING_COLOR(slot, name, factors) e3d_varying name[3];
+    E3D_EACH_VARYING_COLOR(E3D_VARYING_COLOR)
     float occlusion_strength;
-    e3d_varying reflectance[3], specular, emissive[3];
-    e3d_varying coat, coat_roughness, sheen[3], sheen_roughness;
     int has_coat, has_sheen;
-    int is_grey;        /* the reflectance is the same of all channels */
-    int coat_is_mapped; /* coat_normal is read; else the coat's normal is shading_normal */
-    e3d_varying transmission, thickness;
+    int is_grey;         /* the reflectance is the same of all channels */
+    int coat_is_mapped;  /* coat_normal is read; else the coat's normal is shading_normal */
     float absorption[3]; /* base-2 logarithm of what a world unit leaves of light */
     int transmits;       /* `through` is found */
     int absorbs;         /* by `depth` */
     int anisotropic, iridescent;
     e3d_stretch_map stretch;
-    e3d_varying iridescence, film; /* film: the thickness in nanometres is film_least + film */
+    e3d_varying film; /* the thickness in nanometres is film_least + film */
     float film_least, film_ior;
-    int is_rare;         /* any of these, or transmits */
+    int is_rare;      /* it transmits, or is anisotropic or iridescent */
 } e3d_surface_model;
 
 #endif

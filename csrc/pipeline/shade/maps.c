@@ -34,40 +34,43 @@ static int is_lit(const e3d_prepared *pass, const e3d_bucket *bucket)
     return e3d_plans(pass, E3D_PLAN_COLORS) && pass->frame->mode == E3D_MODE_LIT && !bucket->material->is_unlit;
 }
 
+static int is_coated(const e3d_physical *p) { return p->clearcoat != 0.0f; }
+static int has_sheen(const e3d_physical *p) { return e3d_adds(p->sheen_color); }
 static int absorbs(const e3d_physical *p) { return p->thickness != 0.0f && e3d_adds(p->absorption); }
+static int is_anisotropic(const e3d_physical *p) { return p->anisotropy != 0.0f; }
+static int is_iridescent(const e3d_physical *p) { return p->iridescence != 0.0f; }
 
 /* Whether the fourth channel of a slot counts. */
 static int reads_alpha(const e3d_material *m, e3d_texture_slot slot)
 {
-    return slot == E3D_SLOT_SPECULAR || slot == E3D_SLOT_SHEEN_ROUGHNESS || (slot == E3D_SLOT_TEXTURE && m->alpha_mode != E3D_ALPHA_OPAQUE);
+#define FOURTH(slot, channel, name, factor) | ((channel) == 3) << slot
+    enum { ALWAYS = 0 E3D_EACH_VARYING(FOURTH) };
+    return ((ALWAYS >> slot) & 1) || (slot == E3D_SLOT_TEXTURE && m->alpha_mode != E3D_ALPHA_OPAQUE);
 }
 
 /* Whether a slot is read for what the frame asks for. */
 static int is_read(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_texture_slot slot)
 {
     const e3d_material *m = bucket->material;
+    const e3d_physical *p = &m->physical;
     int lit = m->is_physical && is_lit(pass, bucket), listed = m->is_physical && e3d_plans(pass, E3D_ASKED_MATERIALS);
     switch (slot) {
     case E3D_SLOT_TEXTURE: return e3d_plans(pass, E3D_PLAN_BASE_COLOR) || m->alpha_mode != E3D_ALPHA_OPAQUE;
     case E3D_SLOT_NORMAL: return e3d_plans(pass, E3D_PLAN_NORMAL);
     case E3D_SLOT_METALLIC_ROUGHNESS:
     case E3D_SLOT_EMISSIVE: return lit || listed;
-    case E3D_SLOT_OCCLUSION:
-    case E3D_SLOT_SPECULAR:
-    case E3D_SLOT_SPECULAR_COLOR: return lit;
     case E3D_SLOT_CLEARCOAT:
     case E3D_SLOT_CLEARCOAT_ROUGHNESS:
-    case E3D_SLOT_CLEARCOAT_NORMAL: return lit && m->physical.clearcoat != 0.0f;
+    case E3D_SLOT_CLEARCOAT_NORMAL: return lit && is_coated(p);
     case E3D_SLOT_SHEEN_COLOR:
-    case E3D_SLOT_SHEEN_ROUGHNESS: return lit && e3d_adds(m->physical.sheen_color);
+    case E3D_SLOT_SHEEN_ROUGHNESS: return lit && has_sheen(p);
     case E3D_SLOT_TRANSMISSION: return lit && bucket->transmits;
-    case E3D_SLOT_THICKNESS: return lit && bucket->transmits && absorbs(&m->physical);
-    case E3D_SLOT_ANISOTROPY: return lit && m->physical.anisotropy != 0.0f;
+    case E3D_SLOT_THICKNESS: return lit && bucket->transmits && absorbs(p);
+    case E3D_SLOT_ANISOTROPY: return lit && is_anisotropic(p);
     case E3D_SLOT_IRIDESCENCE:
-    case E3D_SLOT_IRIDESCENCE_THICKNESS: return lit && m->physical.iridescence != 0.0f;
-    case E3D_TEXTURE_SLOTS: break;
+    case E3D_SLOT_IRIDESCENCE_THICKNESS: return lit && is_iridescent(p);
+    default: return lit;
     }
-    return 0;
 }
 
 static int same_place(const e3d_map_place *a, const e3d_map_place *b)
@@ -132,7 +135,7 @@ void e3d_find_maps(const e3d_prepared *pass, const e3d_bucket *bucket, int wante
     if ((slot == E3D_SLOT_TEXTURE || all) && is_read(pass, bucket, slot) && e3d_map_counts(bucket, &m->name)) \
         out->of_slot[slot] = find_map(out, &m->name, reads_alpha(m, slot));
     E3D_EACH_TEXTURE_SLOT(FIND)
-    int stretched = m->is_physical && m->physical.anisotropy != 0.0f && is_lit(pass, bucket);
+    int stretched = m->is_physical && is_anisotropic(&m->physical) && is_lit(pass, bucket);
     if (out->of_slot[E3D_SLOT_NORMAL] >= 0 || out->of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0 ||
         (all && (pass->targets->tangent || stretched)))
         find_tangent_place(bucket, out);
@@ -275,10 +278,9 @@ static void add_rare(const e3d_map_memory *maps, const e3d_physical *p, e3d_surf
 {
     int varies = maps->maps.of_slot[E3D_SLOT_IRIDESCENCE_THICKNESS] >= 0;
     float least = p->iridescence_thickness[0], most = p->iridescence_thickness[1];
-    model->anisotropic = p->anisotropy != 0.0f;
-    model->iridescent = p->iridescence != 0.0f;
+    model->anisotropic = is_anisotropic(p);
+    model->iridescent = is_iridescent(p);
     model->stretch = stretch_of(maps, p);
-    model->iridescence = varying_of(maps, E3D_SLOT_IRIDESCENCE, 0, p->iridescence);
     model->film = varying_of(maps, E3D_SLOT_IRIDESCENCE_THICKNESS, 1, varies ? most - least : most);
     model->film_least = least;
     model->film_ior = p->iridescence_ior;
@@ -290,28 +292,20 @@ static e3d_surface_model model_of(const e3d_bucket *bucket, const e3d_map_memory
     const e3d_material *m = bucket->material;
     const e3d_physical *p = &m->physical;
     e3d_surface_model model = {
-        .metallic = varying_of(maps, E3D_SLOT_METALLIC_ROUGHNESS, 2, p->metallic),
-        .roughness = varying_of(maps, E3D_SLOT_METALLIC_ROUGHNESS, 1, p->roughness),
-        .occlusion = varying_of(maps, E3D_SLOT_OCCLUSION, 0, 1.0f),
         .occlusion_strength = p->occlusion_strength,
-        .specular = varying_of(maps, E3D_SLOT_SPECULAR, 3, p->specular_intensity),
-        .coat = varying_of(maps, E3D_SLOT_CLEARCOAT, 0, p->clearcoat),
-        .coat_roughness = varying_of(maps, E3D_SLOT_CLEARCOAT_ROUGHNESS, 1, p->clearcoat_roughness),
-        .sheen_roughness = varying_of(maps, E3D_SLOT_SHEEN_ROUGHNESS, 3, p->sheen_roughness),
-        .transmission = varying_of(maps, E3D_SLOT_TRANSMISSION, 0, p->transmission),
-        .thickness = varying_of(maps, E3D_SLOT_THICKNESS, 1, p->thickness),
         .transmits = bucket->transmits,
         .absorbs = bucket->transmits && absorbs(p),
-        .has_coat = p->clearcoat != 0.0f,
-        .has_sheen = e3d_adds(p->sheen_color),
+        .has_coat = is_coated(p),
+        .has_sheen = has_sheen(p),
         .is_grey = maps->maps.of_slot[E3D_SLOT_SPECULAR_COLOR] < 0 && p->reflectance[0] == p->reflectance[1] &&
                    p->reflectance[1] == p->reflectance[2],
         .coat_is_mapped = maps->maps.of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0,
     };
+#define VARYING(slot, channel, name, factor) model.name = varying_of(maps, slot, channel, factor);
+    E3D_EACH_VARYING(VARYING)
     for (int k = 0; k < 3; k++) {
-        model.reflectance[k] = varying_of(maps, E3D_SLOT_SPECULAR_COLOR, k, p->reflectance[k]);
-        model.emissive[k] = varying_of(maps, E3D_SLOT_EMISSIVE, k, m->emissive[k]);
-        model.sheen[k] = varying_of(maps, E3D_SLOT_SHEEN_COLOR, k, p->sheen_color[k]);
+#define VARYING_COLOR(slot, name, factors) model.name[k] = varying_of(maps, slot, k, factors[k]);
+        E3D_EACH_VARYING_COLOR(VARYING_COLOR)
         model.absorption[k] = p->absorption[k];
     }
     add_rare(maps, p, &model);

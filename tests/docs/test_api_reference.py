@@ -1,4 +1,4 @@
-"""Every public name has a docstring and a place in docs/api/; the plan's page is up to date."""
+"""Every public name has a docstring and a place in docs/api/; made pages are up to date."""
 
 import inspect
 import re
@@ -15,8 +15,9 @@ DOCS = Path(__file__).resolve().parents[2] / "docs"
 WITHOUT_ENTRY = {"__version__", "choices", "errors", "primitives"}
 
 
-def test_the_page_of_the_plan_is_up_to_date():
-    command = [sys.executable, DOCS / "make_plan.py", "--check"]
+@pytest.mark.parametrize("page", ("plan", "materials"))
+def test_pages_that_are_made_are_up_to_date(page):
+    command = [sys.executable, DOCS / f"make_{page}.py", "--check"]
     run = subprocess.run(command, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
 

@@ -81,22 +81,14 @@ class Material(Versioned):
         "fourth is alpha: linear, from 0 to 1, or to 255 if the four are 8-bit integers.",
     )
     texture: TextureSlot = TextureSlot(
-        default=None,
-        is_color=True,
-        gltf="pbrMetallicRoughness/baseColorTexture",
-        doc="Of the base colour, and its alpha.",
+        default=None, is_color=True, gltf="pbrMetallicRoughness/baseColorTexture", doc="RGBA."
     )
     specular: ColorNumbers = Parameter(
-        COLOR,
-        default=(0, 0, 0),
-        doc="Colour of the Blinn-Phong highlight; black means none. Physical materials have none.",
+        COLOR, default=(0, 0, 0), doc="Colour of the Blinn-Phong highlight, if not physical."
     )
     shininess: Number = Parameter(NOT_NEGATIVE, default=32.0, doc="Blinn-Phong exponent.")
     emissive: ColorNumbers = Parameter(
-        COLOR,
-        default=(0, 0, 0),
-        gltf="emissiveFactor",
-        doc="Light that the surface gives off, added after lighting.",
+        COLOR, default=(0, 0, 0), gltf="emissiveFactor", doc="Light of its own, added at the end."
     )
     two_sided: Flag = Parameter(
         FLAG, default=False, doc="Draw and light the back of the faces as well, whatever is culled."
@@ -106,9 +98,7 @@ class Material(Versioned):
     )
     name: Parameter[str, str] = Parameter(TEXT, default="", doc="")
     extras: Parameter[dict[str, Any] | None, dict[str, Any]] = Parameter(
-        DICT,
-        default=None,
-        doc="What else a file says about the material, by its own keys; the renderer reads none.",
+        DICT, default=None, doc="What else a file says of it, by its own keys; not drawn."
     )
     metallic: OptionalNumber = Parameter(
         SHARE_OR_NONE,
@@ -123,9 +113,7 @@ class Material(Versioned):
         doc="Perceptual: its square is GGX's alpha. Less than 0.045 is drawn as 0.045.",
     )
     unlit: Flag = Parameter(
-        FLAG,
-        default=False,
-        doc="Lit frames show the base colour, without light and emission (KHR_materials_unlit).",
+        FLAG, default=False, doc="Lit frames show the base colour alone (KHR_materials_unlit)."
     )
     alpha_mode: Parameter[AlphaMode, AlphaMode] = Parameter(
         ALPHA_MODE,
@@ -133,10 +121,7 @@ class Material(Versioned):
         doc="Alpha means nothing, holes below ``alpha_cutoff``, or how much hides what is behind.",
     )
     alpha_cutoff: Number = Parameter(
-        NOT_NEGATIVE,
-        default=0.5,
-        gltf="alphaCutoff",
-        doc="The least alpha that shows in mode mask.",
+        NOT_NEGATIVE, default=0.5, gltf="alphaCutoff", doc="The least alpha shown in mode mask."
     )
     normal_scale: Number = Parameter(
         NUMBER,
@@ -145,10 +130,7 @@ class Material(Versioned):
         doc="Multiplies the first two components of ``normal_texture``.",
     )
     occlusion_strength: Number = Parameter(
-        SHARE,
-        default=1.0,
-        gltf="occlusionTexture.strength",
-        doc="How much of ``occlusion_texture`` counts.",
+        SHARE, default=1.0, gltf="occlusionTexture.strength", doc="Of ``occlusion_texture``."
     )
     emissive_strength: Number = Parameter(
         NOT_NEGATIVE,
@@ -160,16 +142,10 @@ class Material(Versioned):
         IOR, default=1.5, gltf="ior/ior", doc="Index of refraction; 0 reflects everything."
     )
     specular_intensity: Number = Parameter(
-        SHARE,
-        default=1.0,
-        gltf="specular/specularFactor",
-        doc="Strength of what is reflected by what is no metal.",
+        SHARE, default=1.0, gltf="specular/specularFactor", doc="Of the reflection of non-metals."
     )
     specular_color: ColorNumbers = Parameter(
-        COLOR,
-        default=(1, 1, 1),
-        gltf="specular/specularColorFactor",
-        doc="Its colour seen from straight above.",
+        COLOR, default=(1, 1, 1), gltf="specular/specularColorFactor", doc="Its colour from above."
     )
     clearcoat: Number = Parameter(
         SHARE, default=0.0, gltf="clearcoat/clearcoatFactor", doc="Strength of a coat of varnish."
@@ -184,10 +160,7 @@ class Material(Versioned):
         doc="Multiplies the first two components of ``clearcoat_normal_texture``.",
     )
     sheen_color: ColorNumbers = Parameter(
-        COLOR,
-        default=(0, 0, 0),
-        gltf="sheen/sheenColorFactor",
-        doc="Of the fuzz of cloth; black means none.",
+        COLOR, default=(0, 0, 0), gltf="sheen/sheenColorFactor", doc="Of cloth's fuzz; black: none."
     )
     sheen_roughness: Number = Parameter(
         SHARE, default=0.0, gltf="sheen/sheenRoughnessFactor", doc="Of the fuzz."
@@ -232,10 +205,7 @@ class Material(Versioned):
         "image.",
     )
     occlusion_texture: TextureSlot = TextureSlot(
-        default=None,
-        is_color=False,
-        gltf="occlusionTexture",
-        doc="R: how much of the light from all around arrives.",
+        default=None, is_color=False, gltf="occlusionTexture", doc="R: of light from all around."
     )
     emissive_texture: TextureSlot = TextureSlot(
         default=None, is_color=True, gltf="emissiveTexture", doc="RGB."
@@ -253,10 +223,7 @@ class Material(Versioned):
         doc="As ``normal_texture``, of the coat.",
     )
     specular_texture: TextureSlot = TextureSlot(
-        default=None,
-        is_color=False,
-        gltf="specular/specularTexture",
-        doc="Alpha: multiplies ``specular_intensity``.",
+        default=None, is_color=False, gltf="specular/specularTexture", doc="Alpha: the intensity."
     )
     specular_color_texture: TextureSlot = TextureSlot(
         default=None, is_color=True, gltf="specular/specularColorTexture", doc="RGB."
@@ -287,16 +254,10 @@ class Material(Versioned):
         doc="From the tangent to that direction, counter-clockwise.",
     )
     iridescence: Number = Parameter(
-        SHARE,
-        default=0.0,
-        gltf="iridescence/iridescenceFactor",
-        doc="How much a thin film on the surface counts.",
+        SHARE, default=0.0, gltf="iridescence/iridescenceFactor", doc="Share of a thin film above."
     )
     iridescence_ior: Number = Parameter(
-        AT_LEAST_ONE,
-        default=1.3,
-        gltf="iridescence/iridescenceIor",
-        doc="The film's index of refraction.",
+        AT_LEAST_ONE, default=1.3, gltf="iridescence/iridescenceIor", doc="Of the film, as ``ior``."
     )
     iridescence_thickness_minimum: Number = Parameter(
         NOT_NEGATIVE,

@@ -3,6 +3,11 @@
 A `Material` is plain data, with the fields of glTF 2.0. Colours are kept as they were given (floats
 are linear light, 8-bit integers sRGB; see `engine3d.materials.colors`) and become linear when the
 renderer reads them. Whatever a file says beyond this is kept in ``extras``.
+
+A new number is a row here, and a member of e3d_physical (csrc/include/e3d_material.h): of the same
+name where the core takes it as it is, else rendering/_native_materials.py says what it becomes. A
+new texture is a row here and one of E3D_EACH_TEXTURE_SLOT, in the same order; what it varies is a
+row in csrc/kernels/types/maps.h. The rest is what kernels and reference make of both.
 """
 
 from __future__ import annotations
@@ -55,7 +60,7 @@ class Material(Versioned):
 
     Parameters
     ----------
-    {parameters}
+    Each attribute below.
 
     Attributes
     ----------

@@ -190,7 +190,7 @@ def parameters_of(cls: type) -> dict[str, Parameter]:
 def made_of_parameters(cls: Class) -> Class:
     """Give a class's constructor the signature, and the class the docstring, that its rows tell.
 
-    In the docstring, the parameters take the place of the line "{parameters}".
+    In the docstring, the parameters take the place of the line "Each attribute below."
     """
     rows = parameters_of(cls)
     mine = inspect.Parameter("self", inspect.Parameter.POSITIONAL_OR_KEYWORD)
@@ -206,5 +206,5 @@ def made_of_parameters(cls: Class) -> Class:
         entries = "\n    ".join(
             f"{name} : {row.words}\n        {row.doc}".rstrip() for name, row in rows.items()
         )
-        cls.__doc__ = cls.__doc__.replace("{parameters}", entries)
+        cls.__doc__ = cls.__doc__.replace("Each attribute below.", entries)
     return cls

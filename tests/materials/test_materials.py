@@ -1,5 +1,7 @@
 """Materials: defaults, what they refuse, versions."""
 
+import inspect
+
 import numpy as np
 import pytest
 
@@ -7,6 +9,7 @@ from engine3d._native import rasterizer
 from engine3d.errors import InvalidArgumentError
 from engine3d.materials.colors import linear_color
 from engine3d.materials.material import (
+    PARAMETERS,
     TEXTURE_SLOTS,
     Material,
     placed_textures_of,
@@ -15,6 +18,7 @@ from engine3d.materials.material import (
     textures_of,
 )
 from engine3d.materials.textures import PlacedTexture, Texture
+from engine3d.rendering._native_materials import _physical
 
 
 def test_defaults():
@@ -24,6 +28,31 @@ def test_defaults():
     assert material.specular == (0, 0, 0)
     assert material.shininess == 32
     assert material.extras == {}
+
+
+def test_rows_make_the_attributes_the_signature_and_the_docstring():
+    material, keywords = Material(), inspect.signature(Material).parameters
+    assert (
+        list(keywords) == list(PARAMETERS) == [name for name in vars(material) if name in keywords]
+    )
+    for name, row in PARAMETERS.items():
+        assert keywords[name].default == row.default
+        assert getattr(material, name) == row.kind.check(row.default, name)
+        assert f"    {name} : {row.words}\n        {row.doc}".rstrip() in Material.__doc__
+
+
+def test_each_has_extras_of_its_own():
+    material = Material()
+    material.extras["a"] = 1
+    assert Material().extras == {}
+
+
+def test_the_core_is_told_all_that_it_wants_to_know():
+    material = Material(metallic=0.25, iridescence_ior=1.75, sheen_color=(255, 0, 0))
+    told = _physical(material, "srgb")
+    assert told.keys() == set(rasterizer.PHYSICAL_NUMBERS)
+    assert (told["metallic"], told["roughness"], told["iridescence_ior"]) == (0.25, 1.0, 1.75)
+    assert told["sheen_color"] == (1.0, 0.0, 0.0)
 
 
 def test_colors_are_kept_as_given():

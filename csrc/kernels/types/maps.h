@@ -76,30 +76,30 @@ typedef struct e3d_stretch_map {
     float unit, strength, turn[2]; /* turn: cosine and sine */
 } e3d_stretch_map;
 
-/* What of a physically based material a texture varies: X(name, slot, channel, factor), with the factors of an e3d_material m. */
-#define E3D_VARYING_VALUES(X) \
-    X(metallic, E3D_SLOT_METALLIC_ROUGHNESS, 2, m->physical.metallic) \
-    X(roughness, E3D_SLOT_METALLIC_ROUGHNESS, 1, m->physical.roughness) \
-    X(occlusion, E3D_SLOT_OCCLUSION, 0, 1.0f) /* before the strength */ \
-    X(specular, E3D_SLOT_SPECULAR, 3, m->physical.specular_intensity) \
-    X(coat, E3D_SLOT_CLEARCOAT, 0, m->physical.clearcoat) \
-    X(coat_roughness, E3D_SLOT_CLEARCOAT_ROUGHNESS, 1, m->physical.clearcoat_roughness) \
-    X(sheen_roughness, E3D_SLOT_SHEEN_ROUGHNESS, 3, m->physical.sheen_roughness) \
-    X(transmission, E3D_SLOT_TRANSMISSION, 0, m->physical.transmission) \
-    X(thickness, E3D_SLOT_THICKNESS, 1, m->physical.thickness) \
-    X(iridescence, E3D_SLOT_IRIDESCENCE, 0, m->physical.iridescence)
-/* The same of colours, each of three channels: X(name, slot, factors). */
-#define E3D_VARYING_COLORS(X) \
-    X(reflectance, E3D_SLOT_SPECULAR_COLOR, m->physical.reflectance) \
-    X(emissive, E3D_SLOT_EMISSIVE, m->emissive) \
-    X(sheen, E3D_SLOT_SHEEN_COLOR, m->physical.sheen_color)
+/* What of a physically based material a texture varies: X(slot, channel, name, factor), with the factors of an e3d_material m. */
+#define E3D_EACH_VARYING(X) \
+    X(E3D_SLOT_METALLIC_ROUGHNESS, 2, metallic, m->physical.metallic) \
+    X(E3D_SLOT_METALLIC_ROUGHNESS, 1, roughness, m->physical.roughness) \
+    X(E3D_SLOT_OCCLUSION, 0, occlusion, 1.0f) /* before the strength */ \
+    X(E3D_SLOT_SPECULAR, 3, specular, m->physical.specular_intensity) \
+    X(E3D_SLOT_CLEARCOAT, 0, coat, m->physical.clearcoat) \
+    X(E3D_SLOT_CLEARCOAT_ROUGHNESS, 1, coat_roughness, m->physical.clearcoat_roughness) \
+    X(E3D_SLOT_SHEEN_ROUGHNESS, 3, sheen_roughness, m->physical.sheen_roughness) \
+    X(E3D_SLOT_TRANSMISSION, 0, transmission, m->physical.transmission) \
+    X(E3D_SLOT_THICKNESS, 1, thickness, m->physical.thickness) \
+    X(E3D_SLOT_IRIDESCENCE, 0, iridescence, m->physical.iridescence)
+/* The same of colours, each of three channels: X(slot, name, factors). */
+#define E3D_EACH_VARYING_COLOR(X) \
+    X(E3D_SLOT_SPECULAR_COLOR, reflectance, m->physical.reflectance) \
+    X(E3D_SLOT_EMISSIVE, emissive, m->emissive) \
+    X(E3D_SLOT_SHEEN_COLOR, sheen, m->physical.sheen_color)
 
 /* A physically based material on a batch (R46, R49). */
 typedef struct e3d_surface_model {
-#define E3D_VARYING(name, ...) e3d_varying name;
-    E3D_VARYING_VALUES(E3D_VARYING)
-#define E3D_VARYING_COLOR(name, ...) e3d_varying name[3];
-    E3D_VARYING_COLORS(E3D_VARYING_COLOR)
+#define E3D_VARYING(slot, channel, name, factor) e3d_varying name;
+    E3D_EACH_VARYING(E3D_VARYING)
+#define E3D_VARYING_COLOR(slot, name, factors) e3d_varying name[3];
+    E3D_EACH_VARYING_COLOR(E3D_VARYING_COLOR)
     float occlusion_strength;
     int has_coat, has_sheen;
     int is_grey;         /* the reflectance is the same of all channels */

@@ -40,8 +40,8 @@ static int is_iridescent(const e3d_physical *p) { return p->iridescence != 0.0f;
 /* Whether the fourth channel of a slot counts. */
 static int reads_alpha(const e3d_material *m, e3d_texture_slot slot)
 {
-#define FOURTH(name, slot, channel, factor) | ((channel) == 3) << slot
-    enum { ALWAYS = 0 E3D_VARYING_VALUES(FOURTH) };
+#define FOURTH(slot, channel, name, factor) | ((channel) == 3) << slot
+    enum { ALWAYS = 0 E3D_EACH_VARYING(FOURTH) };
     return ((ALWAYS >> slot) & 1) || (slot == E3D_SLOT_TEXTURE && m->alpha_mode != E3D_ALPHA_OPAQUE);
 }
 
@@ -298,11 +298,11 @@ static e3d_surface_model model_of(const e3d_bucket *bucket, const e3d_map_memory
                    p->reflectance[1] == p->reflectance[2],
         .coat_is_mapped = maps->maps.of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0,
     };
-#define VARYING(name, slot, channel, factor) model.name = varying_of(maps, slot, channel, factor);
-    E3D_VARYING_VALUES(VARYING)
+#define VARYING(slot, channel, name, factor) model.name = varying_of(maps, slot, channel, factor);
+    E3D_EACH_VARYING(VARYING)
     for (int k = 0; k < 3; k++) {
-#define VARYING_COLOR(name, slot, factors) model.name[k] = varying_of(maps, slot, k, factors[k]);
-        E3D_VARYING_COLORS(VARYING_COLOR)
+#define VARYING_COLOR(slot, name, factors) model.name[k] = varying_of(maps, slot, k, factors[k]);
+        E3D_EACH_VARYING_COLOR(VARYING_COLOR)
         model.absorption[k] = p->absorption[k];
     }
     add_rare(maps, p, &model);

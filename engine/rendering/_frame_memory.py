@@ -59,8 +59,8 @@ class FrameMemory:
         self._of_options: list[Use] = []
         self._of_maps: list[Use] = []
 
-    def check(self, outputs: tuple[str, ...], size: tuple[int, int], of_passes: list[Use]) -> None:
-        """Check what frames with these outputs take, and what passes take by their options.
+    def check(self, outputs: tuple[str, ...], size: tuple[int, int], uses: list[Use]) -> list[Use]:
+        """Return all that frames with these outputs take, of which passes take so much.
 
         Raises
         ------
@@ -68,14 +68,15 @@ class FrameMemory:
             Its outputs are larger than the machine's memory, or what else goes by its options takes
             more than a frame may.
         """
-        self._size = size
         _check_outputs(outputs, *size)
-        self._of_options = of_passes + self._uses_of(*size)
-        self._check(self._of_options)
+        uses = uses + self._uses_of(*size)
+        self.begin(size, uses)
+        self._check(uses)
+        return uses
 
-    def forget_maps(self) -> None:
-        """Begin a frame that has no maps of shadows so far."""
-        self._of_maps = []
+    def begin(self, size: tuple[int, int], uses: list[Use]) -> None:
+        """Begin a frame that takes this, and has no maps of shadows so far."""
+        self._size, self._of_options, self._of_maps = size, uses, []
 
     def add_maps(self, lights: Iterable[tuple[str, int, int]]) -> None:
         """Add maps of shadows: of each light its kind, how many it has, and texels a side.

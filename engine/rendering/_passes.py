@@ -16,7 +16,6 @@ from ._ambient_occlusion import AmbientOcclusion
 from ._bloom import Bloom
 from ._exact_shadows import ExactShadows
 from ._frame_memory import Use
-from ._memo import Memo
 from ._output_passes import SURFACE, ColorPass, SurfacePass
 from ._output_pool import OutputPool, shapes_of
 from ._pass import Pass, Shapes, Tools
@@ -24,6 +23,7 @@ from ._shadow_maps import ShadowMaps
 from .frame import OUTPUTS
 from .options import RenderOptions
 
+_MAX_KEPT = 16  # plans of programs that draw several kinds of pictures in turns
 Arrays: TypeAlias = dict[str, np.ndarray]
 #: All passes, in the order in which they are drawn.
 PASSES: tuple[type[Pass], ...] = (
@@ -90,8 +90,8 @@ class Passes:
         self._memory = tools.memory
         self._all = [make(tools) for make in PASSES]
         self._pool = OutputPool()
-        self._planned = Memo()
-        self._plan: Plan
+        # By the identity of options, and what else decides: these, the plan, and all its memory.
+        self._plans: dict[tuple, tuple[RenderOptions, Plan, list[Use]]] = {}
 
     def plan(self, options: RenderOptions, outputs: tuple[str, ...], size: tuple[int, int]) -> Plan:
         """Return the plan of a picture, whose memory is checked.
@@ -101,11 +101,17 @@ class Passes:
         InvalidArgumentError
             It takes more memory than a frame may.
         """
-        if self._planned.differs(options, outputs, size, limits.MAX_FRAME_BYTES):
-            self._plan = plan_of(self._all, options, outputs, size)
-            self._memory.check(outputs, size, self._plan.uses)
-            self._planned.done()
-        return self._plan
+        key = id(options), outputs, size, limits.MAX_FRAME_BYTES
+        kept = self._plans.get(key)
+        if kept is None or kept[0] is not options:
+            plan = plan_of(self._all, options, outputs, size)
+            kept = options, plan, self._memory.check(outputs, size, plan.uses)
+            if len(self._plans) >= _MAX_KEPT:
+                self._plans.clear()
+            self._plans[key] = kept
+        _, plan, uses = kept
+        self._memory.begin(size, uses)
+        return plan
 
     def arrays(self, plan: Plan, outputs: Arrays) -> tuple[Arrays, Arrays]:
         """Return what colours are drawn into, a frame's outputs and others; and all else."""

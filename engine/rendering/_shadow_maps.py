@@ -83,7 +83,6 @@ class ShadowMaps(Pass):
         scene, draw_list = picture.scene, self.tools.draw_list
         self._drawn = self._count = 0
         draw_list.native.clear_shadows()
-        self.tools.memory.forget_maps()
         lights = [entry for entry in draw_list.lights.placed() if entry[1].shadow is True]
         for number in self._kept.keys() - {number for number, _, _ in lights}:
             del self._kept[number]

@@ -112,7 +112,6 @@ class DirectionalLight(DirectLight):
     InvalidArgumentError
     """
 
-    version: int
     direction: VectorAttribute = CheckedAttribute(_direction)
     shadow_cascades: CountAttribute = CheckedAttribute(count_of(1, 8))
 
@@ -197,7 +196,6 @@ class PointLight(DirectLight):
     InvalidArgumentError
     """
 
-    version: int
     range: NumberAttribute = CheckedAttribute(_range)
     falloff: CheckedAttribute[Falloff, Falloff] = CheckedAttribute(one_of(FALLOFFS))
 
@@ -264,7 +262,6 @@ class SpotLight(DirectLight):
     InvalidArgumentError
     """
 
-    version: int
     range: NumberAttribute = CheckedAttribute(_range)
     inner_cone_angle: NumberAttribute = CheckedAttribute(_angle)
     outer_cone_angle: NumberAttribute = CheckedAttribute(_angle)

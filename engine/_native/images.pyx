@@ -22,14 +22,14 @@ cdef dict RGBE_FAULTS = {
 }
 
 
-def encode_png(const uint8_t[:, :, :] pixels not None):
+def encode_png(const uint8_t[:, :, :] pixels not None) -> bytes:
     """Return a PNG file of (H, W, 4) uint8 RGBA pixels, each side from 1 to 16384."""
     if pixels.shape[2] != 4:
         raise InvalidArgumentError("pixels must be (height, width, 4), each row contiguous")
     return _encoded(pixels)
 
 
-def encode_opaque_png(const uint8_t[:, :, :] pixels not None):
+def encode_opaque_png(const uint8_t[:, :, :] pixels not None) -> bytes:
     """Return a PNG file of (H, W, 1) uint8 grey pixels, (H, W, 2) of 16 bits, high byte first, or RGB."""
     if pixels.shape[2] not in (1, 2, 3):
         raise InvalidArgumentError("pixels must be (height, width, 1 to 3), each row contiguous")
@@ -61,7 +61,7 @@ cdef bytes _encoded(const uint8_t[:, :, :] pixels):
         free(file)
 
 
-def unpack_tga(const uint8_t[::1] data not None, uint8_t[:, ::1] pixels not None):
+def unpack_tga(const uint8_t[::1] data not None, uint8_t[:, ::1] pixels not None) -> int:
     """Unpack run-length packets into (N, 1 to 4) uint8 pixels; return how many were there."""
     cdef size_t count = pixels.shape[0], length = data.shape[0], done
     if not 0 < pixels.shape[1] <= 4:
@@ -74,7 +74,7 @@ def unpack_tga(const uint8_t[::1] data not None, uint8_t[:, ::1] pixels not None
     return done
 
 
-def unpack_rgbe(const uint8_t[::1] data not None, uint8_t[:, :, ::1] pixels not None):
+def unpack_rgbe(const uint8_t[::1] data not None, uint8_t[:, :, ::1] pixels not None) -> tuple[int, int, str]:
     """Unpack scan lines of a Radiance picture into (lines, width, 4) uint8.
 
     Returns how many are whole, the place of the fault in the data, and what it is: "" for none.

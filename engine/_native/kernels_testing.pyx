@@ -61,7 +61,7 @@ ADDRESSES = {
 REPEATED = <uintptr_t>&repeated_kernels
 
 
-def kernels(int backend):
+def kernels(int backend) -> int:
     """The address of the table of kernels of a backend, by the number of `rasterizer.BACKENDS`.
 
     Raises
@@ -81,7 +81,7 @@ def repeat(int backend, int rounds):
     repeated_table, repeated_rounds = e3d_kernels_for(<e3d_backend>backend), rounds
 
 
-def plan_rules():
+def plan_rules() -> list[tuple[str, list[str], list[str]]]:
     """The rules of a frame's plan: (item, the items that it needs, those that it must not have).
 
     Each item is named, and has its meaning in plan_items().
@@ -98,7 +98,7 @@ def plan_rules():
     return rules
 
 
-def plan_items():
+def plan_items() -> list[tuple[str, str, bool]]:
     """What may be asked for and what is planned, in their order: (name, meaning, is planned)."""
     return [
         (
@@ -110,7 +110,7 @@ def plan_items():
     ]
 
 
-def dfg_table(int kind):
+def dfg_table(int kind) -> list[list[float]]:
     """A table of albedos: `E3D_DFG_SIZE` rows of as many numbers."""
     return [[E3D_DFG_TABLE[kind][E3D_DFG_SIZE * i + j] for j in range(E3D_DFG_SIZE)] for i in range(E3D_DFG_SIZE)]
 

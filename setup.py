@@ -41,6 +41,7 @@ from build_rules import (
     static_libraries,
 )
 from mirrors import write_mirrors
+from stubs import write_stub
 
 # Before 11.2.1, Pillow wrote opaque GIFs wrong from the second frame on. Not those that mend holes,
 # since others hold back the newest: `engine3d info --system` names the holes.
@@ -236,6 +237,7 @@ class BuildExtensions(build_ext):
     def finalize_options(self):
         super().finalize_options()
         self.compiler = self.compiler or DEFAULT_COMPILER
+        self.stubs = []
         # build_ext would compile an extension after the other, and translate .pyx files itself.
         self.parallel = False
         if not (self.inplace or os.environ.get("ENGINE3D_TESTING")):
@@ -250,12 +252,29 @@ class BuildExtensions(build_ext):
         write_mirrors(self.mirrors())
         jobs = [(e, module_of(source), source) for e in self.extensions for source in e.sources]
         jobs.sort(key=lambda job: -os.path.getsize(job[2]))
+        for _, _, source in jobs:
+            write_stub(source, self.stub_of(source))
+            self.stubs.append(self.stub_of(source))
         common = [(e, COMMON_MODULE, None) for e in self.extensions if e.name == CORE_MODULE]
         run_in_parallel(self.make_object, [*common, *jobs])
         for extension in self.extensions:
             extension.sources = []
             extension.extra_objects.sort()
         super().build_extensions()
+
+    def get_outputs(self):
+        # With the stubs, which are made before the extensions forget their sources.
+        return [*super().get_outputs(), *self.stubs]
+
+    def copy_extensions_to_source(self):
+        super().copy_extensions_to_source()
+        for stub in self.stubs:
+            self.copy_file(stub, "engine/_native")
+
+    def stub_of(self, source):
+        """Where the stub of a .pyx file goes: beside the library that holds its module."""
+        library = self.get_ext_fullpath(CORE_MODULE)
+        return os.path.join(os.path.dirname(library), f"{Path(source).stem}.pyi")
 
     def mirrors(self):
         """The folder of what Cython knows of the core's headers."""
@@ -314,7 +333,8 @@ def translate_changed(name, source, target, include_dirs):
     if source is None:
         command += ["--generate-shared", str(target)]
     else:
-        command += ["-3", "-X", "embedsignature=True", "--depfile"]
+        # Annotations are for stubs alone: what C cannot say of a type is not checked.
+        command += ["-3", "-X", "embedsignature=True", "-X", "annotation_typing=False", "--depfile"]
         command += [word for folder in include_dirs for word in ("-I", folder)]
         command += ["--shared", COMMON_MODULE, source, "-o", str(target)]
     # A build in isolation has a Cython of its own each time, so its version stands for its files.

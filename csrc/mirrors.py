@@ -89,6 +89,7 @@ def rounds(kernel):
 
 def write(path, text):
     """Write a file unless it is there and the same."""
+    path.parent.mkdir(parents=True, exist_ok=True)
     if not path.exists() or path.read_text("utf-8") != text:
         path.write_text(text, "utf-8")
 
@@ -96,7 +97,6 @@ def write(path, text):
 def write_mirrors(folder):
     """Write the mirrors to a folder, and kernel_rounds.inl, which benchmarks call kernels by."""
     folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
     headers = Headers(*sorted(path.name for path in (FOLDER / "include").glob("*.h")))
     homes = dict(HOMES)
     for header in headers.read.values():

@@ -130,7 +130,7 @@ cdef class Surface:
                 e3d_canvas_text(&self.canvas, x, y, &codes[0], length, scale, native_color)
 
 
-def text_size(const uint8_t[::1] codes not None, int scale):
+def text_size(const uint8_t[::1] codes not None, int scale) -> tuple[int, int]:
     """The (width, height) in pixels of the cells of a text."""
     cdef int64_t width = 0, height = 0
     cdef size_t length = codes.shape[0]

@@ -200,7 +200,7 @@ cdef class NativeDrawList:
         const double[:, ::1] view_from_world not None,
         int width,
         int height,
-    ):
+    ) -> int | None:
         """Let backs show where one may look into holes of what was placed last; return how many windows there are.
 
         None if the near plane may cut what encloses a volume: backs may show anywhere then.

@@ -20,7 +20,7 @@ cdef class NativeEnvironment:
     def __dealloc__(self):
         e3d_environment_destroy(self.handle)
 
-    def level(self, int number):
+    def level(self, int number) -> LevelTexels:
         """The faces of a level: (6, size + 2, size + 2, 4) float32, a view of the core's memory."""
         require(0 <= number < E3D_ENVIRONMENT_LEVELS, "no such level")
         cdef const e3d_environment_level *level = &e3d_environment_get_view(self.handle).levels[number]

@@ -33,7 +33,7 @@ FLUSH_DENORMALS = E3D_FLOAT_FLUSH
 ROUND_UP = E3D_FLOAT_ROUND_UP
 
 
-def float_control():
+def float_control() -> int:
     """The calling thread's floating-point control register (MXCSR, FPCR)."""
     return float_control_read()
 

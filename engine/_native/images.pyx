@@ -22,7 +22,7 @@ cdef dict RGBE_FAULTS = {
 }
 
 
-def encode_png(const uint8_t[:, :, :] pixels not None, int32_t bits=8):
+def encode_png(const uint8_t[:, :, :] pixels not None, int32_t bits=8) -> bytes:
     """Return a PNG file of pixels, each side from 1 to 16384.
 
     Parameters
@@ -55,7 +55,7 @@ def encode_png(const uint8_t[:, :, :] pixels not None, int32_t bits=8):
         free(file)
 
 
-def unpack_tga(const uint8_t[::1] data not None, uint8_t[:, ::1] pixels not None):
+def unpack_tga(const uint8_t[::1] data not None, uint8_t[:, ::1] pixels not None) -> int:
     """Unpack run-length packets into (N, 1 to 4) uint8 pixels; return how many were there."""
     cdef size_t count = pixels.shape[0], length = data.shape[0], done
     if not 0 < pixels.shape[1] <= 4:
@@ -68,7 +68,7 @@ def unpack_tga(const uint8_t[::1] data not None, uint8_t[:, ::1] pixels not None
     return done
 
 
-def unpack_rgbe(const uint8_t[::1] data not None, uint8_t[:, :, ::1] pixels not None):
+def unpack_rgbe(const uint8_t[::1] data not None, uint8_t[:, :, ::1] pixels not None) -> tuple[int, int, str]:
     """Unpack scan lines of a Radiance picture into (lines, width, 4) uint8.
 
     Returns how many are whole, the place of the fault in the data, and what it is: "" for none.

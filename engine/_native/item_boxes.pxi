@@ -1,6 +1,6 @@
 # Part of scene_graph.pyx: the boxes of triangles, of instances and of trees, as arrays of rows.
 
-def move_boxes(table, room):
+def move_boxes(table, room: NDArray[np.float64]):
     """Copy ``table.boxes`` to the first rows of an array that takes their place, as one step."""
     cdef const double[:, ::1] boxes = table.boxes
     cdef double[:, ::1] rows = room
@@ -34,7 +34,7 @@ def triangle_boxes(const float[:, ::1] positions not None, const int32_t[:, ::1]
         e3d_triangle_boxes(&positions[0, 0], &faces[0, 0], <int32_t>faces.shape[0], &boxes[0, 0])
 
 
-def union(const double[:, ::1] boxes not None, double[::1] out not None):
+def union(const double[:, ::1] boxes not None, double[::1] out not None) -> bool:
     """Write the box (OBJECT_BOX,) around boxes (N, BOX); return whether there is one."""
     if boxes.shape[1] != E3D_BOX or out.shape[0] != E3D_OBJECT_BOX:
         raise InvalidArgumentError("boxes must be (N, BOX), and the box around them as told")

@@ -62,7 +62,7 @@ ADDRESSES = {
 REPEATED = <uintptr_t>&repeated_kernels
 
 
-def kernels(int backend):
+def kernels(int backend) -> int:
     """The address of the table of kernels of a backend, by the number of `rasterizer.BACKENDS`.
 
     Raises
@@ -82,7 +82,7 @@ def repeat(int backend, int rounds):
     repeated_table, repeated_rounds = e3d_kernels_for(<e3d_backend>backend), rounds
 
 
-def plan_rules():
+def plan_rules() -> list[tuple[str, list[str], list[str]]]:
     """The rules of a frame's plan: (item, the items that it needs, those that it must not have).
 
     Each item is named, and has its meaning in asked_items() or planned_items().
@@ -102,17 +102,17 @@ def plan_rules():
     return rules
 
 
-def asked_items():
+def asked_items() -> list[tuple[str, str]]:
     """What may be asked for, in the order of its bits: (name, meaning)."""
     return [(E3D_ASKED_WORDS[k].name.decode(), E3D_ASKED_WORDS[k].text.decode()) for k in range(<int>E3D_ASKED_ITEMS)]
 
 
-def planned_items():
+def planned_items() -> list[tuple[str, str]]:
     """What is planned, in the order of its bits: (name, meaning)."""
     return [(E3D_PLAN_WORDS[k].name.decode(), E3D_PLAN_WORDS[k].text.decode()) for k in range(<int>E3D_PLAN_ITEMS)]
 
 
-def dfg_table(int kind):
+def dfg_table(int kind) -> list[list[float]]:
     """A table of albedos: `E3D_DFG_SIZE` rows of as many numbers."""
     return [[E3D_DFG_TABLE[kind][E3D_DFG_SIZE * i + j] for j in range(E3D_DFG_SIZE)] for i in range(E3D_DFG_SIZE)]
 

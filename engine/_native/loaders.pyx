@@ -46,14 +46,14 @@ ROW = E3D_FORM_ROW
 MARKED = E3D_FORM_MARK
 SKIPPED = E3D_FORM_SKIPPED
 
-SETTER = np.dtype(
+SETTER: np.dtype = np.dtype(
     [(name, np.uint32)
      for name in ("kind", "line", "faces", "lines", "points", "name", "name_length")]
     + [("value", np.int32)]
 )
 
 
-MARK = np.dtype([(name, np.int64) for name in ("form", "rows", "start", "end")])
+MARK: np.dtype = np.dtype([(name, np.int64) for name in ("form", "rows", "start", "end")])
 
 include "owned_memory.pxi"
 include "obj_reader.pxi"

@@ -86,7 +86,7 @@ cdef class NativeMesh:
 
     # The first array stays: a thread may be drawing by it when another brings its own.
 
-    def set_attribute(self, str name, array):
+    def set_attribute(self, str name, array: NDArray[np.float32] | NDArray[np.uint8]):
         """Add an array of `VERTEX_ATTRIBUTES`."""
         number = VERTEX_NUMBERS[name]
         if name in self.attributes:

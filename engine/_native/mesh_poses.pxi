@@ -147,7 +147,7 @@ cdef class NativePose:
         self.stale = True
 
     @property
-    def has_edges(self):
+    def has_edges(self) -> bool:
         """Whether the handles carry edges."""
         return self.edges is not None
 
@@ -216,7 +216,7 @@ cdef class NativePose:
             memcpy(&tangents[0, 0], e3d_posed_tangents(self.current.handle), size // 3 * 4)
 
 
-def pose_meshes(list poses not None, const double[:, ::1] node_poses, int threads):
+def pose_meshes(list poses not None, const double[:, ::1] node_poses, int threads) -> list[int]:
     """Pose what moved, by the poses of nodes (slots, 12); return the numbers in the list.
 
     Without nodes, joints are where they were found last.

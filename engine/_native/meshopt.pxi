@@ -13,7 +13,7 @@ _MESHOPT_STRIDES = {"OCTAHEDRAL": (4, 8), "QUATERNION": (8,), "COLOR": (4, 8)}
 
 
 def unpack_meshopt(const uint8_t[::1] data not None, str mode, str filter, size_t count,
-                   size_t stride):
+                   size_t stride) -> NDArray[np.uint8] | None:
     """Return the elements of a packed view, (count * stride,) uint8; None if it is damaged."""
     if mode == "ATTRIBUTES":
         sound = stride % 4 == 0 and 0 < stride <= E3D_MESHOPT_MAX_STRIDE

@@ -17,7 +17,7 @@ cdef class ObjReader:
     def __dealloc__(self):
         e3d_obj_free(&self.obj)
 
-    def read(self, size_t size):
+    def read(self, size_t size) -> bool:
         """Read about so many bytes; return whether there is more to read."""
         cdef bint more
         with nogil:
@@ -25,17 +25,17 @@ cdef class ObjReader:
         return more
 
     @property
-    def consumed(self):
+    def consumed(self) -> int:
         return self.obj.consumed
 
-    def end(self):
+    def end(self) -> int:
         """Check what was read; return the problem, `DONE` for none."""
         with nogil:
             e3d_obj_end(&self.obj)
         return self.obj.error.problem
 
     @property
-    def error(self):
+    def error(self) -> tuple[int, int, int, bytes]:
         """(list, count, line, word) of the problem."""
         cdef e3d_obj_error *error = &self.obj.error
         return error.list, error.count, error.place.line, self.word(&error.place)
@@ -61,7 +61,7 @@ cdef class ObjReader:
         small = (elements.small.count, elements.small.first.line)
         return sizes, indices, bool(elements.are_triangles), small, outside
 
-    def take(self):
+    def take(self) -> dict[str, Any]:
         """Hand over everything, once: a dict of arrays, and of tuples for the elements.
 
         ``positions`` (V, 3), ``uvs`` (T, 2) and ``normals`` (N, 3) float64; ``colors`` (V, 4) uint8

@@ -3,8 +3,8 @@
 
 def find_occlusion(
     const float[:, ::1] depth not None,
-    across,
-    down,
+    across: tuple[float, float],
+    down: tuple[float, float],
     bint is_perspective,
     float radius,
     int backend,

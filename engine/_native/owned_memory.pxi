@@ -12,7 +12,7 @@ cdef extern from "core/large_pages.h":
 cdef size_t PAGE = 1 << 12, LARGE_PAGE = 1 << 21
 
 
-def read_bytes(readinto, Py_ssize_t size):
+def read_bytes(readinto: Callable[[memoryview], int], Py_ssize_t size) -> bytes:
     """Read at most ``size`` bytes by ``readinto(view) -> count`` until it says 0.
 
     As `io.FileIO.read` does, but into large pages: many small ones take longer to come than the
@@ -54,7 +54,7 @@ cdef object owned(void **data, size_t count, object dtype):
     return np.ndarray((count,), dtype, memory)
 
 
-def large_array(shape, dtype):
+def large_array(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray:
     """Return an array of any content, in large pages where it is large."""
     dtype = np.dtype(dtype)
     cdef size_t size = dtype.itemsize * int(np.prod(shape, dtype=object)), large
@@ -86,7 +86,7 @@ cdef object NDARRAY = np.ndarray
 cdef Py_ssize_t SMALL = 1024  # bytes: to copy them takes less time than to lend them
 
 
-def frozen(array):
+def frozen(array: NDArray) -> NDArray:
     """Return an array that nobody can write to: over the memory of this one, if only the caller has it.
 
     A flag alone would not do, because whoever has an array can set its flag again.
@@ -116,7 +116,7 @@ def frozen(array):
     return NDARRAY(array.shape, array.dtype, memory)
 
 
-def is_frozen(array):
+def is_frozen(array: np.ndarray) -> bool:
     """Tell whether nobody can write to an array's memory, nor allow it."""
     if array.flags.writeable:
         return False
@@ -128,7 +128,7 @@ def is_frozen(array):
     return isinstance(base, (SealedMemory, bytes))
 
 
-def exchange(dict held, dict expected, dict fresh):
+def exchange(dict held, dict expected, dict fresh) -> bool:
     """Update a dict unless it holds other values than expected, as one step; tell whether.
 
     Neither another thread nor a signal handler comes in between.

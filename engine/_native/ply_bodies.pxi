@@ -10,8 +10,8 @@ cdef e3d_ply_body ply_body(const uint8_t[::1] data, size_t start, bint is_big_en
     return body
 
 
-def walk_ply_rows(const uint8_t[::1] data not None, size_t start, bint is_big_endian, lists,
-                  size_t tail, size_t rows):
+def walk_ply_rows(const uint8_t[::1] data not None, size_t start, bint is_big_endian, lists: list[tuple[int, int, bool, int]],
+                  size_t tail, size_t rows) -> tuple[int, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], int, int]:
     """Go along ``rows`` rows of a PLY body from byte ``start`` on.
 
     ``lists`` are (bytes before, bytes of the length, whether it is signed, bytes of an item) of the
@@ -56,7 +56,7 @@ cdef int check_rows_inside(size_t size, size_t start, size_t stride, size_t rows
 
 
 def ply_lengths_are(const uint8_t[::1] data not None, bint is_big_endian, size_t start,
-                    size_t stride, size_t rows, size_t count_size, size_t length):
+                    size_t stride, size_t rows, size_t count_size, size_t length) -> bool:
     """Tell whether the lists of all rows have a length; that of the first begins at ``start``."""
     check_rows_inside(data.shape[0], start, stride, rows, count_size)
     if rows == 0:
@@ -70,7 +70,7 @@ def ply_lengths_are(const uint8_t[::1] data not None, bint is_big_endian, size_t
 
 def copy_ply_lists(const uint8_t[::1] data not None, bint is_big_endian,
                    const int64_t[:, ::1] starts not None, const int64_t[:, ::1] sizes not None,
-                   size_t number, dtype):
+                   size_t number, dtype: np.dtype) -> NDArray:
     """Copy the items of one list of each row (N, K), as `walk_ply_rows` found them, to (M,)."""
     cdef size_t rows = starts.shape[0], step = starts.shape[1], row, total = 0
     cdef size_t item_size = dtype.itemsize
@@ -88,7 +88,7 @@ def copy_ply_lists(const uint8_t[::1] data not None, bint is_big_endian,
 
 
 def copy_even_ply_lists(const uint8_t[::1] data not None, bint is_big_endian, size_t count_size,
-                        items not None):
+                        items not None) -> bool:
     """Copy the lists of rows that are nothing else into ``items`` (rows, length).
 
     False, and the items mean nothing, if the length of one is another.

@@ -154,7 +154,8 @@ cdef class NativePicture:
         self.draw_count = self.light_count = self.step_count = self.number_count = 0
         self.held = []
 
-    def add_light(self, int kind, color, position, direction, float cone_scale, float cone_offset,
+    def add_light(self, int kind, color: Sequence[float] | NDArray[Any], position: Sequence[float] | NDArray[Any],
+                  direction: Sequence[float] | NDArray[Any], float cone_scale, float cone_offset,
                   const float[:, ::1] shadow_map=None, const double[:, ::1] shadow_from_world=None):
         """Add a light; its number is how many there were."""
         cdef e3d_pyr_light *light
@@ -173,7 +174,7 @@ cdef class NativePicture:
             self.held.append(shadow_map)
         self.light_count += 1
 
-    def add_lights_of_draws(self, numbers):
+    def add_lights_of_draws(self, numbers: Iterable[int]) -> int:
         """Say which lights the draws that are added next have; returns where the list begins."""
         first = self.number_count
         for number in numbers:
@@ -185,7 +186,8 @@ cdef class NativePicture:
         return first
 
     def add_draw(self, NativeShape shape not None, const double[:, ::1] world not None, bint culls_backs,
-                 bint is_wireframe, bint blends, color, float metallic, float roughness, emissive,
+                 bint is_wireframe, bint blends, color: Sequence[float] | NDArray[Any], float metallic,
+                 float roughness, emissive: Sequence[float] | NDArray[Any],
                  tuple textures not None, int first_light, int light_count):
         """Add a draw; its number is how many there were."""
         cdef e3d_pyr_draw *draw
@@ -245,8 +247,10 @@ cdef class NativePicture:
         step.draw_of_object = &draw_of_object[0]
         self.held.append((places, draw_of_object))
 
-    def render(self, int samples, int shading, const double[:, ::1] clip_from_world not None, eye, ambient, background,
-               float point_size, double depth_near, double depth_far, bint depth_is_straight, int depth_place, int threads,
+    def render(self, int samples, int shading, const double[:, ::1] clip_from_world not None,
+               eye: Sequence[float] | NDArray[Any], ambient: Sequence[float] | NDArray[Any],
+               background: Sequence[float] | NDArray[Any], float point_size, double depth_near,
+               double depth_far, bint depth_is_straight, int depth_place, int threads,
                uint8_t[:, :, ::1] color, float[:, ::1] depth not None):
         """Draw into the arrays; `color` is None where there is none, with shading DEPTH."""
         cdef e3d_pyr_frame frame

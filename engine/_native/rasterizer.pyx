@@ -51,7 +51,7 @@ POINT_SHAPES = values_of(E3D_OPTION_POINT_SHAPE)
 SHADINGS = values_of(E3D_OPTION_SHADING)
 TEXTURE_SLOTS = values_of(E3D_OPTION_TEXTURE_SLOT)
 TONE_MAPPINGS = values_of(E3D_OPTION_TONE_MAPPING)
-WIREFRAMES = {
+WIREFRAMES: dict[str | None, int] = {
     None if name == "none" else name: value
     for name, value in values_of(E3D_OPTION_WIREFRAME).items()
 }
@@ -91,7 +91,7 @@ cdef extern from *:
     const char *_compiler "__VERSION__"
 
 # How this was compiled: the kind of build, of those in build_rules.py, the compiler's version.
-BUILD = (E3D_BUILD.decode(), _compiler.decode())
+BUILD: tuple[str, str] = (E3D_BUILD.decode(), _compiler.decode())
 
 
 cdef dict formats_of(const e3d_array_format *formats, int count):
@@ -103,8 +103,8 @@ cdef dict formats_of(const e3d_array_format *formats, int count):
     return found
 
 
-OUTPUTS = formats_of(E3D_OUTPUT_FORMATS, E3D_OUTPUTS)
-VERTEX_ATTRIBUTES = formats_of(E3D_VERTEX_FORMATS, E3D_VERTEX_ATTRIBUTES)
+OUTPUTS: dict[str, tuple[str, int]] = formats_of(E3D_OUTPUT_FORMATS, E3D_OUTPUTS)
+VERTEX_ATTRIBUTES: dict[str, tuple[str, int]] = formats_of(E3D_VERTEX_FORMATS, E3D_VERTEX_ATTRIBUTES)
 # The number of each, as the core counts them.
 cdef dict OUTPUT_NUMBERS = {name: number for number, name in enumerate(OUTPUTS)}
 cdef dict VERTEX_NUMBERS = {name: number for number, name in enumerate(VERTEX_ATTRIBUTES)}
@@ -140,22 +140,22 @@ cdef int require_ranges(const uint32_t[:, ::1] ranges, int size) except -1:
     return require(ranges.shape[0] == side and ranges.shape[1] == side, f"ranges must be ({side}, {side})")
 
 
-def backend_available(int backend):
+def backend_available(int backend) -> bool:
     """Whether this build has the backend and this machine can run it."""
     return bool(e3d_backend_available(<e3d_backend>backend))
 
 
-def best_backend():
+def best_backend() -> int:
     """The fastest backend of this machine, never the scalar reference."""
     return <int>e3d_backend_best()
 
 
-def thread_count():
+def thread_count() -> int:
     """How many threads the core takes when asked for 0."""
     return e3d_thread_count()
 
 
-def bound_points(const float[:, ::1] points not None):
+def bound_points(const float[:, ::1] points not None) -> tuple[list[float], list[float]]:
     """The box of the (N, 3) points that are finite: lowest and highest corner, zeros if there are none."""
     cdef float low[3]
     cdef float high[3]
@@ -166,7 +166,7 @@ def bound_points(const float[:, ::1] points not None):
     return low, high
 
 
-def same_objects(tuple some not None, tuple others not None):
+def same_objects(tuple some not None, tuple others not None) -> bool:
     """Whether two tuples hold the same objects: each frame asks, of values that ``==`` would confuse."""
     cdef Py_ssize_t k
     if len(some) != len(others):
@@ -268,7 +268,7 @@ cdef class NativeStats:
     cdef int materials, lights
     cdef public int shadow_maps, shadow_maps_drawn
 
-    def as_dict(self):
+    def as_dict(self) -> dict[str, int | float | str]:
         cdef e3d_stats *stats = &self.stats
         cdef e3d_totals *totals = &self.totals
         return {
@@ -360,14 +360,14 @@ cdef class NativeRenderer:
         int msaa_samples,
         const double[:, ::1] clip_from_world not None,
         const double[:, ::1] view_from_world not None,
-        eye,
+        eye: Sequence[float],
         int64_t number,
         float depth_near,
         float depth_far,
         const double[:, ::1] frozen_clip_from_world=None,
         const float[:, ::1] rays=None,
         const float[:, ::1] ambient_visibility=None,
-    ):
+    ) -> NativeStats:
         """Draw one frame into the arrays of `targets`; return its NativeStats.
 
         `number` tells the camera from others: the core remembers what each saw in its last frame.
@@ -473,7 +473,7 @@ cdef class NativeRenderer:
         self.draw(&frame, &outputs, &stats)
 
 
-def shadow_ranges_side(int size):
+def shadow_ranges_side(int size) -> int:
     """How many words of ranges a map of that size has a side."""
     return e3d_shadow_ranges_side(size)
 
@@ -490,7 +490,7 @@ def find_shadow_ranges(const float[:, ::1] depths not None, int taps, int step, 
     check(status)
 
 
-def bloom_scratch(int width, int height, int threads):
+def bloom_scratch(int width, int height, int threads) -> int:
     """How many floats `add_bloom` needs."""
     return e3d_bloom_scratch(width, height, threads if threads else e3d_thread_count())
 

@@ -3,8 +3,9 @@
 # In:  corners as indices, rows of words, records of STL.
 # Out: the number of each, in the order of their first appearance, and what they stand for.
 
-def weld_corners(const int32_t[::1] positions not None, const int32_t[::1] uvs,
-                 const int32_t[::1] normals, size_t position_count):
+def weld_corners(
+    const int32_t[::1] positions not None, const int32_t[::1] uvs, const int32_t[::1] normals, size_t position_count,
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32] | None, NDArray[np.int32] | None]:
     """Weld corners (C,) into vertices.
 
     Returns faces (C,) int32, and of each vertex the position, uv and normal (M,) int32; None for
@@ -36,7 +37,7 @@ def weld_corners(const int32_t[::1] positions not None, const int32_t[::1] uvs,
     return frozen(faces), *(None if array is None else array[:made] for array in vertices)
 
 
-def used_or_all(const int32_t[::1] indices not None, size_t total):
+def used_or_all(const int32_t[::1] indices not None, size_t total) -> NDArray[np.bool_] | None:
     """Return which of 0..total-1 are among the indices, (total,) bool; None if all are."""
     used = np.zeros(total, np.bool_)
     cdef uint8_t[::1] view = used.view(np.uint8)
@@ -59,7 +60,7 @@ cdef int check_rows(const e3d_rows *rows) except -1:
     return check_row_count(rows.count)
 
 
-def number_rows(const uint32_t[:, ::1] rows not None, bint are_floats):
+def number_rows(const uint32_t[:, ::1] rows not None, bint are_floats) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Number rows (N, up to 8), equal ones alike: numbers (N,) int32 and first rows (M,) int32.
 
     They are in the order of first appearance; of floats, -0 equals 0.
@@ -79,7 +80,7 @@ def number_rows(const uint32_t[:, ::1] rows not None, bint are_floats):
     return numbers, first[:made]
 
 
-def rows_repeat(const uint32_t[:, ::1] rows not None, bint are_floats):
+def rows_repeat(const uint32_t[:, ::1] rows not None, bint are_floats) -> bool:
     """Tell whether any two rows (N, up to 8) are equal; of floats, -0 equals 0."""
     cdef size_t width = rows.shape[1]
     if rows.shape[0] == 0:
@@ -95,7 +96,9 @@ def rows_repeat(const uint32_t[:, ::1] rows not None, bint are_floats):
     return bool(repeat)
 
 
-def weld_facets(pieces, size_t offset, size_t stride, size_t facets):
+def weld_facets(
+    pieces: Iterable[tuple[int, memoryview]], size_t offset, size_t stride, size_t facets,
+) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
     """Weld the corners of records of ``stride`` bytes that hold nine floats from ``offset`` on.
 
     ``pieces`` are (number of a record, bytes of some from there on), in order. Returns the faces

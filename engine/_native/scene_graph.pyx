@@ -111,14 +111,14 @@ cdef class NativeGraph:
         return 0
 
     @property
-    def count(self):
+    def count(self) -> int:
         return self.graph.count
 
     @property
-    def room(self):
+    def room(self) -> int:
         return self.room
 
-    def add(self, int32_t parent, int32_t object, int32_t id):
+    def add(self, int32_t parent, int32_t object, int32_t id) -> int:
         """Make a node in a new slot, for which there must be room; return it."""
         if self.graph.count >= self.room or not -1 <= parent < self.graph.count:
             raise InvalidArgumentError("no room for a node")
@@ -134,7 +134,7 @@ cdef class NativeGraph:
         self.changes += 1
         self.links += 1
 
-    def link(self, int32_t slot, int32_t parent, int32_t before):
+    def link(self, int32_t slot, int32_t parent, int32_t before) -> bool:
         """Hang a node under another, or under none (-1); False if that is itself or below it.
 
         It comes before another child of that parent, or last (-1).
@@ -150,7 +150,7 @@ cdef class NativeGraph:
         self.links += 1
         return e3d_graph_link(&self.graph, slot, parent, before) != 0
 
-    def remove(self, int32_t slot):
+    def remove(self, int32_t slot) -> list[int]:
         """Take out a node; return the slots of it and of all below."""
         self.check(slot)
         self.changes += 1
@@ -158,7 +158,7 @@ cdef class NativeGraph:
         e3d_graph_remove(&self.graph, slot)
         return self.below(slot)
 
-    def restore(self, int32_t slot):
+    def restore(self, int32_t slot) -> list[int]:
         """Put a removed node back, under none, with all below; return their slots."""
         self.check(slot)
         self.changes += 1
@@ -183,7 +183,7 @@ cdef class NativeGraph:
             e3d_graph_touch(&self.graph, slots[i])
         self.anchored = slots
 
-    def below(self, int32_t slot):
+    def below(self, int32_t slot) -> list[int]:
         """Return the slots of a node and of all below it, parents first."""
         self.check(slot)
         cdef list slots = []
@@ -193,7 +193,7 @@ cdef class NativeGraph:
             at = e3d_graph_walk(&self.graph, at, slot)
         return slots
 
-    def children(self, int32_t slot):
+    def children(self, int32_t slot) -> list[int]:
         """Return the slots of a node's children."""
         self.check(slot)
         cdef list slots = []
@@ -203,12 +203,12 @@ cdef class NativeGraph:
             at = self.graph.next[at]
         return slots
 
-    def parent_of(self, int32_t slot):
+    def parent_of(self, int32_t slot) -> int:
         """Return the slot of a node's parent, or -1."""
         self.check(slot)
         return self.graph.parent[slot]
 
-    def get_flag(self, int32_t slot, int flag):
+    def get_flag(self, int32_t slot, int flag) -> bool:
         self.check(slot)
         return bool(self.graph.flags[slot] & flag)
 
@@ -218,13 +218,13 @@ cdef class NativeGraph:
             self.changes += 1
             e3d_graph_set_flag(&self.graph, slot, flag, on)
 
-    def shown(self, int32_t slot):
+    def shown(self, int32_t slot) -> bool:
         """Whether a node and all above it are visible."""
         self.check(slot)
         e3d_graph_find_world(&self.graph, slot)
         return bool(self.graph.flags[slot] & E3D_NODE_SHOWN)
 
-    def set_pose(self, int32_t slot, const double[:, ::1] pose not None):
+    def set_pose(self, int32_t slot, const double[:, ::1] pose not None) -> int:
         """Set parent-from-node, (4, 4), of which the last row is not read; return its version."""
         self.check(slot)
         if pose.shape[0] != 4 or pose.shape[1] != 4:
@@ -321,11 +321,11 @@ cdef class NativeGraph:
             self.check(slots[i])
             e3d_graph_find_parts(&self.graph, slots[i])
 
-    def pose_version(self, int32_t slot):
+    def pose_version(self, int32_t slot) -> int:
         self.check(slot)
         return self.graph.pose_version[slot]
 
-    def world_version(self, int32_t slot):
+    def world_version(self, int32_t slot) -> int:
         """Return the version of the world pose, which is made true first."""
         self.check(slot)
         e3d_graph_find_world(&self.graph, slot)
@@ -333,24 +333,24 @@ cdef class NativeGraph:
 
     # What follows are copies, over bytes: nobody can write to them.
 
-    def pose(self, int32_t slot):
+    def pose(self, int32_t slot) -> NDArray[np.float64]:
         """parent-from-node, (4, 4)."""
         self.check(slot)
         return affine(self.graph.pose + 12 * <size_t>slot)
 
-    def world_pose(self, int32_t slot):
+    def world_pose(self, int32_t slot) -> NDArray[np.float64]:
         """world-from-node, (4, 4)."""
         self.check(slot)
         e3d_graph_find_world(&self.graph, slot)
         return affine(self.graph.world + 12 * <size_t>slot)
 
-    def rotation(self, int32_t slot):
+    def rotation(self, int32_t slot) -> NDArray[np.float64]:
         """Quaternion, (4,)."""
         self.check(slot)
         e3d_graph_find_parts(&self.graph, slot)
         return sealed((4,), self.graph.rotation + 4 * <size_t>slot, 4)
 
-    def scale(self, int32_t slot):
+    def scale(self, int32_t slot) -> NDArray[np.float64]:
         """(3,)."""
         self.check(slot)
         e3d_graph_find_parts(&self.graph, slot)
@@ -398,7 +398,7 @@ cdef class NativeGraph:
         return 0
 
     def select(self, const double[:, ::1] clip_from_world not None, double widen, bint flat,
-               uint64_t[::1] bits not None):
+               uint64_t[::1] bits not None) -> int:
         """Set the bits of the slots that may show, as of the last update, and clear the others.
 
         Returns how many boxes were tested: those of nodes and, unless ``flat``, of the tree's
@@ -417,7 +417,7 @@ cdef class NativeGraph:
         view.widen, view.flat = widen, flat
         return e3d_tree_select(self.tree, self.graph.bounds, &view, &bits[0])
 
-    def boxes_by_level(self):
+    def boxes_by_level(self) -> list[NDArray[np.float32]]:
         """Return what the tree holds, as of the last update: see the function of this name."""
         self.need_tree()
         return boxes_by_level(self.tree)
@@ -432,7 +432,7 @@ cdef class NativeGraph:
         int32_t[:, ::1] ids not None,
         double[:, ::1] values not None,
         Py_ssize_t first,
-    ):
+    ) -> tuple[int, int]:
         """Cast rays (N, 3) of unit length from the first one on, as of the last update.
 
         Writes slot (-1: none), instance and face into ids (N, 3); distance, position, normal and
@@ -524,7 +524,7 @@ cdef object affine(const double *pose):
     return sealed((4, 4), matrix, 16)
 
 
-def invert(const double[:, ::1] m not None, double[:, ::1] out not None):
+def invert(const double[:, ::1] m not None, double[:, ::1] out not None) -> bool:
     """Fill the inverse of a 4x4 matrix; return whether it has one."""
     if m.shape[0] != 4 or m.shape[1] != 4 or out.shape[0] != 4 or out.shape[1] != 4:
         raise InvalidArgumentError("a matrix is 4x4")
@@ -536,7 +536,7 @@ def camera_view(
     const double[:, ::1] world_from_view not None,
     double[:, ::1] view_from_world not None,
     double[:, ::1] clip_from_world not None,
-):
+) -> tuple[tuple[float, float, float], tuple[float, float, float, float]] | None:
     """Fill the matrices of a camera at a pose; return the direction to the viewer and the eye.
 
     None where the pose has no inverse.

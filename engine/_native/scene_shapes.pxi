@@ -19,7 +19,7 @@ cdef class NativeTree:
     def __dealloc__(self):
         e3d_tree_destroy(self.tree)
 
-    def boxes_by_level(self):
+    def boxes_by_level(self) -> list[NDArray[np.float32]]:
         """Return what the tree holds: see the function of this name."""
         return boxes_by_level(self.tree)
 
@@ -56,7 +56,7 @@ cdef class NativeTree:
         const double[::1] origin not None,
         const double[::1] direction not None,
         double farthest,
-    ):
+    ) -> float:
         """Return how far a ray of unit direction goes to the triangles that this is the tree of.
 
         They are at a pose (4, 4). Infinite where the ray meets none up to `farthest`.

@@ -3,8 +3,8 @@
 # In:  positions and indices.
 # Out: arrays; indices that are out of range raise.
 
-def smooth_sums(positions, const int32_t[:, ::1] faces not None,
-                const int32_t[:, ::1] groups not None, size_t count, size_t block):
+def smooth_sums(positions: NDArray[np.floating], const int32_t[:, ::1] faces not None,
+                const int32_t[:, ::1] groups not None, size_t count, size_t block) -> NDArray[np.float64]:
     """Add up the angle-weighted normals of corners (F, 3) by group: (count, 3) float64.
 
     ``positions`` (V, 3) are float64 or float32; ``block`` triangles are added up at a time.
@@ -62,7 +62,7 @@ cdef e3d_creased_surface placed_surface(const float[:, ::1] positions, const int
 
 
 def encloses(const float[:, ::1] positions not None, const int32_t[:, ::1] faces not None,
-             const int32_t[::1] places, size_t count):
+             const int32_t[::1] places, size_t count) -> bool:
     """Tell whether triangles enclose a volume, their fronts outside; arguments of find_creases."""
     cdef int found
     if faces.shape[0] == 0 or positions.shape[0] == 0:
@@ -76,7 +76,7 @@ def encloses(const float[:, ::1] positions not None, const int32_t[:, ::1] faces
 
 
 def open_sides(const float[:, ::1] positions not None, const int32_t[:, ::1] faces not None,
-               const int32_t[::1] places, size_t count, size_t most):
+               const int32_t[::1] places, size_t count, size_t most) -> NDArray[np.int32] | None:
     """Find the sides that one triangle alone has: places from and to (N, 2); None if they are many.
 
     Also None where a side is run along several times more often one way than the other.
@@ -96,7 +96,7 @@ def open_sides(const float[:, ::1] positions not None, const int32_t[:, ::1] fac
 
 def find_creases(const float[:, ::1] positions not None, const int32_t[:, ::1] faces not None,
                  const int32_t[::1] places, const uint8_t[:, ::1] visible, size_t count,
-                 double cosine):
+                 double cosine) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float32], bool]:
     """Split vertices where triangles meet at more than an angle; find the normals of all.
 
     ``places`` (V,), below ``count``, are the same for vertices at one place; None if each has its
@@ -128,7 +128,7 @@ def find_creases(const float[:, ::1] positions not None, const int32_t[:, ::1] f
 
 def find_tangents(const float[:, ::1] positions not None, const float[:, ::1] normals not None,
                   const float[:, ::1] uvs not None, const int32_t[:, ::1] faces not None,
-                  const int32_t[::1] points not None):
+                  const int32_t[::1] points not None) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
     """Find which corners share a tangent: their groups (F, 3) int32, and tangents (G, 4) float32.
 
     ``points`` (V,) are the same for vertices that are equal in all of the three.
@@ -159,7 +159,7 @@ def find_tangents(const float[:, ::1] positions not None, const float[:, ::1] no
 
 
 def find_edges(const int32_t[:, ::1] faces not None, const int32_t[::1] points,
-               const uint8_t[::1] wanted, size_t count):
+               const uint8_t[::1] wanted, size_t count) -> NDArray[np.uint8]:
     """Mark the first of all sides between two points: (3 F,) uint8.
 
     ``points`` (V,) are the vertices' points, below ``count``, or None if each vertex is its own;
@@ -191,8 +191,10 @@ def find_edges(const int32_t[:, ::1] faces not None, const int32_t[::1] points,
     return first
 
 
-def cut_polygons(const int32_t[::1] sizes not None, positions, const int32_t[::1] indices,
-                 size_t corners, size_t triangles, int64_t tests):
+def cut_polygons(
+    const int32_t[::1] sizes not None, positions: NDArray[np.floating], const int32_t[::1] indices, size_t corners,
+    size_t triangles, int64_t tests,
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.bool_] | None, bool, int]:
     """Cut polygons (P,) of so many corners each into so many triangles.
 
     ``indices`` (C,) are the corners' positions; None if they are the first of ``positions`` (V, 3),

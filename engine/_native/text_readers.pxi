@@ -10,8 +10,8 @@ cdef int check_text_end(const uint8_t[::1] text) except -1:
     return 0
 
 
-def read_numbers(const uint8_t[::1] text not None, int comments, rows=None,
-                 bint with_widths=False):
+def read_numbers(const uint8_t[::1] text not None, int comments, rows: int | None = None,
+                 bint with_widths=False) -> tuple[NDArray[np.float64], NDArray[np.int64] | None, int, int | None]:
     """Read a text of numbers, whose last byte is a blank or ends a line; ``rows`` lines, or all.
 
     Returns the numbers (N,) float64, how many each line that holds any has (R,) int64 or None, the
@@ -39,8 +39,8 @@ def read_numbers(const uint8_t[::1] text not None, int comments, rows=None,
         e3d_numbers_free(&found)
 
 
-def walk_number_rows(const double[::1] values not None, size_t start, skips, size_t tail,
-                     size_t rows):
+def walk_number_rows(const double[::1] values not None, size_t start, skips: list[int], size_t tail,
+                     size_t rows) -> tuple[int, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], int, int]:
     """Go along ``rows`` rows of numbers as `walk_ply_rows` does; places are those of numbers.
 
     ``skips`` are how many numbers stand before each list of a row.
@@ -67,7 +67,7 @@ def walk_number_rows(const double[::1] values not None, size_t start, skips, siz
 
 
 def copy_numbers(const double[::1] values not None, const int64_t[:, ::1] starts not None,
-                 const int64_t[:, ::1] sizes not None, size_t number):
+                 const int64_t[:, ::1] sizes not None, size_t number) -> NDArray[np.float64]:
     """Copy the items of one list of each row (N, K), as `walk_number_rows` found them, to (M,)."""
     cdef size_t rows = starts.shape[0], step = starts.shape[1]
     if <size_t>sizes.shape[0] != rows or <size_t>sizes.shape[1] != step or number >= step:
@@ -81,7 +81,7 @@ def copy_numbers(const double[::1] values not None, const int64_t[:, ::1] starts
     return items
 
 
-def indices_of(const double[:, :] values not None, size_t limit):
+def indices_of(const double[:, :] values not None, size_t limit) -> tuple[NDArray[np.int32], int | None]:
     """Return numbers (N, K), rows at any distance, as int32; and which is none from 0 to limit - 1.
 
     The second is counted along the rows; None if all are indices.
@@ -111,7 +111,7 @@ cdef class FormReader:
     cdef const uint8_t[::1] text
     cdef list patterns
 
-    def __cinit__(self, const uint8_t[::1] text not None, forms, bint any_case=False):
+    def __cinit__(self, const uint8_t[::1] text not None, forms: Iterable[tuple[bytes, int, int, int, float, int]], bint any_case=False):
         cdef size_t count = len(forms), k
         check_text_end(text)
         self.text = text
@@ -138,7 +138,7 @@ cdef class FormReader:
         free(self.read_text.marks)
         free(self.forms)
 
-    def read(self, size_t place):
+    def read(self, size_t place) -> int:
         """Read lines from a place on; return where one begins that has no form, or the end."""
         cdef bint fits = True
         if place < <size_t>self.text.shape[0]:
@@ -149,7 +149,7 @@ cdef class FormReader:
             raise OutOfMemoryError("no memory for the numbers of a file")
         return place
 
-    def add(self, size_t form, numbers, bint is_whole=True):
+    def add(self, size_t form, numbers: Sequence[float], bint is_whole=True):
         """Add a row to a form's."""
         given = np.array(numbers, np.float64)
         cdef double[::1] view = given
@@ -159,19 +159,19 @@ cdef class FormReader:
         if not e3d_add_form_row(&self.read_text, form, &view[0], is_whole):
             raise OutOfMemoryError("no memory for the numbers of a file")
 
-    def count(self, size_t form):
+    def count(self, size_t form) -> tuple[int, int]:
         """Return how many rows of a form there are, and how many of them lack nothing."""
         if form >= self.read_text.form_count:
             raise InvalidArgumentError("there is no such form")
         return self.read_text.rows[form].rows, self.read_text.rows[form].whole
 
-    def lines(self, size_t form):
+    def lines(self, size_t form) -> int:
         """Return how many lines of a form were read."""
         if form >= self.read_text.form_count:
             raise InvalidArgumentError("there is no such form")
         return self.read_text.rows[form].lines
 
-    def take_rows(self, size_t form):
+    def take_rows(self, size_t form) -> NDArray[np.float64]:
         """Hand over the rows of a form, once: (N, width) float64."""
         rows, _ = self.count(form)
         cdef size_t width = self.forms[form].width
@@ -180,7 +180,7 @@ cdef class FormReader:
         values = owned(<void **>&taken.values, rows * width, np.dtype(np.float64))
         return values.reshape(rows, width)
 
-    def take_marks(self):
+    def take_marks(self) -> NDArray:
         """Hand over the marks since the last time: (N,) `MARK`."""
         cdef size_t count = self.read_text.mark_count * MARK.itemsize
         marks = owned(<void **>&self.read_text.marks, count, np.dtype(np.uint8)).view(MARK)

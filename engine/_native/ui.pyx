@@ -57,7 +57,7 @@ cdef class NativeTextures:
     cdef list kept
     cdef bytearray room
 
-    def __cinit__(self, textures):
+    def __cinit__(self, textures: Iterable[NativeTexture]):
         cdef NativeTexture one
         cdef Py_ssize_t k
         self.kept = list(textures)

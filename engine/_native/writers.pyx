@@ -20,7 +20,7 @@ V_VN = E3D_CORNER_V_VN
 V_VT_VN = E3D_CORNER_V_VT_VN
 
 
-def float_rows(const float[:, ::1] rows not None, between):
+def float_rows(const float[:, ::1] rows not None, between: list[bytes]) -> NDArray[np.uint8]:
     """Return rows (N, K) of up to 16 floats as text: (M,) uint8.
 
     ``between`` are K + 1 byte strings: what stands before each number, and behind the last. Floats
@@ -43,7 +43,7 @@ def float_rows(const float[:, ::1] rows not None, between):
 
 
 def face_lines(const int32_t[::1] sizes not None, const int32_t[::1] positions not None,
-               const int32_t[::1] others, int form):
+               const int32_t[::1] others, int form) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
     """Return the lines ``f ...`` of faces (P,): (M,) uint8, and the end of each line (P,) int64.
 
     Of all corners (C,), face after face, the numbers of ``v``, and those of ``vt`` and ``vn``.

@@ -31,7 +31,7 @@ def number():
     return e3d_number()
 """
 REAL_FILES = ("setup.py", "csrc/build_rules.py", "pyproject.toml", "engine/version.py")
-REAL_FILES += ("csrc/headers.py", "csrc/mirrors.py")
+REAL_FILES += ("csrc/headers.py", "csrc/mirrors.py", "csrc/stubs.py")
 REAL_FILES += ("csrc/include/e3d_backends.h", "csrc/include/e3d_options.h")
 # Prints the number that the one module of the core gives.
 PROBE = """

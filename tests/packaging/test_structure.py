@@ -263,11 +263,8 @@ DECLARED = {
     for name, code in CODE.items()
     if not name.endswith(".c") and "/simd/" not in name
 }
-FRAME_FILES = [
-    name
-    for name in SOURCES
-    if re.match(r"pipeline/|kernels/(?!simd/)", name) and name != "kernels/each_kernel.inl"
-]
+# each_kernel.inl is rows, of which whoever includes it makes something.
+FRAME_FILES = [n for n in SOURCES if re.match(r"pipeline/|kernels/(?!simd/|each_kernel)", n)]
 
 
 @pytest.mark.parametrize("name", FRAME_FILES)

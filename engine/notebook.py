@@ -121,7 +121,7 @@ class View(RemoteFrameBuffer):
 
     def update(self) -> None:
         """Draw again: the scene was changed."""
-        self._viewer.changed = True
+        self._viewer.redraw()
         self.request_draw()
 
     def close(self) -> None:
@@ -146,7 +146,7 @@ class View(RemoteFrameBuffer):
     def _still(self) -> bytes:
         """What the view shows now, as a PNG; the page gets its first picture all the same."""
         self._viewer.draw(self._viewer.sampling.at_rest())
-        self._viewer.changed = True
+        self._viewer.redraw()
         rgb = self._page.picture
         return encode_png(np.dstack([rgb, np.full(rgb.shape[:2], 255, np.uint8)]))
 

@@ -9,16 +9,12 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from ..errors import Engine3DError
 from ..files.animation_files import numbered_path
 from ..stage.appearance import CHOICES, following
 from ..stage.debug_lines import DEBUG_DRAWINGS
-from ..stage.fps import FpsController
 from ..stage.played_clips import play_clips
 from ..stage.theme import THEMES
 from ..stage.viewpoint import QUARTER_TURN, UP_DIRECTIONS
-from ..stage.walkable_ground import told
-from ..stage.walking import GroundController, controller
 from .file_dialog import FolderPanel, RecentPanel
 from .panels import MaterialPanel, ObjectPanel
 from .recording import record
@@ -127,7 +123,7 @@ def _looking(azimuth: float, elevation: float):
 
     def look(viewer, step: int) -> None:
         if viewer.walker is not None:
-            toggle_walking(viewer)
+            viewer.toggle_walking()
         viewer.view.azimuth, viewer.view.elevation = azimuth, elevation
         viewer.view_renderer.frame(viewer.view)
 
@@ -158,7 +154,7 @@ orbit_down, orbit_up = _turning(0.0, -ORBIT_STEP), _turning(0.0, ORBIT_STEP)
 
 def _turn_up(viewer, up: str) -> None:
     if viewer.walker is not None:
-        toggle_walking(viewer)
+        viewer.toggle_walking()
     viewer.view_renderer.turn_up(up)
     for view in (viewer.view, viewer.first_view):
         view.up = UP_DIRECTIONS[up]
@@ -182,39 +178,14 @@ def toggle_orthographic(viewer, step: int) -> None:
     viewer.say("orthographic" if viewer.view.orthographic else "perspective")
 
 
-def reset_view(viewer, step: int = 1) -> None:
+def reset_view(viewer, step: int) -> None:
     """Go back to the first view."""
-    if viewer.walker is not None:
-        toggle_walking(viewer)
-    viewer.view = viewer.first_view.copy()
-    viewer.orbit.view = viewer.view
-    viewer.changed = True
+    viewer.reset_view()
 
 
-def toggle_walking(viewer, step: int = 1) -> None:
+def toggle_walking(viewer, step: int) -> None:
     """Walk, or orbit again; the picture stays where it is, or goes down to the ground."""
-    if viewer.walker is None:
-        _begin_walking(viewer)
-    else:
-        viewer.walker.leave(viewer.view)
-        viewer.walker = None
-        viewer.say("orbiting")
-    viewer.held_positions.clear()
-    viewer.mouse.release()
-    viewer.window.capture_mouse(viewer.walker is not None)
-
-
-def _begin_walking(viewer) -> None:
-    try:
-        viewer.walker = controller(viewer.view_renderer, viewer.view)
-        said = "walking"
-    except Engine3DError as error:
-        viewer.walker = FpsController(viewer.view, viewer.view_renderer.bounds)
-        said = f"flying, as there is no ground: {error}"
-    viewer.walker.place(viewer.view)
-    if isinstance(viewer.walker, GroundController):
-        said += f"; {told(viewer.walker.grid)}"
-    viewer.say(f"{said}; WASD, mouse or arrows to look; Tab or Esc to leave")
+    viewer.toggle_walking()
 
 
 def toggle_occlusion(viewer, step: int) -> None:
@@ -322,7 +293,7 @@ def cycle_lists(viewer, step: int) -> None:
 
 
 def _toggle_dialog(viewer, panel: type) -> None:
-    viewer.panel = None if isinstance(viewer.panel, panel) else panel(viewer)
+    viewer.panel = None if isinstance(viewer.panel, panel) else panel(viewer, viewer.opening)
     viewer.held_positions.clear()
 
 
@@ -348,9 +319,7 @@ def load_again(viewer, step: int) -> None:
 
 def toggle_help(viewer, step: int) -> None:
     """The keys, or none; in a small window page by page."""
-    page = viewer.help_page + step if viewer.show_help else 0
-    viewer.show_help = 0 <= page < viewer.help_pages or not viewer.show_help
-    viewer.help_page = page
+    viewer.help.turn(step)
 
 
 def toggle_fullscreen(viewer, step: int) -> None:

@@ -16,7 +16,8 @@ from .model_files import MODEL_EXTENSIONS
 from .panels import Panel, Row
 
 if TYPE_CHECKING:
-    from .viewer import Viewer
+    from .opened_files import Opening
+    from .state import ViewerState
 
 COLUMNS, ROWS = 72, 16
 _HINT = "Enter, click: open   Esc: close   type: filter   Tab: "
@@ -29,8 +30,9 @@ class _FilePanel(Panel):
     corner = "middle"
     least_columns, most_columns, least_rows = COLUMNS, COLUMNS, ROWS
 
-    def __init__(self, viewer: Viewer):
+    def __init__(self, viewer: ViewerState, opening: Opening):
         super().__init__(viewer)
+        self._opening = opening
         self.filter = ""
         self.chosen = 0
 
@@ -57,7 +59,7 @@ class _FilePanel(Panel):
         elif not super().key(event):
             typed = len(event.key) == 1 or event.key == "Space" or event.key.startswith("Keypad")
             return typed  # its text comes as an event of its own
-        self.viewer.changed = True
+        self.viewer.redraw()
         return True
 
     def type(self, text: str) -> None:
@@ -66,7 +68,7 @@ class _FilePanel(Panel):
     def set_filter(self, text: str) -> None:
         """Show only what has a text in its name."""
         self.filter, self.chosen, self._follows = text, 0, True
-        self.viewer.changed = True
+        self.viewer.redraw()
 
     def _press_chosen(self) -> None:
         if self.chosen is not None and self.chosen < len(self.rows()):
@@ -80,7 +82,7 @@ class _FilePanel(Panel):
 
     def _open(self, path: str) -> None:
         self.close()
-        self.viewer.opening.open([path])
+        self._opening.open([path])
 
 
 class FolderPanel(_FilePanel):
@@ -88,9 +90,9 @@ class FolderPanel(_FilePanel):
 
     hint = _HINT + "opened before"
 
-    def __init__(self, viewer: Viewer):
-        super().__init__(viewer)
-        shown = viewer.opening.files.first()
+    def __init__(self, viewer: ViewerState, opening: Opening):
+        super().__init__(viewer, opening)
+        shown = opening.files.first()
         self._go(os.path.dirname(shown) if shown else os.getcwd())
         if shown:
             self._choose(shown)
@@ -150,7 +152,7 @@ class FolderPanel(_FilePanel):
             self._go(os.path.dirname(self.folder))
 
     def _change_list(self) -> None:
-        self.viewer.panel = RecentPanel(self.viewer)
+        self.viewer.panel = RecentPanel(self.viewer, self._opening)
 
 
 class RecentPanel(_FilePanel):
@@ -159,8 +161,8 @@ class RecentPanel(_FilePanel):
     title = "Opened before"
     hint = _HINT + "folders"
 
-    def __init__(self, viewer: Viewer):
-        super().__init__(viewer)
+    def __init__(self, viewer: ViewerState, opening: Opening):
+        super().__init__(viewer, opening)
         self._all = RecentFiles().paths()
 
     @property
@@ -177,7 +179,7 @@ class RecentPanel(_FilePanel):
         self._open(self._paths[number])
 
     def _change_list(self) -> None:
-        self.viewer.panel = FolderPanel(self.viewer)
+        self.viewer.panel = FolderPanel(self.viewer, self._opening)
 
 
 def _size(item: Item) -> str:

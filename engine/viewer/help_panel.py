@@ -19,6 +19,26 @@ GAP: Row = ("", "")
 GUTTER = 3
 
 
+class HelpPages:
+    """Whether the help shows, and which of its pages.
+
+    Attributes
+    ----------
+    shown : bool
+    page, count : int
+        From 0 on, and how many there were when it was drawn last.
+    """
+
+    def __init__(self) -> None:
+        self.shown, self.page, self.count = False, 0, 1
+
+    def turn(self, step: int) -> None:
+        """Show it, or the next page or the one before; behind the last one, no more."""
+        page = self.page + step if self.shown else 0
+        self.shown = 0 <= page < self.count or not self.shown
+        self.page = page
+
+
 def help_sections() -> list[list[Row]]:
     """Return the help, a list of rows for each section; the first row is its title."""
     sections = [

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .viewer import Viewer
+    from .state import ViewerState
 
 #: Pixels that a hand moves while it clicks.
 CLICK_REACH = 4
@@ -20,7 +20,7 @@ class Mouse:
 
     Parameters
     ----------
-    viewer : Viewer
+    viewer : ViewerState
 
     Attributes
     ----------
@@ -28,7 +28,7 @@ class Mouse:
         What a pressed button does: ``"rotate"``, ``"pan"``, ``"dolly"`` or ``"light"``.
     """
 
-    def __init__(self, viewer: Viewer):
+    def __init__(self, viewer: ViewerState):
         self._viewer = viewer
         self.release()
 
@@ -69,9 +69,10 @@ class Mouse:
         """The mouse moved."""
         viewer = self._viewer
         if viewer.walker is not None:
+            self.release()
             viewer.walker.look(event.dx, event.dy)
             viewer.walker.place(viewer.view)
-            viewer.changed = True
+            viewer.redraw()
         elif self.drag is not None:
             self._travelled += abs(event.dx) + abs(event.dy)
             dx, dy = self._held_back[0] + event.dx, self._held_back[1] + event.dy
@@ -90,7 +91,7 @@ class Mouse:
             viewer.turn_light(dx, dy)
         else:
             viewer.orbit.dolly_drag(dy)
-        viewer.changed = True
+        viewer.redraw()
 
     def wheel(self, event) -> None:
         """The wheel turned."""
@@ -102,7 +103,7 @@ class Mouse:
             viewer.panel.scroll(event.steps)
             return
         viewer.orbit.dolly(event.steps, (event.x, event.y), viewer.view_renderer.size)
-        viewer.changed = True
+        viewer.redraw()
 
 
 def _drag(event) -> str:

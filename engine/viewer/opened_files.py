@@ -12,12 +12,11 @@ from typing import TYPE_CHECKING
 from ..desktop.recent_files import RecentFiles
 from ..errors import Engine3DError, printable
 from ..stage.viewpoint import Sphere
-from .actions import reset_view, toggle_walking
 from .model_files import ModelFiles
 
 if TYPE_CHECKING:
     from ..stage.viewed_scene import ViewedScene
-    from .viewer import Viewer
+    from .state import ViewerState
 
 #: A model that became so many times larger or smaller is framed anew.
 ALIKE = 8.0
@@ -28,12 +27,12 @@ class Opening:
 
     Parameters
     ----------
-    viewer : Viewer
+    viewer : ViewerState
     files : ModelFiles
         Those that it shows first.
     """
 
-    def __init__(self, viewer: Viewer, files: ModelFiles):
+    def __init__(self, viewer: ViewerState, files: ModelFiles):
         self._viewer = viewer
         self.files = files
 
@@ -59,7 +58,7 @@ class Opening:
         viewer.time = 0.0
         viewer.playing = viewed.plays
         viewer.first_view = viewer.view_renderer.view()
-        reset_view(viewer)
+        viewer.reset_view()
         viewer.say(viewed.warnings[0] if viewed.warnings else f"opened {viewed.title}")
 
     def step(self, step: int) -> None:
@@ -84,7 +83,7 @@ class Opening:
 
     def _reload(self) -> None:
         viewer = self._viewer
-        viewer.changed = True
+        viewer.redraw()
         if missing := self.files.missing():
             gone = f"{', '.join(missing)} is not there: this is what it was"
             viewer.messages.trouble = printable(gone)
@@ -110,7 +109,7 @@ class Opening:
         """Look at all of what is shown now, from the same side; a reset does so from now on."""
         viewer = self._viewer
         if viewer.walker is not None:
-            toggle_walking(viewer)
+            viewer.toggle_walking()
         for view in (viewer.view, viewer.first_view):
             viewer.view_renderer.frame(view)
 

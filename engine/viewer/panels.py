@@ -12,7 +12,7 @@ from ..stage.overlay import LINE_GAP, MARGIN, PADDING, place
 from ..stage.theme import Theme
 
 if TYPE_CHECKING:
-    from .viewer import Viewer
+    from .state import ViewerState
 
 #: A list is not wider than so many characters.
 MOST_COLUMNS = 44
@@ -33,7 +33,7 @@ class Panel:
 
     Parameters
     ----------
-    viewer : Viewer
+    viewer : ViewerState
         What a click changes.
     """
 
@@ -44,7 +44,7 @@ class Panel:
     #: The number of the row that the keys have come to, if they choose rows.
     chosen: int | None = None
 
-    def __init__(self, viewer: Viewer):
+    def __init__(self, viewer: ViewerState):
         self.viewer = viewer
         self._heads = 1
         self._follows = True
@@ -116,13 +116,13 @@ class Panel:
         line = (y - self._box[1] - PADDING) // self._row_height - self._heads
         if 0 <= line < self._fit and self._first + line < len(self.rows()):
             self.press(self._first + line, alone)
-            self.viewer.changed = True
+            self.viewer.redraw()
 
     def scroll(self, steps: float) -> None:
         """Obey the wheel."""
         self._first = max(0, self._first - round(steps))
         self._follows = False
-        self.viewer.changed = True
+        self.viewer.redraw()
 
     def key(self, event) -> bool:
         """Obey a key that went down; return whether it was the panel's."""
@@ -137,7 +137,7 @@ class Panel:
     def close(self) -> None:
         """Show no panel any more."""
         self.viewer.panel = None
-        self.viewer.changed = True
+        self.viewer.redraw()
 
 
 class ObjectPanel(Panel):

@@ -19,7 +19,7 @@ from ..files.frame_names import literal_name
 from ..stage import headless
 
 if TYPE_CHECKING:
-    from .viewer import Viewer
+    from .state import ViewerState
 
 FRAMES = 48
 #: The longer side of the pictures: a file of larger ones would take long, and much room.
@@ -30,7 +30,7 @@ class _GivenUp(Exception):
     """The user does not want the file any more."""
 
 
-def record(viewer: Viewer, path: Path) -> str:
+def record(viewer: ViewerState, path: Path) -> str:
     """Write the file; return what to say of it."""
     view_renderer = viewer.view_renderer
     size, seconds = view_renderer.size, headless.seconds_a_frame(view_renderer, FRAMES)
@@ -45,11 +45,10 @@ def record(viewer: Viewer, path: Path) -> str:
         return str(error)
     finally:
         view_renderer.resize(*size)
-        viewer.title_changed()
     return f"saved {path.name}"
 
 
-def _pictures(viewer: Viewer, name: str) -> Iterator[np.ndarray]:
+def _pictures(viewer: ViewerState, name: str) -> Iterator[np.ndarray]:
     """Yield the pictures, and show them; raise `_GivenUp` when the user wants no more."""
     pictures = headless.animation(viewer.view_renderer, viewer.view, FRAMES)
     for number, picture in enumerate(pictures, 1):

@@ -10,14 +10,9 @@ from __future__ import annotations
 import math
 import time as clock
 
-import numpy as np
-
-from .. import events, linalg
-from ..errors import printable
-from ..spatial.rays import RayHit
-from ..stage.fps import LOOKS, MOVES, FpsController
+from .. import events
+from ..stage.fps import LOOKS, MOVES
 from ..stage.frame_times import FrameTimes
-from ..stage.orbit import MIN_DISTANCE, OrbitController
 from ..stage.overlay import draw_block, short_statistics, statistics_lines
 from ..stage.selection_outline import OUTLINE_OUTPUTS, WIDTH, draw_outline, selection_lines
 from ..stage.view_renderer import ViewRenderer
@@ -25,21 +20,20 @@ from . import actions as viewer_actions
 from .animation_bar import draw_bar
 from .help_panel import draw_help, help_lines
 from .keymap import REPEATED, action_for
-from .messages import Messages
 from .model_files import ModelFiles
 from .mouse import Mouse
 from .opened_files import Opening
-from .panels import Panel
 from .sampling import Sampling
+from .state import ViewerState
+from .title_bar import TitleBar
 
 #: How long the loop sleeps when nothing happens; also how often a watched file is looked at.
 IDLE_SECONDS = 0.25
-TITLE_SECONDS = 0.5
 #: A pause in the loop (a slow load, a dragged window) must not throw the walker through a wall.
 LONGEST_STEP = 0.1
 
 
-class Viewer:
+class Viewer(ViewerState):
     """Shows a scene in a window and lets the user turn it.
 
     Parameters
@@ -74,36 +68,19 @@ class Viewer:
         files: ModelFiles | None = None,
         sampling: Sampling | None = None,
     ):
-        self.view_renderer = view_renderer
-        self.window = window
+        super().__init__(view_renderer, window, view, sampling)
         view_renderer.screen_scale = window.scale
-        self.first_view = view or view_renderer.view()
-        self.view = self.first_view.copy()
-        self.orbit = OrbitController(self.view)
-        self.walker: FpsController | None = None
-        self.time = 0.0
-        self.playing = view_renderer.viewed.plays if playing is None else playing
-        self.show_help = False
-        self.help_page = 0
-        self.help_pages = 1
+        if playing is not None:
+            self.playing = playing
         self.statistics = "long" if statistics else None
-        self.running = True
-        self.changed = True
         self.frame = None
-        self.held_positions: set[str] = set()
-        self.fast = False
         self.mouse = Mouse(self)
-        self.selected: RayHit | None = None
-        self.messages = Messages()
-        self.sampling = sampling or Sampling(view_renderer.samples)
         self.frame_times = FrameTimes()
-        self._title = ""
-        self._title_due = 0.0
-        self._last_turn = clock.monotonic()
-        self.panel: Panel | None = None
         self.opening = Opening(self, files or ModelFiles())
+        self._title = TitleBar(window)
+        self._last_turn = clock.monotonic()
         if walking:
-            viewer_actions.toggle_walking(self)
+            self.toggle_walking()
 
     # The loop
 
@@ -115,7 +92,8 @@ class Viewer:
         drawn = 0
         self._last_turn = clock.monotonic()
         while self.running and (frames is None or drawn < frames):
-            self.changed |= frames is not None
+            if frames is not None:
+                self.redraw()
             drawn += self.run_once()
 
     def run_once(self) -> bool:
@@ -129,7 +107,9 @@ class Viewer:
         drawn = (self.changed or rests) and self.running and not self.window.minimised
         if drawn:
             self.draw(self.sampling.in_motion() if self.changed else self.sampling.at_rest())
-        self._update_title()
+        idle = not self.lively
+        name = self.view_renderer.viewed.title
+        self._title.write(name, lambda: self.frame_times.text(idle), at_once=idle)
         return drawn
 
     def _patience(self) -> float:
@@ -152,13 +132,14 @@ class Viewer:
             self._play(seconds)
         if self.walker is not None and self.walker.walk(self.held_positions, seconds, self.fast):
             self.walker.place(self.view)
-            self.changed = True
-        self.changed |= self.messages.pass_by()
+            self.redraw()
+        if self.messages.pass_by():
+            self.redraw()
         self.opening.look_for_changes()
 
     def _play(self, seconds: float) -> None:
         viewed = self.view_renderer.viewed
-        self.changed = True
+        self.redraw()
         self.time = (self.time + seconds) % viewed.period
         if viewed.update is None and self.walker is None and self.mouse.drag is None:
             self.orbit.turn(2 * math.pi * seconds / viewed.period, 0.0)
@@ -175,7 +156,7 @@ class Viewer:
         start = clock.monotonic()
         width, height = self.window.size
         self.view_renderer.resize(width, height)
-        self.changed = False
+        self._changed = False
         outputs = ("color",) if self.selected is None else OUTLINE_OUTPUTS
         self.frame = self.view_renderer.draw(self.view, self.time, outputs)
         if not self.window.writes_text:
@@ -195,8 +176,8 @@ class Viewer:
             if not self.view_renderer.split:
                 draw_outline(self.frame, self.selected, WIDTH * scale)
             draw_block(canvas, self._selection(), corner="bottom right", **look)
-        if self.show_help:
-            self.help_pages = draw_help(canvas, self.help_page, **look)
+        if self.help.shown:
+            self.help.count = draw_help(canvas, self.help.page, **look)
         elif self.statistics:
             draw_block(canvas, self._statistics(), **look)
         if self.panel is not None:
@@ -209,8 +190,8 @@ class Viewer:
     def _overlay_lines(self) -> list[str]:
         """Return the overlays as lines, for a window that writes text."""
         lines = [] if self.selected is None else self._selection()
-        if self.show_help:
-            page, self.help_pages = help_lines(*self.window.text_room, self.help_page)
+        if self.help.shown:
+            page, self.help.count = help_lines(*self.window.text_room, self.help.page)
             lines += page
         elif self.statistics:
             lines += self._statistics()
@@ -235,57 +216,6 @@ class Viewer:
             view_renderer.appearance.culling,
         )
 
-    def _update_title(self) -> None:
-        """Write the name and what frames take, now and then; at once where nothing moves."""
-        now, idle = clock.monotonic(), not self.lively
-        if now < self._title_due and not idle:
-            return
-        self._title_due = now + TITLE_SECONDS
-        parts = (self.view_renderer.viewed.title, "engine3d", self.frame_times.text(idle))
-        title = printable(" - ".join(filter(None, parts)))
-        if title != self._title:
-            self._title = title
-            self.window.title = title
-
-    def title_changed(self) -> None:
-        """Write the title anew: somebody else wrote another one."""
-        self._title, self._title_due = "", 0.0
-
-    def say(self, message: str) -> None:
-        """Show a message for a moment, which is longer for more words."""
-        self.messages.say(message)
-        self.changed = True
-
-    def forget_scene(self) -> None:
-        """Forget what was known of the scene before: another one is shown now."""
-        self.selected = None
-        self.messages.trouble = ""
-        self.sampling.start_anew()
-        self._title_due = 0.0
-
-    def select(self, x: int, y: int) -> None:
-        """Select what shows at a pixel; where nothing does, nothing is selected any more."""
-        self.selected = self.view_renderer.pick(self.view, self.time, x, y)
-        self.changed = True
-
-    def turn_light(self, dx: int, dy: int) -> None:
-        """Turn the light by a drag of (dx, dy) pixels."""
-        full_turn = 2 * math.pi / self.view_renderer.size[1]
-        lighting = self.view_renderer.lighting
-        if not lighting.turn(self.view.pose(), dx * full_turn, dy * full_turn):
-            self.say("these lights cannot be turned: L chooses others")
-
-    def focus(self, x: int, y: int) -> None:
-        """Move what shows at a pixel into the middle, and turn round it from now on."""
-        hit = self.view_renderer.pick(self.view, self.time, x, y)
-        if hit is None or not np.isfinite(hit.position).all():
-            return
-        ahead = linalg.dot(hit.position - self.view.position(), -self.view.rotation()[:, 2])
-        self.view.target = hit.position.copy()
-        if not self.view.orthographic:
-            self.view.distance = max(MIN_DISTANCE, float(ahead))
-        self.changed = True
-
     # Events
 
     def handle(self, event) -> None:
@@ -303,12 +233,12 @@ class Viewer:
         action = action_for(event.key, event.position, event.control, event.shift)
         if action is not None and (not event.repeat or action in REPEATED):
             getattr(viewer_actions, action)(self, -1 if event.shift else 1)
-            self.changed = True
+            self.redraw()
 
     def _walk_key(self, event) -> bool:
         """Obey a key of walking mode; return whether it was one."""
         if event.key == "Escape":
-            viewer_actions.toggle_walking(self)
+            self.toggle_walking()
             return True
         if (event.position in MOVES or event.position in LOOKS) and not event.control:
             self.held_positions.add(event.position)
@@ -328,11 +258,11 @@ class Viewer:
 
     def _redraw(self, event) -> None:
         self.view_renderer.screen_scale = self.window.scale  # it may be on another screen now
-        self.changed = True
+        self.redraw()
 
     def _unfreeze_culling(self) -> None:
         self.view_renderer.freeze_culling(None)
-        self.changed = True
+        self.redraw()
 
     def _release_keys(self, event) -> None:
         self.held_positions.clear()

@@ -28,7 +28,7 @@ class ScriptedWindow:
 
     @property
     def title(self):
-        return self.titles[-1]
+        return self.titles[-1] if self.titles else ""
 
     @title.setter
     def title(self, title):

@@ -87,7 +87,7 @@ def test_the_viewer_draws_again_when_nothing_moves_any_more(now):
 
     view_renderer.draw = slowly
     for _ in range(6):
-        viewer.changed = True
+        viewer.redraw()
         viewer.run_once()
     assert drawn == [4, 4, 1, 1, 1, 1]
     viewer.run_once()

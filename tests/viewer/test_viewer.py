@@ -474,15 +474,15 @@ def test_help_goes_page_by_page_in_a_small_window():
     pages = []
     for _ in range(100):
         viewer.handle(key("H"))
-        if not viewer.show_help:
+        if not viewer.help.shown:
             break
         viewer.draw()
         pages.append(window.shown[-1].tobytes())
-    assert not viewer.show_help
-    assert len(set(pages)) == len(pages) == viewer.help_pages > 1
+    assert not viewer.help.shown
+    assert len(set(pages)) == len(pages) == viewer.help.count > 1
     viewer.handle(key("H"))
     viewer.handle(key("H", shift=True))
-    assert not viewer.show_help
+    assert not viewer.help.shown
 
 
 def test_texts_are_as_large_as_the_screen_is_fine():

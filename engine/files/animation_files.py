@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -34,7 +34,7 @@ TRANSPARENT_INDEX = 255
 SHORTEST_MILLISECONDS = 20
 
 
-def save_animation(pictures: Iterable[np.ndarray], path, seconds_a_frame: float) -> None:
+def save_animation(pictures: Iterable[np.ndarray], path: Any, seconds_a_frame: float) -> None:
     """Write an endless animation; the path's extension chooses the format.
 
     Parameters
@@ -66,7 +66,7 @@ def save_animation(pictures: Iterable[np.ndarray], path, seconds_a_frame: float)
 
 
 def _save_images(
-    pictures: Iterable[np.ndarray], path, image_format: str, seconds_a_frame: float
+    pictures: Iterable[np.ndarray], path: Any, image_format: str, seconds_a_frame: float
 ) -> None:
     images = (_image(pixels) for pixels in pictures)
     if image_format == "GIF":
@@ -90,7 +90,7 @@ def numbered_path(folder: Path, stem: str, suffix: str) -> Path:
     return path
 
 
-def _image(pixels: np.ndarray):
+def _image(pixels: np.ndarray) -> Any:
     """Return a Pillow image: RGB where every pixel is opaque, else RGBA."""
     from PIL import Image
 
@@ -99,7 +99,7 @@ def _image(pixels: np.ndarray):
     return Image.fromarray(np.ascontiguousarray(pixels))
 
 
-def _with_palette(image):
+def _with_palette(image: Any) -> Any:
     """Return ``image`` in 256 colours of its own, as GIF wants it; the last may be transparent."""
     from PIL import Image
 
@@ -114,7 +114,7 @@ def _with_palette(image):
     return result
 
 
-def _dithered(image, count: int):
+def _dithered(image: Any, count: int) -> Any:
     """Return an RGB image in ``count`` colours; of Pillow's ways the one with least banding."""
     from PIL import Image
 

@@ -20,7 +20,7 @@ import os
 import re
 import stat
 from collections.abc import Iterator
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from .._support.numbers import shown
 from .._support.system import AT_ONCE, READ_WRITE, WRITE, set_mode, sync_folder
@@ -32,7 +32,7 @@ LEFT_BEHIND = re.compile(r"\.(?P<name>.*)\.[0-9a-f]{16}\.part", re.DOTALL)
 
 @contextlib.contextmanager
 def atomic_write(
-    path: str | os.PathLike, *, below: str | os.PathLike | None = None
+    path: str | os.PathLike[str], *, below: str | os.PathLike[str] | None = None
 ) -> Iterator[BinaryIO]:
     """Open ``path`` for writing; it appears when the ``with`` block ends without an exception.
 
@@ -60,7 +60,7 @@ def atomic_write(
         yield files.create(path, below=below)
 
 
-def checked_path(path: str | bytes | os.PathLike) -> str:
+def checked_path(path: str | bytes | os.PathLike[str]) -> str:
     """Return the path of an output file as a string."""
     try:
         decoded = os.fsdecode(path)
@@ -82,7 +82,7 @@ class AtomicFiles:
         self._parts: list[_Part] = []
 
     def create(
-        self, path: str | os.PathLike, *, below: str | os.PathLike | None = None
+        self, path: str | os.PathLike[str], *, below: str | os.PathLike[str] | None = None
     ) -> BinaryIO:
         """Begin the next file, as `atomic_write`; the one before is whole, and closed."""
         if self._parts:
@@ -97,7 +97,7 @@ class AtomicFiles:
     def __enter__(self) -> AtomicFiles:
         return self
 
-    def __exit__(self, kind, error, trace) -> None:
+    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
         try:
             if isinstance(error, OSError) and self._parts:
                 with _named(self._parts[-1].path):
@@ -135,7 +135,7 @@ class StreamFiles:
     def __enter__(self) -> StreamFiles:
         return self
 
-    def __exit__(self, *_) -> None:
+    def __exit__(self, *_: Any) -> None:
         """Nothing has to appear."""
 
 

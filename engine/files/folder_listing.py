@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import stat
 from collections.abc import Collection
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..errors import printable
 
@@ -81,7 +81,8 @@ class Listing(NamedTuple):
 def list_folder(path: str | os.PathLike[str]) -> Listing:
     """Return what a folder holds; what is neither a folder nor a regular file is left out."""
     folder = os.path.abspath(os.fspath(path))
-    items, reason = [], ""
+    items: list[Any] = []
+    reason = ""
     try:
         with os.scandir(folder) as entries:
             for entry in entries:

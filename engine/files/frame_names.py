@@ -59,7 +59,7 @@ def frame_name(path: str | os.PathLike[str]) -> FrameName:
     if isinstance(path, FrameName):
         return path
     folder, name = os.path.split(os.fspath(path))
-    pieces: list[str | re.Match] = []
+    pieces: list[str | re.Match[str]] = []
     last = 0
     for match in FRAME_NUMBER.finditer(name):
         pieces += [name[last : match.start()], match if match["escaped"] is None else meant(match)]
@@ -67,24 +67,24 @@ def frame_name(path: str | os.PathLike[str]) -> FrameName:
     return joined_name([os.path.join(folder, ""), *pieces, name[last:]])
 
 
-def meant(match: re.Match) -> str:
+def meant(match: re.Match[str]) -> str:
     """Return the letters that what `FRAME_NUMBER` calls escaped stands for."""
     text = match["escaped"]
     return text[1:] if text.startswith("%") else text[1:-1]
 
 
-def joined_name(pieces: list[str | re.Match]) -> FrameName:
+def joined_name(pieces: list[str | re.Match[str]]) -> FrameName:
     """Return the name of texts, which are meant as they are, and of places for a frame's number."""
     texts = [piece if isinstance(piece, str) else piece[0] for piece in pieces]
     name = FrameName("".join(texts))
     behind = ["".join(texts[index + 1 :]) for index in range(len(pieces))]
     places = [
-        index
+        (index, piece)
         for index, piece in enumerate(pieces)
         if not isinstance(piece, str) and not os.path.dirname(behind[index])
     ]
     if len(places) == 1:
-        (index,) = places
-        width = next((group for group in pieces[index].groups()[1:] if group), "")
+        ((index, place),) = places
+        width = next((group for group in place.groups()[1:] if group), "")
         name.place = Place("".join(texts[:index]), width, behind[index])
     return name

@@ -13,6 +13,7 @@ import json
 import math
 import os
 import stat
+from collections import Counter
 from collections.abc import Callable, Iterable
 from typing import Any, TypeAlias
 
@@ -134,8 +135,8 @@ def _object(entries: list[tuple[str, Any]]) -> dict[str, Any]:
     """An object, none of whose members is there twice: which one counts would be a guess."""
     found = dict(entries)
     if len(found) < len(entries):
-        seen: set[str] = set()
-        name = next(key for key, _ in entries if key in seen or seen.add(key))
+        counts = Counter(key for key, _ in entries)
+        name = counts.most_common(1)[0][0]
         raise ValueError(f"an object has {ascii(name[:40])} twice")
     return found
 

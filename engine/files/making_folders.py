@@ -17,7 +17,7 @@ def make_folder_of(path: str | os.PathLike[str], *, below: str | None = None) ->
     folder = os.path.dirname(path) or os.curdir
     try:
         if below is not None:
-            folder = os.path.dirname(path_below(path, below))
+            folder = os.path.dirname(path_below(os.fspath(path), below))
         lacking = _lacking(folder)
         os.makedirs(folder, exist_ok=True)
         for made in lacking:

@@ -11,7 +11,7 @@ import hashlib
 import os
 import threading
 import warnings
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 from weakref import WeakValueDictionary
 
 from .._support.calls import checks_types, shows_annotations
@@ -94,9 +94,9 @@ class Resources:
     """
 
     def __init__(self) -> None:
-        self._by_file: WeakValueDictionary = WeakValueDictionary()
-        self._by_content: WeakValueDictionary = WeakValueDictionary()
-        self._files: dict[tuple, _Loaded] = {}
+        self._by_file: WeakValueDictionary[Any, Any] = WeakValueDictionary()
+        self._by_content: WeakValueDictionary[Any, Any] = WeakValueDictionary()
+        self._files: dict[tuple[Any, ...], _Loaded] = {}
         self._loads = self._shared = 0
         # Held while things are looked up and kept, not while files are read.
         self._lock = threading.RLock()
@@ -204,10 +204,10 @@ class Resources:
             self._shared,
         )
 
-    def __reduce_ex__(self, protocol):
+    def __reduce_ex__(self, protocol: Any) -> NoReturn:
         raise TypeError("Resources cannot be copied or pickled: they are what is shared")
 
-    def _load(self, load, path, options: dict):
+    def _load(self, load: Any, path: Any, options: Any) -> Any:
         if not isinstance(path, (str, os.PathLike)):
             kind = type(path).__name__
             raise InvalidArgumentError(f"resources are loaded by their paths, not from {kind}")
@@ -222,7 +222,7 @@ class Resources:
         with self._lock:
             return self._known(key) or self._keep(key, thing, _Loaded(load, options, states))
 
-    def _known(self, key: tuple):
+    def _known(self, key: tuple[Any, ...]) -> Any:
         """What was loaded so, as long as nobody has changed it since."""
         thing, loaded = self._by_file.get(key), self._files.get(key)
         if thing is None or loaded is None or loaded.versions != versions_of(thing):
@@ -230,7 +230,7 @@ class Resources:
         self._shared += 1
         return thing
 
-    def _keep(self, key: tuple, thing, loaded: _Loaded):
+    def _keep(self, key: tuple[Any, ...], thing: Any, loaded: _Loaded) -> Any:
         """The object of what was read: this one, or one that is there already."""
         for material in thing.materials if isinstance(thing, Mesh) else ():
             for slot, texture in textures_of(material).items():
@@ -241,7 +241,7 @@ class Resources:
         self._by_file[key] = thing
         return thing
 
-    def _same(self, thing, *, count: bool = True):
+    def _same(self, thing: Any, *, count: bool = True) -> Any:
         """The object of the same content, as long as nobody has changed it since."""
         content = _content(thing)
         other = self._by_content.get(content)
@@ -251,13 +251,13 @@ class Resources:
         self._by_content[content] = thing
         return thing
 
-    def _forget_content(self, thing) -> None:
+    def _forget_content(self, thing: Any) -> None:
         for content, other in list(self._by_content.items()):
             if other is thing:
                 del self._by_content[content]
 
 
-def _real_path(path: str | os.PathLike) -> str:
+def _real_path(path: str | os.PathLike[str]) -> str:
     try:
         return os.path.realpath(os.fspath(path))
     except (OSError, ValueError) as error:
@@ -267,19 +267,21 @@ def _real_path(path: str | os.PathLike) -> str:
 class _Loaded:
     """How a file was loaded: by what, with which options, from which files in which states."""
 
-    def __init__(self, load, options: dict, states: dict[str, FileState]) -> None:
+    def __init__(self, load: Any, options: dict[str, Any], states: dict[str, FileState]) -> None:
         self.load, self.options, self.states = load, options, states
-        self.versions: tuple = ()
+        self.versions: tuple[Any, ...] = ()
 
 
-def versions_of(thing: Mesh | Texture) -> tuple:
+def versions_of(thing: Mesh | Texture) -> tuple[Any, ...]:
     """Return what is another once somebody has changed the thing."""
     materials = thing.materials if isinstance(thing, Mesh) else ()
     textures = (texture for material in materials for texture in textures_of(material).values())
     return tuple(part.version for part in (thing, *materials, *textures))
 
 
-def _read(load, path: str, options: dict) -> tuple[Mesh | Texture, dict[str, FileState]]:
+def _read(
+    load: Any, path: str, options: dict[str, Any]
+) -> tuple[Mesh | Texture, dict[str, FileState]]:
     """Load a file; return what it holds, and how all files were before they were read for it."""
     states = {path: FileState(path)}
 
@@ -299,14 +301,13 @@ def size_of(thing: Mesh | Texture) -> int:
     return sum(array.nbytes for array in thing._arrays.values() if array is not None)
 
 
-def _content(thing) -> tuple:
+def _content(thing: Any) -> tuple[Any, ...]:
     """What two things have in common if and only if they are equal, but for their names."""
     digest = hashlib.blake2b(digest_size=20)
     if isinstance(thing, Texture):
-        digest.update(thing.pixels)
-        kind = thing.pixels.shape, thing.color_space, thing.filter, thing.wrap
-        kind += thing.anisotropy, thing.lod_bias
-        return ("texture", digest.digest(), *kind)
+        digest.update(thing.pixels.data)
+        kind = thing.color_space, thing.filter, thing.wrap, thing.anisotropy, thing.lod_bias
+        return ("texture", digest.digest(), thing.pixels.shape, *kind)
     shapes = []
     for name, array in sorted(thing._arrays.items()):
         shapes.append((name, None if array is None else (array.shape, array.dtype.str)))
@@ -317,7 +318,7 @@ def _content(thing) -> tuple:
     return ("mesh", digest.digest(), tuple(shapes), materials, groups)
 
 
-def _material_content(material: Material) -> tuple:
+def _material_content(material: Material) -> tuple[Any, ...]:
     unseen = {*TEXTURE_SLOTS, "version"}
     look = [value for name, value in vars(material).items() if name not in unseen]
     placed = placed_textures_of(material)
@@ -328,7 +329,7 @@ def _material_content(material: Material) -> tuple:
     return (*map(repr, look), textures)
 
 
-def _become(thing, fresh) -> None:
+def _become(thing: Any, fresh: Any) -> None:
     """Put the content of one object into another of its kind."""
     if isinstance(thing, Texture):
         thing.pixels = fresh.pixels

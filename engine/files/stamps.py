@@ -29,7 +29,7 @@ class FileStamp(NamedTuple):
     rights: tuple[int, ...]  # permissions, owner, group, links: these change, too
 
 
-def file_stamp(path: str | os.PathLike) -> FileStamp | None:
+def file_stamp(path: str | os.PathLike[str]) -> FileStamp | None:
     """Return what differs once a file was written; None if there is no such file."""
     try:
         status = os.stat(path)
@@ -55,7 +55,7 @@ class FileState:
     path : path-like
     """
 
-    def __init__(self, path: str | os.PathLike) -> None:
+    def __init__(self, path: str | os.PathLike[str]) -> None:
         self._path = path
         self._stamp = file_stamp(path)
         self._content = _digest(path) if self._is_young() else None
@@ -78,7 +78,7 @@ class FileState:
         return any(abs(now - at) < _STEP for at in times)
 
 
-def _digest(path: str | os.PathLike) -> str | None:
+def _digest(path: str | os.PathLike[str]) -> str | None:
     try:
         return hash_of_file(path, hashlib.blake2b(digest_size=20))
     except OSError:

@@ -14,6 +14,7 @@ import subprocess
 import tempfile
 import warnings
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 
@@ -26,7 +27,7 @@ QUALITY = 18
 WAITS = 10.0
 
 
-def find_ffmpeg(path) -> str:
+def find_ffmpeg(path: Any) -> str:
     """Return the program that writes videos.
 
     Parameters
@@ -51,7 +52,7 @@ def find_ffmpeg(path) -> str:
     return program
 
 
-def save_video(pictures: Iterable[np.ndarray], path, seconds_a_frame: float) -> None:
+def save_video(pictures: Iterable[np.ndarray], path: Any, seconds_a_frame: float) -> None:
     """Write a video.
 
     Parameters
@@ -93,12 +94,13 @@ def _arguments(size: tuple[int, int], seconds_a_frame: float) -> list[str]:
     return ["-v", "error", "-y", *raw, *rate, "-i", "-", *colors, *video, *tags, *exact]
 
 
-def _feed(command: list[str], pictures: Iterable[np.ndarray], path) -> None:
+def _feed(command: list[str], pictures: Iterable[np.ndarray], path: Any) -> None:
     """Run ffmpeg and hand it the pictures."""
     with tempfile.TemporaryFile() as said:
         process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=said
         )
+        assert process.stdin is not None  # it was asked for
         try:
             for pixels in pictures:
                 refuse_transparency(pixels, ".mp4")

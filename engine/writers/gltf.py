@@ -35,9 +35,10 @@ def write_scene(scene: Scene, extension: str, file: BinaryIO) -> list[str]:
 
 def save_scene_as(scene: Scene, path: str | BinaryIO, extension: str) -> None:
     """Write a scene to a file or an open stream, as one of `EXTENSIONS`; tell what is lost."""
-    is_stream = hasattr(path, "write")
-    name = "<stream>" if is_stream else str(path)
-    with StreamFiles(path) if is_stream else AtomicFiles() as files:
+    target: Any = path
+    is_stream = hasattr(target, "write")
+    name = "<stream>" if is_stream else str(target)
+    with StreamFiles(target) if is_stream else AtomicFiles() as files:
         told = write_scene(scene, extension, files.create(name))
     for message in told:
         warn(located(message, name))

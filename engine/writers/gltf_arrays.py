@@ -34,7 +34,7 @@ class GltfArrays:
         self.views: list[dict[str, Any]] = []
         self.chunks: list[Any] = []
         self.size = 0
-        self._numbers: dict[tuple, int] = {}
+        self._numbers: dict[tuple[Any, ...], int] = {}
 
     def vertices(self, array: np.ndarray, what: str) -> int:
         """Return the accessor of an attribute, (V, N); positions with their bounds.
@@ -43,7 +43,7 @@ class GltfArrays:
         is read and written again is the same, though it was read into other arrays.
         """
         content = np.ascontiguousarray(array)
-        known = what, content.dtype.str, content.shape, blake2b(content).digest()
+        known = what, content.dtype.str, content.shape, blake2b(content.data).digest()
         if known not in self._numbers:
             self._numbers[known] = self.add(content, bounds=what == "POSITION", target=_VERTICES)
         return self._numbers[known]
@@ -57,7 +57,7 @@ class GltfArrays:
         """Return a new accessor of an array, (N,) or (N, columns)."""
         rows = array.reshape(len(array), -1)
         content = np.ascontiguousarray(rows, rows.dtype.newbyteorder("<"))
-        view = self.bytes(memoryview(content).cast("B") if content.size else b"", target)
+        view = self.bytes(content.data.cast("B") if content.size else b"", target)
         accessor = {
             "bufferView": view,
             "componentType": _TYPES[rows.dtype.str[1:]],

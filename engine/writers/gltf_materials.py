@@ -185,7 +185,7 @@ class GltfMaterialList:
         return self._images[key]
 
 
-def _number_of(entries: list[dict], entry: dict) -> int:
+def _number_of(entries: list[dict[str, Any]], entry: dict[str, Any]) -> int:
     if entry not in entries:
         entries.append(entry)
     return entries.index(entry)
@@ -196,9 +196,10 @@ def _content(texture: Texture) -> tuple[bytes, str, str | None]:
     content = texture._file
     if content is None and texture._path is not None and not texture._is_missing:
         content = _read(texture._path)
-    for signature, media, extension in _IMAGES if content is not None else ():
-        if content.startswith(signature):
-            return content, media, extension
+    if content is not None:
+        for signature, media, extension in _IMAGES:
+            if content.startswith(signature):
+                return content, media, extension
     return bytes(encode_png(texture.pixels)), "image/png", None
 
 
@@ -223,7 +224,7 @@ def _value(material: Material, field: str) -> Any:
     return _linear(value) if isinstance(value, tuple) else value
 
 
-def _linear(color: tuple) -> tuple[float, ...]:
+def _linear(color: tuple[Any, ...]) -> tuple[float, ...]:
     if all(isinstance(part, float) for part in color):
         return tuple(color)
     return tuple(map(float, linear_color(color)))

@@ -26,7 +26,7 @@ _POINTS, _LINES = 0, 1
 _VARIANTS = "KHR_materials_variants"
 _INFLUENCES = 4
 _MOST_ROUNDS = 8
-_ANY_NORMAL = np.float32((0, 0, 1))  # of faces without an area
+_ANY_NORMAL = np.array((0, 0, 1), np.float32)  # of faces without an area
 _MORPHED = {"positions": "POSITION", "normals": "NORMAL", "tangents": "TANGENT"}
 
 
@@ -67,7 +67,7 @@ class GltfMeshList:
         self.meshes.append(entry)
         return len(self.meshes) - 1
 
-    def _primitives(self, part: MeshRecord):
+    def _primitives(self, part: MeshRecord) -> Any:
         mesh = _with_tangents(part.mesh.with_creases())
         numbers = materials_of_faces(mesh)
         for number in numbers:
@@ -108,7 +108,7 @@ class GltfMeshList:
             entry["extensions"] = {_VARIANTS: {"mappings": mappings}}
         return entry
 
-    def _vertices(self, mesh: Mesh, rows, faces: np.ndarray, *, flat: bool) -> dict[str, Any]:
+    def _vertices(self, mesh: Mesh, rows: Any, faces: np.ndarray, *, flat: bool) -> dict[str, Any]:
         """What some vertices carry, of which readers make use."""
         arrays = {"POSITION": mesh.positions[rows]}
         # Faces without normals are flat; there is no other word for it.
@@ -132,9 +132,9 @@ class GltfMeshList:
             entry["targets"] = [self._target(target, rows, found) for target in mesh.morph_targets]
         return entry
 
-    def _influences(self, mesh: Mesh, rows) -> dict[str, int]:
+    def _influences(self, mesh: Mesh, rows: Any) -> dict[str, int]:
         found: dict[str, int] = {}
-        if mesh.joints is None:
+        if mesh.joints is None or mesh.weights is None:
             return found
         weights = _settled(mesh.weights[rows])
         joints = np.where(weights > 0, mesh.joints[rows], np.uint16(0))
@@ -148,7 +148,7 @@ class GltfMeshList:
                 found[f"{name}_{number}"] = self._arrays.vertices(content, name)
         return found
 
-    def _target(self, target, rows, attributes: dict[str, int]) -> dict[str, int]:
+    def _target(self, target: Any, rows: Any, attributes: dict[str, int]) -> dict[str, int]:
         """What a target adds to the attributes that there are."""
         held = {
             name: getattr(target, field) for field, name in _MORPHED.items() if name in attributes
@@ -177,8 +177,9 @@ def _with_tangents(mesh: Mesh) -> Mesh:
     used = [mesh.materials[number] for number in materials_of_faces(mesh)]
     smooth = [material for material in used if not material.flat_shading]
     uv_set = next((found for m in smooth if (found := tangent_set(m)) is not None), None)
-    has_uvs = uv_set is not None and (mesh.uvs1 if uv_set else mesh.uvs) is not None
-    return mesh.with_tangents(uv_set) if has_uvs else mesh
+    if uv_set is None or (mesh.uvs1 if uv_set else mesh.uvs) is None:
+        return mesh
+    return mesh.with_tangents(uv_set)
 
 
 def _usable(normals: np.ndarray, positions: np.ndarray, faces: np.ndarray) -> np.ndarray | None:

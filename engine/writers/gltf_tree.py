@@ -76,7 +76,9 @@ class GltfTree:
         self.json = self._with_extensions(tree, lists, materials.required)
         self.told += self._pointers.define(self.json)
 
-    def _with_extensions(self, tree: TreeRecord, lists: dict, required: set[str]) -> dict[str, Any]:
+    def _with_extensions(
+        self, tree: TreeRecord, lists: dict[str, Any], required: set[str]
+    ) -> dict[str, Any]:
         extensions: dict[str, Any] = {}
         if tree.lights:
             extensions[LIGHTS] = {"lights": [_light(light) for light in tree.lights]}
@@ -123,7 +125,7 @@ class GltfTree:
             entry["extras"] = node.extras
         return entry
 
-    def _instances(self, poses: np.ndarray, parts: tuple | None) -> dict[str, int]:
+    def _instances(self, poses: np.ndarray, parts: tuple[Any, ...] | None) -> dict[str, int]:
         if parts is None:
             parts = parts_of_poses(poses)
             if are_sheared(poses, parts):
@@ -133,7 +135,7 @@ class GltfTree:
             for name, part in zip(_PARTS, parts, strict=True)
         }
 
-    def _skin(self, skin) -> dict[str, Any]:
+    def _skin(self, skin: Any) -> dict[str, Any]:
         columns = skin.inverse_binds.transpose(0, 2, 1).reshape(-1, 16)
         entry: dict[str, Any] = {"name": skin.name} if skin.name else {}
         entry["joints"] = list(skin.joints)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import re
+from typing import Any
 
 from .._native.images import encode_png
 from ..files.atomic_write import AtomicFiles
@@ -85,14 +86,14 @@ class Library:
         if material.alpha_mode == "blend" and material.alpha < 1:
             lines.append(f"d {_numbers([material.alpha])}")
         extras = {k: v for k, v in material.extras.items() if k not in _ALPHA}
-        illum = extras.get("illum")
+        illum: Any = extras.get("illum")
         if not _are_numbers([illum]) or (illum < 2 and specular.any()):
             illum = 2.0 if specular.any() else 1.0
         lines.append(f"illum {_numbers([illum])}")
         lines += self._extra_statements(extras, name)
         return lines + self._map_statements(material, name)
 
-    def _extra_statements(self, extras: dict, name: str) -> list[str]:
+    def _extra_statements(self, extras: dict[str, Any], name: str) -> list[str]:
         lines = []
         for key, value in extras.items():
             line = _statement(key, value)
@@ -135,7 +136,7 @@ class Library:
     def _leave_out(self, thing: str, name: str) -> None:
         self.unwritten.setdefault(thing, []).append(name)
 
-    def _image(self, texture) -> str:
+    def _image(self, texture: Any) -> str:
         """The name of a texture's file, which is written the first time."""
         name = self._image_names.get(id(texture))
         if name is None:
@@ -147,7 +148,7 @@ class Library:
         return name
 
 
-def _statement(key, value) -> str | None:
+def _statement(key: Any, value: Any) -> str | None:
     """The line that a reader makes these extras of, or None."""
     if key in _COLORS:
         return f"{key} {_numbers(value)}" if _are_numbers(value, 3) else None
@@ -159,7 +160,7 @@ def _statement(key, value) -> str | None:
     return f"{key} {value}".rstrip()
 
 
-def _map_statement(key: str, entry: dict) -> str | None:
+def _map_statement(key: str, entry: dict[str, Any]) -> str | None:
     """The line that a reader makes this map of, or None."""
     try:
         options = [
@@ -172,16 +173,16 @@ def _map_statement(key: str, entry: dict) -> str | None:
     return line if is_read_so and _is_word(key) else None
 
 
-def _is_word(key) -> bool:
+def _is_word(key: Any) -> bool:
     return isinstance(key, str) and re.fullmatch(r"[A-Za-z_][\w.-]*", key, re.ASCII) is not None
 
 
-def _are_numbers(values, count: int = 1) -> bool:
+def _are_numbers(values: Any, count: int = 1) -> bool:
     try:
         return len(values) == count and all(abs(float(value)) < 3e38 for value in values)
     except (TypeError, ValueError):
         return False
 
 
-def _numbers(values) -> str:
+def _numbers(values: Any) -> str:
     return b" ".join(float_words([float(value) for value in values])).decode()

@@ -8,6 +8,7 @@ as the polygons that they were cut from, where these have one material and the s
 from __future__ import annotations
 
 import os
+from typing import Any
 
 import numpy as np
 
@@ -64,7 +65,9 @@ def _about(side_files: SideFiles, library: Library, mesh: Mesh, names: list[str]
     return told
 
 
-def _write_model(mesh: Mesh, file, side_files: SideFiles | None, names: list[str]) -> list[str]:
+def _write_model(
+    mesh: Mesh, file: Any, side_files: SideFiles | None, names: list[str]
+) -> list[str]:
     """Write the model's own text; returns what it does not hold."""
     told = []
     file.write(b"# written by engine3d\n")
@@ -80,7 +83,7 @@ def _write_model(mesh: Mesh, file, side_files: SideFiles | None, names: list[str
     return told
 
 
-def _write_vertices(mesh: Mesh, file) -> np.ndarray:
+def _write_vertices(mesh: Mesh, file: Any) -> np.ndarray:
     """Write the lists; returns the number of each vertex's position, from 1."""
     numbers, first = _positions(mesh)
     colors = None if mesh.colors is None else srgb_bytes(mesh.colors)
@@ -116,7 +119,7 @@ def _positions(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
     return np.cumsum(is_new) - 1, np.flatnonzero(is_new)
 
 
-def _write_faces(mesh: Mesh, file, position_of: np.ndarray, names: list[str]) -> list[str]:
+def _write_faces(mesh: Mesh, file: Any, position_of: np.ndarray, names: list[str]) -> list[str]:
     """Write the faces with their states; returns what these do not hold."""
     groups, labels, told = _group_sets(mesh)
     is_flat = np.array([material.flat_shading for material in mesh.materials])
@@ -148,7 +151,7 @@ def _write_faces(mesh: Mesh, file, position_of: np.ndarray, names: list[str]) ->
     return told
 
 
-def _declare_materials(mesh: Mesh, file, names: list[str]) -> None:
+def _declare_materials(mesh: Mesh, file: Any, names: list[str]) -> None:
     """Name all materials in their order, unless the faces do; readers number them by first use."""
     used, first = np.unique(mesh.material_ids, return_index=True)
     in_order = len(used) == len(names) and (np.diff(first) > 0).all()
@@ -188,7 +191,7 @@ class _FaceLines:
         self._text = np.zeros(0, np.uint8)
         self._ends = [0]
 
-    def write(self, file, start: int, end: int) -> None:
+    def write(self, file: Any, start: int, end: int) -> None:
         """Write the lines ``start`` to ``end - 1``; each call goes on where the last one ended."""
         while start < end:
             if start == self._last:
@@ -208,7 +211,7 @@ class _FaceLines:
         self._text, self._ends = text, [0, *ends.tolist()]
 
 
-def _write_lines_and_points(mesh: Mesh, file, position_of: np.ndarray) -> None:
+def _write_lines_and_points(mesh: Mesh, file: Any, position_of: np.ndarray) -> None:
     if len(mesh.lines):
         write_integers(file, "l %d %d", position_of[mesh.lines])
     is_cloud = not len(mesh.faces) and not len(mesh.lines)

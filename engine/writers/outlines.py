@@ -64,8 +64,8 @@ def polygon_outlines(mesh: Mesh, states: np.ndarray | None = None) -> Outlines:
         members = first[(triangles == number) & ~is_mixed]
         rows = mesh.faces[members[:, np.newaxis] + np.arange(number)]
         fan = is_fan[members]
-        outlines = np.concatenate([rows[fan, 0, :2], rows[fan, :, 2]], axis=1)
-        found.update(zip(members[fan].tolist(), outlines, strict=True))
+        whole = np.concatenate([rows[fan, 0, :2], rows[fan, :, 2]], axis=1)
+        found.update(zip(members[fan].tolist(), whole, strict=True))
         for face, polygon in zip(members[~fan].tolist(), rows[~fan], strict=True):
             outline = _outline(polygon.tolist()) if number <= _MAX_CLIPPED else None
             if outline is not None:
@@ -132,23 +132,26 @@ def _turn(mesh: Mesh, found: dict[int, np.ndarray]) -> None:
             found[face] = turned[int(match[0])]
 
 
-def _cuts_alike(mesh: Mesh, positions, faces: list[int], outlines: dict) -> np.ndarray:
+def _cuts_alike(
+    mesh: Mesh, positions: np.ndarray, faces: list[int], outlines: dict[int, np.ndarray]
+) -> np.ndarray:
     """Whether each outline is cut into the triangles that begin at a face."""
-    corners = list(outlines.values())
-    if not corners:
+    if not outlines:
         return np.zeros(0, bool)
-    sizes = np.array([len(outline) for outline in corners])
-    corners = np.concatenate(corners)
+    sizes = np.array([len(outline) for outline in outlines.values()])
+    corners = np.concatenate(list(outlines.values()))
     cut = triangulate(sizes, positions[corners])
     before = np.cumsum(sizes - 2) - (sizes - 2)
     rows = np.array(faces)[cut.polygons] + np.arange(len(cut.polygons)) - before[cut.polygons]
     same = (corners[cut.corners] == mesh.faces[rows]).all(axis=1)
-    if cut.edge_visible is not None:
+    if cut.edge_visible is not None and mesh.edge_visible is not None:
         same &= (cut.edge_visible == mesh.edge_visible[rows]).all(axis=1)
     return np.bincount(cut.polygons, ~same, len(sizes)) == 0
 
 
-def _joined(faces, first: np.ndarray, triangles: np.ndarray, found: dict) -> Outlines:
+def _joined(
+    faces: np.ndarray, first: np.ndarray, triangles: np.ndarray, found: dict[int, np.ndarray]
+) -> Outlines:
     """Outlines, and the triangles of polygons without one, in the order of the faces."""
     sizes, corners, first_faces = [], [], []
     for face, number in zip(first.tolist(), triangles.tolist(), strict=True):

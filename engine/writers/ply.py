@@ -6,6 +6,8 @@ vertices with the same number are one point of the surface. Binary files are lit
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ..files.atomic_write import Files
@@ -40,6 +42,7 @@ def write_ply(mesh: Mesh, path: str, files: Files, ascii: bool = False) -> list[
 
 def _columns(mesh: Mesh) -> list[tuple[str, str, np.ndarray]]:
     """Name, type and values of each property of the vertices."""
+    groups: list[tuple[tuple[str, ...], str, np.ndarray]]
     groups = [(("x", "y", "z"), "<f4", mesh.positions)]
     if mesh.has_normals:
         groups.append((("nx", "ny", "nz"), "<f4", mesh.normals))
@@ -57,7 +60,7 @@ def _columns(mesh: Mesh) -> list[tuple[str, str, np.ndarray]]:
     ]
 
 
-def _header(mesh: Mesh, columns, outlines: Outlines, encoding: str) -> str:
+def _header(mesh: Mesh, columns: Any, outlines: Outlines, encoding: str) -> str:
     lines = ["ply", f"format {encoding} 1.0", OWN_COMMENT.decode()]
     lines.append(f"element vertex {len(columns[0][2])}")
     lines += [f"property {_TYPES[code]} {name}" for name, code, _ in columns]
@@ -71,7 +74,7 @@ def _header(mesh: Mesh, columns, outlines: Outlines, encoding: str) -> str:
     return "\n".join([*lines, "end_header", ""])
 
 
-def _write_binary(file, columns, outlines: Outlines, lines: np.ndarray) -> None:
+def _write_binary(file: Any, columns: Any, outlines: Outlines, lines: np.ndarray) -> None:
     rows = np.empty(len(columns[0][2]), [(name, code) for name, code, _ in columns])
     for name, _, values in columns:
         rows[name] = values
@@ -103,7 +106,7 @@ def _put(data: np.ndarray, places: np.ndarray, numbers: np.ndarray) -> None:
         data[places + octet] = octets[:, octet]
 
 
-def _write_text(file, columns, outlines: Outlines, lines: np.ndarray) -> None:
+def _write_text(file: Any, columns: Any, outlines: Outlines, lines: np.ndarray) -> None:
     count = len(columns[0][2])
     for start in range(0, count, _BLOCK):
         words = [_words(code, values[start : start + _BLOCK]) for _, code, values in columns]

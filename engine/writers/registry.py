@@ -9,7 +9,7 @@ import functools
 import importlib
 import os
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..errors import InvalidArgumentError
 from ..loaders.registry import Format
@@ -35,7 +35,7 @@ class Writer(NamedTuple):
     name: str
     description: str
     extensions: tuple[str, ...]
-    write: Callable
+    write: Callable[..., Any]
     options: tuple[str, ...] = ()
 
 

@@ -6,9 +6,10 @@ read back as the same float32; nothing depends on the locale.
 
 from __future__ import annotations
 
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .._native import writers as native
 
@@ -25,7 +26,7 @@ def write_floats(file: BinaryIO, prefix: str, rows: np.ndarray) -> None:
 def write_float_rows(file: BinaryIO, between: list[bytes], rows: np.ndarray) -> None:
     """Write float32 rows (N, K) with K + 1 words before, between and behind their numbers."""
     for block in _blocks(np.ascontiguousarray(rows, np.float32)):
-        file.write(native.float_rows(block, between))
+        file.write(native.float_rows(block, between).data)
 
 
 def write_integers(file: BinaryIO, pattern: str, rows: np.ndarray) -> None:
@@ -35,12 +36,12 @@ def write_integers(file: BinaryIO, pattern: str, rows: np.ndarray) -> None:
         file.write(line * len(block) % tuple(block.ravel().tolist()))
 
 
-def float_words(values: np.ndarray) -> list[bytes]:
+def float_words(values: ArrayLike) -> list[bytes]:
     """Return the shortest words for float32 numbers, ``1`` rather than ``1.0``."""
     column = np.ascontiguousarray(values, np.float32).reshape(-1, 1)
     return native.float_rows(column, [b"", b"\n"]).tobytes().split()
 
 
-def _blocks(rows: np.ndarray):
+def _blocks(rows: np.ndarray) -> Any:
     for start in range(0, len(rows), _BLOCK):
         yield rows[start : start + _BLOCK]

@@ -47,13 +47,14 @@ def save_mesh(
     """
     if not isinstance(mesh, Mesh):
         raise InvalidArgumentError(f"mesh must be a Mesh, not {type(mesh).__name__}")
-    is_stream = hasattr(path, "write")
-    name = "<stream>" if is_stream else checked_path(path)
+    target: Any = path
+    is_stream = hasattr(target, "write")
+    name = "<stream>" if is_stream else checked_path(target)
     writer = find_writer(name, format)
     unknown = sorted(set(options) - set(writer.options))
     if unknown:
         raise InvalidArgumentError(f"{writer.name} files have no option {unknown[0]!r}")
-    with StreamFiles(path) if is_stream else AtomicFiles() as files:
+    with StreamFiles(target) if is_stream else AtomicFiles() as files:
         told = writer.write(mesh, name, files, **options)
     for message in told:
         warnings.warn(located(message, name), Engine3DWarning, stacklevel=2)

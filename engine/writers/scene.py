@@ -143,7 +143,7 @@ class _Writing:
     """
 
     def __init__(self, folder: str) -> None:
-        self.lists: dict[str, list] = {name: [] for name in LISTS}
+        self.lists: dict[str, list[Any]] = {name: [] for name in LISTS}
         self.told: list[str] = []
         self._folder = os.path.realpath(folder)
         self._numbers: dict[int, int] = {}
@@ -212,7 +212,7 @@ class _Writing:
         name = {"name": environment.name} if environment.name else {}
         return {**name, "pixels": _array(environment.pixels)}
 
-    def _number(self, where: str, thing: Any, entry_of) -> int:
+    def _number(self, where: str, thing: Any, entry_of: Any) -> int:
         """The number of a thing in its list, to which it is added if it is new there."""
         if id(thing) not in self._numbers:
             entry = entry_of(thing)
@@ -246,7 +246,7 @@ class _Writing:
     def _mesh(self, mesh: Mesh) -> dict[str, Any]:
         came = origin_of(mesh)
         named = None if came is None else self._named(came.origin)
-        if named is None:
+        if came is None or named is None:
             materials = [self._number("materials", m, self._material) for m in mesh.materials]
             name = {"name": mesh.name} if mesh.name else {}
             return {"kind": "mesh", **name, **_arrays(mesh), "materials": materials}
@@ -348,7 +348,7 @@ class _Writing:
         return {"kind": "mesh", "mesh": self._number("objects", collider.mesh, self._mesh)}
 
 
-def _place(placements: Placements, row: int) -> dict[str, list]:
+def _place(placements: Placements, row: int) -> dict[str, list[Any]]:
     """A node's pose: its parts where these give it to the bit, but for what is the identity."""
     if not placements.has_parts[row]:
         return {"pose": placements.poses[row, :3].ravel().tolist()}

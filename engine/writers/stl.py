@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ..files.atomic_write import Files
@@ -39,7 +41,7 @@ def write_stl(mesh: Mesh, path: str, files: Files, ascii: bool = False) -> list[
     return told + lost_parts(mesh, "stl", *parts, "normals", "edge_visible")
 
 
-def _write_text(file, name: bytes, facets: np.ndarray) -> None:
+def _write_text(file: Any, name: bytes, facets: np.ndarray) -> None:
     file.write(b"solid " + name + b"\n")
     between = _TEXT.split(b"%s")
     for start in range(0, len(facets), _BLOCK):

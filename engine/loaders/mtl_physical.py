@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ..materials.material import TEXTURE_SLOTS
+from ..materials.material import PARAMETERS, TEXTURE_SLOTS
 from ..materials.textures import PlacedTexture, Texture
 
 _NUMBERS = ("Pr", "Pm", "Ps", "Pc", "Pcr")
@@ -29,7 +29,6 @@ _SLOTS = {
     "map_Ke": "emissive_texture",
     "map_AO": "occlusion_texture",
 }
-_COLOR_MAPS = ("map_Ps", "map_Ke")
 #: All maps that are drawn of physically based materials.
 PHYSICAL_MAPS = (*_ROUGHNESS, *_METALLIC, *_ALL_IN_ONE, *_SLOTS)
 _DEPTH = 1 / 64
@@ -91,7 +90,7 @@ def _map_fields(values: dict[str, Any], maps: dict[str, dict], load) -> dict[str
     """The maps of a physical material; the numbers beside them are their factors."""
     fields: dict[str, Any] = {}
     for key, slot in _SLOTS.items():
-        if (texture := _loaded(maps, (key,), load, key not in _COLOR_MAPS)) is not None:
+        if (texture := _loaded(maps, (key,), load, not PARAMETERS[slot].is_color)) is not None:
             fields[slot] = texture
     if "emissive_texture" in fields and not any(values.get("Ke", (0.0,))):
         fields["emissive"] = (1.0, 1.0, 1.0)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 from ..desktop.user_folders import user_path
@@ -59,6 +59,7 @@ def set_defaults(
     said: Sequence[Said],
     args: argparse.Namespace,
     models: Sequence[str],
+    all_commands: Callable[[], Iterable[argparse.ArgumentParser]],
 ) -> None:
     """Let the options of files and of ``-D`` be the defaults of a command's.
 
@@ -71,6 +72,8 @@ def set_defaults(
         What was parsed before.
     models : sequence of str
         The files to be shown.
+    all_commands : callable
+        Returns all commands: one of them must have each option that a file names.
 
     Raises
     ------
@@ -85,7 +88,7 @@ def set_defaults(
     for path, number, name, value in said:
         place = f"[{number}].options.{name}"
         if name not in options:
-            _check_is_known(name, place, path)
+            _check_is_known(name, all_commands(), place, path)
         elif models or options[name].dest not in OF_MODELS:
             said_at[options[name].dest] = number
             try:
@@ -111,11 +114,11 @@ def set_defaults(
     _give_way(command, usual, said_at | typed)
 
 
-def _check_is_known(name: str, place: str, path: str) -> None:
+def _check_is_known(
+    name: str, commands: Iterable[argparse.ArgumentParser], place: str, path: str
+) -> None:
     """Raise unless some command has an option of that name."""
-    from .parser import make_parser
-
-    known = {one for command in make_parser().commands.values() for one in _options(command)}
+    known = {one for command in commands for one in _options(command)}
     if name not in known:
         hint = suggestions.meant(name, known) or "; engine3d COMMAND --help lists them"
         raise FileFormatError(f"{place}: there is no such option{hint}", path)

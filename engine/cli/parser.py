@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import functools
 import importlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from ..version import __version__
 from . import config, suggestions
@@ -29,7 +29,7 @@ def parse(arguments: list[str]) -> argparse.Namespace:
         found, said = args, config.options_in_files(args, models)
         if said or args.define:
             parser = make_parser(command)
-            config.set_defaults(parser.commands[command], said, args, models)
+            config.set_defaults(parser.commands[command], said, args, models, _all_commands)
             found = _parsed(arguments, parser)
         found.configured = configured
         return found
@@ -92,6 +92,10 @@ def make_parser(asked: str | None = None) -> Parser:
                 add_quiet(command)
     parser.commands = commands.choices
     return parser
+
+
+def _all_commands() -> Iterable[argparse.ArgumentParser]:
+    return make_parser().commands.values()
 
 
 def add_quiet(command: argparse.ArgumentParser) -> None:

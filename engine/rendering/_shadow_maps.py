@@ -84,12 +84,13 @@ class ShadowMaps(Pass):
         self._drawn = self._count = 0
         draw_list.native.clear_shadows()
         lights = [entry for entry in draw_list.lights.placed() if entry[1].shadow is True]
-        for number in self._kept.keys() - {number for number, _, _ in lights}:
-            del self._kept[number]
-        for number in self._found.keys() - {number for number, _, _ in lights}:
-            del self._found[number]
         if not lights:
+            self._kept.clear()
+            self._found.clear()
             return
+        for known in (self._kept, self._found):
+            for number in known.keys() - {number for number, _, _ in lights}:
+                del known[number]
         bounds = scene.bounds
         cull = CULLS[picture.shadow_cull]
         moment = scene._arrays, scene._arrays.updated, draw_list.renewals, cull

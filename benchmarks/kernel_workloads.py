@@ -15,6 +15,7 @@ import numpy as np
 from engine3d._native.rasterizer import FILTERS, WRAPS
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "tests"))
+from kernels.kernels import record_table
 from kernels.layouts import (
     BATCH,
     BATCH_RECORD,
@@ -117,18 +118,19 @@ def visible(extent, least, count, counted):
     made = [random_record(rng, extent, least) for _ in range(count)]
     records = np.concatenate([row for row, _ in made])
     records["order"] = np.arange(count)
-    table, ids = records.view(np.uint8)[None], np.arange(count, dtype=np.uint32)
+    table = record_table(records.view(np.uint8)[None])
+    ids = np.arange(count, dtype=np.uint32)
     tile = empty_tile()
     blocks = VISIBLE_TILE.fields["zmin"][1]  # where what is known of blocks begins
     empty = tile[blocks:].copy()
 
     def run(kernels):
-        rounds, kernels.rounds = kernels.rounds, 1
-        for _ in range(rounds):
+        draw = kernels.prepared("raster_visible", tile, table, ids, count)
+        settle = kernels.prepared("raster_settle", tile, table, True)
+        for _ in range(kernels.rounds):
             tile[blocks:] = empty
-            kernels.raster_visible(tile, table, ids)
-            kernels.raster_settle(tile, table)
-        kernels.rounds = rounds
+            draw()
+            settle()
 
     covered = sum(samples for _, samples in made)
     return (covered if counted == "samples" else count), run

@@ -39,16 +39,21 @@ def record(name, **members):
 
 
 def function(declared, address):
-    """What calls the function at an address with arrays and numbers."""
+    """What calls the function at an address with arrays and numbers; `prepared` calls it later."""
     gives = _c_type(declared.type, declared.stars)
     takes = [_c_type(one.type, _is_address(one) or one.sizes) for one in declared.parameters]
     call = ctypes.CFUNCTYPE(gives, *takes)(address)
 
-    def called(*arguments):
+    def prepared(*arguments):
         kept = []
         pairs = zip(declared.parameters, arguments, strict=True)
-        return call(*[_converted(one, value, kept, is_parameter=True) for one, value in pairs])
+        values = [_converted(one, value, kept, is_parameter=True) for one, value in pairs]
+        return lambda kept=kept: call(*values)
 
+    def called(*arguments):
+        return prepared(*arguments)()
+
+    called.prepared = prepared
     return called
 
 

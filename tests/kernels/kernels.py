@@ -126,6 +126,10 @@ class Kernels:
         kernels_testing.repeat(self._backend, self.rounds)
         return self._repeated[name](*arguments)
 
+    def prepared(self, name, *arguments):
+        """What calls a kernel once, at no more cost than that of the call."""
+        return self._once[name].prepared(*arguments)
+
     def face_away(self, clusters, *others):
         """A bit for each cluster."""
         count = clusters.nbytes // layout("e3d_cluster").itemsize

@@ -386,8 +386,8 @@ def test_the_grid_shows_moves_and_goes(heat):
                 pictures[-1].append(view_renderer.draw(view).color.copy())
         for with_grid, without in pictures:
             assert (with_grid != without).any(axis=-1).sum() > 300
-        assert len([node for node in viewed.scene.nodes if node.name == "axes grid"]) == 1
-        view_renderer.leave_scene()
+        beside = view_renderer.staging.scene.beside
+        assert len([node for node in beside.nodes if node.name == "axes grid"]) == 1
     assert not [node for node in viewed.scene.nodes if node.name == "axes grid"]
 
 

@@ -5,7 +5,7 @@
 
 In: paths of engine/ and csrc/; of tests, which are their own. Out: the tests that have the file's
 name, and those that tests/record.py has found to be the busiest in it; of a header without code,
-those of the files that include it.
+those of the files that include it; of a file that was not recorded, those that name it.
 """
 
 from __future__ import annotations
@@ -33,6 +33,13 @@ def named_alike(path: Path) -> list[str]:
     # Of several, those in the folder of the file's own name.
     near = [test for test in found if test.parent.name in path.parts]
     return [test_name(test) for test in near or found]
+
+
+def naming(path: Path) -> list[str]:
+    """The tests of a new file: those in the folder of its tests that have its name in them."""
+    word = re.compile(rf"\b{re.escape(path.stem)}\b")
+    tests = [t for t in sorted((ROOT / "tests").rglob("test_*.py")) if t.parent.name in path.parts]
+    return [test_name(test) for test in tests if word.search(test.read_text("utf-8"))]
 
 
 def test_name(test: Path) -> str:
@@ -70,7 +77,7 @@ def tests_of(path: Path, table: dict[str, list[str]]) -> list[str]:
     recorded = table.get(name, [])
     if not recorded and path.suffix in (".h", ".inl"):
         recorded = tests_of_users(path, table)
-    return list(dict.fromkeys([*named_alike(path), *recorded]))[:MOST]
+    return list(dict.fromkeys([*named_alike(path), *(recorded or naming(path))]))[:MOST]
 
 
 def main(arguments: list[str]) -> int:

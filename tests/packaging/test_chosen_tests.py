@@ -25,6 +25,7 @@ def test_what_was_recorded_is_there():
         ("light.inl", "kernels/test_light"),
         ("ply.py", "loaders/test_ply"),
         ("keymap.py", "viewer/test_keymap"),
+        ("e3d_light.h", "kernels/test_layouts"),
     ],
 )
 def test_the_best_test_of_a_file(stem, test):

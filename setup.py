@@ -284,7 +284,7 @@ class BuildExtensions(build_ext):
         """Add the object of module `name` to those that `extension` links."""
         folder = Path(self.build_temp, "engine", "_native")
         target = folder / f"{name.rpartition('.')[2]}.c"
-        translated = translate_changed(name, source, target, ["csrc/pxd", self.mirrors()])
+        translated = translate_changed(name, source, target, ["engine/_native/pxd", self.mirrors()])
         target = compile_changed(
             self.compiler,
             str(translated),
@@ -401,7 +401,7 @@ if __name__ == "__main__":
         package_data={
             "engine3d": ["py.typed", "*.pyi"],
             "engine3d._native": ["*.pyi"],
-            "engine3d.golden": ["*.html"],
+            "engine3d.apps.golden": ["*.html"],
             "engine3d.data": [f"**/*.{suffix}" for suffix in DATA_SUFFIXES],
             # Text only: their pictures are in docs/course, and are drawn anew by whoever runs them.
             "engine3d.lessons": ["*.c", "*.obj", "*.asc"],

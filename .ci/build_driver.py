@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Builds csrc/driver/ and the C core into one program, without Python's own flags.
+"""Builds csrc/check/driver/ and the C core into one program, without Python's own flags.
 
 In:  --output FILE, --compiler CC (a cross compiler too), --static, and ENGINE3D_BUILD as in
      build_rules.py, which also gives the libraries and the flags. With --fuzz, by clang only, the
-     core goes with each target of csrc/fuzz/ instead, and --output is their folder.
+     core goes with each target of csrc/check/fuzz/ instead, and --output is their folder.
 Out: the program, or the targets. Nothing is kept between runs.
 """
 
@@ -19,15 +19,18 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 FUZZ_FLAGS = ["-fsanitize=fuzzer-no-link,float-cast-overflow"]
 FUZZ_FLAGS += ["-fno-sanitize-recover=float-cast-overflow"]
-# Tables that are large for speed alone are small for the fuzzers: csrc/images/deflate.h.
+# Tables that are large for speed alone are small for the fuzzers: csrc/io/images/deflate.h.
 FUZZ_FLAGS += ["-DFUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION"]
 # What compares bytes of a file. Elsewhere most comparisons are of pixels and coordinates, and the
 # tracing would take most of the time.
-TRACED = ("csrc/loaders/", "csrc/fuzz/decimal", "csrc/images/tga", "csrc/images/rgbe")
+TRACED = (
+    *("csrc/io/loaders/", "csrc/check/fuzz/decimal"),
+    *("csrc/io/images/tga", "csrc/io/images/rgbe"),
+)
 UNTRACED_FLAGS = ["-fno-sanitize-coverage=trace-cmp"]
 # What a target that lets memory run out calls in their place.
 WRAPPED = ("malloc", "calloc", "realloc", "posix_memalign")
-# What the driver fills with a pattern: csrc/driver/poison.c.
+# What the driver fills with a pattern: csrc/check/driver/poison.c.
 POISONED = ("malloc", "realloc", "posix_memalign")
 
 
@@ -47,10 +50,10 @@ def compile_all(compiler, rules, fuzz, folder, more=(), told=lambda made, total:
 
     more: flags for all of them. told: what goes through that which is made, to say how far it is.
     """
-    driver = [str(path) for path in Path("csrc/driver").glob("*.c")]
+    driver = [str(path) for path in Path("csrc/check/driver").glob("*.c")]
     if fuzz:
-        driver.remove("csrc/driver/driver.c")
-        driver += [str(path) for path in Path("csrc/fuzz").glob("*.c")]
+        driver.remove("csrc/check/driver/driver.c")
+        driver += [str(path) for path in Path("csrc/check/fuzz").glob("*.c")]
     jobs = [(source, [*rules["WARNINGS"], *rules["common_flags"]()], []) for source in driver]
     for _, info in rules["static_libraries"]():
         macros = [f"-D{name}={value}" for name, value in info["macros"]]
@@ -78,9 +81,11 @@ def link(compiler, rules, objects, extra, output):
 
 
 def link_targets(compiler, rules, objects, folder):
-    """Link each file of csrc/fuzz/ that has libFuzzer's entry with all that have none."""
+    """Link each file of csrc/check/fuzz/ that has libFuzzer's entry with all that have none."""
     entry = "LLVMFuzzerTestOneInput("
-    targets = [s for s in objects if s.startswith("csrc/fuzz/") and entry in Path(s).read_text()]
+    targets = [
+        s for s in objects if s.startswith("csrc/check/fuzz/") and entry in Path(s).read_text()
+    ]
     common = [target for source, target in objects.items() if source not in targets]
     folder.mkdir(parents=True, exist_ok=True)
     for source in targets:

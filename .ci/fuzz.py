@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Builds the targets of csrc/fuzz/ with clang's AddressSanitizer and UBSan, and runs them.
+"""Builds the targets of csrc/check/fuzz/ with clang's AddressSanitizer and UBSan, and runs them.
 
 In:  --seconds N for each target (or --runs N), two side by side; --only NAMES; --max-len N;
      --corpus FOLDER keeps what the fuzzer finds, a folder a target. Seeds are the files of
-     csrc/fuzz/seeds/ (past findings among them), those that the tests of damaged files start
+     csrc/check/fuzz/seeds/ (past findings among them), those that the tests of damaged files start
      from, and the corpus ../shared/conformance (or in ENGINE3D_SHARED) where that is.
 Out: a line a target: executions, coverage, files of the corpus. A finding ends it with status 1;
      what the target said, and the input that did it, stay in the folder that the last line names.
@@ -90,7 +90,7 @@ def write_seeds(corpus, targets):
         for k in range(4):
             noise = b"".join(bytes([(i * i * (2 * k + 3) >> 3) & 255]) for i in range(512))
             (corpus / target / f"noise-{k}").write_bytes(noise)
-        for path in (ROOT / "csrc/fuzz/seeds" / target).glob("*"):
+        for path in (ROOT / "csrc/check/fuzz/seeds" / target).glob("*"):
             (corpus / target / f"seed-{path.name}").write_bytes(path.read_bytes())
     for number, (name, data) in enumerate(seed_files()):
         for target, seed in as_targets(name, data):

@@ -17,9 +17,9 @@ import llvmpipe
 import numpy as np
 
 import engine3d as e3d
-from engine3d.benchmarking import measuring, report
-from engine3d.demos import WORKLOAD_NAMES, workloads
-from engine3d.materials.colors import linear_color
+from engine3d.apps.bench import measuring, report
+from engine3d.apps.scenes import WORKLOAD_NAMES, workloads
+from engine3d.model.materials.colors import linear_color
 
 ROUNDS = 5
 #: Both drew the same picture if coverage and mean colour differ by no more.

@@ -19,9 +19,9 @@ from pathlib import Path
 
 from progress import tracked
 
+from engine3d.apps.batch.drawing import How, draw_chunk
+from engine3d.apps.batch.processes import ProcessPool
 from engine3d.batch import Task, run
-from engine3d.batch.drawing import How, draw_chunk
-from engine3d.batch.processes import ProcessPool
 from engine3d.version import __version__
 
 SCRIPT = Path(__file__).parent / "data_set" / "things.py"

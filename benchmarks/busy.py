@@ -14,8 +14,8 @@ import statistics
 import subprocess
 import sys
 
-from engine3d.benchmarking import measuring, report
-from engine3d.demos import WORKLOAD_NAMES, workloads
+from engine3d.apps.bench import measuring, report
+from engine3d.apps.scenes import WORKLOAD_NAMES, workloads
 
 SIZE = (1280, 720)
 WORKLOADS = ("textured", "mesh", "city-street")

@@ -10,8 +10,8 @@ import io
 import os
 from xml.sax.saxutils import escape
 
-from engine3d.canvas import Canvas
-from engine3d.files.atomic_write import atomic_write
+from engine3d.base.files.atomic_write import atomic_write
+from engine3d.rendering.canvas import Canvas
 
 _FORMATS = {".png": "PNG", ".jpg": "JPEG", ".webp": "WEBP"}
 COLORS = [(122, 132, 150), (214, 170, 60), (78, 160, 214), (64, 176, 120), (200, 90, 120)]

@@ -14,8 +14,8 @@ from pathlib import Path
 from ratios import RATIOS, measure, peer_is_there, possible
 
 import engine3d as e3d
-from engine3d.benchmarking import report
-from engine3d.files.atomic_write import atomic_write
+from engine3d.apps.bench import report
+from engine3d.base.files.atomic_write import atomic_write
 
 BASELINE = Path(__file__).with_name("baseline.json")
 #: A margin is the spread of the rounds, but within these: parts of the stored ratio.

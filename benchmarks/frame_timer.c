@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "driver/random.h"
+#include "check/driver/random.h"
 #include "kernels/kernels.h"
 
 enum { SIDE = 129, VERTICES = SIDE * SIDE, CELLS = (SIDE - 1) * (SIDE - 1), WIDTH = 640, HEIGHT = 360, TEXELS = 256, REPETITIONS = 15 };

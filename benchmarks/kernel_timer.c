@@ -8,12 +8,12 @@
 #include <stdio.h>
 #include <time.h>
 
-#include "core/fpenv.h"
-#include "driver/random.h"
+#include "base/fpenv.h"
+#include "check/driver/random.h"
 #include "kernels/coverage.h"
 #include "kernels/kernels.h"
 #ifdef CPU_FEATURE
-#include "core/instructions.h"
+#include "base/instructions.h"
 #endif
 
 enum { TEXTURE_SIDE = 256, TEXTURE_LEVELS = 3, COLORS = 4096, LIGHTS = 3 };

@@ -17,7 +17,7 @@ import sys
 import bar_chart
 
 import engine3d as e3d
-from engine3d.demos.city_views import city_scene, drive, street_camera, time_frames
+from engine3d.apps.scenes.city_views import city_scene, drive, street_camera, time_frames
 
 COUNTS = tuple(2**power for power in range(11))
 SHADINGS = ("forward", "deferred")

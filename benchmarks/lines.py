@@ -16,7 +16,7 @@ import time
 import numpy as np
 
 import engine3d
-from engine3d.canvas import Canvas
+from engine3d.rendering.canvas import Canvas
 
 # Rows of 4,144 bytes: at a power of two the pixels of a steep line would share a few cache sets.
 WIDTH, HEIGHT = 1036, 1024

@@ -22,8 +22,8 @@ from engine3d import (
     Texture,
     linalg,
 )
-from engine3d.demos.workloads import Workload
-from engine3d.materials.colors import linear_color
+from engine3d.apps.scenes.workloads import Workload
+from engine3d.model.materials.colors import linear_color
 
 NAME = "llvmpipe"
 NEEDS_MODERNGL = "llvmpipe needs the package moderngl: pip install 'engine3d[bench]' (or moderngl)"

@@ -119,7 +119,9 @@ def gprof_functions(backend, scenes):
         draw_scenes(run, scenes, folder)
         report = ["gprof", "-b", "-p", program, f"{folder}/gmon.out"]
         done = subprocess.run(report, check=True, capture_output=True, text=True)
-        own = functions_of(o for source, o in objects.items() if source.startswith("csrc/driver/"))
+        own = functions_of(
+            o for source, o in objects.items() if source.startswith("csrc/check/driver/")
+        )
     found = re.findall(r"^\s*([\d.]+)\s+[\d.]+\s+[\d.]+\s.*?(\S+)$", done.stdout, re.MULTILINE)
     core = [(float(percent), function) for percent, function in found if function not in own]
     whole = sum(percent for percent, _ in core) or 1.0

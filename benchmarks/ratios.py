@@ -15,8 +15,8 @@ from dataclasses import dataclass, field
 import llvmpipe
 
 import engine3d as e3d
-from engine3d.benchmarking import measuring
-from engine3d.demos import workloads
+from engine3d.apps.bench import measuring
+from engine3d.apps.scenes import workloads
 
 SIZE = (1280, 720)
 LEAST_ROUNDS = 5

@@ -16,8 +16,8 @@ import time
 
 import line_chart
 
-from engine3d.benchmarking import measuring, report
-from engine3d.demos import workloads
+from engine3d.apps.bench import measuring, report
+from engine3d.apps.scenes import workloads
 
 SIZE = (1280, 720)
 SIDES = (1, 2, 3, 6, 10, 18, 32, 56, 100, 178, 316)

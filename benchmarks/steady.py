@@ -18,8 +18,8 @@ import sys
 import time
 from pathlib import Path
 
-from engine3d.benchmarking import measuring, report
-from engine3d.demos import workloads
+from engine3d.apps.bench import measuring, report
+from engine3d.apps.scenes import workloads
 
 SIZE = (1280, 720)
 WORKLOADS = ("textured", "mesh", "grid", "city-street", "city-above", "spheres-inside")

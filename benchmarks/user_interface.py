@@ -18,7 +18,7 @@ import numpy as np
 from imgui_bundle import imgui
 
 import engine3d
-from engine3d.ui.imgui_painter import ImguiPainter
+from engine3d.apps.imgui_painter.imgui_painter import ImguiPainter
 
 WIDTH, HEIGHT = 1920, 1080
 PICTURE = 1100, 700

@@ -28,7 +28,7 @@ from progress import tracked
 
 import engine3d as e3d
 from engine3d import linalg
-from engine3d.demos.city_views import (
+from engine3d.apps.scenes.city_views import (
     above_camera,
     city_scene,
     drive,

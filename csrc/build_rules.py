@@ -95,7 +95,7 @@ def common_flags():
         raise SystemExit(f"ENGINE3D_BUILD={BUILD}: expected one of {', '.join(BUILDS)}")
     baseline = [*MACHINES[MACHINE][1]] if MACHINE else []
     if IS_WINDOWS:
-        baseline += ["-include", "csrc/windows/memory.h"]
+        baseline += ["-include", "csrc/base/windows/memory.h"]
     return [*baseline, *BUILDS[BUILD], *EXACT, *HYGIENE, *SANITIZERS.get(BUILD, [])]
 
 
@@ -114,24 +114,24 @@ def static_libraries():
     """The (name, build_info) pairs that `build_clib` compiles; the ISA files of one machine."""
     sources = {
         "e3d_core": [
-            "csrc/core/*.c",
-            "csrc/pipeline/*/*.c",
+            "csrc/base/*.c",
+            "csrc/data/*.c",
+            "csrc/frame/*/*.c",
             "csrc/kernels/dispatch.c",
-            "csrc/ui/*.c",
-            "csrc/posing/*.c",
-            "csrc/bloom/*.c",
-            "csrc/occlusion/*.c",
+            "csrc/post/ui/*.c",
+            "csrc/scene/posing/*.c",
+            "csrc/post/*.c",
         ],
         "e3d_portable": ["csrc/kernels/isa_portable.c"],
         "e3d_reference": ["csrc/reference/*.c"],
-        "e3d_canvas": ["csrc/canvas/*.c"],
-        "e3d_environment": ["csrc/environment/*.c"],
-        "e3d_images": ["csrc/images/*.c"],
-        "e3d_navigation": ["csrc/navigation/*.c"],
-        "e3d_pyrender": ["csrc/pyrender/*.c"],
+        "e3d_canvas": ["csrc/extras/canvas/*.c"],
+        "e3d_environment": ["csrc/light/*.c"],
+        "e3d_images": ["csrc/io/images/*.c"],
+        "e3d_navigation": ["csrc/scene/navigation/*.c"],
+        "e3d_pyrender": ["csrc/extras/pyrender/*.c"],
         "e3d_scene": ["csrc/scene/*.c"],
-        "e3d_loaders": ["csrc/loaders/*.c"],
-        "e3d_writers": ["csrc/writers/*.c"],
+        "e3d_loaders": ["csrc/io/loaders/*.c"],
+        "e3d_writers": ["csrc/io/writers/*.c"],
     }
     kernel_flags = {"e3d_portable": []}
     for isa, flags in isa_flags(MACHINE).items():

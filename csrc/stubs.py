@@ -14,7 +14,7 @@ from mirrors import write
 HEAD = '''"""Written by csrc/stubs.py from {}, where the docstrings are."""
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -28,6 +28,7 @@ ELEMENTS = {name: f"np.{name.removesuffix('_t')}" for name in SIZES}
 ELEMENTS |= {"float": "np.float32", "double": "np.float64"}
 STATEMENT = re.compile(
     r"^cdef class (?P<class>\w+)"
+    r"|^class (?P<record>\w+)\(NamedTuple\):\n(?P<fields>(?:(?:    [^\n]*)?\n)+?)(?=\n*\S)"
     r"|^(?P<constant>[A-Z]\w*(?:, [A-Z]\w*)*)(?P<of>: [^=\n]+)? = (?P<value>[^\n]*)"
     r"|^    cdef (?:readonly|public) (?P<members>[^(#\n]+)"
     r"|^(?P<property>    @property\n)?(?P<indent> *)def (?P<name>\w+)"
@@ -37,7 +38,7 @@ STATEMENT = re.compile(
 
 
 # Of classes that other modules know by C, too: there the members are.
-SHARED = Path(__file__).resolve().parent / "pxd" / "engine3d" / "_native"
+SHARED = Path(__file__).resolve().parents[1] / "engine/_native/pxd/engine3d/_native"
 
 
 def source_of(path):
@@ -124,6 +125,9 @@ def stub(path):
         if found["class"]:
             lines += [f"class {found['class']}:", f'    """See {path.name}."""']
             lines += shared_members(path, found["class"])
+        elif found["record"]:
+            lines.append(f"class {found['record']}(NamedTuple):")
+            lines += re.findall(r"^    \w+: \w+$", found["fields"], re.M)
         elif found["constant"]:
             lines.append(constant(found))
         elif found["members"]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from engine3d.files.atomic_write import atomic_write
+from engine3d.base.files.atomic_write import atomic_write
 
 
 def write_or_check(page: Path, text: str, arguments: list[str]) -> int:

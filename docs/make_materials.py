@@ -13,18 +13,19 @@ from pathlib import Path
 
 from generated_page import write_or_check
 
-from engine3d.materials.material import PARAMETERS
-from engine3d.materials.parameters import Parameter, TextureSlot
+from engine3d.model.materials.material import PARAMETERS
+from engine3d.model.materials.parameters import Parameter, TextureSlot
 
 PAGE = Path(__file__).resolve().parent / "materials.md"
 HEAD = "| Parameter | Values | By default | In glTF | Meaning |\n|---|---|---|---|---|\n"
 INTRODUCTION = """\
 # Materials
 
-Made from the rows of `engine/materials/material.py` by `docs/make_materials.py`. Each parameter is
-a keyword of `Material(...)`, and an attribute that checks what is assigned to it. With `metallic`
-or `roughness` a material is physically based, as glTF 2.0 has it. Without, it is lit by Lambert's
-and Blinn's and Phong's models. Colours of floats are linear light, those of integers sRGB.
+Made from the rows of `engine/model/materials/material.py` by `docs/make_materials.py`. Each
+parameter is a keyword of `Material(...)`, and an attribute that checks what is assigned to it. With
+`metallic` or `roughness` a material is physically based, as glTF 2.0 has it. Without, it is lit by
+Lambert's and Blinn's and Phong's models. Colours of floats are linear light, those of integers
+sRGB.
 
     import engine3d as e3d
 

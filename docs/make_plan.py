@@ -3,7 +3,7 @@
     python docs/make_plan.py            write it
     python docs/make_plan.py --check    exit with 1 if it is out of date
 
-In: the table of csrc/pipeline/pass/plan.c, as built, and the plans of frames that are drawn here.
+In: the table of csrc/frame/pass/plan.c, as built, and the plans of frames that are drawn here.
 Out: one Markdown page, the same on every machine. A test keeps it up to date.
 """
 
@@ -22,7 +22,7 @@ PAGE = Path(__file__).resolve().parent / "plan.md"
 INTRODUCTION = """\
 # The plan of a frame
 
-Made from the table in `csrc/pipeline/pass/plan.c` by `docs/make_plan.py`. The core decides once per
+Made from the table in `csrc/frame/pass/plan.c` by `docs/make_plan.py`. The core decides once per
 frame, from what is asked for, what is done about it. Stages look the decision up and decide nothing
 of the kind themselves. `frame.stats["plan"]` names it.
 """

@@ -18,7 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 # Folders whose code does what the reference does, in other ways.
-SEVERAL_WAYS = {"driver", "frame", "fuzz", "check", "kernels", "pipeline"}
+SEVERAL_WAYS = {"check", "frame", "kernels"}
 # A heading of a part of a file, or a function with the comment right above it.
 PART = re.compile(
     r"^(?P<heading>/\* ---- .* ---- \*/\n)"

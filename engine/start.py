@@ -16,7 +16,7 @@ def main() -> int:
 
         if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
             signal.signal(signal.SIGINT, _leave)
-        from .cli import main as run
+        from .apps.cli import main as run
     except KeyboardInterrupt:
         return INTERRUPTED
     return run(begin=_heed_interrupts)

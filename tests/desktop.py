@@ -18,7 +18,7 @@ import pytest
 from patience import HUNG
 from PIL import ImageGrab, features
 
-from engine3d.viewer import sampling
+from engine3d.apps.viewer import sampling
 
 MISSING = [tool for tool in ("Xvfb", "xdotool") if shutil.which(tool) is None]
 if not features.check("xcb"):

@@ -1,7 +1,7 @@
 """Names the tests of source files: the few to run after a change, in less than a minute.
 
     python tests/for.py csrc/kernels/generic/light.inl          prints a command of pytest
-    eval "$(python tests/for.py engine/scene/nodes.py)"         runs it
+    eval "$(python tests/for.py engine/model/scene/nodes.py)"         runs it
 
 In: paths of engine/ and csrc/; of tests, which are their own. Out: the tests that have the file's
 name, and those that tests/record.py has found to be the busiest in it; of a header without code,

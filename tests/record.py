@@ -32,11 +32,11 @@ TESTS = 3  # of a file, at most
 NEAR = 10  # how much better a test is that lies in the folder of the source's tests
 # Where the tests of folders of csrc/ lie that have none of their own name.
 HOMES = {
-    "core": {"kernels", "pipeline"},
+    "base": {"kernels", "pipeline"},
+    "data": {"kernels", "pipeline"},
     "frame": {"exactness", "images", "pipeline"},
     "images": {"files", "writers"},
     "kernels": {"exactness"},
-    "pipeline": {"exactness", "images"},
     "reference": {"exactness", "images"},
 }
 CO_OPTIMIZED = 1  # functions have it; modules and classes, which run when they are imported, don't

@@ -2,7 +2,7 @@
 #ifndef E3D_COVERAGE_H
 #define E3D_COVERAGE_H
 
-#include "core/limits.h"
+#include "base/limits.h"
 #include "kernels/types/records.h"
 #include "kernels/types/vertices.h"
 #include "kernels/types/visible.h"

@@ -1,5 +1,5 @@
 /* Which table of kernels serves which backend. */
-#include "core/machine.h"
+#include "base/machine.h"
 #include "e3d.h"
 #include "kernels/kernels.h"
 

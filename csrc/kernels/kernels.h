@@ -6,10 +6,10 @@
 #ifndef E3D_KERNELS_H
 #define E3D_KERNELS_H
 
-#include "core/limits.h"
-#include "core/machine.h"
-#include "core/mesh.h"
-#include "core/sample_patterns.h"
+#include "base/limits.h"
+#include "base/machine.h"
+#include "data/mesh.h"
+#include "data/sample_patterns.h"
 #include "e3d.h"
 #include "e3d_canvas.h"
 #include "kernels/types/alpha.h"
@@ -17,9 +17,9 @@
 #include "kernels/types/fog.h"
 #include "kernels/types/fragments.h"
 #include "kernels/types/lobe.h"
-#include "kernels/types/maps.h"
-#include "kernels/types/mixed.h"
-#include "kernels/types/occlusion.h"
+#include "kernels/types/texture_slots.h"
+#include "kernels/types/msaa_mixed.h"
+#include "kernels/types/ambient_occlusion.h"
 #include "kernels/types/records.h"
 #include "kernels/types/samples.h"
 #include "kernels/types/shading.h"

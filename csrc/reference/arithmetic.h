@@ -1,6 +1,6 @@
 /* The scalar operations that docs/exactness allows, and its log2, exp2 and pow (R27).
  *
- * Always: IEEE 754, round to nearest even, denormals kept (core/fpenv.h), nothing
+ * Always: IEEE 754, round to nearest even, denormals kept (base/fpenv.h), nothing
  * contracted or reassociated. Conversions to integers are only given values that fit.
  */
 #ifndef E3D_REFERENCE_ARITHMETIC_H
@@ -10,7 +10,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "core/limits.h"
+#include "base/limits.h"
 
 /* Both give b when the comparison is false, NaN included. */
 static inline float ref_min(float a, float b) { return a < b ? a : b; }

@@ -5,9 +5,9 @@
  */
 #include <stdlib.h>
 
-#include "core/bloom_levels.h"
-#include "core/fpenv.h"
-#include "core/srgb_tables.h"
+#include "data/bloom_levels.h"
+#include "base/fpenv.h"
+#include "data/srgb_tables.h"
 #include "reference/arithmetic.h"
 #include "reference/reference.h"
 #include "reference/stages.h"

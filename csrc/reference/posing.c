@@ -1,7 +1,7 @@
 /* posing: one vertex after the other, as R71 to R74 say. */
 #include <math.h>
 
-#include "core/fpenv.h"
+#include "base/fpenv.h"
 #include "e3d_posing.h"
 
 /* R71: x, y and z of a row of `width` */

@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "core/fpenv.h"
-#include "core/shadows.h"
+#include "base/fpenv.h"
+#include "data/shadows.h"
 #include "reference/stages.h"
 
 enum { BAND_SAMPLES = 1 << 20 };

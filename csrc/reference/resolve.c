@@ -9,7 +9,7 @@
 #include <math.h>
 
 #include "reference/arithmetic.h"
-#include "core/srgb_tables.h"
+#include "data/srgb_tables.h"
 #include "reference/surface.h"
 
 /* R34: the number of thresholds that are <= v; they ascend. */

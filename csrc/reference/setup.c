@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/half_circle.h"
+#include "data/half_circle.h"
 #include "reference/arithmetic.h"
 #include "reference/stages.h"
 

@@ -9,8 +9,8 @@
 #ifndef E3D_REFERENCE_STAGES_H
 #define E3D_REFERENCE_STAGES_H
 
-#include "core/limits.h"
-#include "core/sample_patterns.h"
+#include "base/limits.h"
+#include "data/sample_patterns.h"
 #include "e3d.h"
 
 typedef enum ref_kind { REF_FACE, REF_LINE, REF_POINT, REF_EDGE } ref_kind;

@@ -6,7 +6,7 @@
  *      what textures add to it is in maps.c.
  */
 #include "reference/arithmetic.h"
-#include "core/srgb_tables.h"
+#include "data/srgb_tables.h"
 #include "reference/surface.h"
 
 /* R19, before the weights are limited. */

@@ -62,7 +62,7 @@ void ref_decode_color(const e3d_frame *frame, const uint8_t color[4], float out[
 /* Returns the unit. */
 float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *surface, const ref_coordinates *at, float out[4]);
 
-/* maps.c */
+/* texture_slots.c */
 int ref_slot_counts(const e3d_texture_use *use, const ref_surface *surface);
 void ref_slot_coordinates(const e3d_texture_use *use, const ref_surface *surface, ref_coordinates *out);
 float ref_slot_sample(const e3d_texture_use *use, const ref_surface *surface, float out[4]);
@@ -100,7 +100,7 @@ void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, floa
 /* R134: what the surface leaves of light from behind it, before any is absorbed. */
 void ref_light_behind(const ref_surface *surface, const float view[3], float out[3]);
 
-/* film.c */
+/* iridescence.c */
 /* R140, of F0 of what is below; R141: what F0 would give it by Schlick's term. */
 void ref_film(float cosine, float ior, float thickness, const float f0[3], float out[3]);
 void ref_film_f0(float cosine, const float film[3], float out[3]);

@@ -6,8 +6,8 @@
  */
 #include <string.h>
 
-#include "core/srgb_tables.h"
-#include "core/tone_tables.h"
+#include "data/srgb_tables.h"
+#include "data/tone_tables.h"
 #include "reference/surface.h"
 
 static void limit(float color[3])

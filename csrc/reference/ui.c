@@ -1,6 +1,6 @@
 /* The user interface's triangles again, a pixel at a time, from section 11 of docs/exactness alone.
  *
- * In:  a picture and a list whose counts, sizes and indices csrc/ui/ui.c has checked.
+ * In:  a picture and a list whose counts, sizes and indices csrc/post/ui/ui.c has checked.
  * Out: the picture's pixels.
  * Rules: R37 (order), R38 (positions), R39 (rectangles), R12 (coverage), R40 (planes), R41 (texels), R42 (blending).
  */
@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-#include "core/fpenv.h"
+#include "base/fpenv.h"
 #include "reference/arithmetic.h"
 
 enum { U,

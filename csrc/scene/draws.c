@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/fpenv.h"
-#include "core/mesh.h"
+#include "base/fpenv.h"
+#include "data/mesh.h"
 #include "e3d_scene.h"
 #include "scene/pose.h"
 

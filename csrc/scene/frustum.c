@@ -9,7 +9,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "core/fpenv.h"
+#include "base/fpenv.h"
 #include "scene/tree.h"
 
 #define SLACK 4e-6

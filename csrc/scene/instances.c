@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/fpenv.h"
+#include "base/fpenv.h"
 #include "scene/pose.h"
 
 int e3d_instance_pose(const float *poses, e3d_pose_kind kind, int32_t instance, double out[12])

@@ -1,5 +1,5 @@
 /* overlap: which boxes of a tree meet a box. Out: a bit per item; touching counts. */
-#include "core/fpenv.h"
+#include "base/fpenv.h"
 #include "scene/tree.h"
 
 typedef struct entry {

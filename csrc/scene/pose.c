@@ -1,7 +1,7 @@
 /* Poses: quaternion, scale and offset to a matrix and back, products, boxes.
  *
- * In and out: f64. The operations and their order are those of engine/linalg (quaternion_to_matrix,
- * matrix_to_quaternion, multiply) and engine/scene/instances.py (transform_box): the same bits.
+ * In and out: f64. The operations and their order are those of engine/base/linalg (quaternion_to_matrix,
+ * matrix_to_quaternion, multiply) and engine/model/scene/instances.py (transform_box): the same bits.
  * Sources: Shoemake 1985; Shepperd 1978; Arvo 1990 for boxes.
  */
 #include "scene/pose.h"

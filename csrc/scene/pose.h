@@ -1,5 +1,5 @@
 /* Poses: quaternion, scale and offset to a matrix and back, products, boxes. f64, in the order of
- * engine/linalg, to the bit. */
+ * engine/base/linalg, to the bit. */
 #ifndef E3D_POSE_H
 #define E3D_POSE_H
 

@@ -8,7 +8,7 @@
  */
 #include <math.h>
 
-#include "core/fpenv.h"
+#include "base/fpenv.h"
 #include "scene/pose.h"
 #include "scene/tree.h"
 

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/pool.h"
+#include "base/pool.h"
 
 /* A coordinate has BITS bits; those of all three are sorted RADIX at a time. */
 #ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION

@@ -7,8 +7,8 @@
 #ifndef E3D_TREE_H
 #define E3D_TREE_H
 
-#include "core/grow.h"
-#include "core/vectors.h"
+#include "base/grow.h"
+#include "base/vectors.h"
 #include "e3d_scene.h"
 
 enum { E3D_TREE_LEVELS = 16, E3D_TREE_STACK = 3 * E3D_TREE_LEVELS + 1 };

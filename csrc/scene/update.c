@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/fpenv.h"
-#include "core/pool.h"
+#include "base/fpenv.h"
+#include "base/pool.h"
 #include "e3d_scene.h"
 #include "scene/pose.h"
 

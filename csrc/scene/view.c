@@ -1,10 +1,10 @@
 /* Views: what a frame needs of a camera's pose. f64; the operations and their order are those of inverse, multiply and normalize
- * in engine/linalg, to the bit. Inverse by Laplace's expansion in 2x2 determinants.
+ * in engine/base/linalg, to the bit. Inverse by Laplace's expansion in 2x2 determinants.
  */
 #include <math.h>
 
-#include "core/fpenv.h"
-#include "core/matrix.h"
+#include "base/fpenv.h"
+#include "base/matrix.h"
 #include "e3d_scene.h"
 
 /* Finds the 2x2 determinants of two rows, by columns 01, 02, 03, 12, 13, 23. */

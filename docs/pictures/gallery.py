@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from engine3d.cli import main as engine3d
+from engine3d.apps.cli import main as engine3d
 
 PAGE = Path(__file__).resolve().parents[1] / "gallery.md"
 _BLOCK = re.compile(r"^```(python|sh)\n(.*?)^```", re.M | re.S)

@@ -25,14 +25,14 @@ import numpy as np
 
 import engine3d as e3d
 from engine3d import linalg
-from engine3d.demos import load_demo
-from engine3d.golden.comparison import compare
-from engine3d.golden.difference_picture import difference_picture
+from engine3d.apps.golden.comparison import compare
+from engine3d.apps.golden.difference_picture import difference_picture
+from engine3d.apps.scenes import load_demo
 from engine3d.stage.open_model import open_model
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
 from engine3d.stage.viewed_scene import ViewedScene
-from engine3d.stage.walking import controller
+from engine3d.stage.views.walking import controller
 
 FOLDER = Path(__file__).resolve().parent
 MODELS = files("engine3d.data") / "models"

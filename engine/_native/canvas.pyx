@@ -2,7 +2,7 @@
 """The gateway to the 2-D canvas in C: checks shapes, releases the GIL, makes one call.
 
 In:  a framebuffer, positions as float64, colours as bytes (4, or 4 for each primitive).
-Out: pixels of the framebuffer. Names of algorithms and kinds of arguments are engine/canvas.py's affair.
+Out: pixels of the framebuffer. Names of algorithms and kinds of arguments are engine/rendering/canvas.py's affair.
 """
 
 from e3d_canvas cimport *

@@ -2,7 +2,7 @@
 
 cdef extern from *:
     """
-    #include "core/machine.h"
+    #include "base/machine.h"
     enum { IS_KNOWN = E3D_FLOAT_FLUSH != 0 };
     static unsigned long long float_control_read(void)
     {
@@ -28,7 +28,7 @@ cdef extern from *:
     void float_control_write(unsigned long long value) nogil
 
 # Bits of that register: denormals become zero; rounding is towards +inf. Both are 0 where
-# core/machine.h does not know the processor.
+# base/machine.h does not know the processor.
 FLUSH_DENORMALS = E3D_FLOAT_FLUSH
 ROUND_UP = E3D_FLOAT_ROUND_UP
 

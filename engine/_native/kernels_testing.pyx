@@ -11,7 +11,7 @@ from e3d cimport *
 
 cdef extern from *:
     """
-    #include "core/helping.h"
+    #include "base/helping.h"
     #include "e3d_posing.h"
     #include "kernels/kernels.h"
 
@@ -33,7 +33,7 @@ cdef extern from *:
     void e3d_helping_note()
     void e3d_reference_pose()
 
-cdef extern from "pipeline/pass/plan.h" nogil:
+cdef extern from "frame/pass/plan.h" nogil:
     ctypedef enum e3d_asked_item:
         E3D_ASKED_ITEMS
     ctypedef enum e3d_plan_item:

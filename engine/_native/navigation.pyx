@@ -2,7 +2,7 @@
 """The gateway to navigation grids in C: checks shapes, releases the GIL, makes one call.
 
 In:  arrays of meshes with a matrix each. Out: the layers of a grid, as arrays of their own.
-What is walkable, and where the meshes are, is engine/navigation's affair.
+What is walkable, and where the meshes are, is engine/model/navigation's affair.
 """
 
 import numpy as np

@@ -3,7 +3,7 @@
 # In:  sizes, or what C hands over.
 # Out: arrays over memory in large pages; once frozen, nobody can write to it any more, whatever flags are set.
 
-cdef extern from "core/large_pages.h":
+cdef extern from "base/large_pages.h":
     void *e3d_large_memory(size_t bytes) nogil
     void e3d_want_large_pages(void *memory, size_t bytes) nogil
     void e3d_populate(void *memory, size_t bytes) nogil

@@ -84,7 +84,7 @@ def _traits_of(int kind):
     return LightTraits(bool(traits.has_position), is_turned, list(MAP_LAYOUTS)[traits.maps])
 
 
-LIGHT_TRAITS = {name: _traits_of(kind) for name, kind in LIGHT_KINDS.items()}
+LIGHT_TRAITS: dict[str, LightTraits] = {name: _traits_of(kind) for name, kind in LIGHT_KINDS.items()}
 
 cdef extern from *:
     const char *E3D_BUILD
@@ -188,7 +188,7 @@ cdef struct SignalPoll:
     void *renderer
 
 
-cdef extern from "core/clock.h":
+cdef extern from "base/clock.h":
     int64_t e3d_now_ns() nogil
 
 

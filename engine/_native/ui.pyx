@@ -2,7 +2,7 @@
 """The gateway to the triangles of user interfaces in C: checks shapes, releases the GIL, makes one call.
 
 In:  a picture, vertices and commands as rows of their C structs, indices, textures.
-Out: pixels of the picture. What is drawn is engine/ui's affair.
+Out: pixels of the picture. What is drawn is engine/apps/imgui_painter's affair.
 """
 
 from e3d cimport (

@@ -16,7 +16,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from .._native.rasterizer import thread_count
-from .._support.system import machine_memory
+from ..base.system import machine_memory
 from ..errors import InvalidArgumentError
 from . import options as limits
 from ._output_pool import shapes_of
@@ -25,8 +25,8 @@ from ._output_pool import shapes_of
 BYTES_A_PIXEL = 32
 
 _FLOAT = 4
-_KEPT_SAMPLE = 8  # a depth and an ID: csrc/pipeline/tile/kept.c
-_MOST_KEPT = 1 << 25  # samples of a picture: E3D_MOST_KEPT_SAMPLES of csrc/pipeline/pass/plan.h
+_KEPT_SAMPLE = 8  # a depth and an ID: csrc/frame/tile/kept.c
+_MOST_KEPT = 1 << 25  # samples of a picture: E3D_MOST_KEPT_SAMPLES of csrc/frame/pass/plan.h
 _TILE_PLANE = 24 * 4096  # of a sample of a tile its depth, ID, colour and count
 # About, of each face that casts exact shadows: its corners, and for each light these once more
 # and the boxes of the cells that it is in.

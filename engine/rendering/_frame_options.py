@@ -15,21 +15,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import linalg
 from .._native import rasterizer as _native
 from .._native.rasterizer import same_objects
-from .._support.calls import refuse_unknown
-from ..environments.environment import Environment
+from ..base import linalg
+from ..base.calls import refuse_unknown
 from ..errors import InvalidArgumentError
-from ..materials.display_colors import display_color, exact_display_color, shading_color
-from ..scene.fog import Fog
-from ..scene.gradients import Gradient
-from ..scene.scene import Scene
-from ..scene.surroundings import SCENE_VALUES
-from ._draw_list import Listing
-from ._native_handles import MeshNeeds, native_environment
-from ._placement import Placing
+from ..model.environments.environment import Environment
+from ..model.materials.display_colors import display_color, exact_display_color, shading_color
+from ..model.scene.fog import Fog
+from ..model.scene.gradients import Gradient
+from ..model.scene.scene import Scene
+from ..model.scene.surroundings import SCENE_VALUES
 from ._tone_inverse import light_that_shows
+from .draw_list.draw_list import Listing
+from .draw_list.native_handles import MeshNeeds, native_environment
+from .draw_list.placement import Placing
 from .options import (
     DEFAULTS,
     WHITE,

@@ -11,7 +11,7 @@ import threading
 import weakref
 from contextlib import contextmanager
 
-from .._support.system import after_fork
+from ..base.system import after_fork
 from ..errors import RendererBusyError
 
 _WITHIN = (

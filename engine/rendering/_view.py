@@ -12,15 +12,15 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import linalg
 from .._native.scene_graph import camera_view
-from .._support.numbers import shown
-from .._support.validation import matrix4
+from ..base import linalg
+from ..base.linalg.vectors import as_vectors
+from ..base.numbers import shown
+from ..base.validation import matrix4
 from ..errors import InvalidArgumentError
-from ..linalg.vectors import as_vectors
-from ..scene.cameras import Camera
-from ..scene.nodes import Node
-from ..scene.scene import Scene
+from ..model.scene.cameras import Camera
+from ..model.scene.nodes import Node
+from ..model.scene.scene import Scene
 
 #: How a camera is chosen: the scene's own, a node that holds one, or a camera and its pose.
 CameraChoice: TypeAlias = Node | tuple[Camera, ArrayLike] | None

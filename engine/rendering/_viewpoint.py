@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..scene.cameras import Camera
-from ..scene.scene import Scene
-from ._draw_list import DrawList
+from ..model.scene.cameras import Camera
+from ..model.scene.scene import Scene
 from ._view import CameraChoice, View, find_camera
+from .draw_list.draw_list import DrawList
 from .framing import frame_scene
 
 

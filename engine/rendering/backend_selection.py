@@ -11,7 +11,7 @@ import numbers
 import os
 
 from .._native import rasterizer as _native
-from .._support.numbers import shown
+from ..base.numbers import shown
 from ..choices import Backend
 from ..errors import BackendError, InvalidArgumentError
 

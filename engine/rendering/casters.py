@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .._native.scene_graph import SHOWN
-from ..scene.node_arrays import CASTS_NONE, NodeArrays
+from ..model.scene.node_arrays import CASTS_NONE, NodeArrays
 
 
 def placed_casters(arrays: NodeArrays, selection: np.ndarray | None = None) -> tuple[bytes, ...]:

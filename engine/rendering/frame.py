@@ -16,19 +16,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._native import rasterizer as _native
 from .._native.images import encode_png
-from .._support.calls import checks_types
-from .._support.foreign_names import refuses_foreign_names
-from .._support.validation import choose
+from ..base.calls import checks_types
+from ..base.files.atomic_write import atomic_write, checked_path
+from ..base.foreign_names import refuses_foreign_names
+from ..base.validation import choose
 from ..choices import ImageFormat
 from ..errors import InvalidArgumentError, MissingOutputError
-from ..files.atomic_write import atomic_write, checked_path
-from ..files.picture_mark import TGA_MARK
-from ..files.transparency import refuse_transparency
+from .picture_mark import TGA_MARK
+from .transparency import refuse_transparency
 
 if TYPE_CHECKING:
     from PIL import Image
 
-    from ..canvas import Canvas
+    from .canvas import Canvas
 
 # What a frame may hold, for type checkers. `Frame` has a property of each.
 Output = Literal[
@@ -243,7 +243,7 @@ class Frame:
 
     def canvas(self) -> Canvas:
         """Return an `engine3d.Canvas` that draws into this frame's colour."""
-        from ..canvas import Canvas
+        from .canvas import Canvas
 
         return Canvas(self.color)
 

@@ -12,13 +12,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import linalg
-from .._support.angles import field_of_view
-from .._support.numbers import floats, shown
-from .._support.validation import positive
+from ..base import linalg
+from ..base.angles import field_of_view
+from ..base.numbers import floats, shown
+from ..base.validation import positive
 from ..errors import InvalidArgumentError
-from ..scene.cameras import PerspectiveCamera
-from ..scene.scene import Scene
+from ..model.scene.cameras import PerspectiveCamera
+from ..model.scene.scene import Scene
 from .support_functions import SupportFunction, support_of_box, support_of_scene
 
 _DIRECTION = (-0.35, -0.25, -1.0)

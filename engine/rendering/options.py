@@ -13,9 +13,9 @@ from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING, Any, TypedDict, get_args
 
 from .._native import rasterizer as _native
-from .._support.calls import Function, checks_types, hints_keywords
-from .._support.numbers import real, shown
-from .._support.validation import choose, flag, one_of, optional_positive
+from ..base.calls import Function, checks_types, hints_keywords
+from ..base.numbers import real, shown
+from ..base.validation import choose, flag, one_of, optional_positive
 from ..choices import (
     ColorLike,
     Culling,
@@ -31,7 +31,7 @@ from ..choices import (
     Wireframe,
 )
 from ..errors import InvalidArgumentError
-from ..materials.colors import check_color
+from ..model.materials.colors import check_color
 from .frame import OUTPUTS, Output
 
 if TYPE_CHECKING:

@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._native import rasterizer as _native
-from .._support.calls import shows_annotations
-from .._support.image_size import check_side
-from .._support.numbers import as_array, floats
-from .._support.validation import choose
+from ..base.calls import shows_annotations
+from ..base.image_size import check_side
+from ..base.numbers import as_array, floats
+from ..base.validation import choose
 from ..choices import Backend, Cull
 from ..errors import InvalidArgumentError
 from .backend_selection import resolve_backend, resolve_threads

@@ -10,29 +10,27 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .._native import rasterizer as _native
-from .._support.calls import refuse_unknown
-from .._support.image_size import check_side, check_size
-from .._support.validation import Closed, choose, is_one_of
+from ..base.calls import refuse_unknown
+from ..base.image_size import check_side, check_size
+from ..base.validation import Closed, choose, is_one_of
 from ..choices import Antialias, Backend, ColorSpace, Samples
 from ..errors import InvalidArgumentError, SceneChangedError
-from ..geometry.mesh import Mesh
-from ..materials.colors import COLOR_SPACES
-from ..scene.instances import InstancedMesh
-from ..scene.nodes import Node
-from ..scene.scene import Scene
-from ..scene.scenes_of_things import scene_of
-from ..scene.staged_scene import StagedScene
-from ._draw_list import DrawList
+from ..model.geometry.mesh import Mesh
+from ..model.materials.colors import COLOR_SPACES
+from ..model.scene.instances import InstancedMesh
+from ..model.scene.nodes import Node
+from ..model.scene.scene import Scene
+from ..model.scene.scenes_of_things import scene_of
+from ..model.scene.staged_scene import StagedScene
 from ._frame_memory import FrameMemory
 from ._frame_options import OptionsCache
 from ._output_pool import OutputPool
-from ._pass import Picture, Tools
-from ._passes import Passes
-from ._placement import Placing
 from ._turn import RendererTurn
 from ._view import CameraChoice
 from ._viewpoint import Viewpoint, frustum_of
 from .backend_selection import resolve_backend, resolve_threads
+from .draw_list.draw_list import DrawList
+from .draw_list.placement import Placing
 from .frame import Frame
 from .options import (
     OptionKeywords,
@@ -41,6 +39,8 @@ from .options import (
     shows_options,
     with_both_sides,
 )
+from .passes.all_passes import Passes
+from .passes.protocol import Picture, Tools
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

@@ -12,12 +12,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from .. import linalg
 from .._native.scene_graph import SHOWN
-from ..geometry.mesh import Mesh
-from ..motion.shown import as_shown, placing_poses
-from ..scene.instances import InstancedMesh
-from ..scene.scene import Scene
+from ..base import linalg
+from ..model.geometry.mesh import Mesh
+from ..model.motion.shown import as_shown, placing_poses
+from ..model.scene.instances import InstancedMesh
+from ..model.scene.scene import Scene
 
 SupportFunction = Callable[[np.ndarray], np.ndarray]
 

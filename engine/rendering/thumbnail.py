@@ -7,10 +7,10 @@ while somebody waits for the text of a cell.
 from __future__ import annotations
 
 from ..errors import Engine3DError
-from ..geometry.mesh import Mesh
-from ..motion.shown import shown_object
-from ..scene.instances import InstancedMesh
-from ..scene.scene import Scene
+from ..model.geometry.mesh import Mesh
+from ..model.motion.shown import shown_object
+from ..model.scene.instances import InstancedMesh
+from ..model.scene.scene import Scene
 from .renderer import render
 
 SIZE = (400, 300)

@@ -10,15 +10,15 @@ from dataclasses import fields
 from types import SimpleNamespace
 from typing import Any, get_args
 
-from .. import linalg
-from .._support.calls import refuse_unknown
+from ..base import linalg
+from ..base.calls import refuse_unknown
 from ..choices import Mode, OutputMode
-from ..environments.environment import Environment
-from ..geometry.mesh import Mesh
-from ..materials.colors import linear_color
+from ..model.environments.environment import Environment
+from ..model.geometry.mesh import Mesh
+from ..model.materials.colors import linear_color
+from ..model.scene.gradients import Gradient
+from ..model.scene.instances import InstancedMesh
 from ..rendering.options import RenderOptions
-from ..scene.gradients import Gradient
-from ..scene.instances import InstancedMesh
 
 MODES = (*get_args(Mode), *get_args(OutputMode))
 DARK, LIGHT = (22, 24, 28), (225, 229, 236)

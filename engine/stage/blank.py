@@ -14,16 +14,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from .. import linalg
-from ..geometry.mesh import Mesh
-from ..materials.material import Material
-from ..motion.shown import placing_pose, shown_object
+from ..base import linalg
+from ..model.geometry.mesh import Mesh
+from ..model.materials.material import Material
+from ..model.motion.shown import placing_pose, shown_object
+from ..model.scene.cameras import Camera
+from ..model.scene.instances import InstancedMesh
+from ..model.scene.nodes import Node
+from ..model.scene.scene import Scene
 from ..rendering.frame import Frame
 from ..rendering.renderer import Renderer
-from ..scene.cameras import Camera
-from ..scene.instances import InstancedMesh
-from ..scene.nodes import Node
-from ..scene.scene import Scene
 from .visibility import DRAWABLE, mesh_of
 
 if TYPE_CHECKING:

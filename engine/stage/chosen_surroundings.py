@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..environments.environment import Environment
-from ..materials.display_colors import display_color
-from ..materials.material import Material
-from ..scene.gradients import Gradient
-from ..scene.scene import Scene
-from ..scene.staged_scene import StagedScene
-from ..scene.usage import uses_in
+from ..model.environments.environment import Environment
+from ..model.materials.display_colors import display_color
+from ..model.materials.material import Material
+from ..model.scene.gradients import Gradient
+from ..model.scene.scene import Scene
+from ..model.scene.staged_scene import StagedScene
+from ..model.scene.usage import uses_in
 
 _USUAL_INTENSITY = 0.5  # of the environment that scenes get by themselves, beside their lights
 

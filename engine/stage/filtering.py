@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..materials.material import Material, textures_of
-from ..materials.textures import Texture
-from ..scene.scene import Scene
+from ..model.materials.material import Material, textures_of
+from ..model.materials.textures import Texture
+from ..model.scene.scene import Scene
 from .visibility import DRAWABLE, mesh_of
 
 #: What models get whose files say nothing: how these were chosen is in docs/performance.md.

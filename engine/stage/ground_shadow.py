@@ -16,16 +16,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from .. import linalg
-from ..geometry.mesh import Mesh
-from ..materials.material import textures_of
+from ..base import linalg
+from ..model.geometry.mesh import Mesh
+from ..model.materials.material import textures_of
+from ..model.scene.cameras import Camera
+from ..model.scene.instances import InstancedMesh
+from ..model.scene.orbiting import cosine, sine
+from ..model.scene.staged_scene import StagedScene
 from ..rendering.casters import placed_casters
 from ..rendering.renderer import Renderer
-from ..scene.cameras import Camera
-from ..scene.instances import InstancedMesh
-from ..scene.orbiting import cosine, sine
-from ..scene.staged_scene import StagedScene
-from .viewpoint import Sphere
+from .views.viewpoint import Sphere
 
 #: The square reaches so many radii from the middle of the model, in so many texels a side.
 REACH, SIDE = 2.0, 512

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from .view_renderer import ViewRenderer
-from .viewpoint import Viewpoint
+from .views.viewpoint import Viewpoint
 
 #: Viewers of animations falter outside these.
 SHORTEST_FRAME = 0.02

@@ -12,11 +12,11 @@ import math
 
 import numpy as np
 
-from .. import linalg
-from ..scene.lights import LIGHTS, DirectionalLight, PointLight
-from ..scene.orbiting import home_axes
-from ..scene.staged_scene import StagedScene
-from .viewpoint import Sphere
+from ..base import linalg
+from ..model.scene.lights import LIGHTS, DirectionalLight, PointLight
+from ..model.scene.orbiting import home_axes
+from ..model.scene.staged_scene import StagedScene
+from .views.viewpoint import Sphere
 
 #: Per set-up: the way the light travels, in camera space (or the home frame, if fixed), the linear
 #: colour, the intensity.

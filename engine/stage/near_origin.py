@@ -6,7 +6,7 @@ light and shadow are fine; and where the origin is in the files' coordinates.
 
 from __future__ import annotations
 
-from ..loaders.far_coordinates import origin_near
+from ..io.reading.far_coordinates import origin_near
 from .viewed_scene import ViewedScene
 
 # Nodes hold the distance exactly; only from so many sizes away do lights and eyes become coarse.

@@ -10,14 +10,14 @@ import os
 import warnings
 
 from ..errors import Engine3DWarning, InvalidArgumentError, printable
-from ..geometry.creases import CREASE_ANGLE
-from ..loaders import load_document, load_texture
-from ..loaders.documents import Document
-from ..materials.material import Material, says_something, textures_of
-from ..scene.loading import scene_from_document
-from ..scene.scene import Scene
+from ..io.loaders import load_document, load_texture
+from ..io.reading.documents import Document
+from ..io.scenes.scene_loading import scene_from_document
+from ..model.geometry.creases import CREASE_ANGLE
+from ..model.materials.material import Material, says_something, textures_of
+from ..model.scene.scene import Scene
+from .overlays.theme import DARK
 from .scalars import ScalarColoring
-from .theme import DARK
 from .viewed_scene import ViewedScene
 from .visibility import DRAWABLE, mesh_of
 

@@ -11,19 +11,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from .. import linalg
+from ..base import linalg
 from ..errors import Engine3DWarning
-from ..geometry.mesh import Mesh
-from ..loaders.documents import Document
-from ..motion.shown import placing_pose, shown_object
-from ..scene.instances import InstancedMesh
-from ..scene.lights import LIGHTS
-from ..scene.scene import Scene
+from ..io.reading.documents import Document
+from ..model.geometry.mesh import Mesh
+from ..model.motion.shown import placing_pose, shown_object
+from ..model.scene.instances import InstancedMesh
+from ..model.scene.lights import LIGHTS
+from ..model.scene.scene import Scene
 from .near_origin import moved_near
 from .open_model import color_by, read_model
 from .scalars import ScalarColoring
 from .viewed_scene import ViewedScene
-from .viewpoint import UP_DIRECTIONS, home_axes
+from .views.viewpoint import UP_DIRECTIONS, home_axes
 
 #: Room between models that stand side by side, as a share of the widest.
 GAP = 0.15

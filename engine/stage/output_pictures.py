@@ -11,10 +11,10 @@ from typing import get_args
 import numpy as np
 
 from ..choices import OutputMode
-from ..materials.colors import srgb_to_linear_table
+from ..model.materials.colors import srgb_to_linear_table
 from ..rendering.frame import Frame
-from .theme import Theme
-from .viewpoint import Sphere
+from .overlays.theme import Theme
+from .views.viewpoint import Sphere
 
 OUTPUT_MODES = get_args(OutputMode)
 #: Tells what shows a surface: everything else is background.

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..motion.clips import AnimationClip
-from ..motion.player import AnimationPlayer
+from ..model.motion.clips import AnimationClip
+from ..model.motion.player import AnimationPlayer
 from .scene_bounds import sphere_of_box
 from .viewed_scene import NotInModelError, ViewedScene
 

@@ -13,13 +13,13 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..base.linalg import inverse, normalize, transform_directions, transform_points
 from ..errors import InvalidArgumentError
-from ..geometry.mesh import Mesh
-from ..linalg import inverse, normalize, transform_directions, transform_points
-from ..loaders.documents import Document, DocumentObject
-from ..materials.material import Material
-from ..materials.textures import Texture
-from .colormaps import MISSING
+from ..io.reading.documents import Document, DocumentObject
+from ..model.geometry.mesh import Mesh
+from ..model.materials.material import Material
+from ..model.materials.textures import Texture
+from .overlays.colormaps import MISSING
 
 #: Components that are none.
 MAGNITUDE, DIRECT = -1, -2

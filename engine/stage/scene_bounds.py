@@ -11,12 +11,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .. import linalg
-from ..geometry.mesh import Mesh
-from ..motion.shown import placing_pose, shown_object
-from ..scene.instances import InstancedMesh
-from ..scene.orbiting import cosine, home_axes, sine
-from .viewpoint import Sphere
+from ..base import linalg
+from ..model.geometry.mesh import Mesh
+from ..model.motion.shown import placing_pose, shown_object
+from ..model.scene.instances import InstancedMesh
+from ..model.scene.orbiting import cosine, home_axes, sine
+from .views.viewpoint import Sphere
 
 #: How finely `turning_outline` follows a scene.
 OUTLINE_BANDS = 24

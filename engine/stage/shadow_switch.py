@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ..choices import LightShadow
-from ..scene.lights import Light, PointLight
+from ..model.scene.lights import Light, PointLight
 
 _MOST_LAMPS = 4  # each draws six maps
 _MAIN = 0.5  # of the brightest: what is dimmer only lightens the shadows of others

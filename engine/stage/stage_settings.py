@@ -8,11 +8,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ..choices import LightShadow
-from ..scene.fog import ExponentialFog, Fog
-from ..scene.gradients import Gradient
+from ..model.scene.fog import ExponentialFog, Fog
+from ..model.scene.gradients import Gradient
 from .chosen_surroundings import Surroundings
 from .filtering import Filtering
-from .theme import DARK, Theme
+from .overlays.theme import DARK, Theme
 
 
 @dataclass

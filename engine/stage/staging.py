@@ -11,23 +11,23 @@ from dataclasses import replace
 
 import numpy as np
 
-from .. import linalg
-from ..scene.lights import DirectionalLight
-from ..scene.nodes import Node
-from ..scene.scene import Scene
-from ..scene.staged_scene import StagedScene
+from ..base import linalg
+from ..model.scene.lights import DirectionalLight
+from ..model.scene.nodes import Node
+from ..model.scene.scene import Scene
+from ..model.scene.staged_scene import StagedScene
 from .appearance import Appearance
-from .box_grid import BoxGrid
 from .chosen_surroundings import fog_color
-from .grid_lines import grid
 from .lighting import OWN_LIGHTS, Lighting, OnlyLight, placed_light
 from .near_origin import from_file
+from .overlays.box_grid import BoxGrid
+from .overlays.grid_lines import grid
+from .overlays.theme import Theme
 from .shadow_switch import switch_shadows
 from .stage_settings import Settings
 from .studio import BEHIND, Studio, theme_for
-from .theme import Theme
 from .viewed_scene import ViewedScene
-from .viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
+from .views.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
 from .visibility import Visibility
 
 #: A box around a sphere reaches no farther than this, in radii.

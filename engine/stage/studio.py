@@ -15,16 +15,16 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from .. import linalg
-from ..geometry.mesh import Mesh
-from ..materials.material import Material
-from ..materials.textures import Texture
-from ..scene.ambient_lights import HemisphereLight
-from ..scene.orbiting import home_axes
-from ..scene.staged_scene import StagedScene
+from ..base import linalg
+from ..model.geometry.mesh import Mesh
+from ..model.materials.material import Material
+from ..model.materials.textures import Texture
+from ..model.scene.ambient_lights import HemisphereLight
+from ..model.scene.orbiting import home_axes
+from ..model.scene.staged_scene import StagedScene
 from .ground_shadow import REACH, SIDE, GroundShadow
-from .theme import DARK, LIGHT, Theme
-from .viewpoint import Sphere
+from .overlays.theme import DARK, LIGHT, Theme
+from .views.viewpoint import Sphere
 
 #: Light from above and from below.
 _SKY, _GROUND = (0.30, 0.32, 0.36), (0.18, 0.17, 0.16)

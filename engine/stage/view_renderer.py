@@ -8,17 +8,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..model.scene.cameras import PerspectiveCamera
+from ..model.spatial.rays import RayHit
 from ..rendering.options import size_in_picture
 from ..rendering.renderer import Renderer
 from ..rendering.support_functions import support_of_scene
-from ..scene.cameras import PerspectiveCamera
-from ..spatial.rays import RayHit
 from .appearance import Appearance, count_points, point_size
 from .blank import BlankWatch, Reason, Sight
 from .culling_study import CullingStudy
-from .debug_lines import draw_lines
-from .free_region import NOTHING, Taken
-from .labels import draw_labels
 from .lighting import Lighting, OnlyLight
 from .output_pictures import (
     COVERAGE,
@@ -28,13 +25,16 @@ from .output_pictures import (
     split,
     whole_pixel,
 )
+from .overlays.debug_lines import draw_lines
+from .overlays.labels import draw_labels
+from .overlays.selection_outline import CLICK_OUTPUTS
+from .overlays.theme import Theme
 from .scene_bounds import turning_outline
-from .selection_outline import CLICK_OUTPUTS
 from .stage_settings import Settings
 from .staging import Staging
-from .theme import Theme
 from .viewed_scene import ViewedScene
-from .viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint, with_clip_planes
+from .views.free_region import NOTHING, Taken
+from .views.viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint, with_clip_planes
 from .visibility import Visibility
 
 #: What the look "studio" draws with unless the scene or the user says otherwise.
@@ -232,7 +232,7 @@ class ViewRenderer:
         bar = self.viewed.bar if self.settings.bar else None
         if bar is None:
             return NOTHING
-        from .scalar_bar import place_bar
+        from .overlays.scalar_bar import place_bar
 
         return place_bar(*self.size, bar, self._text_scale(*self.size)).taken(*self.size)
 
@@ -343,7 +343,7 @@ class ViewRenderer:
         return self._text_scale(picture.width, picture.height)
 
     def _text_scale(self, width: int, height: int) -> int:
-        from .overlay import text_scale_for
+        from .overlays.overlay import text_scale_for
 
         return self.settings.ui_scale or text_scale_for(width, height, self.screen_scale)
 

@@ -16,11 +16,11 @@ import numpy as np
 
 from ..errors import InvalidArgumentError
 from .scene_bounds import bounding_sphere
-from .viewpoint import DEFAULT_AZIMUTH, DEFAULT_ELEVATION, Sphere
+from .views.viewpoint import DEFAULT_AZIMUTH, DEFAULT_ELEVATION, Sphere
 
 if TYPE_CHECKING:
-    from ..motion.player import AnimationPlayer
-    from ..navigation import Walker
+    from ..model.motion.player import AnimationPlayer
+    from ..model.navigation import Walker
     from .scalars import ScalarBar
 
 #: Seconds of one turn of a turntable.

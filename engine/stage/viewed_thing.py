@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from .._support.numbers import real, shown
+from ..base.numbers import real, shown
 from ..errors import InvalidArgumentError
-from ..scene.scenes_of_things import scene_of
+from ..model.scene.scenes_of_things import scene_of
+from .overlays.theme import DARK
 from .played_clips import play_clips
-from .theme import DARK
 from .viewed_scene import ViewedScene
-from .viewpoint import UP_DIRECTIONS
+from .views.viewpoint import UP_DIRECTIONS
 
 
 def viewed_thing(

@@ -11,13 +11,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..geometry.mesh import Mesh
-from ..geometry.vertex_attributes import attributes_of
-from ..materials.material import Material
+from ..model.geometry.mesh import Mesh
+from ..model.geometry.vertex_attributes import attributes_of
+from ..model.materials.material import Material
+from ..model.scene.instances import InstancedMesh
+from ..model.scene.nodes import Node
+from ..model.scene.staged_scene import StagedScene
 from ..rendering.frame import Frame
-from ..scene.instances import InstancedMesh
-from ..scene.nodes import Node
-from ..scene.staged_scene import StagedScene
 
 DRAWABLE = (Mesh, InstancedMesh)
 

@@ -8,9 +8,9 @@ import time
 import pytest
 from patience import HUNG
 
+from engine3d.apps.batch.processes import ProcessPool
+from engine3d.apps.cli import main
 from engine3d.batch import read_manifest, run
-from engine3d.batch.processes import ProcessPool
-from engine3d.cli import main
 
 MODEL = {"model": "model.obj"}
 SCRIPT = {"script": "script.py"}
@@ -44,7 +44,7 @@ def test_failures_are_listed_at_the_end(manifest, place, capsys):
 
 
 def test_a_terminal_gets_a_bar(manifest, place, capsys, monkeypatch):
-    monkeypatch.setattr("engine3d.cli.quietness.shows_progress", lambda: True)
+    monkeypatch.setattr("engine3d.apps.cli.quietness.shows_progress", lambda: True)
     monkeypatch.setenv("FORCE_COLOR", "1")
     path = manifest(
         MODEL, {**SCRIPT, "function": "say"}, {**SCRIPT, "function": "fail", "name": "f"}

@@ -57,6 +57,6 @@ def test_without_dask_the_error_names_the_extra(tasks, tmp_path, monkeypatch):
 
 def test_a_scheduler_that_is_not_there_is_an_error(tasks, tmp_path, monkeypatch):
     pytest.importorskip("distributed", reason="pip install 'engine3d[dask]'")
-    monkeypatch.setattr("engine3d.batch.dask_engine._PATIENCE", 0.3)
+    monkeypatch.setattr("engine3d.apps.batch.dask_engine._PATIENCE", 0.3)
     with pytest.raises(e3d.InvalidArgumentError, match="no Dask scheduler with workers answers at"):
         run(tasks, tmp_path / "out", scheduler="tcp://127.0.0.1:1")

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 import engine3d as e3d
+from engine3d.apps.cli.parser import make_parser
 from engine3d.batch import Task, read_manifest
-from engine3d.cli.parser import make_parser
 
 MODEL = {"model": "model.obj"}
 SCRIPT = {"script": "script.py"}
@@ -169,7 +169,7 @@ def test_tasks_in_python_are_checked_alike():
 
 
 def test_tasks_are_known_by_all_that_they_say():
-    from engine3d.batch.plain import PlainWriter
+    from engine3d.apps.batch.plain import PlainWriter
     from engine3d.datasets import CocoWriter
 
     writer, base = PlainWriter(["color"]), Task(name="a", model="a.obj", folder="/a")

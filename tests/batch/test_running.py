@@ -13,9 +13,9 @@ import pytest
 from patience import HUNG
 
 import engine3d as e3d
+from engine3d.apps.batch.processes import ProcessPool
+from engine3d.apps.cli import main
 from engine3d.batch import Task, read_manifest, run
-from engine3d.batch.processes import ProcessPool
-from engine3d.cli import main
 from engine3d.datasets import CocoWriter, WebDatasetWriter
 
 MODEL = {"model": "model.obj"}
@@ -264,7 +264,7 @@ def test_an_executor_that_was_shut_down_fails_all(tasks, tmp_path):
 def test_the_process_group_ends_with_whoever_asked(place, manifest):
     tasks = read_manifest(manifest({**SCRIPT, "function": "wait"})).tasks
     with ProcessPool(1) as pool:
-        from engine3d.batch.drawing import How, draw_chunk
+        from engine3d.apps.batch.drawing import How, draw_chunk
 
         how = How(str(place / "out"), None, 1, "auto", False, e3d.__version__)
         pool.submit(draw_chunk, tasks, how)
@@ -279,7 +279,7 @@ def test_the_process_group_ends_with_whoever_asked(place, manifest):
 
 
 def test_another_version_is_refused(tasks, tmp_path):
-    from engine3d.batch.drawing import How, draw_chunk
+    from engine3d.apps.batch.drawing import How, draw_chunk
 
     how = How(str(tmp_path), None, 1, "auto", False, "0.0")
     with pytest.raises(e3d.InvalidArgumentError, match="0.0 asks it"):
@@ -287,7 +287,7 @@ def test_another_version_is_refused(tasks, tmp_path):
 
 
 def test_one_batch_at_a_time_writes_to_a_folder(tasks, tmp_path):
-    from engine3d.batch.locking import locked_folder
+    from engine3d.apps.batch.locking import locked_folder
 
     (tmp_path / "out" / ".batch").mkdir(parents=True)
     with locked_folder(str(tmp_path / "out" / ".batch")):

@@ -10,9 +10,9 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 from patience import HUNG
 
+from engine3d.apps.batch.processes import ProcessPool, TimeLimitError, WorkerDiedError
+from engine3d.apps.cli import main
 from engine3d.batch import read_manifest, run
-from engine3d.batch.processes import ProcessPool, TimeLimitError, WorkerDiedError
-from engine3d.cli import main
 
 SCRIPT = {"script": "script.py"}
 LIMIT = 5.0  # a busy machine loads the engine in less
@@ -49,7 +49,7 @@ def test_a_process_that_nobody_asks_ends():
 
 
 def test_a_process_whose_pool_is_gone_before_it_begins_ends_without_a_word():
-    program = "from engine3d.batch.worker import main; main()"
+    program = "from engine3d.apps.batch.worker import main; main()"
     command = [sys.executable, "-c", program]
     ended = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=HUNG)
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, b"", b"")

@@ -11,8 +11,8 @@ import pytest
 from patience import HUNG
 from PIL import Image
 
-from engine3d.benchmarking import measuring
-from engine3d.demos import workloads
+from engine3d.apps.bench import measuring
+from engine3d.apps.scenes import workloads
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 

@@ -1,7 +1,7 @@
 """What the canvas must draw, from its rules alone, in exact integers and plain Python or NumPy.
 
 In:  positions as the caller gives them, the size of a canvas.
-Out: masks (H, W) of bool, or values of pixels. Nothing here knows how csrc/canvas does it: lines
+Out: masks (H, W) of bool, or values of pixels. Nothing here knows how the core does it: lines
      are evaluated column by column, and the top-left rule is a sample moved by an infinitesimal.
 """
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from canvas.oracles import blended
 
-from engine3d.canvas import Canvas
 from engine3d.errors import InvalidArgumentError
+from engine3d.rendering.canvas import Canvas
 
 HOSTILE = [np.nan, np.inf, -np.inf, 1e300, -1e300, 2.0**31, -(2.0**31), 2.0**62, 0.0, -0.0, 7.3]
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from canvas.oracles import convex_masks, line_mask, thick_line_corners
 
-from engine3d.canvas import Canvas
+from engine3d.rendering.canvas import Canvas
 
 WHITE = (255, 255, 255)
 INT32 = (-(2**31), 2**31 - 1)

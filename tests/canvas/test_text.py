@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from engine3d.canvas import Canvas, text_size
 from engine3d.errors import InvalidArgumentError
+from engine3d.rendering.canvas import Canvas, text_size
 
 WHITE = (255, 255, 255)
 PRINTABLE = "".join(chr(code) for code in range(32, 127))
 FRENCH = "àâçèéêëîïôùûœÀÇÉ"
-SHEET = Path(__file__).parents[2] / "csrc" / "canvas" / "font.c"
+SHEET = Path(__file__).parents[2] / "csrc" / "extras" / "canvas" / "font.c"
 
 
 def drawn(string, width=None, height=None, at=(0, 0), **style):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from canvas.oracles import convex_masks, snapped
 
-from engine3d.canvas import Canvas
+from engine3d.rendering.canvas import Canvas
 
 WIDTH, HEIGHT = 24, 18
 CHUNK = 4000

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from engine3d.cli import main
+from engine3d.apps.cli import main
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 SMALL = ("--resolution", "48x32")
@@ -50,7 +50,7 @@ def test_transparency_is_refused_before_ffmpeg_is_asked_for(model, capsys, monke
     ("name", "most", "told"), [("a.gif", 100, 1), ("a.gif", 10**9, 0), ("a.webp", 100, 0)]
 )
 def test_a_large_gif_says_so(model, capsys, monkeypatch, name, most, told):
-    monkeypatch.setattr("engine3d.cli.outputs.LARGE_GIF", most)
+    monkeypatch.setattr("engine3d.apps.cli.outputs.LARGE_GIF", most)
     for command in (["render", str(model), "--turntable"], ["run", "--headless", "--frames"]):
         assert main([*command, "3", *SMALL, "-o", name]) == 0
         said = capsys.readouterr().err
@@ -75,7 +75,9 @@ def test_names_with_numbers_that_fit_nothing(model, capsys, arguments, message):
 def test_mp4_without_the_package_names_the_extra(model, capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     monkeypatch.setenv("PATH", "")
-    monkeypatch.setattr("engine3d.cli.scene_options.viewed_scene", None)  # no work is begun
+    monkeypatch.setattr(
+        "engine3d.apps.cli.options.scene_options.viewed_scene", None
+    )  # no work is begun
     assert main(["render", str(model), *SMALL, "--turntable", "3", "-o", "a.mp4"]) == 1
     expected = (
         "engine3d: error: a.mp4: cannot write: MP4 needs the package imageio-ffmpeg: "

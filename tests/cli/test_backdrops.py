@@ -5,7 +5,7 @@ import pytest
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.cli import main
+from engine3d.apps.cli import main
 
 SMALL = ["--resolution", "48x36", "--no-texture"]
 

@@ -5,9 +5,9 @@ import json
 import numpy as np
 import pytest
 
-from engine3d.benchmarking import measuring, report
-from engine3d.cli import main
-from engine3d.demos import WORKLOAD_NAMES, workloads
+from engine3d.apps.bench import measuring, report
+from engine3d.apps.cli import main
+from engine3d.apps.scenes import WORKLOAD_NAMES, workloads
 
 SMALL = ("--resolution", "64x36", "--seconds", "0.01")
 

@@ -6,7 +6,7 @@ from motion.moving_model import flag
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.cli import main
+from engine3d.apps.cli import main
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 # On the ground of the look "studio" lies a shadow, as fine as what is shown is large.

@@ -7,7 +7,7 @@ import pytest
 from cli.conftest import OBJ, SMALL
 
 import engine3d as e3d
-from engine3d.cli import main
+from engine3d.apps.cli import main
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 
@@ -104,8 +104,11 @@ def test_wrong_usage_is_status_2_and_writes_nothing(tmp_path, capsys, arguments)
 @pytest.mark.parametrize(
     ("arguments", "work"),
     [
-        (["render", "--scene", "cube", "-o", "no/a.png"], "scene_options.viewed_scene"),
-        (["run", "--scene", "cube", "--headless", "-o", "no/a.gif"], "scene_options.viewed_scene"),
+        (["render", "--scene", "cube", "-o", "no/a.png"], "options.scene_options.viewed_scene"),
+        (
+            ["run", "--scene", "cube", "--headless", "-o", "no/a.gif"],
+            "options.scene_options.viewed_scene",
+        ),
         (["convert", "square.obj", "no/a.ply"], "convert.load_mesh"),
         (["city", "no/a.obj"], "city.make_city"),
         (["bench", "--json", "no/a.json"], "bench.workloads.make"),
@@ -117,7 +120,7 @@ def test_a_folder_that_cannot_be_made_is_found_before_any_work(
     def begin(*arguments, **options):
         raise AssertionError("the work has begun")
 
-    monkeypatch.setattr(f"engine3d.cli.{work}", begin)
+    monkeypatch.setattr(f"engine3d.apps.cli.{work}", begin)
     path = arguments[-1]
     for name, place, reason in (
         ("a file", "square.obj/below", "Not a directory"),
@@ -217,7 +220,7 @@ def test_help(command, capsys):
 
 def test_help_loads_neither_numpy_nor_pillow():
     code = (
-        "import sys; from engine3d.cli import main; main(['render', '--help']);"
+        "import sys; from engine3d.apps.cli import main; main(['render', '--help']);"
         "print([name for name in ('numpy', 'PIL', 'sdl2', 'rich') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -5,9 +5,9 @@ import subprocess
 
 import pytest
 
-from engine3d.cli import main
-from engine3d.cli.completion import command_list
-from engine3d.cli.parser import make_parser
+from engine3d.apps.cli import main
+from engine3d.apps.cli.completion import command_list
+from engine3d.apps.cli.parser import make_parser
 
 
 def script(shell, capsys):

@@ -5,8 +5,8 @@ import sys
 
 import pytest
 
-from engine3d.cli import main
-from engine3d.cli.parser import parse
+from engine3d.apps.cli import main
+from engine3d.apps.cli.parser import parse
 
 MODEL = "part.stl"
 
@@ -78,7 +78,7 @@ def test_options_that_other_commands_have_are_passed_over(own):
 
 
 def test_each_of_several_files_has_its_own(own, tmp_path):
-    from engine3d.cli.input_options import jobs
+    from engine3d.apps.cli.options.input_options import jobs
 
     own({"files": "a.*", "options": {"axis": True}})
     found = jobs(parse(["render", "a.obj", "b.obj", "-o", "{model}.png"]))

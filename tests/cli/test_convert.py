@@ -3,7 +3,7 @@
 import pytest
 
 import engine3d as e3d
-from engine3d.cli import main
+from engine3d.apps.cli import main
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 

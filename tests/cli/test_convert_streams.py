@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.cli import main
-from engine3d.cli.convert_options import MODEL_FORMATS
+from engine3d.apps.cli import main
+from engine3d.apps.cli.options.convert_options import MODEL_FORMATS
 from engine3d.errors import InvalidArgumentError
-from engine3d.writers import formats
+from engine3d.io.writers import formats
 
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
 

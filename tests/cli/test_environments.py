@@ -5,7 +5,7 @@ import pytest
 from loaders.seeds import HDR
 from PIL import Image
 
-from engine3d.cli import main
+from engine3d.apps.cli import main
 
 SMALL = ["--scene", "cube", "--resolution", "64x36"]
 

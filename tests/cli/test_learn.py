@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from engine3d.cli import french_lessons, learn, main
-from engine3d.viewer.lesson_window import LessonWindow
+from engine3d.apps.cli import french_lessons, learn, main
+from engine3d.apps.viewer.lesson_window import LessonWindow
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 LESSONS = sorted((Path(__file__).resolve().parents[2] / "lessons").glob("[0-9][0-9]_*.py"))

@@ -4,7 +4,7 @@ import io
 
 import pytest
 
-from engine3d.cli import loading_bar
+from engine3d.apps.cli import loading_bar
 
 
 class Terminal(io.StringIO):

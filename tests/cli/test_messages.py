@@ -3,7 +3,7 @@
 import pytest
 from cli.conftest import OBJ
 
-from engine3d.cli import main
+from engine3d.apps.cli import main
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 SMALL = ("--resolution", "48x32")

@@ -5,8 +5,8 @@ import re
 
 import pytest
 
+from engine3d.apps.cli import main
 from engine3d.batch import read_manifest, run
-from engine3d.cli import main
 from engine3d.errors import Engine3DWarning
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"

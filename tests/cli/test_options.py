@@ -7,14 +7,16 @@ import pytest
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.cli import appearance_options, main, options, values
-from engine3d.cli.joined_values import join_values
-from engine3d.cli.parser import make_parser
-from engine3d.cli.usage import UsageError
-from engine3d.demos import DEMO_NAMES, SCENES, function_of
+from engine3d.apps.cli import main, values
+from engine3d.apps.cli.joined_values import join_values
+from engine3d.apps.cli.options import appearance_options
+from engine3d.apps.cli.options import shared_options as options
+from engine3d.apps.cli.parser import make_parser
+from engine3d.apps.cli.usage import UsageError
+from engine3d.apps.scenes import DEMO_NAMES, SCENES, function_of
+from engine3d.extras.worlds.city import LEAST, MOST
 from engine3d.stage.appearance import CHOICES, MODES
-from engine3d.stage.viewpoint import UP_DIRECTIONS
-from engine3d.worlds.city import LEAST, MOST
+from engine3d.stage.views.viewpoint import UP_DIRECTIONS
 
 
 def parse(*arguments):

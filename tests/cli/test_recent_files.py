@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from engine3d.desktop.recent_files import MOST, RecentFiles
+from engine3d.apps.desktop.recent_files import MOST, RecentFiles
 
 
 def test_recent_files_are_kept_the_latest_first(tmp_path):

@@ -9,9 +9,9 @@ from cli.conftest import OBJ, SMALL, pixels
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.cli import main
-from engine3d.cli.parser import parse
-from engine3d.cli.scene_options import viewed_scene
+from engine3d.apps.cli import main
+from engine3d.apps.cli.options.scene_options import viewed_scene
+from engine3d.apps.cli.parser import parse
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 
@@ -191,7 +191,7 @@ def test_a_light_may_be_as_far_away_as_numbers_reach(model, capsys, position):
 
 def test_a_render_loads_neither_sdl_nor_rich(model):
     code = (
-        "import sys; from engine3d.cli import main;"
+        "import sys; from engine3d.apps.cli import main;"
         f"main(['render', {str(model)!r}, '--resolution', '20x20', '-o', 'out.png']);"
         "print([name for name in ('sdl2', 'rich') if name in sys.modules])"
     )

@@ -5,8 +5,8 @@ import json
 import pytest
 from PIL import Image
 
+from engine3d.apps.cli import main
 from engine3d.batch import read_manifest, run
-from engine3d.cli import main
 
 SIZE = ("--resolution", "32x24")
 

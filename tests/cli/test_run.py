@@ -6,8 +6,8 @@ from cli.conftest import SMALL, pixels
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.cli import main
-from engine3d.demos.crowds import parcels
+from engine3d.apps.cli import main
+from engine3d.apps.scenes.crowds import parcels
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 

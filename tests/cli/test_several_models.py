@@ -8,7 +8,7 @@ from cli.conftest import OBJ
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.cli import main
+from engine3d.apps.cli import main
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 SMALL = ("--resolution", "48x32")

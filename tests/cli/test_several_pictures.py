@@ -6,11 +6,11 @@ import time
 import pytest
 from cli.conftest import OBJ, SMALL, pixels
 
-from engine3d.cli import main, render
-from engine3d.cli.output_templates import fill
-from engine3d.cli.parser import make_parser
-from engine3d.cli.usage import UsageError
-from engine3d.files.frame_names import frame_name, literal_name
+from engine3d.apps.cli import main, render
+from engine3d.apps.cli.output_templates import fill
+from engine3d.apps.cli.parser import make_parser
+from engine3d.apps.cli.usage import UsageError
+from engine3d.io.output.frame_names import frame_name, literal_name
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 FAST = [*SMALL, "--look", "plain"]
@@ -125,7 +125,7 @@ def test_one_theme_is_one_ground_for_all(folder, tmp_path, look):
 
 
 def test_the_themes_are_the_viewers():
-    from engine3d.stage.theme import THEMES
+    from engine3d.stage.overlays.theme import THEMES
 
     actions = make_parser().commands["render"]._actions
     (option,) = (action for action in actions if "--theme" in action.option_strings)
@@ -277,7 +277,7 @@ def test_render_watches(model, monkeypatch, capsys):
 
     clock = iter(range(10_000))
     monkeypatch.setattr(render.time, "sleep", sleep)
-    monkeypatch.setattr("engine3d.files.watch.time.monotonic", lambda: next(clock))
+    monkeypatch.setattr("engine3d.base.files.watch.time.monotonic", lambda: next(clock))
     output = model.with_name("a.png")
     first = ["render", str(model), *FAST, "-o", str(output)]
     assert main(first) == 0
@@ -305,14 +305,14 @@ def test_what_changes_while_the_first_picture_is_drawn_is_drawn_again(model, mon
     clock = iter(range(10_000))
     monkeypatch.setattr(render, "_render", drawn)
     monkeypatch.setattr(render.time, "sleep", sleep)
-    monkeypatch.setattr("engine3d.files.watch.time.monotonic", lambda: next(clock))
+    monkeypatch.setattr("engine3d.base.files.watch.time.monotonic", lambda: next(clock))
     output = model.with_name("a.png")
     assert main(["render", str(model), *FAST, "--watch", "-o", str(output)]) == 130
     assert capsys.readouterr().err.count(f"wrote {output}") == 1
 
 
 def test_arrows_go_through_what_was_given(folder):
-    from engine3d.viewer.model_files import ModelFiles
+    from engine3d.apps.viewer.model_files import ModelFiles
 
     given = [folder / "b.obj", folder / "below" / "c.obj"]
     files = ModelFiles(given[:1], listed=given)

@@ -4,8 +4,8 @@ import numpy as np
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.cli import main
-from engine3d.scene.lights import DirectionalLight, PointLight
+from engine3d.apps.cli import main
+from engine3d.model.scene.lights import DirectionalLight, PointLight
 from engine3d.stage.shadow_switch import switch_shadows
 
 SUN = ["--light-direction=-0.5,-1,-0.6"]

@@ -5,7 +5,7 @@ import json
 import pytest
 from cli.conftest import pixels
 
-from engine3d.cli import main
+from engine3d.apps.cli import main
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 SMALL = ("--size", "360x280", "--threads", "1")

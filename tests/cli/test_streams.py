@@ -16,7 +16,7 @@ from patience import HUNG
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.cli import main
+from engine3d.apps.cli import main
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 

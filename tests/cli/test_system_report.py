@@ -9,7 +9,7 @@ from importlib import metadata
 import pytest
 
 import engine3d as e3d
-from engine3d.cli import main, system_report
+from engine3d.apps.cli import main, system_report
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 

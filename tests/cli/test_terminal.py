@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from engine3d.cli import main
+from engine3d.apps.cli import main
 
 EVIL = "\x1b]0;owned\x07\x1b[31mred"
 SHOWN = r"\x1b]0;owned\x07\x1b[31mred"

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from engine3d.desktop.user_folders import user_path
+from engine3d.apps.desktop.user_folders import user_path
 
 VARIABLES = ("XDG_CONFIG_HOME", "XDG_STATE_HOME", "XDG_CACHE_HOME", "APPDATA", "LOCALAPPDATA")
 KINDS = ("config", "state", "cache")

@@ -8,10 +8,10 @@ import pytest
 from datasets.conftest import HEIGHT, WIDTH, sample
 
 import engine3d as e3d
+from engine3d.apps.datasets.bop_models import STORE, diameter, shape_of, write_models
+from engine3d.apps.datasets.samples import Thing
 from engine3d.batch import read_manifest, run
 from engine3d.datasets import BopWriter, write_dataset
-from engine3d.datasets.bop_models import STORE, diameter, shape_of, write_models
-from engine3d.datasets.samples import Thing
 
 BOP = {"depth_scale": 0.5, "categories": ["ball", "box", "pair"]}
 SCRIPT = """

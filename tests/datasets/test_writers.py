@@ -11,6 +11,7 @@ import pytest
 from PIL import Image
 
 import engine3d as e3d
+from engine3d.apps.datasets.cameras import intrinsics_of
 from engine3d.datasets import (
     BopWriter,
     CocoWriter,
@@ -20,7 +21,6 @@ from engine3d.datasets import (
     decode_rle,
     write_dataset,
 )
-from engine3d.datasets.cameras import intrinsics_of
 
 BOP = {"depth_scale": 0.5}
 

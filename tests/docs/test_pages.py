@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from engine3d import box, save_mesh
-from engine3d.cli import main
-from engine3d.cli.parser import make_parser
+from engine3d.apps.cli import main
+from engine3d.apps.cli.parser import make_parser
+from engine3d.apps.viewer.window import Window
 from engine3d.events import CloseRequested
-from engine3d.viewer.window import Window
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "data" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -54,7 +54,7 @@ def test_what_the_page_of_the_rasteriser_names_exists():
     names.update(*re.findall(r"`(e3d_\w+)\.(\w+)`", text))
     sources = [path for path in (ROOT / "csrc").rglob("*") if path.suffix in (".c", ".h", ".inl")]
     words = set(re.findall(r"\w+", " ".join(path.read_text(encoding="utf-8") for path in sources)))
-    plan = re.findall(r"^    X\((\w+)", (ROOT / "csrc/pipeline/pass/plan.h").read_text(), re.M)
+    plan = re.findall(r"^    X\((\w+)", (ROOT / "csrc/frame/pass/plan.h").read_text(), re.M)
     missing = names - words - {item.lower() for item in plan}
     assert len(names) > 50
     assert not missing, "renamed or gone: say so in docs/rasteriser.md"

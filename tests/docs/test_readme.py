@@ -6,13 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from engine3d._support.image_size import MAX_SIZE
-from engine3d.cli.parser import make_parser
-from engine3d.demos import DEMO_NAMES, SCENES
+from engine3d.apps.cli.parser import make_parser
+from engine3d.apps.scenes import DEMO_NAMES, SCENES
+from engine3d.apps.viewer.keymap import BINDINGS
+from engine3d.base.image_size import MAX_SIZE
+from engine3d.io.formats.images import MAX_PIXELS
 from engine3d.loaders import formats
-from engine3d.loaders.images import MAX_PIXELS
-from engine3d.materials.textures import MAX_SIDE
-from engine3d.viewer.keymap import BINDINGS
+from engine3d.model.materials.textures import MAX_SIDE
 
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -3,8 +3,8 @@
 import pytest
 
 import engine3d as e3d
-from engine3d.editor.console import LEVELS, Console
-from engine3d.editor.document import SceneDocument
+from engine3d.apps.editor.console import LEVELS, Console
+from engine3d.apps.editor.document import SceneDocument
 
 
 def test_entries_are_filtered_by_level_and_text():

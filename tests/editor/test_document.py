@@ -7,11 +7,11 @@ import pytest
 from loaders.seeds import FILES
 
 import engine3d as e3d
-from engine3d.editor.autosave import PERIOD, Autosave, forget, left_behind
-from engine3d.editor.document import SceneDocument
-from engine3d.editor.node_commands import AddNodes
-from engine3d.editor.value_commands import SetValues
-from engine3d.writers.scene import scene_text
+from engine3d.apps.editor.autosave import PERIOD, Autosave, forget, left_behind
+from engine3d.apps.editor.document import SceneDocument
+from engine3d.apps.editor.node_commands import AddNodes
+from engine3d.apps.editor.value_commands import SetValues
+from engine3d.io.writing.scene_saving import scene_text
 
 
 @pytest.fixture
@@ -121,9 +121,9 @@ def test_a_copy_is_made_when_one_is_due(folder, tmp_path):
 CRASH = """
 import os, sys
 import engine3d as e3d
-from engine3d.editor.autosave import Autosave
-from engine3d.editor.document import SceneDocument
-from engine3d.editor.value_commands import SetValues
+from engine3d.apps.editor.autosave import Autosave
+from engine3d.apps.editor.document import SceneDocument
+from engine3d.apps.editor.value_commands import SetValues
 path, copies = sys.argv[1:]
 house = os.path.join(os.path.dirname(path), "house.obj")
 document = SceneDocument.open(path) if path else SceneDocument(e3d.Scene())

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from engine3d import linalg
-from engine3d.editor.drags import dragged_pose
+from engine3d.apps.editor.drags import dragged_pose
 
 START = linalg.compose((1, 2, 3), linalg.quaternion_from_axis_angle((1, 2, 0.5), 0.7), (1, 2, 0.5))
 

@@ -5,10 +5,10 @@ import pytest
 from loaders.seeds import FILES
 
 import engine3d as e3d
-from engine3d.editor.document import SceneDocument
-from engine3d.editor.dropping import drop_file
-from engine3d.editor.node_commands import JoinNodes
-from engine3d.editor.scene_state import SceneState
+from engine3d.apps.editor.document import SceneDocument
+from engine3d.apps.editor.dropping import drop_file
+from engine3d.apps.editor.node_commands import JoinNodes
+from engine3d.apps.editor.scene_state import SceneState
 
 VIEW = e3d.PerspectiveCamera(), e3d.look_at((0, 0, 6), (0, 0, 0))
 

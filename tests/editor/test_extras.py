@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.editor.scene_state import SceneState
-from engine3d.editor.value_commands import SetValues
-from engine3d.writers.scene import scene_text
+from engine3d.apps.editor.scene_state import SceneState
+from engine3d.apps.editor.value_commands import SetValues
+from engine3d.io.writing.scene_saving import scene_text
 
 FIRST = {"b": 1, "a": {"list": [1, {"deep": 0.0}]}, "t": (1, [2])}
 CHANGES = {

@@ -6,8 +6,8 @@ import numpy as np
 from patience import HUNG
 
 import engine3d as e3d
-from engine3d.editor import file_pictures
-from engine3d.editor.file_pictures import FilePictures
+from engine3d.apps.editor import file_pictures
+from engine3d.apps.editor.file_pictures import FilePictures
 
 
 def picture_of(pictures, path):

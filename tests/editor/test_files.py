@@ -2,7 +2,7 @@
 
 import os
 
-from engine3d.files.folder_listing import list_folder
+from engine3d.base.files.folder_listing import list_folder
 
 
 def test_folders_come_first_and_files_by_name(tmp_path):

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.editor import gizmo
-from engine3d.editor.document import SceneDocument
-from engine3d.editor.node_commands import MoveNodes, in_world
+from engine3d.apps.editor import gizmo
+from engine3d.apps.editor.document import SceneDocument
+from engine3d.apps.editor.node_commands import MoveNodes, in_world
 
 
 def test_steps():

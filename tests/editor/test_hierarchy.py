@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.editor.hierarchy import Hierarchy
+from engine3d.apps.editor.hierarchy import Hierarchy
 
 
 def plain_rows(scene, opened, search=""):

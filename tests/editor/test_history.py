@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.editor.document import SceneDocument
-from engine3d.editor.node_commands import (
+from engine3d.apps.editor.document import SceneDocument
+from engine3d.apps.editor.node_commands import (
     AddNodes,
     DeleteNodes,
     DuplicateNodes,
@@ -17,9 +17,9 @@ from engine3d.editor.node_commands import (
     Reparent,
     in_world,
 )
-from engine3d.editor.scene_state import SceneState
-from engine3d.editor.value_commands import SetValues
-from engine3d.writers.scene import scene_text
+from engine3d.apps.editor.scene_state import SceneState
+from engine3d.apps.editor.value_commands import SetValues
+from engine3d.io.writing.scene_saving import scene_text
 
 RENDERER = e3d.Renderer(48, 36)
 VIEW = e3d.PerspectiveCamera(1.2), e3d.look_at((0, 0, 9), (0, 0, 0))

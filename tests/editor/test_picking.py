@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.editor.picking import enclosed, pick
+from engine3d.apps.editor.picking import enclosed, pick
 
 OUTPUTS = ("color", "object_id", "instance_id", "triangle_id")
 SIZE = (120, 90)

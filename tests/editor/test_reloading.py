@@ -5,9 +5,9 @@ import pytest
 from loaders.seeds import FILES
 
 import engine3d as e3d
-from engine3d.editor.document import SceneDocument
-from engine3d.editor.reloading import Reload
-from engine3d.editor.scene_state import SceneState
+from engine3d.apps.editor.document import SceneDocument
+from engine3d.apps.editor.reloading import Reload
+from engine3d.apps.editor.scene_state import SceneState
 
 MTL = b"newmtl brick\nKd .8 .2 .1\nmap_Kd house.tga\n"
 

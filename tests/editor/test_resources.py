@@ -6,9 +6,9 @@ import numpy as np
 from loaders.seeds import FILES
 
 import engine3d as e3d
-from engine3d.editor import thumbnails
-from engine3d.editor.resource_list import ResourceList
-from engine3d.editor.thumbnails import Thumbnails
+from engine3d.apps.editor import thumbnails
+from engine3d.apps.editor.resource_list import ResourceList
+from engine3d.apps.editor.thumbnails import Thumbnails
 
 
 def test_all_that_nodes_use_is_listed_once(tmp_path):

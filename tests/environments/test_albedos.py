@@ -11,7 +11,7 @@ from shared_corpus import SHARED
 kernels_testing = pytest.importorskip("engine3d._native.kernels_testing")
 
 TRUTH = SHARED / "gltf" / "truth" / "dfg_truth.json"
-SCRIPT = Path(__file__).parents[2] / "csrc" / "environment" / "make_dfg_table.py"
+SCRIPT = Path(__file__).parents[2] / "csrc" / "light" / "make_dfg_table.py"
 
 
 @pytest.fixture(scope="module")

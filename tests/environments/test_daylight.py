@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.environments import daylight
+from engine3d.model.environments import daylight
 
 NOON, DUSK = (0.3, 0.9, -0.2), (0.2, 0.02, -1.0)
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.rendering import _native_handles
+from engine3d.rendering.draw_list import native_handles as _native_handles
 
 
 def test_pixels_are_kept_and_cannot_be_written():

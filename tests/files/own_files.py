@@ -32,19 +32,20 @@ import numpy as np
 from files.json_damage import TEXTS, damaged
 
 import engine3d as e3d
+from engine3d.apps.batch.manifest import read_manifest
+from engine3d.apps.cli import main
+from engine3d.apps.desktop.recent_files import RecentFiles
+from engine3d.apps.editor.autosave import Autosave, left_behind
+from engine3d.apps.editor.document import SceneDocument
+from engine3d.apps.editor.recovery import content_of
+from engine3d.apps.golden import golden_files, png_files
+from engine3d.apps.golden.report import Report
+from engine3d.apps.golden.result_files import read_json, write_json
+from engine3d.apps.golden.results import Result
+from engine3d.base.files.json_records import sealed
 from engine3d.batch import Task, run
-from engine3d.batch.manifest import read_manifest
-from engine3d.cli import main
 from engine3d.datasets import BopWriter, CocoWriter, FolderWriter, WebDatasetWriter
-from engine3d.desktop.recent_files import RecentFiles
-from engine3d.editor.autosave import Autosave, content_of, left_behind
-from engine3d.editor.document import SceneDocument
 from engine3d.errors import Engine3DError
-from engine3d.files.json_records import sealed
-from engine3d.golden import golden_files, png_files
-from engine3d.golden.report import Report
-from engine3d.golden.result_files import read_json, write_json
-from engine3d.golden.results import Result
 
 SECONDS = 5.0
 SCRIPT = """

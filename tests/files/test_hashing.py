@@ -5,9 +5,9 @@ import os
 
 import pytest
 
-from engine3d.batch.file_digests import digest_of
-from engine3d.files.hashing import hash_of_file
-from engine3d.files.stamps import FileState
+from engine3d.apps.batch.file_digests import digest_of
+from engine3d.base.files.hashing import hash_of_file
+from engine3d.base.files.stamps import FileState
 
 
 def test_it_is_the_hash_of_all_bytes(tmp_path):

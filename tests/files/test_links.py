@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
+from engine3d.apps.cli import main
+from engine3d.apps.editor.autosave import Autosave, left_behind
+from engine3d.apps.editor.document import SceneDocument
+from engine3d.apps.golden.golden_files import write_golden
 from engine3d.batch import Task, run
-from engine3d.cli import main
 from engine3d.datasets import FolderWriter, WebDatasetWriter
-from engine3d.editor.autosave import Autosave, left_behind
-from engine3d.editor.document import SceneDocument
-from engine3d.golden.golden_files import write_golden
 
 OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 

@@ -11,36 +11,36 @@ from files.json_damage import DEPTH
 from files.own_files import KINDS, Batch, try_kind
 
 import engine3d as e3d
+from engine3d.apps.desktop.recent_files import RecentFiles
+from engine3d.apps.golden.result_files import read_json
+from engine3d.base.files import json_records
 from engine3d.datasets import CocoWriter
-from engine3d.desktop.recent_files import RecentFiles
 from engine3d.errors import FileAccessError, FileFormatError
-from engine3d.files import json_records
-from engine3d.golden.result_files import read_json
 
 ENGINE = Path(e3d.__file__).parent
 #: Modules that write JSON: which of `KINDS` reads it again, or why nothing does.
 WRITERS = {
-    "batch/bytes_of.py": "what scripts want beside their pictures",
-    "batch/task.py": "for a hash",
-    "cli/bench.py": "for people and programs",
-    "cli/info.py": "for people and programs",
-    "datasets/bop_models.py": "bop-shapes",
-    "datasets/folders.py": "the data set itself",
-    "datasets/writer.py": "the data set itself",
-    "editor/autosave.py": "copies",
-    "desktop/recent_files.py": "recent",
-    "files/json_records.py": "batch-plain",
-    "golden/golden_files.py": "golden",
-    "golden/result_files.py": "results",
-    "sheet/report.py": "for people and programs",
-    "writers/gltf.py": "gltf",
-    "writers/scene.py": "scene",
+    "apps/batch/bytes_of.py": "what scripts want beside their pictures",
+    "apps/batch/task.py": "for a hash",
+    "apps/cli/bench.py": "for people and programs",
+    "apps/cli/info.py": "for people and programs",
+    "apps/datasets/bop_models.py": "bop-shapes",
+    "apps/datasets/folders.py": "the data set itself",
+    "apps/datasets/writer.py": "the data set itself",
+    "apps/editor/autosave.py": "copies",
+    "apps/desktop/recent_files.py": "recent",
+    "base/files/json_records.py": "batch-plain",
+    "apps/golden/golden_files.py": "golden",
+    "apps/golden/result_files.py": "results",
+    "apps/sheet/report.py": "for people and programs",
+    "io/formats/gltf/gltf_writer.py": "gltf",
+    "io/writing/scene_saving.py": "scene",
 }
 #: Modules that read JSON without `json_records`, and why.
 READERS = {
-    "batch/task.py": "what it just wrote, in memory",
-    "files/json_records.py": "the one place",
-    "loaders/gltf_file.py": "files of others, with errors of its own",
+    "apps/batch/task.py": "what it just wrote, in memory",
+    "base/files/json_records.py": "the one place",
+    "io/formats/gltf/gltf_file.py": "files of others, with errors of its own",
 }
 COUNTS = {"golden": 60, "results": 100, "copies": 100, "recent": 60, "config": 10}
 COUNTS |= {"scene": 60, "gltf": 60, "manifest": 100}

@@ -9,8 +9,8 @@ from PIL import Image
 
 import engine3d as e3d
 from engine3d._native.images import encode_png
-from engine3d.files.png import encode_pixels
-from engine3d.golden.png_files import is_deep, read_deep
+from engine3d.apps.golden.png_files import is_deep, read_deep
+from engine3d.base.files.png import encode_pixels
 
 
 def decoded(data):

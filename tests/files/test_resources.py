@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.files.stamps import FileStamp
+from engine3d.base.files.stamps import FileStamp
 
 OBJ = "mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"
 
@@ -150,7 +150,7 @@ def test_permissions_and_links_are_no_change(folder, name):
 def test_a_change_within_a_step_of_the_clock_is_found(folder, monkeypatch):
     """Once the step is over, by the content: the stamp is that of before."""
     monkeypatch.setattr(
-        "engine3d.files.stamps.file_stamp",
+        "engine3d.base.files.stamps.file_stamp",
         lambda path: FileStamp(1, 1, stamp.now, stamp.now, ()),
     )
     stamp.now = time.time_ns()
@@ -159,7 +159,7 @@ def test_a_change_within_a_step_of_the_clock_is_found(folder, monkeypatch):
     (folder / "m.obj").write_text(OBJ.replace("v 1 0 0", "v 4 0 0"))
     assert resources.reload_changed() == ()
     now = stamp.now + 10 * 10**9
-    monkeypatch.setattr("engine3d.files.stamps.time.time_ns", lambda: now)
+    monkeypatch.setattr("engine3d.base.files.stamps.time.time_ns", lambda: now)
     assert len(resources.reload_changed()) == 1
     assert mesh.positions.max() == 4
     assert resources.reload_changed() == ()
@@ -173,7 +173,7 @@ def test_a_change_while_a_file_is_read_is_found(folder, monkeypatch):
         (folder / "m.obj").write_text(OBJ.replace("v 1 0 0", "v 40 0 0"))
         return mesh
 
-    monkeypatch.setattr("engine3d.files.resources.load_mesh", read_what_changes)
+    monkeypatch.setattr("engine3d.io.resources.load_mesh", read_what_changes)
     resources = e3d.Resources()
     mesh = resources.load_mesh(folder / "m.obj")
     assert len(resources.reload_changed()) == 1

@@ -8,8 +8,8 @@ import pytest
 
 import engine3d as e3d
 from engine3d.errors import InvalidArgumentError
-from engine3d.geometry.creases import CREASE_ANGLE, SMOOTH
-from engine3d.primitives import box, cylinder, icosphere
+from engine3d.model.geometry.creases import CREASE_ANGLE, SMOOTH
+from engine3d.model.primitives import box, cylinder, icosphere
 
 
 def welded(mesh, **options):

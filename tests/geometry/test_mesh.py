@@ -7,10 +7,10 @@ import pytest
 
 from engine3d import PerspectiveCamera, Scene, linalg, look_at, render, uv_sphere
 from engine3d.errors import InvalidArgumentError
-from engine3d.geometry.mesh import Mesh
-from engine3d.lod import simplify
-from engine3d.materials.material import Material
-from engine3d.rendering._native_handles import MeshNeeds, native_mesh
+from engine3d.extras.lod import simplify
+from engine3d.model.geometry.mesh import Mesh
+from engine3d.model.materials.material import Material
+from engine3d.rendering.draw_list.native_handles import MeshNeeds, native_mesh
 
 SQUARE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
 HALVES = [(0, 1, 2), (0, 2, 3)]

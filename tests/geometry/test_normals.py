@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from engine3d.errors import InvalidArgumentError
-from engine3d.geometry.mesh import Mesh
-from engine3d.geometry.normals import face_normals, smooth_sums, vertex_normals
+from engine3d.model.geometry.mesh import Mesh
+from engine3d.model.geometry.normals import face_normals, smooth_sums, vertex_normals
 
 CUBE = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], np.float32)
 CUBE_QUADS = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.geometry.topology import visible_edges
+from engine3d.model.geometry.topology import visible_edges
 
 
 def walk(faces, visible, points):

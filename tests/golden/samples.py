@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from engine3d.files.png import encode_pixels
+from engine3d.base.files.png import encode_pixels
 
 
 def colors(height=6, width=8, channels=4, dtype=np.uint8, seed=0):

@@ -5,11 +5,11 @@ import pytest
 from golden.samples import changed, colors, slope
 
 from engine3d import InvalidArgumentError
-from engine3d.golden.comparison import compare, root_mean_square
-from engine3d.golden.difference_picture import difference_picture
-from engine3d.golden.display import displayed
-from engine3d.golden.flip import mean_flip
-from engine3d.golden.matching import looks_different
+from engine3d.apps.golden.comparison import compare, root_mean_square
+from engine3d.apps.golden.difference_picture import difference_picture
+from engine3d.apps.golden.display import displayed
+from engine3d.apps.golden.flip import mean_flip
+from engine3d.apps.golden.matching import looks_different
 
 
 def test_equal():

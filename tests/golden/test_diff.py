@@ -7,8 +7,8 @@ import pytest
 from golden.samples import changed, colors, slope, write_png
 from PIL import Image
 
-from engine3d.cli import main
-from engine3d.golden.reading import read_picture
+from engine3d.apps.cli import main
+from engine3d.apps.golden.reading import read_picture
 
 PIXELS = colors(20, 30)
 

@@ -9,12 +9,12 @@ from golden.samples import changed, colors, write_png
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.files.png import encode_pixels
-from engine3d.golden import png_files
-from engine3d.golden.golden_files import encode_golden, exact_pixels, read_golden, write_golden
-from engine3d.golden.pixel_hash import describe, pixel_hash
-from engine3d.golden.pixels import as_pixels
-from engine3d.golden.reading import read_picture
+from engine3d.apps.golden import png_files
+from engine3d.apps.golden.golden_files import encode_golden, exact_pixels, read_golden, write_golden
+from engine3d.apps.golden.pixel_hash import describe, pixel_hash
+from engine3d.apps.golden.pixels import as_pixels
+from engine3d.apps.golden.reading import read_picture
+from engine3d.base.files.png import encode_pixels
 
 DEPTHS = np.array([[0.0, 1.5, np.inf], [np.nan, -0.0, 3e38]], np.float32)
 PICTURES = {
@@ -97,7 +97,7 @@ def test_a_picture_that_was_edited_is_read_as_it_is(tmp_path):
 
 def test_numbers_that_are_cut_short_are_an_error(tmp_path):
     """Only who forges the seal gets there."""
-    from engine3d.golden import golden_files
+    from engine3d.apps.golden import golden_files
 
     chunks = png_files.split_chunks(encode_golden(PICTURES["depth"]))
     short = [(n, zlib.compress(b"abc") if n == b"daTA" else d) for n, d in chunks]

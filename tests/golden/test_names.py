@@ -3,7 +3,7 @@
 import pytest
 
 from engine3d import InvalidArgumentError
-from engine3d.golden import names
+from engine3d.apps.golden import names
 
 
 @pytest.mark.parametrize(

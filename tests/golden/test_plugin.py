@@ -10,7 +10,7 @@ import pytest
 from golden.samples import changed, write_png
 
 import engine3d.rendering.frame  # noqa: F401 (inner runs find it, and NumPy, imported)
-from engine3d.golden.golden_files import encode_golden, read_golden
+from engine3d.apps.golden.golden_files import encode_golden, read_golden
 
 pytest_plugins = ["pytester"]
 
@@ -33,7 +33,7 @@ def run(pytester, monkeypatch):
     monkeypatch.delenv("CI", raising=False)
     # Looking for plugins takes longer than all the rest.
     monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
-    plugins = ("-p", "engine3d.golden.plugin", "-p", "no:cacheprovider")
+    plugins = ("-p", "engine3d.apps.golden.plugin", "-p", "no:cacheprovider")
 
     def run(code, *arguments):
         if code is not None:
@@ -94,8 +94,8 @@ def test_a_run_without_failure_decodes_nothing(run, monkeypatch):
     def decode(*arguments):
         raise AssertionError("decoded")
 
-    monkeypatch.setattr("engine3d.golden.golden_files.exact_pixels", decode)
-    monkeypatch.setattr("engine3d.golden.golden_files.decode_picture", decode)
+    monkeypatch.setattr("engine3d.apps.golden.golden_files.exact_pixels", decode)
+    monkeypatch.setattr("engine3d.apps.golden.golden_files.decode_picture", decode)
     run(None).assert_outcomes(passed=1)
     run(ONE.format(1)).assert_outcomes(failed=1)  # the test of this test
 
@@ -422,7 +422,13 @@ def test_assertions_of_engine3d_stay_as_they_are():
 
 
 def test_it_costs_nothing_when_it_is_not_used(pytester, monkeypatch):
-    expected = ["engine3d", "engine3d.golden", "engine3d.golden.plugin", "engine3d.golden.runs"]
+    expected = [
+        "engine3d",
+        "engine3d.apps",
+        "engine3d.apps.golden",
+        "engine3d.apps.golden.plugin",
+        "engine3d.apps.golden.runs",
+    ]
     pytester.makepyfile(test_a=PROBE.format(expected=[*expected, "engine3d.version"]), other="")
     # A distribution that names the files which a wheel installs; an editable install names none.
     folder = pytester.mkdir("fake-1.dist-info")

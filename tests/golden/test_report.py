@@ -11,10 +11,10 @@ from golden.samples import changed, colors, write_png
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.golden.folders import Rules, compare_files, pairs
-from engine3d.golden.report import Report
-from engine3d.golden.result_files import read_json, write_json, write_junit
-from engine3d.golden.results import CHANGED, NEW, PASSED, UNUSED, Result
+from engine3d.apps.golden.folders import Rules, compare_files, pairs
+from engine3d.apps.golden.report import Report
+from engine3d.apps.golden.result_files import read_json, write_json, write_junit
+from engine3d.apps.golden.results import CHANGED, NEW, PASSED, UNUSED, Result
 
 
 class Page(HTMLParser):

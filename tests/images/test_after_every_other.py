@@ -15,10 +15,10 @@ from images.picture import digests
 from images.scenes import SCENES
 
 import engine3d as e3d
+from engine3d.model.scene.lights import LIGHTS
+from engine3d.model.scene.surroundings import SCENE_VALUES
 from engine3d.rendering.frame import OUTPUTS
 from engine3d.rendering.options import RenderOptions
-from engine3d.scene.lights import LIGHTS
-from engine3d.scene.surroundings import SCENE_VALUES
 
 SIZE = (26, 18)
 SHOWN = ("color", "radiance", "depth", "object_id", "normal")

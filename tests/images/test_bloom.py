@@ -10,7 +10,7 @@ from kernels.test_encode import expected_bytes
 
 import engine3d as e3d
 from engine3d._native import rasterizer
-from engine3d.materials.colors import srgb_to_linear_table
+from engine3d.model.materials.colors import srgb_to_linear_table
 
 F = np.float32
 SIZES = [(1, 1), (1, 7), (2, 2), (3, 5), (16, 16), (17, 33), (64, 1), (131, 257)]

@@ -13,7 +13,7 @@ import numpy as np
 sys.path.append(str(Path(__file__).resolve().parents[2] / "csrc"))
 from headers import Enum, Headers, Struct, Typedef
 
-HEADERS = Headers("kernels/kernels.h", "core/helping.h", "e3d_posing.h")
+HEADERS = Headers("kernels/kernels.h", "base/helping.h", "e3d_posing.h")
 BASIC = {"float": "f4", "double": "f8", "char": "i1", "bool": "?", "int": "i4"}
 BASIC |= {"size_t": "P", "ptrdiff_t": "p"}
 BASIC |= {f"{u}int{8 * size}_t": f"{u or 'i'}{size}" for u in ("", "u") for size in (1, 2, 4, 8)}

@@ -9,7 +9,7 @@ from kernels.arithmetic import clamp
 from kernels.harness import POISON, all_backends, hostile
 from kernels.layouts import PAD
 
-TABLES = Path(__file__).parents[2] / "csrc" / "core" / "srgb_tables.c"
+TABLES = Path(__file__).parents[2] / "csrc" / "data" / "srgb_tables.c"
 COUNT = 1 << 17
 GUARD = 64
 

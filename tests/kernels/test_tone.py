@@ -17,7 +17,7 @@ def rows(matrix):
     return np.array(matrix, np.float64).astype(F)
 
 
-# The published matrices, row by row; sources are named in csrc/core/tone_tables.h.
+# The published matrices, row by row; sources are named in csrc/data/tone_tables.h.
 ACES_IN = [[0.59719, 0.35458, 0.04823], [0.07600, 0.90834, 0.01566], [0.02840, 0.13383, 0.83777]]
 ACES_OUT = [
     [1.60475, -0.53108, -0.07367],

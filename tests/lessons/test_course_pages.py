@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import engine3d
-from engine3d.cli.parser import make_parser
+from engine3d.apps.cli.parser import make_parser
 
 ROOT = Path(__file__).resolve().parents[2]
 LESSONS, COURSE = ROOT / "lessons", ROOT / "docs" / "course"

@@ -32,7 +32,7 @@ if __name__ == "__main__":
         import atheris
 
         with atheris.instrument_imports(include=["engine3d"]):
-            from engine3d.loaders.registry import readers
+            from engine3d.io.reading.reader_registry import readers
 
             readers()  # imports them all
 

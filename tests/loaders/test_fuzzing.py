@@ -8,7 +8,7 @@ import random
 import pytest
 from loaders.fuzzing import Finding, check, make_case, seeds, write_companions
 
-from engine3d.loaders import asc_meshes
+from engine3d.io.formats import asc_meshes
 
 CASES = 120
 # Time is bounded so that nothing hangs, here also where sanitizers slow everything down.

@@ -13,9 +13,11 @@ import pytest
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.cli.info import describe
+from engine3d.apps.cli.info import describe
 from engine3d.errors import Engine3DWarning, FileFormatError
-from engine3d.loaders import gltf_buffers, load_document, load_mesh, percent_encoding
+from engine3d.io.formats.gltf import gltf_buffers
+from engine3d.io.loaders import load_document, load_mesh
+from engine3d.io.reading import percent_encoding
 
 
 def triangle_tree(points=3):

@@ -12,7 +12,7 @@ from loaders.test_gltf_corpus import cases, loaded, needs_package
 
 import engine3d as e3d
 from engine3d.errors import Engine3DError
-from engine3d.materials.material import textures_of
+from engine3d.model.materials.material import textures_of
 
 SIZE = 256
 # A second round of files may take more, since what is free lies elsewhere; without the weak

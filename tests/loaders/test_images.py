@@ -9,7 +9,8 @@ import pytest
 from PIL import Image
 
 from engine3d.errors import Engine3DWarning, FileAccessError, FileFormatError
-from engine3d.loaders import images, load_mesh, load_texture
+from engine3d.io.formats import images
+from engine3d.io.loaders import load_mesh, load_texture
 
 
 @pytest.fixture

@@ -12,9 +12,10 @@ from PIL import Image
 
 import engine3d as e3d
 from engine3d.errors import Engine3DWarning, FileAccessError, FileFormatError
-from engine3d.loaders import limited_process, load_document, load_mesh
-from engine3d.loaders.linked_files import found_files
-from engine3d.loaders.sources import Source
+from engine3d.io.loaders import load_document, load_mesh
+from engine3d.io.reading import limited_process
+from engine3d.io.reading.linked_files import found_files
+from engine3d.io.reading.sources import Source
 
 pytest.importorskip("trimesh")
 
@@ -134,8 +135,8 @@ def test_pillow_forgets_what_may_start_programs(write):
     code = (
         "import sys\n"
         "from PIL import Image\n"
-        "from engine3d.loaders.images import PILLOW_FORMATS\n"
-        "from engine3d.loaders.limited_process import _limit_pillow\n"
+        "from engine3d.io.formats.images import PILLOW_FORMATS\n"
+        "from engine3d.io.reading.limited_process import _limit_pillow\n"
         "Image.open(sys.argv[1])\n"
         "_limit_pillow()\n"
         "try: Image.open(sys.argv[1])\n"

@@ -5,7 +5,7 @@ import os
 import pytest
 
 from engine3d.errors import FileAccessError
-from engine3d.loaders.linked_files import LinkedFiles
+from engine3d.io.reading.linked_files import LinkedFiles
 
 
 @pytest.fixture

@@ -10,9 +10,9 @@ from PIL import Image
 
 import engine3d as e3d
 from engine3d.errors import FileAccessError, InvalidArgumentError
-from engine3d.files.resources import Resources
+from engine3d.io.reading.linked_files import LinkedFileError, LinkedFiles
+from engine3d.io.resources import Resources
 from engine3d.loaders import load_document, load_mesh
-from engine3d.loaders.linked_files import LinkedFileError, LinkedFiles
 
 MODEL = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n"
 RED = (200, 10, 20, 255)
@@ -224,7 +224,7 @@ def test_a_scene_names_no_file_that_was_read_with_a_root(tmp_path):
 
 
 def test_many_missing_files_do_not_keep_the_disk_busy(tmp_path, monkeypatch):
-    monkeypatch.setattr("engine3d.loaders.linked_files._MAX_FAILURES", 100)
+    monkeypatch.setattr("engine3d.io.reading.linked_files._MAX_FAILURES", 100)
     files = LinkedFiles(str(tmp_path))
     for number in range(100):
         with pytest.raises(LinkedFileError):

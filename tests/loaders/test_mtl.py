@@ -10,7 +10,7 @@ from PIL import Image
 import engine3d as e3d
 from engine3d.errors import Engine3DWarning
 from engine3d.loaders import companion_texture, load_mesh
-from engine3d.materials.material import Material
+from engine3d.model.materials.material import Material
 
 MODEL = (
     "mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n"

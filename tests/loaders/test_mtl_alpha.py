@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from engine3d.io.writers import save_mesh
 from engine3d.loaders import load_mesh
-from engine3d.writers import save_mesh
 
 MODEL = (
     "mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n"

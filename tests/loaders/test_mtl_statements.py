@@ -6,8 +6,8 @@ import warnings
 import pytest
 from PIL import Image
 
+from engine3d.io.formats.obj.mtl_statements import COLORS, SCALARS, parse_map
 from engine3d.loaders import load_mesh
-from engine3d.loaders.mtl_statements import COLORS, SCALARS, parse_map
 
 MODEL = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n"
 BARE = MODEL.replace("usemtl m\n", "")

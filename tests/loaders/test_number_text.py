@@ -7,7 +7,7 @@ import pytest
 
 from engine3d._native import loaders as native
 from engine3d.errors import InvalidArgumentError
-from engine3d.loaders.number_arrays import NotANumberError, ended, read_numbers
+from engine3d.io.reading.number_arrays import NotANumberError, ended, read_numbers
 
 ENDS = ["\n", "\r\n", "\r", "\n\n", " \t\v\f\n"]
 

@@ -5,8 +5,8 @@ import pytest
 from shared_corpus import CONFORMANCE, cases_of, needs_conformance
 
 from engine3d.errors import Engine3DError
-from engine3d.geometry.normals import face_area_vectors
 from engine3d.loaders import load_document, load_mesh
+from engine3d.model.geometry.normals import face_area_vectors
 
 pytestmark = [needs_conformance, pytest.mark.filterwarnings("ignore::UserWarning")]
 

@@ -12,7 +12,9 @@ from shared_corpus import CONFORMANCE, cases_of, needs_conformance
 
 from engine3d import Mesh, box
 from engine3d.errors import Engine3DError, FileFormatError, InvalidArgumentError
-from engine3d.loaders import formats, load_document, load_mesh, load_texture, loading, registry
+from engine3d.io.loaders import formats, load_document, load_mesh, load_texture
+from engine3d.io.reading import loading
+from engine3d.io.reading import reader_registry as registry
 
 MIB = 1 << 20
 

@@ -197,7 +197,7 @@ def test_each_use_of_a_file_has_materials_of_its_own(folder):
 
 
 def test_files_are_read_once_however_often_they_are_named(folder, monkeypatch):
-    from engine3d.loaders import scene_looks, scene_parts
+    from engine3d.io.formats import scene_looks, scene_parts
 
     reads = []
     for module, name in ((scene_parts, "document_of"), (scene_looks, "texture_of")):

@@ -13,7 +13,8 @@ import pytest
 from loaders.seeds import FILES
 
 from engine3d.errors import Engine3DWarning, FileAccessError, FileFormatError, InvalidArgumentError
-from engine3d.loaders import load_document, load_mesh, load_texture, sources
+from engine3d.io.loaders import load_document, load_mesh, load_texture
+from engine3d.io.reading import sources
 
 OBJ = b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n"
 MTL = b"newmtl red\nKd 1 0 0\n"

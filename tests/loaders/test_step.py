@@ -9,10 +9,10 @@ import pytest
 
 import engine3d as e3d
 from engine3d.errors import FileFormatError
+from engine3d.io.reading.loading import whole_mesh
+from engine3d.io.reading.reader_registry import find_reader
+from engine3d.io.reading.sources import Source
 from engine3d.loaders import load_document
-from engine3d.loaders.loading import whole_mesh
-from engine3d.loaders.registry import find_reader
-from engine3d.loaders.sources import Source
 
 HAS_CASCADIO = importlib.util.find_spec("cascadio") is not None
 needs_cascadio = pytest.mark.skipif(not HAS_CASCADIO, reason="needs the package cascadio")
@@ -96,7 +96,7 @@ def test_without_cascadio(tmp_path):
     program = (
         "import importlib.util, sys\n"
         "importlib.util.find_spec = lambda name: None\n"
-        "import engine3d.loaders.step as step, engine3d.loaders.sources as sources\n"
+        "import engine3d.io.formats.step as step, engine3d.io.reading.sources as sources\n"
         "try:\n"
         "    step.read_step(sources.read_source(sys.argv[1]))\n"
         "except Exception as error:\n"

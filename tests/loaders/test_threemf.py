@@ -10,10 +10,12 @@ import pytest
 from loaders.seeds import THREEMF, THREEMF_MODEL, THREEMF_RELATIONS, threemf_package
 
 import engine3d as e3d
-from engine3d.cli.info import describe
+from engine3d.apps.cli.info import describe
 from engine3d.errors import FileFormatError
-from engine3d.loaders import load_document, load_mesh, sources, threemf
-from engine3d.loaders.threemf_blocks import cut_lists
+from engine3d.io.formats.threemf import threemf
+from engine3d.io.formats.threemf.threemf_blocks import cut_lists
+from engine3d.io.loaders import load_document, load_mesh
+from engine3d.io.reading import sources
 from engine3d.stage.open_model import open_model
 
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"

@@ -8,8 +8,8 @@ from loaders import triangulation_reference as reference
 from loaders.ear_clipping_reference import WorkBudget as ReferenceBudget
 
 from engine3d.errors import InvalidArgumentError
-from engine3d.geometry.normals import face_area_vectors
-from engine3d.loaders.triangulation import WorkBudget, triangulate
+from engine3d.io.reading.triangulation import WorkBudget, triangulate
+from engine3d.model.geometry.normals import face_area_vectors
 
 STAR = [(np.cos(k * np.pi / 5) * r, np.sin(k * np.pi / 5) * r) for k, r in enumerate([1, 0.4] * 5)]
 LETTER_U = [(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)]

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.cli.info import describe
+from engine3d.apps.cli.info import describe
 from engine3d.errors import FileFormatError, InvalidArgumentError
-from engine3d.geometry.posing import posed_mesh
-from engine3d.geometry.trimesh_conversion import scene_parts
+from engine3d.io.formats.trimesh_formats import read_here
+from engine3d.io.reading.sources import read_source
+from engine3d.io.trimesh_conversion import scene_parts
 from engine3d.loaders import load_document, load_mesh
-from engine3d.loaders.sources import read_source
-from engine3d.loaders.trimesh_formats import read_here
+from engine3d.model.geometry.posing import posed_mesh
 
 trimesh = pytest.importorskip("trimesh")
 

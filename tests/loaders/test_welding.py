@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from engine3d._native import loaders as native
-from engine3d.loaders import welding
+from engine3d.io.reading import welding
 
 
 def expected(rows):

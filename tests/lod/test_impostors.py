@@ -8,7 +8,7 @@ import pytest
 
 import engine3d as e3d
 from engine3d.errors import InvalidArgumentError
-from engine3d.lod.impostors import _in_cell, octahedral_directions
+from engine3d.extras.lod.impostors import _in_cell, octahedral_directions
 
 SIZE = (320, 240)
 CAMERA = e3d.PerspectiveCamera(yfov=1.0, znear=0.1, zfar=2000.0)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from engine3d.errors import Engine3DError
-from engine3d.materials.colors import linear_color, srgb_to_linear_table
+from engine3d.model.materials.colors import linear_color, srgb_to_linear_table
 
 
 def test_the_table_is_the_srgb_curve_rounded_once():

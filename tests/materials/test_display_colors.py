@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from engine3d.materials.display_colors import display_color, encode_srgb, shading_color
+from engine3d.model.materials.display_colors import display_color, encode_srgb, shading_color
 
 
 @pytest.mark.parametrize("code", range(256))

@@ -7,8 +7,8 @@ import pytest
 
 from engine3d._native import rasterizer
 from engine3d.errors import InvalidArgumentError
-from engine3d.materials.colors import linear_color
-from engine3d.materials.material import (
+from engine3d.model.materials.colors import linear_color
+from engine3d.model.materials.material import (
     PARAMETERS,
     TEXTURE_SLOTS,
     Material,
@@ -17,8 +17,8 @@ from engine3d.materials.material import (
     says_something,
     textures_of,
 )
-from engine3d.materials.textures import PlacedTexture, Texture
-from engine3d.rendering._native_materials import _physical
+from engine3d.model.materials.textures import PlacedTexture, Texture
+from engine3d.rendering.draw_list.native_materials import _physical
 
 
 def test_defaults():

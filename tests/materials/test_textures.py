@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from engine3d.errors import InvalidArgumentError
-from engine3d.materials.textures import PlacedTexture, Texture
+from engine3d.model.materials.textures import PlacedTexture, Texture
 
 
 def image(*shape):

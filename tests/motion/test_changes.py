@@ -10,7 +10,7 @@ from motion.test_shown import stage, view, wriggle
 
 import engine3d as e3d
 from engine3d.linalg import transform_points
-from engine3d.motion.shown import placing_pose, shown_object
+from engine3d.model.motion.shown import placing_pose, shown_object
 
 
 def world_points(scene, node):

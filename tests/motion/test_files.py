@@ -8,7 +8,7 @@ from shared_corpus import SHARED
 
 import engine3d as e3d
 from engine3d import linalg
-from engine3d.motion.shown import placing_pose, shown_object
+from engine3d.model.motion.shown import placing_pose, shown_object
 
 MOVING = ("animation_list", "skin_list", "morph_targets")
 GLTF = SHARED / "gltf"

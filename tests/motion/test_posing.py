@@ -6,8 +6,8 @@ from kernels.calls import of_core, record
 
 import engine3d as e3d
 from engine3d._native.rasterizer import pose_meshes
-from engine3d.motion.posed_mesh import PosedMesh
-from engine3d.motion.skeletons import skeleton_of
+from engine3d.model.motion.posed_mesh import PosedMesh
+from engine3d.model.motion.skeletons import skeleton_of
 
 
 def bent_tube(rng, rings=40, sides=24, joints=5, influences=4, targets=0, normals=True):

@@ -9,9 +9,9 @@ from loaders.seeds import FILES
 from loaders.test_gltf import data_uri, png, triangle_tree
 
 import engine3d as e3d
-from engine3d.loaders import gltf_pointers
-from engine3d.motion import properties
-from engine3d.motion.properties import Property, range_of
+from engine3d.io.formats.gltf import gltf_pointers
+from engine3d.model.motion import properties
+from engine3d.model.motion.properties import Property, range_of
 
 TEXTURE = e3d.Texture(np.arange(48, dtype=np.uint8).reshape(4, 4, 3))
 

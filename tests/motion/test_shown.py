@@ -6,7 +6,7 @@ from motion.test_posing import bent_tube, by_matrices, posed, skinned_scene
 
 import engine3d as e3d
 from engine3d import linalg
-from engine3d.motion.shown import placing_pose
+from engine3d.model.motion.shown import placing_pose
 
 
 def stage(seed, count=6, targets=0):
@@ -156,7 +156,7 @@ def test_one_mesh_many_poses_and_one_at_rest():
 
 
 def e3d_uses(scene, mesh):
-    from engine3d.scene.usage import uses_in
+    from engine3d.model.scene.usage import uses_in
 
     return [(thing, count) for thing, count in uses_in([scene]).items() if thing is mesh]
 

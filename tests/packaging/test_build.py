@@ -51,7 +51,7 @@ def built_once(source_tree, run_python, tmp_path_factory):
     """A tree with the real setup.py and a core that compiles in a moment, built in place."""
     folder = tmp_path_factory.mktemp("tiny")
     files = {
-        "csrc/core/number.c": CORE,
+        "csrc/data/number.c": CORE,
         "csrc/kernels/number.inl": "#define NUMBER 42\n",
         "csrc/kernels/isa_avx2.c": ISA_AVX2,
         "engine/__init__.py": "",
@@ -171,7 +171,7 @@ def test_flags_of_the_user_cannot_change_results(build):
 def test_kinds_of_build_share_no_object(run_python, tiny_tree):
     for kind in ("release", "asan"):
         run_python("setup.py", "-q", "build_clib", cwd=tiny_tree, ENGINE3D_BUILD=kind)
-    objects = tiny_tree.glob("build/**/core/number.o")
+    objects = tiny_tree.glob("build/**/data/number.o")
     folders = [path.relative_to(tiny_tree).parts[1] for path in objects]
     # After the kind comes, if CC or CFLAGS is set, a mark of those.
     assert sorted(folder.split("-")[0] for folder in folders) == ["asan", "release"]
@@ -241,7 +241,7 @@ def test_missing_headers_of_python_are_named(tiny_tree):
 
 
 def test_an_error_in_a_file_is_the_compilers_and_ends_the_build(tiny_tree):
-    (tiny_tree / "csrc/core/number.c").write_text("int e3d_number(void) { return gone; }\n")
+    (tiny_tree / "csrc/data/number.c").write_text("int e3d_number(void) { return gone; }\n")
     lines = failed(tiny_tree, BUILDERS["in place"])
     assert any("gone" in line and "number.c:1:" in line for line in lines)
-    assert "failed at csrc/core/number.c" in lines[-1] and "Traceback" not in "".join(lines)
+    assert "failed at csrc/data/number.c" in lines[-1] and "Traceback" not in "".join(lines)

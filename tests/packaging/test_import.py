@@ -7,7 +7,7 @@ import sys
 import pytest
 
 import engine3d
-from engine3d.lod import simplify
+from engine3d.extras.lod import simplify
 
 # Prints the modules that engine3d adds to NumPy's own, and the seconds that they take.
 PROBE = """
@@ -57,21 +57,21 @@ import sys
 import pytest
 
 import engine3d
-from engine3d.lod import simplify
+from engine3d.extras.lod import simplify
 from importlib.resources import files
-from engine3d.cli import main
+from engine3d.apps.cli import main
 model = files("engine3d.data") / "models" / "teapot.obj"
 before = set(sys.modules)
 assert main(["render", str(model), "-o", "teapot.png", "--resolution", "32x18"]) == 0
 print(*sorted(set(sys.modules) - before))
 """
 # What a picture of an OBJ with a TGA can do without; each takes a noticeable part of its time.
-DISPENSABLE = {"PIL", "numpy.ma", "sdl2", "rich", "tempfile", "engine3d.loaders.asc"}
+DISPENSABLE = {"PIL", "numpy.ma", "sdl2", "rich", "tempfile", "engine3d.io.formats.asc"}
 
 
 def test_a_picture_imports_what_it_needs(run_python, tmp_path):
     added = set(run_python("-c", PICTURE, cwd=tmp_path).split())
-    assert "engine3d.loaders.obj" in added
+    assert "engine3d.io.formats.obj.obj" in added
     assert not DISPENSABLE & added
     assert (tmp_path / "teapot.png").read_bytes().startswith(b"\x89PNG")
 
@@ -83,7 +83,7 @@ import sys
 import pytest
 
 import engine3d
-from engine3d.lod import simplify
+from engine3d.extras.lod import simplify
 sys.path.insert(0, {str(source_tree)!r})
 try:
     import engine
@@ -103,7 +103,9 @@ except ImportError as error:
 )
 def test_a_missing_extra_is_named(monkeypatch, package, extra, use):
     """By the package in `name`, too, which tells it from a fault of engine3d's own imports."""
-    monkeypatch.delitem(sys.modules, "engine3d.notebook", raising=False)
+    for name in ("engine3d.notebook", "engine3d.apps.notebook"):
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    monkeypatch.delattr("engine3d.apps.notebook", raising=False)
     monkeypatch.setitem(sys.modules, package, None)
     with pytest.raises(ImportError, match=rf"engine3d\[{extra}\]") as told:
         use()

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.primitives import box, cylinder, icosphere, torus, uv_sphere
-from engine3d.rendering._enclosing import holes_of
+from engine3d.model.primitives import box, cylinder, icosphere, torus, uv_sphere
+from engine3d.rendering.draw_list.closed_meshes import holes_of
 
 
 def encloses(mesh):

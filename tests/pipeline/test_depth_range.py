@@ -7,8 +7,8 @@ import pytest
 
 import engine3d as e3d
 from engine3d import linalg
-from engine3d.loaders.far_coordinates import origin_near
-from engine3d.primitives import icosphere, plane
+from engine3d.io.reading.far_coordinates import origin_near
+from engine3d.model.primitives import icosphere, plane
 
 
 def camera_at(*place, target=(0, 0, 0), up=(0, 1, 0), **options):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.geometry import normals
+from engine3d.model.geometry import normals
 
 THREADS = 8
 SIZE = (64, 48)

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.rendering import _native_handles as native_handles
+from engine3d.rendering.draw_list import native_handles as native_handles
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
 

@@ -19,7 +19,7 @@ from public.test_copies import COPIED, REFUSED
 
 import engine3d as e3d
 from engine3d import batch, datasets, events, loaders
-from engine3d.datasets.writer import Note
+from engine3d.apps.datasets.writer import Note
 
 MODULES = ("", *e3d._MODULES)
 #: Classes that only the package makes, or that are data of its own without a check.

@@ -10,17 +10,17 @@ import pytest
 import engine3d as e3d
 from engine3d import choices
 from engine3d._native import rasterizer as native
-from engine3d.environments import environment
-from engine3d.geometry.vertex_attributes import vertex_attributes
-from engine3d.materials import colors, textures
-from engine3d.materials.material import TEXTURE_SLOTS
-from engine3d.motion import clips, player
+from engine3d.apps.viewer import pixels
+from engine3d.apps.viewer.window import POINTERS
+from engine3d.model.environments import environment
+from engine3d.model.geometry.vertex_attributes import vertex_attributes
+from engine3d.model.materials import colors, textures
+from engine3d.model.materials.material import TEXTURE_SLOTS
+from engine3d.model.motion import clips, player
+from engine3d.model.scene import _shadow_casting, lights
 from engine3d.rendering import frame
 from engine3d.rendering import options as render_options
 from engine3d.rendering.renderer import _SAMPLES
-from engine3d.scene import _shadow_casting, lights
-from engine3d.viewer import pixels
-from engine3d.viewer.window import POINTERS
 
 ACCEPTED = {
     "Backend": ["auto", *native.BACKENDS],

@@ -10,7 +10,7 @@ import pytest
 from public.every_callable import OBJ, PPM, every_call, hostile_values
 
 import engine3d as e3d
-from engine3d.viewer import show
+from engine3d.apps.viewer import show
 
 CALLS = {call.name: call for call in every_call()}
 #: What nothing takes but parameters of which each is right.

@@ -1,4 +1,4 @@
-"""Whether jobs are shared out, by what helpers got done lately (csrc/core/helping.h)."""
+"""Whether jobs are shared out, by what helpers got done lately (csrc/base/helping.h)."""
 
 import numpy as np
 import pytest

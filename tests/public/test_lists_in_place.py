@@ -8,7 +8,7 @@ import pytest
 from public.test_copies import COPIED, REFUSED, moved
 
 import engine3d as e3d
-from engine3d._support.checked_containers import DICT_CHANGES, LIST_CHANGES
+from engine3d.base.checked_containers import DICT_CHANGES, LIST_CHANGES
 
 RED, GREEN, BLUE = (
     e3d.Material(color=color, unlit=True) for color in ((255, 0, 0), (0, 255, 0), (0, 0, 255))

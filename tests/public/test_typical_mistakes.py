@@ -13,7 +13,7 @@ from public.hostile_calls import SIZE, camera, draw, mesh, scene
 
 import engine3d as e3d
 from engine3d import linalg
-from engine3d._support.foreign_names import _NAMES, foreign_names
+from engine3d.base.foreign_names import _NAMES, foreign_names
 
 BAD = np.array([(0, 0, math.nan), (1, 0, 0), (0, 1, 0)])
 
@@ -162,7 +162,7 @@ def test_what_is_written_for_other_names_is_not_listed():
 
 
 def test_modules_that_need_other_packages_come_by_their_names():
-    assert e3d.golden.__name__ == "engine3d.golden"
+    assert e3d.golden.__name__ == "engine3d.apps.golden"
     assert e3d.compat.pyrender.__name__ == "engine3d.compat.pyrender"
     assert "notebook" not in e3d.__all__
 

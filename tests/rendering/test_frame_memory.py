@@ -12,10 +12,11 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.rendering import _frame_memory, _passes, options
-from engine3d.rendering._pass import Tools
-from engine3d.rendering._shadow_maps import ShadowMaps
+from engine3d.rendering import _frame_memory, options
 from engine3d.rendering.frame import OUTPUTS
+from engine3d.rendering.passes import all_passes as _passes
+from engine3d.rendering.passes.protocol import Tools
+from engine3d.rendering.passes.shadow_maps import ShadowMaps
 
 LIGHTS = {
     "DirectionalLight": lambda **shadow: e3d.DirectionalLight(direction=(-1, -2, -1), **shadow),

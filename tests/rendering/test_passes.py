@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.rendering import _passes
-from engine3d.rendering._output_passes import ColorPass
-from engine3d.rendering._pass import Pass
+from engine3d.rendering.passes import all_passes as _passes
+from engine3d.rendering.passes.output_passes import ColorPass
+from engine3d.rendering.passes.protocol import Pass
 
 
 def test_each_pass_reads_what_an_earlier_one_writes():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.rendering._shadow_maps import ShadowMaps
+from engine3d.rendering.passes.shadow_maps import ShadowMaps
 
 DOWN = (0.0, -1.0, 0.0)
 
@@ -284,7 +284,7 @@ def maps_of(renderer, scene, camera, pose):
     """The maps of the first light: what they show, and where they are."""
     renderer.render(scene, (camera, pose))
     kept = shadow_maps(renderer)._kept[0]
-    from engine3d.rendering import _shadow_views
+    from engine3d.rendering.passes import shadow_views as _shadow_views
 
     towards, _ = renderer._draw_list.lights.placed()[0][2]
     light = renderer._draw_list.lights.placed()[0][1]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.scene.staged_scene import StagedScene
+from engine3d.model.scene.staged_scene import StagedScene
 
 SIZE = (96, 72)
 OUTPUTS = ("color", "depth", "object_id", "triangle_id")

@@ -4,9 +4,9 @@ import pytest
 
 import engine3d as e3d
 from engine3d import linalg
-from engine3d.rendering import _passes
-from engine3d.rendering._output_passes import ColorPass, SurfacePass
-from engine3d.rendering._pass import Pass
+from engine3d.rendering.passes import all_passes as _passes
+from engine3d.rendering.passes.output_passes import ColorPass, SurfacePass
+from engine3d.rendering.passes.protocol import Pass
 
 OUTPUTS = ("ndc_depth", "depth", "world_position", "normal", "triangle_id", "object_id")
 

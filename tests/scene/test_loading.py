@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
+from engine3d.io.reading.documents import DocumentObject
+from engine3d.io.scenes.scene_loading import scene_from_document
 from engine3d.loaders import CameraRecord, Document, LightRecord
-from engine3d.loaders.documents import DocumentObject
-from engine3d.scene.loading import scene_from_document
 
 
 def document_of(*, lights=(), cameras=(), warnings=()):

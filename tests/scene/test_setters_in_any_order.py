@@ -11,10 +11,10 @@ import pytest
 from writers.any_scene import ARRAYS, MATERIALS, color, pick, target
 
 import engine3d as e3d
-from engine3d._support.validation import CheckedAttribute
-from engine3d.geometry._arrays import ArrayAttribute
-from engine3d.materials.material import TEXTURE_SLOTS
-from engine3d.scene.lights import UNITS
+from engine3d.base.validation import CheckedAttribute
+from engine3d.model.geometry._arrays import ArrayAttribute
+from engine3d.model.materials.material import TEXTURE_SLOTS
+from engine3d.model.scene.lights import UNITS
 
 V, F, N = 6, 4, 2  # vertices, faces and materials of the meshes
 FLAG = np.stack([*np.meshgrid([-1, 0.5], [-1, 0.2, 1.3]), np.zeros((3, 2))], axis=-1).reshape(-1, 3)

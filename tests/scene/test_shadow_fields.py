@@ -5,8 +5,8 @@ import math
 import pytest
 
 import engine3d as e3d
-from engine3d.editor.node_commands import copy_below
-from engine3d.editor.scene_state import SceneState
+from engine3d.apps.editor.node_commands import copy_below
+from engine3d.apps.editor.scene_state import SceneState
 
 FIELDS = {
     "shadow": True,

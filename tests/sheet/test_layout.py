@@ -4,8 +4,8 @@ import itertools
 
 import pytest
 
+from engine3d.apps.sheet.layout import Padding, Reach, Rectangle, lay_out
 from engine3d.errors import InvalidArgumentError
-from engine3d.sheet.layout import Padding, Reach, Rectangle, lay_out
 
 AREA, PADDING, GAP = Rectangle(10, 20, 800, 600), Padding(50, 30, 20, 50), 8
 SHAPES = {

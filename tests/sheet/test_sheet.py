@@ -9,7 +9,7 @@ from PIL import Image
 from sheet.conftest import SIZE, drawn, part, triangle
 
 import engine3d as e3d
-from engine3d.sheet import marks
+from engine3d.apps.sheet import marks
 
 OPTIONS = {"views": "front,iso,turned=20,30", "sections": "x=0.8", "size": SIZE}
 
@@ -213,7 +213,7 @@ def test_sizes_that_are_too_small_or_too_large():
 
 
 def test_lines_fade_where_there_are_many():
-    from engine3d.sheet.outlines import draw_outlines
+    from engine3d.apps.sheet.outlines import draw_outlines
 
     ids = np.zeros((40, 40), np.int64)
     ids[:, 20:] = np.arange(800).reshape(40, 20)  # each pixel is a thing of its own

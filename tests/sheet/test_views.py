@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from engine3d.apps.sheet.views import STANDARD, Section, check_views, parse_section, parse_views
 from engine3d.errors import InvalidArgumentError
-from engine3d.sheet.views import STANDARD, Section, check_views, parse_section, parse_views
 
 Y_UP, Z_UP = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 

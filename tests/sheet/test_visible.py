@@ -131,7 +131,7 @@ def test_glass_shows_and_hides():
 
 
 def test_too_many_overlapping_nodes_are_left_unknown(monkeypatch):
-    monkeypatch.setattr("engine3d.sheet.hidden.MOST_PICTURES", 2)
+    monkeypatch.setattr("engine3d.apps.sheet.hidden.MOST_PICTURES", 2)
     scene = e3d.Scene()
     for number in range(4):
         scene.add(e3d.box((4 - number, 1, 1)), name=str(number), translation=(0, 0, number))

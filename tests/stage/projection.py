@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from engine3d.stage.viewpoint import Sphere
+from engine3d.stage.views.viewpoint import Sphere
 
 
 def project(view, points, width, height):

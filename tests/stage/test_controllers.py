@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.stage.fps import FAST, MAX_PITCH, RADIANS_A_SECOND, FpsController
-from engine3d.stage.orbit import DOLLY_STEP, OrbitController
-from engine3d.stage.viewpoint import QUARTER_TURN, Sphere, Viewpoint
-from engine3d.stage.walkable_ground import Ground
-from engine3d.stage.walking import GroundController
+from engine3d.stage.views.fps import FAST, MAX_PITCH, RADIANS_A_SECOND, FpsController
+from engine3d.stage.views.orbit import DOLLY_STEP, OrbitController
+from engine3d.stage.views.viewpoint import QUARTER_TURN, Sphere, Viewpoint
+from engine3d.stage.views.walkable_ground import Ground
+from engine3d.stage.views.walking import GroundController
 
 BOUNDS = Sphere((0.0, 0.0, 0.0), 1.0)
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.cli import main
-from engine3d.primitives import icosphere
+from engine3d.apps.cli import main
+from engine3d.model.primitives import icosphere
 from engine3d.stage.near_origin import from_file
 from engine3d.stage.open_models import open_models
-from engine3d.stage.selection_outline import selection_lines
+from engine3d.stage.overlays.selection_outline import selection_lines
 
 UTM = np.array([500_000.0, 4_649_776.0, 120.0])
 

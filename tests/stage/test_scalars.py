@@ -8,18 +8,18 @@ import pytest
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.canvas import Canvas
-from engine3d.cli import main
+from engine3d.apps.cli import main
 from engine3d.errors import InvalidArgumentError
 from engine3d.loaders import load_document
-from engine3d.stage.axes_grid import AxesGrid
-from engine3d.stage.colormaps import COLORMAPS, MISSING, colormap
+from engine3d.rendering.canvas import Canvas
 from engine3d.stage.open_model import open_model
 from engine3d.stage.open_models import open_models
-from engine3d.stage.scalar_bar import draw_scalar_bar, place_bar
+from engine3d.stage.overlays.axes_grid import AxesGrid
+from engine3d.stage.overlays.colormaps import COLORMAPS, MISSING, colormap
+from engine3d.stage.overlays.scalar_bar import draw_scalar_bar, place_bar
+from engine3d.stage.overlays.ticks import label, ticks
 from engine3d.stage.scalars import ScalarBar, ScalarColoring
 from engine3d.stage.stage_settings import Settings
-from engine3d.stage.ticks import label, ticks
 from engine3d.stage.view_renderer import ViewRenderer
 
 GRAY = colormap("gray")

@@ -8,7 +8,7 @@ from stage.projection import project
 
 import engine3d as e3d
 from engine3d.stage.scene_bounds import bounding_sphere, turning_outline
-from engine3d.stage.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
+from engine3d.stage.views.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
 
 
 @pytest.mark.parametrize("up", UP_DIRECTIONS.values())

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.motion.clips import AnimationClip, Channel
-from engine3d.scene.orbiting import home_axes
-from engine3d.scene.staged_scene import StagedScene
-from engine3d.scene.surroundings import SCENE_VALUES
+from engine3d.model.motion.clips import AnimationClip, Channel
+from engine3d.model.scene.orbiting import home_axes
+from engine3d.model.scene.staged_scene import StagedScene
+from engine3d.model.scene.surroundings import SCENE_VALUES
 from engine3d.stage.ground_shadow import SIDE, GroundShadow
+from engine3d.stage.overlays.theme import DARK, LIGHT
 from engine3d.stage.played_clips import play_clips
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.studio import theme_for
-from engine3d.stage.theme import DARK, LIGHT
 from engine3d.stage.view_renderer import ViewRenderer
 from engine3d.stage.viewed_scene import ViewedScene
 

@@ -8,7 +8,7 @@ from stage.projection import project
 
 import engine3d as e3d
 from engine3d.rendering.support_functions import support_of_points
-from engine3d.stage.viewpoint import (
+from engine3d.stage.views.viewpoint import (
     UP_DIRECTIONS,
     Sphere,
     Viewpoint,

@@ -11,7 +11,7 @@ import pytest
 from patience import HUNG
 
 import engine3d as e3d
-from engine3d._support.dirty_tracking import Watch
+from engine3d.base.dirty_tracking import Watch
 
 VIEW = e3d.PerspectiveCamera(yfov=0.9), e3d.look_at((0, 0, 9), (0, 0, 0))
 
@@ -195,7 +195,9 @@ class Guests:
 @pytest.mark.parametrize("seed", range(4))
 def test_whatever_comes_and_goes(seed, monkeypatch):
     """By a renderer that looks at each frame, one that looks now and then, and a new one."""
-    monkeypatch.setattr("engine3d.rendering._instance_trees.MANY", 3)  # instances that get a tree
+    monkeypatch.setattr(
+        "engine3d.rendering.draw_list.instance_trees.MANY", 3
+    )  # instances that get a tree
     guests, outputs = Guests(seed), ("color", "object_id", "instance_id")
     camera, shows = VIEW[0], set()
     with e3d.Renderer(64, 48, threads=1) as always, e3d.Renderer(64, 48, threads=1) as seldom:
@@ -266,7 +268,7 @@ def test_a_watch_tells_once():
 FORK = """
 import os
 import engine3d as e3d
-from engine3d._support.dirty_tracking import Watch
+from engine3d.base.dirty_tracking import Watch
 things = [e3d.Material() for _ in range(3)]
 watch = Watch(things)
 things[2].name = "before"

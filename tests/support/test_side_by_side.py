@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 import engine3d as e3d
-from engine3d._support import side_by_side as module
-from engine3d._support.side_by_side import Thread, side_by_side
+from engine3d.base import side_by_side as module
+from engine3d.base.side_by_side import Thread, side_by_side
 from engine3d.errors import OutOfMemoryError
 
 ENGINE = Path(e3d.__file__).parent

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from engine3d._support import system
+from engine3d.base import system
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="locks by flock")

@@ -16,11 +16,11 @@ pytestmark = pytest.mark.skipif(typeshed() is None, reason="pip install mypy: wh
 PACKAGE = Path(engine3d.__file__).parent
 # Names that are asked for where the system is known to have them: each file says how.
 KNOWN = {
-    "_support/system.py": {"SIGKILL", "sysconf"},  # where there is killpg; AttributeError
-    "editor/ui/interrupts.py": {"setitimer", "ITIMER_REAL", "SIGALRM"},  # has_alarm()
-    "files/atomic_write.py": {"set_blocking"},  # where AT_ONCE is a flag
-    "terminal/device.py": {"O_NOCTTY"},  # once termios is imported
-    "terminal/window.py": {"SIGWINCH"},  # once a Device is open
+    "base/system.py": {"SIGKILL", "sysconf"},  # where there is killpg; AttributeError
+    "apps/editor/ui/interrupts.py": {"setitimer", "ITIMER_REAL", "SIGALRM"},  # has_alarm()
+    "base/files/atomic_write.py": {"set_blocking"},  # where AT_ONCE is a flag
+    "apps/terminal/device.py": {"O_NOCTTY"},  # once termios is imported
+    "apps/terminal/window.py": {"SIGWINCH"},  # once a Device is open
 }
 
 # What Windows lacks is taken away once the standard library is loaded, then all of the package
@@ -58,10 +58,10 @@ for module in pkgutil.walk_packages(engine3d.__path__, "engine3d."):
 pathlib.Path("a.mtl").write_text("newmtl m\\nKd 1 0 0\\n")
 text = "mtllib a.mtl\\nv 0 0 0\\nv 1 0 0\\nv 0 1 0\\nusemtl m\\nf 1 2 3\\n"
 pathlib.Path("a.obj").write_text(text)
-from engine3d.cli import main
+from engine3d.apps.cli import main
 assert main(["render", "a.obj", "-o", "a.png", "--resolution", "32x24"]) == 0
 
-from engine3d.batch.locking import locked_folder
+from engine3d.apps.batch.locking import locked_folder
 with locked_folder("."):
     try:
         with locked_folder("."):

@@ -7,7 +7,7 @@ from base64 import b64decode
 import numpy as np
 import pytest
 
-from engine3d.terminal import half_blocks, kitty, sixel
+from engine3d.apps.terminal import half_blocks, kitty, sixel
 
 
 @pytest.fixture

@@ -2,6 +2,7 @@
 
 import pytest
 
+from engine3d.apps.terminal.keys import Decoder
 from engine3d.events import (
     CloseRequested,
     FocusLost,
@@ -11,7 +12,6 @@ from engine3d.events import (
     TextEntered,
     Wheel,
 )
-from engine3d.terminal.keys import Decoder
 
 
 def decoder():

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from engine3d.ui.triangles import COMMAND, VERTEX, Texture
+from engine3d.apps.imgui_painter.triangles import COMMAND, VERTEX, Texture
 
 HOSTILE = np.float32([np.nan, np.inf, -np.inf, 1e30, -1e30, 3e6, 1 << 20, 1e-40])
 VERTICES, SIDE = 60, 180

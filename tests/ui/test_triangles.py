@@ -8,8 +8,8 @@ import pytest
 from ui.lists import SIDE, random_list, random_textures
 
 import engine3d as e3d
+from engine3d.apps.imgui_painter.triangles import COMMAND, VERTEX, Texture, draw_triangles
 from engine3d.errors import InvalidArgumentError
-from engine3d.ui.triangles import COMMAND, VERTEX, Texture, draw_triangles
 
 WHITE = Texture(np.full((1, 1, 4), 255, np.uint8))
 EVERYWHERE = (-(1 << 31), -(1 << 31), (1 << 31) - 1, (1 << 31) - 1)

@@ -6,9 +6,9 @@ from motion.moving_model import flag
 from viewer.test_viewer import key, make_viewer, play
 
 from engine3d import events
+from engine3d.apps.viewer.model_files import ModelFiles
 from engine3d.stage.open_models import open_models
 from engine3d.stage.played_clips import play_clips
-from engine3d.viewer.model_files import ModelFiles
 
 
 @pytest.fixture

@@ -4,13 +4,13 @@ import pytest
 from viewer.scripted_window import ScriptedWindow
 
 from engine3d import events
-from engine3d.desktop.recent_files import RecentFiles
+from engine3d.apps.desktop.recent_files import RecentFiles
+from engine3d.apps.viewer.file_dialog import FolderPanel, RecentPanel, _size
+from engine3d.apps.viewer.model_files import ModelFiles
+from engine3d.apps.viewer.viewer import Viewer
 from engine3d.stage.open_model import open_model
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
-from engine3d.viewer.file_dialog import FolderPanel, RecentPanel, _size
-from engine3d.viewer.model_files import ModelFiles
-from engine3d.viewer.viewer import Viewer
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 SIZE = (640, 480)
@@ -244,6 +244,6 @@ def test_without_a_file_it_begins_where_the_program_does(tmp_path, monkeypatch):
     ("size", "text"), [(0, "0 B"), (999, "999 B"), (12_345, "12.3 kB"), (2 * 10**16, "2e+04 TB")]
 )
 def test_sizes_are_short(size, text):
-    from engine3d.files.folder_listing import Item
+    from engine3d.base.files.folder_listing import Item
 
     assert _size(Item("a", "/a", False, size, 0.0)) == text

@@ -8,12 +8,12 @@ from viewer.scripted_window import ScriptedWindow
 
 import engine3d as e3d
 from engine3d import events
+from engine3d.apps.viewer.viewer import Viewer
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
 from engine3d.stage.viewed_scene import ViewedScene
-from engine3d.stage.walkable_ground import MOST_CELLS, find_ground, told
-from engine3d.stage.walking import GroundController, controller
-from engine3d.viewer.viewer import Viewer
+from engine3d.stage.views.walkable_ground import MOST_CELLS, find_ground, told
+from engine3d.stage.views.walking import GroundController, controller
 
 SIZE = (64, 48)
 

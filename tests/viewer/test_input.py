@@ -5,8 +5,8 @@ import ctypes
 import pytest
 
 from engine3d import events
-from engine3d.viewer.input import Translator
-from engine3d.viewer.sdl import load_sdl
+from engine3d.apps.viewer.input import Translator
+from engine3d.apps.viewer.sdl import load_sdl
 
 sdl2 = load_sdl()
 

@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from engine3d.stage.fps import LOOKS, MOVES
-from engine3d.viewer import actions as viewer_actions
-from engine3d.viewer.help_panel import help_columns
-from engine3d.viewer.keymap import BINDINGS, action_for
+from engine3d.apps.viewer import actions as viewer_actions
+from engine3d.apps.viewer.help_panel import help_columns
+from engine3d.apps.viewer.keymap import BINDINGS, action_for
+from engine3d.stage.views.fps import LOOKS, MOVES
 
 
 def test_no_key_is_bound_twice():

@@ -3,7 +3,7 @@
 import numpy as np
 
 from engine3d import events
-from engine3d.viewer.lesson_window import BACKDROP, Lesson, LessonWindow, enlarged
+from engine3d.apps.viewer.lesson_window import BACKDROP, Lesson, LessonWindow, enlarged
 
 
 class FakeWindow:

@@ -7,13 +7,13 @@ from viewer.scripted_window import ScriptedWindow
 
 import engine3d as e3d
 from engine3d import events
+from engine3d.apps.viewer.panels import Row, _fitted
+from engine3d.apps.viewer.recording import FRAMES
+from engine3d.apps.viewer.viewer import Viewer
+from engine3d.stage.overlays.theme import DARK, LIGHT
 from engine3d.stage.stage_settings import Settings
-from engine3d.stage.theme import DARK, LIGHT
 from engine3d.stage.view_renderer import ViewRenderer
 from engine3d.stage.viewed_scene import ViewedScene
-from engine3d.viewer.panels import Row, _fitted
-from engine3d.viewer.recording import FRAMES
-from engine3d.viewer.viewer import Viewer
 
 SIZE = (480, 360)
 RED, GREEN = (

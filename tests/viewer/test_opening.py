@@ -8,12 +8,12 @@ import pytest
 from viewer.scripted_window import ScriptedWindow
 
 from engine3d import events
-from engine3d.desktop.recent_files import RecentFiles
+from engine3d.apps.desktop.recent_files import RecentFiles
+from engine3d.apps.viewer.model_files import ModelFiles
+from engine3d.apps.viewer.viewer import Viewer
 from engine3d.stage.open_model import open_model
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
-from engine3d.viewer.model_files import ModelFiles
-from engine3d.viewer.viewer import Viewer
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 SIZE = (320, 240)

@@ -6,13 +6,13 @@ from viewer.scripted_window import ScriptedWindow
 
 import engine3d as e3d
 from engine3d import events
-from engine3d.stage.debug_lines import BOX, FRUSTUM, LEVELS, frustum_lines, tree_lines
+from engine3d.apps.viewer.viewer import Viewer
 from engine3d.stage.output_pictures import OUTPUT_MODES, SPLIT, picture_of, whole_pixel
-from engine3d.stage.selection_outline import OUTLINE
+from engine3d.stage.overlays.debug_lines import BOX, FRUSTUM, LEVELS, frustum_lines, tree_lines
+from engine3d.stage.overlays.selection_outline import OUTLINE
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
 from engine3d.stage.viewed_scene import ViewedScene
-from engine3d.viewer.viewer import Viewer
 
 SIZE = (300, 240)
 BACKGROUND = (10, 20, 30)
@@ -151,7 +151,7 @@ def test_the_tree_of_many_instances_turns_with_their_node(monkeypatch):
     for line in lines:
         low, high = line.segments.min(axis=(0, 1)), line.segments.max(axis=(0, 1))
         assert (low > scene.bounds[0] - 1e-3).all() and (high < scene.bounds[1] + 1e-3).all()
-    monkeypatch.setattr("engine3d.stage.debug_lines.MOST_IN_TREES", 200)
+    monkeypatch.setattr("engine3d.stage.overlays.debug_lines.MOST_IN_TREES", 200)
     assert [len(line.segments) // 12 for line in tree_lines(scene)] == counts[2:]
 
 

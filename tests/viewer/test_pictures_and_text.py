@@ -5,19 +5,19 @@ import pytest
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.canvas import Canvas
+from engine3d.apps.viewer.help_panel import draw_help, help_columns
+from engine3d.base.files.watch import FileWatch
 from engine3d.errors import FileAccessError
-from engine3d.files.animation_files import (
+from engine3d.io.output.animation_files import (
     ANIMATION_FORMATS,
     numbered_path,
     save_animation,
 )
-from engine3d.files.watch import FileWatch
-from engine3d.stage.draw_counts import count_names
-from engine3d.stage.grid_lines import grid, grid_step
-from engine3d.stage.overlay import draw_axes, draw_block, statistics_lines
-from engine3d.stage.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
-from engine3d.viewer.help_panel import draw_help, help_columns
+from engine3d.rendering.canvas import Canvas
+from engine3d.stage.overlays.draw_counts import count_names
+from engine3d.stage.overlays.grid_lines import grid, grid_step
+from engine3d.stage.overlays.overlay import draw_axes, draw_block, statistics_lines
+from engine3d.stage.views.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
 
 
 @pytest.mark.parametrize("corner", ["top left", "top right", "bottom left", "bottom", "middle"])
@@ -180,7 +180,7 @@ def test_numbered_paths_take_the_first_free_number(tmp_path):
 
 
 def test_a_file_watch_reports_a_change_once_it_has_settled(tmp_path, monkeypatch):
-    monkeypatch.setattr("engine3d.files.watch.CHECK_SECONDS", 0.0)
+    monkeypatch.setattr("engine3d.base.files.watch.CHECK_SECONDS", 0.0)
     path = tmp_path / "model"
     path.write_text("one")
     watch = FileWatch(path)
@@ -201,7 +201,7 @@ def test_a_file_watch_reports_a_change_once_it_has_settled(tmp_path, monkeypatch
 
 
 def test_a_file_watch_does_not_report_what_is_away_for_a_moment(tmp_path, monkeypatch):
-    monkeypatch.setattr("engine3d.files.watch.CHECK_SECONDS", 0.0)
+    monkeypatch.setattr("engine3d.base.files.watch.CHECK_SECONDS", 0.0)
     path, other = tmp_path / "model", tmp_path / "other"
     path.write_text("one")
     watch = FileWatch(path)

@@ -13,8 +13,8 @@ import pytest
 from desktop import MARKS, Desktop, processor_seconds, until, virtual_screen
 from PIL import Image
 
-from engine3d.canvas import Canvas
-from engine3d.viewer.help_panel import draw_help
+from engine3d.apps.viewer.help_panel import draw_help
+from engine3d.rendering.canvas import Canvas
 
 pytestmark = MARKS
 
@@ -28,7 +28,7 @@ CUBE = "\n".join(
 )
 # Messages pass at once: what is drawn when nothing happens any more has none.
 COMMAND = (
-    "import sys; from engine3d.viewer import messages;"
+    "import sys; from engine3d.apps.viewer import messages;"
     "messages.MESSAGE_SECONDS, messages.READ_A_SECOND = 0.05, 1e9;"
     "from engine3d.start import main; sys.exit(main())"
 )
@@ -133,7 +133,7 @@ def test_walking_resizing_hiding_and_turning(desktop):
 
 LATE_MESSAGE = """
 import ctypes, sys
-from engine3d.viewer.sdl import close_video, open_video
+from engine3d.apps.viewer.sdl import close_video, open_video
 sdl = open_video()
 x11 = ctypes.CDLL("libX11.so.6")
 x11.XOpenDisplay.restype = ctypes.c_void_p

@@ -6,11 +6,11 @@ from viewer.scripted_window import ScriptedWindow
 
 import engine3d as e3d
 from engine3d import events
-from engine3d.stage.selection_outline import OUTLINE
+from engine3d.apps.viewer.viewer import Viewer
+from engine3d.stage.overlays.selection_outline import OUTLINE
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
 from engine3d.stage.viewed_scene import ViewedScene
-from engine3d.viewer.viewer import Viewer
 
 SIZE = (320, 240)
 

@@ -9,10 +9,10 @@ from motion.moving_model import flag
 
 import engine3d as e3d
 from engine3d import events
-from engine3d.viewer import show as module
-from engine3d.viewer.picture_window import PictureView, PictureWindow, fitting_size
-from engine3d.viewer.viewer import Viewer
-from engine3d.viewer.window import Window
+from engine3d.apps.viewer import show as module
+from engine3d.apps.viewer.picture_window import PictureView, PictureWindow, fitting_size
+from engine3d.apps.viewer.viewer import Viewer
+from engine3d.apps.viewer.window import Window
 
 
 @pytest.fixture

@@ -10,12 +10,12 @@ from viewer.scripted_window import ScriptedWindow
 
 import engine3d as e3d
 from engine3d import events
+from engine3d.apps.viewer.keymap import BINDINGS
+from engine3d.apps.viewer.viewer import Viewer
 from engine3d.stage.appearance import MODES
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
 from engine3d.stage.viewed_scene import ViewedScene
-from engine3d.viewer.keymap import BINDINGS
-from engine3d.viewer.viewer import Viewer
 
 SIZE = (160, 120)
 
@@ -356,9 +356,9 @@ def test_a_dropped_file_that_cannot_be_read_leaves_the_picture(tmp_path):
 
 
 def test_a_watched_file_is_loaded_again(tmp_path, monkeypatch):
-    from engine3d.files import watch
+    from engine3d.apps.viewer.model_files import ModelFiles
+    from engine3d.base.files import watch
     from engine3d.stage.open_model import open_model
-    from engine3d.viewer.model_files import ModelFiles
 
     monkeypatch.setattr(watch, "CHECK_SECONDS", 0.0)
     path = tmp_path / "shape.obj"
@@ -378,8 +378,8 @@ TRIANGLE = "v {0} 0 0\nv {1} 0 0\nv {0} 1 0\nf 1 2 3\n"
 
 def watching(tmp_path, monkeypatch, *names, **options):
     """A viewer of triangles in files that it watches, and their paths."""
-    from engine3d.files import watch
-    from engine3d.viewer.model_files import ModelFiles
+    from engine3d.apps.viewer.model_files import ModelFiles
+    from engine3d.base.files import watch
 
     monkeypatch.setattr(watch, "CHECK_SECONDS", 0.0)
     paths = [tmp_path / name for name in names]
@@ -405,7 +405,7 @@ def faces(viewer):
 def test_a_watched_file_that_is_broken_or_gone_is_told_until_it_is_whole(tmp_path, monkeypatch):
     viewer, window, (path,) = watching(tmp_path, monkeypatch, "shape.obj")
     now = [time.monotonic()]
-    monkeypatch.setattr("engine3d.viewer.viewer.clock.monotonic", lambda: now[0])
+    monkeypatch.setattr("engine3d.apps.viewer.viewer.clock.monotonic", lambda: now[0])
     look(viewer)
     plain = window.shown[-1]
     path.write_text("v 0 0\n")

@@ -11,19 +11,19 @@ import pytest
 
 import engine3d as e3d
 from engine3d import events
-from engine3d.stage.stage_settings import Settings
-from engine3d.stage.view_renderer import ViewRenderer
-from engine3d.stage.viewed_scene import ViewedScene
-from engine3d.viewer.icon import FACES, icon
-from engine3d.viewer.sdl import (
+from engine3d.apps.viewer.icon import FACES, icon
+from engine3d.apps.viewer.sdl import (
     find_screen,
     is_opengl_on_the_cpu,
     load_sdl,
     refresh_rate,
     screen_scale,
 )
-from engine3d.viewer.viewer import Viewer
-from engine3d.viewer.window import POINTERS, Window
+from engine3d.apps.viewer.viewer import Viewer
+from engine3d.apps.viewer.window import POINTERS, Window
+from engine3d.stage.stage_settings import Settings
+from engine3d.stage.view_renderer import ViewRenderer
+from engine3d.stage.viewed_scene import ViewedScene
 
 sdl2 = load_sdl()
 
@@ -293,7 +293,7 @@ def test_a_screen_that_does_not_answer_is_no_screen(monkeypatch):
 
 
 def test_loading_sdl_prints_nothing():
-    code = "from engine3d.viewer.sdl import load_sdl; load_sdl()"
+    code = "from engine3d.apps.viewer.sdl import load_sdl; load_sdl()"
     environment = {**os.environ, "SDL_VIDEODRIVER": "dummy"}
     done = subprocess.run(
         [sys.executable, "-W", "default", "-c", code],

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.demos import load_demo
-from engine3d.scene.lights import LIGHTS
+from engine3d.apps.scenes import load_demo
+from engine3d.model.scene.lights import LIGHTS
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
-from engine3d.stage.walking import controller
+from engine3d.stage.views.walking import controller
 
 SIZE = (480, 270)
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from engine3d.worlds.hashing import hash_words, unit_floats
+from engine3d.extras.worlds.hashing import hash_words, unit_floats
 
 
 def mix(x):

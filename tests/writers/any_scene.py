@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 import engine3d as e3d
-from engine3d.materials.material import TEXTURE_SLOTS
-from engine3d.scene.lights import FALLOFFS, UNITS
+from engine3d.model.materials.material import TEXTURE_SLOTS
+from engine3d.model.scene.lights import FALLOFFS, UNITS
 
 #: What materials are given, by the generator of random numbers; a field that is not here is left.
 MATERIALS = {

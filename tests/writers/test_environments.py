@@ -8,7 +8,7 @@ import pytest
 from loaders.seeds import HDR
 
 import engine3d as e3d
-from engine3d.editor.scene_state import SceneState
+from engine3d.apps.editor.scene_state import SceneState
 
 
 def scene_in(environment):

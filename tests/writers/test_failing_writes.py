@@ -20,7 +20,7 @@ from patience import HUNG
 
 import engine3d as e3d
 from engine3d.errors import FileAccessError
-from engine3d.files.animation_files import save_animation
+from engine3d.io.output.animation_files import save_animation
 
 BEFORE = b"what was there before"
 LIMIT = 64  # bytes: less than any of these files
@@ -171,8 +171,8 @@ STOPPED = """
 import os, signal, sys
 if signal.getsignal(int(sys.argv[1])) == signal.SIG_IGN:  # the tests run under nohup
     signal.signal(int(sys.argv[1]), signal.SIG_DFL)
-from engine3d.files import atomic_write
-from engine3d.cli import main
+from engine3d.base.files import atomic_write
+from engine3d.apps.cli import main
 finish = atomic_write._Part.finish
 def stop(part):
     part.file.flush()

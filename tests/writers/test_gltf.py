@@ -14,10 +14,10 @@ from PIL import Image
 
 import engine3d as e3d
 from engine3d.errors import Engine3DError, Engine3DWarning, InvalidArgumentError
+from engine3d.io.scenes.object_kinds import parameters
 from engine3d.loaders import load_document
-from engine3d.materials.material import TEXTURE_SLOTS
-from engine3d.materials.textures import PlacedTexture
-from engine3d.scene.object_kinds import parameters
+from engine3d.model.materials.material import TEXTURE_SLOTS
+from engine3d.model.materials.textures import PlacedTexture
 
 ENDS = (".glb", ".gltf")
 _FIELDS = ("positions", "faces", "lines", "points", "uvs", "uvs1", "tangents", "colors")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.cli import main
+from engine3d.apps.cli import main
 
 QUAD = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
 HALVES = [(0, 1, 2), (0, 2, 3)]

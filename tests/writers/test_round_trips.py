@@ -6,7 +6,7 @@ import pytest
 from writers.any_scene import ARRAYS, MATERIALS, any_scene
 
 import engine3d as e3d
-from engine3d.materials.material import TEXTURE_SLOTS
+from engine3d.model.materials.material import TEXTURE_SLOTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::engine3d.Engine3DWarning")
 

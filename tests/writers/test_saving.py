@@ -8,8 +8,8 @@ from shared_corpus import CONFORMANCE, cases_of, needs_conformance
 
 import engine3d as e3d
 from engine3d.errors import FileAccessError, InvalidArgumentError
-from engine3d.writers import formats
-from engine3d.writers.mtl import material_names
+from engine3d.io.formats.obj.mtl_writer import material_names
+from engine3d.io.writers import formats
 
 ARRAYS = ("positions", "faces", "normals", "uvs", "colors", "material_ids", "lines", "points")
 ARRAYS += ("edge_visible", "position_ids")

@@ -9,7 +9,7 @@ import pytest
 from loaders.seeds import FILES
 
 import engine3d as e3d
-from engine3d.scene.placements import Placements
+from engine3d.model.scene.placements import Placements
 
 MTL = b"newmtl brick\nKd .8 .2 .1\nmap_Kd house.tga\n"  # without what is not drawn
 VIEW = e3d.PerspectiveCamera(1.2), e3d.look_at((1, 2, 7), (0, 0, 0))
@@ -318,7 +318,7 @@ def test_the_file_is_plain_text_that_compares_line_by_line(tmp_path):
 
 
 def test_the_commands_open_scenes(tmp_path, monkeypatch, capsys):
-    from engine3d.cli import main
+    from engine3d.apps.cli import main
 
     monkeypatch.chdir(tmp_path)
     scene = e3d.Scene(background=(255, 0, 0))

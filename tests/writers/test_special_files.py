@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
+from engine3d.base.files.atomic_write import atomic_write
 from engine3d.errors import FileAccessError
-from engine3d.files.animation_files import save_animation
-from engine3d.files.atomic_write import atomic_write
+from engine3d.io.output.animation_files import save_animation
 from engine3d.loaders import load_document, load_mesh, load_texture
 
 

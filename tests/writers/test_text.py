@@ -5,7 +5,7 @@ import pytest
 
 from engine3d._native import writers as native
 from engine3d.errors import InvalidArgumentError
-from engine3d.writers.rows import float_words
+from engine3d.io.writing.rows import float_words
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 #ifndef E3D_KERNELS_ALBEDO_INL
 #define E3D_KERNELS_ALBEDO_INL
 
-#include "core/always_inline.h"
+#include "base/always_inline.h"
 #include "e3d.h"
 
 /* The place of a roughness and a cosine between normal and viewer in all tables. */

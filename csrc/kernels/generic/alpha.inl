@@ -2,11 +2,11 @@
 #ifndef E3D_KERNELS_ALPHA_INL
 #define E3D_KERNELS_ALPHA_INL
 
-#include "core/always_inline.h"
-#include "core/limits.h"
+#include "base/always_inline.h"
+#include "base/limits.h"
 #include "e3d.h"
 #include "kernels/types/alpha.h"
-#include "kernels/types/maps.h"
+#include "kernels/types/texture_slots.h"
 #include "kernels/types/samples.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
@@ -18,7 +18,7 @@
 #include "kernels/generic/texture.inl"
 #include "kernels/generic/texel_alpha.inl"
 #include "kernels/generic/anisotropic.inl"
-#include "kernels/generic/maps.inl"
+#include "kernels/generic/texture_slots.inl"
 #include "kernels/generic/encode.inl"
 #include "kernels/generic/samples.inl"
 

@@ -6,8 +6,8 @@
 #ifndef E3D_KERNELS_ANISOTROPIC_INL
 #define E3D_KERNELS_ANISOTROPIC_INL
 
-#include "core/always_inline.h"
-#include "core/limits.h"
+#include "base/always_inline.h"
+#include "base/limits.h"
 #include "e3d.h"
 #include "kernels/types/shading.h"
 #include "kernels/generic/surface.inl"

@@ -2,12 +2,12 @@
 #ifndef E3D_KERNELS_ANISOTROPY_INL
 #define E3D_KERNELS_ANISOTROPY_INL
 
-#include "core/always_inline.h"
-#include "core/limits.h"
-#include "kernels/types/maps.h"
+#include "base/always_inline.h"
+#include "base/limits.h"
+#include "kernels/types/texture_slots.h"
 #include "kernels/generic/surface.inl"
 #include "kernels/generic/interpolate.inl"
-#include "kernels/generic/maps.inl"
+#include "kernels/generic/texture_slots.inl"
 
 /* The directions of the lobe, rougher along t. */
 typedef struct stretch_lanes {

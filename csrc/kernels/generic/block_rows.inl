@@ -4,7 +4,7 @@
 #ifndef E3D_KERNELS_BLOCK_ROWS_INL
 #define E3D_KERNELS_BLOCK_ROWS_INL
 
-#include "core/limits.h"
+#include "base/limits.h"
 
 enum { ROW_LANES = V_LANES < 8 ? V_LANES : 8, ROWS = V_LANES / ROW_LANES };
 enum { ROW_SHIFT = ROW_LANES == 8 ? 3 : ROW_LANES == 4 ? 2 : 0 };

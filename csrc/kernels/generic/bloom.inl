@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-#include "core/bloom_levels.h"
-#include "core/always_inline.h"
+#include "data/bloom_levels.h"
+#include "base/always_inline.h"
 #include "kernels/generic/encode.inl"
 
 static ALWAYS_INLINE vf32 bloom_above(const float *light)

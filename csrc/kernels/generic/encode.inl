@@ -2,8 +2,8 @@
 #ifndef E3D_KERNELS_ENCODE_INL
 #define E3D_KERNELS_ENCODE_INL
 
-#include "core/always_inline.h"
-#include "core/encode_tables.h"
+#include "base/always_inline.h"
+#include "data/encode_tables.h"
 
 static inline vf32 encode_clamp(vf32 v) { return v_min(v_max(v, v_setf(0.0f)), v_setf(1.0f)); }
 

@@ -4,8 +4,8 @@
 #ifndef E3D_KERNELS_ENVIRONMENT_INL
 #define E3D_KERNELS_ENVIRONMENT_INL
 
-#include "core/always_inline.h"
-#include "core/limits.h"
+#include "base/always_inline.h"
+#include "base/limits.h"
 #include "e3d.h"
 #include "kernels/generic/encode.inl"
 

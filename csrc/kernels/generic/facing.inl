@@ -13,8 +13,8 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "core/limits.h"
-#include "core/mesh.h"
+#include "base/limits.h"
+#include "data/mesh.h"
 #include "kernels/kernels.h"
 #include "kernels/types/vertices.h"
 #include "kernels/generic/setup.inl"

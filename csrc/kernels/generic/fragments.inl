@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-#include "core/limits.h"
+#include "base/limits.h"
 #include "kernels/types/fragments.h"
 #include "kernels/types/records.h"
 #include "kernels/types/vertices.h"

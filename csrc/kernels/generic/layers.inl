@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-#include "core/limits.h"
+#include "base/limits.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
 #include "kernels/generic/visible.inl"

@@ -2,8 +2,8 @@
 #ifndef E3D_KERNELS_LIGHT_INL
 #define E3D_KERNELS_LIGHT_INL
 
-#include "core/always_inline.h"
-#include "core/limits.h"
+#include "base/always_inline.h"
+#include "base/limits.h"
 #include "e3d.h"
 #include "kernels/types/shading.h"
 #include "kernels/generic/surface.inl"

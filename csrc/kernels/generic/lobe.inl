@@ -2,7 +2,7 @@
 #ifndef E3D_KERNELS_LOBE_INL
 #define E3D_KERNELS_LOBE_INL
 
-#include "core/always_inline.h"
+#include "base/always_inline.h"
 #include "kernels/types/lobe.h"
 
 /* With m = |n - l|^2: n.l = 1 - m/2, and 1 - (n.h)^2 = m/4, without loss of bits where l is near n. */

@@ -4,7 +4,7 @@
 #ifndef E3D_KERNELS_PAINT_INL
 #define E3D_KERNELS_PAINT_INL
 
-#include "core/always_inline.h"
+#include "base/always_inline.h"
 #include "e3d.h"
 #include "kernels/types/shading.h"
 #include "kernels/generic/interpolate.inl"

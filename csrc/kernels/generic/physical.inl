@@ -2,19 +2,19 @@
 #ifndef E3D_KERNELS_PHYSICAL_INL
 #define E3D_KERNELS_PHYSICAL_INL
 
-#include "core/always_inline.h"
-#include "core/limits.h"
+#include "base/always_inline.h"
+#include "base/limits.h"
 #include "e3d.h"
-#include "kernels/types/maps.h"
+#include "kernels/types/texture_slots.h"
 #include "kernels/types/shading.h"
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/light.inl"
 #include "kernels/generic/shadow.inl"
 #include "kernels/generic/albedo.inl"
 #include "kernels/generic/environment.inl"
-#include "kernels/generic/maps.inl"
-#include "kernels/generic/model.inl"
-#include "kernels/generic/model_lights.inl"
+#include "kernels/generic/texture_slots.inl"
+#include "kernels/generic/brdf.inl"
+#include "kernels/generic/brdf_lights.inl"
 
 /* ---- sums (R56, R57) ---- */
 

@@ -5,7 +5,7 @@
 #ifndef E3D_KERNELS_RASTER_INL
 #define E3D_KERNELS_RASTER_INL
 
-#include "core/limits.h"
+#include "base/limits.h"
 #include "kernels/kernels.h"
 #include "kernels/types/visible.h"
 

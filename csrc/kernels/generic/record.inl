@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#include "core/limits.h"
+#include "base/limits.h"
 #include "kernels/kernels.h"
 #include "kernels/types/records.h"
 #include "kernels/types/vertices.h"

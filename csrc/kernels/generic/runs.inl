@@ -4,7 +4,7 @@
 #ifndef E3D_KERNELS_RUNS_INL
 #define E3D_KERNELS_RUNS_INL
 
-#include "core/limits.h"
+#include "base/limits.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"

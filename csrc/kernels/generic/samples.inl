@@ -2,8 +2,8 @@
 #ifndef E3D_KERNELS_SAMPLES_INL
 #define E3D_KERNELS_SAMPLES_INL
 
-#include "core/always_inline.h"
-#include "core/limits.h"
+#include "base/always_inline.h"
+#include "base/limits.h"
 #include "kernels/types/samples.h"
 #include "kernels/types/shading.h"
 #include "kernels/generic/encode.inl"

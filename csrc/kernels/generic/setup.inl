@@ -1,12 +1,12 @@
 /* setup: which triangles of a cluster may show (R4-R7, R9, R10), a vector of triangles at a time.
  *
- * Conservative where 32 bits do not hold the area: such a triangle stays, and record.inl or pipeline/geometry/setup.c decides.
+ * Conservative where 32 bits do not hold the area: such a triangle stays, and record.inl or frame/geometry/setup.c decides.
  */
 #ifndef E3D_KERNELS_SETUP_INL
 #define E3D_KERNELS_SETUP_INL
 
-#include "core/limits.h"
-#include "core/sample_patterns.h"
+#include "base/limits.h"
+#include "data/sample_patterns.h"
 #include "kernels/types/records.h"
 #include "kernels/types/vertices.h"
 

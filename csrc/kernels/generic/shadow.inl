@@ -6,9 +6,9 @@
 
 #include <stddef.h>
 
-#include "core/always_inline.h"
-#include "core/limits.h"
-#include "core/shadow_ranges.h"
+#include "base/always_inline.h"
+#include "base/limits.h"
+#include "data/shadow_ranges.h"
 #include "e3d.h"
 #include "kernels/types/shading.h"
 #include "kernels/generic/surface.inl"

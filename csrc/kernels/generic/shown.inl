@@ -6,7 +6,7 @@
 #ifndef E3D_KERNELS_SHOWN_INL
 #define E3D_KERNELS_SHOWN_INL
 
-#include "core/limits.h"
+#include "base/limits.h"
 #include "kernels/types/fragments.h"
 #include "kernels/types/records.h"
 #include "kernels/types/shading.h"

@@ -9,7 +9,7 @@
 #ifndef E3D_KERNELS_SPANS_INL
 #define E3D_KERNELS_SPANS_INL
 
-#include "core/limits.h"
+#include "base/limits.h"
 #include "kernels/types/records.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"

@@ -2,7 +2,7 @@
 #ifndef E3D_KERNELS_STREAM_INL
 #define E3D_KERNELS_STREAM_INL
 
-#include "core/machine.h"
+#include "base/machine.h"
 #include "kernels/types/samples.h"
 
 /* Non-temporal stores: plain ones would first read each line from memory, which took 0.4 to 0.7 ms of a frame of 1920 x 1080. Rows

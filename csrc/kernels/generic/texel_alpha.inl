@@ -2,7 +2,7 @@
 #ifndef E3D_KERNELS_TEXEL_ALPHA_INL
 #define E3D_KERNELS_TEXEL_ALPHA_INL
 
-#include "core/always_inline.h"
+#include "base/always_inline.h"
 #include "e3d.h"
 #include "kernels/generic/texture.inl"
 

@@ -1,12 +1,12 @@
 /* texture: samples of one texture, filtered with 8-bit weights (R28-R30).
  *
- * Texels have a border (core/texture.c): the second of two neighbours always is the next in memory.
+ * Texels have a border (data/texture.c): the second of two neighbours always is the next in memory.
  */
 #ifndef E3D_KERNELS_TEXTURE_INL
 #define E3D_KERNELS_TEXTURE_INL
 
-#include "core/always_inline.h"
-#include "core/limits.h"
+#include "base/always_inline.h"
+#include "base/limits.h"
 #include "e3d.h"
 #include "kernels/types/shading.h"
 

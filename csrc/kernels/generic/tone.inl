@@ -2,8 +2,8 @@
 #ifndef E3D_KERNELS_TONE_INL
 #define E3D_KERNELS_TONE_INL
 
-#include "core/always_inline.h"
-#include "core/tone_tables.h"
+#include "base/always_inline.h"
+#include "data/tone_tables.h"
 #include "e3d.h"
 #include "kernels/types/fog.h"
 #include "kernels/generic/surface.inl"

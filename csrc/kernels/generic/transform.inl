@@ -6,7 +6,7 @@
 #ifndef E3D_KERNELS_TRANSFORM_INL
 #define E3D_KERNELS_TRANSFORM_INL
 
-#include "core/limits.h"
+#include "base/limits.h"
 #include "kernels/types/vertices.h"
 
 static inline vi32 transform_flag(vmask m, int32_t bit)

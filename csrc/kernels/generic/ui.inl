@@ -2,7 +2,7 @@
 #ifndef E3D_KERNELS_UI_INL
 #define E3D_KERNELS_UI_INL
 
-#include "core/always_inline.h"
+#include "base/always_inline.h"
 #include "e3d_canvas.h"
 #include "e3d_ui.h"
 #include "kernels/types/ui.h"

@@ -8,7 +8,7 @@
 #ifndef E3D_KERNELS_VISIBLE_INL
 #define E3D_KERNELS_VISIBLE_INL
 
-#include "core/limits.h"
+#include "base/limits.h"
 #include "kernels/kernels.h"
 #include "kernels/types/fragments.h"
 #include "kernels/types/records.h"

@@ -4,8 +4,8 @@
 #ifndef E3D_KERNELS_VISIBLE_RECORDS_INL
 #define E3D_KERNELS_VISIBLE_RECORDS_INL
 
-#include "core/always_inline.h"
-#include "core/limits.h"
+#include "base/always_inline.h"
+#include "base/limits.h"
 #include "kernels/coverage.h"
 #include "kernels/types/records.h"
 #include "kernels/types/visible.h"

@@ -11,7 +11,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "core/always_inline.h"
+#include "base/always_inline.h"
 
 #define V_LANES 1
 

@@ -5,7 +5,7 @@
 #include <immintrin.h>
 #include <stdint.h>
 
-#include "core/always_inline.h"
+#include "base/always_inline.h"
 #include "kernels/simd/rows_avx2.h"
 #include "kernels/simd/pack_sse.h"
 #include "kernels/simd/pairs_sse.h"

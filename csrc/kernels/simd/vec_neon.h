@@ -10,7 +10,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "core/always_inline.h"
+#include "base/always_inline.h"
 #include "kernels/simd/pack_order.h"
 
 #define V_LANES 4

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "core/always_inline.h"
+#include "base/always_inline.h"
 #include "kernels/simd/pack_sse.h"
 #include "kernels/simd/pairs_sse.h"
 

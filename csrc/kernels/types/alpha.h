@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-#include "core/limits.h"
-#include "core/sample_patterns.h"
+#include "base/limits.h"
+#include "data/sample_patterns.h"
 #include "kernels/types/shown.h"
 
 /* The list of their samples, and beside it their depths. A sample may be in it several times. */

@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#include "core/limits.h"
+#include "base/limits.h"
 #include "e3d.h"
 
 enum {

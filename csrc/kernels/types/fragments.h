@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "core/limits.h"
+#include "base/limits.h"
 #include "kernels/types/records.h"
 
 enum { E3D_SMALLS = 4 * E3D_CLUSTER_TRIANGLES, E3D_MOST_FRAGMENTS = E3D_SMALLS * E3D_SMALL * E3D_SMALL };

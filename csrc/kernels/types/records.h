@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "core/limits.h"
+#include "base/limits.h"
 #include "kernels/types/vertices.h"
 
 /* The triangles of a cluster that may show, a bit each: `small` ones become fragments where the plan has these, `draw` ones become

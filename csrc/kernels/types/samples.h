@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#include "core/limits.h"
+#include "base/limits.h"
 
 /* A tile's samples, where there are several a pixel, or where blended ones are laid over them. */
 typedef struct e3d_samples {

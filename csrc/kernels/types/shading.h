@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-#include "core/limits.h"
-#include "core/sample_patterns.h"
+#include "base/limits.h"
+#include "data/sample_patterns.h"
 #include "e3d.h"
 #include "kernels/types/fog.h"
 #include "kernels/types/samples.h"

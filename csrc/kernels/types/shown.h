@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-#include "core/limits.h"
-#include "core/sample_patterns.h"
+#include "base/limits.h"
+#include "data/sample_patterns.h"
 #include "kernels/types/records.h"
 
 /* Neighbouring samples of one row of a tile that show the same owner, a slot or an ID. */

@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-#include "core/limits.h"
-#include "core/sample_patterns.h"
+#include "base/limits.h"
+#include "data/sample_patterns.h"
 
 /* What tells which way the clusters of an instance face (facing.inl). */
 typedef struct e3d_facing {

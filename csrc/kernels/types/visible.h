@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "core/limits.h"
+#include "base/limits.h"
 #include "kernels/types/records.h"
 
 /* A piece in one tile. e, a, b are its edge functions at the tile's first sample, floor(E / 256) with the top-left rule included;

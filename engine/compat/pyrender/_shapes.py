@@ -10,8 +10,8 @@ import numpy as np
 
 from ..._native import pyrender as _native
 from ..._native.pyrender import NativeShape, NativeTexture
-from ...geometry.mesh import Mesh
-from ...materials.material import Material
+from ...model.geometry.mesh import Mesh
+from ...model.materials.material import Material
 from .constants import GLTF
 from .primitive import Primitive
 from .texture import Texture

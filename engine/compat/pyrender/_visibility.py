@@ -11,11 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...model.scene.cameras import Camera
+from ...model.scene.instances import InstancedMesh
+from ...model.scene.scene import Scene
 from ...rendering.options import RenderOptions
 from ...rendering.renderer import Renderer
-from ...scene.cameras import Camera
-from ...scene.instances import InstancedMesh
-from ...scene.scene import Scene
 from ._shapes import mesh_of
 from .primitive import Primitive
 

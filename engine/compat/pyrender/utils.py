@@ -66,7 +66,7 @@ def format_texture_source(texture, target_channels: str = "RGB") -> np.ndarray |
     if texture is None:
         return None
     if hasattr(texture, "convert") and hasattr(texture, "mode"):  # Pillow's
-        from ...loaders.images import made_pixels
+        from ...io.formats.images import made_pixels
 
         texture = made_pixels(texture, "texture")
     if not isinstance(texture, np.ndarray) or texture.dtype.kind not in "fiu":

@@ -11,9 +11,9 @@ import threading
 
 import numpy as np
 
-from ... import events
-from ..._support.side_by_side import Thread
-from ...files.atomic_write import atomic_write
+from ...apps import events
+from ...base.files.atomic_write import atomic_write
+from ...base.side_by_side import Thread
 from ._drawing import Drawing
 from ._viewer_lights import direct_light, raymond_lights
 from .camera import IntrinsicsCamera, OrthographicCamera, PerspectiveCamera
@@ -231,7 +231,7 @@ class Viewer:
 
     def start(self) -> None:
         """Show the scene until the user closes the window."""
-        from ...viewer.window import Window
+        from ...apps.viewer.window import Window
 
         rate = float(self._viewer_flags["refresh_rate"])
         title = str(self._viewer_flags["window_title"])

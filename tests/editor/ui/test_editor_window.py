@@ -18,13 +18,13 @@ pytest.importorskip(
 
 from importlib.resources import files
 
-from engine3d.editor.ui import fog_fields
-from engine3d.editor.ui.editor_window import SETTLING, EditorWindow
-from engine3d.editor.ui.layout import layout_path, load_layout, save_layout
-from engine3d.editor.ui.properties_panel import _COLLIDERS, _KINDS
-from engine3d.editor.ui.workspace import Workspace
-from engine3d.editor.value_commands import SetValues
-from engine3d.scene.fog import ExponentialFog, Fog
+from engine3d.apps.editor.ui import fog_fields
+from engine3d.apps.editor.ui.editor_window import SETTLING, EditorWindow
+from engine3d.apps.editor.ui.layout import layout_path, load_layout, save_layout
+from engine3d.apps.editor.ui.properties_panel import _COLLIDERS, _KINDS
+from engine3d.apps.editor.ui.workspace import Workspace
+from engine3d.apps.editor.value_commands import SetValues
+from engine3d.model.scene.fog import ExponentialFog, Fog
 
 SIZE = (1000, 640)
 STUBBORN = "exec('while True:\\n try:\\n  while True: pass\\n except BaseException: pass')"
@@ -325,7 +325,7 @@ def test_a_scene_that_was_left_behind_is_offered(editor, monkeypatch):
     press(editor, "Delete")
     count = len(editor.workspace.scene.nodes)
     assert editor.workspace._autosave.save()
-    monkeypatch.setattr("engine3d.editor.autosave._is_locked", lambda path: False)
+    monkeypatch.setattr("engine3d.apps.editor.autosave._is_locked", lambda path: False)
     editor._files.offer_recovery()
     settle(editor)
     editor.workspace._autosave._path = None  # as if its process had ended
@@ -413,7 +413,7 @@ def test_an_error_of_a_panel_is_told_and_the_editor_goes_on(editor, monkeypatch)
     def fail(self, *arguments):
         raise ZeroDivisionError("planted")
 
-    name = "engine3d.editor.ui.hierarchy_panel.HierarchyPanel._draw_name"
+    name = "engine3d.apps.editor.ui.hierarchy_panel.HierarchyPanel._draw_name"
     with monkeypatch.context() as patched:
         patched.setattr(name, fail)
         settle(editor)
@@ -441,7 +441,7 @@ def test_what_is_not_saved_is_kept_when_the_editor_fails(tmp_path):
     """In a process of its own, which must end as Python does after an error."""
     program = (
         "import sys\n"
-        "from engine3d.editor.ui.editor_window import EditorWindow\n"
+        "from engine3d.apps.editor.ui.editor_window import EditorWindow\n"
         "with EditorWindow(size=(600, 400)) as editor:\n"
         "    editor.workspace.lines_to_run.append('scene.add()')\n"
         "    editor.turn(0.0)\n"
@@ -468,7 +468,7 @@ def test_what_is_not_saved_is_kept_when_the_editor_fails(tmp_path):
 def test_sigterm_ends_the_editor_whatever_it_does(tmp_path, path, line):
     program = (
         "import os, signal, sys, threading\n"
-        "from engine3d.editor.ui.editor_window import EditorWindow\n"
+        "from engine3d.apps.editor.ui.editor_window import EditorWindow\n"
         f"with EditorWindow({path!r}, size=(600, 400)) as editor:\n"
         f"    editor.workspace.lines_to_run += ['scene.add()', {line!r}, '']\n"
         "    end = lambda: os.kill(os.getpid(), signal.SIGTERM)\n"
@@ -557,7 +557,7 @@ def test_a_mesh_is_loaded_into_a_node_and_removed(editor, tmp_path):
     ],
 )
 def test_a_file_that_cannot_be_opened_ends_the_command(name, why, monkeypatch, tmp_path, capsys):
-    from engine3d.cli import main
+    from engine3d.apps.cli import main
 
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     monkeypatch.chdir(tmp_path)
@@ -591,11 +591,11 @@ def test_a_layout_that_cannot_be_kept_does_no_harm(editor, monkeypatch, tmp_path
 
 @pytest.mark.parametrize("is_there", [False, True])
 def test_without_imgui_one_line_says_what_lacks(is_there, monkeypatch, capsys, tmp_path):
-    from engine3d.cli import main
+    from engine3d.apps.cli import main
 
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     for name in list(sys.modules):
-        if name.startswith(("engine3d.editor.ui", "imgui_bundle")):
+        if name.startswith(("engine3d.apps.editor.ui", "imgui_bundle")):
             monkeypatch.delitem(sys.modules, name)
     if is_there:
         (tmp_path / "imgui_bundle").mkdir()

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.editor.scene_state import SceneState
-from engine3d.materials.material import PARAMETERS
-from engine3d.scene import lights
-from engine3d.scene.object_kinds import KINDS
+from engine3d.apps.editor.scene_state import SceneState
+from engine3d.io.scenes.object_kinds import KINDS
+from engine3d.model.materials.material import PARAMETERS
+from engine3d.model.scene import lights
 
 pytest.importorskip(
     "imgui_bundle", reason="it is an extra: pip install -e .[editor]", exc_type=ImportError
@@ -18,9 +18,9 @@ pytest.importorskip(
 
 from imgui_bundle import imgui
 
-from engine3d.editor.ui import fog_fields, properties_panel
-from engine3d.editor.ui.editor_window import EditorWindow
-from engine3d.editor.ui.properties_panel import _COLLIDERS
+from engine3d.apps.editor.ui import fog_fields, properties_panel
+from engine3d.apps.editor.ui.editor_window import EditorWindow
+from engine3d.apps.editor.ui.properties_panel import _COLLIDERS
 
 HELD = {
     "light probe": lambda: e3d.LightProbe(np.ones((9, 3))),

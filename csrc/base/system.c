@@ -1,0 +1,72 @@
+/* What Linux, macOS and Windows give in different ways: system.h. */
+#define _GNU_SOURCE
+#include "base/system.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#if defined(_WIN32)
+#define WIN32_LEAN_AND_MEAN
+#include <windows.h>
+#else
+#include <signal.h>
+#include <unistd.h>
+#endif
+#if defined(__linux__)
+#include <sched.h>
+#include <sys/syscall.h>
+#elif defined(__APPLE__)
+#include <sys/random.h>
+#endif
+
+int e3d_random_bytes(void *bytes, size_t count)
+{
+#if defined(__linux__) /* as a system call: glibc has a function for it from 2.25 on */
+    const unsigned without_waiting = 1;
+    return syscall(SYS_getrandom, bytes, count, without_waiting) == (long)count;
+#elif defined(__APPLE__)
+    return getentropy(bytes, count) == 0;
+#elif defined(_WIN32)
+    for (size_t at = 0; at < count; at += sizeof(unsigned)) {
+        unsigned some;
+        if (rand_s(&some))
+            return 0;
+        memcpy((char *)bytes + at, &some, count - at < sizeof some ? count - at : sizeof some);
+    }
+    return 1;
+#else
+    (void)bytes, (void)count;
+    return 0;
+#endif
+}
+
+int e3d_usable_processors(void)
+{
+#if defined(_WIN32)
+    SYSTEM_INFO system;
+    GetSystemInfo(&system);
+    long online = (long)system.dwNumberOfProcessors;
+#else
+#if defined(__linux__)
+    cpu_set_t set;
+    if (sched_getaffinity(0, sizeof set, &set) == 0)
+        return CPU_COUNT(&set);
+#endif
+    long online = sysconf(_SC_NPROCESSORS_ONLN);
+#endif
+    return online > 0 ? (int)online : 1;
+}
+
+void e3d_without_signals(void (*start)(int), int argument)
+{
+#if defined(_WIN32)
+    start(argument);
+#else
+    sigset_t all, saved;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &saved);
+    start(argument);
+    pthread_sigmask(SIG_SETMASK, &saved, NULL);
+#endif
+}

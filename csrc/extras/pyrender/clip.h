@@ -1,0 +1,42 @@
+/* Polygons and segments of clip space, cut where they leave the room before the near plane. */
+#ifndef E3D_PYR_CLIP_H
+#define E3D_PYR_CLIP_H
+
+#include "data/clip_planes.h"
+
+enum { PYR_MOST_CORNERS = 3 + E3D_CLIP_PLANES,
+       PYR_SIDE = 64 /* times the picture to each side is kept, so that what is left has coordinates that 64 bits multiply */ };
+
+static inline double pyr_inside(const double p[4], int plane) { return e3d_inside(p, plane, 0x1p-60, PYR_SIDE, PYR_SIDE); }
+
+/* Cuts a polygon; returns how many corners are left. Edges are cut as they run, those of frames from the inside to the outside (R7), which
+ * rounds other bits. */
+static inline int pyr_clip_polygon(double p[PYR_MOST_CORNERS][4], int count)
+{
+    double out[PYR_MOST_CORNERS][4];
+    for (int plane = 0; plane < E3D_CLIP_PLANES && count; plane++) {
+        int kept = 0;
+        for (int i = 0; i < count; i++) {
+            const double *a = p[i], *b = p[(i + 1) % count];
+            double da = pyr_inside(a, plane), db = pyr_inside(b, plane);
+            if (da >= 0 && kept < PYR_MOST_CORNERS) {
+                for (int c = 0; c < 4; c++)
+                    out[kept][c] = a[c];
+                kept++;
+            }
+            if ((da >= 0) != (db >= 0) && kept < PYR_MOST_CORNERS) {
+                double t = da / (da - db);
+                for (int c = 0; c < 4; c++)
+                    out[kept][c] = a[c] + (b[c] - a[c]) * t;
+                kept++;
+            }
+        }
+        count = kept;
+        for (int i = 0; i < count; i++)
+            for (int c = 0; c < 4; c++)
+                p[i][c] = out[i][c];
+    }
+    return count;
+}
+
+#endif

@@ -1,0 +1,80 @@
+/* cast: what is kept of casters from frame to frame, and which lights' grids have to be made anew. */
+#include "frame/cast/casters.h"
+
+#include <string.h>
+
+#include "base/grow.h"
+#include "e3d.h"
+#include "kernels/types/casters.h"
+#include "frame/cast/faces.h"
+#include "frame/cast/grids.h"
+#include "frame/cast/holes.h"
+
+/* ---- what is kept ---- */
+
+static int is_same_light(const e3d_light *a, const e3d_light *b)
+{
+    return a->kind == b->kind && a->range == b->range && !memcmp(a->to_light, b->to_light, sizeof a->to_light) &&
+           !memcmp(a->position, b->position, sizeof a->position);
+}
+
+static e3d_status find_lights(e3d_caster_memory *memory, const e3d_frame *frame, int32_t threads)
+{
+    int32_t count = 0;
+    for (int32_t n = 0; n < frame->light_count; n++) {
+        const e3d_light *light = &frame->lights[n];
+        if (light->shadow.kind != E3D_SHADOW_EXACT)
+            continue;
+        if (count == E3D_MAX_EXACT_LIGHTS)
+            return E3D_INVALID_ARGUMENT;
+        e3d_caster_light *out = &memory->lights[count];
+        if (count >= memory->kept_lights || !is_same_light(light, &memory->made_for[count])) {
+            memory->kept_lights = count < memory->kept_lights ? count : memory->kept_lights;
+            if (!e3d_find_grids(&memory->faces, light, &memory->of_light[count], out, threads))
+                return E3D_OUT_OF_MEMORY;
+            memory->made_for[count] = *light;
+            memory->kept_lights = count + 1;
+        }
+        out->number = n;
+        count++;
+    }
+    memory->index.light_count = count;
+    return E3D_OK;
+}
+
+e3d_status e3d_casters_prepare(e3d_caster_memory *memory, const e3d_frame *frame, int32_t threads)
+{
+    const e3d_casters none = {NULL, 0, NULL, 0, 0}, *casters = frame->casters ? frame->casters : &none;
+    if (!e3d_casters_are_valid(casters))
+        return E3D_INVALID_ARGUMENT;
+    int same = casters->version && casters->version == memory->faces.casters.version;
+    memory->faces.casters = *casters;
+    if (!same) {
+        memory->kept_lights = 0;
+        memory->faces.casters.version = 0; /* until all is well */
+        e3d_status status = e3d_place_casters(&memory->faces, threads);
+        if (status != E3D_OK)
+            return status;
+        memory->faces.casters.version = casters->version;
+    }
+    memory->index.lights = memory->lights;
+    memory->index.world = memory->faces.world.data;
+    memory->index.may_be_open = memory->faces.may_be_open.data;
+    memory->index.is_open = e3d_caster_is_open;
+    memory->index.source = &memory->faces;
+    return find_lights(memory, frame, threads);
+}
+
+void e3d_casters_free(e3d_caster_memory *memory)
+{
+    e3d_array_free(&memory->faces.instances);
+    e3d_array_free(&memory->faces.world);
+    e3d_array_free(&memory->faces.may_be_open);
+    for (int n = 0; n < E3D_MAX_EXACT_LIGHTS; n++) {
+        e3d_array_free(&memory->of_light[n].corners);
+        for (int face = 0; face < E3D_CASTER_FACES; face++) {
+            e3d_array_free(&memory->of_light[n].starts[face]);
+            e3d_array_free(&memory->of_light[n].boxes[face]);
+        }
+    }
+}

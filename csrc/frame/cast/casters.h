@@ -1,0 +1,23 @@
+/* What casts exact shadows, kept from frame to frame for as long as it stays the same. */
+#ifndef E3D_CASTERS_H
+#define E3D_CASTERS_H
+
+#include "e3d.h"
+#include "kernels/types/casters.h"
+#include "frame/cast/faces.h"
+#include "frame/cast/grids.h"
+
+typedef struct e3d_caster_memory {
+    e3d_caster_faces faces;
+    e3d_caster_index index;
+    e3d_caster_light lights[E3D_MAX_EXACT_LIGHTS];
+    e3d_light made_for[E3D_MAX_EXACT_LIGHTS]; /* the lights, as they were */
+    e3d_light_memory of_light[E3D_MAX_EXACT_LIGHTS];
+    int32_t kept_lights; /* whose grids are those of the casters */
+} e3d_caster_memory;
+
+/* Brings the index up to date with a frame that has such lights. */
+e3d_status e3d_casters_prepare(e3d_caster_memory *memory, const e3d_frame *frame, int32_t threads);
+void e3d_casters_free(e3d_caster_memory *memory);
+
+#endif

@@ -1,0 +1,56 @@
+/* Records to the tiles that they may cover. */
+#ifndef E3D_BIN_H
+#define E3D_BIN_H
+
+#include "base/limits.h"
+#include "kernels/coverage.h"
+#include "kernels/types/records.h"
+#include "kernels/types/visible.h"
+#include "frame/geometry/records.h"
+#include "frame/pass/view.h"
+
+/* What the geometry leaves for the tiles: each thread's records and fragments, listed by tile, and what tells them by their IDs. */
+typedef struct e3d_bins {
+    int32_t threads, tiles;
+    int alpha; /* whether there may be records with alpha */
+    e3d_geometry_state *of[E3D_MAX_THREADS];
+    const e3d_record *records[E3D_SETS][E3D_MAX_THREADS];
+    const e3d_drawn_cluster *drawn[E3D_MAX_THREADS];
+    const float *corners[E3D_MAX_THREADS]; /* c[k][j] of the cut records of the scene */
+    e3d_record_table tables[E3D_SETS];
+} e3d_bins;
+
+/* The bins of so many threads, whose memory is theirs already. */
+void e3d_bins_init(e3d_bins *bins, int32_t threads);
+void e3d_geometry_free(e3d_geometry_state *state);
+/* Begins a pass with nothing in the bins, which has records with alpha or not; 0 when memory is out. */
+int e3d_bins_reset(e3d_bins *bins, int64_t tiles, int alpha);
+/* Empties the bins of the scene. */
+void e3d_bins_clear(e3d_bins *bins);
+/* Puts what they hold aside; 0 when memory is out. */
+int e3d_bins_keep(e3d_bins *bins);
+/* After the records have their places: the tables that tell a record by its ID. */
+void e3d_bins_index(e3d_bins *bins);
+
+/* Lists `count` records of a set from `first` on in the bins `to` of the tiles that they may touch; 0 when memory is out. */
+int e3d_bin_records(const e3d_view *view, e3d_geometry_state *state, const e3d_record_set *set, e3d_chains *to, uint32_t first,
+                    const e3d_tile_span *spans, int count);
+static inline e3d_tile_span e3d_span_of(const e3d_box *box)
+{
+    return (e3d_tile_span){(uint32_t)(box->y0 >> E3D_TILE_SHIFT << 16 | box->x0 >> E3D_TILE_SHIFT),
+                           (uint32_t)(box->y1 >> E3D_TILE_SHIFT << 16 | box->x1 >> E3D_TILE_SHIFT)};
+}
+
+/* Whether any thread has a record or a fragment for the tile. */
+int e3d_has_bin(const e3d_bins *bins, int which, int64_t tile);
+/* Whether any thread has a record with alpha for the tile. */
+int e3d_has_alpha(const e3d_bins *bins, int kind, int64_t tile);
+/* Whether there is anything for the tile. */
+int e3d_has_bins(const e3d_bins *bins, int64_t tile);
+/* How many a tile's bins of the scene hold. */
+typedef struct e3d_entries {
+    uint32_t records, fragments;
+} e3d_entries;
+e3d_entries e3d_count_entries(const e3d_bins *bins, int64_t tile);
+
+#endif

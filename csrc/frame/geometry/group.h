@@ -1,0 +1,31 @@
+/* Groups of clusters that may show. */
+#ifndef E3D_GEOMETRY_GROUP_H
+#define E3D_GEOMETRY_GROUP_H
+
+#include "data/mesh.h"
+#include "frame/cull/cull.h"
+#include "frame/geometry/fetch.h"
+#include "frame/geometry/round.h"
+#include "frame/geometry/records.h"
+#include "frame/pass/draws.h"
+#include "frame/pass/prepared.h"
+#include "frame/pass/view.h"
+
+/* A candidate, and the thread that visits it. */
+typedef struct e3d_visit {
+    const e3d_geometry_in *in;
+    const e3d_geometry_out *out;
+    const e3d_prepared *pass;
+    e3d_geometry_state *state;
+    e3d_next_clusters *next;
+    const e3d_candidate *candidate;
+    const e3d_draw_state *draw;
+    const e3d_view_instance *instance;
+    const e3d_group_box *group;
+} e3d_visit;
+
+/* Draws the group's clusters that are in `wanted` and may show; returns all that may, of those that are in `asked`. Bit k is
+ * cluster k. */
+unsigned e3d_draw_group(const e3d_visit *v, unsigned asked, unsigned wanted);
+
+#endif

@@ -1,0 +1,28 @@
+/* A pass that is prepared: all that no stage changes while it is drawn. */
+#ifndef E3D_PREPARED_H
+#define E3D_PREPARED_H
+
+#include "data/sample_patterns.h"
+#include "e3d.h"
+#include "kernels/kernels.h"
+#include "kernels/types/casters.h"
+#include "frame/pass/draws.h"
+#include "frame/pass/plan.h"
+#include "frame/pass/view.h"
+
+typedef struct e3d_prepared {
+    const e3d_kernels *kernels;
+    int32_t threads;
+    const e3d_frame *frame;
+    const e3d_targets *targets;
+    e3d_plan plan;
+    const e3d_draws *draws; /* the geometry finishes some instances, here and in the view */
+    const e3d_view *view;
+    const e3d_caster_index *casters; /* where lights have exact shadows */
+    const e3d_sample_pattern *pattern; /* NULL: no multisampling */
+    const e3d_view *frustum; /* that tells what is drawn: the same view, or that of a camera that stands still */
+} e3d_prepared;
+
+static inline int e3d_plans(const e3d_prepared *pass, e3d_plan_item item) { return e3d_plan_has(pass->plan, item); }
+
+#endif

@@ -1,0 +1,80 @@
+/* One eye: all of a pass that depends on where it is seen from. */
+#ifndef E3D_VIEW_H
+#define E3D_VIEW_H
+
+#include <stdint.h>
+
+#include "base/grow.h"
+#include "base/limits.h"
+#include "e3d.h"
+#include "kernels/coverage.h"
+#include "kernels/types/fog.h"
+#include "kernels/types/shading.h"
+#include "kernels/types/vertices.h"
+#include "frame/pass/draws.h"
+
+/* An instance as the eye sees it (R1, R2). */
+typedef struct e3d_view_instance {
+    float clip[16];
+    int32_t shows;    /* its mesh's box may be in view */
+    int32_t ready;    /* not only its clip matrix is known */
+    int32_t mirrored; /* by its own matrix or by the camera's, not by both */
+    e3d_facing facing;
+} e3d_view_instance;
+
+/* A tile's place in the picture. */
+typedef struct e3d_tile {
+    int32_t x, y;          /* first sample */
+    int32_t width, height; /* samples inside the viewport */
+} e3d_tile;
+
+typedef struct e3d_view {
+    e3d_viewport viewport;
+    int32_t tiles_x, tiles_y; /* the grid of tiles */
+    e3d_box windows[E3D_MAX_WINDOWS]; /* in samples: backs that reach into one are not culled (R9) */
+    int32_t window_count;
+    float rows[12];           /* of view_from_world, f32 */
+    int mirrors;              /* the camera does: R2 */
+    e3d_lighting lighting, unshadowed; /* unshadowed: of what no shadow falls on */
+    e3d_fog_view fog[2]; /* of what is not lit, and of what is */
+    e3d_view_instance *instances;
+    e3d_array instance_memory, reach_memory;
+} e3d_view;
+
+/* Finds the view of draws that have their places. Those instances are drawn that `frustum` shows, which is the same view, or is
+ * prepared already. 0 when memory is out. */
+int e3d_view_prepare(e3d_view *view, const e3d_view *frustum, const double clip_from_world[16], e3d_draws *draws, const e3d_frame *frame,
+                     int threads);
+/* Finds what an instance is drawn with besides its clip matrix, here and in the draws. */
+void e3d_view_finish_instance(e3d_view *view, e3d_draws *draws, uint32_t number);
+void e3d_view_free(e3d_view *view);
+
+/* The lights, with their shadows or without. */
+static inline const e3d_lighting *e3d_lighting_of(const e3d_view *view, int unshadowed)
+{
+    return unshadowed ? &view->unshadowed : &view->lighting;
+}
+
+/* Whether a box of samples reaches into a window. */
+static inline int e3d_meets_window(const e3d_view *view, const e3d_box *box)
+{
+    for (int32_t i = 0; i < view->window_count; i++) {
+        const e3d_box *window = &view->windows[i];
+        if (box->x0 <= window->x1 && box->x1 >= window->x0 && box->y0 <= window->y1 && box->y1 >= window->y0)
+            return 1;
+    }
+    return 0;
+}
+
+static inline int64_t e3d_tile_count(const e3d_view *view) { return (int64_t)view->tiles_x * view->tiles_y; }
+
+static inline e3d_tile e3d_tile_at(const e3d_view *view, int64_t number)
+{
+    e3d_tile tile = {.x = (int32_t)(number % view->tiles_x) * E3D_TILE, .y = (int32_t)(number / view->tiles_x) * E3D_TILE};
+    int32_t width = view->viewport.width - tile.x, height = view->viewport.height - tile.y;
+    tile.width = width < E3D_TILE ? width : E3D_TILE;
+    tile.height = height < E3D_TILE ? height : E3D_TILE;
+    return tile;
+}
+
+#endif

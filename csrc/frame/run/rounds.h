@@ -1,0 +1,12 @@
+/* Rounds: what is near, or what the last frames showed, is drawn first, and hides what is behind it. */
+#ifndef E3D_ROUNDS_H
+#define E3D_ROUNDS_H
+
+#include "e3d.h"
+#include "frame/run/prepare.h"
+
+/* Draws the pass's geometry in as many rounds as pay. Tiles are finished meanwhile or not; e3d_tiles() draws what the last round
+ * left in their bins. */
+e3d_status e3d_rounds(const e3d_context *context, e3d_stats *stats);
+
+#endif

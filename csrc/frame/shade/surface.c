@@ -1,0 +1,475 @@
+/* shade, first half: the pieces that show in a tile, and what each brings to its samples (R3, R18, R20-R24). */
+#include <stddef.h>
+#include <string.h>
+
+#include "base/always_inline.h"
+#include "base/grow.h"
+#include "base/limits.h"
+#include "e3d.h"
+#include "kernels/coverage.h"
+#include "kernels/types/records.h"
+#include "kernels/types/shading.h"
+#include "kernels/types/shown.h"
+#include "kernels/types/vertices.h"
+#include "kernels/types/visible.h"
+#include "frame/pass/draws.h"
+#include "frame/pass/prepared.h"
+#include "frame/pass/transmits.h"
+#include "frame/pass/view.h"
+#include "frame/shade/job.h"
+#include "frame/shade/texture_slots.h"
+#include "frame/shade/primitive.h"
+#include "frame/shade/surface.h"
+
+/* ---- which primitive a piece is of ---- */
+
+static const float *corners_of(const e3d_shade_in *in, uint32_t id, const e3d_record *record)
+{
+    if (!(record->meta & E3D_RECORD_CUT))
+        return NULL;
+    return in->corners[id & ((1u << in->table->bits) - 1)] + 9 * (size_t)(record->meta >> E3D_RECORD_SHIFT);
+}
+
+/* How many vertices the primitive has. */
+static int corners_count(const e3d_visible_primitive *piece)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    int32_t line = piece->local - mesh->faces_count;
+    return line < 0 ? 3 : line < mesh->lines_count ? 2 : 1;
+}
+
+static ALWAYS_INLINE void find_vertices(e3d_visible_primitive *piece)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    int32_t line = piece->local - mesh->faces_count;
+    if (line < 0)
+        memcpy(piece->vertex, mesh->faces + 3 * (size_t)piece->local, 3 * sizeof *piece->vertex);
+    else if (line < mesh->lines_count)
+        memcpy(piece->vertex, mesh->lines + 2 * (size_t)line, 2 * sizeof *piece->vertex);
+    else
+        piece->vertex[0] = mesh->points[line - mesh->lines_count];
+}
+
+/* ---- buckets ---- */
+
+/* Material and kind of primitive: with the draw, all that the bucket depends on. */
+static int32_t bucket_id_of(const e3d_visible_primitive *piece)
+{
+    int32_t face = e3d_face_of(piece->draw, piece->local);
+    return face < 0 ? -1 : e3d_material_of(piece->draw, face);
+}
+
+static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *state, int32_t id)
+{
+    const e3d_frame *frame = pass->frame;
+    const e3d_draw *draw = state->draw;
+    const e3d_mesh_desc *mesh = &state->mesh->desc;
+    e3d_bucket g;
+    memset(&g, 0, sizeof g); /* what lies between its members, too: same_bucket */
+    g.material = &frame->materials[draw->material_base + (id < 0 ? 0 : id)];
+    g.first = g.last = -1;
+    g.face = id >= 0;
+    g.flat = g.face && e3d_is_flat(frame->normals, g.material->flat) && mesh->face_normals;
+    g.mapped = g.face && e3d_needs_maps(g.material, pass->targets);
+    g.textured = g.face && g.material->texture.texture && mesh->uvs;
+    g.has_uvs = g.mapped && mesh->uvs;
+    g.has_uvs1 = g.mapped && mesh->uvs1;
+    g.has_tangents = g.mapped && mesh->tangents;
+    g.unshadowed = draw->unshadowed != 0;
+    g.transmits = g.face && e3d_transmits(frame, g.material);
+    g.lit = g.face && frame->mode == E3D_MODE_LIT && !g.material->is_unlit;
+    g.hidden = g.face && frame->wireframe == E3D_WIRE_ONLY;
+    g.by_vertex = mesh->colors_u8 || mesh->colors_f32;
+    g.by_instance = draw->instance_colors_u8 || draw->instance_colors_f32;
+    return g;
+}
+
+/* Of all that the bucket depends on: what comes before the chain of its pieces. */
+static int same_bucket(const e3d_bucket *a, const e3d_bucket *b) { return !memcmp(a, b, offsetof(e3d_bucket, first)); }
+
+/* The bucket's number, or -1 when memory is out. */
+static int32_t number_bucket(e3d_shade_memory *memory, const e3d_bucket *bucket)
+{
+    e3d_bucket *buckets = memory->buckets.data;
+    for (size_t g = memory->buckets.count; g-- > 0;)
+        if (same_bucket(&buckets[g], bucket))
+            return (int32_t)g;
+    if (!e3d_array_reserve(&memory->buckets, memory->buckets.count + 1, sizeof *bucket))
+        return -1;
+    ((e3d_bucket *)memory->buckets.data)[memory->buckets.count] = *bucket;
+    return (int32_t)memory->buckets.count++;
+}
+
+/* ---- the pieces of a tile ---- */
+
+/* The bucket that was found last: mostly the next piece is of it, too. */
+typedef struct bucket_finder {
+    const e3d_draw_state *draw;
+    int32_t id; /* as bucket_id_of counts them */
+    int32_t bucket;
+} bucket_finder;
+
+/* The bucket of a piece, whose last it becomes; 0 when memory is out. */
+static ALWAYS_INLINE int join_bucket(const e3d_prepared *pass, e3d_shade_memory *memory, int32_t number, bucket_finder *finder)
+{
+    e3d_visible_primitive *pieces = memory->pieces.data, *piece = &pieces[number];
+    int32_t id = bucket_id_of(piece);
+    if (piece->draw != finder->draw || id != finder->id) {
+        e3d_bucket bucket = bucket_of(pass, piece->draw, id);
+        *finder = (bucket_finder){piece->draw, id, number_bucket(memory, &bucket)};
+        if (finder->bucket < 0)
+            return 0;
+    }
+    e3d_bucket *bucket = (e3d_bucket *)memory->buckets.data + finder->bucket;
+    if (bucket->last < 0)
+        bucket->first = number;
+    else
+        pieces[bucket->last].next = number;
+    bucket->last = number;
+    piece->bucket = finder->bucket;
+    return 1;
+}
+
+/* Some pieces of a tile, first to end - 1. */
+typedef struct piece_range {
+    int32_t first, end;
+} piece_range;
+
+/* What IDs stand for: a record, or a triangle of a cluster. */
+static void find_named(const e3d_record_table *table, const e3d_shown_piece *of, piece_range range, e3d_visible_primitive *pieces)
+{
+    for (int32_t n = range.first; n < range.end; n++) {
+        pieces[n] = (e3d_visible_primitive){.next = -1, .first = of[n].first, .end = of[n + 1].first};
+        if (of[n].id & E3D_FRAGMENT_ID) {
+            pieces[n].drawn = e3d_drawn_at(table, of[n].id, &pieces[n].local);
+            __builtin_prefetch(pieces[n].drawn->faces + pieces[n].local);
+        } else {
+            pieces[n].record = e3d_record_at(table, of[n].id);
+            __builtin_prefetch(pieces[n].record);
+        }
+    }
+}
+
+/* The primitives, whose vertices are asked for. (Most are faces; what else is asked for does no harm.) */
+static void find_primitives(const e3d_shade_in *in, const e3d_shown_piece *of, piece_range range, e3d_instance_finder *finder,
+                            e3d_visible_primitive *pieces)
+{
+    const e3d_draws *draws = in->pass->draws;
+    for (int32_t n = range.first; n < range.end; n++) {
+        if (pieces[n].drawn) {
+            pieces[n].local = e3d_find_face(draws, pieces[n].drawn, pieces[n].local, finder);
+        } else {
+            pieces[n].local = e3d_find_primitive(draws, pieces[n].record->order, finder);
+            pieces[n].corners = corners_of(in, of[n].id, pieces[n].record);
+        }
+        pieces[n].draw = finder->draw;
+        pieces[n].instance = finder->instance;
+        __builtin_prefetch((const void *)((uintptr_t)finder->draw->mesh->desc.faces + 12 * (uintptr_t)pieces[n].local));
+    }
+}
+
+/* 0 when memory is out. */
+static int find_buckets(const e3d_prepared *pass, e3d_shade_memory *memory, piece_range range, bucket_finder *finder)
+{
+    e3d_visible_primitive *pieces = memory->pieces.data;
+    for (int32_t n = range.first; n < range.end; n++)
+        find_vertices(&pieces[n]);
+    for (int32_t n = range.first; n < range.end; n++)
+        if (!join_bucket(pass, memory, n, finder))
+            return 0;
+    return 1;
+}
+
+static piece_range range_of(int32_t first, int32_t count, int32_t all)
+{
+    return (piece_range){first < 0 ? 0 : first, first + count < all ? first + count : all};
+}
+
+/* A software pipeline over ranges of pieces: each stage prefetches what the next one reads a range later, from anywhere in memory. The
+ * stages' loops are short, so that an out-of-order processor overlaps several pieces. */
+int e3d_find_pieces(const e3d_shade_in *in, e3d_shade_memory *memory)
+{
+    enum { SOME = 32 };
+    const e3d_record_table *table = in->table;
+    e3d_shown *shown = &memory->shown;
+    e3d_instance_finder instance = {0};
+    bucket_finder bucket = {0};
+    int32_t all = shown->pieces;
+    shown->piece[all].first = shown->count;
+    memory->buckets.count = 0;
+    if (!e3d_array_reserve(&memory->pieces, (size_t)all, sizeof(e3d_visible_primitive)))
+        return 0;
+    e3d_visible_primitive *pieces = memory->pieces.data;
+    for (int32_t n = 0; n < all + 2 * SOME; n += SOME) {
+        find_named(table, shown->piece, range_of(n, SOME, all), pieces);
+        find_primitives(in, shown->piece, range_of(n - SOME, SOME, all), &instance, pieces);
+        if (!find_buckets(in->pass, memory, range_of(n - 2 * SOME, SOME, all), &bucket))
+            return 0;
+    }
+    memory->pieces.count = (size_t)all;
+    return 1;
+}
+
+/* ---- what a piece brings, for the surface kernel to work on ---- */
+
+static void add_matrices(const e3d_prepared *pass, e3d_surfaces *s, int32_t n, int32_t instance)
+{
+    int again = n > 0 && s->instance[n - 1] == instance;
+    s->instance[n] = instance;
+    if (again) {
+        s->matrix[n] = s->matrix[n - 1];
+        return;
+    }
+    int32_t m = s->matrix[n] = s->matrices++;
+    for (int k = 0; k < 16; k++)
+        s->clip[k][m] = pass->view->instances[instance].clip[k];
+    for (int k = 0; k < 12; k++)
+        s->world[k][m] = pass->draws->instances[instance].world[k];
+    for (int k = 0; k < 9; k++)
+        s->normals[k][m] = pass->draws->instances[instance].normal[k];
+}
+
+/* `out`: [component][vertex]; vertices that aren't there are 0. */
+static ALWAYS_INLINE void add_vectors(const float *from, size_t components, const int32_t vertex[3], int count,
+                                      e3d_surface_floats out[][3], int32_t n)
+{
+    for (size_t c = 0; c < components && count == 3; c++) {
+        out[c][0][n] = from[components * (size_t)vertex[0] + c];
+        out[c][1][n] = from[components * (size_t)vertex[1] + c];
+        out[c][2][n] = from[components * (size_t)vertex[2] + c];
+    }
+    for (int v = 0; v < 3 && count < 3; v++)
+        for (size_t c = 0; c < components; c++)
+            out[c][v][n] = v < count ? from[components * (size_t)vertex[v] + c] : 0.0f;
+}
+
+static void add_normals(const e3d_mesh_desc *mesh, int32_t face, int flat, const int32_t vertex[3], e3d_surfaces *s,
+                        int32_t n)
+{
+    if (!flat)
+        add_vectors(mesh->normals, 3, vertex, face < 0 || !mesh->normals ? 0 : 3, s->normal, n);
+    else
+        for (int c = 0; c < 3; c++)
+            s->normal[c][0][n] = mesh->face_normals[3 * (size_t)face + c];
+}
+
+/* R23 */
+static void value_of(const float unorm8[256], const uint8_t *u8, const float *f32, size_t index, float out[3])
+{
+    for (int c = 0; c < 3; c++)
+        out[c] = f32 ? f32[4 * index + c] : unorm8[u8[4 * index + c]];
+}
+
+static void add_colors(const float unorm8[256], const e3d_visible_primitive *piece, const e3d_bucket *bucket,
+                       const int32_t vertex[3], int count, e3d_surfaces *s, int32_t n)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    const e3d_draw *draw = piece->draw->draw;
+    for (int v = 0; v < 3 && bucket->by_vertex; v++) {
+        float value[3] = {0.0f, 0.0f, 0.0f};
+        if (v < count)
+            value_of(unorm8, mesh->colors_u8, mesh->colors_f32, (size_t)vertex[v], value);
+        for (int c = 0; c < 3; c++)
+            s->color[c][v][n] = value[c];
+    }
+    if (bucket->by_instance) {
+        float value[3];
+        value_of(unorm8, draw->instance_colors_u8, draw->instance_colors_f32, (size_t)piece->instance, value);
+        for (int c = 0; c < 3; c++)
+            s->instance_color[c][n] = value[c];
+    }
+}
+
+/* R80, of 8 bits or as they are. */
+static float alpha_value(const uint8_t *u8, const float *f32, size_t index)
+{
+    return f32 ? f32[4 * index + 3] : (float)(u8[4 * index + 3] * 257) * E3D_UNORM16;
+}
+
+static void add_alphas(const e3d_visible_primitive *piece, const e3d_bucket *bucket, int count, e3d_surfaces *s, int32_t n)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    const e3d_draw *draw = piece->draw->draw;
+    for (int v = 0; v < 3 && bucket->by_vertex; v++)
+        s->alpha[v][n] = v < count ? alpha_value(mesh->colors_u8, mesh->colors_f32, (size_t)piece->vertex[v]) : 0.0f;
+    if (bucket->by_instance)
+        s->instance_alpha[n] = alpha_value(draw->instance_colors_u8, draw->instance_colors_f32, (size_t)piece->instance);
+}
+
+static void add_record(const e3d_record *record, int32_t face, e3d_surfaces *s, int32_t n)
+{
+    for (int k = 0; k < 3; k++) {
+        s->x[k][n] = record->x[k];
+        s->y[k][n] = record->y[k];
+        s->iw[k][n] = record->iw[k];
+    }
+    s->swapped[n] = (record->meta & E3D_RECORD_SWAPPED) != 0;
+    s->back[n] = (record->meta & E3D_RECORD_BACK) != 0 && face >= 0;
+}
+
+/* The next surface is that of a piece, without what e3d_find_surfaces adds. */
+static void add_surface(const e3d_shade_in *in, const e3d_visible_primitive *piece, const e3d_bucket *bucket, int wanted,
+                        e3d_surfaces *s)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    const int32_t *vertex = piece->vertex;
+    int32_t n = s->count++, face = e3d_face_of(piece->draw, piece->local);
+    int count = corners_count(piece);
+    s->irregular += piece->corners || face < 0 || mesh->components == 4;
+    add_matrices(in->pass, s, n, (int32_t)piece->draw->instance_base + piece->instance);
+    s->project[n] = piece->drawn ? piece->drawn->mirrored ? 3 : 1 : 0;
+    s->projected += piece->drawn != NULL;
+    if (!piece->drawn)
+        add_record(piece->record, face, s, n);
+    if (wanted & E3D_WANT_POSITION || piece->drawn)
+        add_vectors(mesh->positions, 3, vertex, mesh->components == 3 ? count : 0, s->position, n);
+    if (wanted & E3D_WANT_NORMAL)
+        add_normals(mesh, face, bucket->flat, vertex, s, n);
+    if (wanted & E3D_WANT_UV)
+        add_vectors(mesh->uvs, 2, vertex, mesh->uvs ? count : 0, s->uv, n);
+    if (e3d_plans(in->pass, E3D_PLAN_BASE_COLOR))
+        add_colors(in->unorm8, piece, bucket, vertex, count, s, n);
+    if (wanted & E3D_WANT_ALPHA)
+        add_alphas(piece, bucket, count, s, n);
+}
+
+/* Ahead of their use: vertices are anywhere in memory. Only of a piece of this draw, whose face was asked for when it was found. */
+static ALWAYS_INLINE void fetch_vertices(const e3d_visible_primitive *piece, const e3d_draw_state *draw, int wanted)
+{
+    const e3d_mesh_desc *mesh = &draw->mesh->desc;
+    if (piece->draw != draw)
+        return;
+    const int32_t *vertex = piece->vertex;
+    const float *normals = wanted & E3D_WANT_NORMAL ? mesh->normals : NULL, *tangents = wanted & E3D_WANT_MAPS ? mesh->tangents : NULL;
+    const float *uvs = wanted & (E3D_WANT_UV | E3D_WANT_MAPS) ? mesh->uvs : NULL;
+    for (int v = 0; v < 3; v++)
+        __builtin_prefetch(mesh->positions + 3 * (size_t)vertex[v]);
+    for (int v = 0; v < 3 && normals; v++)
+        __builtin_prefetch(normals + 3 * (size_t)vertex[v]);
+    for (int v = 0; v < 3 && uvs; v++)
+        __builtin_prefetch(uvs + 2 * (size_t)vertex[v]);
+    for (int v = 0; v < 3 && tangents; v++)
+        __builtin_prefetch(tangents + 4 * (size_t)vertex[v]);
+    for (int v = 0; v < 3 && mesh->colors_u8; v++)
+        __builtin_prefetch(mesh->colors_u8 + 4 * (size_t)vertex[v]);
+}
+
+static void set_texels(const e3d_bucket *bucket, e3d_surfaces *s)
+{
+    const e3d_texture_view *view = e3d_texture_get_view(bucket->material->texture.texture);
+    s->texels[0] = e3d_counted_size(view, view->levels[0].width);
+    s->texels[1] = e3d_counted_size(view, view->levels[0].height);
+}
+
+int e3d_texture_wanted(const e3d_texture_view *view)
+{
+    int level = view->filter == E3D_TRILINEAR ? E3D_WANT_LEVEL : 0;
+    return E3D_WANT_UV | level | (view->anisotropy > 1 ? E3D_WANT_WEIGHTS : 0);
+}
+
+int32_t e3d_add_surfaces(const e3d_shade_in *in, const e3d_bucket *bucket, int32_t first, int wanted, e3d_shade_memory *memory)
+{
+    enum { AHEAD = 24 };
+    const e3d_visible_primitive *pieces = memory->pieces.data;
+    e3d_surfaces *s = &memory->surfaces;
+    int32_t p = first, last = (int32_t)memory->pieces.count - 1 - AHEAD;
+    for (int32_t i = first; i < first + AHEAD && i <= last && wanted & E3D_WANT_SURFACE; i++)
+        fetch_vertices(&pieces[i], pieces[first].draw, wanted);
+    s->count = s->matrices = s->irregular = s->projected = 0;
+    if (wanted & E3D_WANT_LEVEL)
+        set_texels(bucket, s);
+    if (bucket->mapped)
+        e3d_find_maps(in->pass, bucket, wanted, &memory->maps.maps);
+    for (; p >= 0 && s->count < E3D_BATCH_SURFACES; p = pieces[p].next) {
+        s->piece[s->count] = p;
+        if (!(wanted & E3D_WANT_SURFACE)) {
+            s->count++;
+            continue;
+        }
+        if (p <= last)
+            fetch_vertices(&pieces[p + AHEAD], pieces[p].draw, wanted);
+        if (bucket->mapped)
+            e3d_add_map_surface(in->pass, &pieces[p], &memory->maps.maps, &memory->maps.surfaces, s->count);
+        add_surface(in, &pieces[p], bucket, wanted, s);
+    }
+    return p;
+}
+
+/* ---- what the kernel leaves to do ---- */
+
+/* R18 of a clipped piece, of a line or a point. */
+static void cut_planes(const e3d_viewport *viewport, const e3d_visible_primitive *piece, e3d_surfaces *s, int32_t n)
+{
+    const e3d_record *r = piece->record;
+    const float *c = piece->corners;
+    e3d_box box = e3d_sample_box(r->x, r->y, viewport);
+    double ra = 1.0 / (double)e3d_doubled_area(r->x, r->y), m = r->iw[0], plane[3][3];
+    m = r->iw[1] > m ? r->iw[1] : m;
+    m = r->iw[2] > m ? r->iw[2] : m;
+    double rm = 1.0 / m;
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int64_t a = r->y[i] - r->y[j], b = r->x[j] - r->x[i];
+        int64_t e = a * (256 * (int64_t)box.x0 + 128 - r->x[i]) +
+                    b * (256 * (int64_t)box.y0 + 128 - r->y[i]);
+        double q = r->iw[k] * rm;
+        plane[0][k] = ((double)e * ra) * q;
+        plane[1][k] = ((256.0 * (double)a) * ra) * q;
+        plane[2][k] = ((256.0 * (double)b) * ra) * q;
+    }
+    e3d_surface_floats *const rows[3] = {s->p, s->px, s->py};
+    for (int row = 0; row < 3; row++)
+        for (int j = 0; j < 3; j++)
+            rows[row][j][n] = (float)((plane[row][0] * c[j] + plane[row][1] * c[3 + j]) + plane[row][2] * c[6 + j]);
+}
+
+/* R25, of planes that were not the kernel's. */
+static void cut_slopes(e3d_surfaces *s, int32_t n)
+{
+    const e3d_surface_floats *const plane[3] = {s->p, s->px, s->py};
+    for (int k = 0; k < 2; k++) {
+        float a[3], sum[3];
+        for (int row = 0; row < 3; row++) {
+            const float w[3] = {plane[row][0][n], plane[row][1][n], plane[row][2][n]};
+            sum[row] = (w[0] + w[1]) + w[2];
+            a[row] = (w[0] * s->uv[k][0][n] + w[1] * s->uv[k][1][n]) + w[2] * s->uv[k][2][n];
+        }
+        s->slope[k][0][n] = (a[1] * sum[0] - a[0] * sum[1]) * s->texels[k];
+        s->slope[k][1][n] = (a[2] * sum[0] - a[0] * sum[2]) * s->texels[k];
+        s->slope[k][2][n] = (a[1] * sum[2] - a[2] * sum[1]) * s->texels[k];
+    }
+}
+
+/* Positions that don't exist are 0, wherever the matrix would move them. */
+static void clear_positions(e3d_surfaces *s, int32_t n, int first)
+{
+    for (int c = 0; c < 3; c++)
+        for (int v = first; v < 3; v++)
+            s->position[c][v][n] = 0.0f;
+}
+
+void e3d_find_surfaces(const e3d_prepared *pass, const e3d_tile *tile, const e3d_bucket *bucket, int wanted, e3d_shade_memory *memory)
+{
+    const e3d_visible_primitive *pieces = memory->pieces.data;
+    e3d_surfaces *s = &memory->surfaces;
+    for (int32_t n = s->count; n < s->count + E3D_PAD; n++)
+        s->matrix[n] = s->matrix[s->count - 1];
+    s->reach = pass->view->viewport.reach;
+    if (s->projected)
+        pass->kernels->project(s, &pass->view->viewport);
+    pass->kernels->surface(s, tile->x, tile->y, wanted);
+    for (int32_t n = 0; n < s->count && s->irregular; n++) {
+        const e3d_visible_primitive *piece = &pieces[s->piece[n]];
+        const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+        if (piece->corners)
+            cut_planes(&pass->view->viewport, piece, s, n);
+        if (piece->corners && wanted & E3D_WANT_LEVEL)
+            cut_slopes(s, n);
+        if (mesh->components == 4)
+            clear_positions(s, n, 0);
+        else if (e3d_face_of(piece->draw, piece->local) < 0)
+            clear_positions(s, n, corners_count(piece));
+    }
+    if (bucket->mapped)
+        pass->kernels->map_surfaces(s, &memory->maps.maps, &memory->maps.surfaces);
+}

@@ -1,0 +1,318 @@
+/* shade: materials of more than a base colour (R45-R49). Which textures count is found once for each bucket. */
+#include <math.h>
+#include <string.h>
+
+#include "base/limits.h"
+#include "e3d.h"
+#include "kernels/kernels.h"
+#include "kernels/types/texture_slots.h"
+#include "kernels/types/shading.h"
+#include "frame/pass/draws.h"
+#include "frame/pass/plan.h"
+#include "frame/pass/prepared.h"
+#include "frame/pass/view.h"
+#include "frame/shade/job.h"
+#include "frame/shade/texture_slots.h"
+
+int e3d_needs_maps(const e3d_material *material, const e3d_targets *targets)
+{
+    const e3d_texture_use *base = &material->texture;
+    int is_placed = base->texture && (base->uv_set || base->is_moved);
+    return material->is_physical || material->normal_texture.texture || is_placed || targets->tangent;
+}
+
+int e3d_map_counts(const e3d_bucket *bucket, const e3d_texture_use *use)
+{
+    return bucket->face && use->texture && (use->uv_set ? bucket->has_uvs1 : bucket->has_uvs);
+}
+
+/* ---- the textures of a bucket ---- */
+
+/* Whether light is found on a bucket, for which its textures are read. */
+static int finds_light(const e3d_prepared *pass, const e3d_bucket *bucket) { return e3d_plans(pass, E3D_PLAN_COLORS) && bucket->lit; }
+
+static int is_coated(const e3d_physical *p) { return p->clearcoat != 0.0f; }
+static int has_sheen(const e3d_physical *p) { return e3d_adds(p->sheen_color); }
+static int absorbs(const e3d_physical *p) { return p->thickness != 0.0f && e3d_adds(p->absorption); }
+static int is_anisotropic(const e3d_physical *p) { return p->anisotropy != 0.0f; }
+static int is_iridescent(const e3d_physical *p) { return p->iridescence != 0.0f; }
+
+/* Whether the fourth channel of a slot counts. */
+static int reads_alpha(const e3d_material *m, e3d_texture_slot slot)
+{
+#define FOURTH(slot, channel, name, factor) | ((channel) == 3) << slot
+    enum { ALWAYS = 0 E3D_EACH_VARYING(FOURTH) };
+    return ((ALWAYS >> slot) & 1) || (slot == E3D_SLOT_TEXTURE && m->alpha_mode != E3D_ALPHA_OPAQUE);
+}
+
+/* Whether a slot is read for what the frame asks for. */
+static int is_read(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_texture_slot slot)
+{
+    const e3d_material *m = bucket->material;
+    const e3d_physical *p = &m->physical;
+    int lit = m->is_physical && finds_light(pass, bucket), listed = m->is_physical && e3d_plans(pass, E3D_PLAN_MATERIAL_VALUES);
+    switch (slot) {
+    case E3D_SLOT_TEXTURE: return e3d_plans(pass, E3D_PLAN_BASE_COLOR) || m->alpha_mode != E3D_ALPHA_OPAQUE;
+    case E3D_SLOT_NORMAL: return e3d_plans(pass, E3D_PLAN_NORMAL);
+    case E3D_SLOT_METALLIC_ROUGHNESS:
+    case E3D_SLOT_EMISSIVE: return lit || listed;
+    case E3D_SLOT_CLEARCOAT:
+    case E3D_SLOT_CLEARCOAT_ROUGHNESS:
+    case E3D_SLOT_CLEARCOAT_NORMAL: return lit && is_coated(p);
+    case E3D_SLOT_SHEEN_COLOR:
+    case E3D_SLOT_SHEEN_ROUGHNESS: return lit && has_sheen(p);
+    case E3D_SLOT_TRANSMISSION: return lit && bucket->transmits;
+    case E3D_SLOT_THICKNESS: return lit && bucket->transmits && absorbs(p);
+    case E3D_SLOT_ANISOTROPY: return lit && is_anisotropic(p);
+    case E3D_SLOT_IRIDESCENCE:
+    case E3D_SLOT_IRIDESCENCE_THICKNESS: return lit && is_iridescent(p);
+    default: return lit;
+    }
+}
+
+static int same_place(const e3d_map_place *a, const e3d_map_place *b)
+{
+    return a->uv_set == b->uv_set && a->is_moved == b->is_moved && !memcmp(a->matrix, b->matrix, sizeof a->matrix) &&
+           a->texels[0] == b->texels[0] && a->texels[1] == b->texels[1];
+}
+
+/* The number of the place of a slot's texture, or of no texture. */
+static int32_t find_place(e3d_maps *maps, const e3d_texture_use *use, const e3d_texture_view *view)
+{
+    e3d_map_place place = {.uv_set = use->uv_set, .is_moved = use->is_moved};
+    int32_t number = 0;
+    if (use->is_moved)
+        memcpy(place.matrix, use->matrix, sizeof place.matrix);
+    if (view) {
+        place.texels[0] = e3d_counted_size(view, view->levels[0].width);
+        place.texels[1] = e3d_counted_size(view, view->levels[0].height);
+    }
+    while (number < maps->place_count && !same_place(&maps->places[number], &place))
+        number++;
+    if (number == maps->place_count)
+        maps->places[maps->place_count++] = place;
+    maps->places[number].has_level |= view && view->filter == E3D_TRILINEAR;
+    return number;
+}
+
+static int32_t find_map(e3d_maps *maps, const e3d_texture_use *use, int has_alpha)
+{
+    const e3d_texture_view *view = e3d_texture_get_view(use->texture);
+    e3d_map map = {.view = view, .place = find_place(maps, use, view)};
+    int32_t number = 0;
+    while (number < maps->count && (maps->maps[number].view != view || maps->maps[number].place != map.place))
+        number++;
+    if (number == maps->count)
+        maps->maps[maps->count++] = map;
+    maps->maps[number].has_alpha |= has_alpha;
+    return number;
+}
+
+/* R47: the place of the texture whose coordinates tell what is right. */
+static void find_tangent_place(const e3d_bucket *bucket, e3d_maps *out)
+{
+    const e3d_material *m = bucket->material;
+    int by_coat = m->is_physical && !m->normal_texture.texture;
+    const e3d_texture_use *slot = by_coat ? &m->clearcoat_normal_texture : &m->normal_texture;
+    out->vertex_tangents = bucket->has_tangents && !bucket->flat;
+    if (out->vertex_tangents)
+        out->tangent_place = 0;
+    else if (slot->uv_set ? bucket->has_uvs1 : bucket->has_uvs)
+        out->tangent_place = find_place(out, slot, slot->texture ? e3d_texture_get_view(slot->texture) : NULL);
+}
+
+void e3d_find_maps(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, e3d_maps *out)
+{
+    const e3d_material *m = bucket->material;
+    int all = wanted & E3D_WANT_MAPS;
+    out->place_count = out->count = 0;
+    out->tangent_place = -1;
+#define FIND(slot, name) \
+    out->of_slot[slot] = -1; \
+    if ((slot == E3D_SLOT_TEXTURE || all) && is_read(pass, bucket, slot) && e3d_map_counts(bucket, &m->name)) \
+        out->of_slot[slot] = find_map(out, &m->name, reads_alpha(m, slot));
+    E3D_EACH_TEXTURE_SLOT(FIND)
+    int stretched = m->is_physical && is_anisotropic(&m->physical) && finds_light(pass, bucket);
+    if (out->of_slot[E3D_SLOT_NORMAL] >= 0 || out->of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0 ||
+        (all && (pass->targets->tangent || stretched)))
+        find_tangent_place(bucket, out);
+}
+
+/* ---- what a piece brings ---- */
+
+static void add_place(const e3d_map_place *place, const e3d_mesh_desc *mesh, const int32_t vertex[3], e3d_surface_floats uv[2][3], int32_t n)
+{
+    const float *uvs = place->uv_set ? mesh->uvs1 : mesh->uvs, *m = place->matrix;
+    for (int k = 0; k < 3; k++) {
+        float u = uvs[2 * (size_t)vertex[k]], v = uvs[2 * (size_t)vertex[k] + 1];
+        uv[0][k][n] = place->is_moved ? (m[0] * u + m[1] * v) + m[2] : u;
+        uv[1][k][n] = place->is_moved ? (m[3] * u + m[4] * v) + m[5] : v;
+    }
+}
+
+void e3d_add_map_surface(const e3d_prepared *pass, const e3d_visible_primitive *piece, const e3d_maps *maps, e3d_map_surfaces *out, int32_t n)
+{
+    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    for (int p = 0; p < maps->place_count; p++)
+        add_place(&maps->places[p], mesh, piece->vertex, out->uv[p], n);
+    if (maps->tangent_place < 0)
+        return;
+    int32_t instance = (int32_t)piece->draw->instance_base + piece->instance;
+    out->turned_round[n] = pass->view->instances[instance].mirrored != pass->view->mirrors;
+    if (!maps->vertex_tangents)
+        return;
+    for (int k = 0; k < 3; k++)
+        for (int c = 0; c < 3; c++)
+            out->tangent[c][k][n] = mesh->tangents[4 * (size_t)piece->vertex[k] + c];
+    out->sign[n] = mesh->tangents[4 * (size_t)piece->vertex[0] + 3];
+}
+
+/* ---- what maps say of a batch ---- */
+
+/* A channel of a slot's texture times a factor, or the factor. */
+static e3d_varying varying_of(const e3d_map_memory *memory, e3d_texture_slot slot, int channel, float factor)
+{
+    int32_t map = memory->maps.of_slot[slot];
+    if (map < 0)
+        return (e3d_varying){NULL, factor};
+    return (e3d_varying){memory->batch.texel[map][channel], factor * e3d_texture_unit(memory->maps.maps[map].view)};
+}
+
+static e3d_normal_map normals_of(const e3d_map_memory *memory, e3d_texture_slot slot, float scale)
+{
+    int32_t map = memory->maps.of_slot[slot];
+    if (map < 0)
+        return (e3d_normal_map){NULL, 0.0f, 0.0f};
+    return (e3d_normal_map){memory->batch.texel[map], e3d_texture_unit(memory->maps.maps[map].view), scale};
+}
+
+e3d_varying e3d_mapped_alpha(const e3d_bucket *bucket, const e3d_map_memory *maps)
+{
+    return varying_of(maps, E3D_SLOT_TEXTURE, 3, bucket->material->alpha);
+}
+
+static void find_base(const e3d_kernels *kernels, const e3d_bucket *bucket, const e3d_surfaces *surfaces, const e3d_map_memory *maps,
+                      e3d_batch *batch)
+{
+    for (int k = 0; k < 3; k++) {
+        e3d_varying base = varying_of(maps, E3D_SLOT_TEXTURE, k, bucket->material->color[k]);
+        kernels->varying(&base, batch->count, batch->color[k]);
+    }
+    if (bucket->by_vertex || bucket->by_instance)
+        kernels->tint(batch, surfaces, bucket->by_vertex, bucket->by_instance);
+}
+
+/* R58 */
+static void find_listed(const e3d_kernels *kernels, const e3d_bucket *bucket, int count, e3d_map_memory *maps)
+{
+    const e3d_material *m = bucket->material;
+    e3d_varying metallic = varying_of(maps, E3D_SLOT_METALLIC_ROUGHNESS, 2, m->is_physical ? m->physical.metallic : 0.0f);
+    e3d_varying roughness = varying_of(maps, E3D_SLOT_METALLIC_ROUGHNESS, 1, m->is_physical ? m->physical.roughness : 1.0f);
+    kernels->varying(&metallic, count, maps->batch.metallic_roughness[0]);
+    kernels->varying(&roughness, count, maps->batch.metallic_roughness[1]);
+    for (int k = 0; k < 3; k++) {
+        e3d_varying emissive = varying_of(maps, E3D_SLOT_EMISSIVE, k, m->emissive[k]);
+        kernels->varying(&emissive, count, maps->batch.emissive[k]);
+    }
+}
+
+void e3d_find_map_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, e3d_shade_memory *memory)
+{
+    const e3d_kernels *kernels = pass->kernels;
+    const e3d_material *m = bucket->material;
+    e3d_map_memory *maps = &memory->maps;
+    e3d_batch *batch = &memory->batch;
+    if (maps->maps.tangent_place < 0)
+        memset(maps->batch.tangent, 0, sizeof maps->batch.tangent);
+    kernels->maps(batch, &memory->surfaces, &maps->maps, &maps->surfaces, &maps->batch);
+    if (!(wanted & E3D_WANT_MAPS))
+        return;
+    if (e3d_plans(pass, E3D_PLAN_NORMAL)) {
+        e3d_normal_map surface = normals_of(maps, E3D_SLOT_NORMAL, m->normal_scale);
+        e3d_normal_map coat = normals_of(maps, E3D_SLOT_CLEARCOAT_NORMAL, m->physical.clearcoat_normal_scale);
+        kernels->map_normals(batch, &surface, &coat, &maps->batch);
+    }
+    if (e3d_plans(pass, E3D_PLAN_BASE_COLOR))
+        find_base(kernels, bucket, &memory->surfaces, maps, batch);
+    if (e3d_plans(pass, E3D_PLAN_MATERIAL_VALUES))
+        find_listed(kernels, bucket, batch->count, maps);
+}
+
+/* ---- light ---- */
+
+/* The root of the mean square of how long the axes become in world space. */
+static float scale_of(const e3d_prepared *pass, const e3d_visible_primitive *piece)
+{
+    const float *w = pass->draws->instances[piece->draw->instance_base + piece->instance].world;
+    float square[3];
+    for (int r = 0; r < 3; r++)
+        square[r] = (w[4 * r] * w[4 * r] + w[4 * r + 1] * w[4 * r + 1]) + w[4 * r + 2] * w[4 * r + 2];
+    return sqrtf(((square[0] + square[1]) + square[2]) * E3D_THIRD);
+}
+
+/* R134: how many world units a thickness of 1 is below each sample. */
+static void find_depths(const e3d_prepared *pass, const e3d_shade_memory *memory, float *out)
+{
+    const e3d_visible_primitive *pieces = memory->pieces.data;
+    const e3d_batch *batch = &memory->batch;
+    float depth = 0.0f;
+    for (int i = 0; i < batch->count; i++) {
+        int32_t n = batch->surface[i];
+        if (!i || n != batch->surface[i - 1])
+            depth = memory->surfaces.back[n] ? 0.0f : scale_of(pass, &pieces[memory->surfaces.piece[n]]);
+        out[i] = depth;
+    }
+}
+
+static e3d_stretch_map stretch_of(const e3d_map_memory *memory, const e3d_physical *p)
+{
+    e3d_normal_map directions = normals_of(memory, E3D_SLOT_ANISOTROPY, 1.0f);
+    return (e3d_stretch_map){directions.texels, directions.unit, p->anisotropy, {p->anisotropy_turn[0], p->anisotropy_turn[1]}};
+}
+
+/* Of few materials, which are shaded by code of their own. */
+static void add_rare(const e3d_map_memory *maps, const e3d_physical *p, e3d_surface_model *model)
+{
+    int varies = maps->maps.of_slot[E3D_SLOT_IRIDESCENCE_THICKNESS] >= 0;
+    float least = p->iridescence_thickness[0], most = p->iridescence_thickness[1];
+    model->anisotropic = is_anisotropic(p);
+    model->iridescent = is_iridescent(p);
+    model->stretch = stretch_of(maps, p);
+    model->film = varying_of(maps, E3D_SLOT_IRIDESCENCE_THICKNESS, 1, varies ? most - least : most);
+    model->film_least = least;
+    model->film_ior = p->iridescence_ior;
+    model->is_rare = model->transmits || model->anisotropic || model->iridescent;
+}
+
+static e3d_surface_model model_of(const e3d_bucket *bucket, const e3d_map_memory *maps)
+{
+    const e3d_material *m = bucket->material;
+    const e3d_physical *p = &m->physical;
+    e3d_surface_model model = {
+        .occlusion_strength = p->occlusion_strength,
+        .transmits = bucket->transmits,
+        .absorbs = bucket->transmits && absorbs(p),
+        .has_coat = is_coated(p),
+        .has_sheen = has_sheen(p),
+        .is_grey = maps->maps.of_slot[E3D_SLOT_SPECULAR_COLOR] < 0 && p->reflectance[0] == p->reflectance[1] &&
+                   p->reflectance[1] == p->reflectance[2],
+        .coat_is_mapped = maps->maps.of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0,
+    };
+#define VARYING(slot, channel, name, factor) model.name = varying_of(maps, slot, channel, factor);
+    E3D_EACH_VARYING(VARYING)
+    for (int k = 0; k < 3; k++) {
+#define VARYING_COLOR(slot, name, factors) model.name[k] = varying_of(maps, slot, k, factors[k]);
+        E3D_EACH_VARYING_COLOR(VARYING_COLOR)
+        model.absorption[k] = p->absorption[k];
+    }
+    add_rare(maps, p, &model);
+    return model;
+}
+
+void e3d_light_physical(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
+{
+    const e3d_surface_model model = model_of(bucket, &memory->maps);
+    if (model.absorbs)
+        find_depths(pass, memory, memory->maps.batch.depth);
+    pass->kernels->physical(&memory->batch, &model, e3d_lighting_of(pass->view, bucket->unshadowed), &memory->maps.batch);
+}

@@ -1,0 +1,207 @@
+/* shade: the outputs beside colour, from the visible sample of each pixel (R21, R22, R35). Samples come in the order of their
+ * surfaces.
+ */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/limits.h"
+#include "e3d.h"
+#include "kernels/types/texture_slots.h"
+#include "kernels/types/shading.h"
+#include "frame/pass/draws.h"
+#include "frame/pass/view.h"
+#include "frame/shade/job.h"
+#include "frame/shade/primitive.h"
+#include "frame/shade/values.h"
+#include "frame/store/outputs.h"
+#include "frame/store/store.h"
+
+/* The pixel that each of the batch's samples stands for. */
+static const int32_t *pixels_of(const e3d_batch *batch, int32_t axis, int32_t *room)
+{
+    int32_t middle = axis / 2;
+    if (axis == 1)
+        return batch->sample;
+    for (int i = 0; i < batch->count; i++) {
+        int32_t x = batch->sample[i] % E3D_TILE, y = batch->sample[i] / E3D_TILE;
+        int stands = x % axis == middle && y % axis == middle;
+        room[i] = stands ? y / axis * E3D_TILE + x / axis : E3D_NO_PIXEL;
+    }
+    return room;
+}
+
+static void make_finite(const float *values, int count, float *out)
+{
+    for (int i = 0; i < count; i++)
+        out[i] = fabsf(values[i]) <= FLT_MAX ? values[i] : 0.0f;
+}
+
+/* Where a batch goes: to what is gathered, each sample to its pixel. */
+typedef struct batch_place {
+    const e3d_store *store;
+    const e3d_batch *batch;
+    const int32_t *at;
+    e3d_store_memory *out;
+} batch_place;
+
+/* The values of one output, by channels. */
+static void put(const batch_place *place, e3d_output_kind kind, const e3d_lane_array *values)
+{
+    float *pixels = e3d_outputs_gathered(place->store, place->out, kind);
+    const int32_t *at = place->at;
+    int count = place->batch->count, channels = e3d_output_channels(kind);
+    e3d_lane_array finite[4];
+    if (!pixels)
+        return;
+    for (int k = 0; k < channels; k++)
+        make_finite(values[k], count, finite[k]);
+    for (int i = 0; i < count && channels == 1; i++)
+        pixels[at[i]] = finite[0][i];
+    for (int k = 0; k < 2 && channels == 2; k++)
+        for (int i = 0; i < count; i++)
+            pixels[2 * at[i] + k] = finite[k][i];
+    for (int i = 0; i < count && channels == 3; i++)
+        for (int k = 0; k < 3; k++)
+            pixels[3 * at[i] + k] = finite[k][i];
+    for (int i = 0; i < count && channels == 4; i++)
+        for (int k = 0; k < 4; k++)
+            pixels[4 * at[i] + k] = finite[k][i];
+}
+
+/* Rows of view_from_world applied to positions (w = 1) or directions (w = 0). */
+static void to_view(const e3d_view *view, const e3d_batch *batch, const e3d_lane_array *v, int w, e3d_lane_array out[3])
+{
+    for (int row = 0; row < 3; row++) {
+        const float *m = view->rows + 4 * row;
+        for (int i = 0; i < batch->count; i++) {
+            float sum = (m[0] * v[0][i] + m[1] * v[1][i]) + m[2] * v[2][i];
+            out[row][i] = w ? sum + m[3] : sum;
+        }
+    }
+}
+
+static void put_view(const batch_place *place)
+{
+    const e3d_batch *batch = place->batch;
+    const e3d_view *view = place->store->pass->view;
+    const e3d_targets *t = place->store->pass->targets;
+    e3d_lane_array v[3];
+    if (t->normal) {
+        to_view(view, batch, batch->normal, 0, v);
+        put(place, E3D_OUTPUT_NORMAL, v);
+    }
+    if (t->position || t->depth) {
+        to_view(view, batch, e3d_batch_places(batch), 1, v);
+        put(place, E3D_OUTPUT_POSITION, v);
+        for (int i = 0; i < batch->count; i++)
+            v[2][i] = 0.0f - v[2][i];
+        put(place, E3D_OUTPUT_DEPTH, v + 2);
+    }
+}
+
+static void fill(float value, int count, float *out)
+{
+    for (int i = 0; i < count; i++)
+        out[i] = value;
+}
+
+/* R58 of what has no maps. */
+static void fill_listed(const e3d_material *material, int count, e3d_map_batch *out)
+{
+    fill(0.0f, count, out->metallic_roughness[0]);
+    fill(1.0f, count, out->metallic_roughness[1]);
+    for (int k = 0; k < 3; k++)
+        fill(material->emissive[k], count, out->emissive[k]);
+    for (int k = 0; k < 4; k++)
+        fill(0.0f, count, out->tangent[k]);
+}
+
+/* R58 */
+static void put_maps(const batch_place *place, const e3d_bucket *bucket, e3d_map_batch *maps)
+{
+    const e3d_targets *t = place->store->pass->targets;
+    int count = place->batch->count;
+    if (!t->metallic_roughness && !t->emissive && !t->tangent)
+        return;
+    if (!bucket->mapped)
+        fill_listed(bucket->material, count, maps);
+    put(place, E3D_OUTPUT_METALLIC_ROUGHNESS, maps->metallic_roughness);
+    put(place, E3D_OUTPUT_EMISSIVE, maps->emissive);
+    if (t->tangent) {
+        e3d_lane_array v[4];
+        to_view(place->store->pass->view, place->batch, maps->tangent, 0, v);
+        memcpy(v[3], maps->tangent[3], sizeof v[3]);
+        put(place, E3D_OUTPUT_TANGENT, v);
+    }
+}
+
+/* R19 */
+static void put_barycentric(const batch_place *place)
+{
+    const e3d_batch *batch = place->batch;
+    e3d_lane_array b[3];
+    for (int k = 0; k < 3 && place->store->pass->targets->barycentric; k++)
+        for (int i = 0; i < batch->count; i++) {
+            float v = batch->weight[k][i] * batch->r[i];
+            b[k][i] = v < 1.0f ? v : 1.0f;
+        }
+    put(place, E3D_OUTPUT_BARYCENTRIC, b);
+}
+
+static void put_id(int32_t *pixels, const int32_t *at, int count, int32_t id)
+{
+    for (int i = 0; i < count; i++)
+        pixels[at[i]] = id;
+}
+
+/* Samples of one surface are neighbours. */
+static void put_ids(const batch_place *place, const e3d_shade_memory *memory)
+{
+    const e3d_batch *batch = place->batch;
+    const int32_t *at = place->at;
+    const e3d_visible_primitive *pieces = memory->pieces.data;
+    const e3d_bucket *buckets = memory->buckets.data;
+    int32_t *triangles = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_TRIANGLE_ID);
+    int32_t *objects = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_OBJECT_ID);
+    int32_t *instances = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_INSTANCE_ID);
+    int32_t *materials = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_MATERIAL_ID);
+    if (!triangles && !objects && !instances && !materials)
+        return;
+    for (int i = 0, end = 0; i < batch->count; i = end) {
+        while (end < batch->count && batch->surface[end] == batch->surface[i])
+            end++;
+        const e3d_visible_primitive *piece = &pieces[memory->surfaces.piece[batch->surface[i]]];
+        const e3d_draw *draw = piece->draw->draw;
+        if (triangles)
+            put_id(triangles, at + i, end - i, e3d_face_of(piece->draw, piece->local));
+        if (objects)
+            put_id(objects, at + i, end - i, e3d_object_id(draw, piece->instance));
+        if (instances)
+            put_id(instances, at + i, end - i, e3d_instance_id(draw, piece->instance));
+        if (materials)
+            put_id(materials, at + i, end - i, buckets[piece->bucket].material->id);
+    }
+}
+
+void e3d_outputs_batch(const e3d_store *store, const e3d_bucket *bucket, e3d_shade_memory *memory, e3d_store_memory *out)
+{
+    const e3d_batch *batch = &memory->batch;
+    int32_t room[E3D_BATCH];
+    const batch_place place = {store, batch, pixels_of(batch, store->pass->frame->samples_axis, room), out};
+    put_ids(&place, memory);
+    put_view(&place);
+    put(&place, E3D_OUTPUT_ALBEDO, batch->color);
+    put(&place, E3D_OUTPUT_WORLD_NORMAL, batch->normal);
+    put(&place, E3D_OUTPUT_WORLD_POSITION, e3d_batch_places(batch));
+    put(&place, E3D_OUTPUT_UV, batch->uv);
+    put_barycentric(&place);
+    put_maps(&place, bucket, &memory->maps.batch);
+}
+
+void e3d_outputs_radiance(const e3d_store *store, const e3d_batch *batch, e3d_store_memory *out)
+{
+    int32_t room[E3D_BATCH];
+    const batch_place place = {store, batch, pixels_of(batch, store->pass->frame->samples_axis, room), out};
+    put(&place, E3D_OUTPUT_RADIANCE, batch->color);
+}

@@ -1,0 +1,51 @@
+/* A tile's rows to a picture of the caller's, and back. */
+#include <string.h>
+
+#include "kernels/types/samples.h"
+#include "frame/pass/prepared.h"
+#include "frame/pass/view.h"
+#include "frame/store/picture.h"
+
+/* Whether a picture's lines aren't in this core's caches anyway: it is large, or another core wrote them last. */
+static int is_far(const e3d_prepared *pass, size_t bytes)
+{
+    enum { LARGE = 1 << 20, SHARED = 1 << 18 };
+    return bytes >= (pass->threads > 1 ? SHARED : LARGE);
+}
+
+/* A tile's place in a picture, in bytes: to its first pixel, of one of its rows, and from each row to the next. */
+typedef struct place {
+    size_t start, bytes, pitch;
+    int rows;
+} place;
+
+static place place_of(const e3d_prepared *pass, const e3d_tile *tile, size_t pixel)
+{
+    int axis = pass->frame->samples_axis;
+    size_t pitch = pixel * (size_t)pass->frame->width;
+    size_t start = (size_t)(tile->y / axis) * pitch + (size_t)(tile->x / axis) * pixel;
+    return (place){start, pixel * (size_t)(tile->width / axis), pitch, tile->height / axis};
+}
+
+static void copy(const e3d_pixel_rows *rows)
+{
+    for (int y = 0; y < rows->count; y++)
+        memcpy(rows->to + (size_t)y * rows->pitch, rows->from + (size_t)y * rows->step, rows->bytes);
+}
+
+void e3d_write_tile(const e3d_prepared *pass, const e3d_tile *tile, void *picture, size_t pixel, const void *from, size_t step)
+{
+    const place at = place_of(pass, tile, pixel);
+    const e3d_pixel_rows rows = {(char *)picture + at.start, from, at.bytes, at.pitch, step, at.rows};
+    if (is_far(pass, at.pitch * (size_t)pass->frame->height))
+        pass->kernels->stream(&rows);
+    else
+        copy(&rows);
+}
+
+void e3d_read_tile(const e3d_prepared *pass, const e3d_tile *tile, const void *picture, size_t pixel, void *to, size_t step)
+{
+    const place at = place_of(pass, tile, pixel);
+    const e3d_pixel_rows rows = {to, (const char *)picture + at.start, at.bytes, step, at.pitch, at.rows};
+    copy(&rows);
+}

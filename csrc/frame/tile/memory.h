@@ -1,0 +1,111 @@
+/* A thread's memory, of one tile: what each stage keeps for that long, and all of it. */
+#ifndef E3D_TILE_MEMORY_H
+#define E3D_TILE_MEMORY_H
+
+#include <stdint.h>
+
+#include "base/clock.h"
+#include "base/grow.h"
+#include "base/limits.h"
+#include "kernels/types/alpha.h"
+#include "kernels/types/msaa_mixed.h"
+#include "kernels/types/samples.h"
+#include "kernels/types/shown.h"
+#include "kernels/types/visible.h"
+#include "frame/shade/job.h"
+#include "frame/store/blank.h"
+#include "frame/store/store.h"
+
+/* Of slots: the ID and order (uint32_t) of the record in each. */
+typedef struct e3d_slots_state {
+    e3d_array ids, orders;
+} e3d_slots_state;
+
+/* What is counted or marked beside the visible surface, sample by sample. */
+typedef struct e3d_marks_memory {
+    float bound[E3D_TILE_SAMPLES + E3D_PAD];      /* E3D_BEYOND_FAR everywhere */
+    float edge_limit[E3D_TILE_SAMPLES + E3D_PAD]; /* what an edge's depth must be less than */
+    int32_t count[E3D_TILE_SAMPLES + E3D_PAD];    /* overdraw, then edges */
+} e3d_marks_memory;
+
+enum { E3D_ALPHA_SLICES = 512 };
+
+/* Fragments in front of what is kept, one after the other. With multisampling, one is of all samples that its record covers in a pixel. */
+typedef struct e3d_a_buffer {
+    e3d_array z;       /* float; with multisampling, in the plane that is blended */
+    e3d_array cover;   /* with multisampling: uint32_t, a bit for each sample of the pixel */
+    e3d_array sample;  /* int32_t: of the tile, or the pixel */
+    e3d_array of;      /* int32_t: the number of its ID, of which there are fewer */
+    e3d_array ids;     /* int32_t */
+    e3d_array color;   /* float[4]: clamped, with alpha (e3d_shaded_list.color) */
+    e3d_array through; /* float[4], where light passes through some material */
+    e3d_array light;   /* float[4], where radiance is asked for */
+    e3d_array depth, which;               /* sorted by sample: int32_t, greater is farther; uint32_t, the number of the fragment */
+    uint32_t first[E3D_TILE_SAMPLES + 1]; /* in these, of each sample */
+    uint16_t left[E3D_TILE_SAMPLES];      /* samples that are not sorted yet */
+    float front_z[E3D_TILE_SAMPLES];      /* of the nearest fragment, */
+    int32_t front_id[E3D_TILE_SAMPLES];   /* or E3D_NO_SLOT */
+} e3d_a_buffer;
+
+/* Of records with alpha. */
+typedef struct e3d_alpha_memory {
+    float z[E3D_SHOWN_ROOM + 2 * E3D_PAD]; /* of each entry of the list (e3d_shade_memory.shown) */
+    float alpha[E3D_SHOWN_ROOM];
+    e3d_alpha_list list;
+    e3d_array pieces, sorted;              /* e3d_piece of the blended records: as they are listed; by group, the farthest first */
+    e3d_array ranges, groups;              /* of each piece its depths (float[2]), and its group (int32_t) */
+    e3d_a_buffer fragments;
+} e3d_alpha_memory;
+
+/* Pixels that are averaged, and where they go. */
+typedef struct e3d_average {
+    int32_t count;
+    uint16_t pixel[E3D_TILE_SAMPLES];
+    uint8_t alpha[E3D_TILE_SAMPLES];
+    float color[3][E3D_TILE_SAMPLES + E3D_PAD];
+    uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD];
+} e3d_average;
+
+/* With multisampling. Planes and colours of samples are as many as a pixel has samples. */
+typedef struct e3d_multisample_memory {
+    int32_t samples_room;
+    e3d_visible_tile *planes;
+    e3d_samples *samples; /* where more shows in samples than what they keep */
+    uint64_t mixed[E3D_TILE];
+    e3d_mixed_list list;
+    e3d_average average;
+    e3d_planes_list alpha; /* of records with alpha, */
+    e3d_array covers;      /* and what it holds: int32_t */
+} e3d_multisample_memory;
+
+/* Of spans, and what was found of them lately. */
+typedef struct e3d_spans_memory {
+    _Alignas(64) e3d_cover cover;
+    _Alignas(64) e3d_layers layers;
+    int32_t without, left; /* how many tiles go without spans since these did not pay, and how many of these are left */
+} e3d_spans_memory;
+
+/* The sum. */
+typedef struct e3d_tile_memory {
+    e3d_visible_tile visible; /* where tiles aren't kept over several rounds */
+    e3d_marks_memory marks;
+    e3d_store_memory pixels;
+    e3d_shade_memory shade;
+    e3d_spans_memory spans;
+    e3d_slots_state slots;
+    e3d_alpha_memory alpha;
+    e3d_multisample_memory *multisample; /* or NULL: it hasn't been asked for */
+    e3d_blank_state blank;
+    int64_t ns_raster, ns_shade, ns_resolve; /* of all tiles */
+    int64_t lap;                             /* when the last stage of a tile ended (e3d_lap) */
+} e3d_tile_memory;
+
+/* Adds to a stage's time what has passed since the thread's last lap. */
+static inline void e3d_lap(e3d_tile_memory *memory, int64_t *stage_ns)
+{
+    int64_t now = e3d_now_ns();
+    *stage_ns += now - memory->lap;
+    memory->lap = now;
+}
+
+#endif

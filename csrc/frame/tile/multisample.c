@@ -1,0 +1,166 @@
+/* raster with multisampling: a tile's records to the planes of its samples; pixels in which all samples show the same are shaded as with one
+ * sample, the others piece by piece (msaa_mixed.c).
+ *
+ * In pixels whose samples all have one colour the average is that colour to the bit (R106), so these are encoded at once.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/grow.h"
+#include "base/large_pages.h"
+#include "base/limits.h"
+#include "data/sample_patterns.h"
+#include "kernels/kernels.h"
+#include "kernels/types/records.h"
+#include "kernels/types/visible.h"
+#include "frame/cull/depths.h"
+#include "frame/geometry/bin.h"
+#include "frame/geometry/records.h"
+#include "frame/pass/plan.h"
+#include "frame/pass/prepared.h"
+#include "frame/pass/view.h"
+#include "frame/shade/shade.h"
+#include "frame/store/resolve.h"
+#include "frame/store/tile_state.h"
+#include "frame/tile/alpha_test.h"
+#include "frame/tile/blend.h"
+#include "frame/tile/job.h"
+#include "frame/tile/memory.h"
+#include "frame/tile/msaa_mixed.h"
+#include "frame/tile/multisample.h"
+#include "frame/tile/piece.h"
+#include "frame/tile/slots.h"
+#include "frame/tile/visible.h"
+
+/* ---- memory ---- */
+
+void e3d_multisample_free(e3d_multisample_memory *memory)
+{
+    if (!memory)
+        return;
+    free(memory->planes);
+    free(memory->samples);
+    e3d_array_free(&memory->covers);
+    free(memory);
+}
+
+int e3d_multisample_reserve(e3d_multisample_memory **memory, int32_t samples)
+{
+    if (!*memory)
+        *memory = calloc(1, sizeof **memory);
+    e3d_multisample_memory *m = *memory;
+    if (!m || samples <= m->samples_room)
+        return m != NULL;
+    free(m->planes);
+    free(m->samples);
+    m->samples_room = 0;
+    m->planes = e3d_large_memory((size_t)samples * sizeof *m->planes);
+    m->samples = e3d_large_memory((size_t)samples * sizeof *m->samples);
+    if (!m->planes || !m->samples)
+        return 0;
+    memset(m->planes, 0, (size_t)samples * sizeof *m->planes); /* padding is read, never used */
+    memset(m->samples, 0, (size_t)samples * sizeof *m->samples);
+    m->samples_room = samples;
+    return 1;
+}
+
+/* ---- the planes ---- */
+
+/* Where the last record in order shows, record after record; each keeps its ID. */
+static void overwrite_block(const e3d_tile_job *job, const e3d_bin_block *block)
+{
+    const e3d_prepared *pass = job->in->pass;
+    for (uint32_t i = 0; i < block->count; i++) {
+        const e3d_record *record = e3d_record_at(&job->in->bins->tables[E3D_SET_SCENE], block->id[i]);
+        for (int s = 0; s < pass->pattern->count; s++) {
+            e3d_tile_buffers buffers = {job->visible[s].z, job->visible[s].id, NULL};
+            e3d_piece piece;
+            if (e3d_piece_in_plane(pass, s, record, &job->tile, block->id[i], &piece))
+                pass->kernels->raster_overwrite(&piece, &buffers);
+        }
+    }
+}
+
+static void overwrite_planes(const e3d_tile_job *job)
+{
+    const e3d_bins *bins = job->in->bins;
+    for (int s = 0; s < job->in->pass->pattern->count; s++)
+        e3d_visible_empty(&job->visible[s]);
+    for (int32_t t = 0; t < bins->threads; t++) {
+        const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
+        const e3d_bin_block *block = e3d_first_records(set, 0, job->number);
+        for (; block; block = e3d_bin_block_at(set, block->next))
+            overwrite_block(job, block);
+    }
+}
+
+static void draw_planes(const e3d_tile_job *job, int settle)
+{
+    const e3d_prepared *pass = job->in->pass;
+    if (e3d_plans(pass, E3D_PLAN_SORTS)) {
+        overwrite_planes(job);
+        return;
+    }
+    if (job->state != E3D_TILE_KEPT)
+        e3d_visible_clear(job->visible, &job->tile);
+    e3d_visible_draw(pass, job->in->bins, job->number, job->state == E3D_TILE_DRAWN, job->visible);
+    if (job->in->finishes)
+        e3d_note_depths(pass->kernels, pass->pattern->count, job->visible, &job->out->depths[job->number]);
+    if (settle)
+        pass->kernels->planes_settle(job->visible, pass->pattern, &job->in->bins->tables[E3D_SET_SCENE]);
+}
+
+/* ---- pixels ---- */
+
+static uint64_t columns_inside(const e3d_tile *tile) { return ~(uint64_t)0 >> (E3D_TILE - tile->width); }
+
+/* Parts the pixels: `mixed` ones, and the others, whose IDs go to the thread's own plane; whether some of these show nothing. */
+static int split(const e3d_tile_job *job)
+{
+    uint64_t *mixed = job->memory->multisample->mixed;
+    const e3d_prepared *pass = job->in->pass;
+    int gaps = pass->kernels->planes_split(job->visible, pass->pattern->count, job->tile.width, job->tile.height, mixed, &job->memory->visible);
+    for (int y = 0; y < E3D_TILE; y++)
+        mixed[y] = y < job->tile.height ? mixed[y] & columns_inside(&job->tile) : 0;
+    return gaps;
+}
+
+static void mix_all(const e3d_tile_job *job)
+{
+    for (int y = 0; y < E3D_TILE; y++)
+        job->memory->multisample->mixed[y] = y < job->tile.height ? columns_inside(&job->tile) : 0;
+}
+
+/* Shades the pixels that aren't mixed, as with one sample. */
+static int shade_shared(const e3d_tile_job *job, int gaps)
+{
+    e3d_tile_memory *memory = job->memory;
+    int with_mixed;
+    int32_t count = job->in->pass->kernels->find_runs(&memory->visible, job->tile.width, job->tile.height, memory->shade.runs.rows, &with_mixed);
+    if (gaps)
+        e3d_resolve_begin(job->in->shade->store, &memory->pixels);
+    return !count || e3d_shade_runs(job->in->shade, &job->tile, count, &job->shades);
+}
+
+int e3d_multisample_draw(const e3d_tile_job *job)
+{
+    e3d_tile_memory *memory = job->memory;
+    int edges = e3d_plans(job->in->pass, E3D_PLAN_EDGES), layered = job->blended || edges;
+    draw_planes(job, layered || job->masked);
+    if (!e3d_alpha_cut(job))
+        return 0;
+    e3d_lap(memory, &memory->ns_raster);
+    if (layered)
+        mix_all(job);
+    else if (!shade_shared(job, split(job)))
+        return 0;
+    if (!e3d_mixed_shade(job, layered) || !e3d_alpha_blend(job))
+        return 0;
+    e3d_lap(memory, &memory->ns_shade);
+    if (edges && !e3d_slots_mark_planes(job))
+        return 0;
+    if (layered)
+        e3d_mixed_average_samples(job);
+    e3d_lap(memory, &memory->ns_shade);
+    return 1;
+}

@@ -1,0 +1,118 @@
+/* raster without depths: few records of a tile are mostly neighbours that don't meet, and all that they cover shows; where some meet,
+ * most lie clearly behind others.
+ */
+#include <string.h>
+
+#include "base/limits.h"
+#include "kernels/kernels.h"
+#include "kernels/types/fragments.h"
+#include "kernels/types/shown.h"
+#include "kernels/types/visible.h"
+#include "frame/geometry/bin.h"
+#include "frame/geometry/records.h"
+#include "frame/pass/view.h"
+#include "frame/shade/runs.h"
+#include "frame/tile/memory.h"
+#include "frame/tile/spans.h"
+
+/* Whether a tile has few records, and no fragments. Of many not all bins are looked through. */
+static int are_few(const e3d_bins *bins, int64_t tile)
+{
+    uint32_t count = 0;
+    for (int32_t t = 0; t < bins->threads; t++) {
+        const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
+        if (e3d_first_block(&bins->of[t]->fragments.chains, 0, tile) != E3D_NO_BLOCK)
+            return 0;
+        for (const e3d_bin_block *block = e3d_first_records(set, 0, tile); block; block = e3d_bin_block_at(set, block->next))
+            if ((count += block->count) > E3D_MOST_COVERING)
+                return 0;
+    }
+    return 1;
+}
+
+/* Finds what the records of a tile's bins cover, and lists all of it; 0 where that is too much. */
+static int cover_records(const e3d_kernels *kernels, const e3d_bins *bins, int64_t tile, e3d_tile_memory *memory)
+{
+    for (int32_t t = 0; t < bins->threads; t++) {
+        const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
+        for (const e3d_bin_block *block = e3d_first_records(set, 0, tile); block; block = e3d_bin_block_at(set, block->next))
+            if (!kernels->cover_records(&memory->spans.cover, &bins->tables[E3D_SET_SCENE], block->id, (int)block->count,
+                                        &memory->shade.shown))
+                return 0;
+    }
+    return 1;
+}
+
+static void begin(e3d_tile_memory *memory, const e3d_tile *tile)
+{
+    e3d_cover *cover = &memory->spans.cover;
+    cover->x = tile->x;
+    cover->y = tile->y;
+    cover->width = tile->width;
+    cover->height = tile->height;
+    cover->count = cover->used = 0;
+    memset(cover->once, 0, sizeof cover->once);
+    memset(cover->twice, 0, sizeof cover->twice);
+    e3d_shown_begin(&memory->shade.shown, 1);
+}
+
+static int meet(const e3d_cover *cover)
+{
+    uint64_t twice = 0;
+    for (int y = 0; y < E3D_TILE; y++)
+        twice |= cover->twice[y];
+    return twice != 0;
+}
+
+/* Sorts records by their nearest depths. None is negative, so their bits compare as they do. */
+static void sort_by_depth(e3d_tile_memory *memory, const uint16_t *numbers, int count, uint16_t *sorted)
+{
+    for (int i = 0; i < count; i++) {
+        memory->shade.runs.rows[i].sample = numbers[i];
+        memcpy(&memory->shade.runs.rows[i].owner, &memory->spans.cover.record[numbers[i]].record->zmin, sizeof(float));
+    }
+    const e3d_run *runs = e3d_sort_runs(memory->shade.runs.rows, memory->shade.runs.spare, count);
+    for (int i = 0; i < count; i++)
+        sorted[i] = runs[i].sample;
+}
+
+/* Makes the list of what shows where records meet; 0 where depths of all samples are found sooner. */
+static int show_met(const e3d_kernels *kernels, const e3d_record_table *table, e3d_tile_memory *memory)
+{
+    uint16_t numbers[E3D_MOST_COVERING];
+    e3d_shown_begin(&memory->shade.shown, 1);
+    int count = kernels->show_alone(&memory->spans.cover, &memory->shade.shown, numbers);
+    sort_by_depth(memory, numbers, count, numbers);
+    return kernels->show_layers(&memory->spans.cover, table, numbers, count, &memory->spans.layers, &memory->shade.shown);
+}
+
+/* Tiles that follow each other are alike: where spans did not pay, more and more of them go without. */
+static void judge(e3d_spans_memory *trial, int pays)
+{
+    enum { MOST = 15 };
+    trial->without = pays ? 0 : 2 * trial->without + 1 < MOST ? 2 * trial->without + 1 : MOST;
+    trial->left = trial->without;
+}
+
+int e3d_show_spans(const e3d_kernels *kernels, const e3d_bins *bins, const e3d_tile *tile, int64_t number, e3d_tile_memory *out)
+{
+    e3d_spans_memory *spans = &out->spans;
+    if (spans->left > 0) {
+        spans->left--;
+        return 0;
+    }
+    if (!are_few(bins, number))
+        return 0;
+    begin(out, tile);
+    int shows = cover_records(kernels, bins, number, out) && (!meet(&spans->cover) || show_met(kernels, &bins->tables[E3D_SET_SCENE], out));
+    judge(spans, shows);
+    return shows;
+}
+
+int e3d_spans_cover_all(const e3d_cover *cover)
+{
+    uint64_t row = ~(uint64_t)0 >> (E3D_TILE - cover->width), all = row;
+    for (int32_t y = 0; y < cover->height; y++)
+        all &= cover->once[y];
+    return all == row;
+}

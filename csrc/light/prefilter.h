@@ -1,0 +1,11 @@
+/* What rough mirrors show of an environment, level by level. */
+#ifndef E3D_PREFILTER_H
+#define E3D_PREFILTER_H
+
+#include "light/cube.h"
+#include "light/light_tree.h"
+
+/* Fills a level, borders too, with what a mirror of that roughness, above 0, shows of the light. */
+void e3d_prefilter(const e3d_light_tree *tree, double roughness, int threads, const e3d_cube *out);
+
+#endif

@@ -1,0 +1,37 @@
+/* What a mesh at rest keeps for posing. Private to csrc/scene/posing. */
+#ifndef E3D_REST_H
+#define E3D_REST_H
+
+#include "data/mesh.h"
+#include "e3d_posing.h"
+
+/* A joint that moves a vertex. */
+typedef struct e3d_influence {
+    float weight;
+    int32_t matrix; /* where the joint's matrix begins, in floats */
+} e3d_influence;
+
+struct e3d_rest {
+    const e3d_mesh *mesh;
+    e3d_pose_desc desc;
+    int32_t joints;
+    uint32_t *starts;          /* (vertices + 1,) where the influences of each vertex begin; NULL: no joints */
+    e3d_influence *influences; /* those that are not 0, vertex after vertex */
+    size_t *member_starts;     /* (clusters,) where the members of each cluster begin */
+    int32_t *members;          /* the mesh's vertex for each vertex of a cluster */
+    size_t cluster_floats;     /* what the clusters' positions and indices take */
+};
+
+/* Arrays of all vertices that posing writes; normals and tangents may be NULL. */
+typedef struct e3d_posed_arrays {
+    float *positions, *normals, *tangents;
+} e3d_posed_arrays;
+
+/* Poses vertices first … first + count - 1. */
+void e3d_pose_vertices(const e3d_pose_job *job, int32_t first, int32_t count, const e3d_posed_arrays *out);
+/* Brings the positions of some clusters and their boxes up to date with those of the vertices. */
+void e3d_refit_clusters(const e3d_rest *rest, e3d_mesh *posed, int32_t first, int32_t count);
+/* Then the boxes of groups and of the mesh, and normals of faces, if it has them. */
+void e3d_refit_mesh(e3d_mesh *posed, double box[E3D_POSED_BOX]);
+
+#endif

@@ -1,0 +1,266 @@
+"""Drawing the pictures of a batch, in whichever process.
+
+In: some tasks, and how they are drawn. Out: their files, and an `Outcome` of each. A process keeps
+one renderer, the models that it loaded and the scripts that it ran.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+import warnings
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import Engine3DError, Engine3DWarning, InvalidArgumentError
+from ...io.reading.linked_files import found_files
+from ...model.scene.cameras import Camera
+from ...model.scene.nodes import Node
+from ...model.scene.scene import Scene
+from ...rendering.frame import Frame
+from ...rendering.options import RenderOptions
+from ...rendering.renderer import Renderer
+from ...version import __version__
+from ..datasets.generator import Generator
+from ..datasets.samples import Sample
+from ..datasets.writer import DatasetWriter
+from .cameras import camera_of
+from .file_digests import InputFiles
+from .loading import LoadedFiles, loading, not_written_to
+from .plain import PlainWriter
+from .records import is_done, write_picture
+from .scripts import Said, Scripts
+from .task import Task
+
+if TYPE_CHECKING:
+    from ...stage.blank import Reason
+
+
+class How(NamedTuple):
+    """How pictures are drawn.
+
+    Attributes
+    ----------
+    out : str
+        The folder that they are written to, as every process finds it.
+    writer : DatasetWriter or None
+        None where they are no data set.
+    threads : int
+        Of a renderer.
+    backend : str
+    resume : bool
+        Leave out what is done.
+    version : str
+        Of the engine3d that asks: another one would draw other bytes.
+    timeout : float or None
+        Seconds that a picture may take where who draws cannot be ended (`limits`).
+    """
+
+    out: str
+    writer: DatasetWriter | None
+    threads: int
+    backend: str
+    resume: bool
+    version: str
+    timeout: float | None = None
+
+
+class Outcome(NamedTuple):
+    """What became of a task.
+
+    Attributes
+    ----------
+    index : int
+        Of the task.
+    error : str or None
+        None if the picture is there.
+    drawn : bool
+        Whether it was drawn now.
+    seconds : float
+    warnings : tuple of str
+    """
+
+    index: int
+    error: str | None
+    drawn: bool
+    seconds: float
+    warnings: tuple[str, ...]
+
+
+def writer_of(task: Task, writer: DatasetWriter | None) -> DatasetWriter:
+    """Return what says which files a task's picture becomes."""
+    return PlainWriter(task.outputs) if writer is None else writer
+
+
+def draw_chunk(tasks: Sequence[Task], how: How) -> list[Outcome]:
+    """Draw some pictures: what other processes are asked to do.
+
+    Raises
+    ------
+    InvalidArgumentError
+        This process has another version of engine3d.
+    """
+    if how.version != __version__:
+        raise InvalidArgumentError(
+            f"this process has engine3d {__version__}, and {how.version} asks it: its pictures "
+            "might differ"
+        )
+    drawer = _drawer(how)
+    return [drawer.outcome(task, how) for task in tasks]
+
+
+_kept = threading.local()
+
+
+def _drawer(how: How) -> Drawer:
+    """What this thread draws with."""
+    kind = how.threads, how.backend
+    if getattr(_kept, "kind", None) != kind:
+        _kept.kind, _kept.drawer = kind, Drawer(*kind)
+    return _kept.drawer
+
+
+class Drawer:
+    """Draws pictures one after the other.
+
+    Parameters
+    ----------
+    threads : int
+    backend : str
+    """
+
+    def __init__(self, threads: int, backend: Any) -> None:
+        self._threads, self._backend = threads, backend
+        self._files, self._scripts = LoadedFiles(), Scripts()
+        self._renderer: Renderer | None = None
+
+    def outcome(self, task: Task, how: How) -> Outcome:
+        """Draw a picture, unless it is done; say what became of it."""
+        start, writer = time.perf_counter(), writer_of(task, how.writer)
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always", Engine3DWarning)
+            error, drawn = None, False
+            try:
+                if not (how.resume and is_done(how.out, task, writer)):
+                    self._draw(task, how.out, writer)
+                    drawn = True
+            except Exception as problem:  # one picture's fault is not that of the others
+                error = _told(problem)
+        texts = (str(one.message) for one in said if issubclass(one.category, Engine3DWarning))
+        seconds = time.perf_counter() - start
+        return Outcome(task.index, error, drawn, seconds, tuple(dict.fromkeys(texts)))
+
+    def _draw(self, task: Task, out: str, writer: DatasetWriter) -> None:
+        inputs = InputFiles(task.folder)
+        for path in task.inputs:
+            inputs.note(task.path(path))
+        if task.look is not None:
+            self._draw_look(task, out, writer, inputs)
+            return
+        with loading(self._files, inputs, out):
+            scene, said = self._scene(task, inputs)
+        camera, pose = _chosen_camera(task, scene, said)
+        renderer = self._sized_renderer(task)
+        options = RenderOptions(**{"cull": "auto", **task.render}, outputs=writer.outputs)
+        frame = renderer.render(scene, (camera, pose), options=options)
+        blank = self._why_blank(task, frame, scene, camera, pose, options)
+        sample = Sample(
+            task.name,
+            task.index,
+            frame,
+            scene,
+            camera,
+            pose,
+            renderer,
+            said.labels,
+            options,
+            task.seed,
+        )
+        files, note = writer.describe(sample)
+        for end, data in said.files.items():
+            path = writer.beside(sample, end)
+            if path in files:
+                raise InvalidArgumentError(f"{path} is written twice: it is an output")
+            files[path] = data
+        write_picture(out, task, task.key(writer), inputs, files, note, blank)
+
+    def _why_blank(
+        self, task: Task, frame: Frame, scene: Scene, camera: Camera, pose, options: RenderOptions
+    ) -> Reason | None:
+        """Why a picture shows nothing, if it does not."""
+        from ...stage.blank import Sight, may_be_blank, why_blank
+
+        if not may_be_blank(frame.stats, scene):
+            return None
+        look = {name: getattr(options, name) for name in ("cull", "point_size", "size_unit")}
+        drawing = {"backend": self._backend, "threads": self._threads}
+        return why_blank(Sight(scene, camera, pose, tuple(task.size), look, drawing))
+
+    def _draw_look(self, task: Task, out: str, writer: DatasetWriter, inputs: InputFiles) -> None:
+        """Draw a model as ``engine3d render`` does."""
+        from .looks import draw_look
+
+        if not isinstance(writer, PlainWriter):
+            raise InvalidArgumentError("a look is for pictures, not for data sets")
+        inputs.note(task.path(task.model))
+        with found_files(inputs.note):
+            frame, blank = draw_look(task, self._threads, self._backend, not_written_to(out))
+        files = writer.files(task.name, frame)
+        write_picture(out, task, task.key(writer), inputs, files, None, blank)
+
+    def _scene(self, task: Task, inputs: InputFiles) -> tuple[Scene, Said]:
+        """The scene of a task, and what its script says of it."""
+        path, root = task.model, task.root_path
+        scene = Scene() if path is None else self._files.scene(task.path(path), root)
+        for key, value in task.scene.items():
+            setattr(scene, key, value)
+        if task.script is None:
+            return scene, Said()
+        path, generator = task.path(task.script), Generator(task.seed)
+        call = self._scripts.call
+        return scene, call(path, task.function, task.arguments, scene, generator, inputs.note)
+
+    def _sized_renderer(self, task: Task) -> Renderer:
+        """The renderer, of the task's size and with its samples."""
+        renderer, kind = self._renderer, (task.samples, task.antialias)
+        if renderer is None or (renderer.samples, renderer.antialias) != kind:
+            if renderer is not None:
+                renderer.close()
+            renderer = self._renderer = Renderer(
+                *task.size,
+                backend=self._backend,
+                threads=self._threads,
+                samples=task.samples,
+                antialias=task.antialias,
+            )
+        elif (renderer.width, renderer.height) != tuple(task.size):
+            renderer.resize(*task.size)
+        return renderer
+
+
+def _told(error: Exception) -> str:
+    """An error on one line; those that nobody foresaw say what they are."""
+    text = " ".join(str(error).split())
+    if text and isinstance(error, (Engine3DError, OSError)):
+        return text
+    return f"{type(error).__name__}: {text}"
+
+
+def _chosen_camera(task: Task, scene: Scene, said: Said) -> tuple[Camera, NDArray[np.float64]]:
+    """The camera that the task names, else that of the script, else that of the scene."""
+    if task.camera is not None:
+        return camera_of(task.camera, scene, task.size)
+    chosen = said.camera
+    if chosen is None:
+        nodes = (node for node in scene.nodes if isinstance(node.object, Camera) and node.shown)
+        chosen = next(nodes, None)
+    if chosen is None:
+        return camera_of({}, scene, task.size)
+    if isinstance(chosen, Node) and isinstance(chosen.object, Camera):
+        return chosen.object, chosen.world_pose
+    if isinstance(chosen, tuple) and len(chosen) == 2 and isinstance(chosen[0], Camera):
+        return chosen[0], np.asarray(chosen[1], np.float64)
+    raise InvalidArgumentError("camera must be a node of a camera, or (camera, pose)")

@@ -1,0 +1,201 @@
+"""Models and textures that a process keeps between pictures.
+
+In: the paths of files. Out: meshes, textures and scenes, each file read once for as long as it is
+among the last few; whatever is read is taken down as something that the picture follows from. What
+a script changed is read anew for the next picture: each sees the file as it is.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import OrderedDict
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import Any, NamedTuple
+
+from ...base.calls import checks_types
+from ...base.files.atomic_write import checked_path
+from ...errors import warn
+from ...io.loaders import load_document
+from ...io.reading.documents import Document
+from ...io.reading.linked_files import found_files
+from ...io.resources import Resources, versions_of
+from ...io.scenes.scene_loading import scene_from_document
+from ...model.geometry.mesh import Mesh
+from ...model.materials.textures import Texture
+from ...model.scene.scene import Scene
+from .file_digests import InputFiles, digest_of
+
+#: Files that a process keeps loaded.
+KEPT = 16
+
+
+class Held(NamedTuple):
+    """What is kept of a file.
+
+    Attributes
+    ----------
+    thing : object
+    files : dict of str to str
+        The hashes of the files that it came from, by path.
+    """
+
+    thing: Any
+    files: dict[str, str | None]
+
+
+class LoadedFiles:
+    """What one process, or one thread of it, keeps loaded."""
+
+    def __init__(self) -> None:
+        self._resources = Resources()
+        self._kept: OrderedDict[tuple, Held] = OrderedDict()
+        self.inputs: InputFiles | None = None
+        self.out = ""  # the folder that is written to
+
+    def mesh(self, path: str, options: dict[str, Any]) -> Mesh:
+        """Return the mesh of a file, as `Resources.load_mesh` shares it."""
+        return self._shared("mesh", self._resources.load_mesh, path, options)
+
+    def texture(self, path: str, options: dict[str, Any]) -> Texture:
+        """Return the texture of a file, as `Resources.load_texture` shares it."""
+        return self._shared("texture", self._resources.load_texture, path, options)
+
+    def scene(self, path: str, root: str | None = None) -> Scene:
+        """Return a scene of its own of what a file holds, with the meshes that are loaded."""
+        path = os.path.realpath(path)
+        key = "scene", path, root, self.out
+        held = self._kept.get(key)
+        if held is None or _changed(held.thing):
+            with _found(path) as files:
+                document = load_document(path, companion=not_written_to(self.out), root=root)
+            held = Held((document, _versions(document)), files)
+        self._keep(key, held)
+        document = held.thing[0]
+        scene = scene_from_document(document)
+        for text in scene.warnings[len(document.warnings) :]:  # those of the document were given
+            warn(f"{path}: {text}")
+        return scene
+
+    def forget_changed(self) -> None:
+        """Let go of what came from files that hold something else now."""
+        for key, held in list(self._kept.items()):
+            if any(digest_of(path) != digest for path, digest in held.files.items()):
+                del self._kept[key]
+                self._resources = Resources()
+
+    def _shared(self, kind: str, load, path: str, options: dict[str, Any]):
+        path = os.path.realpath(path)
+        key = kind, path, tuple(sorted(options.items()))
+        held = self._kept.get(key)
+        with _found(path) as files:
+            thing = load(path, **options)  # what is kept is not read again
+        same = held is not None and held.thing is thing
+        self._keep(key, held if same else Held(thing, files))
+        return thing
+
+    def _keep(self, key: tuple, held: Held) -> None:
+        """Keep what is loaded, and take down the files that it came from."""
+        self._kept[key] = held
+        self._kept.move_to_end(key)
+        while len(self._kept) > KEPT:
+            self._kept.popitem(last=False)
+        for path in held.files if self.inputs is not None else ():
+            self.inputs.note(path)
+
+
+@contextmanager
+def _found(path: str) -> Iterator[dict[str, str | None]]:
+    """Collect the paths that are read within the block, and their hashes before that."""
+    files = {path: digest_of(path)}
+
+    def note(one: str) -> None:
+        one = os.path.realpath(one)
+        files.setdefault(one, digest_of(one))
+
+    with found_files(note):
+        yield files
+
+
+def _versions(document: Document) -> tuple:
+    """What is another once somebody has changed a mesh of a document."""
+    meshes = [mesh for _, mesh, _ in document.objects]
+    if document.tree is not None:
+        meshes += [part.mesh for record in document.tree.meshes for part in record.parts]
+    if document.scene is not None:
+        meshes += list(document.scene.meshes.values())
+    return tuple(map(versions_of, meshes))
+
+
+def _changed(held: tuple[Document, tuple]) -> bool:
+    return _versions(held[0]) != held[1]
+
+
+_current: ContextVar[LoadedFiles | None] = ContextVar("loaded_files", default=None)
+
+
+def not_written_to(out: str) -> Callable[[str], bool]:
+    """Return what tells whether an image beside a model is none of the pictures of a batch.
+
+    A picture of a model that lies beside it, under its name, must not become its texture.
+    """
+    folder = os.path.realpath(out) + os.sep
+    return lambda path: not os.path.realpath(path).startswith(folder)
+
+
+@contextmanager
+def loading(files: LoadedFiles, inputs: InputFiles, out: str) -> Iterator[None]:
+    """Let `load_mesh` and `load_texture` go through some files within the block."""
+    files.forget_changed()
+    token, files.inputs, files.out = _current.set(files), inputs, out
+    try:
+        yield
+    finally:
+        _current.reset(token)
+        files.inputs = None
+
+
+@checks_types
+def load_mesh(path: str | os.PathLike[str], **options: Any) -> Mesh:
+    """Load a mesh in a script: once a process, whichever pictures show it.
+
+    The file, and those that it names, become files that the picture follows from.
+
+    Parameters
+    ----------
+    path : path-like
+    **options
+        As of `engine3d.load_mesh`.
+
+    Raises
+    ------
+    FileFormatError, FileAccessError, InvalidArgumentError
+    """
+    return _files().mesh(checked_path(path), options)
+
+
+@checks_types
+def load_texture(path: str | os.PathLike[str], **options: Any) -> Texture:
+    """Load a texture in a script, as `load_mesh` does a mesh.
+
+    Parameters
+    ----------
+    path : path-like
+    **options
+        As of `engine3d.load_texture`.
+
+    Raises
+    ------
+    FileFormatError, FileAccessError, InvalidArgumentError
+    """
+    return _files().texture(checked_path(path), options)
+
+
+def _files() -> LoadedFiles:
+    """Those of the picture that is drawn; outside of a batch, where scripts are tried, others."""
+    files = _current.get()
+    if files is None:
+        files = LoadedFiles()
+        _current.set(files)
+    return files

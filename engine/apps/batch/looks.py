@@ -1,0 +1,65 @@
+"""Pictures of models as ``engine3d render`` draws them: in soft light, on their shadow.
+
+In: a task with a look. Out: a frame, and why it shows nothing, if that is so; its bytes are those
+of the command with the same options.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+from ...choices import Backend
+from ...errors import Engine3DWarning
+from ...rendering.frame import Frame
+from ...stage.blank import Reason
+from ...stage.open_models import open_models
+from ...stage.stage_settings import Settings
+from ...stage.view_renderer import ViewRenderer
+from ...stage.views.first_view import DEFAULT_YFOV, FirstView
+from .task import Task
+
+
+def draw_look(
+    task: Task, threads: int, backend: Backend, companion: Callable[[str], bool]
+) -> tuple[Frame, Reason | None]:
+    """Draw a task's model in its look; return also why nothing shows, if that is so.
+
+    Parameters
+    ----------
+    task : Task
+    threads, backend
+        As of `Renderer`.
+    companion : callable
+        Whether an image beside the model, which has its name, may be its texture.
+
+    Raises
+    ------
+    FileFormatError, FileAccessError
+    """
+    viewed = open_models([task.path(task.model)], companion=companion, root=task.root_path)
+    for text in viewed.warnings:
+        warnings.warn(f"{task.model}: {text}", Engine3DWarning, stacklevel=2)
+    with ViewRenderer(
+        viewed,
+        Settings(appearance={}, look=task.look),
+        task.size,
+        backend=backend,
+        threads=threads,
+        samples=task.samples,
+        antialias=task.antialias,
+    ) as view_renderer:
+        view = _view(task.camera or {}).place(view_renderer, turns=False)
+        frame = view_renderer.draw(view)
+        return frame, view_renderer.why_blank()
+
+
+def _view(said: dict[str, Any]) -> FirstView:
+    angle = said.get("view_angle")
+    return FirstView(
+        yfov=DEFAULT_YFOV if angle is None else math.radians(angle),
+        azimuth=math.radians(said.get("azimuth", 0.0)),
+        elevation=math.radians(said.get("elevation", 0.0)),
+    )

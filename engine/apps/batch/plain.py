@@ -1,0 +1,50 @@
+"""Pictures that are no data set: the files of each beside each other, under its name.
+
+Out: ``NAME.png``, or another format, and ``NAME.OUTPUT.npy``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ...base.files import json_records as records
+from ...rendering.frame import Frame
+from ..datasets.folders import encoded
+from ..datasets.samples import Sample
+from ..datasets.writer import DatasetWriter
+
+
+class PlainWriter(DatasetWriter):
+    """Writes what a task's ``outputs`` name.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Checked by `Task`.
+    """
+
+    kind = "plain"
+    note_shape = staticmethod(records.one_of(None))
+
+    def __init__(self, names: Sequence[str]) -> None:
+        self.formats = {name.partition(".")[0]: name.partition(".")[2] for name in names}
+        self.outputs = tuple(self.formats)
+
+    def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
+        return self.files(sample.name, sample.frame), None
+
+    def files(self, name: str, frame: Frame) -> dict[str, bytes]:
+        """Return the files of a picture, by their paths."""
+        files = {}
+        for output, suffix in self.formats.items():
+            if output == "color" and suffix:
+                files[f"{name}.{suffix}"] = frame.encode(suffix)
+                continue
+            suffix, data = encoded(frame, output)
+            own = name if output == "color" else f"{name}.{output}"
+            files[f"{own}.{suffix}"] = data
+        return files
+
+    def beside(self, sample: Sample, end: str) -> str:
+        return f"{sample.name}.{end}"

@@ -1,0 +1,222 @@
+"""A pool of processes that outlives the death of each of them.
+
+In: calls of functions that can be imported. Out: futures, as executors of `concurrent.futures` give
+them. A process that dies fails the call that it worked on, by an error that names it, and another
+takes its place; one that works on a call for too long is ended. No process runs the program that
+made the pool, so that it needs no guard; none is in the terminal's group, so that Ctrl-C reaches
+the pool alone, which ends them.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import pickle
+import queue
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import Any
+
+from ...base.side_by_side import Thread
+from ...base.system import kill_group
+from ...errors import OutOfMemoryError
+from .worker import BEGUN, receive, send
+
+_PROGRAM = (
+    "import sys; sys.path[:] = {path!r}; from engine3d.apps.batch.worker import main; main({idle})"
+)
+_PATIENCE = 5.0  # seconds, for a process to end that was asked to
+
+
+class WorkerDiedError(RuntimeError):
+    """A process ended while it worked on a call."""
+
+
+class TimeLimitError(RuntimeError):
+    """A process was ended because it worked on a call for too long.
+
+    Parameters
+    ----------
+    seconds : float
+        The limit.
+    """
+
+    def __init__(self, seconds: float) -> None:
+        super().__init__(seconds)
+        self.seconds = seconds
+
+    def __str__(self) -> str:
+        return f"it took more than {self.seconds:g} s, and was ended"
+
+
+class ProcessPool:
+    """Processes that do calls, each one at a time.
+
+    Parameters
+    ----------
+    count : int
+    limit : float, optional
+        Seconds that a call may take, from when its process has begun with it.
+    idle : float, optional
+        Seconds after which a process ends that nobody asks anything; the next call starts another.
+    """
+
+    def __init__(self, count: int, limit: float | None = None, idle: float | None = None) -> None:
+        self._calls: queue.SimpleQueue = queue.SimpleQueue()
+        numbers = range(1, count + 1)
+        self._workers = [_Worker(number, self._calls, limit, idle) for number in numbers]
+
+    def submit(self, function: Callable[..., Any], /, *arguments: Any) -> Future:
+        """Have a call done.
+
+        Its future fails with `WorkerDiedError` where the process dies, and with `TimeLimitError`
+        where it was ended.
+        """
+        future: Future = Future()
+        self._calls.put((future, function, arguments))
+        return future
+
+    def process_ids(self) -> list[int]:
+        """Return the ids of the processes that there are now."""
+        return [worker.process.pid for worker in self._workers if worker.process is not None]
+
+    def stop(self) -> None:
+        """End all processes, whatever they work on; what is half written is removed."""
+        for _ in self._workers:
+            self._calls.put(None)
+        for worker in self._workers:
+            worker.hang_up()
+        for worker in self._workers:
+            worker.join()
+
+    def __enter__(self) -> ProcessPool:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.stop()
+
+
+class _Worker:
+    """A process, and the thread that talks with it."""
+
+    def __init__(
+        self, number: int, calls: queue.SimpleQueue, limit: float | None, idle: float | None
+    ) -> None:
+        self._number, self._calls = number, calls
+        self._limit, self._idle = limit, idle
+        self._stopped = False
+        self.process: subprocess.Popen | None = None
+        self._thread = Thread(target=self._serve, daemon=True)
+        self._thread.start()
+
+    def hang_up(self) -> None:
+        """Let the process know that nobody asks any more."""
+        self._stopped = True
+        if self.process is not None:
+            with contextlib.suppress(OSError, ValueError):
+                self.process.stdin.close()
+
+    def join(self) -> None:
+        """Wait for the end of the process."""
+        process = self.process
+        if process is not None:
+            try:
+                process.wait(_PATIENCE)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+        self._thread.join(_PATIENCE)
+
+    def _serve(self) -> None:
+        while not self._stopped and (call := self._calls.get()) is not None:
+            future, function, arguments = call
+            if future.set_running_or_notify_cancel():
+                self._do(future, (function, arguments))
+
+    def _do(self, future: Future, call: tuple) -> None:
+        try:
+            returned, result = self._result(self._asked(call))
+        except TimeLimitError as error:
+            self._end(error)
+            future.set_exception(error)
+            return
+        except (EOFError, OSError, ValueError, pickle.UnpicklingError, OutOfMemoryError) as error:
+            future.set_exception(WorkerDiedError(self._end(error)))
+            return
+        except Exception as error:  # what cannot be pickled
+            future.set_exception(error)
+            return
+        if returned:
+            future.set_result(result)
+        else:
+            future.set_exception(result)
+
+    def _asked(self, call: tuple, again: bool = True) -> subprocess.Popen:
+        """The process, which has begun with a call."""
+        if self.process is None or self.process.poll() is not None:
+            self.process = _started(self._idle)
+            if self._stopped:
+                self.hang_up()
+        try:
+            send(self.process.stdin, call)
+            begun = receive(self.process.stdout)
+        except (EOFError, OSError) as error:
+            if self._idle is None or not again:
+                raise
+            self._end(error)  # it had waited long enough, and was about to end by itself
+            return self._asked(call, again=False)
+        assert begun == BEGUN
+        return self.process
+
+    def _result(self, process: subprocess.Popen) -> tuple[bool, Any]:
+        """What the process returns; it is ended if that takes too long."""
+        if self._limit is None:
+            return receive(process.stdout)
+        has_answered, is_over = threading.Event(), threading.Event()
+
+        def end() -> None:
+            if not has_answered.wait(self._limit):
+                is_over.set()
+                kill_group(process.pid)
+
+        timer = Thread(target=end, daemon=True)
+        timer.start()
+        try:
+            return receive(process.stdout)
+        finally:
+            has_answered.set()
+            timer.join()
+            if is_over.is_set():
+                raise TimeLimitError(self._limit)
+
+    def _end(self, error: Exception) -> str:
+        """Say how the process ended."""
+        process, self.process = self.process, None
+        if process is None:
+            return f"worker {self._number} did not start: {error}"
+        with contextlib.suppress(OSError):
+            process.stdin.close()
+        process.stdout.close()
+        try:
+            status = process.wait(_PATIENCE)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            status = process.wait()
+        how = f"ended with status {status}"
+        if status < 0:
+            with contextlib.suppress(ValueError):
+                how = f"was ended by {signal.Signals(-status).name}"
+        return f"worker {self._number} (process {process.pid}) {how}"
+
+
+def _started(idle: float | None) -> subprocess.Popen:
+    program = _PROGRAM.format(path=sys.path, idle=idle)
+    return subprocess.Popen(
+        [sys.executable, "-c", program],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        start_new_session=True,
+    )

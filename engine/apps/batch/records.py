@@ -1,0 +1,107 @@
+"""What tells that a picture is there: a record of what it was made from and of what was written.
+
+In: a task, its files. Out: ``.batch/NAME.json``, written together with the files and after them: a
+picture with a record is whole. A picture is done if its record has the task's key, and files and
+inputs still hold what the record says.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from ...base.files import json_records as shapes
+from ...base.files.atomic_write import AtomicFiles
+from ...base.files.making_folders import make_folder_of
+from ...errors import FileAccessError, FileFormatError, warn
+from ..datasets.writer import Content, DatasetWriter, Note, contents, own_files
+from .file_digests import InputFiles, are_as_before
+from .task import Task
+
+if TYPE_CHECKING:
+    from ...stage.blank import Reason
+
+FOLDER = ".batch"
+
+
+def record_path(task: Task) -> str:
+    """Return the path of a task's record, relative to the batch's folder."""
+    return os.path.join(FOLDER, f"{task.name}.json")
+
+
+def write_picture(
+    out: str,
+    task: Task,
+    key: str,
+    inputs: InputFiles,
+    files: Mapping[str, Content],
+    said: Any,
+    blank: Reason | None = None,
+) -> None:
+    """Write a picture's files and then its record: all of them, or none.
+
+    The record, and a warning, say why a picture shows nothing.
+    """
+    hashes = {path: hashlib.sha256(data).hexdigest() for path, data in own_files(files).items()}
+    record = {"key": key, "inputs": inputs.digests(), "files": hashes, "said": said}
+    if blank is not None:
+        record |= {"blank": True, "why": blank.word}
+        warn(f"{task.name}: nothing shows: {blank.sentence}")
+    with AtomicFiles() as parts:
+        whole = {**files, record_path(task): shapes.sealed(record)}
+        for target, data in contents(out, whole):
+            make_folder_of(target, below=out)
+            parts.create(target, below=out).write(data)
+
+
+def read_record(
+    out: str, task: Task, writer: DatasetWriter, *, tell: bool = False
+) -> dict[str, Any] | None:
+    """Return a task's record; None where there is none, or a damaged one: a warning can tell."""
+    path = os.path.join(out, record_path(task))
+    if not os.path.lexists(path):
+        return None
+    try:
+        return shapes.read_sealed(path, _record(writer.note_shape))
+    except (FileAccessError, FileFormatError) as error:
+        if tell:
+            warn(f"{error}: the picture is drawn again")
+        return None
+
+
+_DIGEST = shapes.sound_text
+
+
+def _record(said: shapes.Shape) -> shapes.Shape:
+    """The shape of records of pictures of which a writer says something of this shape."""
+    return shapes.members(
+        {
+            "key": shapes.text,
+            "inputs": shapes.mapped(shapes.path_text, shapes.maybe(_DIGEST)),
+            "files": shapes.mapped(shapes.path_inside, _DIGEST),
+            "said": said,
+        },
+        {"blank": shapes.one_of(True), "why": shapes.text},
+    )
+
+
+def note_of(task: Task, record: dict[str, Any]) -> Note:
+    """Return what a record says of a picture, as writers take it."""
+    return Note(task.name, task.index, list(record["files"]), record["said"])
+
+
+def is_done(out: str, task: Task, writer: DatasetWriter) -> bool:
+    """Return whether a picture is there, made of what there is now."""
+    record = read_record(out, task, writer, tell=True)
+    if record is None or record["key"] != task.key(writer):
+        return False
+    note = note_of(task, record)
+    for path, digest in record["files"].items():
+        data = writer.stored(out, note, path)
+        if data is None or hashlib.sha256(data).hexdigest() != digest:
+            return False
+    if not writer.is_whole(out, note):
+        return False
+    return are_as_before(task.folder, record["inputs"])

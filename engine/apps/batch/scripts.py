@@ -1,0 +1,165 @@
+"""The scripts of tasks: files of Python with a function that builds a scene.
+
+In: a script's path, a scene, a generator. Out: what the function says of the picture. What it
+raises becomes an error that names the file and the line.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import sys
+import traceback
+from collections.abc import Callable, Mapping
+from types import ModuleType
+from typing import Any, NamedTuple
+
+from ...base.numbers import shown
+from ...errors import Engine3DError, InvalidArgumentError, located
+from ...model.scene.nodes import Node
+from ...model.scene.scene import Scene
+from ..datasets.generator import Generator
+from .bytes_of import bytes_of
+from .file_digests import digest_of
+
+_SAID = ("camera", "labels", "files")
+
+
+class ScriptError(Engine3DError, RuntimeError):
+    """A script raised something, or is none."""
+
+
+class Said(NamedTuple):
+    """What a script says of its picture.
+
+    Attributes
+    ----------
+    camera : Node, (Camera, pose) or None
+    labels : dict of Node to str, or None
+    files : dict of str to bytes
+        By the end of their names, such as ``"points.npy"``.
+    """
+
+    camera: Any = None
+    labels: Mapping[Node, str] | None = None
+    files: Mapping[str, bytes] = {}
+
+
+class Loaded(NamedTuple):
+    """A script that was run.
+
+    Attributes
+    ----------
+    module : ModuleType
+    beside : dict of str to str
+        Names of the modules of its folder that it imported, and their files.
+    digests : dict of str to str
+        Hashes of all these files and its own, by path.
+    """
+
+    module: ModuleType
+    beside: dict[str, str]
+    digests: dict[str, str | None]
+
+
+class Scripts:
+    """The scripts that a process has run, each once for as long as its files stay as they are."""
+
+    def __init__(self) -> None:
+        self._loaded: dict[str, Loaded] = {}
+
+    def call(
+        self,
+        path: str,
+        function: str,
+        arguments: Mapping[str, Any],
+        scene: Scene,
+        generator: Generator,
+        note: Callable[[str], None],
+    ) -> Said:
+        """Call a script's function; ``note`` gets the script and what of its folder it imports.
+
+        Raises
+        ------
+        ScriptError
+        """
+        path = os.path.realpath(path)
+        loaded = self._fresh(path)
+        for file in loaded.digests:
+            note(file)
+        build = getattr(loaded.module, function, None)
+        if not callable(build):
+            raise ScriptError(located(f"there is no function {function}", path))
+        result = _guarded(path, lambda: build(scene, generator, **arguments))
+        try:
+            return _said(result)
+        except InvalidArgumentError as error:
+            raise ScriptError(located(f"what {function} returned: {error}", path)) from None
+
+    def _fresh(self, path: str) -> Loaded:
+        """The script as its files are now."""
+        known = self._loaded.get(path)
+        if known is not None:
+            if all(digest_of(file) == digest for file, digest in known.digests.items()):
+                return known
+            for name in known.beside:
+                sys.modules.pop(name, None)
+        loaded = self._loaded[path] = _guarded(path, lambda: _run(path))
+        return loaded
+
+
+def _run(path: str) -> Loaded:
+    """Run a script as a module."""
+    folder, before = os.path.dirname(path) + os.sep, set(sys.modules)
+    own = digest_of(path)
+    spec = importlib.util.spec_from_file_location(f"engine3d_script_{abs(hash(path))}", path)
+    if spec is None or spec.loader is None:
+        raise ScriptError(located("its name does not end in .py", path))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    new = {name: getattr(sys.modules[name], "__file__", None) for name in set(sys.modules) - before}
+    beside = {name: file for name, file in new.items() if file and file.startswith(folder)}
+    files = sorted(beside.values())
+    return Loaded(module, beside, {path: own, **{file: digest_of(file) for file in files}})
+
+
+def _guarded(path: str, do: Callable[[], Any]) -> Any:
+    """Let a script import what is beside it, and whatever it raises name the file and the line."""
+    folder = os.path.dirname(path)
+    sys.path.insert(0, folder)
+    # Python takes compiled code for a file of the same size and second: a change could be missed.
+    writes, sys.dont_write_bytecode = sys.dont_write_bytecode, True
+    importlib.invalidate_caches()
+    try:
+        return do()
+    except ScriptError:
+        raise
+    except (Exception, SystemExit) as error:
+        lines = [
+            entry.lineno
+            for entry in traceback.extract_tb(error.__traceback__)
+            if os.path.realpath(entry.filename) == path
+        ]
+        line = error.lineno if isinstance(error, SyntaxError) else (lines[-1] if lines else None)
+        text = error.msg if isinstance(error, SyntaxError) else str(error)
+        said = f"{type(error).__name__}: {' '.join(text.split())}"
+        raise ScriptError(located(said, path, line)) from error
+    finally:
+        sys.dont_write_bytecode = writes
+        sys.path.remove(folder)
+
+
+def _said(result: Any) -> Said:
+    """Check what a script's function returned."""
+    if result is None:
+        return Said()
+    if not isinstance(result, Mapping):
+        raise InvalidArgumentError(f"must be None or a dict, not {shown(result)}")
+    for key in result:
+        if key not in _SAID:
+            raise InvalidArgumentError(f"{shown(key)} is none of {', '.join(_SAID)}")
+    labels, files = result.get("labels"), result.get("files", {})
+    for name, value in (("labels", labels), ("files", files)):
+        if value is not None and not isinstance(value, Mapping):
+            raise InvalidArgumentError(f"{name} must be a dict, not {shown(value)}")
+    return Said(result.get("camera"), labels, dict(bytes_of(key, files[key]) for key in files))

@@ -1,0 +1,311 @@
+"""A picture to be drawn: everything that it follows from, but for what files hold.
+
+In: values as manifests have them. Out: a `Task`, checked, which can be sent to other processes and
+has a key: a hash of all that it says.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from typing import Any, get_args
+
+from ...base.calls import checks_types
+from ...base.image_size import check_size
+from ...base.numbers import shown
+from ...base.validation import choose
+from ...choices import Antialias, ImageFormat, Samples
+from ...errors import InvalidArgumentError
+from ...model.scene.scene import Scene
+from ...rendering.frame import OUTPUTS
+from ...rendering.options import RenderOptions
+from ...version import __version__
+from ..datasets.writer import DatasetWriter
+from .cameras import check_camera
+from .members import member
+
+#: What of a scene a task may set.
+SCENE_KEYS = ("background", "ambient", "light_clamp", "exposure")
+LOOKS = ("studio", "plain")
+_LOOK_CAMERA = ("azimuth", "elevation", "view_angle", "name")
+_NAME = re.compile(r"[^\W_][\w .+@=,-]*(?:/[^\W_][\w .+@=,-]*)*")
+_LONGEST = 200  # characters: with the folder and a suffix it is still the name of a file
+
+
+@dataclass(frozen=True, slots=True)  # there may be millions
+class Task:
+    """One picture of a batch.
+
+    Parameters
+    ----------
+    name : str
+        Of its files, without an extension; folders are made. No two tasks of a batch have the same.
+    model : str, optional
+        A file of any format that `load_scene` reads.
+    script : str, optional
+        A file of Python with a function that builds the scene, or changes that of the model. One of
+        the two is needed.
+    function : str
+        The name of that function: called as ``function(scene, generator, **arguments)``; see
+        docs/batches.md.
+    arguments : mapping
+        Further arguments of the function, in JSON's types.
+    camera : int or mapping, optional
+        The number of a camera of the scene, or how one looks: see docs/batches.md. Left out: what
+        the script says, else the scene's first camera, else all of the scene is shown.
+    size : (int, int)
+        Width and height in pixels.
+    samples, antialias
+        As of `Renderer`.
+    render : mapping
+        Keyword arguments of `RenderOptions`, but for ``outputs``.
+    look : {"studio", "plain"}, optional
+        Draw the model as ``engine3d render --look`` does, instead of as it is in a scene. Such a
+        task has no script, ``render``, ``scene`` or output but the colour, and its camera says
+        ``azimuth`` and ``elevation`` from where the command looks, and ``view_angle``, at most.
+    scene : mapping
+        ``background``, ``ambient``, ``light_clamp`` and ``exposure``, as of `Scene`.
+    outputs : sequence of str
+        What is written beside each other where there is no data set: ``"color"`` (a PNG), or with
+        another format ``"color.jpg"``; any other output of frames as ``NAME.OUTPUT.npy``.
+    seed : int
+        Of the generator that the script gets.
+    inputs : sequence of str
+        Further files that the picture follows from: what scripts read.
+    index : int
+        Its place in the batch.
+    folder : str
+        What paths are relative to; by default the current one.
+    root : str, optional
+        A folder that files named in the model may be in, besides the model's own.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    name: str
+    model: str | None = None
+    script: str | None = None
+    function: str = "build"
+    arguments: Mapping[str, Any] = field(default_factory=dict)
+    camera: int | Mapping[str, Any] | None = None
+    size: tuple[int, int] = (320, 240)
+    samples: Samples = 4
+    antialias: Antialias = "ssaa"
+    render: Mapping[str, Any] = field(default_factory=dict)
+    look: str | None = None
+    scene: Mapping[str, Any] = field(default_factory=dict)
+    outputs: Sequence[str] = ("color",)
+    seed: int = 0
+    inputs: Sequence[str] = ()
+    index: int = 0
+    folder: str = field(default_factory=os.getcwd)
+    root: str | None = None
+
+    def __post_init__(self) -> None:
+        for one in fields(self):
+            value = checked(one.name, getattr(self, one.name))
+            object.__setattr__(self, one.name, value)
+        if self.model is None and self.script is None:
+            raise InvalidArgumentError("a task needs a model or a script")
+        check_look(self)
+
+    @checks_types
+    def path(self, name: str) -> str:
+        """Return the path of a file that the task names."""
+        return os.path.join(self.folder, name)
+
+    @property
+    def root_path(self) -> str | None:
+        """The path of the folder that files named in the model may be in."""
+        return None if self.root is None else self.path(self.root)
+
+    @checks_types
+    def key(self, writer: DatasetWriter) -> str:
+        """Return a hash of all that the task says, of the writer and of engine3d's version."""
+        told = {one.name: getattr(self, one.name) for one in fields(self) if one.name != "folder"}
+        said = {"task": told, "writer": writer.said(), "engine3d": __version__}
+        text = json.dumps(said, sort_keys=True, separators=(",", ":"))
+        return hashlib.blake2b(text.encode("utf-8"), digest_size=20).hexdigest()
+
+
+def check_look(task: Task) -> None:
+    """Raise unless what a task says goes with its look.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+    if task.look is None:
+        return
+    other = [key for key in ("script", "render", "scene") if getattr(task, key)]
+    other += [f"the output {name}" for name in task.outputs if not name.startswith("color")]
+    if task.camera is not None:
+        said = task.camera if isinstance(task.camera, Mapping) else {"a number of a camera": 0}
+        other += [f"camera: {key}" for key in said if key not in _LOOK_CAMERA]
+    if other:
+        raise InvalidArgumentError(f"look does not go with {', '.join(other)}")
+
+
+def task_of(values: Mapping[str, Any]) -> Task:
+    """Return a task of values that `checked` returned, which many tasks may share."""
+    task = object.__new__(Task)
+    for name, value in {**_DEFAULTS, **values}.items():
+        object.__setattr__(task, name, value)
+    return task
+
+
+def checked(name: str, value: Any) -> Any:
+    """Return the value of one of a task's fields; its errors name the field.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+    return _CHECKS[name](value)
+
+
+def _name(value: Any) -> str:
+    if not (isinstance(value, str) and len(value) <= _LONGEST and _NAME.fullmatch(value)):
+        raise InvalidArgumentError(
+            f"name must be made of letters, digits and _ . + - @ = , or spaces, with / between "
+            f"folders, each beginning with a letter or digit, not {shown(value)}"
+        )
+    return value
+
+
+def _text(what: str):
+    def check(value: Any) -> str:
+        if not (isinstance(value, (str, os.PathLike)) and os.fspath(value)):
+            raise InvalidArgumentError(f"{what} must be a text, not {shown(value)}")
+        return str(os.fspath(value))
+
+    return check
+
+
+def _optional_text(what: str):
+    check = _text(what)
+    return lambda value: None if value is None else check(value)
+
+
+def _texts(what: str):
+    check = _text(what)
+
+    def check_all(value: Any) -> tuple[str, ...]:
+        if isinstance(value, str) or not isinstance(value, Sequence):
+            raise InvalidArgumentError(f"{what} must be a list of texts, not {shown(value)}")
+        texts = []
+        for number, one in enumerate(value):
+            with member(number):
+                texts.append(check(one))
+        return tuple(texts)
+
+    return check_all
+
+
+def _whole(what: str):
+    def check(value: Any) -> int:
+        if isinstance(value, bool) or not isinstance(value, int) or value < 0:
+            raise InvalidArgumentError(f"{what} must be a whole number from 0 on: {shown(value)}")
+        return value
+
+    return check
+
+
+def _mapping(what: str, value: Any) -> dict[str, Any]:
+    if not (isinstance(value, Mapping) and all(isinstance(key, str) for key in value)):
+        raise InvalidArgumentError(f"{what} must be an object, not {shown(value)}")
+    return dict(value)
+
+
+def _function(value: Any) -> str:
+    if not (isinstance(value, str) and value.isidentifier()):
+        raise InvalidArgumentError(f"function must be a name, not {shown(value)}")
+    return value
+
+
+def _arguments(value: Any) -> dict[str, Any]:
+    arguments = _mapping("arguments", value)
+    try:
+        return json.loads(json.dumps(arguments, allow_nan=False))
+    except (TypeError, ValueError) as error:
+        raise InvalidArgumentError(f"arguments must be of JSON's types: {error}") from None
+
+
+def _render(value: Any) -> dict[str, Any]:
+    options = _mapping("render", value)
+    known = {one.name for one in fields(RenderOptions)} - {"outputs"}
+    for key in options:
+        with member(key):
+            _check_key("render", key, sorted(known))
+    try:
+        RenderOptions(**options)
+    except (InvalidArgumentError, TypeError):
+        for key, one in options.items():
+            with member(key):
+                RenderOptions(**{key: one})
+        raise
+    return options
+
+
+def _check_key(what: str, key: str, known: Sequence[str]) -> None:
+    if key not in known:
+        raise InvalidArgumentError(f"{what}: {key} is none of {', '.join(known)}")
+
+
+def _scene(value: Any) -> dict[str, Any]:
+    values = _mapping("scene", value)
+    if values:
+        scene = Scene()
+        for key, held in values.items():
+            with member(key):
+                _check_key("scene", key, SCENE_KEYS)
+                setattr(scene, key, held)
+    return values
+
+
+def _outputs(value: Any) -> tuple[str, ...]:
+    names = _texts("outputs")(value)
+    for number, name in enumerate(names):
+        with member(number):
+            _check_output(name)
+    if not names or len({name.partition(".")[0] for name in names}) < len(names):
+        raise InvalidArgumentError("outputs must name some outputs, none twice")
+    return names
+
+
+def _check_output(name: str) -> None:
+    output, _, suffix = name.partition(".")
+    choose(output, OUTPUTS, "outputs")
+    if suffix:
+        formats = get_args(ImageFormat) if output == "color" else ("npy",)
+        choose(suffix, formats, f"outputs: the format of {output}")
+
+
+_CHECKS = {
+    "name": _name,
+    "model": _optional_text("model"),
+    "script": _optional_text("script"),
+    "function": _function,
+    "arguments": _arguments,
+    "camera": check_camera,
+    "size": check_size,
+    "samples": lambda value: choose(value, get_args(Samples), "samples"),
+    "antialias": lambda value: choose(value, get_args(Antialias), "antialias"),
+    "render": _render,
+    "scene": _scene,
+    "look": lambda value: choose(value, (None, *LOOKS), "look"),
+    "outputs": _outputs,
+    "seed": _whole("seed"),
+    "inputs": _texts("inputs"),
+    "root": _optional_text("root"),
+    "index": _whole("index"),
+    "folder": _text("folder"),
+}
+_USUAL = Task(name="a", model="a", folder="/")
+_DEFAULTS = {one.name: getattr(_USUAL, one.name) for one in fields(Task)} | {"model": None}

@@ -1,0 +1,61 @@
+"""Rows of figures as lines of text, and what machine they are of.
+
+In:  rows of `measuring.measure`. Out: text.
+"""
+
+from __future__ import annotations
+
+import platform
+from pathlib import Path
+
+from ... import __version__
+from ...base.system import usable_processors
+
+
+def machine() -> dict:
+    """Return what the figures were measured on."""
+    return {
+        "engine3d": __version__,
+        "machine": platform.machine(),
+        "processor": _processor(),
+        "cpus": usable_processors(),
+        "python": platform.python_version(),
+        "system": platform.system(),
+    }
+
+
+def _processor() -> str:
+    """The processor's name, as Linux knows it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text("utf-8", "replace").splitlines()
+    except OSError:
+        return platform.processor()
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.processor()
+
+
+def heading(size, picture: str = "default") -> list[str]:
+    """Return the lines above the table; `picture` is default or plain, as `workloads` says."""
+    about = machine()
+    return [
+        f"engine3d {about['engine3d']}, {about['processor']}, {about['cpus']} CPUs",
+        f"{size[0]}x{size[1]}, {picture} picture, median milliseconds per frame, as an array",
+    ]
+
+
+def columns() -> str:
+    """Return the line of the table that names its columns."""
+    first = f"{'workload':<15} {'backend':<9} {'threads':>7} {'ms':>8}"
+    stages = f"{'geometry':>8} {'raster':>8} {'shade':>8} {'resolve':>8}"
+    return f"{first}   {stages}   {'Mtri/s':>8} {'Mpixel/s':>8}"
+
+
+def line(row: dict) -> str:
+    """Return a row as a line of the table."""
+    first = (
+        f"{row['workload']:<15} {row['backend']:<9} {row['threads']:>7} {row['milliseconds']:>8.2f}"
+    )
+    names = ("ms_geometry", "ms_raster", "ms_shade", "ms_resolve")
+    stages = " ".join(f"{row[name]:>8.2f}" for name in names)
+    triangles, pixels = row["triangles_per_second"] / 1e6, row["pixels_per_second"] / 1e6
+    return f"{first}   {stages}   {triangles:>8.2f} {pixels:>8.1f}"

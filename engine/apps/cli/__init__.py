@@ -1,0 +1,204 @@
+"""The command line: ``engine3d run``, ``render``, ``info``, ``convert``, ``learn`` …
+
+In: arguments. Out: an exit status: 0, 1 after an error (one line on standard error that names the
+file and the line), 2 after wrong usage. One file per command; a command's module, and with it NumPy
+and the core, loads only when it runs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import gc
+import os
+import sys
+from collections.abc import Callable
+
+from .said import say
+from .usage import UsageError
+
+INTERRUPTED = 130
+#: Plus the number of the signal that ended the program, as shells count.
+ENDED_BY_SIGNAL = 128
+
+
+def main(argv: list[str] | None = None, begin: Callable[[], None] | None = None) -> int:
+    """Run one command.
+
+    Parameters
+    ----------
+    argv : list of str, optional
+        The arguments without the program's name; those of the process by default.
+    begin : callable, optional
+        Called when everything that the command needs is imported, before it runs.
+
+    Returns
+    -------
+    int
+        The exit status.
+    """
+    # NumPy's linear algebra, which draws nothing here, would start a thread for each CPU.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    _replace_closed_streams()
+    return _run(sys.argv[1:] if argv is None else argv, begin)
+
+
+def _replace_closed_streams() -> None:
+    """Let closed streams (``>&-``) lead nowhere; the next file opened would take their place."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
+
+
+def _run(arguments: list[str], begin: Callable[[], None] | None) -> int:
+    """Do what the arguments say, and turn every foreseen exception into a line."""
+    from ...errors import Engine3DError
+
+    try:
+        with _short_warnings(), _ended_politely():
+            status = _obey(arguments, begin)
+            sys.stdout.flush()
+        return status
+    except BrokenPipeError:
+        # Whoever read our output has left.
+        _leave_standard_output()
+        return 1
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except _Ended as ended:
+        return ENDED_BY_SIGNAL + ended.number
+    except (Engine3DError, OSError) as error:
+        if not _can_flush():
+            _leave_standard_output()
+        return _fail(_one_line(error))
+    except MemoryError:
+        return _fail("out of memory")
+    except ImportError as error:
+        if "failed to map" not in str(error):  # what the system says of a library without room
+            raise
+        return _fail("out of memory")
+
+
+def _obey(arguments: list[str], begin: Callable[[], None] | None) -> int:
+    """Parse the arguments, run the command that they name, and return its exit status."""
+    from ...errors import InvalidArgumentError
+    from .parser import parse
+    from .quietness import set_quiet
+
+    try:
+        args = parse(arguments)
+        if getattr(args, "verbose", False) and args.quiet:
+            raise UsageError("--verbose does not go with --quiet")
+        set_quiet(getattr(args, "quiet", False))
+        command = _load(args)
+        if begin is not None:
+            begin()
+        return command(args)
+    except UsageError as error:
+        return _usage(str(error))
+    except InvalidArgumentError as error:
+        from ...stage.viewed_scene import NotInModelError
+
+        if isinstance(error, NotInModelError):
+            return _usage(str(error))
+        raise
+    except SystemExit as stop:
+        return stop.code if isinstance(stop.code, int) else 1
+
+
+class _Ended(BaseException):
+    """A signal asked the program to end."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = number
+
+
+@contextlib.contextmanager
+def _ended_politely():
+    """Let SIGTERM and SIGHUP raise, so that what is half written is removed."""
+    import signal
+    import threading
+
+    from ...base.system import ending_signals
+
+    def end(number, frame):
+        raise _Ended(number)
+
+    numbers = ending_signals()
+    if threading.current_thread() is not threading.main_thread():
+        numbers = ()
+    changed = [number for number in numbers if signal.getsignal(number) is signal.SIG_DFL]
+    try:
+        for number in changed:
+            signal.signal(number, end)
+        yield
+    finally:
+        for number in changed:
+            signal.signal(number, signal.SIG_DFL)
+
+
+def _can_flush() -> bool:
+    try:
+        sys.stdout.flush()
+    except OSError:
+        return False
+    return True
+
+
+def _leave_standard_output() -> None:
+    """Keep Python from complaining when it flushes at exit what cannot be written."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _load(args: argparse.Namespace):
+    """Import the command; what is imported stays, so no garbage is looked for meanwhile."""
+    if "numpy" in sys.modules:
+        return args.load_command()
+    gc.disable()
+    try:
+        return args.load_command()
+    finally:
+        gc.freeze()
+        gc.enable()
+
+
+def _one_line(error: Exception) -> str:
+    text = str(error)
+    if isinstance(error, OSError) and error.strerror:
+        place = "" if error.filename is None else f"{os.fsdecode(error.filename)}: "
+        text = place + error.strerror
+    return text or type(error).__name__
+
+
+def _fail(message: str) -> int:
+    say(f"error: {message}")
+    return 1
+
+
+def _usage(message: str) -> int:
+    say(f"error: {message}")
+    return 2
+
+
+class _short_warnings:
+    """While active, a warning of engine3d's own is one line on standard error."""
+
+    def __enter__(self):
+        import warnings
+
+        from ...errors import Engine3DWarning
+
+        self._catcher = warnings.catch_warnings()
+        self._catcher.__enter__()
+        warnings.simplefilter("always", Engine3DWarning)
+        warnings.showwarning = _show_warning
+
+    def __exit__(self, *exception):
+        self._catcher.__exit__(*exception)
+
+
+def _show_warning(message, category, filename, lineno, file=None, line=None) -> None:
+    from .quietness import remark
+
+    remark(f"warning: {message}")

@@ -1,0 +1,122 @@
+"""The options of how surfaces and lines are drawn."""
+
+from __future__ import annotations
+
+import argparse
+from typing import get_args
+
+from ....choices import Culling, FrameCull, HiddenSurfaces, Mode, OutputMode, Shading, Wireframe
+from .. import values
+from ..usage import UsageError
+from .filter_options import add_line_shapes, add_texture_filters
+
+MODES = (*get_args(Mode), *get_args(OutputMode))
+WIREFRAMES = get_args(Wireframe)
+
+
+def add_appearance(parser) -> None:
+    """Add how surfaces and lines are drawn."""
+    group = parser.add_argument_group("look")
+    group.add_argument("--mode", choices=MODES, help="what the pixels show")
+    group.add_argument("--unlit", action="store_true", help="the same as --mode unlit")
+    group.add_argument(
+        "--wireframe",
+        nargs="?",
+        const=WIREFRAMES[-1],
+        choices=WIREFRAMES,
+        help="draw the edges: overlay over the faces, only (or no value) without them",
+    )
+    group.add_argument("-e", "--edges", action="store_true", help="the same as --wireframe overlay")
+    group.add_argument(
+        "--hidden-lines",
+        action="store_true",
+        help="in a wireframe, draw the edges that faces hide as well",
+    )
+    group.add_argument(
+        "--line-width",
+        type=values.width,
+        metavar="PIXELS",
+        help="width of lines and edges, up to 256; see --size-unit",
+    )
+    group.add_argument(
+        "--line-color",
+        type=values.color,
+        metavar="COLOR",
+        help="colour of the edges; by default dark over faces, and in contrast to the background "
+        "without them",
+    )
+    group.add_argument(
+        "--point-size",
+        type=values.width,
+        metavar="PIXELS",
+        help="size of points, up to 256; by default larger the fewer points there are",
+    )
+    add_line_shapes(group)
+    add_texture_filters(group)
+    normals = group.add_mutually_exclusive_group()
+    normals.add_argument(
+        "--flat",
+        action="store_const",
+        const="flat",
+        dest="normals",
+        help="shade with one normal per face",
+    )
+    normals.add_argument(
+        "--facets",
+        action="store_const",
+        const="facet",
+        dest="normals",
+        help="shade with one normal and one light per face: that of its middle",
+    )
+    normals.add_argument(
+        "--smooth",
+        action="store_const",
+        const="smooth",
+        dest="normals",
+        help="shade with one normal per vertex",
+    )
+    group.add_argument(
+        "--cull",
+        choices=get_args(FrameCull),
+        help="which faces to leave out; by default (auto) none of models, but the backs of what is "
+        "closed, which do not show; in glTF and scenes the backs",
+    )
+    group.add_argument(
+        "--culling",
+        choices=get_args(Culling),
+        help="what is left out before it is drawn: what is outside of the view, faces away or is "
+        "hidden (all, the default; always: tried in every frame), only nodes outside of the view, "
+        "found by a tree of boxes (tree) or by testing each box (frustum), or nothing (none); the "
+        "picture is the same",
+    )
+    group.add_argument(
+        "--hidden-surfaces",
+        choices=get_args(HiddenSurfaces),
+        help="method of hidden-surface removal: depth buffer (the default), painter's algorithm "
+        "(drawing from far to near), or none",
+    )
+    group.add_argument(
+        "--shading",
+        choices=get_args(Shading),
+        help="shade visible pixels once (the default) or every fragment; the picture is the same",
+    )
+
+
+def appearance_of(args: argparse.Namespace) -> dict:
+    """Return the fields of `Appearance` that the options name: those that are called alike."""
+    if args.unlit and args.mode not in (None, "unlit"):
+        raise UsageError(f"--unlit does not go with --mode {args.mode}")
+    if args.edges and args.wireframe == "only":
+        raise UsageError("--edges does not go with --wireframe only")
+    from ....stage.appearance import DEFAULTS
+
+    named = {name: value for name, value in vars(args).items() if name in DEFAULTS}
+    if args.unlit:
+        named["mode"] = "unlit"
+    if args.edges:
+        named["wireframe"] = "overlay"
+    return {
+        name: value
+        for name, value in named.items()
+        if value is not None and value is not False  # a switch that is off leaves it to the scene
+    }

@@ -1,0 +1,110 @@
+"""The options of where to look from."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from typing import TYPE_CHECKING
+
+from .. import values
+from ..usage import UsageError
+
+if TYPE_CHECKING:
+    from ....stage.views.first_view import FirstView
+
+
+def add_up(group) -> None:
+    """Add what is up."""
+    group.add_argument(
+        "--up",
+        type=values.up_direction,
+        metavar="±X|±Y|±Z",
+        help="the model's up direction; +Y by default, +Z for CAD and printing formats "
+        "(.3mf, .asc, .iges, .step, .stl)",
+    )
+
+
+def add_camera(parser) -> None:
+    """Add where to look from."""
+    group = parser.add_argument_group("camera")
+    add_up(group)
+    group.add_argument(
+        "--camera-index",
+        type=values.index,
+        metavar="N",
+        help="look through a camera of the model, from 0 on; -1 for none of them",
+    )
+    group.add_argument(
+        "--camera-position", type=values.vector, metavar="X,Y,Z", help="position of the camera"
+    )
+    group.add_argument(
+        "--camera-focal-point", type=values.vector, metavar="X,Y,Z", help="point to look at"
+    )
+    group.add_argument(
+        "--camera-direction",
+        type=values.direction,
+        metavar="X,Y,Z",
+        help="direction in which the camera looks; --camera-position has the last word",
+    )
+    group.add_argument(
+        "--camera-view-up",
+        type=values.direction,
+        metavar="X,Y,Z",
+        help="direction that points up in the picture",
+    )
+    group.add_argument(
+        "--camera-view-angle",
+        type=values.view_angle,
+        metavar="DEGREES",
+        help="vertical field of view",
+    )
+    group.add_argument(
+        "--camera-azimuth-angle",
+        type=values.number,
+        metavar="DEGREES",
+        help="move the camera around the model, to the right",
+    )
+    group.add_argument(
+        "--camera-elevation-angle",
+        type=values.number,
+        metavar="DEGREES",
+        help="move the camera around the model, upwards",
+    )
+    group.add_argument(
+        "--camera-zoom-factor",
+        type=values.positive,
+        metavar="F",
+        help="divide the distance from the focal point by this",
+    )
+    group.add_argument(
+        "--camera-orthographic", action="store_true", help="use a parallel projection"
+    )
+    for plane in ("near", "far"):
+        group.add_argument(
+            f"--{plane}",
+            type=values.positive,
+            metavar="D",
+            help=f"distance of the {plane} clip plane; by default it encloses what is shown",
+        )
+
+
+def first_view(args: argparse.Namespace) -> FirstView:
+    """Return from where the options say to look first."""
+    from ....stage.views.first_view import DEFAULT_YFOV, FirstView
+
+    angle, index, position = args.camera_view_angle, args.camera_index, args.camera_position
+    through = index is not None and index >= 0
+    if not through and position is not None and position == args.camera_focal_point:
+        raise UsageError("--camera-position and --camera-focal-point are the same")
+    return FirstView(
+        yfov=DEFAULT_YFOV if angle is None else math.radians(angle),
+        azimuth=math.radians(args.camera_azimuth_angle or 0.0),
+        elevation=math.radians(args.camera_elevation_angle or 0.0),
+        zoom=args.camera_zoom_factor or 1.0,
+        orthographic=args.camera_orthographic,
+        position=position,
+        focal_point=args.camera_focal_point,
+        direction=args.camera_direction,
+        up=args.camera_view_up,
+        camera=index if through else None,
+    )

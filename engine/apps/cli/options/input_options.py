@@ -1,0 +1,181 @@
+"""The options of what is read: by which reader, how large, several files together or one by one.
+
+In: names of files and folders, as they were given. Out: jobs, each of which shows some of them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Sequence
+
+from ....errors import FileAccessError, FileFormatError
+from .. import values
+from ..inputs import STANDARD_INPUT
+from ..output_templates import fill, names_the_model
+from ..usage import UsageError
+
+_MEBIBYTE = 1 << 20
+_SCENE = ".e3d.json"
+
+
+def add_inputs(group) -> None:
+    """Add what is read, and how."""
+    group.add_argument(
+        "--multi-file-mode",
+        choices=("all", "single"),
+        help="show several files all at once, or one by one: in a window with the arrow keys, in "
+        "render a picture each. One by one where a folder is given, or -o names the model",
+    )
+    group.add_argument(
+        "--recursive-dir-add",
+        action="store_true",
+        help="of a folder, take the models in folders below it, too",
+    )
+    group.add_argument(
+        "--force-reader",
+        metavar="NAME",
+        help="read files as this format, whatever they are called; engine3d --list-readers has the "
+        "names",
+    )
+    group.add_argument(
+        "--max-size",
+        type=values.positive,
+        metavar="MIB",
+        help="refuse files of more mebibytes than this",
+    )
+    add_root(group)
+
+
+def add_root(group) -> None:
+    """Add where files that models name may be."""
+    group.add_argument(
+        "--root",
+        metavar="FOLDER",
+        help="read files that a model names, such as images in ../images, from this folder, too; "
+        "by default they may be in the model's own folder alone",
+    )
+
+
+def jobs(args: argparse.Namespace) -> list[argparse.Namespace]:
+    """Return the arguments of each picture or window: one for all files, or one for each.
+
+    The models of a job are files; its output is a name without variables.
+    """
+    has_folder = any(os.path.isdir(name) for name in args.models)
+    models = _expanded(args.models, args.recursive_dir_add) if has_folder else args.models
+    output = getattr(args, "output", None)
+    if not _is_one_by_one(args, has_folder):
+        return [_job(args, models, output)]
+    if len(models) > 1 and output is not None and not names_the_model(output):
+        raise UsageError("-o for several models needs a variable, as in -o '{model}.png'")
+    top = _common_folder(args.models)
+    found: list[argparse.Namespace] = []
+    for name in models:
+        taken = [other.output for other in found]
+        job = _job(args, [name], output, taken, _folder_below(top, name))
+        if job.output is not None and job.output in taken:
+            raise UsageError(
+                f"-o {output}: {job.output} would be written twice; add {{folder}} or {{n}}"
+            )
+        found.append(job)
+    return found
+
+
+def _common_folder(names: Sequence[str]) -> str:
+    """The innermost folder that holds all that was given; "" where there is none."""
+    paths = [os.path.abspath(name) for name in names if name != STANDARD_INPUT]
+    folders = [path if os.path.isdir(path) else os.path.dirname(path) for path in paths]
+    try:
+        return os.path.commonpath(folders)
+    except ValueError:  # nothing but standard input, or several drives
+        return ""
+
+
+def _folder_below(top: str, name: str) -> str:
+    """The folder of a model, as a path from `top` on; "" in that folder itself."""
+    if not top or name == STANDARD_INPUT:
+        return ""
+    folder = os.path.relpath(os.path.dirname(os.path.abspath(name)), top)
+    return "" if folder == os.curdir else folder
+
+
+def _is_one_by_one(args: argparse.Namespace, has_folder: bool) -> bool:
+    if args.side_by_side:
+        if args.multi_file_mode == "single":
+            raise UsageError("--side-by-side does not go with --multi-file-mode single")
+        return False
+    if args.multi_file_mode is not None:
+        return args.multi_file_mode == "single"
+    return bool(args.models) and (has_folder or names_the_model(args.output))
+
+
+def _job(
+    args: argparse.Namespace,
+    models: Sequence[str],
+    output: str | None,
+    taken: Sequence = (),
+    folder: str = "",
+) -> argparse.Namespace:
+    configured = getattr(args, "configured", None)
+    job = args if configured is None else configured(models)
+    job = argparse.Namespace(**vars(job))
+    job.models = list(models)
+    job.output = fill(output or job.output, _title(job), taken, folder)
+    return job
+
+
+def _title(args: argparse.Namespace) -> str:
+    """What the variables of an output call the model."""
+    if not args.models:
+        return args.scene or "default"
+    return args.models[0] if len(args.models) == 1 else "multi_file"
+
+
+def _expanded(names: Sequence[str], deep: bool) -> list[str]:
+    """Return the names with folders replaced by the models in them."""
+    found: list[str] = []
+    for name in names:
+        if not os.path.isdir(name):
+            found.append(name)
+            continue
+        inside = _models_in(name, deep)
+        if not inside:
+            raise FileAccessError("there is no model in this folder", name)
+        found += inside
+    return found
+
+
+def _models_in(folder: str, deep: bool) -> list[str]:
+    from ...viewer.model_files import MODEL_EXTENSIONS
+
+    found = []
+    for path, folders, names in os.walk(folder):
+        folders[:] = sorted(folders, key=str.lower) if deep else []
+        chosen = (name for name in names if _is_model(name.lower(), MODEL_EXTENSIONS))
+        found += [os.path.join(path, name) for name in sorted(chosen, key=str.lower)]
+    return found
+
+
+def _is_model(name: str, extensions: tuple[str, ...]) -> bool:
+    """Whether a file's name is that of a model; of JSON files only scenes are."""
+    return name.endswith(extensions) and (not name.endswith(".json") or name.endswith(_SCENE))
+
+
+def check_inputs(args: argparse.Namespace) -> None:
+    """Raise if a file is larger than it may be, or is to be read as a format that there isn't."""
+    if args.force_reader is not None:
+        from ....io.loaders import formats
+
+        names = [entry.name for entry in formats("mesh")]
+        if args.force_reader not in names:
+            known = ", ".join(names)
+            raise UsageError(f"--force-reader: {args.force_reader!r} is not one of {known}")
+    if args.max_size is None:
+        return
+    for name in args.models:
+        size = os.path.getsize(name) if name != STANDARD_INPUT and os.path.exists(name) else 0
+        if size > args.max_size * _MEBIBYTE:
+            raise FileFormatError(
+                f"{size / _MEBIBYTE:.1f} MiB are more than --max-size {args.max_size:g}", name
+            )

@@ -1,0 +1,146 @@
+"""The options of the picture: its size, look and samples, what is over it, and what draws it."""
+
+from __future__ import annotations
+
+from typing import get_args
+
+from ....choices import Backend, Samples
+from .. import values
+from ..usage import UsageError
+
+#: By look, the method and the samples of pictures and turntables of which neither is asked for.
+PICTURES = {"studio": ("msaa", 4), "plain": ("ssaa", 1)}
+#: The method of a window, whose samples follow the time (apps/viewer/sampling.py).
+WINDOW = "msaa"
+#: The samples of a method that is asked for without a number.
+USUAL = 4
+_NONE = "none"
+_SUPERSAMPLES = (1, 4, 16)
+#: How models are shown; the first is the default.
+LOOKS = tuple(PICTURES)
+BACKENDS = get_args(Backend)
+
+
+def add_drawing(group) -> None:
+    """Add what draws."""
+    group.add_argument(
+        "--backend",
+        choices=BACKENDS,
+        default="auto",
+        help="instruction set to draw with; auto is the fastest. All give the same picture",
+    )
+    group.add_argument(
+        "--threads",
+        type=values.thread_count,
+        default=0,
+        metavar="N",
+        help="number of threads; 0, the default, is one per available CPU",
+    )
+
+
+def add_picture(parser) -> None:
+    """Add the picture's size and what draws it."""
+    group = parser.add_argument_group("picture")
+    group.add_argument(
+        "--resolution",
+        type=values.resolution,
+        metavar="WxH",
+        help="size in pixels; 1280x720 by default",
+    )
+    group.add_argument(
+        "--look",
+        choices=LOOKS,
+        default=LOOKS[0],
+        help="studio: models stand on their shadow before a gradient, in soft light, with ambient "
+        "occlusion, neutral tone mapping and 4 samples per pixel; plain: before one colour, with "
+        "none of these. Other options have the last word",
+    )
+    _add_antialiasing(group)
+    add_drawing(group)
+    group.add_argument(
+        "--theme",
+        choices=("auto", "dark", "light"),
+        default="auto",
+        help="what models stand before, and texts are written in; auto: whichever a model of the "
+        "look studio stands out from, which may differ from model to model",
+    )
+    group.add_argument(
+        "--background-color",
+        type=values.color,
+        metavar="COLOR",
+        help="R,G,B from 0 to 1 or from 0 to 255, #rrggbb, or a name; the same for every COLOR",
+    )
+    group.add_argument("-g", "--grid", action="store_true", help="show a grid under the model")
+    group.add_argument("-x", "--axis", action="store_true", help="show the axes in the corner")
+    group.add_argument(
+        "-m",
+        "--metadata",
+        action="store_true",
+        help="show what the file holds, as text in the picture",
+    )
+    group.add_argument(
+        "--ui-scale",
+        type=values.ui_scale,
+        metavar="N",
+        help="how many times larger texts are, 1 to 8; by default as the screen and the picture "
+        "want it",
+    )
+
+
+def _add_antialiasing(group) -> None:
+    """Add how many samples a pixel has, and what happens at each."""
+    group.add_argument(
+        "--samples",
+        type=int,
+        choices=get_args(Samples),
+        help="samples per pixel: more give smoother edges. In a window 4 while nothing moves, and "
+        "fewer in motion where it would be slow, if this is not given",
+    )
+    group.add_argument(
+        "--antialiasing",
+        choices=(_NONE, "ssaa", "msaa"),
+        help="what happens at each sample: everything (ssaa), or only what decides which surface "
+        "it shows, while each surface is coloured once a pixel (msaa, faster); none is one sample. "
+        "msaa where 2 or 8 samples are asked for, and in windows",
+    )
+
+
+def antialiasing(
+    asked: str | None, number: int | None, method: str, samples: int
+) -> tuple[str, int]:
+    """Return the method, as `Renderer` takes it, and the samples.
+
+    Parameters
+    ----------
+    asked : str or None
+        The method that was asked for.
+    number : int or None
+        Likewise of the samples.
+    method, samples
+        Where neither is asked for.
+
+    Raises
+    ------
+    UsageError
+        What is asked for does not go together.
+    """
+    if asked == _NONE:
+        if number not in (None, 1):
+            raise UsageError(f"--antialiasing none is one sample a pixel, not {number}")
+        return "ssaa", 1
+    if asked is not None:
+        method, samples = asked, USUAL
+    samples = samples if number is None else number
+    if method == "ssaa" and samples not in _SUPERSAMPLES:
+        if asked is not None:
+            raise UsageError(f"--antialiasing ssaa takes 1, 4 or 16 samples, not {samples}")
+        method = "msaa"
+    return method, samples
+
+
+def theme(args) -> dict:
+    """Return the fields of `Settings` that ``--theme`` names."""
+    from ....stage.overlays.theme import THEMES
+
+    named = {theme.name: theme for theme in THEMES}.get(args.theme)
+    return {} if named is None else {"theme": named, "keeps_theme": True}

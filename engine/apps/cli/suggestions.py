@@ -1,0 +1,87 @@
+"""A parser whose errors are one line, with what was probably meant.
+
+In: arguments. Out: what argparse makes of them, or a line on standard error and exit status 2.
+"""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import os
+from collections.abc import Iterable
+
+from ...errors import printable
+
+#: How alike two words must be, 0 to 1, for one to be compared letter by letter with the other.
+_LIKENESS = 0.6
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser whose errors are a line, not lost below all the options that there are.
+
+    Attributes
+    ----------
+    commands : dict
+        The parsers of its commands, by name.
+    """
+
+    commands: dict[str, argparse.ArgumentParser]
+
+    def error(self, message):
+        self.exit(2, f"{self.prog}: error: {printable(message)} (see {self.prog} --help)\n")
+
+    def _check_value(self, action, value):
+        if action.choices is None or value in action.choices:
+            return
+        choices = list(map(str, action.choices))
+        if isinstance(action, argparse._SubParsersAction):
+            message = f"there is no command {value!r}{meant(value, choices)}"
+            if os.path.exists(value):
+                message = f"{value!r} is no command; to see that file: engine3d run {value}"
+            raise argparse.ArgumentError(None, message)
+        known = ", ".join(choices)
+        hint = meant(str(value), choices) or getattr(action, "hint", "")
+        message = f"{str(value)!r} is not one of {known}{hint}"
+        raise argparse.ArgumentError(action, message)
+
+
+#: Options by the names of other commands and programs, and what they may be called here.
+_ELSEWHERE = {
+    "--size": ("--resolution",),
+    "--resolution": ("--size",),
+    "--width": ("--resolution", "--size"),
+    "--height": ("--resolution", "--size"),
+    "--fov": ("--camera-view-angle",),
+    "--bg": ("--background-color",),
+    "--out": ("--output",),
+}
+
+
+def option_meant(word: str, parser: argparse.ArgumentParser) -> str:
+    """Return what `meant` does of an option that a parser does not have."""
+    known = option_strings(parser)
+    named = [option for option in _ELSEWHERE.get(word, ()) if option in known]
+    return f": did you mean {named[0]}?" if named else meant(word, known)
+
+
+def meant(word: str, known: Iterable[str]) -> str:
+    """Return the end of a message that asks whether one of the known words was meant, or ``""``."""
+    similar = difflib.get_close_matches(word, list(known), 3, _LIKENESS)
+    close = [one for one in similar if _is_close(word, one)]
+    return f": did you mean {close[0]}?" if close else ""
+
+
+def _is_close(word: str, known: str) -> bool:
+    """Whether a word begins a known one, or shares two thirds of the longer one's letters with it.
+
+    The likeness alone takes ``nonsense`` for ``scene``: they share four letters of eight.
+    """
+    blocks = difflib.SequenceMatcher(None, word, known).get_matching_blocks()
+    shared = sum(block.size for block in blocks)
+    return known.startswith(word) or 3 * shared >= 2 * max(len(word), len(known))
+
+
+def option_strings(parser: argparse.ArgumentParser) -> list[str]:
+    """Return the long options of a parser."""
+    options = (option for action in parser._actions for option in action.option_strings)
+    return [option for option in options if option.startswith("--")]

@@ -1,0 +1,211 @@
+"""``engine3d info --system``: what a report of a bug should say of machine and installation.
+
+In: this process. Out: types that JSON knows, or lines of text. Nothing private is in it: no name of
+a user or a machine, and no path.
+"""
+
+from __future__ import annotations
+
+import locale
+import os
+import platform
+import re
+import sys
+from collections.abc import Callable
+from importlib import metadata
+from pathlib import Path
+
+from ..._native import rasterizer
+from ...base.system import usable_processors
+from ...errors import DisplayError, Engine3DError
+from ...rendering.backend_selection import backends, resolve_backend, resolve_threads
+from ...version import __version__
+from ..bench.report import machine
+from ..viewer.sdl import find_screen, load_sdl
+
+#: Older ones write beyond their buffers when they read some damaged images.
+SAFE_PILLOW = (12, 3, 0)
+#: The extras that only developers of engine3d want.
+_FOR_DEVELOPERS = ("test", "fuzz", "bench")
+_INSTRUCTION_SETS = re.compile(r"s?sse|avx|f?ma$|f16c|bmi|popcnt|asimd|neon|sve|rv|altivec|vsx")
+_HARMLESS = re.compile(r"[\w.,:+-]{1,40}")
+
+
+def describe_system() -> dict:
+    """Return what is known of this machine and this installation, in types that JSON knows.
+
+    Returns
+    -------
+    dict
+        ``engine3d``, ``build``, ``system``, ``python``, ``processor``, ``backends``, ``packages``,
+        ``extras`` (of each that is installed its packages), ``missing_extras``, ``window``,
+        ``locale``, ``environment``, ``warnings``.
+    """
+    needed, extras = _requirements()
+    packages = {name: _version(name) for name in needed}
+    installed = {extra: {n: _version(n) for n in names} for extra, names in extras.items()}
+    complete = {extra: found for extra, found in installed.items() if all(found.values())}
+    return {
+        "engine3d": __version__,
+        "build": dict(zip(("kind", "compiler"), rasterizer.BUILD, strict=True)),
+        "system": _system(),
+        "python": f"{platform.python_implementation()} {platform.python_version()}",
+        "processor": _processor(),
+        "backends": _backends(),
+        "packages": packages,
+        "extras": complete,
+        "missing_extras": sorted(set(installed) - set(complete)),
+        "window": _window(),
+        "locale": _locale(),
+        "environment": _environment(),
+        "warnings": _warnings(packages),
+    }
+
+
+def _requirements() -> tuple[list[str], dict[str, list[str]]]:
+    """What engine3d needs, and what each of its extras does, by the installed metadata."""
+    needed: list[str] = []
+    extras: dict[str, list[str]] = {}
+    try:
+        lines = metadata.requires("engine3d") or []
+    except metadata.PackageNotFoundError:  # a copy of the source that is not installed
+        lines = []
+    for line in lines:
+        name = re.match(r"[\w.-]+", line)[0]
+        extra = re.search(r"extra == ['\"]([\w-]+)", line)
+        if extra is None:
+            needed.append(name)
+        elif extra[1] not in _FOR_DEVELOPERS:
+            extras.setdefault(extra[1], []).append(name)
+    return needed, extras
+
+
+def _version(package: str) -> str | None:
+    """The version of an installed package."""
+    try:
+        return metadata.version(package)
+    except metadata.PackageNotFoundError:
+        return None
+
+
+def _system() -> dict:
+    try:
+        distribution = platform.freedesktop_os_release()["PRETTY_NAME"]
+    except (OSError, KeyError):
+        distribution = None
+    return {
+        "name": platform.system(),
+        "release": platform.release(),
+        "machine": platform.machine(),
+        "distribution": distribution,
+        "libc": " ".join(platform.libc_ver()).strip() or None,
+    }
+
+
+def _processor() -> dict:
+    try:
+        text = Path("/proc/cpuinfo").read_text("utf-8", "replace")
+    except OSError:
+        text = ""
+    flags = re.search(r"^(?:flags|Features)\s*:(.*)", text, re.MULTILINE)
+    return {
+        "name": machine()["processor"],
+        "processors": os.cpu_count(),
+        "usable": usable_processors(),
+        "features": [f for f in flags[1].split() if _INSTRUCTION_SETS.match(f)] if flags else [],
+    }
+
+
+def _backends() -> dict:
+    """What draws by default; where the environment asks for what is refused, why."""
+    names = {number: name for name, number in rasterizer.BACKENDS.items()}
+    auto = _told(lambda: names[resolve_backend()])
+    threads = _told(lambda: resolve_threads() or usable_processors())
+    return {"available": backends(), "auto": auto, "threads": threads}
+
+
+def _told(ask: Callable[[], str | int]) -> str | int:
+    try:
+        return ask()
+    except Engine3DError as error:
+        return str(error)
+
+
+def _window() -> dict:
+    """The version of SDL, or why it does not load; why there is no screen, or None."""
+    try:
+        sdl = load_sdl()
+        version = sdl.SDL_version()
+        sdl.SDL_GetVersion(version)
+        found = f"{version.major}.{version.minor}.{version.patch}"
+    except DisplayError as error:
+        found = _without_home(str(error))
+    try:
+        find_screen()
+        missing = None
+    except DisplayError as error:
+        missing = str(error)
+    return {"sdl": found, "missing": missing}
+
+
+def _without_home(text: str) -> str:
+    """Return a text with the user's folder, which bears a name, as ``~``."""
+    home = os.path.expanduser("~")
+    return text.replace(home, "~") if len(home) > 1 else text
+
+
+def _locale() -> dict:
+    return {
+        "name": locale.setlocale(locale.LC_CTYPE),
+        "files": sys.getfilesystemencoding(),
+        "output": sys.stdout.encoding,
+    }
+
+
+def _environment() -> dict:
+    """The variables that engine3d reads; of values that may be paths only that they are set."""
+    names = sorted(name for name in os.environ if name.startswith("ENGINE3D_"))
+    values = {name: os.environ[name] for name in [*names, "SDL_VIDEODRIVER"] if name in os.environ}
+    return {n: value if _HARMLESS.fullmatch(value) else "(set)" for n, value in values.items()}
+
+
+def _warnings(packages: dict[str, str | None]) -> list[str]:
+    """What is known to be wrong with packages that are installed."""
+    found = [f"{name} is missing: pip install {name}" for name, v in packages.items() if v is None]
+    pillow = packages.get("pillow")
+    if pillow and tuple(map(int, re.findall(r"\d+", pillow)[:3])) < SAFE_PILLOW:
+        safe = ".".join(map(str, SAFE_PILLOW))
+        found.append(
+            f"pillow {pillow} has known holes, through which a damaged image may do harm: "
+            f"pip install 'pillow>={safe}'"
+        )
+    return found
+
+
+def system_lines(report: dict) -> list[str]:
+    """Return the report as lines of text."""
+    build, system, processor = report["build"], report["system"], report["processor"]
+    drawn, window, texts = report["backends"], report["window"], report["locale"]
+    names = [system[key] for key in ("name", "release", "machine", "distribution", "libc")]
+    extras = [f"{extra} ({_listed(found)})" for extra, found in report["extras"].items()]
+    rows = [
+        ("engine3d", f"{report['engine3d']}, {build['kind']} build, compiler {build['compiler']}"),
+        ("system", ", ".join(filter(None, names))),
+        ("python", report["python"]),
+        ("processor", f"{processor['name']}, {processor['usable']} of {processor['processors']}"),
+        ("features", " ".join(processor["features"]) or "unknown"),
+        ("backends", " ".join(drawn["available"])),
+        ("auto", f"{drawn['auto']}, threads: {drawn['threads']}"),
+        ("packages", _listed(report["packages"])),
+        ("extras", ", ".join(extras) or "none"),
+        ("not there", " ".join(report["missing_extras"]) or "none"),
+        ("window", f"SDL {window['sdl']}; {window['missing'] or 'a screen is named'}"),
+        ("locale", f"{texts['name']}, files {texts['files']}, output {texts['output']}"),
+        ("variables", " ".join(f"{k}={v}" for k, v in report["environment"].items()) or "none"),
+    ]
+    lines = [f"{name:<12}{text}" for name, text in rows]
+    return lines + [f"warning: {text}" for text in report["warnings"]]
+
+
+def _listed(versions: dict[str, str | None]) -> str:
+    return ", ".join(f"{name} {version or 'missing'}" for name, version in versions.items())

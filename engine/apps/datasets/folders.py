@@ -1,0 +1,111 @@
+"""Data sets as plain folders: one for each output, and one list of what is in the pictures.
+
+Out: ``color/NAME.png``, ``depth/NAME.npy`` and so on, and ``pictures.jsonl``: a line of JSON for
+each picture, with its camera, and of each thing its category, its id in ``object_id``, its place.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from ...base.calls import checks_types
+from ...base.files import json_records as records
+from ...base.files.atomic_write import atomic_write
+from ...base.files.making_folders import make_folder_of
+from ...rendering.frame import Frame, Output
+from ...rendering.options import check_outputs
+from .samples import Sample
+from .writer import DatasetWriter, Note, compact
+
+PICTURES = "pictures.jsonl"
+_MATRIX = records.listed(records.listed(records.number, 4), 4)
+_THING = {
+    "category": records.sound_text,
+    "ids": records.listed(records.count),
+    "world_from_object": _MATRIX,
+}
+_NOTE = {
+    "size": records.row(records.count, records.count),
+    "seed": records.anything,
+    "camera": records.members({"world_from_camera": _MATRIX, "clip_from_camera": _MATRIX}),
+    "things": records.listed(records.members(_THING)),
+}
+
+
+class FolderWriter(DatasetWriter):
+    """Writes each output into a folder of its own.
+
+    Parameters
+    ----------
+    outputs : sequence of str
+        As of `Renderer.render`.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    kind = "folders"
+    note_shape = staticmethod(records.members(_NOTE))
+
+    def __init__(self, outputs: Sequence[Output] = ("color", "depth", "object_id")) -> None:
+        self.outputs = check_outputs(outputs)
+
+    @checks_types
+    def describe(self, sample: Sample) -> tuple[dict[str, bytes], Any]:
+        files = {}
+        for output in self.outputs:
+            suffix, data = encoded(sample.frame, output)
+            files[f"{output}/{sample.name}.{suffix}"] = data
+        return files, said_of(sample)
+
+    @checks_types
+    def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
+        target = os.path.join(folder, PICTURES)
+        make_folder_of(target)
+        with atomic_write(target, below=folder) as file:
+            for note in notes:
+                said = {"name": note.name, "files": note.files, **note.said}
+                file.write(f"{compact(said)}\n".encode())
+        yield PICTURES
+
+
+def encoded(frame: Frame, output: Output) -> tuple[str, bytes]:
+    """Return the suffix and the bytes of the file that holds an output."""
+    if output == "color":
+        return "png", frame.encode("png")
+    data = io.BytesIO()
+    np.save(data, getattr(frame, output))
+    return "npy", data.getvalue()
+
+
+def said_of(sample: Sample) -> dict[str, Any]:
+    """Return what is in a picture, in JSON's types."""
+    projection = sample.camera.projection(sample.frame.width, sample.frame.height)
+    return {
+        "size": [sample.frame.width, sample.frame.height],
+        "seed": sample.seed,
+        "camera": {
+            "world_from_camera": np.asarray(sample.pose).tolist(),
+            "clip_from_camera": np.asarray(projection).tolist(),
+        },
+        "things": [
+            {
+                "category": thing.category,
+                "ids": [part.id for part in thing.parts],
+                "world_from_object": thing.node.world_pose.tolist(),
+            }
+            for thing in sample.things()
+        ],
+    }
+
+
+def json_line(value: Any) -> bytes:
+    """Return a value as a file of JSON."""
+    return (json.dumps(value, ensure_ascii=False, allow_nan=False) + "\n").encode("utf-8")

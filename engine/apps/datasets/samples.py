@@ -1,0 +1,129 @@
+"""What a writer of data sets gets of one picture: the frame, and the scene that it shows.
+
+In: a scene as it was drawn, and which of its nodes are things of which category. Out: a `Sample`;
+masks of what shows of each thing, and boxes around masks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import InvalidArgumentError
+from ...model.geometry.mesh import Mesh
+from ...model.scene.cameras import Camera
+from ...model.scene.instances import InstancedMesh
+from ...model.scene.nodes import Node
+from ...model.scene.scene import Scene
+from ...rendering.frame import Frame
+from ...rendering.options import RenderOptions
+from ...rendering.renderer import Renderer
+
+
+@dataclass
+class Sample:
+    """One picture of a data set, as its writer gets it.
+
+    Parameters
+    ----------
+    name : str
+        Of its files, without an extension; may have folders in it.
+    index : int
+        Its place in the data set, from 0 on.
+    frame : Frame
+        With the outputs that the writer asks for.
+    scene : Scene
+        As it was drawn.
+    camera : Camera
+    pose : (4, 4) float64
+        world-from-camera.
+    renderer : Renderer
+        What drew it, for further frames of the same view.
+    labels : mapping of Node to str, optional
+        The things to be found, and their categories. A node stands for all that hangs below it.
+        Left out: each node that holds a mesh is a thing, and its name its category.
+    options : RenderOptions
+        How it was drawn.
+    seed : int
+    """
+
+    name: str
+    index: int
+    frame: Frame
+    scene: Scene
+    camera: Camera
+    pose: NDArray[np.float64]
+    renderer: Renderer
+    labels: Mapping[Node, str] | None = None
+    options: RenderOptions = field(default_factory=RenderOptions)
+    seed: int = 0
+
+    def things(self) -> list[Thing]:
+        """Return what is labelled, in the order of the nodes' ids.
+
+        Raises
+        ------
+        InvalidArgumentError
+            A label is no text, or is of what is no node of the scene.
+        """
+        if self.labels is None:
+            chosen = {n: n.name or "object" for n in self.scene.nodes if _is_drawn(n)}
+        else:
+            chosen = dict(self.labels)
+        known = set(self.scene.nodes)
+        for node, category in chosen.items():
+            if not (isinstance(node, Node) and node in known):
+                raise InvalidArgumentError(f"labels: {node!r} is no node of the scene")
+            if not (isinstance(category, str) and category):
+                raise InvalidArgumentError(f"labels: {category!r} is no name of a category")
+        nodes = sorted(chosen, key=lambda node: node.id)
+        if self.labels is None:
+            return [Thing(node, chosen[node], (node,)) for node in nodes]
+        return [Thing(node, chosen[node], tuple(_below(node, chosen))) for node in nodes]
+
+
+@dataclass(frozen=True)
+class Thing:
+    """Something to be found in a picture.
+
+    Attributes
+    ----------
+    node : Node
+    category : str
+    parts : tuple of Node
+        Those that hold meshes: the node itself and what hangs below it.
+    """
+
+    node: Node
+    category: str
+    parts: tuple[Node, ...]
+
+    def mask(self, object_id: NDArray[np.int32]) -> NDArray[np.bool_]:
+        """Return where the thing shows, (H, W)."""
+        ids = [part.id for part in self.parts]
+        return object_id == ids[0] if len(ids) == 1 else np.isin(object_id, ids)
+
+
+def _is_drawn(node: Node) -> bool:
+    return isinstance(node.object, (Mesh, InstancedMesh)) and node.shown
+
+
+def _below(node: Node, labelled: Mapping[Node, str]) -> Iterator[Node]:
+    """The drawn nodes of a thing; what hangs below it and is another thing is not its own."""
+    if _is_drawn(node):
+        yield node
+    for child in node.children:
+        if child not in labelled:
+            yield from _below(child, labelled)
+
+
+def box_of(mask: NDArray[np.bool_]) -> tuple[int, int, int, int]:
+    """Return x, y, width and height of the box around a mask; four zeros where it is empty."""
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    if not len(rows):
+        return 0, 0, 0, 0
+    x, y = int(columns[0]), int(rows[0])
+    return x, y, int(columns[-1]) + 1 - x, int(rows[-1]) + 1 - y

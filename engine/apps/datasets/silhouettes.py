@@ -1,0 +1,88 @@
+"""What a thing would show alone, within the picture and around it.
+
+In: a thing, and the picture that it is in. Out: its mask as if nothing were in front of it, at the
+same samples, and how many pixels its silhouette has, on a canvas of three times the size.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import InvalidArgumentError
+from ...model.scene.cameras import Camera
+from ...model.scene.scene import Scene
+from ...rendering.options import RenderOptions
+from .samples import Sample, Thing, box_of
+
+
+class Silhouette(NamedTuple):
+    """What a thing would show alone.
+
+    Attributes
+    ----------
+    mask : (H, W) bool
+        Within the picture.
+    count : int
+        Pixels, those around the picture included.
+    box : (x, y, width, height)
+        Around them; x and y may be negative.
+    """
+
+    mask: NDArray[np.bool_]
+    count: int
+    box: tuple[int, int, int, int]
+
+
+def silhouette_of(thing: Thing, sample: Sample) -> Silhouette:
+    """Return what a thing of a picture would show alone.
+
+    Raises
+    ------
+    InvalidArgumentError
+        It is bent by a skin or by morph targets, and so has no pose.
+    """
+    alone = _scene_of(thing)
+    options = replace(sample.options, outputs=("object_id",), wireframe=None)
+    camera = sample.camera, sample.pose
+    mask = sample.renderer.render(alone, camera, options=options).object_id >= 0
+    if mask.any() and not _reaches_the_edge(mask):
+        return Silhouette(mask, int(mask.sum()), box_of(mask))
+    height, width = mask.shape
+    around = _around(alone, sample, options)
+    around[height : 2 * height, width : 2 * width] = mask
+    x, y, wide, high = box_of(around)
+    count = int(around.sum())
+    return Silhouette(mask, count, (x - width, y - height, wide, high) if count else (0, 0, 0, 0))
+
+
+def _scene_of(thing: Thing) -> Scene:
+    alone = Scene()
+    for part in thing.parts:
+        if part.skin is not None or part.morph_weights is not None:
+            raise InvalidArgumentError(
+                f"{part.name!r} is bent by a skin or morph targets: BOP has rigid objects"
+            )
+        alone.add(part.object, pose=part.world_pose)
+    return alone
+
+
+def _reaches_the_edge(mask: NDArray[np.bool_]) -> bool:
+    return bool(mask[[0, -1]].any() or mask[:, [0, -1]].any())
+
+
+def _around(alone: Scene, sample: Sample, options: RenderOptions) -> NDArray[np.bool_]:
+    """The silhouette on a canvas of three times the picture's size, with the picture amid."""
+    renderer = sample.renderer
+    width, height = renderer.width, renderer.height
+    projection = np.array(sample.camera.projection(width, height))
+    projection[:2] /= 3.0
+    renderer.resize(3 * width, 3 * height)
+    try:
+        frame = renderer.render(alone, (Camera(projection), sample.pose), options=options)
+    finally:
+        renderer.resize(width, height)
+    return frame.object_id >= 0

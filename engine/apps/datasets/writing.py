@@ -1,0 +1,61 @@
+"""A whole data set from one process: what `engine3d.batch` does with many.
+
+In: a folder, a writer, samples one after the other. Out: its files.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+
+from ...base.calls import checks_types
+from ...base.files.atomic_write import AtomicFiles, checked_path
+from ...base.files.making_folders import make_folder_of
+from ...base.numbers import shown
+from ...errors import InvalidArgumentError
+from .samples import Sample
+from .writer import Content, DatasetWriter, Note, contents, own_files
+
+
+@checks_types
+def write_dataset(
+    folder: str | os.PathLike[str], writer: DatasetWriter, samples: Iterable[Sample]
+) -> list[str]:
+    """Write a data set.
+
+    Parameters
+    ----------
+    folder : path-like
+        Is made where it is missing.
+    writer : DatasetWriter
+    samples : iterable of Sample
+        With ascending indices; each is let go before the next is asked for.
+
+    Returns
+    -------
+    list of str
+        The paths of all files, relative to the folder.
+
+    Raises
+    ------
+    InvalidArgumentError, FileAccessError
+    """
+    root, notes = checked_path(folder), []
+    for sample in samples:
+        if not isinstance(sample, Sample):
+            raise InvalidArgumentError(f"samples must be Samples, not {shown(sample)}")
+        if notes and sample.index <= notes[-1].index:
+            raise InvalidArgumentError(f"samples come in the order of their index: {sample.index}")
+        files, said = writer.describe(sample)
+        save_files(root, files)
+        notes.append(Note(sample.name, sample.index, list(own_files(files)), said))
+    written = [path for note in notes for path in note.files]
+    return written + list(writer.finish(root, notes))
+
+
+def save_files(folder: str, files: Mapping[str, Content]) -> None:
+    """Write a picture's files, which appear together, in a folder that is made for them."""
+    with AtomicFiles() as parts:
+        for target, data in contents(folder, files):
+            make_folder_of(target, below=folder)
+            parts.create(target, below=folder).write(data)

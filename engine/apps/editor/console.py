@@ -1,0 +1,96 @@
+"""The log of an editor: messages, warnings, errors and what each action did.
+
+In: lines of text, as they come, also from other threads. Out: entries, the oldest first, and those
+of them that a filter lets through.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import time
+import warnings
+from collections import deque
+from collections.abc import Collection, Iterator
+from typing import NamedTuple
+
+from ...errors import printable
+
+#: Kinds of entries.
+LEVELS = ("action", "message", "warning", "error", "input", "output")
+_MOST = 10_000
+
+
+class Entry(NamedTuple):
+    """A line of the log.
+
+    Attributes
+    ----------
+    number : int
+        Counts up from 0.
+    time : float
+        Seconds since the epoch.
+    level : str
+        One of `LEVELS`.
+    text : str
+        One line that steers no terminal.
+    """
+
+    number: int
+    time: float
+    level: str
+    text: str
+
+
+class Console:
+    """A log; the oldest of more than 10,000 entries are forgotten.
+
+    Attributes
+    ----------
+    version : int
+        Grows with every entry.
+    """
+
+    def __init__(self) -> None:
+        self.version = 0
+        self._entries: deque[Entry] = deque(maxlen=_MOST)
+        self._filtered: tuple | None = None
+
+    @property
+    def entries(self) -> tuple[Entry, ...]:
+        """All entries, the oldest first."""
+        return tuple(self._entries)
+
+    def write(self, level: str, text: str) -> None:
+        """Add entries, one a line of the text."""
+        for line in str(text).splitlines() or [""]:
+            shown = printable(line.expandtabs())
+            self._entries.append(Entry(self.version, time.time(), level, shown))
+            self.version += 1
+
+    def clear(self) -> None:
+        """Forget all entries."""
+        self._entries.clear()
+        self.version += 1
+
+    def filtered(self, levels: Collection[str] = LEVELS, search: str = "") -> tuple[Entry, ...]:
+        """Return the entries of some levels that hold a text, in whatever case; found once."""
+        key = self.version, frozenset(levels), search.casefold()
+        if self._filtered is None or self._filtered[0] != key:
+            found = tuple(
+                entry
+                for entry in self.entries
+                if entry.level in key[1] and key[2] in entry.text.casefold()
+            )
+            self._filtered = key, found
+        return self._filtered[1]
+
+    @contextlib.contextmanager
+    def warnings_noted(self) -> Iterator[None]:
+        """Turn the warnings of what is done within into entries."""
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            try:
+                yield
+            finally:
+                for warning in caught:
+                    self.write("warning", str(warning.message))

@@ -1,0 +1,275 @@
+"""What is edited: a scene with its resources, its file, what was done to it, and what is selected.
+
+In: commands. Out: a scene that they changed, a console that tells so. Panels show what is here and
+keep nothing of their own that matters.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Hashable
+from typing import Any
+
+import numpy as np
+
+from ...base.files.stamps import FileState
+from ...errors import Engine3DError, FileAccessError, InvalidArgumentError, printable
+from ...io.loaders import load_document
+from ...io.reading.loading import document_of
+from ...io.reading.sources import Source
+from ...io.scenes.scene_loading import scene_from_document
+from ...io.writing.scene_saving import save_scene
+from ...model.scene.animation import Animator
+from ...model.scene.scene import Scene
+from .console import Console
+from .history import Command, History
+from .prompt import Prompt
+from .recovery import Recovery, content_of
+from .resource_list import ResourceList
+from .selection import Selection
+
+#: Of files that hold scenes, which are saved as they were opened.
+SCENE_EXTENSION = ".e3d.json"
+
+
+class SceneDocument:
+    """A scene that is edited.
+
+    Parameters
+    ----------
+    scene : Scene, optional
+        An empty one if left out.
+    console : Console, optional
+        One that goes on from document to document.
+
+    Attributes
+    ----------
+    path : str or None
+        Absolute; None until the scene is saved for the first time.
+    scene : Scene
+        Change it by `do` only, so that it can be undone.
+    up : str
+        As of the `Document` that it was made of.
+    resources : ResourceList
+        What it is made of, and what waits to be used.
+    history : History
+    selection : Selection
+    console : Console
+    prompt : Prompt
+        With the names ``scene``, ``selection`` (a tuple of nodes), ``node`` (the active one),
+        ``animator``, ``document``, ``e3d`` and ``np``.
+    """
+
+    def __init__(self, scene: Scene | None = None, *, console: Console | None = None) -> None:
+        self.scene = Scene() if scene is None else scene
+        self.path: str | None = None
+        self.up = "+Y"
+        self._state: FileState | None = None  # of the file, as it was opened or saved
+        self.resources = ResourceList(self.scene)
+        self.history = History()
+        self.selection = Selection()
+        self.console = Console() if console is None else console
+        self.prompt = Prompt(self.scene, self.history, self.console, self._names)
+
+    def do(self, command: Command, *, drag: Hashable = None) -> bool:
+        """Do a command as a step that can be undone, and select what it made.
+
+        Parameters
+        ----------
+        command : Command
+        drag : hashable, optional
+            As in `History.do`.
+
+        Returns
+        -------
+        done : bool
+            False if it failed: the scene is as it was, and the console tells why.
+        """
+        try:
+            with self.console.warnings_noted():
+                self.history.do(command, drag)
+        except Engine3DError as error:
+            self.console.write("error", f"{command.label}: {error}")
+            return False
+        if command is self.history.last:  # not a part of a drag that goes on
+            self.console.write("action", command.label)
+        if command.makes_nodes:
+            self.selection.set(command.nodes)
+        return True
+
+    def undo(self) -> bool:
+        """Undo the last step, if there is one; return whether there was."""
+        return self._step("Undo", self.history.undo)
+
+    def redo(self) -> bool:
+        """Do the step again that was undone last; return whether there was one."""
+        return self._step("Redo", self.history.redo)
+
+    @classmethod
+    def open(cls, path: str | os.PathLike[str], *, console: Console | None = None) -> SceneDocument:
+        """Open a scene, or any model as a new scene.
+
+        Raises
+        ------
+        FileFormatError, FileAccessError
+        """
+        name = os.path.abspath(os.fspath(path))
+        console = Console() if console is None else console
+        state = FileState(name)  # before it is read
+        with console.warnings_noted():
+            loaded = load_document(name)
+            document = cls(scene_from_document(loaded), console=console)
+        document.up = loaded.up
+        if loaded.scene is not None:
+            document.path, document._state = name, state
+        console.write("action", f"Open {name}")
+        return document
+
+    @classmethod
+    def begin(
+        cls, path: str | os.PathLike[str], *, console: Console | None = None
+    ) -> SceneDocument:
+        """Open a file as `open` does; a scene that is not there yet is an empty one, saved there.
+
+        Raises
+        ------
+        FileFormatError, FileAccessError
+        """
+        name = os.path.abspath(os.fspath(path))
+        if not name.lower().endswith(SCENE_EXTENSION) or os.path.lexists(name):
+            return cls.open(path, console=console)
+        if not os.path.isdir(os.path.dirname(name)):
+            raise FileAccessError("cannot begin a scene: its folder is not there", path)
+        document = cls(console=console)
+        document.path, document._state = name, FileState(name)
+        document.console.write("action", f"Begin {name}")
+        return document
+
+    @classmethod
+    def recover(cls, copy: Recovery, *, console: Console | None = None) -> SceneDocument:
+        """Open what an editor left behind, as a later state of its file that is not saved.
+
+        Raises
+        ------
+        FileFormatError, FileAccessError
+        """
+        console = Console() if console is None else console
+        name, data = content_of(copy)
+        with console.warnings_noted(), Source(name, data) as source:
+            loaded = document_of(source, "e3d", split=True)
+            document = cls(scene_from_document(loaded), console=console)
+        document.path = copy.document
+        document.history.mark_unsaved()
+        console.write("action", f"Recover {copy.document or 'a scene without a name'}")
+        return document
+
+    @property
+    def animator(self) -> Animator:
+        """What moves the scene's nodes; one that moves nothing yet where the scene had none."""
+        if self.scene.animator is None:
+            self.scene.animator = Animator(self.scene)
+        return self.scene.animator
+
+    @property
+    def moves(self) -> bool:
+        """Whether some nodes move by themselves."""
+        animator = self.scene.animator
+        return animator is not None and any(animator._motions)
+
+    @property
+    def title(self) -> str:
+        """The file's name, with a star while something is not saved."""
+        name = "untitled" if self.path is None else printable(os.path.basename(self.path))
+        return f"{name}*" if self.is_modified else name
+
+    def save_would_overwrite(self, path: str | os.PathLike[str] | None = None) -> str | None:
+        """Return what would be lost if the scene were saved to a path, to be asked about.
+
+        Parameters
+        ----------
+        path : path-like, optional
+            The document's own if left out.
+
+        Returns
+        -------
+        reason : str or None
+            None if nothing would: the file is not there, or is as it was opened or saved last.
+        """
+        name = self._target(path)
+        if not os.path.lexists(name):
+            return None
+        if self.path is None or os.path.realpath(name) != os.path.realpath(self.path):
+            return f"{printable(name)} is there already"
+        if self._state is None:
+            return f"{printable(name)} may have changed since"
+        if self._state.changed():
+            return f"{printable(name)} was changed by another program"
+        return None
+
+    def save(self, path: str | os.PathLike[str] | None = None, *, overwrite: bool = False) -> bool:
+        """Save the scene.
+
+        Parameters
+        ----------
+        path : path-like, optional
+            The document's own if left out, and from now on its own.
+        overwrite : bool
+            Replace also what `save_would_overwrite` tells of.
+
+        Returns
+        -------
+        saved : bool
+            False if it was not; the console tells why.
+        """
+        name = self._target(path)
+        reason = None if overwrite else self.save_would_overwrite(name)
+        if reason is not None:
+            self.console.write("error", f"Save: {reason}")
+            return False
+        try:
+            with self.console.warnings_noted():
+                save_scene(self.scene, name)
+        except Engine3DError as error:
+            self.console.write("error", f"Save: {error}")
+            return False
+        self.path, self._state = name, FileState(name)
+        self.history.mark_saved()
+        self.console.write("action", f"Save {name}")
+        return True
+
+    def _target(self, path: str | os.PathLike[str] | None) -> str:
+        if path is None and self.path is None:
+            raise InvalidArgumentError("the scene has no file yet: give a path")
+        return os.path.abspath(os.fspath(self.path if path is None else path))
+
+    @property
+    def is_modified(self) -> bool:
+        """Whether something changed since it was saved."""
+        return not self.history.is_saved
+
+    def _step(self, what: str, step: Callable[[], Command | None]) -> bool:
+        try:
+            command = step()
+        except Engine3DError as error:  # somebody changed the scene past the history
+            self.history.clear()
+            self.console.write("error", f"{what}: {error}; the history was cleared")
+            return False
+        if command is None:
+            return False
+        self.console.write("action", f"{what}: {command.label}")
+        self.selection.set([node for node in command.nodes if node._scene is self.scene])
+        return True
+
+    def _names(self) -> dict[str, Any]:
+        import engine3d
+
+        selection = self.selection
+        return {
+            "scene": self.scene,
+            "selection": selection.nodes,
+            "node": selection.active,
+            "animator": self.animator,
+            "document": self,
+            "e3d": engine3d,
+            "np": np,
+        }

@@ -1,0 +1,83 @@
+"""Files that are dropped on a scene that is edited: models become nodes, images textures.
+
+In: a path, and where it was dropped. Out: a command, so that it can be undone.
+"""
+
+from __future__ import annotations
+
+import os
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...errors import InvalidArgumentError
+from ...io.loaders import formats, load_document, load_texture
+from ...io.reading.sources import stem_and_extension
+from ...io.scenes.scene_loading import scene_from_document
+from ...model.geometry.mesh import Mesh
+from ...model.scene.nodes import Node
+from ...model.scene.scene import Scene
+from .history import Command
+from .node_commands import AddNodes, copy_below
+from .value_commands import SetValues
+
+
+def drop_file(
+    scene: Scene,
+    path: str | os.PathLike[str],
+    *,
+    at: ArrayLike | None = None,
+    onto: Node | None = None,
+) -> Command:
+    """Return the command that a dropped file asks for.
+
+    Parameters
+    ----------
+    scene : Scene
+    path : path-like
+        A model or a scene becomes a node of its name, with all that the file holds below it; an
+        image becomes the texture of all materials of the node that it is dropped onto.
+    at : (3,) float, optional
+        World position of the middle of the model's underside; where its file places it if left
+        out.
+    onto : Node, optional
+        The node under the mouse.
+
+    Raises
+    ------
+    FileFormatError, FileAccessError
+        The file cannot be read.
+    InvalidArgumentError
+        An image was not dropped onto a node with a mesh.
+    """
+    name = os.fspath(path)
+    stem, extension = stem_and_extension(name)
+    if any(extension in entry.extensions for entry in formats("image")):
+        return _paint(name, onto)
+    loaded = scene_from_document(load_document(name))
+    offset = np.zeros(3) if at is None else np.asarray(at, np.float64) - _underside(loaded)
+
+    def add(scene: Scene) -> None:
+        group = scene.add(name=stem, translation=offset)
+        for node in loaded.nodes:
+            if node.parent is None:
+                copy_below(scene, node, group)
+
+    return AddNodes(scene, add, f"Add {os.path.basename(name)}")
+
+
+def _underside(scene: Scene) -> np.ndarray:
+    """The middle of the lower side of the box around a scene."""
+    low, high = scene.bounds
+    middle = (low + high) * 0.5
+    middle[1] = low[1]
+    return middle
+
+
+def _paint(name: str, onto: Node | None) -> Command:
+    mesh = getattr(onto, "object", None)
+    mesh = getattr(mesh, "mesh", mesh)  # of instances
+    if not isinstance(mesh, Mesh):
+        raise InvalidArgumentError("an image becomes a texture: drop it onto a node with a mesh")
+    texture = load_texture(name)
+    return SetValues(mesh.materials, {"texture": texture}, f"Paint with {os.path.basename(name)}")

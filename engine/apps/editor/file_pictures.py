@@ -1,0 +1,123 @@
+"""Pictures of files, before they are opened: models and images, small.
+
+In: paths, as a dialog comes by them. Out: pixels, some time later: a thread of its own loads and
+draws, so that nobody waits. Models look as ``engine3d render`` draws them. Of several files that
+are asked for, the latest is the next. What is large, or cannot be read, has none.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections import OrderedDict
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...base.side_by_side import Thread
+from ...io.loaders import formats
+from ...io.reading.loading import document_of, texture_of
+from ...io.reading.sources import read_source, stem_and_extension
+from ...stage.near_origin import moved_near
+from ...stage.open_model import view_document
+from ...stage.stage_settings import Settings
+from ...stage.view_renderer import ViewRenderer
+from .thumbnails import shrunk
+
+#: Bytes of the largest files that have pictures.
+LARGEST = 8 << 20
+#: How many pictures are kept.
+MOST = 64
+#: What a process of its own reads, which takes seconds.
+_SLOW = frozenset({"trimesh", "step", "iges"})
+
+
+class FilePictures:
+    """Draws pictures of files, and keeps them.
+
+    Parameters
+    ----------
+    size : int
+        Width and height in pixels.
+    """
+
+    def __init__(self, size: int = 160) -> None:
+        self._size = size
+        self._pictures: OrderedDict[tuple, NDArray[np.uint8] | None] = OrderedDict()
+        self._wanted: tuple | None = None
+        self._changed = threading.Condition()
+        self._thread: Thread | None = None
+
+    def get(self, path: str) -> tuple[NDArray[np.uint8] | None, bool]:
+        """Return the picture of a file, (size, size, 4) uint8, and whether it is still to come."""
+        key = _key(path)
+        if key is None:
+            return None, False
+        with self._changed:
+            if key in self._pictures:
+                self._pictures.move_to_end(key)
+                return self._pictures[key], False
+            self._wanted = key
+            if self._thread is None:
+                self._thread = Thread(target=self._work, daemon=True)
+                self._thread.start()
+            self._changed.notify()
+        return None, True
+
+    def _work(self) -> None:
+        """Draw what is wanted, for ever."""
+        while True:
+            with self._changed:
+                while self._wanted is None:
+                    self._changed.wait()
+                key, self._wanted = self._wanted, None
+            picture = _drawn(key[0], self._size)
+            with self._changed:
+                self._pictures[key] = picture
+                while len(self._pictures) > MOST:
+                    self._pictures.popitem(last=False)
+
+
+def _key(path: str) -> tuple | None:
+    """A file as it is now; None if it has no picture."""
+    if _drawer(path) is None:
+        return None
+    try:
+        status = os.stat(path)
+    except (OSError, ValueError):
+        return None
+    return (path, status.st_mtime_ns, status.st_size) if status.st_size <= LARGEST else None
+
+
+def _drawer(path: str) -> Callable[[str, int], NDArray[np.uint8]] | None:
+    extension = stem_and_extension(path)[1]
+    if any(extension in entry.extensions for entry in formats("image")):
+        return _draw_image
+    meshes = (entry for entry in formats("mesh") if entry.name not in _SLOW)
+    return _draw_model if any(extension in entry.extensions for entry in meshes) else None
+
+
+def _drawn(path: str, size: int) -> NDArray[np.uint8] | None:
+    try:
+        draw = _drawer(path)
+        return None if draw is None else draw(path, size)
+    except Exception:  # whatever it is, the file has no picture, and the thread goes on
+        return None
+
+
+def _draw_image(path: str, size: int) -> NDArray[np.uint8]:
+    with read_source(path) as source:
+        return shrunk(texture_of(source), size)
+
+
+def _draw_model(path: str, size: int) -> NDArray[np.uint8]:
+    with read_source(path) as source:
+        document = document_of(source, None, split=True)
+    viewed = moved_near(view_document(document, path))
+    settings = Settings({}, look="studio")
+    quality = {"samples": 4, "antialias": "msaa", "threads": 1}
+    with ViewRenderer(viewed, settings, (size, size), **quality) as view_renderer:
+        view = view_renderer.view()
+        view_renderer.fill(view)
+        return view_renderer.draw(view).color.copy()

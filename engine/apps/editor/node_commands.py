@@ -1,0 +1,341 @@
+"""Commands on the tree: adding, deleting, duplicating, hanging nodes under others, moving them.
+
+Nodes keep their handles and ids whatever is undone and done again.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable, Iterable, Sequence
+
+from ...base import linalg
+from ...errors import InvalidArgumentError
+from ...model.geometry.mesh import Mesh
+from ...model.motion.skins import Skin
+from ...model.scene.instances import InstancedMesh
+from ...model.scene.nodes import Node
+from ...model.scene.placements import Placements
+from ...model.scene.scene import Scene
+from ...model.scene.selection import NodeSelection
+from .history import Command
+from .selection import topmost
+
+
+def counted(what: str, nodes: Sequence[Node]) -> str:
+    """Return a label: "Delete 'lamp'" of one node, "Delete 3 nodes" of several."""
+    return f"{what} {nodes[0].name!r}" if len(nodes) == 1 else f"{what} {len(nodes)} nodes"
+
+
+class AddNodes(Command):
+    """Add nodes to a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+    add : callable
+        ``add(scene)`` adds the nodes, the first time; it may do nothing else to the scene.
+    label : str
+    """
+
+    makes_nodes = True
+
+    def __init__(self, scene: Scene, add: Callable[[Scene], object], label: str) -> None:
+        self.label = label
+        self._scene = scene
+        self._add = add
+        self._places: list[tuple[Node, Node | None]] | None = None
+
+    def do(self) -> None:
+        if self._places is None:
+            self._add_first()
+        else:
+            for node, parent in self._places:
+                self._scene.restore(node, parent=parent)
+
+    def _add_first(self) -> None:
+        count = len(self._scene.nodes)
+        try:
+            self._add(self._scene)
+        except BaseException:
+            for node in topmost(self._scene.nodes[count:]):
+                self._scene.remove(node)
+            raise
+        self.nodes = topmost(self._scene.nodes[count:])  # the latest ones stand last
+        self._places = [(node, node.parent) for node in self.nodes]
+
+    def undo(self) -> None:
+        for node, _ in reversed(self._places):
+            self._scene.remove(node)
+
+
+class DeleteNodes(Command):
+    """Take nodes out of a scene, with everything below them."""
+
+    def __init__(self, scene: Scene, nodes: Iterable[Node]) -> None:
+        self.nodes = topmost(nodes)
+        self.label = counted("Delete", self.nodes)
+        self._scene = scene
+        self._places: list[tuple[Node, Node | None, Node | None]] = []
+
+    def do(self) -> None:
+        self._places = []
+        for node in self.nodes:
+            self._places.append((node, node.parent, next_sibling(node)))
+            self._scene.remove(node)
+
+    def undo(self) -> None:
+        for node, parent, sibling in reversed(self._places):
+            self._scene.restore(node, parent=parent, before=sibling)
+
+
+class DuplicateNodes(AddNodes):
+    """Add copies of nodes beside them, with everything below them.
+
+    Copies share meshes, and have lights and cameras of their own.
+    """
+
+    def __init__(self, scene: Scene, nodes: Iterable[Node]) -> None:
+        originals = topmost(nodes)
+        super().__init__(
+            scene,
+            lambda scene: [copy_below(scene, node, node.parent) for node in originals],
+            counted("Duplicate", originals),
+        )
+
+
+class Reparent(Command):
+    """Hang nodes under another one, where they stay where they are in the world.
+
+    Parameters
+    ----------
+    scene : Scene
+    nodes : iterable of Node
+    parent : Node or None
+    before : Node, optional
+        The child of the parent that they come before.
+    keep_world_pose : bool
+        False keeps their poses below the parent instead.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        nodes: Iterable[Node],
+        parent: Node | None,
+        *,
+        before: Node | None = None,
+        keep_world_pose: bool = True,
+    ) -> None:
+        self.nodes = topmost(nodes)
+        under = "the scene" if parent is None else repr(parent.name)
+        self.label = f"{counted('Move', self.nodes)} under {under}"
+        self._scene, self._parent, self._before = scene, parent, before
+        self._keeps = keep_world_pose
+        self._places: list[tuple[Node, Node | None, Node | None]] = []
+
+    def do(self) -> None:
+        self._old = Placements(self._scene, self.nodes)
+        self._places = []
+        try:
+            for node in self.nodes:
+                place = node, node.parent, next_sibling(node)
+                node.reparent(self._parent, keep_world_pose=self._keeps, before=self._before)
+                self._places.append(place)
+        except BaseException:
+            self.undo()
+            raise
+
+    def undo(self) -> None:
+        for node, parent, sibling in reversed(self._places):
+            node.reparent(parent, before=sibling)
+        self._old.put(self._scene)
+
+
+class GroupNodes(Command):
+    """Put nodes under a new one, which hangs where the first of them did."""
+
+    makes_nodes = True
+
+    def __init__(self, scene: Scene, nodes: Iterable[Node], name: str = "group") -> None:
+        self._members = topmost(nodes)
+        self.label = counted("Group", self._members)
+        parent = self._members[0].parent
+        self._add = AddNodes(scene, lambda scene: scene.add(name=name, parent=parent), "")
+        self._scene = scene
+
+    def do(self) -> None:
+        self._add.do()
+        self.nodes = self._add.nodes
+        self._reparent = Reparent(self._scene, self._members, self.nodes[0])
+        try:
+            self._reparent.do()
+        except BaseException:
+            self._add.undo()
+            raise
+
+    def undo(self) -> None:
+        self._reparent.undo()
+        self._add.undo()
+
+
+class JoinNodes(Command):
+    """Put one mesh in the place of those of several nodes, which are deleted.
+
+    One mesh is drawn faster than many small ones. What hangs below the nodes, and is not one of
+    them, is deleted with them.
+
+    Parameters
+    ----------
+    scene : Scene
+    nodes : iterable of Node
+        At least one of them holds a Mesh; the others go as they are.
+    """
+
+    makes_nodes = True
+
+    def __init__(self, scene: Scene, nodes: Iterable[Node]) -> None:
+        chosen = [node for node in nodes if isinstance(node.object, Mesh)]
+        if not chosen:
+            raise InvalidArgumentError("none of the nodes holds a mesh to be joined")
+        self.label = counted("Join", chosen)
+        self._scene = scene
+        name, meshes = chosen[0].name, [node.object for node in chosen]
+        poses = [node.world_pose for node in chosen]
+        self._add = AddNodes(
+            scene, lambda scene: scene.add(Mesh.concatenate(meshes, name, poses=poses)), ""
+        )
+        self._delete = DeleteNodes(scene, chosen)
+
+    def do(self) -> None:
+        self._add.do()
+        self._delete.do()
+        self.nodes = self._add.nodes
+
+    def undo(self) -> None:
+        self._delete.undo()
+        self._add.undo()
+
+
+class MoveNodes(Command):
+    """Move, turn or scale nodes.
+
+    Parameters
+    ----------
+    scene : Scene
+    nodes : iterable of Node
+    move : callable
+        ``move(selection)`` changes the poses of a `NodeSelection`, the first time.
+    label : str, optional
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        nodes: Iterable[Node],
+        move: Callable[[NodeSelection], object],
+        label: str = "",
+    ) -> None:
+        self.nodes = tuple(nodes)
+        self.label = label or counted("Move", self.nodes)
+        self._scene, self._move = scene, move
+        self._new: Placements | None = None
+
+    def do(self) -> None:
+        if self._new is not None:
+            self._new.put(self._scene)
+            return
+        self._old = Placements(self._scene, self.nodes)
+        try:
+            self._move(self._scene.select(self.nodes))
+        except BaseException:
+            self._old.put(self._scene)
+            raise
+        self._new = Placements(self._scene, self.nodes)
+
+    def undo(self) -> None:
+        self._old.put(self._scene)
+
+    def absorb(self, later: Command) -> bool:
+        if not (isinstance(later, MoveNodes) and later.nodes == self.nodes):
+            return False
+        self._new = later._new
+        return True
+
+
+def in_world(matrix) -> Callable[[NodeSelection], None]:
+    """Return what moves nodes by a matrix in world space, (4, 4) float, for `MoveNodes`.
+
+    A node that is below another of them moves with that one only.
+    """
+
+    def move(selection: NodeSelection) -> None:
+        for node in topmost(selection.nodes):
+            pose = linalg.multiply(matrix, node.world_pose)
+            if node.parent is not None:
+                pose = linalg.multiply(linalg.inverse(node.parent.world_pose), pose)
+            node.pose = pose
+
+    return move
+
+
+def next_sibling(node: Node) -> Node | None:
+    """Return the child of the node's parent that stands after it."""
+    if node.parent is None:
+        return None
+    slot = int(node._arrays.columns["next"][node._slot])
+    return None if slot < 0 else node._arrays.nodes[slot]
+
+
+def copy_below(scene: Scene, node: Node, parent: Node | None) -> Node:
+    """Add a copy of a node of any scene, and of all below it; return the copy.
+
+    The copies are drawn in the order of the originals.
+    """
+    nodes = [node._arrays.nodes[slot] for slot in node._arrays.below(node._slot)]
+    made = {
+        original: _copied(scene, original)
+        for original in sorted(nodes, key=lambda original: original.id)
+    }
+    for original in nodes[1:]:  # parents first, siblings in their order
+        made[original].reparent(made[original.parent])
+    made[node].reparent(parent)
+    _bend_alike(made)
+    return made[node]
+
+
+def _bend_alike(made: dict[Node, Node]) -> None:
+    """Let copies be bent as their originals: by the copies of their joints, if these are copied."""
+    skins: dict[Skin, Skin | None] = {}
+    for original, twin in made.items():
+        skin = original.skin
+        if skin is not None and skin not in skins:
+            skins[skin] = _skin_of_copies(skin, made, twin)
+        twin.skin = None if skin is None else skins[skin]
+        if original.morph_weights is not None:
+            twin.morph_weights = original.morph_weights
+
+
+def _skin_of_copies(skin: Skin, made: dict[Node, Node], twin: Node) -> Skin | None:
+    """None where a joint is in another scene, and has no copy."""
+    joints = [made.get(joint, joint) for joint in skin.joints]
+    if any(joint._scene is not twin._scene for joint in joints):
+        return None
+    return Skin(joints, skin.inverse_binds, skin.name)
+
+
+def _copied(scene: Scene, node: Node) -> Node:
+    obj = node.object
+    if not isinstance(obj, (Mesh, InstancedMesh)):
+        obj = copy.copy(obj)
+    twin = scene.add(
+        obj,
+        name=node.name,
+        pose=node.pose,
+        static=node.static,
+        cast_shadows=node.cast_shadows,
+        receive_shadows=node.receive_shadows,
+    )
+    if not node.visible:
+        twin.visible = False
+    twin.collider = node.collider
+    return twin

@@ -1,0 +1,105 @@
+"""What the mouse points at in a picture: node, triangle, material; what a rectangle holds.
+
+In: a frame that a renderer drew, and pixels. Out: nodes of the scene. Lights and cameras show
+nothing: they are found by where they stand in the picture.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...model.materials.material import Material
+from ...model.scene.instances import InstancedMesh
+from ...model.scene.nodes import Node
+from ...model.scene.scene import Scene
+from ...model.spatial.rays import RayHit
+from ...rendering.frame import Frame
+
+
+class Pick(NamedTuple):
+    """What a pixel shows.
+
+    Attributes
+    ----------
+    node : Node
+    hit : RayHit or None
+        Face, position, normal and so on; None for what is found by its place.
+    material : Material or None
+        Of the face.
+    """
+
+    node: Node
+    hit: RayHit | None = None
+    material: Material | None = None
+
+
+def pick(scene: Scene, frame: Frame, x: int, y: int, *, reach: float = 10.0) -> Pick | None:
+    """Return what a pixel points at.
+
+    Parameters
+    ----------
+    scene : Scene
+    frame : Frame
+        Of the scene; exact with the outputs of `Scene.pick`.
+    x, y : int
+        Column and row, from the top left.
+    reach : float
+        Pixels within which lights and cameras are found by where they stand, before all faces.
+    """
+    beside = _nearest_origin(scene, frame, x, y, reach)
+    if beside is not None:
+        return Pick(beside)
+    hit = scene.pick(frame, x, y)
+    if hit is None:
+        return None
+    obj = hit.node.object
+    mesh = obj.mesh if isinstance(obj, InstancedMesh) else obj
+    material = None
+    if mesh is not None and hit.face >= 0:
+        material = mesh.materials[mesh.material_ids[hit.face]]
+    return Pick(hit.node, hit, material)
+
+
+def enclosed(scene: Scene, frame: Frame, first, last) -> tuple[Node, ...]:
+    """Return the nodes that show within a rectangle of a frame, in the order of the scene.
+
+    Parameters
+    ----------
+    scene : Scene
+    frame : Frame
+        With the output ``object_id``.
+    first, last : (x, y) of int
+        Opposite corners, both included; parts outside of the frame do not count.
+    """
+    (left, right), (top, bottom) = (sorted(pair) for pair in zip(first, last, strict=True))
+    if right < 0 or bottom < 0:
+        return ()
+    ids = frame.object_id[max(top, 0) : bottom + 1, max(left, 0) : right + 1]
+    numbers = set(np.unique(ids).tolist()) - {-1}
+    nodes, places, depths = _origins(scene, frame)
+    inside = (
+        (depths > 0)
+        & (places >= (left, top)).all(axis=1)
+        & (places <= (right + 1, bottom + 1)).all(axis=1)
+    )
+    numbers.update(nodes[k].id for k in np.flatnonzero(inside).tolist())
+    found = (scene._node_of(number) for number in sorted(numbers))
+    return tuple(node for node in found if node is not None)
+
+
+def _origins(scene: Scene, frame: Frame) -> tuple[list[Node], np.ndarray, np.ndarray]:
+    """The lights and cameras that are shown, and where they stand: (N, 2) pixels, (N,) depths."""
+    held = (*scene._lights.values(), *scene._cameras.values())
+    nodes = [node for node in held if node.shown]
+    places = np.array([node.world_pose[:3, 3] for node in nodes]).reshape(-1, 3)
+    return (nodes, *frame.project(places))
+
+
+def _nearest_origin(scene: Scene, frame: Frame, x: int, y: int, reach: float) -> Node | None:
+    nodes, places, depths = _origins(scene, frame)
+    distances = np.hypot(*(places - (x + 0.5, y + 0.5)).T)
+    distances[~(depths > 0)] = np.inf
+    nearest = int(np.argmin(distances)) if nodes else -1
+    return nodes[nearest] if nodes and distances[nearest] <= reach else None

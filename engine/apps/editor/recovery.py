@@ -1,0 +1,41 @@
+"""A copy of what was not saved, which an editor left behind."""
+
+from __future__ import annotations
+
+import os
+from typing import NamedTuple
+
+from ...base.files import json_records
+
+#: What a copy names is named from here, so that it may stand anywhere.
+ROOT = "/"
+_LARGEST = 1 << 40  # bytes
+
+
+class Recovery(NamedTuple):
+    """A copy that an editor left behind.
+
+    Attributes
+    ----------
+    path : str
+        Of the copy.
+    document : str or None
+        The file of which it is a later state; None if it never had one.
+    time : float
+        When it was made, in seconds since the epoch.
+    """
+
+    path: str
+    document: str | None
+    time: float
+
+
+def content_of(copy: Recovery) -> tuple[str, bytes]:
+    """Return a path that the names in a copy start from, and the copy's scene.
+
+    Raises
+    ------
+    FileAccessError, FileFormatError
+    """
+    data = json_records.read_small(copy.path, _LARGEST)  # a scene may be large
+    return os.path.join(ROOT, os.path.basename(copy.path)), b"{" + data.partition(b"\n")[2]

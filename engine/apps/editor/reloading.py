@@ -1,0 +1,81 @@
+"""Meshes and textures loaded again: from files that changed, or from where missing ones are now.
+
+In: things that came from files. Out: commands that load them again into the same objects, so that
+all nodes show it.
+"""
+
+from __future__ import annotations
+
+import os
+
+from ...errors import FileFormatError, InvalidArgumentError
+from ...io.loaders import load_document, load_mesh, load_texture
+from ...model.geometry.mesh import Mesh
+from ...model.geometry.origins import FileOrigin
+from ...model.materials.textures import Texture
+from .contents import contents, put_contents
+from .history import Command
+
+
+class Reload(Command):
+    """Load a mesh or a texture again from its file; materials become those of the file.
+
+    Parameters
+    ----------
+    thing : Mesh or Texture
+    path : path-like, optional
+        Another file that takes the place of the thing's own.
+
+    Raises
+    ------
+    InvalidArgumentError
+        The thing is of no file.
+    """
+
+    def __init__(self, thing: Mesh | Texture, path: str | os.PathLike[str] | None = None) -> None:
+        own = path_of(thing)
+        if own is None and path is None:
+            raise InvalidArgumentError(f"{thing!r} is of no file, or was changed since")
+        self._thing = thing
+        self._path = own if path is None else os.path.abspath(os.fspath(path))
+        self._new: dict | None = None
+        self.label = f"Load {os.path.basename(self._path)} again"
+
+    def do(self) -> None:
+        if self._new is not None:
+            put_contents(self._thing, self._new)
+            return
+        fresh = self._loaded()
+        self._old = contents(self._thing)
+        if isinstance(self._thing, Texture):
+            self._thing.pixels = fresh.pixels
+            self._thing._path = fresh._path
+        else:
+            self._thing._become(fresh)
+        self._new = contents(self._thing)
+
+    def undo(self) -> None:
+        put_contents(self._thing, self._old)
+
+    def _loaded(self) -> Mesh | Texture:
+        if isinstance(self._thing, Texture):
+            return load_texture(self._path)
+        came = self._thing._origin
+        is_of_file = came is not None and isinstance(came.origin, FileOrigin)
+        origin = came.origin if is_of_file else FileOrigin(self._path, None, None)
+        part = origin.part
+        how = {"format": origin.format, "crease_angle": origin.crease_angle}
+        if part is None:
+            return load_mesh(self._path, **how)
+        for _, mesh, _ in load_document(self._path, **how).objects:
+            if mesh._origin is not None and mesh._origin.origin.part == part:
+                return mesh
+        raise FileFormatError(f"it has no part {part[0]!r} number {part[1]}", self._path)
+
+
+def path_of(thing: Mesh | Texture) -> str | None:
+    """Return the file that a mesh or a texture is of."""
+    if isinstance(thing, Texture):
+        return thing._path
+    came = thing._origin
+    return came.origin.path if came is not None and isinstance(came.origin, FileOrigin) else None

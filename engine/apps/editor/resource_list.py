@@ -1,0 +1,133 @@
+"""The meshes, materials and textures that a panel lists: of a scene, and what waits to be used.
+
+In: a scene, and things that no node uses yet. Out: one entry each, found again only when nodes got
+other objects, or one of these changed.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from ...io.resources import size_of
+from ...model.geometry.mesh import Mesh
+from ...model.geometry.origins import FileOrigin, origin_of
+from ...model.materials.material import Material, textures_of
+from ...model.materials.textures import Texture
+from ...model.scene.nodes import Node
+from ...model.scene.scene import Scene
+from ...model.scene.usage import users_of, uses_in
+
+Thing: TypeAlias = Mesh | Material | Texture
+
+
+class Entry(NamedTuple):
+    """A thing that nodes use, or may use.
+
+    Attributes
+    ----------
+    name : str
+        "unnamed" if it has none.
+    kind : {"mesh", "material", "texture"}
+    thing : Mesh, Material or Texture
+    size : int
+        Bytes of its arrays; 0 of materials.
+    path : str or None
+        The file that it is of.
+    users : int
+        How many nodes use it.
+    """
+
+    name: str
+    kind: str
+    thing: Thing
+    size: int
+    path: str | None
+    users: int
+
+
+class ResourceList:
+    """What a scene is made of.
+
+    Parameters
+    ----------
+    scene : Scene
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+        self._kept: dict[Thing, None] = {}
+        self._entries: tuple[Entry, ...] = ()
+        self._objects: np.ndarray | None = None
+        self._versions: tuple = ()
+
+    def keep(self, thing: Thing) -> None:
+        """List a thing also while no node uses it."""
+        self._kept[thing] = None
+
+    def drop(self, thing: Thing) -> None:
+        """List a thing no longer once no node uses it."""
+        self._kept.pop(thing, None)
+
+    def entries(self) -> tuple[Entry, ...]:
+        """Return all, sorted by kind and name: the same object until something of them changes."""
+        arrays = self._scene._arrays
+        objects = arrays.columns["object"][: arrays.count]
+        same = self._objects is not None and np.array_equal(objects, self._objects)
+        versions = self._found_versions()
+        if not same or versions != self._versions:
+            self._entries = self._found()
+            self._objects, self._versions = objects.copy(), self._found_versions()
+        return self._entries
+
+    def find(self, name: str, kind: str | None = None) -> Thing | None:
+        """Return the first thing of a name, and of a kind if one is given, or None."""
+        for entry in self.entries():
+            if entry.name == name and kind in (None, entry.kind):
+                return entry.thing
+        return None
+
+    def users(self, thing: Thing) -> tuple[Node, ...]:
+        """Return the nodes that use a thing."""
+        return users_of(self._scene, thing)
+
+    def _found_versions(self) -> tuple:
+        """What is another once an entry changed, came or went."""
+        things = (entry.thing for entry in self._entries)
+        names = tuple((id(thing), thing.version, thing.name) for thing in things)
+        return (
+            names,
+            self._scene._objects.version,
+            self._scene._removals,
+            tuple(map(id, self._kept)),
+        )
+
+    def _found(self) -> tuple[Entry, ...]:
+        uses = dict.fromkeys(self._with_parts(), 0) | uses_in([self._scene])
+        entries = [_entry(thing, count) for thing, count in uses.items()]
+        return tuple(sorted(entries, key=lambda entry: (entry.kind, entry.name.casefold())))
+
+    def _with_parts(self) -> list[Thing]:
+        """What is kept, and what it is made of."""
+        found: list[Thing] = []
+        for thing in self._kept:
+            materials = thing.materials if isinstance(thing, Mesh) else [thing]
+            found.append(thing)
+            for material in materials:
+                if isinstance(material, Material):
+                    found += [material, *textures_of(material).values()]
+        return found
+
+
+def _entry(thing: Thing, users: int) -> Entry:
+    name = thing.name or "unnamed"
+    if isinstance(thing, Material):
+        return Entry(name, "material", thing, 0, None, users)
+    if isinstance(thing, Texture):
+        return Entry(name, "texture", thing, size_of(thing), thing._path, users)
+    came = origin_of(thing)
+    is_of_file = came is not None and isinstance(came.origin, FileOrigin)
+    return Entry(
+        name, "mesh", thing, size_of(thing), came.origin.path if is_of_file else None, users
+    )

@@ -1,0 +1,177 @@
+"""Everything that a scene is, at one moment, and how to make it so again.
+
+In: a scene. Out: its state: tree, poses, names, switches, objects, colliders, motion, and what the
+objects, their materials and textures hold. Arrays are not copied where nobody can write to them.
+It serves what changes a scene in ways that no command foresees, such as a line of Python.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ..._native.scene_graph import STATIC, VISIBLE
+from ...base.held_values import kept, same
+from ...model.geometry.mesh import Mesh
+from ...model.materials.material import textures_of
+from ...model.scene.instances import InstancedMesh
+from ...model.scene.node_arrays import CASTS_NONE, RECEIVES_NONE
+from ...model.scene.placements import Placements
+from ...model.scene.scene import Scene
+from ...model.scene.surroundings import SCENE_VALUES
+from ...model.spatial.colliders import MeshCollider
+from .contents import contents, put_contents
+from .selection import topmost
+
+_SCENE_VALUES = (*SCENE_VALUES, "warnings")
+
+
+class SceneState:
+    """A scene as it is when this is made.
+
+    Parameters
+    ----------
+    scene : Scene
+
+    Attributes
+    ----------
+    nodes : tuple of Node
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+        self.nodes = scene.nodes
+        self._values = {name: kept(getattr(scene, name)) for name in _SCENE_VALUES}
+        animator = scene.animator
+        # One that moves nothing is as good as none.
+        self._animator = animator if animator is not None and any(animator._motions) else None
+        self._motions = None if self._animator is None else self._animator._motions
+        self._placements = Placements(scene, self.nodes)
+        slots = np.array([node._slot for node in self.nodes], np.int64)
+        columns = scene._arrays.columns
+        self._flags = columns["flags"][slots] & (VISIBLE | STATIC)
+        self._unshadowed = columns["unshadowed"][slots]
+        ids = np.append(columns["id"], -1)  # the last one is that of "none", -1
+        self._links = [ids[columns[name][slots]].tolist() for name in ("parent", "next")]
+        self._held = [(node.name, node._object, node._collider) for node in self.nodes]
+        self._bent = [(node.skin, kept(node.morph_weights)) for node in self.nodes]
+        self._things = {thing: contents(thing) for thing in _reachable(self._held)}
+
+    def __eq__(self, other: object) -> bool:
+        return (
+            isinstance(other, SceneState)
+            and self.nodes == other.nodes
+            and self._values == other._values
+            and (self._animator, self._motions) == (other._animator, other._motions)
+            and self._placements.same(other._placements)
+            and self._flags.tobytes() == other._flags.tobytes()
+            and self._unshadowed.tobytes() == other._unshadowed.tobytes()
+            and self._links == other._links
+            and same(self._held, other._held)
+            and same(self._bent, other._bent)
+            and self._things.keys() == other._things.keys()
+            and all(same(held, other._things[thing]) for thing, held in self._things.items())
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def put(self) -> None:
+        """Make the scene what it was; nodes that are not in the state are removed."""
+        scene = self._scene
+        for name, value in self._values.items():
+            setattr(scene, name, kept(value))
+        self._put_motions()
+        self._restore_nodes()
+        self._link_nodes()
+        stay = set(self.nodes)
+        for node in topmost([node for node in scene.nodes if node not in stay]):
+            scene.remove(node)
+        for thing, held in self._things.items():
+            put_contents(thing, held)
+        self._placements.put(scene)
+        for node, flags, unshadowed, (name, obj, collider), (skin, weights) in zip(
+            self.nodes,
+            self._flags.tolist(),
+            self._unshadowed.tolist(),
+            self._held,
+            self._bent,
+            strict=True,
+        ):
+            node.visible, node.static = bool(flags & VISIBLE), bool(flags & STATIC)
+            node.cast_shadows = not unshadowed & CASTS_NONE
+            node.receive_shadows = not unshadowed & RECEIVES_NONE
+            _hold(node, name, obj, collider)
+            if node.skin is not skin:
+                node.skin = skin
+            if not same(node.morph_weights, weights):
+                node.morph_weights = weights
+
+    def _put_motions(self) -> None:
+        scene = self._scene
+        if self._animator is not None:
+            scene.animator = self._animator
+            self._animator._motions = self._motions
+        elif scene.animator is not None:
+            scene.animator._motions = (), ()
+
+    def _restore_nodes(self) -> None:
+        for node in self.nodes:
+            if node._scene is None:
+                self._scene.restore(node if node._taken_with is None else node._taken_with)
+
+    def _link_nodes(self) -> None:
+        by_id = {node.id: node for node in self.nodes}
+        wanted: dict[int, list[int]] = {}
+        parents, following = self._links
+        for node, parent in zip(self.nodes, parents, strict=True):
+            if parent >= 0:
+                wanted.setdefault(parent, []).append(node.id)
+        next_of = dict(zip((node.id for node in self.nodes), following, strict=True))
+        orders = {parent: _in_order(ids, next_of) for parent, ids in wanted.items()}
+        for node, parent in zip(self.nodes, parents, strict=True):
+            if (-1 if node.parent is None else node.parent.id) != parent:
+                node.reparent(None)
+        for parent, ids in orders.items():
+            if [child.id for child in by_id[parent].children] != ids:
+                for child in ids:
+                    by_id[child].reparent(by_id[parent])
+
+
+def _in_order(ids: list[int], next_of: dict[int, int]) -> list[int]:
+    """The ids of one parent's children in the order of its children."""
+    followers = {next_of[number] for number in ids}
+    number = next(number for number in ids if number not in followers)
+    ordered = []
+    while number >= 0:
+        ordered.append(number)
+        number = next_of[number]
+    return ordered
+
+
+def _hold(node, name: str, obj: Any, collider: Any) -> None:
+    if node._name != name:
+        node.name = name
+    if node._object is not obj:
+        node.collider = None
+        node.object = obj
+    if node._collider is not collider:
+        node.collider = collider
+
+
+def _reachable(held: list[tuple]) -> Iterator[Any]:
+    """What nodes hold, and what that is made of, each once."""
+    todo: list[Any] = [thing for _, obj, collider in held for thing in (obj, collider)]
+    seen: set[int] = set()
+    while todo:
+        thing = todo.pop()
+        if thing is None or id(thing) in seen:
+            continue
+        seen.add(id(thing))
+        yield thing
+        if isinstance(thing, (InstancedMesh, MeshCollider)):
+            todo.append(thing.mesh)
+        elif isinstance(thing, Mesh):
+            for material in thing.materials:
+                todo += [material, *textures_of(material).values()]

@@ -1,0 +1,284 @@
+"""The editor's window: its loop, its panels, their places.
+
+In: a file, and what the user does. Out: pictures. A picture is drawn after something happened, and
+a few more until everything has settled; then the loop sleeps.
+"""
+
+from __future__ import annotations
+
+import time
+import traceback
+from collections.abc import Callable
+
+import numpy as np
+from imgui_bundle import imgui, imguizmo
+
+from ....rendering.canvas import Canvas
+from ... import events
+from ...imgui_painter.imgui_painter import ImguiPainter
+from ...viewer.window import Window
+from .console_panel import ConsolePanel
+from .files import Files
+from .hierarchy_panel import HierarchyPanel
+from .imgui_input import ImguiInput, of_one_picture
+from .interrupts import Interrupts
+from .layout import load_layout, place_panels, save_layout
+from .menus import draw_menus, entries, press_keys
+from .properties_panel import PropertiesPanel
+from .resources_panel import ResourcesPanel
+from .scene_panel import ScenePanel
+from .style import choose_style
+from .workspace import Workspace
+
+WINDOW_SIZE = (1600, 900)
+#: How long the loop sleeps while nothing happens: a signal that ends the editor waits no longer,
+#: and while a text cursor blinks, a picture is drawn as often.
+IDLE_SECONDS = 0.4
+#: Seconds after which the window tells that Python runs.
+PATIENCE = 1.0
+RUNNING = "Python runs: Esc stops it"
+#: How long the loop sleeps while a picture of a file is being made.
+WAITING_SECONDS = 0.02
+#: How many pictures an event is worth: panels place what depends on each other one after another.
+SETTLING = 3
+
+
+class EditorWindow:
+    """The editor.
+
+    Parameters
+    ----------
+    path : str, optional
+        A file to edit; a scene (``.e3d.json``) need not be there yet.
+    size : (int, int)
+        Of the window, in pixels; not more than the screen has room for.
+
+    Raises
+    ------
+    DisplayError
+        There is no screen.
+    FileFormatError, FileAccessError
+        The file cannot be read.
+    """
+
+    def __init__(self, path: str = "", *, size: tuple[int, int] = WINDOW_SIZE) -> None:
+        self.workspace = Workspace()
+        self._interrupts = Interrupts(self.workspace.keep_copy)
+        self.workspace.guard = lambda: self._interrupts.stoppable(self._stops)
+        if path:
+            self.workspace.begin(path)
+        self.window = Window(*size, self._title(), wait=True)
+        self.window.fit_to_screen()
+        self._context = imgui.create_context()
+        io = imgui.get_io()
+        io.config_flags |= imgui.ConfigFlags_.docking_enable
+        io.config_flags |= imgui.ConfigFlags_.nav_enable_keyboard
+        # What a panel that failed has left open is closed: see `_draw_panel`.
+        io.config_error_recovery_enable_assert = False
+        io.config_error_recovery_enable_debug_log = False
+        io.config_windows_move_from_title_bar_only = True
+        io.set_ini_filename("")
+        choose_style(self.window.scale)
+        self._painter = ImguiPainter()
+        self._input = ImguiInput(self.window)
+        self._scene = ScenePanel(self.workspace, self._painter)
+        self._files = Files(self.workspace, self._painter)
+        self._resources = ResourcesPanel(self.workspace, self._painter)
+        hierarchy = HierarchyPanel(self.workspace)
+        self._panels = {
+            "Hierarchy": hierarchy,
+            "Scene": self._scene,
+            "Properties": PropertiesPanel(self.workspace, self._files),
+            "Resources": self._resources,
+            "Console": ConsolePanel(self.workspace),
+        }
+        self._files.offer_recovery()
+        self._entries = entries(self.workspace, self._files, hierarchy)
+        self._pixels = np.zeros((1, 1, 4), np.uint8)
+        self._told: set[str] = set()
+        self._late: list = []  # events that wait for the next picture, or came while Python ran
+        self._last = time.monotonic()
+        self.workspace.wants_usual_places = not load_layout(self.workspace)
+        self._pictures_due = SETTLING
+
+    def run(self) -> int:
+        """Show the editor until the user closes it, or a signal ends it.
+
+        Returns
+        -------
+        status : int
+            The exit status: 0, or 128 and the number of the signal. What is not saved then is kept
+            for the next editor to offer.
+        """
+        with self._interrupts:
+            try:
+                while not (self.workspace.wants_exit or self._interrupts.number):
+                    self.turn(0.0 if self._pictures_due else IDLE_SECONDS)
+            except BaseException:
+                self.workspace.keep_copy()
+                raise
+            if self.workspace.wants_exit:
+                self.workspace.close()
+            else:
+                self.workspace.keep_copy()
+            save_layout(self.workspace)
+            return self._interrupts.status
+
+    def turn(self, patience: float) -> None:
+        """Wait for events, and draw a picture if one is due."""
+        waiting, self._late = self._late, []
+        waiting += self.window.events(0.0 if waiting else patience)
+        queue = self._context.input_events_queue
+        holds = self.workspace.pictures_to_focus > 0 or not queue.empty()
+        happened, self._late = of_one_picture(waiting, holds)
+        for event in happened:
+            self._take_safely(event)
+        if self.workspace.lines_to_run:
+            self._run_lines()
+        self.workspace.tick()
+        blinks = imgui.get_io().want_text_input
+        if self.window.minimised or not (self._pictures_due or blinks):
+            return
+        self._pictures_due = max(self._pictures_due - 1, 0)
+        self._draw()
+
+    def _run_lines(self) -> None:
+        """Run what was entered in the console: here, where ImGui lays nothing out."""
+        self._pictures_due = SETTLING
+        self._started = time.monotonic()
+        self._has_told = False
+        self.workspace.run_lines()
+        self._last = time.monotonic()  # the key that was pressed was not held down meanwhile
+
+    def _stops(self) -> bool:
+        """Whether the user wants what runs to stop; what else happens meanwhile waits."""
+        happened = self.window.events()
+        self._late += [event for event in happened if not _is_stop_key(event)]
+        if not self._has_told and time.monotonic() - self._started > PATIENCE:
+            self._has_told = True
+            canvas = Canvas(*self.window.size)
+            canvas.pixels[:] = self._pixels if self._pixels.shape == canvas.pixels.shape else 0
+            canvas.text(16, 16, RUNNING, (255, 255, 255), scale=2, background=(150, 40, 40))
+            self.window.present(canvas)
+        closes = any(isinstance(event, events.CloseRequested) for event in happened)
+        return closes or any(map(_is_stop_key, happened))
+
+    def _take_safely(self, event) -> None:
+        try:
+            self._take(event)
+        except Exception as error:
+            self._tell(error)
+
+    def _take(self, event) -> None:
+        self._pictures_due = SETTLING
+        if isinstance(event, events.CloseRequested):
+            self._files.exit()
+        elif isinstance(event, events.FilesDropped):
+            for path in event.paths:
+                self.workspace.add_file(path, self._scene.node_under_mouse())
+        else:
+            self._input.feed(event)
+
+    def _draw(self) -> None:
+        size = self.window.size
+        if self._pixels.shape[1::-1] != size:
+            self._pixels = np.zeros((size[1], size[0], 4), np.uint8)
+        io = imgui.get_io()
+        now = time.monotonic()
+        io.display_size = imgui.ImVec2(*size)
+        io.delta_time, self._last = max(now - self._last, 1e-4), now
+        self.workspace.animate(io.delta_time)
+        self.workspace.pictures_to_focus = max(self.workspace.pictures_to_focus - 1, 0)
+        imgui.new_frame()
+        begun = _recovery_state()
+        try:
+            imguizmo.im_guizmo.begin_frame()
+            self._lay_out()
+            imgui.render()
+        except BaseException:  # such as Ctrl-C: no frame may stay open when Python ends
+            imgui.internal.error_recovery_try_to_recover_state(begun)
+            imgui.end_frame()
+            raise
+        self._painter.draw(imgui.get_draw_data(), self._pixels)
+        self._input.follow_pointer()
+        self.window.present(self._pixels)
+        if self._is_unfinished():
+            self._pictures_due = max(self._pictures_due, 1)
+        # ImGui takes no key or button both down and up in one picture: the rest waits for the next.
+        if not self._context.input_events_queue.empty():
+            self._pictures_due = SETTLING
+        if self.window.title != self._title():
+            self.window.title = self._title()
+
+    def _is_unfinished(self) -> bool:
+        """Whether the next picture shows something else, though nothing happens."""
+        if self._files.is_waiting:
+            time.sleep(WAITING_SECONDS)
+        waits = self._resources.is_waiting or self._files.is_waiting
+        moves = self._scene.is_flying or self.workspace.is_moving
+        return waits or moves or bool(self._late) or self.workspace.pictures_to_focus > 0
+
+    def _title(self) -> str:
+        return f"{self.workspace.document.title} - engine3d"
+
+    def _lay_out(self) -> None:
+        workspace = self.workspace
+        self._guarded(lambda: draw_menus(workspace, self._entries))
+        flags = imgui.DockNodeFlags_.passthru_central_node
+        space = imgui.dock_space_over_viewport(flags=flags)
+        if workspace.wants_usual_places:
+            place_panels(space, self.window.size)
+            workspace.wants_usual_places = False
+            workspace.closed.clear()
+        for name, panel in self._panels.items():
+            if name not in workspace.closed:
+                self._guarded(panel.draw)
+        self._guarded(self._files.draw)
+        self._guarded(lambda: press_keys(self._entries))
+
+    def _guarded(self, lay_out: Callable[[], object]) -> None:
+        """Lay something out; an error of it is told."""
+        state = _recovery_state()
+        alpha = imgui.get_style().alpha
+        try:
+            lay_out()
+        except Exception as error:
+            imgui.internal.error_recovery_try_to_recover_state(state)
+            # ImGui takes an open `begin_disabled(False)` for another thing, and hides everything.
+            imgui.get_style().alpha = alpha
+            self._tell(error)
+
+    def _tell(self, error: Exception) -> None:
+        """Tell of an error, once, and go on: what isn't saved must not be lost."""
+        text = "".join(traceback.format_exception(error))
+        if text not in self._told:
+            self._told.add(text)
+            self.workspace.console.write("error", text)
+
+    def close(self) -> None:
+        """Close the window; may be called twice."""
+        self._scene.close()
+        if self._context is not None:
+            imgui.destroy_context(self._context)
+            self._context = None
+        self.window.close()
+
+    def __enter__(self) -> EditorWindow:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()
+
+
+def _recovery_state() -> imgui.internal.ErrorRecoveryState:
+    """What ImGui has begun so far, to be closed down to if something fails."""
+    state = imgui.internal.ErrorRecoveryState()
+    imgui.internal.error_recovery_store_state(state)
+    return state
+
+
+def _is_stop_key(event) -> bool:
+    """Whether an event is a key that stops what runs: Esc, or Ctrl+C."""
+    if not isinstance(event, events.KeyDown):
+        return False
+    return event.key == "Escape" or (event.control and event.key == "C")

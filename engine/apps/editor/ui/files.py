@@ -1,0 +1,189 @@
+"""Opening and saving, with the questions that go with it: what is not saved, what is there already.
+
+In: what the user asked for. Out: the workspace's document, opened or saved.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable
+
+from imgui_bundle import imgui
+
+from ....errors import printable
+from ....io.loaders import formats
+from ....model.materials.material import Material
+from ....model.scene.nodes import Node
+from ...imgui_painter.imgui_painter import ImguiPainter
+from ..autosave import forget, left_behind
+from ..document import SCENE_EXTENSION
+from ..recovery import Recovery
+from .file_dialog import FileDialog
+from .workspace import Workspace
+
+_SCENES = (SCENE_EXTENSION,)
+
+
+def _kinds() -> dict[str, tuple[str, ...]]:
+    """What can be opened: extensions by name."""
+    meshes = tuple(end for item in formats("mesh") for end in item.extensions)
+    return {"Scenes and models": (*_SCENES, *meshes), "Scenes": _SCENES, "All files": ()}
+
+
+class Files:
+    """Asks for files, and before something is lost.
+
+    Parameters
+    ----------
+    workspace : Workspace
+    painter : ImguiPainter
+        Shows pictures of files.
+    """
+
+    def __init__(self, workspace: Workspace, painter: ImguiPainter) -> None:
+        self._workspace = workspace
+        self._dialog = FileDialog(workspace.recent, painter)
+        self._question = ""
+        self._answers: dict[str, Callable[[], object]] = {}
+        self._opens = False
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether a picture of a file is being made."""
+        return self._dialog.is_waiting
+
+    # What the user asks for
+
+    def new(self) -> None:
+        """Begin with an empty scene, once the old one is saved or given up."""
+        self._unless_lost(self._workspace.new)
+
+    def open(self) -> None:
+        """Ask for a file, and edit it."""
+        self._unless_lost(lambda: self._dialog.ask("Open a file", _kinds(), self._workspace.open))
+
+    def add(self) -> None:
+        """Ask for a file, and add what it holds to the scene."""
+        self._dialog.ask("Add a file", _kinds(), self._workspace.add_file)
+
+    def load_texture(self, material: Material, slot: str) -> None:
+        """Ask for an image, and make it a texture of a material."""
+        kinds = {"Images": tuple(end for item in formats("image") for end in item.extensions)}
+        self._dialog.ask(
+            "Load an image", kinds, lambda path: self._workspace.load_texture(path, material, slot)
+        )
+
+    def load_mesh(self, node: Node) -> None:
+        """Ask for a model, and let a node hold all of it as one mesh."""
+        kinds = {"Models": tuple(end for item in formats("mesh") for end in item.extensions)}
+        self._dialog.ask("Load a mesh", kinds, lambda path: self._workspace.load_mesh(path, node))
+
+    def save(self, then: Callable[[], object] = lambda: None) -> None:
+        """Save the scene, or ask where to; do something once it is saved."""
+        if self._workspace.document.path is None:
+            self.save_as(then)
+        else:
+            self._save_to(None, then)
+
+    def save_as(self, then: Callable[[], object] = lambda: None) -> None:
+        """Ask where to save the scene."""
+        path = self._workspace.document.path
+        name = "scene.e3d.json" if path is None else os.path.basename(path)
+        self._dialog.ask(
+            "Save the scene",
+            {"Scenes": _SCENES},
+            lambda chosen: self._save_to(chosen, then),
+            name=name,
+        )
+
+    def exit(self) -> None:
+        """Close the editor, once the scene is saved or given up."""
+        self._unless_lost(lambda: setattr(self._workspace, "wants_exit", True))
+
+    def offer_recovery(self) -> None:
+        """Ask about the latest scene that an editor left behind, if there is one."""
+        with self._workspace.console.warnings_noted():
+            copies = left_behind()
+        if copies:
+            self._offer(copies[0])
+
+    # Questions
+
+    def _offer(self, copy: Recovery) -> None:
+        name = "a scene without a name" if copy.document is None else printable(copy.document)
+        made = time.strftime("%Y-%m-%d %H:%M", time.localtime(copy.time))
+
+        def recover():
+            self._workspace.recover(copy)
+            forget(copy)
+
+        self._ask(
+            f"An editor ended without saving {name}, as it was on {made}.",
+            {"Recover": recover, "Discard": lambda: forget(copy), "Later": lambda: None},
+        )
+
+    def _unless_lost(self, act: Callable[[], object]) -> None:
+        document = self._workspace.document
+        if not document.is_modified:
+            act()
+            return
+        self._ask(
+            f"{document.title.rstrip('*')} is not saved.",
+            {"Save": lambda: self.save(act), "Discard": act, "Cancel": lambda: None},
+        )
+
+    def _save_to(self, path: str | None, then: Callable[[], object]) -> None:
+        reason = self._workspace.document.save_would_overwrite(path)
+
+        def save():
+            if self._workspace.save(path, overwrite=True):
+                then()
+
+        if reason is None:
+            save()
+        else:
+            self._ask(f"{reason}.", {"Overwrite": save, "Cancel": lambda: None})
+
+    def _ask(self, question: str, answers: dict[str, Callable[[], object]]) -> None:
+        self._question, self._answers, self._opens = question, answers, True
+
+    # Laying out
+
+    def draw(self) -> None:
+        """Lay out what is being asked."""
+        self._dialog.draw()
+        if self._opens:
+            imgui.open_popup("Question")
+            self._opens = False
+        middle = imgui.get_main_viewport().get_center()
+        imgui.set_next_window_pos(middle, imgui.Cond_.always, (0.5, 0.5))
+        flags = imgui.WindowFlags_.always_auto_resize
+        shown, _ = imgui.begin_popup_modal("Question", None, flags)
+        if not shown:
+            return
+        imgui.text_unformatted(self._question)
+        imgui.spacing()
+        chosen = self._chosen_answer()
+        if chosen is not None:
+            imgui.close_current_popup()
+            self._answers[chosen]()
+        imgui.end_popup()
+
+    def _chosen_answer(self) -> str | None:
+        """Lay the answers out; return the one that was given.
+
+        Enter and Space give the one that has the focus, at first the first one. Esc gives the last
+        one, which changes nothing.
+        """
+        first, *_, last = self._answers
+        chosen = last if imgui.is_key_pressed(imgui.Key.escape, False) else None
+        if imgui.is_window_appearing():
+            imgui.set_nav_cursor_visible(True)  # else Enter is heard only after an arrow key
+        for name in self._answers:
+            if imgui.button(name):
+                chosen = name
+            if name == first:
+                imgui.set_item_default_focus()
+            imgui.same_line()
+        return chosen

@@ -1,0 +1,94 @@
+"""The handles that move, turn and scale the selection: ImGuizmo draws them and follows the mouse.
+
+In: the workspace, where the picture of the scene is. Out: commands; a drag is one step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+
+import numpy as np
+from imgui_bundle import imgui, imguizmo
+
+from ....base import linalg
+from ..drags import dragged_pose
+from ..node_commands import MoveNodes, counted, in_world
+from .workspace import Workspace
+
+_PER_CENT = 100.0
+
+
+class GizmoHandles:
+    """Draws the handles of the active tool.
+
+    Parameters
+    ----------
+    workspace : Workspace
+    """
+
+    def __init__(self, workspace: Workspace) -> None:
+        self._workspace = workspace
+        self._drag: Hashable = None
+        self._start: np.ndarray | None = None
+
+    def draw(self, corner, size: tuple[int, int]) -> bool:
+        """Draw what moves the selection; return whether the mouse is on it."""
+        workspace = self._workspace
+        nodes = workspace.document.selection.topmost()
+        if workspace.tool == "select" or not nodes:
+            self._drag = None
+            return False
+        gizmo = imguizmo.im_guizmo
+        gizmo.set_orthographic(workspace.view.orthographic)
+        gizmo.set_drawlist(imgui.get_window_draw_list())
+        gizmo.set_rect(corner.x, corner.y, *map(float, size))
+        old = nodes[-1].world_pose
+        made = self._manipulated(gizmo, old, size)
+        if not gizmo.is_using():
+            self._drag = None
+        elif made is not None:
+            if self._drag is None:
+                self._drag, self._start = workspace.next_drag(), old.copy()
+            self._move(nodes, old, made)
+        return gizmo.is_over() or gizmo.is_using()
+
+    def _move(self, nodes, old: np.ndarray, made: np.ndarray) -> None:
+        workspace = self._workspace
+        tool = workspace.tool
+        step = workspace.steps[tool] if self._snaps() else None
+        new = dragged_pose(tool, self._start, made, step, is_local=workspace.is_local)
+        if new.tobytes() == old.tobytes():
+            return
+        change = linalg.multiply(new, linalg.inverse(old))
+        if tool == "move":  # exactly: what is multiplied by an inverse turns a little
+            change = linalg.translation(new[:3, 3] - old[:3, 3])
+        label = counted(tool.capitalize(), nodes)
+        workspace.do(MoveNodes(workspace.scene, nodes, in_world(change), label), drag=self._drag)
+
+    def _snaps(self) -> bool:
+        return self._workspace.snaps != imgui.get_io().key_ctrl
+
+    def _manipulated(self, gizmo, pose: np.ndarray, size: tuple[int, int]) -> np.ndarray | None:
+        """Where the gizmo takes a pose, in single precision; None if it leaves it."""
+        workspace = self._workspace
+        view, bounds = workspace.view, workspace.bounds
+        # Lights and cameras may stand before the near plane, which meshes decide.
+        reach = float(linalg.length(view.position() - bounds.center)) + bounds.radius
+        camera = view.camera(bounds._replace(radius=reach))
+        matrices = [
+            gizmo.Matrix16(matrix.T.ravel().tolist())
+            for matrix in (linalg.inverse(view.pose()), camera.projection(*size), pose)
+        ]
+        operation = {
+            "move": gizmo.OPERATION.translate,
+            "turn": gizmo.OPERATION.rotate,
+            "scale": gizmo.OPERATION.scale,
+        }[workspace.tool]
+        is_local = workspace.is_local or workspace.tool == "scale"
+        mode = gizmo.MODE.local if is_local else gizmo.MODE.world
+        step = workspace.steps[workspace.tool]
+        step = step / _PER_CENT if workspace.tool == "scale" else step
+        snap = gizmo.Matrix3([step] * 3) if self._snaps() else None
+        if not gizmo.manipulate(*matrices[:2], operation, mode, matrices[2], None, snap):
+            return None
+        return np.array(matrices[2].values, np.float64).reshape(4, 4).T

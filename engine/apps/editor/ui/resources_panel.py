@@ -1,0 +1,100 @@
+"""What the scene is made of: meshes, materials and textures, with pictures, sizes, users.
+
+In: the workspace's resources. Out: rows, of which only those that show are laid out; a click
+selects the users.
+"""
+
+from __future__ import annotations
+
+import time
+
+from imgui_bundle import imgui
+
+from ...imgui_painter.imgui_painter import ImguiPainter
+from ..resource_list import Entry
+from ..thumbnails import Thumbnails
+from .layout import begin_panel
+from .workspace import Workspace
+
+PICTURE = 48
+#: How long pictures may take of one frame, in seconds; the others come with the next ones.
+PATIENCE = 0.02
+
+
+class ResourcesPanel:
+    """Lists the resources.
+
+    Parameters
+    ----------
+    workspace : Workspace
+    painter : ImguiPainter
+        Shows their pictures.
+    """
+
+    def __init__(self, workspace: Workspace, painter: ImguiPainter) -> None:
+        self._workspace, self._painter = workspace, painter
+        self._thumbnails = Thumbnails(PICTURE)
+        self._numbers: dict[int, tuple[object, int]] = {}
+        self._deadline = 0.0
+        self.is_waiting = False
+
+    def draw(self) -> None:
+        """Lay the panel out."""
+        self.is_waiting = False
+        self._deadline = time.perf_counter() + PATIENCE
+        shown = begin_panel(self._workspace, "Resources")
+        if shown:
+            entries = self._workspace.resources.entries()
+            self._forget_unused(entries)
+            self._draw_table(entries)
+        imgui.end()
+
+    def _forget_unused(self, entries: tuple[Entry, ...]) -> None:
+        if len(self._numbers) > 2 * len(entries) + PICTURE:
+            for _, number in self._numbers.values():
+                self._painter.remove(number)
+            self._numbers.clear()
+
+    def _draw_table(self, entries: tuple[Entry, ...]) -> None:
+        flags = imgui.TableFlags_
+        chosen = flags.row_bg | flags.resizable | flags.scroll_y | flags.borders_inner_v
+        if not imgui.begin_table("resources", 5, chosen):
+            return
+        for title in ("Name", "Kind", "Size", "File", "Users"):
+            imgui.table_setup_column(title)
+        imgui.table_setup_scroll_freeze(0, 1)
+        imgui.table_headers_row()
+        clipper = imgui.ListClipper()
+        clipper.begin(len(entries), PICTURE + 2 * imgui.get_style().cell_padding.y)
+        while clipper.step():
+            for number in range(clipper.display_start, clipper.display_end):
+                self._draw_row(number, entries[number])
+        imgui.end_table()
+
+    def _draw_row(self, number: int, entry: Entry) -> None:
+        imgui.table_next_row(0, PICTURE)
+        imgui.table_next_column()
+        picture = self._picture(entry)
+        if picture:
+            imgui.image(imgui.ImTextureRef(picture), (PICTURE, PICTURE))
+            imgui.same_line()
+        flags = imgui.SelectableFlags_.span_all_columns
+        if imgui.selectable(f"{entry.name}##{number}", False, flags, (0.0, PICTURE))[0]:
+            users = self._workspace.resources.users(entry.thing)
+            self._workspace.document.selection.set(users)
+        size = f"{entry.size:,} bytes" if entry.size else ""
+        for text in (entry.kind, size, entry.path or "", f"{entry.users:,}"):
+            imgui.table_next_column()
+            imgui.text_unformatted(text)
+
+    def _picture(self, entry: Entry) -> int:
+        """The number of an entry's picture; 0 while there is none yet."""
+        pixels = self._thumbnails.get_if_time(entry.thing, self._deadline)
+        held, number = self._numbers.get(id(entry.thing), (None, 0))
+        if pixels is None:
+            self.is_waiting = True
+        elif pixels is not held:
+            number = number or self._painter.add(pixels, opaque=True)
+            self._painter.replace(number, pixels, opaque=True)
+            self._numbers[id(entry.thing)] = pixels, number
+        return number

@@ -1,0 +1,243 @@
+"""The scene, drawn into its panel: the mouse turns the camera, selects, and drags the selection.
+
+In: the workspace, the mouse as ImGui has it. Out: a picture, drawn again only when it would be
+another one; commands.
+"""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+from imgui_bundle import imgui
+
+from ....model.scene.cameras import PerspectiveCamera
+from ....model.scene.nodes import Node
+from ....rendering.frame import Frame
+from ....rendering.renderer import Renderer
+from ....stage.overlays.selection_outline import CLICK_OUTPUTS, outline_pixels
+from ...imgui_painter.imgui_painter import ImguiPainter
+from ..picking import enclosed, pick
+from .gizmo_handles import GizmoHandles
+from .layout import begin_panel
+from .overlays import Overlays
+from .scene_tools import draw_tools
+from .workspace import Workspace
+
+#: A press and a release no farther apart than so many pixels are a click.
+CLICK_PIXELS = 4.0
+MOST_SIDE = 8192
+#: Keys that move the camera while the right button is held: along which of its axes, which way.
+FLYING = {"w": (2, -1), "s": (2, 1), "a": (0, -1), "d": (0, 1), "q": (1, -1), "e": (1, 1)}
+#: Radii of the scene a second, and the longest time that one picture may take of it.
+FLYING_SPEED, LONGEST_STEP = 0.5, 0.1
+RECTANGLE = (1.0, 0.7, 0.2, 0.9)
+
+
+class ScenePanel:
+    """Shows the scene.
+
+    Parameters
+    ----------
+    workspace : Workspace
+    painter : ImguiPainter
+        Shows the picture.
+
+    Attributes
+    ----------
+    is_flying : bool
+        Whether keys move the camera: the next picture is another one.
+    """
+
+    def __init__(self, workspace: Workspace, painter: ImguiPainter) -> None:
+        self._workspace, self._painter = workspace, painter
+        self._renderer: Renderer | None = None
+        self._number = 0
+        self._frame: Frame | None = None
+        self._drawn: tuple = ()
+        self._overlays = Overlays(workspace)
+        self._gizmo = GizmoHandles(workspace)
+        self._seconds = 0.0
+        self._corner = imgui.ImVec2(0.0, 0.0)
+        self._is_hovered = False
+        self._pressed: tuple[float, float] | None = None
+        self.is_flying = False
+
+    def close(self) -> None:
+        """Free the renderer."""
+        if self._renderer is not None:
+            self._renderer.close()
+            self._renderer = None
+
+    def node_under_mouse(self) -> Node | None:
+        """Return the node that shows where the mouse is, if it is over the scene."""
+        if self._frame is None or not self._is_hovered:
+            return None
+        mouse = imgui.get_io().mouse_pos
+        place = int(mouse.x - self._corner.x), int(mouse.y - self._corner.y)
+        if not (0 <= place[0] < self._frame.width and 0 <= place[1] < self._frame.height):
+            return None
+        found = pick(self._workspace.scene, self._frame, *place, reach=0.0)
+        return None if found is None else found.node
+
+    def draw(self) -> None:
+        """Lay the panel out."""
+        imgui.push_style_var(imgui.StyleVar_.window_padding, (0.0, 0.0))
+        shown = begin_panel(self._workspace, "Scene")
+        imgui.pop_style_var()
+        if shown:
+            draw_tools(self._workspace, self._overlays)
+            room = imgui.get_content_region_avail()
+            size = tuple(min(max(int(side), 16), MOST_SIDE) for side in (room.x, room.y))
+            self._show(size)
+        imgui.end()
+
+    # The picture
+
+    def _show(self, size: tuple[int, int]) -> None:
+        self._workspace.aspect = size[0] / size[1]
+        self._render(size)
+        corner = imgui.get_cursor_screen_pos()
+        corner = imgui.ImVec2(int(corner.x), int(corner.y))
+        imgui.set_cursor_screen_pos(corner)
+        imgui.image(imgui.ImTextureRef(self._number), size)
+        hovered = self._is_hovered = imgui.is_item_hovered()
+        self._corner = corner
+        self._overlays.draw(self._frame, corner)
+        self._draw_times(corner)
+        captured = self._gizmo.draw(corner, size)
+        self._turn_camera(hovered and not captured, corner, size)
+        self._select(corner)
+
+    def _render(self, size: tuple[int, int]) -> None:
+        workspace = self._workspace
+        key = (
+            *(size, workspace.mode, workspace.wireframe, workspace.changes),
+            *(workspace.view.pose().tobytes(), workspace.view.orthographic),
+            *(workspace.view.distance, workspace.document.selection.version),
+            *(workspace.scene, workspace.scene._arrays.changes),
+        )
+        if key == self._drawn:
+            return
+        if self._renderer is None or (self._renderer.width, self._renderer.height) != size:
+            self.close()
+            self._renderer = Renderer(*size)
+        camera = workspace.view.camera(workspace.bounds)
+        if isinstance(camera, PerspectiveCamera):
+            camera.reversed_depth = True
+        start = time.perf_counter()
+        self._frame = frame = self._renderer.render(
+            workspace.scene,
+            (camera, workspace.view.pose()),
+            mode=workspace.mode,
+            cull="auto",
+            wireframe="overlay" if workspace.wireframe else None,
+            outputs=CLICK_OUTPUTS,
+        )
+        self._seconds = time.perf_counter() - start
+        ids = self._selected_ids()
+        if ids:
+            outline_pixels(frame, np.isin(frame.object_id, ids))
+        if not self._number:
+            self._number = self._painter.add(frame.color, opaque=True)
+        self._painter.replace(self._number, frame.color, opaque=True)
+        self._drawn = key
+
+    def _draw_times(self, corner) -> None:
+        """Tell what the last picture of the scene took."""
+        triangles = self._frame.stats["triangles"]
+        text = f"{1e3 * self._seconds:.1f} ms, {triangles:,} triangles"
+        if self._workspace.document.moves:
+            animator = self._workspace.document.animator
+            text += f", {animator.time:.2f} s, frame {self._workspace.moments}"
+        place = corner.x + 8.0, corner.y + self._frame.height - 1.5 * imgui.get_font_size()
+        color = imgui.get_color_u32(imgui.Col_.text_disabled)
+        imgui.get_window_draw_list().add_text(place, color, text)
+
+    def _selected_ids(self) -> list[int]:
+        """The numbers of the selected nodes and of all below them."""
+        ids = []
+        for node in self._workspace.document.selection.topmost():
+            arrays = node._arrays
+            ids += [arrays.nodes[slot].id for slot in arrays.below(node._slot)]
+        return ids
+
+    # The mouse
+
+    def _turn_camera(self, hovered: bool, corner, size: tuple[int, int]) -> None:
+        """Follow the wheel and what is pressed on the picture."""
+        io, orbit = imgui.get_io(), self._workspace.orbit
+        if hovered and io.mouse_wheel:
+            at = io.mouse_pos.x - corner.x, io.mouse_pos.y - corner.y
+            orbit.dolly(io.mouse_wheel, at, size)
+        held = [imgui.is_mouse_down(button) for button in range(3)]
+        self.is_flying = False
+        # A press counts from the next picture on: what moved before it turns nothing.
+        if self._pressed is not None and held[1]:
+            self._fly(io, size[1])
+        elif self._pressed is not None and (held[2] or (io.key_alt and held[0])):
+            self._drag_camera(io, size[1])
+        if hovered and any(imgui.is_mouse_clicked(button) for button in range(3)):
+            self._pressed = io.mouse_pos.x, io.mouse_pos.y
+            imgui.set_window_focus()
+
+    def _drag_camera(self, io, height: int) -> None:
+        """Turn the camera around what it looks at, move it with Shift, approach with Ctrl."""
+        orbit = self._workspace.orbit
+        dx, dy = io.mouse_delta.x, io.mouse_delta.y
+        if io.key_shift:
+            orbit.pan(dx, dy, height)
+        elif io.key_ctrl:
+            orbit.dolly_drag(dy)
+        else:
+            orbit.rotate(dx, dy, height)
+
+    def _fly(self, io, height: int) -> None:
+        """Look around from where the camera is, and move it by keys."""
+        workspace = self._workspace
+        view, position = workspace.view, workspace.view.position()
+        workspace.orbit.rotate(io.mouse_delta.x / 2, io.mouse_delta.y / 2, height)
+        axes = view.rotation()
+        step = np.zeros(3)
+        for key, (axis, sign) in FLYING.items():
+            if imgui.is_key_down(getattr(imgui.Key, key)):
+                step += sign * axes[:, axis]
+                self.is_flying = True
+        speed = FLYING_SPEED * workspace.bounds.radius * (4.0 if io.key_shift else 1.0)
+        seconds = min(io.delta_time, LONGEST_STEP)
+        view.target = position - axes[:, 2] * view.distance + step * speed * seconds
+
+    def _select(self, corner) -> None:
+        """Select what was clicked at, or what a rectangle holds."""
+        io = imgui.get_io()
+        if not any(imgui.is_mouse_down(button) for button in range(3)):
+            pressed, self._pressed = self._pressed, None
+            if pressed is None or not imgui.is_mouse_released(0) or io.key_alt:
+                return
+            first = tuple(int(p - c) for p, c in zip(pressed, corner, strict=True))
+            last = int(io.mouse_pos.x - corner.x), int(io.mouse_pos.y - corner.y)
+            self._select_within(first, last, io.key_shift or io.key_ctrl)
+        elif self._pressed is not None and not io.key_alt:
+            if imgui.is_mouse_dragging(0, CLICK_PIXELS):
+                lines, color = imgui.get_window_draw_list(), imgui.get_color_u32(RECTANGLE)
+                lines.add_rect(self._pressed, io.mouse_pos, color)
+
+    def _select_within(self, first, last, adds: bool) -> None:
+        workspace = self._workspace
+        selection = workspace.document.selection
+        if max(abs(a - b) for a, b in zip(first, last, strict=True)) > CLICK_PIXELS:
+            nodes = enclosed(workspace.scene, self._frame, first, last)
+            (selection.add if adds else selection.set)(nodes)
+            return
+        found = None
+        if 0 <= last[0] < self._frame.width and 0 <= last[1] < self._frame.height:
+            found = pick(workspace.scene, self._frame, *last)
+        if found is None:
+            if not adds:
+                selection.set()
+        elif adds:
+            selection.toggle(found.node)
+        else:
+            selection.set([found.node])
+        if found is not None:
+            workspace.hierarchy.reveal(found.node)

@@ -1,0 +1,90 @@
+"""The row above the scene: tools, steps to snap to, how the scene is shown, time.
+
+In: the workspace. Out: the same, changed. What does not fit into the row begins another one.
+"""
+
+from __future__ import annotations
+
+from typing import get_args
+
+from imgui_bundle import imgui
+
+from ....choices import Mode
+from .overlays import Overlays
+from .workspace import Workspace
+
+MODES = get_args(Mode)
+TOOLS = {"select": "Q", "move": "W", "turn": "E", "scale": "R"}
+#: What the step of each tool is counted in, and how fast the mouse changes it.
+_UNITS = {"move": ("units", 0.01), "turn": ("degrees", 0.5), "scale": ("per cent", 0.5)}
+_LEAST, _MOST = 1e-4, 1e6
+
+
+def draw_tools(workspace: Workspace, overlays: Overlays) -> None:
+    """Lay the row out."""
+    imgui.dummy((2.0, 0.0))
+    for name, key in TOOLS.items():
+        label = f"{name.capitalize()} ({key})"
+        _beside(label, boxes=1)
+        if imgui.radio_button(label, workspace.tool == name):
+            workspace.tool = name
+    _beside("Local", boxes=1)
+    _, workspace.is_local = imgui.checkbox("Local", workspace.is_local)
+    _beside("Snap", boxes=1)
+    _, workspace.snaps = imgui.checkbox("Snap", workspace.snaps)
+    _beside("Steps")
+    _draw_steps(workspace)
+    _draw_time(workspace)
+    width = imgui.get_font_size() * 7
+    _beside("", width)
+    imgui.set_next_item_width(width)
+    _, chosen = imgui.combo("##mode", MODES.index(workspace.mode), list(MODES))
+    workspace.mode = MODES[chosen]
+    _beside("Wireframe", boxes=1)
+    _, workspace.wireframe = imgui.checkbox("Wireframe", workspace.wireframe)
+    _beside("Parallel", boxes=1)
+    _, workspace.view.orthographic = imgui.checkbox("Parallel", workspace.view.orthographic)
+    _beside("Show")
+    overlays.draw_menu()
+
+
+def _beside(label: str, width: float = 0.0, *, boxes: int = 0) -> None:
+    """Let the next item stand beside the last one if there is room."""
+    style = imgui.get_style()
+    width += imgui.calc_text_size(label).x + 2.0 * style.frame_padding.x
+    width += boxes * (imgui.get_frame_height() + style.item_inner_spacing.x)
+    imgui.same_line()
+    if imgui.get_content_region_avail().x < width:
+        imgui.new_line()
+
+
+def _draw_steps(workspace: Workspace) -> None:
+    """Lay out by which steps the tools snap."""
+    if imgui.button("Steps"):
+        imgui.open_popup("steps")
+    if not imgui.begin_popup("steps"):
+        return
+    for tool, (unit, speed) in _UNITS.items():
+        imgui.set_next_item_width(imgui.get_font_size() * 6)
+        label = f"{tool.capitalize()}, {unit}"
+        clamp = imgui.SliderFlags_.always_clamp
+        changed, step = imgui.drag_float(
+            label, workspace.steps[tool], speed, _LEAST, _MOST, "%.4g", clamp
+        )
+        if changed:
+            workspace.steps[tool] = float(f"{step:.4g}")  # as it is shown
+    imgui.end_popup()
+
+
+def _draw_time(workspace: Workspace) -> None:
+    """Lay out what lets time go on."""
+    _beside("Pause")
+    imgui.begin_disabled(not workspace.document.moves)
+    if imgui.button("Pause" if workspace.plays else "Play"):
+        workspace.play_or_pause()
+    imgui.set_item_tooltip("Space")
+    _beside("|<")
+    if imgui.button("|<"):
+        workspace.rewind()
+    imgui.set_item_tooltip("to time 0")
+    imgui.end_disabled()

@@ -1,0 +1,304 @@
+"""What the panels share: the document, the camera, how the scene is shown.
+
+In: what panels do. Out: the same for all panels. Nothing here draws.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Callable, Hashable
+from contextlib import AbstractContextManager
+from typing import Any
+
+import numpy as np
+
+from ....base import linalg
+from ....choices import Mode
+from ....errors import Engine3DError
+from ....io.loaders import load_mesh, load_texture
+from ....model.materials.material import Material
+from ....model.scene.nodes import Node
+from ....model.scene.scene import Scene
+from ....stage.views.orbit import OrbitController
+from ....stage.views.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
+from ...desktop.recent_files import RecentFiles
+from ..autosave import Autosave
+from ..console import Console
+from ..document import SceneDocument
+from ..dropping import drop_file
+from ..hierarchy import Hierarchy
+from ..history import Command
+from ..recovery import Recovery
+from ..resource_list import ResourceList
+from ..value_commands import SetValues
+
+#: The panels, by their titles.
+PANELS = ("Hierarchy", "Scene", "Properties", "Resources", "Console")
+#: How many pictures it takes until a field has the focus that it was given.
+FOCUSING = 6
+#: How far one picture may move time on, in seconds, however long it took.
+LONGEST_STEP = 0.1
+
+
+class Workspace:
+    """A document being edited, and how it is looked at.
+
+    Attributes
+    ----------
+    document : SceneDocument
+    hierarchy : Hierarchy
+    view : Viewpoint
+    orbit : OrbitController
+    mode : Mode
+    wireframe : bool
+    tool : str
+        ``"select"``, ``"move"``, ``"turn"`` or ``"scale"``.
+    is_local : bool
+        Whether tools work along the axes of the node.
+    snaps : bool
+    steps : dict of str to float
+        What tools snap to: units, degrees, per cent.
+    plays : bool
+        Whether time goes on.
+    moments : int
+        How many pictures moved time on since the document was opened.
+    closed : set of str
+        Panels that the user closed.
+    wants_usual_places : bool
+        Whether panels are to go where they are at first.
+    lines_to_run : list of str
+        Of Python, that were entered and did not run yet.
+    pictures_to_focus : int
+        As long as it is not 0, what is typed waits for a field to appear.
+    guard : callable
+        As in `Prompt`.
+    aspect : float
+        Width over height of the picture.
+    changes : int
+        Grows whenever something was done that may show.
+    resources : ResourceList
+    recent : RecentFiles
+    wants_exit : bool
+        Whether the editor is to close.
+    """
+
+    def __init__(self) -> None:
+        self.mode: Mode = "lit"
+        self.wireframe = False
+        self.tool = "select"
+        self.is_local = False
+        self.snaps = False
+        self.steps = {"move": 0.25, "turn": 15.0, "scale": 10.0}
+        self.plays = False
+        self.closed: set[str] = set()
+        self.wants_usual_places = False
+        self.lines_to_run: list[str] = []
+        self.pictures_to_focus = 0
+        self.guard: Callable[[], AbstractContextManager[Any]] = contextlib.nullcontext
+        self.aspect = 16 / 9
+        self.changes = 0
+        self.wants_exit = False
+        self.recent = RecentFiles()
+        self._drags = 0
+        self._autosave: Autosave | None = None
+        self._take(SceneDocument())
+
+    def _take(self, document: SceneDocument) -> None:
+        if self._autosave is not None:
+            self._autosave.discard()
+        self.document = document
+        document.prompt.guard = lambda: self.guard()
+        self.plays, self.moments = False, 0
+        self._autosave = Autosave(document)
+        self.hierarchy = Hierarchy(document.scene)
+        self.resources = ResourceList(document.scene)
+        self.view = Viewpoint(np.zeros(3), 10.0)
+        self.orbit = OrbitController(self.view)
+        self._bounds: tuple[tuple, Sphere] | None = None
+        self.frame(())
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that is edited."""
+        return self.document.scene
+
+    @property
+    def console(self) -> Console:
+        """The log, which goes on from document to document."""
+        return self.document.console
+
+    def new(self) -> None:
+        """Begin with an empty scene."""
+        self._take(SceneDocument(console=self.console))
+
+    def begin(self, path: str) -> None:
+        """Edit a file's scene, or a new one where there is no such scene yet.
+
+        Raises
+        ------
+        FileFormatError, FileAccessError
+        """
+        self._edit(SceneDocument.begin(path, console=self.console), path)
+
+    def open(self, path: str) -> bool:
+        """Edit a file's scene; where that fails the console tells why."""
+        try:
+            document = SceneDocument.open(path, console=self.console)
+        except Engine3DError as error:
+            self.console.write("error", str(error))
+            return False
+        self._edit(document, path)
+        return True
+
+    def _edit(self, document: SceneDocument, path: str) -> None:
+        self._take(document)
+        if os.path.exists(path):
+            self.recent.add(path)
+        if document.up != "+Y":
+            self.view.up = UP_DIRECTIONS[document.up]
+            self.frame(())
+
+    def recover(self, copy: Recovery) -> None:
+        """Edit what an editor left behind when it ended without a word."""
+        try:
+            document = SceneDocument.recover(copy, console=self.console)
+        except Engine3DError as error:
+            self.console.write("error", str(error))
+            return
+        self._take(document)
+
+    def add_file(self, path: str, onto: Node | None = None) -> bool:
+        """Add a model to the scene, or paint a node with an image; the console tells what fails."""
+        try:
+            with self.console.warnings_noted():
+                command = drop_file(self.scene, path, onto=onto)
+        except Engine3DError as error:
+            self.console.write("error", str(error))
+            return False
+        self.recent.add(path)
+        return self.do(command)
+
+    def load_texture(self, path: str, material: Material, slot: str) -> bool:
+        """Make an image a texture of a material; where that fails the console tells why."""
+        try:
+            texture = load_texture(path)
+        except Engine3DError as error:
+            self.console.write("error", str(error))
+            return False
+        label = f"Load {os.path.basename(path)}"
+        return self.do(SetValues([material], {slot: texture}, label))
+
+    def load_mesh(self, path: str, node: Node) -> bool:
+        """Let a node hold a file's mesh; where that fails the console tells why."""
+        try:
+            with self.console.warnings_noted():
+                mesh = load_mesh(path)
+        except Engine3DError as error:
+            self.console.write("error", str(error))
+            return False
+        label = f"Load {os.path.basename(path)}"
+        return self.do(SetValues([node], {"object": mesh}, label))
+
+    def save(self, path: str | None = None, *, overwrite: bool = False) -> bool:
+        """Save the scene; where that fails the console tells why."""
+        saved = self.document.save(path, overwrite=overwrite)
+        if saved and self.document.path is not None:
+            self.recent.add(self.document.path)
+        return saved
+
+    def tick(self) -> None:
+        """Keep a copy of what is not saved, if one is due; to be called often."""
+        self._autosave.tick()
+
+    def keep_copy(self) -> None:
+        """Keep a copy of what is not saved, for the next editor."""
+        if self.document.is_modified:
+            self._autosave.save()
+
+    def close(self) -> None:
+        """Give up what is not saved, and the copy of it."""
+        self._autosave.discard()
+
+    def do(self, command: Command, *, drag: Hashable = None) -> bool:
+        """Do a command of the document."""
+        self.changes += 1
+        return self.document.do(command, drag=drag)
+
+    def undo(self) -> None:
+        """Undo the last step."""
+        self.changes += 1
+        self.document.undo()
+
+    def redo(self) -> None:
+        """Do again what was undone."""
+        self.changes += 1
+        self.document.redo()
+
+    def run_lines(self) -> None:
+        """Run the lines of Python that were entered."""
+        while self.lines_to_run:
+            self.changes += 1
+            self.document.prompt.push(self.lines_to_run.pop(0))
+
+    # Time
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether the next picture shows another moment."""
+        return self.plays and self.document.moves
+
+    def animate(self, seconds: float) -> None:
+        """Let time go on, if it does."""
+        if self.is_moving:
+            self.document.animator.advance(min(seconds, LONGEST_STEP), self.view.position())
+            self.moments += 1
+
+    def play_or_pause(self) -> None:
+        """Let time go on, or stand still."""
+        self.plays = not self.plays
+        if self.plays and not self.document.moves:
+            self.plays = False
+            self.console.write("message", "nothing moves: animator.spin(node, period=4) lets it")
+
+    def rewind(self) -> None:
+        """Go to time 0."""
+        if self.document.moves:
+            self.document.animator.seek(0.0)
+
+    def hold_keys(self) -> None:
+        """Let what is typed wait until a field has the focus."""
+        self.pictures_to_focus = FOCUSING
+
+    def next_drag(self) -> int:
+        """Return what the commands of one movement of the mouse have in common."""
+        self._drags += 1
+        return self._drags
+
+    @property
+    def bounds(self) -> Sphere:
+        """A sphere round the box of all that is visible, found when something changed.
+
+        The smallest sphere would take seconds of thousands of nodes, at every step of a drag.
+        """
+        key = self.changes, self.scene._arrays.changes
+        if self._bounds is None or self._bounds[0] != key:
+            low, high = self.scene.bounds
+            radius = float(linalg.length((high - low) * 0.5)) or 1.0
+            self._bounds = key, Sphere((low + high) * 0.5, radius)
+        return self._bounds[1]
+
+    def frame(self, nodes: tuple[Node, ...]) -> None:
+        """Look at some nodes, or at the whole scene."""
+        boxes = [_corners(node.bounds) for node in nodes if node.bounds is not None]
+        boxes += [node.world_pose[:3, 3][None] for node in nodes]
+        points = np.concatenate(boxes or [_corners(self.scene.bounds)])
+        if (points.max(axis=0) == points.min(axis=0)).all():  # a light, or nothing at all
+            points = _corners(points[0] + np.array([[-1.0], [1.0]]) * np.ones(3))
+        self.view.frame(points, self.aspect)
+        self.changes += 1
+
+
+def _corners(box: np.ndarray) -> np.ndarray:
+    """The eight corners of a box, (2, 3): (8, 3)."""
+    return box[np.indices((2, 2, 2)).reshape(3, -1).T, np.arange(3)]

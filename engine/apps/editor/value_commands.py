@@ -1,0 +1,73 @@
+"""A command that assigns: names, switches, objects and colliders of nodes; what materials,
+textures, lights, cameras and the scene itself are made of.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from ...base.held_values import kept
+from ...model.scene.cameras import Camera
+from ...model.scene.lights import DirectLight
+from ...model.scene.nodes import Node
+from .history import Command
+
+
+class SetValues(Command):
+    """Assign attributes of things.
+
+    Parameters
+    ----------
+    things : iterable of Node, Material, Texture, Mesh, light, camera or Scene
+    values : dict of str to object
+        By attribute, for all of the things. What must go together, such as near and far planes, is
+        checked once all are assigned.
+    label : str, optional
+    """
+
+    def __init__(self, things: Iterable[Any], values: Mapping[str, Any], label: str = "") -> None:
+        self._things = tuple(things)
+        self._values = kept(dict(values))  # the caller may go on with its own
+        self.nodes = tuple(thing for thing in self._things if isinstance(thing, Node))
+        self.label = label or f"Set {', '.join(self._values)} of {_named(self._things)}"
+        self._old: list[tuple[Any, str, Any]] = []
+
+    def do(self) -> None:
+        self._old = []
+        try:
+            for thing in self._things:
+                for name, value in self._values.items():
+                    self._old.append((thing, name, kept(getattr(thing, name))))
+                    setattr(thing, name, value)
+                check(thing)
+        except BaseException:
+            self.undo()
+            raise
+
+    def undo(self) -> None:
+        for thing, name, old in reversed(self._old):
+            setattr(thing, name, old)
+
+    def absorb(self, later: Command) -> bool:
+        if not isinstance(later, SetValues) or later._values.keys() != self._values.keys():
+            return False
+        if list(map(id, later._things)) != list(map(id, self._things)):
+            return False
+        self._values = later._values
+        return True
+
+
+def check(thing: Any) -> None:
+    """Raise if what a thing holds does not go together, such as its near and far planes."""
+    if isinstance(thing, Camera):
+        thing.projection(1, 1)
+    elif isinstance(thing, DirectLight):
+        thing.check()
+
+
+def _named(things: Sequence[Any]) -> str:
+    if len(things) != 1:
+        return f"{len(things)} things"
+    name = getattr(things[0], "name", "")
+    return repr(name) if name else type(things[0]).__name__

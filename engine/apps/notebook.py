@@ -1,0 +1,274 @@
+"""Scenes to turn with the mouse in notebooks: Jupyter, VS Code, Colab and others.
+
+In: a scene, what a browser tells of mouse and keys. Out: its pictures there. The widget is that of
+the package jupyter_rfb, which sends JPEGs while something moves and a PNG when it has come to rest.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import base64
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from .._native.images import encode_png
+from ..base.image_size import check_size
+from ..errors import InvalidArgumentError
+from ..model.geometry.mesh import Mesh
+from ..model.scene.instances import InstancedMesh
+from ..model.scene.nodes import Node
+from ..model.scene.scene import Scene
+from ..stage.stage_settings import Settings
+from ..stage.view_renderer import ViewRenderer
+from ..stage.viewed_scene import TURN_SECONDS
+from ..stage.viewed_thing import check_motion, viewed_thing
+from ..stage.views.first_view import view_of_scene
+from . import events
+from .viewer.sampling import Sampling
+from .viewer.viewer import Viewer
+
+try:
+    from jupyter_rfb import RemoteFrameBuffer
+except ImportError as error:
+    raise ImportError(
+        "engine3d.notebook needs the package jupyter_rfb: pip install 'engine3d[notebook]'",
+        name=error.name,
+    ) from error
+
+__all__ = ["View"]
+
+_BUTTONS = {1: "left", 2: "right", 3: "middle"}
+_KEYS = {
+    " ": "Space",
+    "Enter": "Return",
+    "ArrowLeft": "Left",
+    "ArrowRight": "Right",
+    "ArrowUp": "Up",
+    "ArrowDown": "Down",
+}
+#: A browser's wheel turns by so many of its pixels a step.
+_WHEEL_PIXELS = 100.0
+
+
+class View(RemoteFrameBuffer):
+    """A scene, a part of one or a mesh, in the output of a cell: drags turn it, the wheel zooms.
+
+    The keys are the viewer's, once the picture was clicked: H lists them. A scene that was changed
+    by another cell shows so after `update`.
+
+    Parameters
+    ----------
+    thing : Scene, Node, Mesh or InstancedMesh
+        As for `engine3d.show`.
+    size : (int, int)
+        Width and height in the page's pixels, at first: the corner can be dragged.
+    up : {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}
+        Which way is up.
+    animate : callable, optional
+        Called with the time in seconds before each picture, to move the scene's nodes. Left out,
+        the first of ``scene.animations`` plays when Space is pressed.
+    period : float
+        Seconds after which the time begins again at 0.
+    quality : int
+        Of the JPEGs while something moves, 1 to 100; with 100 they are PNGs as well.
+
+    Raises
+    ------
+    InvalidArgumentError
+        It is nothing of these, or another argument is wrong.
+
+    Examples
+    --------
+    >>> from engine3d.notebook import View
+    >>> View(e3d.torus())
+    """
+
+    _page: _Page | None = None
+    _view_renderer: ViewRenderer | None = None
+    _event_compatibility = 2  # events in the names that jupyter_rfb documents now
+
+    def __init__(
+        self,
+        thing: Scene | Node | Mesh | InstancedMesh,
+        *,
+        size: tuple[int, int] = (640, 400),
+        up: str = "+Y",
+        animate: Callable[[float], None] | None = None,
+        period: float = TURN_SECONDS,
+        quality: int = 80,
+    ) -> None:
+        width, height = check_size(size)
+        check_motion(animate, "animate")
+        viewed = viewed_thing(thing, title=None, up=up, update=animate, period=period)
+        if viewed is None:
+            raise InvalidArgumentError(
+                f"a view shows a scene, a node or a mesh, not {type(thing).__name__}"
+            )
+        if not (isinstance(quality, int) and 1 <= quality <= 100):
+            raise InvalidArgumentError(f"quality must be a whole number in 1..100, not {quality!r}")
+        super().__init__(css_width=f"{width}px", css_height=f"{height}px", quality=quality)
+        self._page = _Page((width, height))
+        self._view_renderer = ViewRenderer(viewed, Settings({}), (width, height))
+        self._viewer = Viewer(
+            self._view_renderer,
+            self._page,
+            view=view_of_scene(self._view_renderer),
+            sampling=Sampling(),
+        )
+
+    def update(self) -> None:
+        """Draw again: the scene was changed."""
+        self._viewer.redraw()
+        self.request_draw()
+
+    def close(self) -> None:
+        """Take the view away, and leave the scene as it was; may be called twice."""
+        if self._page is None:
+            return  # Python takes away what an error kept from being made
+        if self._view_renderer is not None:
+            if self._view_renderer.viewed.player is not None:
+                self._view_renderer.viewed.player.stop()
+            self._view_renderer.close()
+            self._view_renderer = None
+        super().close()
+
+    def _repr_mimebundle_(self, **options) -> Any:
+        """The widget, and a picture for pages where no program runs any more."""
+        bundle = super()._repr_mimebundle_(**options)
+        data = bundle[0] if isinstance(bundle, tuple) else bundle
+        if data and self._view_renderer is not None:
+            data["image/png"] = base64.b64encode(self._still()).decode("ascii")
+        return bundle
+
+    def _still(self) -> bytes:
+        """What the view shows now, as a PNG; the page gets its first picture all the same."""
+        self._viewer.draw(self._viewer.sampling.at_rest())
+        self._viewer.redraw()
+        rgb = self._page.picture
+        return encode_png(np.dstack([rgb, np.full(rgb.shape[:2], 255, np.uint8)]))
+
+    # What jupyter_rfb calls
+
+    def handle_event(self, event: dict) -> None:
+        """Take in what the browser tells."""
+        if event["type"] == "close" or self._view_renderer is None:
+            return
+        for happened in self._page.translated(event):
+            self._viewer.handle(happened)
+        if self._viewer.lively:
+            self.request_draw()  # which forgets the PNG that was to come: not without a reason
+
+    def get_frame(self) -> np.ndarray | None:
+        """Return the picture, (H, W, 3) uint8, if there is a new one to show."""
+        if self._view_renderer is None:
+            return None
+        viewer = self._viewer
+        drawn = viewer.run_once()
+        viewer.running = True  # Q closes windows: this is a part of a page
+        self._draw_later(viewer)
+        return self._page.picture if drawn else None
+
+    def _draw_later(self, viewer: Viewer) -> None:
+        """Ask for the next turn of the viewer's loop, when there is something to do for it."""
+        if viewer.lively:
+            self.request_draw()
+            return
+        seconds = min(viewer.sampling.until_rest(), viewer.messages.remaining())
+        if math.isfinite(seconds):
+            asyncio.get_running_loop().call_later(seconds, self.request_draw)
+
+
+class _Page:
+    """The place of a window for the viewer: translates what happens, keeps the last picture."""
+
+    minimised = False
+    writes_text = False
+    title = ""
+
+    def __init__(self, size: tuple[int, int]) -> None:
+        self.size = size
+        self.scale = 1
+        self.picture: np.ndarray | None = None
+        self._ratio = 1.0
+        self._mouse = (0, 0)
+
+    def present(self, pixels: np.ndarray) -> None:
+        """Keep (H, W, 4) uint8 pixels until they are sent."""
+        self.picture = np.ascontiguousarray(pixels[..., :3])
+
+    def events(self, timeout: float = 0.0) -> list:
+        """Return nothing: the viewer is told of events when the browser's messages come."""
+        return []
+
+    def capture_mouse(self, captured: bool) -> None:
+        """A page keeps its pointer: it looks around as far as the picture goes."""
+
+    def toggle_fullscreen(self) -> None:
+        """A page's size is not its picture's to choose."""
+
+    def translated(self, event: dict) -> list:
+        """Return an event of jupyter_rfb as events of `engine3d.events`."""
+        translate = _TRANSLATIONS.get(event["type"])
+        return [] if translate is None else translate(self, event)
+
+    def _place(self, event: dict) -> tuple[int, int]:
+        return int(event["x"] * self._ratio), int(event["y"] * self._ratio)
+
+    def _resize(self, event: dict) -> list:
+        self._ratio = event["ratio"]
+        self.scale = max(1, round(self._ratio))
+        self.size = max(int(event["pwidth"]), 1), max(int(event["pheight"]), 1)
+        return [events.Resized(*self.size)]
+
+    def _button(self, event: dict) -> list:
+        button = _BUTTONS.get(event["button"])
+        if button is None:
+            return []
+        down, held = event["type"] == "pointer_down", event["modifiers"]
+        self._mouse = self._place(event)
+        shift, control = "Shift" in held, "Control" in held
+        return [events.MouseButton(button, down, shift, control, *self._mouse)]
+
+    def _double_click(self, event: dict) -> list:
+        """Press and let go a second time: browsers tell of both clicks before."""
+        place = self._place(event)
+        return [events.MouseButton("left", down, False, False, *place, 2) for down in (True, False)]
+
+    def _motion(self, event: dict) -> list:
+        before, self._mouse = self._mouse, self._place(event)
+        (x, y), (left, top) = self._mouse, before
+        return [events.MouseMotion(x - left, y - top, x, y)]
+
+    def _wheel(self, event: dict) -> list:
+        return [events.Wheel(-event["dy"] / _WHEEL_PIXELS, *self._place(event))]
+
+    def _key(self, event: dict) -> list:
+        key = _KEYS.get(event["key"], event["key"])
+        key = key.upper() if len(key) == 1 else key
+        if event["type"] == "key_up":
+            return [events.KeyUp(key, key)]
+        held = event["modifiers"]
+        return [events.KeyDown(key, key, "Shift" in held, "Control" in held)]
+
+    def _typed(self, event: dict) -> list:
+        return [events.TextEntered(event["data"])] if event.get("data") else []
+
+    def _left(self, event: dict) -> list:
+        return [events.MouseLeft()]
+
+
+_TRANSLATIONS = {
+    "resize": _Page._resize,
+    "pointer_down": _Page._button,
+    "pointer_up": _Page._button,
+    "pointer_move": _Page._motion,
+    "pointer_leave": _Page._left,
+    "double_click": _Page._double_click,
+    "wheel": _Page._wheel,
+    "key_down": _Page._key,
+    "key_up": _Page._key,
+    "char": _Page._typed,
+}

@@ -1,0 +1,96 @@
+"""The scenes that have names: what ``--scene`` shows, and what ``bench`` measures.
+
+A row of `SCENES` is all there is to write: choices, help, checks and completion follow. Nothing
+loads until a scene is asked for. A scene is made anew every time: what one caller changes no other
+sees.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+from typing import TYPE_CHECKING, NamedTuple
+
+from ...errors import InvalidArgumentError
+
+if TYPE_CHECKING:
+    from ...stage.viewed_scene import ViewedScene
+
+
+class Named(NamedTuple):
+    """A row of the list.
+
+    Attributes
+    ----------
+    about : str
+        What the scene shows, in a line.
+    viewed : str
+        Module and function of this package that make a `ViewedScene` of it; empty: none is made.
+    measured : str
+        Function of `workloads` that makes what is measured of it; empty: nothing is.
+    options : tuple of str
+        What of the command line the function takes that makes a `ViewedScene`.
+    """
+
+    about: str
+    viewed: str = ""
+    measured: str = ""
+    options: tuple[str, ...] = ()
+
+
+SCENES = {
+    "default": Named("an island by day, turning slowly", "models.showcase"),
+    "vertices": Named("a spinning cube as its vertices", "cubes.vertices"),
+    "edges": Named("the cube as its edges", "cubes.edges"),
+    "faces": Named("the cube as its faces", "cubes.faces"),
+    "cube": Named("the cube as its vertices, edges and faces in turn", "cubes.cycle"),
+    "shapes": Named(
+        "a sphere and a box under three moving lamps", "shapes.shapes", options=("subdivisions",)
+    ),
+    "textured": Named("a textured model of 6,000 triangles", "models.textured", "textured"),
+    "asc": Named("a train of several objects", "models.asc"),
+    "city": Named("a city by day or at dusk", "city.city", options=("triangles", "dusk")),
+    "solar": Named("Sun, Earth and Moon", "solar.solar"),
+    "mesh": Named("one mesh of 70,200 triangles", measured="mesh"),
+    "grid": Named("144 instances of it: 10 million triangles", measured="grid"),
+    "grid-depth": Named("the same, depth alone", measured="grid_depth"),
+    "grid-ids": Named("the same, numbers of instances alone", measured="grid_ids"),
+    "city-street": Named("a city of a million triangles at street level", measured="city_street"),
+    "city-above": Named("the city from above", measured="city_above"),
+    "city-lights": Named("the street under 256 point lights", measured="city_lights"),
+    "fill-front": Named("32 layers that fill the picture, front to back", measured="fill_front"),
+    "fill-back": Named("the same layers, back to front", measured="fill_back"),
+    "spheres": Named("39,304 spheres, all in view", "crowds.spheres", "spheres"),
+    "spheres-inside": Named("the spheres from among them", measured="spheres_inside"),
+    "lod": Named("3,600 balls in five levels of detail", "crowds.lod"),
+    "parcels": Named("1,600 parcels of land, joined to blocks", "crowds.parcels"),
+}
+DEMO_NAMES = tuple(name for name, scene in SCENES.items() if scene.viewed)
+WORKLOAD_NAMES = tuple(name for name, scene in SCENES.items() if scene.measured)
+
+
+def load_demo(name: str, **options) -> ViewedScene:
+    """Return a scene to look at by its name.
+
+    Parameters
+    ----------
+    name : str
+        One of `DEMO_NAMES`.
+    **options
+        ``triangles`` : int, of ``"city"``: how many, about. ``dusk`` : bool, of the same.
+        ``subdivisions`` : int, of ``"shapes"``: into how many parts edges are cut.
+
+    Raises
+    ------
+    InvalidArgumentError
+        There is no such scene.
+    """
+    if name not in DEMO_NAMES:
+        raise InvalidArgumentError(f"no scene {name!r}: there are {', '.join(DEMO_NAMES)}")
+    return function_of(SCENES[name].viewed)(**options)
+
+
+def function_of(place: str) -> Callable:
+    """Return the function of this package that a row names."""
+    module, _, name = place.partition(".")
+    return getattr(import_module(f".{module}", __name__), name)

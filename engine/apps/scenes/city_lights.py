@@ -1,0 +1,133 @@
+"""The lights of the city: street lamps round the viewer, and cars that drive with theirs.
+
+Lamps shine as far as the viewer overlooks the city: from the street those of the next blocks, from
+above the roofs all. Towards the farthest they grow dim, so that none is switched on or off in
+sight. Where there are few lamps, the cars carry more lights.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...base import linalg
+from ...extras.worlds import World
+from ...extras.worlds.furniture import CARS, car
+from ...extras.worlds.plan import PITCH
+from ...model.scene.lights import PointLight
+from ...model.scene.scene import Scene
+
+#: Lights that there are at least: one for each of so many cars, the others for lamps.
+LIGHTS = 256
+CARS_AT_LEAST = 40
+#: Lamps that shine at a time, at most.
+MOST_LAMPS = 472
+LAMP = {"color": (1.0, 0.74, 0.42), "intensity": 1.5, "range": 17.0, "falloff": "window"}
+#: How far lamps shine round one who walks, and how much farther for each metre above the ground.
+REACH, REACH_OF_HEIGHT = 205.0, 4.0
+#: The share of that way on which lamps grow dim.
+FADE = 0.25
+_HEADLIGHT = {"color": (0.95, 0.95, 1.0), "intensity": 1.2, "range": 14.0, "falloff": "window"}
+_TAIL_LIGHT = {"color": (1.0, 0.08, 0.05), "intensity": 0.5, "range": 5.0, "falloff": "window"}
+_TAXI_SIGN = {"color": (1.0, 0.82, 0.35), "intensity": 0.4, "range": 5.0, "falloff": "window"}
+#: A car's lights, in the order in which they are added, and where they are on it.
+_CAR_LIGHTS = (
+    (_HEADLIGHT, (0.0, 1.0, 3.4)),
+    (_TAIL_LIGHT, (0.6, 0.7, -2.6)),
+    (_TAIL_LIGHT, (-0.6, 0.7, -2.6)),
+    (_TAXI_SIGN, (0.0, 1.7, -0.2)),
+)
+#: Seconds until the cars drive as at first.
+PERIOD = 60.0
+#: Metres of street that a car drives before it starts again, at most.
+DRIVE = 600.0
+#: The streets along Z that they drive on, counted from the middle, and how far beside its middle.
+STREETS = (-3, -2, -1, 0, 1)
+LANE = 2.4
+
+
+class Lamps:
+    """Lights that are put to the lamps round the viewer.
+
+    Parameters
+    ----------
+    scene : Scene
+    lamps : (N, 3) ndarray of float64
+        Where lamps are.
+
+    Attributes
+    ----------
+    count : int
+        How many lights there are; those that are dark are hidden.
+    """
+
+    def __init__(self, scene: Scene, lamps: np.ndarray) -> None:
+        self.count = min(MOST_LAMPS, len(lamps))
+        self._lamps = lamps
+        self._nodes = [scene.add(PointLight(**LAMP)) for _ in range(self.count)]
+        self._shining: list[int] = []
+
+    def follow(self, eye: np.ndarray) -> None:
+        """Let the lamps round ``eye`` shine, the dimmer the nearer they are to the dark ones."""
+        offsets = (self._lamps - eye) * (1.0, 0.0, 1.0)  # over the ground: all are equally high
+        distances = np.sqrt(linalg.dot(offsets, offsets))
+        dark = REACH + REACH_OF_HEIGHT * max(float(eye[1]), 0.0)
+        order = np.argsort(distances, kind="stable")
+        if self.count < len(self._lamps):
+            dark = min(dark, float(distances[order[self.count]]))
+        # In the lamps' own order: what shines is a function of the eye alone, not of its way there.
+        nearest = np.sort(order[: self.count])
+        shining = nearest.tolist()
+        if shining != self._shining:
+            self._shining = shining
+            for node, lamp in zip(self._nodes, shining, strict=True):
+                node.translation = self._lamps[lamp]
+        for node, strength in zip(self._nodes, _strengths(distances[nearest], dark), strict=True):
+            node.visible = strength > 0.0
+            node.object.intensity = strength
+
+
+def _strengths(distances: np.ndarray, dark: float) -> list[float]:
+    """Return intensities that fall smoothly to 0 at the distance of the first dark lamp."""
+    share = np.clip((dark - distances) / (FADE * dark), 0.0, 1.0)
+    return (LAMP["intensity"] * share * share * (3.0 - 2.0 * share)).tolist()
+
+
+class Traffic:
+    """Cars that drive along the streets with their lights.
+
+    Parameters
+    ----------
+    scene : Scene
+    town : World
+    lights : int
+        How many lights they carry.
+    """
+
+    def __init__(self, scene: Scene, town: World, lights: int) -> None:
+        x, _, z = town.lamps.T
+        self._length = max(min(DRIVE, float(z.max() - z.min())) - 20.0, PITCH)
+        streets = [PITCH * number for number in STREETS]
+        self._streets = [street for street in streets if x.min() < street + PITCH / 2 < x.max()]
+        meshes = [car(name, town.materials) for name in CARS]
+        count = max(CARS_AT_LEAST, -(-lights // len(_CAR_LIGHTS)))
+        self._cars = [scene.add(meshes[number % len(meshes)]) for number in range(count)]
+        for number in range(lights):
+            light, place = _CAR_LIGHTS[number // count]
+            scene.add(PointLight(**light), parent=self._cars[number % count], translation=place)
+
+    def drive(self, time: float) -> None:
+        """Put each car where it is at a time; right-hand traffic on streets along Z."""
+        for number, node in enumerate(self._cars):
+            street = self._streets[number // 2 % len(self._streets)]
+            way = 1.0 if number % 2 else -1.0
+            start = number * 0.618 % 1.0
+            laps = 1 + number % 2
+            along = ((start + laps * time / PERIOD) % 1.0 - 0.5) * self._length
+            node.pose = _pose(street - LANE * way, along * way, way)
+
+
+def _pose(x: float, z: float, way: float) -> np.ndarray:
+    """A car's pose: its front to +Z, or turned round."""
+    return np.array(
+        [[way, 0.0, 0.0, x], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, way, z], [0.0, 0.0, 0.0, 1.0]]
+    )

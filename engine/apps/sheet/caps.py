@@ -1,0 +1,99 @@
+"""The faces of a cut: the pixels of a section at which its plane goes through something.
+
+In: nodes, and a camera whose near plane cuts them. Out: which node each pixel goes through, and the
+areas.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...base import linalg
+from ...model.scene.cameras import Camera
+from .cutting import Plane, area_of, cut_nodes, gaps_of, inside
+from .layout import Rectangle
+from .panel_renderer import PanelRenderer
+
+#: Cut material and its hatching.
+_CUT, _HATCH = (232, 164, 124), (150, 78, 44)
+#: Pixels from one line of the hatching to the next.
+_PITCH = 9
+
+
+class CutNode(NamedTuple):
+    """What is cut of a node: pixels that show it, and square units, None where it is open."""
+
+    node: int
+    pixels: int
+    area: float | None
+
+
+class Caps(NamedTuple):
+    """The cut faces of a panel.
+
+    Attributes
+    ----------
+    ids : (H, W) ndarray of int64
+        The node that is cut, -1 for none.
+    nodes : list of CutNode
+    """
+
+    ids: np.ndarray
+    nodes: list[CutNode]
+
+
+def find_caps(
+    studio: PanelRenderer, plane: Plane, camera: Camera, pose: np.ndarray, rectangle: Rectangle
+) -> Caps:
+    """Return the cut faces of a panel.
+
+    Parameters
+    ----------
+    studio, plane, camera, pose, rectangle
+        Of the panel.
+    """
+    outlines = cut_nodes(studio.scene.nodes, plane)
+    areas = [area_of(outline.segments, plane) for outline in outlines]
+    gaps = [gaps_of(outline.segments) for outline in outlines]
+    ids = np.full((rectangle.height, rectangle.width), -1, np.int64)
+    # What lies within something else is painted over it.
+    for number in sorted(range(len(outlines)), key=lambda k: -areas[k]):
+        if gaps[number] is not None:
+            closed = np.concatenate([outlines[number].segments, gaps[number]])
+            ends = _on_panel(closed, camera, pose, rectangle)
+            ids[inside(ends, rectangle.width, rectangle.height)] = outlines[number].node
+    nodes = []
+    for outline, area, gap in zip(outlines, areas, gaps, strict=True):
+        is_closed = gap is not None and not len(gap)
+        pixels = int(np.count_nonzero(ids == outline.node))
+        nodes.append(CutNode(outline.node, pixels, area if is_closed else None))
+    return Caps(ids, nodes)
+
+
+def _on_panel(
+    segments: np.ndarray, camera: Camera, pose: np.ndarray, rectangle: Rectangle
+) -> np.ndarray:
+    """The ends of segments in the panel's pixels, (N, 2, 2)."""
+    projection = np.array(camera.projection(rectangle.width, rectangle.height), np.float64)
+    clip = linalg.multiply(projection, linalg.inverse(pose))
+    x, y = (linalg.dot(segments, row[:3]) + row[3] for row in clip[:2])
+    return np.stack(
+        [(x + 1.0) * (0.5 * rectangle.width), (1.0 - y) * (0.5 * rectangle.height)], axis=-1
+    )
+
+
+def paint_caps(color: np.ndarray, ids: np.ndarray) -> None:
+    """Paint cut material, hatched: in two directions, by the ids of nodes.
+
+    Parameters
+    ----------
+    color : (H, W, 4) uint8
+    ids : (H, W) int64
+        As of `Caps`.
+    """
+    rows, columns = np.nonzero(ids >= 0)
+    flipped = ids[rows, columns] % 2 == 1
+    stripes = np.where(flipped, columns - rows, columns + rows) % _PITCH == 0
+    color[rows, columns, :3] = np.where(stripes[:, np.newaxis], _HATCH, _CUT)

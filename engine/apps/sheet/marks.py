@@ -1,0 +1,164 @@
+"""What is written and drawn round panels: dimensions, axes, titles, a scale.
+
+In: a canvas over the sheet, rectangles, lengths. Out: the same pixels, drawn on.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...rendering.canvas import Canvas, text_size
+from ...stage.overlays.overlay import AXIS_COLORS
+from ...stage.overlays.theme import DARK, Rgba, Theme
+from .layout import Rectangle
+
+#: X, Y and Z on light ground: the usual red, green and blue, darker.
+_DARK_AXES = ((196, 44, 44, 255), (30, 132, 44, 255), (44, 84, 214, 255))
+_ARROW = 7
+_AXIS = 15
+_DIGITS = 4
+#: The rows that the name of a view takes.
+_NAME = 24
+
+
+def length_text(value: float, unit: str | None) -> str:
+    """Return a length with four digits, and its unit where there is one."""
+    text = f"{value:.{_DIGITS}g}"
+    if "e" in text and 1e-6 <= abs(value) < 1e9:
+        text = f"{value:.{max(0, _DIGITS - 1 - _exponent(value))}f}"
+    return text if not unit else f"{text} {unit}"
+
+
+def short(text: str, columns: int) -> str:
+    """Return a text of at most so many characters, its middle left out."""
+    if len(text) <= columns:
+        return text
+    if columns < 8:
+        return text[: max(columns, 0)]
+    head = (columns - 3) * 3 // 5
+    return text[:head] + "..." + text[len(text) - (columns - 3 - head) :]
+
+
+def line_color(theme: Theme) -> Rgba:
+    """The colour of dimensions."""
+    return (150, 158, 170, 255) if theme is DARK else (96, 104, 118, 255)
+
+
+def draw_width(
+    canvas: Canvas, left: float, right: float, y: float, text: str, theme: Theme, scale: int
+) -> None:
+    """Draw a dimension below a drawing: from one place to another at a height."""
+    color = line_color(theme)
+    left, right = math.floor(left), math.ceil(right) - 1
+    reach = 5 * scale
+    for x in (left, right):
+        canvas.line(x, y - reach, x, y + reach, color, width=scale)
+    canvas.line(left, y, right, y, color, width=scale)
+    if right - left > 3 * _ARROW * scale:
+        for x, way in ((left, 1), (right, -1)):
+            _arrow(canvas, (x, y), (way, 0), color, scale)
+    width, _ = text_size(text, scale)
+    place = max((left + right + 1 - width) // 2, 2)
+    canvas.text(place, y + reach + 2 * scale, text, theme.text, scale=scale)
+
+
+def draw_height(
+    canvas: Canvas, top: float, bottom: float, x: float, text: str, theme: Theme, scale: int
+) -> None:
+    """Draw a dimension at the left of a drawing; its text reads from below."""
+    color = line_color(theme)
+    top, bottom = math.floor(top), math.ceil(bottom) - 1
+    reach = 5 * scale
+    for y in (top, bottom):
+        canvas.line(x - reach, y, x + reach, y, color, width=scale)
+    canvas.line(x, top, x, bottom, color, width=scale)
+    if bottom - top > 3 * _ARROW * scale:
+        for y, way in ((top, 1), (bottom, -1)):
+            _arrow(canvas, (x, y), (0, way), color, scale)
+    width, height = text_size(text, scale)
+    # Not over the view's name.
+    y = max((top + bottom + 1 - width) // 2, _NAME * scale)
+    _text_upward(canvas, x - reach - 2 * scale - height, y, text, theme.text, scale)
+
+
+def _arrow(canvas: Canvas, tip, way, color: Rgba, scale: int) -> None:
+    x, y = tip[0] + 0.5, tip[1] + 0.5
+    along, aside = _ARROW * scale, 2.5 * scale
+    base_x, base_y = x + way[0] * along, y + way[1] * along
+    a = base_x + way[1] * aside, base_y + way[0] * aside
+    b = base_x - way[1] * aside, base_y - way[0] * aside
+    canvas.triangle((x, y), a, b, color)
+
+
+def _text_upward(canvas: Canvas, x: float, y: float, text: str, color: Rgba, scale: int) -> None:
+    """Write a text turned by a quarter, from below to above."""
+    width, height = text_size(text, scale)
+    turned = Canvas(np.zeros((height, width, 4), np.uint8))
+    turned.text(0, 0, text, color, scale=scale)
+    ink = np.rot90(turned.pixels)
+    left, top = round(x), round(y)
+    window = canvas.pixels[max(top, 0) : top + width, max(left, 0) : left + height]
+    ink = ink[max(-top, 0) :, max(-left, 0) :][: window.shape[0], : window.shape[1]]
+    marked = ink[..., 3] > 0
+    window[marked] = ink[marked]
+
+
+def draw_triad(
+    canvas: Canvas, x: float, y: float, axes: np.ndarray, theme: Theme, scale: int
+) -> None:
+    """Draw the file's axes as a camera sees them, round a place.
+
+    Parameters
+    ----------
+    axes : (3, 3) ndarray of float64
+        The camera's: columns right, up and back in world space.
+    """
+    colors = AXIS_COLORS if theme is DARK else _DARK_AXES
+    length, letters = _AXIS * scale, (_AXIS + 6) * scale
+    for (right, up, _), letter, color in sorted(
+        zip(axes.tolist(), "XYZ", colors, strict=True), key=lambda axis: axis[0][2]
+    ):
+        if abs(right) + abs(up) < 1e-6:  # towards the viewer, or away
+            canvas.rectangle(x - 2 * scale, y - 2 * scale, 4 * scale, 4 * scale, color)
+            continue
+        end = round(x + right * length), round(y - up * length)
+        canvas.line(x, y, *end, color, width=2 * scale)
+        half_width, half_height = (side / 2 for side in text_size(letter, scale))
+        place = x + right * letters - half_width, y - up * letters - half_height
+        canvas.text(round(place[0]), round(place[1]), letter, color, scale=scale)
+
+
+def draw_frame(canvas: Canvas, rectangle: Rectangle, theme: Theme) -> None:
+    """Draw a thin frame round a panel."""
+    x, y, width, height = rectangle
+    color = (72, 77, 88, 255) if theme is DARK else (176, 183, 194, 255)
+    canvas.rectangle(x - 1, y - 1, width + 2, height + 2, color, fill=False)
+
+
+def draw_scale_bar(
+    canvas: Canvas, x: int, y: int, pixels_per_unit: float, unit: str | None, theme: Theme, scale
+) -> int:
+    """Draw a bar of a round length; return where its text ends."""
+    length = round_length(160 * scale / pixels_per_unit)
+    pixels = max(2, round(length * pixels_per_unit))
+    height = 4 * scale
+    middle = y + text_size("M", scale)[1] // 2
+    canvas.rectangle(x, middle - height // 2, pixels, height, theme.text, fill=False)
+    canvas.rectangle(x, middle - height // 2, pixels // 2, height, theme.text)
+    text = length_text(length, unit)
+    canvas.text(x + pixels + 8 * scale, y, text, theme.text, scale=scale)
+    return x + pixels + 8 * scale + text_size(text, scale)[0]
+
+
+def round_length(most: float) -> float:
+    """Return the largest of 1, 2, 5, 10, … that is at most so much."""
+    exponent = _exponent(most)
+    lengths = [float(f"{digit}e{exponent}") for digit in (5, 2, 1)]
+    return next((length for length in lengths if length <= most), lengths[-1])
+
+
+def _exponent(value: float) -> int:
+    """The power of ten of the first digit; machines round logarithms differently."""
+    return int(f"{value:.16e}".partition("e")[2])

@@ -1,0 +1,234 @@
+"""One panel of a sheet: drawn, counted, and what is to be told of it.
+
+In: a view with its place on the sheet, a studio. Out: pixels on the sheet, and a `Panel` that keeps
+what the report and questions about pixels need.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...model.scene.cameras import Camera
+from ...model.scene.nodes import Node
+from ...rendering.canvas import Canvas
+from ...rendering.frame import Frame
+from ...stage.blank import Reason, reason_of
+from .caps import Caps, find_caps, paint_caps
+from .cutting import Plane
+from .hidden import AloneScene
+from .layout import Padding, Rectangle
+from .outlines import draw_outlines
+from .panel_renderer import PanelRenderer
+from .placing import Extent, Matrices, cut, cut_obliquely, find_matrices, place_camera
+from .views import ViewSpec
+from .visible import SAME_COLOUR, box_of, contrast
+
+#: In place of the number of an instance: no other thing has that.
+_CUT = 0x7FFFFFFF
+# How far from the model's box the plane of a section may be, in radii of the model.
+_BESIDE = 0.01
+
+
+@dataclass
+class Panel:
+    """A view on the sheet.
+
+    Attributes
+    ----------
+    spec : ViewSpec
+    rectangle : Rectangle
+    extent : Extent
+    camera, pose
+        In the scene.
+    scale : float or None
+        Pixels per world unit; None with perspective.
+    matrices : Matrices
+    frame : Frame
+        What was drawn.
+    shown : (H, W) ndarray of bool
+        Where it shows nodes of the scene's own.
+    caps : Caps or None
+        Where a section goes through something.
+    alone : dict
+        Pixels of nodes without the others, see `AloneScene`.
+    reason : Reason or None
+        Why nothing is seen.
+    contrast : int
+    """
+
+    spec: ViewSpec
+    rectangle: Rectangle
+    extent: Extent
+    camera: Camera
+    pose: np.ndarray
+    scale: float | None
+    matrices: Matrices
+    frame: Frame
+    shown: np.ndarray
+    caps: Caps | None = None
+    alone: dict[int, int | None] = field(default_factory=dict)
+    reason: Reason | None = None
+    contrast: int = 0
+
+    @property
+    def box(self) -> tuple[int, int, int, int] | None:
+        """The box of what shows, in the panel."""
+        return box_of(self.shown)
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a view goes on the sheet, and how large it is drawn; see `Panel`."""
+
+    spec: ViewSpec
+    rectangle: Rectangle
+    extent: Extent
+    padding: Padding
+    scale: float
+
+
+def draw_panel(
+    studio: PanelRenderer,
+    place: Place,
+    canvas: Canvas,
+    alone: AloneScene,
+    cameras: list[Node],
+    origin: tuple[float, float, float],
+) -> Panel:
+    """Draw a panel on the sheet and return it.
+
+    Parameters
+    ----------
+    studio : PanelRenderer
+    place : Place
+    canvas : Canvas
+        Over the sheet.
+    alone : AloneScene
+    cameras : list of Node
+        Those of the file.
+    origin : (float, float, float)
+        Of the scene, in the file's coordinates.
+    """
+    spec, rectangle = place.spec, place.rectangle
+    camera, pose, scale = _camera(studio, place, cameras, origin)
+    frame = _draw(studio, spec, camera, pose, rectangle)
+    shown = studio.staged.own_pixels(frame.object_id)
+    panel = Panel(
+        spec,
+        rectangle,
+        place.extent,
+        camera,
+        pose,
+        scale,
+        find_matrices(camera, pose, rectangle, origin),
+        frame,
+        shown,
+    )
+    if spec.section is not None:
+        plane = _plane(studio, spec, origin)
+        panel.caps = find_caps(studio, plane, camera, pose, rectangle)
+        _show_caps(panel, plane, origin)
+    if spec.kind != "isometric":
+        _ink(panel, studio)
+    _look_for_reasons(panel, studio)
+    options = studio.options(rectangle, both_sides=spec.section is not None)
+    panel.alone = alone.count(camera, pose, rectangle, options)
+    x, y, width, height = rectangle
+    canvas.pixels[y : y + height, x : x + width] = frame.color
+    return panel
+
+
+def _show_caps(panel: Panel, plane: Plane, origin) -> None:
+    """Let the outputs of a frame tell of cut faces, rather than of what lies behind them."""
+    ids, frame = panel.caps.ids, panel.frame
+    rows, columns = np.nonzero(ids >= 0)
+    nodes = ids[rows, columns]
+    other = frame.object_id[rows, columns] != nodes
+    frame.material_id[rows[other], columns[other]] = 0
+    frame.object_id[rows, columns], frame.triangle_id[rows, columns] = nodes, -1
+    # Where the lines of sight meet the plane.
+    across, down, away, start = panel.matrices.world_from_pixel[plane.axis].tolist()
+    x, y = columns + (panel.rectangle.x + 0.5), rows + (panel.rectangle.y + 0.5)
+    goal = plane.coordinate + origin[plane.axis]
+    frame.depth[rows, columns] = (goal - start - x * across - y * down) / away
+    panel.shown[rows, columns] = True
+
+
+def _look_for_reasons(panel: Panel, studio: PanelRenderer) -> None:
+    """Find out whether anything is to be seen, and if not, why."""
+    panel.contrast = _contrast(studio, panel)
+    if not panel.shown.any():
+        panel.reason = reason_of(studio.sight(panel.camera, panel.pose, panel.rectangle))
+    elif panel.contrast <= SAME_COLOUR:
+        panel.reason = Reason("same_colour", "what shows has the colour of the ground")
+
+
+def _camera(studio: PanelRenderer, place: Place, cameras: list[Node], origin):
+    spec = place.spec
+    if spec.camera is not None:
+        node = cameras[spec.camera]
+        return node.object, np.array(node.world_pose), None
+    camera, pose = place_camera(
+        place.extent, studio.sphere, place.rectangle, place.padding, place.scale
+    )
+    plane = _plane(studio, spec, origin)
+    if spec.kind == "section":
+        camera, pose = cut(camera, pose, plane.axis, plane.coordinate)
+    elif spec.kind == "cutaway":
+        camera = cut_obliquely(camera, pose, place.rectangle, plane, studio.bounds)
+    return camera, pose, place.scale
+
+
+def _plane(studio: PanelRenderer, spec: ViewSpec, origin) -> Plane | None:
+    """The plane of a section, in the scene.
+
+    One that misses the model is moved close to it: it cuts off as much, all or nothing, and a far
+    one would be beyond the reach of the camera and of its numbers.
+    """
+    if spec.section is None:
+        return None
+    axis = spec.section.axis
+    low, high = (float(corner[axis]) + origin[axis] for corner in studio.bounds)
+    beside = studio.sphere.radius * _BESIDE
+    coordinate = min(max(spec.section.coordinate(low, high), low - beside), high + beside)
+    return Plane(axis, coordinate - origin[axis], spec.section.from_above)
+
+
+def _draw(studio: PanelRenderer, spec: ViewSpec, camera, pose, rectangle) -> Frame:
+    if spec.kind == "isometric":
+        azimuth = math.radians(spec.angles[0])
+        return studio.draw(camera, pose, rectangle, on_stage=True, azimuth=azimuth)
+    return studio.draw(camera, pose, rectangle, both_sides=spec.section is not None)
+
+
+def _contrast(studio: PanelRenderer, panel: Panel) -> int:
+    ground = studio.paper.background
+    if panel.spec.kind == "isometric":
+        ground = studio.stage_theme.gradient.bottom
+    return contrast(panel.frame, panel.shown, ground)
+
+
+def _ink(panel: Panel, studio: PanelRenderer) -> None:
+    """Draw the lines of a drawing into a panel's colours, and the cut faces of a section."""
+    box = panel.box
+    if box is None:
+        return
+    # A pixel more on all sides: there the lines end.
+    left, top = max(box[0] - 1, 0), max(box[1] - 1, 0)
+    window = slice(top, box[1] + box[3] + 1), slice(left, box[0] + box[2] + 1)
+    frame = panel.frame
+    things = (frame.object_id[window].astype(np.int64) << 32) + frame.instance_id[window]
+    # Points and lines have no lines round them.
+    things = np.where(panel.shown[window] & (frame.triangle_id[window] >= 0), things, -1)
+    depth, normals = frame.depth[window], frame.world_normal[window]
+    if panel.caps is not None:
+        ids = panel.caps.ids[window]
+        is_cut = ids >= 0
+        paint_caps(frame.color[window], ids)
+        things = np.where(is_cut, (ids << 32) + _CUT, things)
+        normals = np.where(is_cut[..., np.newaxis], np.float32(1), normals)
+    normals = None if studio.has_normal_maps else normals
+    draw_outlines(frame.color[window], things, depth, normals, panel.scale)

@@ -1,0 +1,192 @@
+"""Cameras of panels, and the matrices that take pixels of the sheet to the world and back.
+
+In: a view, what the model reaches, the panel's rectangle and the scale. Out: a camera with its
+pose, in the scene; matrices in the file's coordinates. Every sheet has the same bits everywhere.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...base import linalg
+from ...model.scene.cameras import Camera, OrthographicCamera
+from ...rendering.support_functions import SupportFunction
+from ...stage.views.viewpoint import Sphere
+from .cutting import Plane
+from .layout import Padding, Reach, Rectangle
+
+#: The eye stands so many radii from the middle, and sees as far again: the shadow on the ground
+#: is within.
+_AWAY = 4.0
+
+
+class Extent(NamedTuple):
+    """How far a model reaches along the axes of a camera, from a middle.
+
+    Attributes
+    ----------
+    axes : (3, 3) ndarray of float64
+        Columns right, up and back, in the scene.
+    middle : (3,) ndarray of float64
+        In the scene: halfway between left and right, top and bottom, near and far.
+    size : (3,) tuple of float
+        Along right, up and back.
+    """
+
+    axes: np.ndarray
+    middle: np.ndarray
+    size: tuple[float, float, float]
+
+    @property
+    def reach(self) -> Reach:
+        return Reach(self.size[0], self.size[1])
+
+
+def find_extent(support: SupportFunction, center: np.ndarray, axes: np.ndarray) -> Extent:
+    """Return how far something reaches along the axes of a camera."""
+    rows = np.ascontiguousarray(axes.T)
+    directions = np.concatenate([rows, -rows])
+    reach = support(directions) - linalg.dot(directions, center)
+    high, low = reach[:3], -reach[3:]
+    middle, half = center.copy(), (high + low) * 0.5
+    for row, step in zip(rows, half, strict=True):
+        middle += row * step
+    size = np.maximum(high - low, 0.0)
+    # What rounding leaves of something flat is no size.
+    size[size < 1e-12 * float(size.max())] = 0.0
+    return Extent(axes, middle, (float(size[0]), float(size[1]), float(size[2])))
+
+
+def place_camera(
+    extent: Extent, sphere: Sphere, rectangle: Rectangle, padding: Padding, scale: float
+) -> tuple[OrthographicCamera, np.ndarray]:
+    """Return the camera of a panel and its pose: the model is in the middle of what padding leaves.
+
+    Parameters
+    ----------
+    extent : Extent
+    sphere : Sphere
+        Round the model.
+    rectangle : Rectangle
+    padding : Padding
+    scale : float
+        Pixels per world unit.
+    """
+    right, up, back = extent.axes.T
+    across = (padding.left - padding.right) * (0.5 / scale)
+    down = (padding.top - padding.bottom) * (0.5 / scale)
+    pose = np.eye(4)
+    pose[:3, :3] = extent.axes
+    away = _AWAY * max(sphere.radius, extent.size[2])
+    pose[:3, 3] = extent.middle - right * across + up * down + back * away
+    half_width, half_height = rectangle.width * (0.5 / scale), rectangle.height * (0.5 / scale)
+    camera = OrthographicCamera(half_height, xmag=half_width, znear=0.0, zfar=2.0 * away)
+    return camera, pose
+
+
+def cut(
+    camera: OrthographicCamera, pose: np.ndarray, axis: int, coordinate: float
+) -> tuple[OrthographicCamera, np.ndarray]:
+    """Return a camera whose near plane is a plane of the scene: what is nearer is cut away.
+
+    Parameters
+    ----------
+    camera, pose
+        Of a view along an axis of the scene.
+    axis : int
+    coordinate : float
+        Of the plane, in the scene.
+    """
+    at_plane = pose.copy()
+    at_plane[axis, 3] = coordinate
+    cutting = OrthographicCamera(camera.ymag, xmag=camera.xmag, znear=0.0, zfar=camera.zfar)
+    return cutting, at_plane
+
+
+def cut_obliquely(
+    camera: OrthographicCamera,
+    pose: np.ndarray,
+    rectangle: Rectangle,
+    plane: Plane,
+    bounds: np.ndarray,
+) -> Camera:
+    """Return a camera at the same pose whose near plane is a plane that it looks at aslant.
+
+    Along each line of sight, the distance from the plane grows as the depth does. So depth in clip
+    space may as well be that distance: what is hidden is the same (Lengyel, "Oblique View Frustum
+    Depth Projection and Clipping", 2005).
+
+    Parameters
+    ----------
+    camera, pose
+        Of a parallel projection from the side from which the plane is seen.
+    rectangle : Rectangle
+        The panel's pixels.
+    plane : Plane
+    bounds : (2, 3) ndarray of float64
+        What must be before the far plane.
+    """
+    far = bounds[0 if plane.from_above else 1, plane.axis]
+    reach = abs(float(far) - plane.coordinate) * 1.01 or 1.0
+    sign = -1.0 if plane.from_above else 1.0
+    row = np.zeros(4)  # -1 on the plane, and 1 as far behind it as the bounds reach
+    row[plane.axis], row[3] = sign * 2.0 / reach, -sign * plane.coordinate * 2.0 / reach - 1.0
+    projection = np.array(camera.projection(rectangle.width, rectangle.height), np.float64)
+    projection[2, :3] = linalg.dot(pose[:3, :3].T, row[:3])
+    projection[2, 3] = float(linalg.dot(pose[:3, 3], row[:3])) + row[3]
+    return Camera(projection)
+
+
+class Matrices(NamedTuple):
+    """(4, 4) float64 matrices of a panel; the world is the file's coordinates.
+
+    Attributes
+    ----------
+    view_from_world, clip_from_world
+    pixel_from_world
+        Of a parallel projection to x, y and depth, with w = 1; of a perspective one to x times w,
+        y times w, 1, and w, the depth. Pixels are the sheet's.
+    world_from_pixel
+        Its inverse.
+    """
+
+    view_from_world: np.ndarray
+    clip_from_world: np.ndarray
+    pixel_from_world: np.ndarray
+    world_from_pixel: np.ndarray
+
+
+def find_matrices(
+    camera: Camera, pose: np.ndarray, rectangle: Rectangle, origin: tuple[float, float, float]
+) -> Matrices:
+    """Return the matrices of a panel.
+
+    Parameters
+    ----------
+    camera, pose
+        In the scene.
+    rectangle : Rectangle
+        The panel's pixels.
+    origin : (float, float, float)
+        Where the scene's origin is in the file's coordinates.
+    """
+    projection = np.array(camera.projection(rectangle.width, rectangle.height), np.float64)
+    shift = linalg.translation(np.negative(origin))
+    view = linalg.multiply(linalg.inverse(pose), shift)
+    is_parallel = is_parallel_projection(projection)
+    scaled = projection if is_parallel else projection * (-1.0 / float(projection[3, 2]))
+    half_width, half_height = 0.5 * rectangle.width, 0.5 * rectangle.height
+    rows = np.zeros((4, 4))
+    rows[0] = (scaled[0] + scaled[3]) * half_width + scaled[3] * float(rectangle.x)
+    rows[1] = (scaled[3] - scaled[1]) * half_height + scaled[3] * float(rectangle.y)
+    rows[2] = (0.0, 0.0, -1.0, 0.0) if is_parallel else (0.0, 0.0, 0.0, 1.0)
+    rows[3] = scaled[3]
+    pixel = linalg.multiply(rows, view)
+    return Matrices(view, linalg.multiply(projection, view), pixel, linalg.inverse(pixel))
+
+
+def is_parallel_projection(projection: np.ndarray) -> bool:
+    """Return whether a (4, 4) clip_from_view has no perspective."""
+    return bool((projection[3] == (0.0, 0.0, 0.0, 1.0)).all())

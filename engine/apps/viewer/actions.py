@@ -1,0 +1,353 @@
+"""What the keys do, one function an action; `keymap` says which key calls which.
+
+Every function takes the `Viewer` and a step: 1, or -1 with Shift, for the actions that go round a
+list of choices.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+from ...io.output.animation_files import numbered_path
+from ...stage.appearance import CHOICES, following
+from ...stage.overlays.debug_lines import DEBUG_DRAWINGS
+from ...stage.overlays.theme import THEMES
+from ...stage.played_clips import play_clips
+from ...stage.views.viewpoint import QUARTER_TURN, UP_DIRECTIONS
+from .file_dialog import FolderPanel, RecentPanel
+from .panels import MaterialPanel, ObjectPanel
+from .recording import record
+from .sampling import AT_REST, MOTION_FPS
+
+SAMPLES = (1, 4, 16)  # that supersampling and multisampling have
+STATISTICS = (None, "short", "long")
+LINE_WIDTHS = (1.0, 16.0)
+#: How far a key turns the camera.
+ORBIT_STEP = math.radians(7.5)
+#: What each way of culling leaves out.
+LEFT_OUT = {
+    "all": "what is outside the view, faces away or is hidden is left out",
+    "tree": "nodes outside the view are left out, found by a tree of boxes",
+    "frustum": "nodes outside the view are left out, their boxes tested one by one",
+    "none": "nothing is left out",
+    "always": "as all, but hidden things are looked for in every frame",
+}
+ISOMETRIC_ELEVATION = math.atan(1 / math.sqrt(2))
+
+
+def _cycling(option: str):
+    """Return what goes to the next value of an option."""
+
+    def cycle(viewer, step: int) -> None:
+        appearance = viewer.view_renderer.appearance
+        value = following(getattr(appearance, option), CHOICES[option], step)
+        setattr(appearance, option, value)
+        viewer.say(f"{option.replace('_', ' ')}: {value or 'off'}")
+
+    return cycle
+
+
+cycle_wireframe = _cycling("wireframe")
+cycle_mode = _cycling("mode")
+cycle_cull = _cycling("cull")
+cycle_hidden_surfaces = _cycling("hidden_surfaces")
+cycle_tone_mapping = _cycling("tone_mapping")
+
+
+def toggle_edges(viewer, step: int) -> None:
+    """Edges over the faces, or not."""
+    appearance = viewer.view_renderer.appearance
+    appearance.wireframe = None if appearance.wireframe == "overlay" else "overlay"
+    viewer.say(f"edges: {'on' if appearance.wireframe else 'off'}")
+
+
+def _toggle_mode(viewer, mode: str) -> None:
+    appearance = viewer.view_renderer.appearance
+    appearance.mode = "lit" if appearance.mode == mode else mode
+    viewer.say(f"mode: {appearance.mode}")
+
+
+def toggle_normals_mode(viewer, step: int) -> None:
+    """Normals as colours, or lit."""
+    _toggle_mode(viewer, "normal")
+
+
+def toggle_unlit(viewer, step: int) -> None:
+    """Without light, or lit."""
+    _toggle_mode(viewer, "unlit")
+
+
+def toggle_flat(viewer, step: int) -> None:
+    """One normal per face, then one light per face too, or smooth normals."""
+    appearance = viewer.view_renderer.appearance
+    following = {"flat": "facet", "facet": "smooth"}
+    appearance.normals = following.get(appearance.normals, "flat")
+    viewer.say(f"normals: {appearance.normals}")
+
+
+def cycle_lights(viewer, step: int) -> None:
+    """Next lights."""
+    lighting = viewer.view_renderer.lighting
+    lighting.choose(following(lighting.name, lighting.names, step))
+    viewer.say(f"lights: {lighting.name}")
+
+
+def cycle_samples(viewer, step: int) -> None:
+    """Next number of samples per pixel: as many as there is time for, or fixed ones."""
+    viewer.sampling.fixed = following(viewer.sampling.fixed, (None, *SAMPLES), step)
+    samples = viewer.sampling.fixed or f"{AT_REST}, or fewer to keep {MOTION_FPS:.0f} fps in motion"
+    viewer.say(f"samples per pixel: {samples}")
+
+
+def _scale_lines(viewer, factor: float) -> None:
+    appearance = viewer.view_renderer.appearance
+    low, high = LINE_WIDTHS
+    appearance.line_width = min(high, max(low, appearance.line_width * factor))
+    appearance.point_size = min(high, max(low, viewer.view_renderer.point_size * factor))
+    viewer.say(f"line width: {appearance.line_width:g}, point size: {appearance.point_size:g}")
+
+
+def widen_lines(viewer, step: int) -> None:
+    """Wider lines and larger points."""
+    _scale_lines(viewer, 2.0)
+
+
+def narrow_lines(viewer, step: int) -> None:
+    """Thinner lines and smaller points."""
+    _scale_lines(viewer, 0.5)
+
+
+def _looking(azimuth: float, elevation: float):
+    """Return what looks along a direction."""
+
+    def look(viewer, step: int) -> None:
+        if viewer.walker is not None:
+            viewer.toggle_walking()
+        viewer.view.azimuth, viewer.view.elevation = azimuth, elevation
+        viewer.view_renderer.frame(viewer.view)
+
+    return look
+
+
+view_front = _looking(0.0, 0.0)
+view_right = _looking(QUARTER_TURN, 0.0)
+view_top = _looking(0.0, QUARTER_TURN)
+view_isometric = _looking(QUARTER_TURN / 2, ISOMETRIC_ELEVATION)
+
+
+def _turning(right: float, up: float):
+    """Return what turns the camera by two angles round what it looks at."""
+
+    def turn(viewer, step: int) -> None:
+        if viewer.walker is None:
+            viewer.orbit.turn(right, up)
+
+    return turn
+
+
+quarter_left, quarter_right = _turning(-QUARTER_TURN, 0.0), _turning(QUARTER_TURN, 0.0)
+quarter_down, quarter_up = _turning(0.0, -QUARTER_TURN), _turning(0.0, QUARTER_TURN)
+orbit_left, orbit_right = _turning(-ORBIT_STEP, 0.0), _turning(ORBIT_STEP, 0.0)
+orbit_down, orbit_up = _turning(0.0, -ORBIT_STEP), _turning(0.0, ORBIT_STEP)
+
+
+def _turn_up(viewer, up: str) -> None:
+    if viewer.walker is not None:
+        viewer.toggle_walking()
+    viewer.view_renderer.turn_up(up)
+    for view in (viewer.view, viewer.first_view):
+        view.up = UP_DIRECTIONS[up]
+        viewer.view_renderer.frame(view)
+    viewer.say(f"{up} is up")
+
+
+def turn_y_up(viewer, step: int) -> None:
+    """Stand the scene on the plane of X and Z."""
+    _turn_up(viewer, "+Y" if step > 0 else "-Y")
+
+
+def turn_z_up(viewer, step: int) -> None:
+    """Stand the scene on the plane of X and Y."""
+    _turn_up(viewer, "+Z" if step > 0 else "-Z")
+
+
+def toggle_orthographic(viewer, step: int) -> None:
+    """Parallel projection, or perspective."""
+    viewer.view.orthographic = not viewer.view.orthographic
+    viewer.say("orthographic" if viewer.view.orthographic else "perspective")
+
+
+def reset_view(viewer, step: int) -> None:
+    """Go back to the first view."""
+    viewer.reset_view()
+
+
+def toggle_walking(viewer, step: int) -> None:
+    """Walk, or orbit again; the picture stays where it is, or goes down to the ground."""
+    viewer.toggle_walking()
+
+
+def toggle_occlusion(viewer, step: int) -> None:
+    """Less light from all around in corners and hollows, or as much as everywhere."""
+    appearance = viewer.view_renderer.appearance
+    appearance.ambient_occlusion = not appearance.ambient_occlusion
+    viewer.say(f"ambient occlusion: {'on' if appearance.ambient_occlusion else 'off'}")
+
+
+def toggle_split(viewer, step: int) -> None:
+    """Nine outputs side by side, or the picture alone."""
+    viewer.view_renderer.split = not viewer.view_renderer.split
+
+
+def cycle_debug(viewer, step: int) -> None:
+    """Next of what culling works with: boxes, trees of them, the frustum from here, nothing."""
+    drawing = following(viewer.view_renderer.culling.drawing, DEBUG_DRAWINGS, step)
+    viewer.view_renderer.choose_debug(drawing, viewer.view)
+    viewer.say(f"drawn besides: {drawing or 'nothing'}")
+
+
+def toggle_textures(viewer, step: int) -> None:
+    """Draw with textures, or with the colours of the materials alone."""
+    view_renderer = viewer.view_renderer
+    view_renderer.staging.show_textures(not view_renderer.settings.textures)
+    viewer.say(f"textures: {'on' if view_renderer.settings.textures else 'off'}")
+
+
+def cycle_culling(viewer, step: int) -> None:
+    """Next of what is left out before it is drawn; the picture is the same."""
+    appearance = viewer.view_renderer.appearance
+    appearance.culling = following(appearance.culling, CHOICES["culling"], step)
+    viewer.say(f"culling {appearance.culling}: {LEFT_OUT[appearance.culling]}")
+
+
+def freeze_culling(viewer, step: int) -> None:
+    """Draw what shows from here, and nothing more, until the key comes up; counters stand still."""
+    viewer.view_renderer.freeze_culling(viewer.view)
+    viewer.say("culling and counting as from here, while C is held")
+
+
+def toggle_playing(viewer, step: int) -> None:
+    """Pause, or go on."""
+    viewer.playing = not viewer.playing
+    viewer.say("playing" if viewer.playing else "paused")
+
+
+def cycle_animations(viewer, step: int) -> None:
+    """Play the next of the model's animations, or all of them together."""
+    viewed = viewer.view_renderer.viewed
+    if viewed.player is None:
+        viewer.say("the model has no animations")
+        return
+    clips = viewed.player.clips
+    numbers = (*range(len(clips)), -1) if len(clips) > 1 else (0,)
+    playing = viewed.player.playing
+    now = clips.index(playing[0]) if len(playing) == 1 else -1
+    chosen = following(now, numbers, step)
+    play_clips(viewed, chosen)
+    viewer.time = 0.0
+    viewer.say(
+        "all animations"
+        if chosen < 0
+        else f"animation {chosen}: {list(viewed.scene.animations)[chosen]}"
+    )
+
+
+def toggle_grid(viewer, step: int) -> None:
+    """A grid under the scene, or none."""
+    viewer.view_renderer.staging.show_grid(not viewer.view_renderer.settings.grid)
+
+
+def _toggling(setting: str):
+    """Return what turns one of the `Settings` on or off."""
+
+    def toggle(viewer, step: int) -> None:
+        settings = viewer.view_renderer.settings
+        setattr(settings, setting, not getattr(settings, setting))
+
+    return toggle
+
+
+toggle_axes = _toggling("axes")
+toggle_axes_grid = _toggling("axes_grid")
+toggle_metadata = _toggling("metadata")
+
+
+def cycle_statistics(viewer, step: int) -> None:
+    """Next of: no statistics, a line of them, all."""
+    viewer.statistics = following(viewer.statistics, STATISTICS, step)
+
+
+def cycle_theme(viewer, step: int) -> None:
+    """Dark, or light."""
+    staging = viewer.view_renderer.staging
+    staging.theme = following(staging.theme, THEMES, step)
+    viewer.say(f"{staging.theme.name} theme")
+
+
+def cycle_lists(viewer, step: int) -> None:
+    """Next of: the objects, the materials, no list."""
+    shown = type(viewer.panel) if viewer.panel is not None else None
+    panel = following(shown, (None, ObjectPanel, MaterialPanel), step)
+    viewer.panel = None if panel is None else panel(viewer)
+
+
+def _toggle_dialog(viewer, panel: type) -> None:
+    viewer.panel = None if isinstance(viewer.panel, panel) else panel(viewer, viewer.opening)
+    viewer.held_positions.clear()
+
+
+def open_file(viewer, step: int) -> None:
+    """The dialog that opens a file, or none; with Shift the files that were opened last."""
+    _toggle_dialog(viewer, FolderPanel if step > 0 else RecentPanel)
+
+
+def next_file(viewer, step: int) -> None:
+    """Show the next model of the folder."""
+    viewer.opening.step(1)
+
+
+def previous_file(viewer, step: int) -> None:
+    """Show the model before in the folder."""
+    viewer.opening.step(-1)
+
+
+def load_again(viewer, step: int) -> None:
+    """Show the file as it is now."""
+    viewer.opening.load_again()
+
+
+def toggle_help(viewer, step: int) -> None:
+    """The keys, or none; in a small window page by page."""
+    viewer.help.turn(step)
+
+
+def toggle_fullscreen(viewer, step: int) -> None:
+    """Fill the screen, or go back to a window."""
+    viewer.window.toggle_fullscreen()
+
+
+def save_screenshot(viewer, step: int) -> None:
+    """Write the frame, without help and messages, to a numbered PNG in the current folder."""
+    path = numbered_path(
+        Path.cwd(), f"{Path(viewer.view_renderer.viewed.title).stem}-screenshot", ".png"
+    )
+    viewer.view_renderer.samples = viewer.sampling.at_rest()
+    try:
+        viewer.view_renderer.draw(viewer.view, viewer.time).save(path)
+    except OSError as error:
+        viewer.say(str(error))
+        return
+    viewer.say(f"saved {path.name}")
+
+
+def save_turntable(viewer, step: int) -> None:
+    """Write a turn round the scene, or its own animation, to a numbered GIF; Escape gives it up."""
+    name = f"{Path(viewer.view_renderer.viewed.title).stem}-turntable"
+    path = numbered_path(Path.cwd(), name, ".gif")
+    viewer.say(record(viewer, path))
+
+
+def quit(viewer, step: int) -> None:
+    """Close the window."""
+    viewer.running = False

@@ -1,0 +1,19 @@
+"""The bar at the bottom of the window that shows how far an animation is.
+
+In: a `Canvas` over the frame, a share from 0 to 1. Out: the same pixels, drawn on.
+"""
+
+from __future__ import annotations
+
+from ...stage.overlays.theme import Theme
+
+HEIGHT = 4
+
+
+def draw_bar(canvas, share: float, *, scale: int, theme: Theme) -> None:
+    """Draw the bar: what has played in one colour, what is to come in another."""
+    height, played = HEIGHT * scale, round(min(1.0, max(0.0, share)) * canvas.width)
+    top = max(canvas.height - height, 0)
+    canvas.rectangle(0, top, canvas.width, height, theme.block)
+    if played:
+        canvas.rectangle(0, top, played, height, theme.title)

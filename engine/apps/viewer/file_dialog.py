@@ -1,0 +1,191 @@
+"""The dialog that opens files: the folders of the machine, and the files that were opened before.
+
+In: keys, typed text and clicks. Out: a file that the viewer opens. Both lists are narrowed by
+what is typed; Tab goes from one to the other.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from ...base.files.folder_listing import Item, list_folder
+from ...errors import printable
+from ..desktop.recent_files import RecentFiles
+from .model_files import MODEL_EXTENSIONS
+from .panels import Panel, Row
+
+if TYPE_CHECKING:
+    from .opened_files import Opening
+    from .state import ViewerState
+
+COLUMNS, ROWS = 72, 16
+_HINT = "Enter, click: open   Esc: close   type: filter   Tab: "
+UP = ".."
+
+
+class _FilePanel(Panel):
+    """A list of paths with a filter; keys choose a row as well as clicks."""
+
+    corner = "middle"
+    least_columns, most_columns, least_rows = COLUMNS, COLUMNS, ROWS
+
+    def __init__(self, viewer: ViewerState, opening: Opening):
+        super().__init__(viewer)
+        self._opening = opening
+        self.filter = ""
+        self.chosen = 0
+
+    def heads(self, left_out: int) -> list[str]:
+        more = f"  ({len(self.rows())}, wheel: more)" if left_out else ""
+        return [self.title + more, f"filter: {self.filter}_"]
+
+    def key(self, event) -> bool:
+        """Obey all keys but those with Ctrl and those of the window, such as F11."""
+        last = max(0, len(self.rows()) - 1)
+        moves = {"Up": -1, "Down": 1, "PageUp": -self._fit, "PageDown": self._fit}
+        moves |= {"Home": -last, "End": last}
+        if event.control:
+            return False
+        if event.key in moves:
+            self.chosen = min(max(0, (self.chosen or 0) + moves[event.key]), last)
+            self._follows = True
+        elif event.key in ("Return", "Enter", "Keypad Enter"):
+            self._press_chosen()
+        elif event.key == "Backspace":
+            self._rub_out()
+        elif event.key == "Tab":
+            self._change_list()
+        elif not super().key(event):
+            typed = len(event.key) == 1 or event.key == "Space" or event.key.startswith("Keypad")
+            return typed  # its text comes as an event of its own
+        self.viewer.redraw()
+        return True
+
+    def type(self, text: str) -> None:
+        self.set_filter(self.filter + printable(text))
+
+    def set_filter(self, text: str) -> None:
+        """Show only what has a text in its name."""
+        self.filter, self.chosen, self._follows = text, 0, True
+        self.viewer.redraw()
+
+    def _press_chosen(self) -> None:
+        if self.chosen is not None and self.chosen < len(self.rows()):
+            self.press(self.chosen, alone=False)
+
+    def _rub_out(self) -> None:
+        self.set_filter(self.filter[:-1])
+
+    def _change_list(self) -> None:
+        raise NotImplementedError
+
+    def _open(self, path: str) -> None:
+        self.close()
+        self._opening.open([path])
+
+
+class FolderPanel(_FilePanel):
+    """The folders and models of a folder, at first that of the file which is shown."""
+
+    hint = _HINT + "opened before"
+
+    def __init__(self, viewer: ViewerState, opening: Opening):
+        super().__init__(viewer, opening)
+        shown = opening.files.first()
+        self._go(os.path.dirname(shown) if shown else os.getcwd())
+        if shown:
+            self._choose(shown)
+
+    def _go(self, folder: str) -> None:
+        before = getattr(self, "folder", folder)
+        self._listing = list_folder(folder)
+        self.folder = self._listing.path
+        self.set_filter("")
+        if os.path.dirname(before) == self.folder:
+            self._choose(before)  # the way up ends where one came from
+
+    def _choose(self, path: str) -> None:
+        """Let the row of a path be the chosen one, if it is there."""
+        names = [item.name for item in self._items]
+        if os.path.basename(path) in names:
+            self.chosen = names.index(os.path.basename(path))
+
+    def heads(self, left_out: int) -> list[str]:
+        """Return also where this is: its end, if it is long."""
+        title, *others = super().heads(left_out)
+        path = printable(self.folder)
+        path = path if len(path) <= COLUMNS else ".." + path[2 - COLUMNS :]
+        reasons = [self._listing.reason] if self._listing.reason else []
+        return [f"Open a model{title}", path, *others, *reasons]
+
+    def set_filter(self, text: str) -> None:
+        """Show only what has a text in its name; a folder that ends with / is gone to."""
+        super().set_filter(text)
+        path = os.path.join(self.folder, os.path.expanduser(text))
+        if text.endswith("/") and os.path.isdir(path):
+            self._go(os.path.normpath(path))
+            return
+        hidden = text.startswith(".")
+        found = self._listing.filtered(MODEL_EXTENSIONS, text, hidden=hidden)
+        above = Item(UP, os.path.dirname(self.folder), True, 0, 0.0)
+        self._items = found if text else (above, *found)
+        self.chosen = 0 if text or not found else 1
+
+    def rows(self) -> list[Row]:
+        return [
+            Row(printable(item.name) + "/" * item.is_folder, "" if item.is_folder else _size(item))
+            for item in self._items
+        ]
+
+    def press(self, number: int, alone: bool) -> None:
+        item = self._items[number]
+        if item.is_folder:
+            self._go(item.path)
+        else:
+            self._open(item.path)
+
+    def _rub_out(self) -> None:
+        if self.filter:
+            super()._rub_out()
+        else:
+            self._go(os.path.dirname(self.folder))
+
+    def _change_list(self) -> None:
+        self.viewer.panel = RecentPanel(self.viewer, self._opening)
+
+
+class RecentPanel(_FilePanel):
+    """The files that were opened last."""
+
+    title = "Opened before"
+    hint = _HINT + "folders"
+
+    def __init__(self, viewer: ViewerState, opening: Opening):
+        super().__init__(viewer, opening)
+        self._all = RecentFiles().paths()
+
+    @property
+    def _paths(self) -> list[str]:
+        return [path for path in self._all if self.filter.casefold() in path.casefold()]
+
+    def rows(self) -> list[Row]:
+        return [
+            Row(printable(os.path.basename(path)), printable(os.path.dirname(path)))
+            for path in self._paths
+        ]
+
+    def press(self, number: int, alone: bool) -> None:
+        self._open(self._paths[number])
+
+    def _change_list(self) -> None:
+        self.viewer.panel = FolderPanel(self.viewer, self._opening)
+
+
+def _size(item: Item) -> str:
+    """Return how large a file is, in words of at most four digits."""
+    size, units = float(item.size), ["B", "kB", "MB", "GB", "TB"]
+    while size >= 1000 and len(units) > 1:
+        size /= 1000
+        del units[0]
+    return f"{size:.3g} {units[0]}"

@@ -1,0 +1,62 @@
+"""A turn round the scene, or its own animation, recorded from the window to a file.
+
+In: a `Viewer` and a path. Out: the file, whole or not at all; the window shows each picture as it
+is drawn, and Escape, or closing the window, gives it up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...errors import Engine3DError
+from ...io.output.animation_files import save_animation
+from ...io.output.frame_names import literal_name
+from ...stage import headless
+from .. import events
+
+if TYPE_CHECKING:
+    from .state import ViewerState
+
+FRAMES = 48
+#: The longer side of the pictures: a file of larger ones would take long, and much room.
+LONGEST_SIDE = 640
+
+
+class _GivenUp(Exception):
+    """The user does not want the file any more."""
+
+
+def record(viewer: ViewerState, path: Path) -> str:
+    """Write the file; return what to say of it."""
+    view_renderer = viewer.view_renderer
+    size, seconds = view_renderer.size, headless.seconds_a_frame(view_renderer, FRAMES)
+    shrunk = min(1.0, LONGEST_SIDE / max(size))
+    view_renderer.resize(*(max(1, round(side * shrunk)) for side in size))
+    view_renderer.samples = viewer.sampling.at_rest()
+    try:
+        save_animation(_pictures(viewer, path.name), literal_name(path), seconds)
+    except _GivenUp:
+        return "given up"
+    except (Engine3DError, OSError) as error:
+        return str(error)
+    finally:
+        view_renderer.resize(*size)
+    return f"saved {path.name}"
+
+
+def _pictures(viewer: ViewerState, name: str) -> Iterator[np.ndarray]:
+    """Yield the pictures, and show them; raise `_GivenUp` when the user wants no more."""
+    pictures = headless.animation(viewer.view_renderer, viewer.view, FRAMES)
+    for number, picture in enumerate(pictures, 1):
+        viewer.window.title = f"{name}: {number} of {FRAMES} - Escape gives it up"
+        viewer.window.present(picture)
+        for event in viewer.window.events():
+            if isinstance(event, events.CloseRequested):
+                viewer.running = False
+            if isinstance(event, events.CloseRequested) or getattr(event, "key", "") == "Escape":
+                raise _GivenUp
+        yield picture

@@ -1,0 +1,147 @@
+"""SDL, which comes from pip (pysdl2-dll) and loads when a window opens.
+
+Out: the loaded module, with its video running; what it says of the screen. A machine without a
+screen raises `DisplayError` with one line that says so.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+
+from ...errors import DisplayError
+from .x11_errors import forgive_late_messages
+
+#: SDL's drivers that draw nowhere: it falls back to them when there is no screen.
+SCREENLESS_DRIVERS = ("offscreen", "dummy", "evdev")
+USUAL_DPI = 96.0
+PLAUSIBLE_DPI = 50.0, 400.0
+#: What ``GDK_SCALE`` may sensibly say.
+TOLD_SCALES = frozenset("1234")
+USUAL_REFRESH_RATE = 60
+GL_RENDERER = 0x1F01
+#: Part of the names under which OpenGL draws without a graphics card.
+SOFTWARE_OPENGL = ("llvmpipe", "softpipe", "swrast", "swiftshader", "software")
+
+
+def load_sdl():
+    """Import SDL and return the module; raise `DisplayError` if its library cannot be loaded."""
+    try:
+        with warnings.catch_warnings():
+            # pysdl2 warns, on every import, that it uses the library that pip installed.
+            warnings.simplefilter("ignore")
+            import sdl2
+    except (ImportError, RuntimeError, OSError) as error:
+        raise DisplayError(f"SDL cannot be loaded: {error}") from error
+    return sdl2
+
+
+def find_screen() -> None:
+    """Raise `DisplayError` if there is no screen to open a window on, without loading SDL."""
+    if not sys.platform.startswith("linux") or os.environ.get("SDL_VIDEODRIVER"):
+        return
+    if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        raise DisplayError("no screen (neither DISPLAY nor WAYLAND_DISPLAY is set)")
+
+
+def open_video():
+    """Load SDL, start its video and return the module; each call wants a `close_video`."""
+    find_screen()
+    sdl = load_sdl()
+    sdl.SDL_SetHint(sdl.SDL_HINT_VIDEO_ALLOW_SCREENSAVER, b"1")
+    # The class by which window managers know the program.
+    sdl.SDL_setenv(b"SDL_VIDEO_X11_WMCLASS", b"engine3d", 0)
+    sdl.SDL_SetHint(sdl.SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, b"0")
+    if os.environ.get("DISPLAY") and not os.environ.get("WAYLAND_DISPLAY"):
+        # Looking for Wayland as well would print its complaints on standard error.
+        sdl.SDL_SetHint(sdl.SDL_HINT_VIDEODRIVER, b"x11")
+    if sdl.SDL_InitSubSystem(sdl.SDL_INIT_VIDEO) != 0:
+        raise DisplayError(f"no screen (SDL: {last_error(sdl)})")
+    driver = (sdl.SDL_GetCurrentVideoDriver() or b"").decode()
+    if driver in SCREENLESS_DRIVERS and os.environ.get("SDL_VIDEODRIVER") != driver:
+        close_video(sdl)
+        raise DisplayError("no screen (the one that DISPLAY names does not answer)")
+    if driver == "x11":
+        forgive_late_messages()
+    return sdl
+
+
+def close_video(sdl) -> None:
+    """Let go of SDL's video, which ends when nothing needs it any more."""
+    sdl.SDL_QuitSubSystem(sdl.SDL_INIT_VIDEO)
+
+
+def refresh_rate(sdl, window) -> int:
+    """Return the refresh rate of a window's screen in hertz; 60 where it is unknown."""
+    mode = sdl.SDL_DisplayMode()
+    if sdl.SDL_GetWindowDisplayMode(window, mode) == 0 and mode.refresh_rate > 0:
+        return mode.refresh_rate
+    return USUAL_REFRESH_RATE
+
+
+def fit_to_screen(sdl, window) -> None:
+    """Make a window smaller, where it is larger with its borders than its screen has room for."""
+    import ctypes
+
+    area, screen = sdl.SDL_Rect(), sdl.SDL_GetWindowDisplayIndex(window)
+    if sdl.SDL_GetDisplayUsableBounds(screen, area) != 0 or area.w <= 0 or area.h <= 0:
+        return
+    width, height, *borders = (ctypes.c_int() for _ in range(6))
+    sdl.SDL_GetWindowSize(window, ctypes.byref(width), ctypes.byref(height))
+    # It leaves zeros where it knows no borders.
+    sdl.SDL_GetWindowBordersSize(window, *map(ctypes.byref, borders))
+    top, left, bottom, right = (border.value for border in borders)
+    fitting = area.w - left - right, area.h - top - bottom
+    if width.value > fitting[0] or height.value > fitting[1]:
+        sdl.SDL_SetWindowSize(window, min(width.value, fitting[0]), min(height.value, fitting[1]))
+        sdl.SDL_SetWindowPosition(window, area.x + left, area.y + top)
+
+
+def screen_scale(sdl, window) -> int:
+    """Return how many times finer than usual a window's screen is; 1 where it is unknown.
+
+    Only X11 leaves it to programs to draw larger on such a screen. What the user told other
+    programs there (``GDK_SCALE``) counts before what the screen says of itself.
+    """
+    import ctypes
+
+    dpi = ctypes.c_float()
+    if sdl.SDL_GetCurrentVideoDriver() != b"x11":
+        return 1
+    told = os.environ.get("GDK_SCALE", "")
+    if told in TOLD_SCALES:
+        return int(told)
+    screen = sdl.SDL_GetWindowDisplayIndex(window)
+    if sdl.SDL_GetDisplayDPI(screen, ctypes.byref(dpi), None, None) != 0:
+        return 1
+    return scale_of(dpi.value)
+
+
+def scale_of(dpi: float) -> int:
+    """Return how many times larger than usual texts should be on a screen of so many dots an inch.
+
+    Projectors and televisions tell sizes that are no sizes: those count as usual screens.
+    """
+    if not PLAUSIBLE_DPI[0] <= dpi <= PLAUSIBLE_DPI[1]:
+        return 1
+    return max(1, int(dpi / USUAL_DPI + 0.5))
+
+
+def is_opengl_on_the_cpu(sdl) -> bool:
+    """Return whether the renderer just made is an OpenGL one without a graphics card."""
+    import ctypes
+
+    if os.environ.get("SDL_RENDER_DRIVER") or not sdl.SDL_GL_GetCurrentContext():
+        return False
+    address = sdl.SDL_GL_GetProcAddress(b"glGetString")
+    if not address:
+        return False
+    get_string = ctypes.CFUNCTYPE(ctypes.c_char_p, ctypes.c_uint)(address)
+    name = (get_string(GL_RENDERER) or b"").decode("utf-8", "replace").lower()
+    return any(software in name for software in SOFTWARE_OPENGL)
+
+
+def last_error(sdl) -> str:
+    """Return what SDL says of its last failure."""
+    return sdl.SDL_GetError().decode("utf-8", "replace") or "unknown error"

@@ -1,0 +1,140 @@
+"""`show`: a scene, a part of one or a picture, in a window, until the user closes it.
+
+In: what to show. Out: nothing; what lights and grounds a scene stands beside it.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from ...base.calls import checks_types
+from ...base.image_size import check_size
+from ...base.numbers import shown
+from ...choices import PixelFormat
+from ...errors import DisplayError, InvalidArgumentError
+from ...model.geometry.mesh import Mesh
+from ...model.scene.instances import InstancedMesh
+from ...model.scene.nodes import Node
+from ...model.scene.scene import Scene
+from ...rendering.canvas import Canvas
+from ...rendering.frame import Frame
+from ...stage.stage_settings import Settings
+from ...stage.view_renderer import ViewRenderer
+from ...stage.viewed_scene import TURN_SECONDS, ViewedScene
+from ...stage.viewed_thing import viewed_thing
+from ...stage.views.first_view import view_of_scene
+from .picture_window import PictureWindow, fitting_size
+from .pixels import Picture, as_pixels
+from .sampling import Sampling
+from .viewer import Viewer
+from .window import Window
+
+SIZE = (1280, 720)
+
+
+@checks_types
+def show(
+    thing: Scene | Node | Mesh | InstancedMesh | Picture | Any,
+    *,
+    size: tuple[int, int] | None = None,
+    title: str | None = None,
+    up: str = "+Y",
+    update: Callable[[float], None] | None = None,
+    period: float = TURN_SECONDS,
+    format: PixelFormat | None = None,
+) -> None:
+    """Show something in a window until the user closes it.
+
+    Scenes, nodes and meshes show in the viewer, with all of its keys (H lists them). Pictures fit
+    into the window; the wheel, + and - zoom, drags move, R fits again, 1 shows real size, and the
+    title tells the pixel under the mouse. Q closes the window; for pictures Escape does, too.
+
+    Parameters
+    ----------
+    thing : Scene, Node, Mesh, InstancedMesh, Frame, Canvas, ndarray, or what trimesh holds
+        Of a node, its children show as well, and the lights among them. A scene with a camera is
+        seen from there at first. Arrays are as for `Window.present`.
+    size : (int, int), optional
+        Width and height of the window in pixels; by default 1280x720, or what suits the picture.
+    title : str, optional
+        Text of the title bar.
+    up : {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}
+        Which way is up in a scene.
+    update : callable, optional
+        Called with the time in seconds before each picture of a scene, to move its nodes:
+        ``animator.seek``, or a function of your own. It plays from the start; Space pauses it. Left
+        out, the first of ``scene.animations`` plays.
+    period : float
+        Seconds after which the time begins again at 0.
+    format : {"rgba", "bgra"}, optional
+        Of an array; see `Window.present`.
+
+    Raises
+    ------
+    DisplayError
+        There is no screen.
+    InvalidArgumentError
+        It is nothing that can be shown.
+
+    Examples
+    --------
+    >>> e3d.show(e3d.torus())
+    >>> e3d.show(e3d.render(scene, mode="depth"))
+    """
+    try:
+        _show(thing, size, title, up, update, period, format)
+    except DisplayError as error:
+        if not _in_a_kernel():
+            raise
+        raise DisplayError(
+            f"{error}; in a notebook, engine3d.notebook.View(scene) shows it in the page, and a "
+            "frame shows by itself at the end of a cell"
+        ) from None
+
+
+def _in_a_kernel() -> bool:
+    """Whether a notebook's kernel runs this program."""
+    shell = sys.modules.get("IPython")
+    return shell is not None and hasattr(shell.get_ipython(), "kernel")
+
+
+def _show(thing, size, title, up, update, period, format) -> None:
+    size = None if size is None else check_size(size)
+    viewed = viewed_thing(thing, title=title, up=up, update=update, period=period)
+    if viewed is None:
+        if not isinstance(thing, (Frame, Canvas, np.ndarray, Sequence)):
+            raise InvalidArgumentError(
+                f"thing must be a scene, a node, a mesh or a picture, not {shown(thing)}"
+            )
+        _show_picture(thing, size, title, format)
+        return
+    _show_scene(viewed, size)
+
+
+def _show_scene(viewed: ViewedScene, size: tuple[int, int] | None) -> None:
+    size = size or SIZE
+    with (
+        Window(*size, f"{viewed.title} - engine3d") as window,
+        ViewRenderer(viewed, Settings({}), size) as view_renderer,
+    ):
+        view = view_of_scene(view_renderer)
+        try:
+            viewer = Viewer(view_renderer, window, view=view, sampling=Sampling())
+            viewer.say("H: help")
+            viewer.run()
+        finally:
+            if viewed.player is not None:
+                viewed.player.stop()
+
+
+def _show_picture(picture, size, title: str | None, format: PixelFormat | None) -> None:
+    pixels, order = as_pixels(picture, format)
+    height, width = pixels.shape[:2]
+    title = title or f"{type(picture).__name__.lower()} {width}x{height}"
+    size = size or fitting_size((width, height), SIZE)
+    with Window(*size, title, wait=True) as window:
+        PictureWindow(window, pixels, order).run()

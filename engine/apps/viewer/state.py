@@ -1,0 +1,158 @@
+"""What a viewer shows, and how: the state that its keys, mouse, lists and files change.
+
+In: what the user wants. Out: the same state, of which the loop (`viewer.Viewer`) draws a frame
+whenever `redraw` was called.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...base import linalg
+from ...errors import Engine3DError
+from ...model.spatial.rays import RayHit
+from ...stage.view_renderer import ViewRenderer
+from ...stage.views.fps import FpsController
+from ...stage.views.orbit import MIN_DISTANCE, OrbitController
+from ...stage.views.viewpoint import Viewpoint
+from ...stage.views.walkable_ground import told
+from ...stage.views.walking import GroundController, controller
+from .help_panel import HelpPages
+from .messages import Messages
+from .sampling import Sampling
+
+
+class ViewerState:
+    """The state of a viewer.
+
+    Parameters
+    ----------
+    view_renderer : ViewRenderer
+        Draws the frames.
+    window : Window
+        Shows them.
+    view : Viewpoint, optional
+        Where to look from at first and after a reset.
+    sampling : Sampling, optional
+        Chooses the samples per pixel; by default always as many as the renderer takes.
+
+    Attributes
+    ----------
+    view, first_view : Viewpoint
+        From where the scene is seen, and from where it is after a reset.
+    walker : FpsController or None
+        Who walks; None where the view orbits.
+    held_positions : set of str
+        The keys of walks that are down.
+    fast : bool
+        Whether one walks fast.
+    time : float
+        Of the animation, in seconds.
+    playing, running : bool
+        Whether it moves, and whether the window stays open.
+    selected : RayHit or None
+    panel : Panel or None
+        The list over the picture; None where there is none.
+    """
+
+    def __init__(
+        self,
+        view_renderer: ViewRenderer,
+        window,
+        view: Viewpoint | None,
+        sampling: Sampling | None,
+    ) -> None:
+        self.view_renderer = view_renderer
+        self.window = window
+        self.first_view = view or view_renderer.view()
+        self.view = self.first_view.copy()
+        self.orbit = OrbitController(self.view)
+        self.walker: FpsController | None = None
+        self.held_positions: set[str] = set()
+        self.fast = False
+        self.time = 0.0
+        self.playing = view_renderer.viewed.plays
+        self.statistics: str | None = None
+        self.help = HelpPages()
+        self.running = True
+        self.selected: RayHit | None = None
+        self.messages = Messages()
+        self.sampling = sampling or Sampling(view_renderer.samples)
+        self.panel = None
+        self._changed = True
+
+    @property
+    def changed(self) -> bool:
+        """Whether something changed since the last frame was drawn."""
+        return self._changed
+
+    def redraw(self) -> None:
+        """Have a frame drawn: something changed."""
+        self._changed = True
+
+    def say(self, message: str) -> None:
+        """Show a message for a moment, which is longer for more words."""
+        self.messages.say(message)
+        self.redraw()
+
+    def forget_scene(self) -> None:
+        """Forget what was known of the scene before: another one is shown now."""
+        self.selected = None
+        self.messages.trouble = ""
+        self.sampling.start_anew()
+
+    def select(self, x: int, y: int) -> None:
+        """Select what shows at a pixel; where nothing does, nothing is selected any more."""
+        self.selected = self.view_renderer.pick(self.view, self.time, x, y)
+        self.redraw()
+
+    def turn_light(self, dx: int, dy: int) -> None:
+        """Turn the light by a drag of (dx, dy) pixels."""
+        full_turn = 2 * math.pi / self.view_renderer.size[1]
+        lighting = self.view_renderer.lighting
+        if not lighting.turn(self.view.pose(), dx * full_turn, dy * full_turn):
+            self.say("these lights cannot be turned: L chooses others")
+
+    def focus(self, x: int, y: int) -> None:
+        """Move what shows at a pixel into the middle, and turn round it from now on."""
+        hit = self.view_renderer.pick(self.view, self.time, x, y)
+        if hit is None or not np.isfinite(hit.position).all():
+            return
+        ahead = linalg.dot(hit.position - self.view.position(), -self.view.rotation()[:, 2])
+        self.view.target = hit.position.copy()
+        if not self.view.orthographic:
+            self.view.distance = max(MIN_DISTANCE, float(ahead))
+        self.redraw()
+
+    def reset_view(self) -> None:
+        """Go back to the first view."""
+        if self.walker is not None:
+            self.toggle_walking()
+        self.view = self.first_view.copy()
+        self.orbit.view = self.view
+        self.redraw()
+
+    def toggle_walking(self) -> None:
+        """Walk, or orbit again; the picture stays where it is, or goes down to the ground."""
+        if self.walker is None:
+            self._begin_walking()
+        else:
+            self.walker.leave(self.view)
+            self.walker = None
+            self.say("orbiting")
+        self.held_positions.clear()
+        self.window.capture_mouse(self.walker is not None)
+
+    def _begin_walking(self) -> None:
+        try:
+            self.walker = controller(self.view_renderer, self.view)
+            said = "walking"
+        except Engine3DError as error:
+            self.walker = FpsController(self.view, self.view_renderer.bounds)
+            said = f"flying, as there is no ground: {error}"
+        self.walker.place(self.view)
+        if isinstance(self.walker, GroundController):
+            said += f"; {told(self.walker.grid)}"
+        self.say(f"{said}; WASD, mouse or arrows to look; Tab or Esc to leave")

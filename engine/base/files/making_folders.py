@@ -1,0 +1,38 @@
+"""Folders made for files that are about to be written."""
+
+from __future__ import annotations
+
+import os
+
+from ...errors import FileAccessError
+from ..system import sync_folder
+from .atomic_write import path_below
+
+
+def make_folder_of(path: str | os.PathLike[str], *, below: str | None = None) -> None:
+    """Make the folder that a file will be in, and those above it.
+
+    Raises `FileAccessError`, also where links lead out of the folder ``below``, as `atomic_write`.
+    """
+    folder = os.path.dirname(path) or os.curdir
+    try:
+        if below is not None:
+            folder = os.path.dirname(path_below(os.fspath(path), below))
+        lacking = _lacking(folder)
+        os.makedirs(folder, exist_ok=True)
+        for made in lacking:
+            sync_folder(os.path.dirname(made))
+    except FileAccessError:
+        raise
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise FileAccessError(f"cannot write: {reason}", path) from error
+
+
+def _lacking(folder: str) -> list[str]:
+    """Return a folder and those above it, as far as they are not there yet."""
+    lacking = []
+    while folder and not os.path.isdir(folder):
+        lacking.append(folder)
+        folder = os.path.dirname(folder)
+    return lacking

@@ -1,5 +1,0 @@
-"""The engine measured on this machine, for ``engine3d bench`` and the scripts of benchmarks/.
-
-`measuring` times what `engine3d.demos.workloads` makes, `report` shows the figures as text. Charts
-and the peer are in benchmarks/.
-"""

@@ -1,0 +1,1 @@
+"""What few programs need: worlds, levels of detail."""

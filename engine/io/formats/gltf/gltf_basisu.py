@@ -1,0 +1,80 @@
+"""Images that Basis Universal packed, where the package opengl-basisu is installed.
+
+In: the bytes of a .ktx2 or .basis file. Out: its pixels. The package is given a process of its own,
+see `limited_process`.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import struct
+
+import numpy as np
+
+from ...._native.loaders import frozen
+from ....errors import FileFormatError
+from ...reading.limited_process import in_limited_process
+from ...reading.sources import Source
+from ..images import check_image_size
+
+#: The extensions that name such images.
+READ = ("KHR_texture_basisu", "GOOGLE_texture_basis")
+_KTX2, _BASIS = b"\xabKTX 20\xbb\r\n\x1a\n", b"sB"
+# Of the header of a KTX2 file: width and height as words.
+_SIZE_AT, _HEADER = 20, 80
+
+
+class NotInstalledError(Exception):
+    """Says what to install."""
+
+
+def is_installed() -> bool:
+    """Return whether there is a package that unpacks such images."""
+    return importlib.util.find_spec("opengl_basisu") is not None
+
+
+def is_packed(data: bytes) -> bool:
+    """Return whether these are the bytes of such an image."""
+    return data.startswith((_KTX2, _BASIS))
+
+
+def read_packed(source: Source) -> np.ndarray:
+    """Unpack an image.
+
+    Returns
+    -------
+    pixels : (H, W, 4) uint8, read-only, the top row first
+
+    Raises
+    ------
+    NotInstalledError
+    FileFormatError
+    """
+    if not is_installed():
+        raise NotInstalledError(
+            "is packed by Basis Universal, which needs the package opengl-basisu: "
+            "pip install engine3d[ktx2]"
+        )
+    size = source.size
+    if source.data.startswith(_KTX2):
+        if source.size < _HEADER:
+            raise FileFormatError("damaged: the KTX2 file ends within its header", source.path)
+        width, height = struct.unpack_from("<II", source.data, _SIZE_AT)
+        check_image_size(width, height, source.path, source.size)
+        size += width * height // 8
+    return frozen(np.array(in_limited_process(_read_here, source, True, size=size)))
+
+
+def _read_here(source: Source, split: bool) -> np.ndarray:
+    """Unpack the largest level in this process."""
+    import opengl_basisu
+
+    try:
+        texture = opengl_basisu.open(source.data)
+        check_image_size(texture.width, texture.height, source.path, source.size)
+        return texture.transcode("rgba8").data
+    except FileFormatError:
+        raise
+    # The package has exceptions of its own, and lets others of C++ through.
+    except Exception as error:
+        raise FileFormatError(f"damaged image: {error}", source.path) from None

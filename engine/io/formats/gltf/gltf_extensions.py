@@ -1,0 +1,59 @@
+"""What a glTF file needs or says that is not read.
+
+In: a `GltfFile`. Out: an error for an extension that it cannot be read without; one warning for
+each other extension.
+"""
+
+from __future__ import annotations
+
+from ...reading.text import shown
+from . import (
+    gltf_draco,
+    gltf_materials,
+    gltf_meshopt,
+    gltf_nodes,
+    gltf_pointers,
+    gltf_primitives,
+    gltf_textures,
+    gltf_vrm,
+)
+from .gltf_file import GltfFile
+
+_MODULES = (gltf_draco, gltf_materials, gltf_meshopt, gltf_nodes, gltf_pointers, gltf_primitives)
+_MODULES += (gltf_textures, gltf_vrm)
+READ = frozenset().union(*(module.READ for module in _MODULES))
+# What changes only how surfaces look or move: the rest of the file is right without it.
+_OF_LOOKS = ("KHR_materials_", "KHR_xmp")
+
+
+def check_extensions(file: GltfFile) -> None:
+    """Refuse a file that cannot be read without an unknown extension; tell of the others.
+
+    Raises
+    ------
+    FileFormatError
+    """
+    used = file.sound("extensionsUsed", _names, file, "extensionsUsed") or []
+    required = _names(file, "extensionsRequired")
+    lacking = [name for name in required if name not in READ and not name.startswith(_OF_LOOKS)]
+    if lacking:
+        raise file.error(f"needs the extension {shown(lacking[0])}, which is not read")
+    for name in dict.fromkeys(used + required + _of_materials(file)):
+        if name not in READ:
+            file.warnings.add(f"the extension {shown(name)} is not read")
+
+
+def _of_materials(file: GltfFile) -> list[str]:
+    """What materials have, listed or not: files forget the list, and readers go by the material."""
+    return [
+        name
+        for index, material in enumerate(file.entries("materials"))
+        for name in file.spare_part(material, "extensions", f"materials[{index}]")
+    ]
+
+
+def _names(file: GltfFile, name: str) -> list[str]:
+    names = file.tree.get(name, [])
+    if not isinstance(names, list) or not all(isinstance(entry, str) for entry in names):
+        raise file.damaged(f"{name} is no list of names")
+    return names

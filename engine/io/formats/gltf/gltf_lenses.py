@@ -1,0 +1,82 @@
+"""Cameras and lights of a glTF file, as its nodes place them.
+
+In: a `GltfFile`. Out: a `LensRecord` for each camera, a `LampRecord` for each light of
+KHR_lights_punctual; of those that make no sense a warning.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+
+from ...reading.documents import LampRecord, LensRecord
+from .gltf_file import LIGHTS, GltfFile
+from .gltf_lists import SoundList, sound_list
+
+
+def read_cameras(file: GltfFile) -> SoundList:
+    """Return the cameras that see something: whose angle, size and distances make sense."""
+    return sound_list(file, "cameras", file.entries("cameras"), partial(_camera, file))
+
+
+def _camera(file: GltfFile, entry: dict, where: str) -> LensRecord:
+    kind = entry.get("type")
+    if kind not in ("perspective", "orthographic"):
+        raise file.damaged(f"{where} is of no type that is known")
+    name = file.name(entry, where)
+    where, part = f"{where}.{kind}", file.part(entry, kind, where)
+    common = {
+        "kind": kind,
+        "name": name,
+        "znear": _needed(file, part, "znear", where),
+        "zfar": file.number(part, "zfar", where, 0.0) if "zfar" in part else math.inf,
+        "extras": entry.get("extras"),
+    }
+    if not common["znear"] < common["zfar"]:
+        raise file.damaged(f"{where} ends before it begins")
+    if kind == "orthographic":
+        size = {name: _needed(file, part, name, where) for name in ("xmag", "ymag")}
+        if 0.0 in size.values() or common["znear"] < 0 or math.isinf(common["zfar"]):
+            raise file.damaged(f"{where} sees nothing")
+        return LensRecord(**common, **size)
+    yfov = _needed(file, part, "yfov", where)
+    aspect = file.number(part, "aspectRatio", where, 0.0) if "aspectRatio" in part else None
+    if not (yfov > 0 and common["znear"] > 0 and (aspect is None or aspect > 0)):
+        raise file.damaged(f"{where} sees nothing")
+    return LensRecord(**common, yfov=yfov, aspect=aspect)
+
+
+def _needed(file: GltfFile, part: dict, name: str, where: str) -> float:
+    if name not in part:
+        raise file.damaged(f"{where} has no {name}")
+    return file.number(part, name, where, 0.0)
+
+
+def read_lights(file: GltfFile) -> SoundList:
+    """Return the lights that have a kind, and are not darker than dark."""
+    return sound_list(file, f"{LIGHTS}.lights", file.lights(), partial(_light, file))
+
+
+def _light(file: GltfFile, entry: dict, where: str) -> LampRecord:
+    kind = entry.get("type")
+    if not isinstance(kind, str):
+        raise file.damaged(f"{where} is of no type")
+    color = file.numbers(entry, "color", where, (1.0, 1.0, 1.0))
+    intensity = file.number(entry, "intensity", where, 1.0)
+    reach = file.number(entry, "range", where, 0.0) if "range" in entry else math.inf
+    if min(*color, intensity) < 0 or reach <= 0:
+        raise file.damaged(f"{where} is darker than no light, or reaches nowhere")
+    inner, outer = 0.0, math.pi / 4
+    if kind == "spot":
+        spot = file.part(entry, "spot", where)
+        inner = file.number(spot, "innerConeAngle", where, inner)
+        outer = file.number(spot, "outerConeAngle", where, outer)
+        # Exporters write pi / 2 with a digit too many.
+        outer = math.pi / 2 if 0 < outer - math.pi / 2 < 1e-6 else outer
+        if not (inner >= 0 and 0 < outer <= math.pi / 2):
+            raise file.damaged(f"{where} has a cone from {inner:g} to {outer:g}")
+        if inner >= outer:
+            file.warnings.add(f"{where} has a cone from {inner:g} to {outer:g}: its rim is sharp")
+            inner = math.nextafter(outer, 0.0)
+    name = file.name(entry, where)
+    return LampRecord(kind, name, color, intensity, reach, inner, outer, entry.get("extras"))

@@ -1,0 +1,336 @@
+"""The materials of a glTF file.
+
+In: a `GltfFile` and its textures. Out: a `Material` for each number, all fields of the core format
+and of the extensions in `READ`; what makes no sense is left out with a warning.
+KHR_materials_pbrSpecularGlossiness becomes what KHR_materials_ior and KHR_materials_specular say of
+it: no metal, an index of refraction of 0, the specular colour.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ....errors import InvalidArgumentError
+from ....model.materials.colors import certainly_linear
+from ....model.materials.material import PARAMETERS, TEXTURE_SLOTS, Material
+from ....model.materials.textures import PlacedTexture, Texture
+from .gltf_file import GltfFile, whole_of
+from .gltf_textures import GltfTextures, changed
+
+_GLOSSY, _UNLIT = "KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit"
+_VARIANTS = "KHR_materials_variants"
+
+
+class Numbers(NamedTuple):
+    """A number, or several, of a part of a material."""
+
+    field: str
+    key: str
+    default: float | tuple[float, ...]
+
+
+class Map(NamedTuple):
+    """A texture of a part of a material, and a number that stands beside it."""
+
+    field: str
+    key: str
+    beside: str = ""
+    beside_key: str = ""
+
+
+# What files mean that leave these out, where it is not what a `Material` is by default.
+_LEFT_OUT = {"color": (1.0, 1.0, 1.0, 1.0), "metallic": 1.0, "roughness": 1.0}
+
+
+def _parts() -> dict[str, tuple[Numbers | Map, ...]]:
+    """The parameters of `Material` by the parts of a file that they are in, textures last."""
+    rows = {field: row for field, row in PARAMETERS.items() if row.gltf}
+    texts = [(*row.gltf.partition("."), field) for field, row in rows.items()]
+    beside = {texture: (field, key) for texture, dot, key, field in texts if dot}
+    found: dict[str, list[Numbers | Map]] = {}
+    for field, row in sorted(rows.items(), key=lambda item: item[0] in TEXTURE_SLOTS):
+        key = row.gltf.rpartition("/")[2]
+        if field in TEXTURE_SLOTS:
+            found[row.part].append(Map(field, key, *beside.get(row.gltf, ())))
+        elif "." not in key:
+            default = _LEFT_OUT.get(field, row.default)
+            linear = tuple(map(float, default)) if isinstance(default, tuple) else default
+            found.setdefault(row.part, []).append(Numbers(field, key, linear))
+    return {part: tuple(items) for part, items in found.items()}
+
+
+#: The parts of a material by their names in files; "" for the material itself.
+PARTS = _parts()
+_GLOSSY_PARTS = (
+    Numbers("color", "diffuseFactor", (1.0, 1.0, 1.0, 1.0)),
+    Numbers("specular_color", "specularFactor", (1.0, 1.0, 1.0)),
+    Map("texture", "diffuseTexture"),
+    Map("specular_color_texture", "specularGlossinessTexture"),
+)
+#: The extensions that are read here.
+READ = {*(name for name in PARTS if name.startswith("KHR")), _GLOSSY, _UNLIT, _VARIANTS}
+
+
+class GltfMaterials:
+    """The materials of a file, each made once.
+
+    Parameters
+    ----------
+    file : GltfFile
+    textures : GltfTextures
+    """
+
+    def __init__(self, file: GltfFile, textures: GltfTextures) -> None:
+        self._file, self._textures = file, textures
+        self._variant_names: tuple[str, ...] | None = None
+        self._made: dict[tuple, Material] = {}
+        self._sets: dict[int, set[int]] = {}
+        self._textures.decode(self._named_textures())
+
+    def all(self) -> tuple[Material, ...]:
+        """Return all materials of the file, for meshes with normals.
+
+        Those that nothing uses and that say the same are the same.
+        """
+        used = {index for index, *_ in self._made}
+        unused: dict[str, Material] = {}
+        found = []
+        for index, entry in enumerate(self._file.entries("materials")):
+            if index in used:
+                found.append(self.get(index, ""))
+                continue
+            words = repr(entry)
+            if words not in unused:
+                unused[words] = self.get(index, "")
+            found.append(unused[words])
+        return tuple(found)
+
+    def made(self) -> dict[int, tuple[Material, ...]]:
+        """Return all that each material of the file became so far."""
+        found: dict[int, tuple[Material, ...]] = {}
+        for (index, *_), material in self._made.items():
+            if index is not None:
+                found[index] = (*found.get(index, ()), material)
+        return found
+
+    def get(
+        self,
+        index: int | None,
+        where: str,
+        *,
+        flat: bool = False,
+        uv_sets: tuple[int, ...] = (0, 1),
+    ) -> Material:
+        """Return a material.
+
+        Parameters
+        ----------
+        index : int or None
+            None for that of what has no material.
+        where : str
+            The place that names it.
+        flat : bool
+            It is for triangles without normals.
+        uv_sets : tuple of int
+            The sets of texture coordinates of the file that the mesh has.
+        """
+        entry = {} if index is None else self._file.entry("materials", index, where)
+        key = index, flat, uv_sets
+        if key not in self._made:
+            self._made[key] = self._material(entry, f"materials[{index}]", flat, uv_sets)
+            self._made[key]._is_implied = index is None
+        return self._made[key]
+
+    def number(self, primitive: dict, where: str) -> int | None:
+        """Return the material that a primitive names; None if it names none that there is."""
+        if primitive.get("material") is None:
+            return None
+        place = f"{where}.material"
+        return self._file.sound(
+            place, self._file.number_in, "materials", primitive["material"], place
+        )
+
+    def uv_sets(self, primitive: dict, where: str) -> set[int]:
+        """Return the sets of texture coordinates that the materials of a primitive use."""
+        usual = self.number(primitive, where)
+        indices = [] if usual is None else [usual]
+        indices += [material for material, _ in self.variants(primitive, where)]
+        return set().union(*(self._uv_sets(index, where) for index in indices))
+
+    def variants(self, primitive: dict, where: str) -> list[tuple[int, list[int]]]:
+        """Return the other materials of a primitive, each with the variants that it is of."""
+        extensions = self._file.spare_part(primitive, "extensions", where)
+        if _VARIANTS not in extensions:
+            return []
+        where = f"{where}.{_VARIANTS}"
+        return self._file.sound(where, self._mappings, extensions, where) or []
+
+    def _mappings(self, extensions: dict, where: str) -> list[tuple[int, list[int]]]:
+        file, count = self._file, len(self.variant_names())
+        found = []
+        mappings = file.entries("mappings", file.part(extensions, _VARIANTS, where), f"{where}.")
+        for mapping in mappings:
+            material = file.number_in("materials", mapping.get("material"), where)
+            variants = mapping.get("variants")
+            if not isinstance(variants, list):
+                raise file.damaged(f"{where}.mappings name no variants")
+            numbers = [file.index(variant, count, "variants", where) for variant in variants]
+            found.append((material, numbers))
+        return found
+
+    def variant_names(self) -> tuple[str, ...]:
+        """Return the names of the file's sets of materials."""
+        if self._variant_names is None:
+            names = self._file.sound(f"extensions.{_VARIANTS}", self._read_variant_names)
+            self._variant_names = names or ()
+        return self._variant_names
+
+    def _read_variant_names(self) -> tuple[str, ...]:
+        file, where = self._file, f"extensions.{_VARIANTS}."
+        entries = file.entries("variants", file.extension(_VARIANTS), where)
+        return tuple(
+            file.name(entry, f"{where}variants[{index}]") for index, entry in enumerate(entries)
+        )
+
+    def _uv_sets(self, index: int, where: str) -> set[int]:
+        entry = self._file.entry("materials", index, where)
+        if index not in self._sets:
+            where = f"materials[{index}]"
+            self._sets[index] = {
+                self._textures.uv_set(info, where) for info in self._infos(entry, where)
+            }
+        return self._sets[index]
+
+    def _named_textures(self) -> set[int]:
+        """The textures that materials name, as far as there are such textures."""
+        count = len(self._file.entries("textures"))
+        infos = [
+            info
+            for index, entry in enumerate(self._file.entries("materials"))
+            for info in self._infos(entry, f"materials[{index}]")
+        ]
+        indices = [whole_of(info.get("index")) for info in infos]
+        named = {index for index in indices if type(index) is int}
+        return {index for index in named if 0 <= index < count}
+
+    def _parts(self, entry: dict, where: str):
+        """The parts that a material has, and what may stand in them."""
+        file = self._file
+        extensions = file.spare_part(entry, "extensions", where)
+        glossy = _GLOSSY in extensions
+        for name, items in PARTS.items():
+            if not name:
+                yield entry, items
+            elif name == "pbrMetallicRoughness":
+                part = file.spare_part(entry, name, where)
+                yield from () if glossy else [(part, items)]
+            elif name in extensions:
+                yield file.spare_part(extensions, name, where), items
+        if glossy:
+            yield file.spare_part(extensions, _GLOSSY, where), _GLOSSY_PARTS
+
+    def _infos(self, entry: dict, where: str) -> list[dict]:
+        """What a material says of its textures."""
+        return [
+            self._file.spare_part(part, item.key, where)
+            for part, items in self._parts(entry, where)
+            for item in items
+            if isinstance(item, Map) and item.key in part
+        ]
+
+    def _material(self, entry: dict, where: str, flat: bool, uv_sets: tuple[int, ...]) -> Material:
+        file = self._file
+        values = {"metallic": 1.0, "roughness": 1.0}
+        for part, items in self._parts(entry, where):
+            for item in items:
+                if item.key in part:
+                    place = f"{where}.{item.key}"
+                    held = file.sound(place, self._values, part, item, where, uv_sets)
+                    values.update(held or {})
+        extensions = file.spare_part(entry, "extensions", where)
+        if _GLOSSY in extensions:
+            glossiness = file.sound(
+                f"{where}.glossinessFactor",
+                file.number,
+                file.spare_part(extensions, _GLOSSY, where),
+                "glossinessFactor",
+                where,
+                1,
+            )
+            values.update(_from_glossiness(values, 1.0 if glossiness is None else glossiness))
+        color = values.get("color", (1.0, 1.0, 1.0))
+        values["color"] = color[:3] if color[3:] == (1.0,) else color
+        values |= {
+            "name": file.name(entry, where),
+            "two_sided": entry.get("doubleSided") is True,
+            "unlit": _UNLIT in extensions,
+            "alpha_mode": self._alpha_mode(entry, where),
+            "flat_shading": flat,
+            "extras": self._extras(entry, where),
+        }
+        material = Material(name=values.pop("name"))
+        with certainly_linear():
+            for field, value in values.items():
+                self._file.sound(f"{where}.{field}", self._put, material, field, value)
+        return material
+
+    def _put(self, material: Material, field: str, value) -> None:
+        try:
+            setattr(material, field, value)
+        except InvalidArgumentError as error:
+            raise self._file.damaged(str(error)) from None
+
+    def _values(self, part: dict, item: Numbers | Map, where: str, uv_sets) -> dict:
+        """What one item says, as parameters of a material."""
+        if isinstance(item, Numbers):
+            if isinstance(item.default, tuple):
+                return {item.field: self._file.numbers(part, item.key, where, item.default)}
+            return {item.field: self._file.number(part, item.key, where, item.default)}
+        info = self._file.part(part, item.key, where)
+        values = {item.field: self._textures.placed(info, f"{where}.{item.key}", uv_sets)}
+        if item.beside and item.beside_key in info:
+            values[item.beside] = self._file.number(info, item.beside_key, where, 1.0)
+        return values
+
+    def _alpha_mode(self, entry: dict, where: str) -> str:
+        mode = entry.get("alphaMode", "OPAQUE")
+        if mode not in ("OPAQUE", "MASK", "BLEND"):
+            self._file.warnings.add_once(f"{where} has no alpha mode that is known: drawn opaque")
+            mode = "OPAQUE"
+        return mode.lower()
+
+    def _extras(self, entry: dict, where: str) -> dict:
+        extras = entry.get("extras", {})
+        if isinstance(extras, dict):
+            return extras
+        self._file.warnings.add_once(f"{where}.extras is no object: left out")
+        return {}
+
+
+def undrawn_kinds(material: Material) -> set[str]:
+    """Return what a material says that is not drawn, as keys of `undrawn.KINDS`."""
+    is_metal = material.metallic == 1.0 and material.metallic_roughness_texture is None
+    if not material.transmission or is_metal:
+        return set()
+    kinds = {"refraction"} if material.thickness and material.ior != 1.0 else set()
+    return kinds | ({"frost"} if material.roughness else set())
+
+
+def _from_glossiness(values: dict, glossiness: float) -> dict:
+    """What a specular-glossiness material is as a metallic-roughness one."""
+    found = {"metallic": 0.0, "roughness": 1.0 - glossiness, "ior": 0.0}
+    held: Texture | PlacedTexture | None = values.get("specular_color_texture")
+    if held is not None:
+        texture = held.texture if isinstance(held, PlacedTexture) else held
+        roughness = np.zeros_like(texture.pixels)
+        gloss = texture.pixels[:, :, 3].astype(np.float64) * glossiness
+        roughness[:, :, 1] = np.floor(255.0 - gloss + 0.5).clip(0, 255)
+        roughness[:, :, 3] = 255
+        made = changed(texture, roughness, texture.name)
+        if isinstance(held, PlacedTexture):
+            place = {key: value for key, value in vars(held).items() if key != "texture"}
+            made = PlacedTexture(made, **place)
+        found |= {"metallic_roughness_texture": made, "roughness": 1.0}
+    return found

@@ -1,0 +1,269 @@
+"""The meshes of a glTF file.
+
+In: a `GltfFile` and what reads its primitives. Out: a `MeshRecord` each. The primitives of a mesh
+that carry the same attributes become one `Mesh`, with a material for each; others become further
+parts of the record. Meshes of the same primitives share their arrays. A primitive that is damaged
+is left out with a warning.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ...._native.loaders import frozen
+from ....model.geometry.mesh import Mesh
+from ....model.geometry.morph_targets import MorphTarget
+from ....model.materials.material import Material
+from ....model.materials.textures import PlacedTexture
+from ...reading.documents import MeshRecord
+from ...reading.smoothing import join_seams
+from ...reading.text import shown
+from .gltf_buffers import GltfBuffers
+from .gltf_file import DamagedError, GltfFile
+from .gltf_materials import GltfMaterials
+from .gltf_primitives import GltfPrimitives, Primitive
+
+# Of so many faces of a mesh that bends, tangents are found while it is read.
+MOST_BENDING = 1 << 17
+_MORPHS = ("positions", "normals", "tangents")
+_NO_MATERIAL = Material()
+
+
+class GltfMeshes:
+    """Reads the meshes of a file.
+
+    Parameters
+    ----------
+    file : GltfFile
+    buffers : GltfBuffers
+    primitives : GltfPrimitives
+    materials : GltfMaterials
+    """
+
+    def __init__(
+        self,
+        file: GltfFile,
+        buffers: GltfBuffers,
+        primitives: GltfPrimitives,
+        materials: GltfMaterials,
+    ) -> None:
+        self._file, self._buffers = file, buffers
+        self._primitives, self._materials = primitives, materials
+        self._parts: dict[tuple, Mesh] = {}  # of primitives that are kept
+        self._variant_materials = 0
+
+    def all(self) -> tuple[MeshRecord, ...]:
+        """Return the meshes.
+
+        Raises
+        ------
+        FileFormatError
+        """
+        entries = zip(self._file.entries("meshes"), self._primitives.lists, strict=True)
+        return tuple(
+            self._mesh(entry, primitives, f"meshes[{index}]")
+            for index, (entry, primitives) in enumerate(entries)
+        )
+
+    def _mesh(self, entry: dict, primitives: list[dict], where: str) -> MeshRecord:
+        file, name = self._file, self._file.name(entry, where)
+        groups: dict[tuple, list[tuple[Primitive, dict, str]]] = {}
+        for number, primitive in enumerate(primitives):
+            place = f"{where}.primitives[{number}]"
+            try:
+                read = self._primitives.read(primitive, place)
+            except DamagedError as error:
+                file.lose(place, error)
+                continue
+            if read is not None:
+                groups.setdefault(_kind_of(read), []).append((read, primitive, place))
+        if not groups:
+            return MeshRecord(name, Mesh([], name=name), extras=entry.get("extras"))
+        counts = {len(read.morphs) for members in groups.values() for read, _, _ in members}
+        count = max(counts)
+        if len(counts) > 1:
+            file.warnings.add(
+                f"the primitives of {where} have unequal morph targets: each moves by its own"
+            )
+        names = _target_names(entry.get("extras"), count)
+        first, *rest = (self._part(name, members, names) for members in groups.values())
+        weights = file.sound(f"{where}.weights", self._weights, entry, count, where)
+        weights = (0.0,) * count if weights is None else weights
+        return replace(first, morph_weights=weights, rest=tuple(rest), extras=entry.get("extras"))
+
+    def _weights(self, entry: dict, count: int, where: str) -> tuple[float, ...] | None:
+        weights = self._file.number_list(entry, "weights", where)
+        if weights is not None and len(weights) != count:
+            raise self._file.damaged(f"{where} has {len(weights)} weights, {count} targets")
+        return weights
+
+    def _part(
+        self, name: str, members: list[tuple[Primitive, dict, str]], target_names: list[str]
+    ) -> MeshRecord:
+        """Primitives that carry the same as one mesh."""
+        primitives = [primitive for primitive, _, _ in members]
+        kind = primitives[0].kind
+        flat = kind == "faces" and "normals" not in primitives[0].arrays
+        chosen = [self._chosen(*member, flat=flat) for member in members]
+        uv_set = None if kind != "faces" or flat else _tangent_set_of(chosen)
+        # The primitives' arrays are theirs as long as the primitives are kept for others.
+        key = (*(id(primitive.arrays) for primitive in primitives), *target_names, uv_set)
+        if self._primitives.are_kept(primitives):
+            if key not in self._parts:
+                self._parts[key] = self._made(primitives, target_names, uv_set)
+            mesh = self._parts[key]
+        else:
+            mesh = self._made(primitives, target_names, uv_set)
+        materials = [usual for usual, _ in (chosen if kind == "faces" else chosen[:1])]
+        mesh = mesh._twin(materials, name)
+        return MeshRecord(name, mesh, variants=self._variants(chosen, name))
+
+    def _made(
+        self, primitives: list[Primitive], target_names: list[str], uv_set: int | None
+    ) -> Mesh:
+        """A mesh of several primitives, whose materials are not those that it will have."""
+        counts = [len(primitive.arrays["positions"]) for primitive in primitives]
+        starts = np.cumsum([0, *counts])[:-1]
+        arrays = {
+            key: self._joined([p.arrays[key] for p in primitives]) for key in primitives[0].arrays
+        }
+        kind = primitives[0].kind
+        flat = kind == "faces" and "normals" not in arrays
+        elements = [
+            primitive.elements + np.int32(start) if start else primitive.elements
+            for primitive, start in zip(primitives, starts, strict=True)
+        ]
+        ids = None
+        if kind == "faces" and len(primitives) > 1:
+            sizes = [len(part) for part in elements]
+            self._buffers.count(sum(sizes))
+            ids = np.repeat(np.arange(len(primitives), dtype=np.int32), sizes)
+        mesh = Mesh(
+            arrays.pop("positions"),
+            **{kind: self._joined(elements)},
+            materials=[_NO_MATERIAL] * len(primitives),
+            material_ids=ids,
+            **arrays,
+        )
+        mesh._scalars = {
+            key: self._joined([p.scalars[key] for p in primitives]) for key in primitives[0].scalars
+        }
+        if flat:
+            join_seams(mesh)
+        if primitives[0].joints is not None:
+            joints = self._joined([primitive.joints for primitive in primitives])
+            mesh.set_influences(joints, self._joined([p.weights for p in primitives]))
+        if target_names:
+            mesh.morph_targets = self._morphs(primitives, counts, target_names)
+        if kind == "faces" and "normals" in arrays and "tangents" not in arrays:
+            mesh = self._with_tangents(mesh, uv_set)
+        return mesh
+
+    def _variants(self, chosen: list[tuple], name: str) -> dict[int, tuple]:
+        """The materials of each variant that is named; none, with a warning, of far too many."""
+        named: dict[int, dict[int, Material]] = {}  # the materials of each, by primitive
+        for number, (_, others) in enumerate(chosen):
+            for variant, material in others.items():
+                named.setdefault(variant, {})[number] = material
+        self._variant_materials += len(named) * len(chosen)
+        if self._variant_materials > self._buffers.limit:
+            self._file.warnings.add(
+                f"mesh {shown(name)}: {len(named)} variants of {len(chosen)} primitives are more "
+                "than such a file may have: left out"
+            )
+            return {}
+        usual_ones = [usual for usual, _ in chosen]
+        found = {}
+        for variant in sorted(named):
+            materials = list(usual_ones)
+            for number, material in named[variant].items():
+                materials[number] = material
+            found[variant] = tuple(materials)
+        return found
+
+    def _with_tangents(self, mesh: Mesh, uv_set: int | None) -> Mesh:
+        """A mesh whose tangents will be found when it is drawn; of one that bends, they are."""
+        if uv_set is None or (mesh.uvs1 if uv_set else mesh.uvs) is None:
+            return mesh
+        if mesh._scalars:
+            return mesh  # it will be coloured by them, without maps
+        if mesh.joints is None and not mesh.morph_targets:
+            mesh._tangent_uv_set = uv_set
+            return mesh
+        if len(mesh.faces) > MOST_BENDING:
+            return mesh
+        self._buffers.count(4 * len(mesh.positions))
+        return mesh.with_tangents(uv_set)
+
+    def _chosen(self, primitive: Primitive, entry: dict, where: str, *, flat: bool):
+        """The material of a primitive, and those of variants."""
+        common = {"flat": flat, "uv_sets": primitive.uv_sets}
+        usual = self._materials.get(primitive.material, where, **common)
+        others = {
+            variant: self._materials.get(material, where, **common)
+            for material, variants in self._materials.variants(entry, where)
+            for variant in variants
+        }
+        return usual, others
+
+    def _morphs(
+        self, primitives: list[Primitive], counts: list[int], names: list[str]
+    ) -> list[MorphTarget]:
+        """The morph targets of joined primitives: what only some change is 0 for the others."""
+        found = []
+        # A primitive that has fewer stays as it is where the others move.
+        held = ([*p.morphs, *({},) * (len(names) - len(p.morphs))] for p in primitives)
+        for name, *targets in zip(names, *held, strict=True):
+            deltas = {}
+            for key in _MORPHS:
+                parts = [target.get(key) for target in targets]
+                if any(part is not None for part in parts):
+                    deltas[key] = self._joined(
+                        [
+                            np.zeros((count, 3), np.float32) if part is None else part
+                            for part, count in zip(parts, counts, strict=True)
+                        ]
+                    )
+            if not deltas:  # a target that changes nothing still has its weight
+                deltas["positions"] = np.zeros((sum(counts), 3), np.float32)
+            found.append(MorphTarget(**deltas, name=name))
+        return found
+
+    def _joined(self, parts: list[np.ndarray]) -> np.ndarray:
+        if len(parts) == 1:
+            return frozen(parts[0])
+        self._buffers.count(sum(part.size for part in parts))
+        return frozen(np.concatenate(parts))
+
+
+def _kind_of(primitive: Primitive) -> tuple:
+    """What primitives of one mesh have in common."""
+    joints = 0 if primitive.joints is None else primitive.joints.shape[1]
+    material = None if primitive.kind == "faces" else primitive.material
+    # The materials of other sets of texture coordinates are others, of these one may be drawn.
+    scalars = tuple((name, values.shape[1]) for name, values in sorted(primitive.scalars.items()))
+    return primitive.kind, tuple(primitive.arrays), joints, material, scalars
+
+
+def tangent_set(material: Material) -> int | None:
+    """The texture coordinates that need tangents; None if nothing does, or these are turned."""
+    maps = material.normal_texture, material.clearcoat_normal_texture, material.anisotropy_texture
+    found = next((texture for texture in maps if texture is not None), None)
+    if isinstance(found, PlacedTexture):
+        return None if found.is_moved else found.uv_set
+    return 0 if found is not None or material.anisotropy else None
+
+
+def _tangent_set_of(chosen: list[tuple]) -> int | None:
+    """The texture coordinates that any material of a mesh needs tangents for."""
+    materials = [usual for usual, _ in chosen]
+    materials += [material for _, others in chosen for material in others.values()]
+    return next((found for m in materials if (found := tangent_set(m)) is not None), None)
+
+
+def _target_names(extras, count: int) -> list[str]:
+    names = extras.get("targetNames") if isinstance(extras, dict) else None
+    names = [str(name) for name in names[:count]] if isinstance(names, list) else []
+    return names + [""] * (count - len(names))

@@ -1,0 +1,57 @@
+"""Buffer views that meshopt packed: EXT_meshopt_compression and KHR_meshopt_compression.
+
+In: what a view says of itself. Out: how large it becomes, and its bytes; C unpacks them.
+"""
+
+from __future__ import annotations
+
+from ...._native.loaders import unpack_meshopt
+from ...reading.text import shown
+from .gltf_file import GltfFile
+
+#: The extensions that are read here.
+READ = ("KHR_meshopt_compression", "EXT_meshopt_compression")
+
+
+def packing_of(file: GltfFile, view: dict, where: str) -> dict | None:
+    """Return what a view says of how it is packed; None if it is not."""
+    extensions = file.part(view, "extensions", where)
+    for name in READ:
+        if name in extensions:
+            return file.part(extensions, name, where)
+    return None
+
+
+def unpacked_size(file: GltfFile, packing: dict, where: str) -> int:
+    """Return how many bytes a view becomes."""
+    count, stride = (file.whole(packing, name, where) for name in ("count", "byteStride"))
+    return count * stride
+
+
+def unpacked(file: GltfFile, data: memoryview, packing: dict, where: str) -> memoryview:
+    """Return the bytes of a view.
+
+    Parameters
+    ----------
+    file : GltfFile
+    data : memoryview
+        As they are packed.
+    packing : dict
+        See `packing_of`.
+    where : str
+
+    Raises
+    ------
+    FileFormatError
+    """
+    count, stride = (file.whole(packing, name, where) for name in ("count", "byteStride"))
+    mode, filter = packing.get("mode"), packing.get("filter", "NONE")
+    if not isinstance(mode, str) or not isinstance(filter, str):
+        raise file.damaged(f"{where} is packed in no mode that is known")
+    elements = unpack_meshopt(data, mode, filter, count, stride)
+    if elements is None:
+        raise file.damaged(
+            f"{where}, {count} elements of {stride} bytes packed by meshopt in the mode "
+            f"{shown(mode)} with the filter {shown(filter)}"
+        )
+    return memoryview(elements.tobytes())

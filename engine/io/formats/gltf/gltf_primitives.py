@@ -1,0 +1,458 @@
+"""Triangles, lines and points of a glTF file.
+
+In: a primitive of a mesh. Out: a `Primitive`: its elements and what its vertices carry, as a `Mesh`
+takes them; None for what has no positions. Vertices that nothing uses are left out; so are morph
+targets, joints and what else moves vertices, with a warning, where they are damaged.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field, replace
+from functools import partial
+
+import numpy as np
+
+from ...._native import loaders as native
+from ...reading.vertex_values import finite_uvs, usable_normals
+from .gltf_accessors import GltfAccessors
+from .gltf_draco import DRACO, GltfDraco
+from .gltf_file import DamagedError, GltfFile, once
+from .gltf_materials import GltfMaterials
+from .gltf_sharing import SharedArrays
+
+_POINTS, _LINES, _LOOP, _LINE_STRIP, _TRIANGLES, _STRIP, _FAN = range(7)
+#: The extensions that are read here.
+READ = ("KHR_mesh_quantization",)
+# Each takes some kilobytes, or a part of a millisecond, however little the file says of it.
+_MAX_PRIMITIVES = 10_000
+# Of so few of all vertices a list is sorted; of more each is marked.
+_FEW = 4
+_INFLUENCES = 4
+_WIDTHS = (1, 2, 3, 4)  # of attributes of the file's own
+_MORPHED = {"POSITION": "positions", "NORMAL": "normals", "TANGENT": "tangents"}
+
+
+@dataclass
+class Primitive:
+    """One primitive.
+
+    Attributes
+    ----------
+    kind : {"faces", "lines", "points"}
+    elements : (E, 3), (E, 2) or (E,) int32
+        Vertices.
+    arrays : dict of str to array
+        What the vertices carry, by the names that `Mesh` has for it.
+    joints : (V, J) uint16 or None
+    weights : (V, J) float32 or None
+    morphs : list of dict of str to (V, 3) float32
+        What each morph target adds to positions, normals, tangents.
+    material : int or None
+    uv_sets : tuple of int
+        The sets of texture coordinates of the file that ``uvs`` and ``uvs1`` are.
+    scalars : dict of str to (V, N) number
+        Attributes of the file's own, if they are asked for.
+    """
+
+    kind: str
+    elements: np.ndarray
+    arrays: dict[str, np.ndarray]
+    joints: np.ndarray | None = None
+    weights: np.ndarray | None = None
+    morphs: list[dict[str, np.ndarray]] = field(default_factory=list)
+    material: int | None = None
+    uv_sets: tuple[int, ...] = (0, 1)
+    scalars: dict[str, np.ndarray] = field(default_factory=dict)
+
+
+class GltfPrimitives:
+    """Reads the primitives of a file. What several of them share is made once.
+
+    Parameters
+    ----------
+    file : GltfFile
+    accessors : GltfAccessors
+    materials : GltfMaterials
+    draco : GltfDraco
+    scalars : bool
+        Whether to read attributes whose names begin with ``_``.
+
+    Attributes
+    ----------
+    lists : list of list of dict
+        The primitives of each mesh.
+    left_out : list of str
+        Places of the primitives that have no positions.
+    own : set of str
+        Names of attributes that the file has for itself.
+    """
+
+    def __init__(
+        self,
+        file: GltfFile,
+        accessors: GltfAccessors,
+        materials: GltfMaterials,
+        draco: GltfDraco,
+        scalars: bool = False,
+    ) -> None:
+        self._file, self._accessors, self._materials = file, accessors, materials
+        self._scalars = scalars
+        self._draco = draco
+        self._told: set[str] = set()
+        self.lists = primitive_lists(file)
+        entries = [entry for entries in self.lists for entry in entries]
+        self._uses = Counter(map(_geometry_of, entries))
+        self._shared = SharedArrays(map(_accessors_of, entries))
+        self._read: dict[str, Primitive | DamagedError] = {}
+        self._kept: set[int] = set()
+        self.left_out: list[str] = []
+        self.own: set[str] = set()
+
+    def read(self, entry: dict, where: str) -> Primitive | None:
+        """Return a primitive, which ``where`` names in errors.
+
+        Raises
+        ------
+        DamagedError
+        """
+        if "POSITION" not in self._file.part(entry, "attributes", where):
+            self.left_out.append(where)
+            return None
+        material, uv_sets = self._materials.number(entry, where), self._uv_sets(entry, where)
+        geometry = _geometry_of(entry)
+        kept = self._read if self._uses[geometry] > 1 else {}
+        make = partial(self._made, entry, uv_sets, where)
+        found = once(kept, f"{geometry} {uv_sets}", make)
+        if kept is self._read:
+            self._kept.add(id(found.arrays))
+        return replace(found, material=material)
+
+    def are_kept(self, primitives: list[Primitive]) -> bool:
+        """Whether all of some primitives are kept, since others of the file are the same."""
+        return all(id(primitive.arrays) in self._kept for primitive in primitives)
+
+    def _made(self, entry: dict, uv_sets: tuple[int, ...], where: str) -> Primitive:
+        file = self._file
+        attributes = file.part(entry, "attributes", where)
+        mode = file.whole(entry, "mode", where, _TRIANGLES)
+        if mode > _FAN:
+            raise file.damaged(f"{where}.mode is {mode}")
+        vertices = _Vertices(self._accessors, self._draco, self._shared, attributes, entry, where)
+        if mode == _POINTS:
+            elements = vertices.corners()
+            vertices.rows = elements if vertices.is_indexed else slice(None)
+            elements = np.arange(len(elements), dtype=np.int32)
+        else:
+            vertices.rows, elements = vertices.elements(mode)
+        kind = "points" if mode == _POINTS else "lines" if mode < _TRIANGLES else "faces"
+        primitive = Primitive(kind, elements, {}, uv_sets=uv_sets)
+        self._add_arrays(primitive, vertices)
+        influences = file.sound(f"{where}.JOINTS_0", self._influences, vertices, where)
+        primitive.joints, primitive.weights = influences or (None, None)
+        own = [name for name in attributes if name.startswith("_")]
+        self.own.update(own)
+        if self._scalars:
+            width_of = {name: self._accessors.width(attributes[name], where) for name in own}
+            usable = [name for name in own if width_of[name] in _WIDTHS]
+            primitive.scalars = {name: vertices.numbers(name) for name in usable}
+        primitive.morphs = self._morphs(vertices, entry, where)
+        return primitive
+
+    def _uv_sets(self, entry: dict, where: str) -> tuple[int, ...]:
+        """The two sets of texture coordinates that the materials of a primitive use."""
+        used = self._materials.uv_sets(entry, where)
+        if used <= {0, 1}:
+            return (0, 1)
+        if len(used) > 2:
+            self._tell("sets", f"{where}: of {len(used)} sets of texture coordinates two are drawn")
+        return tuple(sorted(used))[:2]
+
+    def _tell(self, kind: str, message: str) -> None:
+        """Warn of something once a file."""
+        if kind not in self._told:
+            self._told.add(kind)
+            self._file.warnings.add(message)
+
+    def _add_arrays(self, primitive: Primitive, vertices: _Vertices) -> None:
+        arrays, named = primitive.arrays, vertices.attributes
+        positions = arrays["positions"] = vertices.floats("POSITION", 3)
+        faces = primitive.elements if primitive.kind == "faces" else np.zeros((0, 3), np.int32)
+        normals = usable_normals(self._spare(vertices, "NORMAL", 3), positions, faces)
+        if normals is not None:
+            arrays["normals"] = normals
+            tangents = self._spare(vertices, "TANGENT", 4)
+            if tangents is not None and np.isfinite(tangents).all():
+                arrays["tangents"] = tangents
+            elif tangents is not None:
+                self._tell("tangents", f"{vertices.where} has tangents that are not finite")
+        for name, uv_set in zip(("uvs", "uvs1"), primitive.uv_sets, strict=False):
+            uvs = self._spare(vertices, f"TEXCOORD_{uv_set}", 2, changed=_flipped)
+            arrays.update({} if uvs is None else {name: uvs})
+        colors = self._spare(vertices, "COLOR_0", 3, 4, changed=_with_alpha)
+        arrays.update({} if colors is None else {"colors": colors})
+        if "COLOR_1" in named:
+            self._tell("colors", f"{vertices.where} has several colours a vertex: COLOR_0 is drawn")
+
+    def _spare(self, vertices: _Vertices, name: str, *widths, changed=None) -> np.ndarray | None:
+        """An attribute that a primitive can do without; None if it is not there, or damaged."""
+        if name not in vertices.attributes:
+            return None
+        read = partial(vertices.floats, name, *widths, changed=changed)
+        return self._file.sound(f"{vertices.where}.{name}", read)
+
+    def _influences(self, vertices: _Vertices, where: str) -> tuple | None:
+        """Joints and weights of all sets side by side; None if there are none."""
+        joints, weights = [], []
+        while f"JOINTS_{len(joints)}" in vertices.attributes:
+            name = f"WEIGHTS_{len(joints)}"
+            if name not in vertices.attributes:
+                raise self._file.damaged(f"{where} has joints without {name}")
+            held = vertices.raw(f"JOINTS_{len(joints)}", _INFLUENCES)
+            if held.dtype.kind != "u" or held.dtype.itemsize > 2:
+                raise self._file.damaged(f"{where} has joints of a type that has none")
+            joints.append(held.astype(np.uint16))
+            weights.append(vertices.floats(name, _INFLUENCES))
+        if not joints:
+            return None
+        usable = _usable(np.concatenate(weights, axis=1))
+        # Files leave any number beside a weight of 0.
+        return np.where(usable > 0, np.concatenate(joints, axis=1), 0), usable
+
+    def _morphs(self, vertices: _Vertices, entry: dict, where: str) -> list[dict]:
+        """What each morph target adds; one that is damaged keeps its place, and adds nothing."""
+        file = self._file
+        targets = file.sound(f"{where}.targets", file.entries, "targets", entry, f"{where}.") or []
+        found = []
+        for number, target in enumerate(targets):
+            place = f"{where}.targets[{number}]"
+            found.append(file.sound(place, self._morph, vertices, target, place) or {})
+        return found
+
+    def _morph(self, vertices: _Vertices, target: dict, where: str) -> dict[str, np.ndarray]:
+        """Another set of attributes, which count only where the mesh itself has them."""
+        for name in target:
+            if name not in _MORPHED:
+                self._tell(name, f"{where}: what it adds to {name} is left out")
+        deltas = {}
+        for name, place in _MORPHED.items():
+            if name in target and name in vertices.attributes:
+                deltas[place] = vertices.deltas(target[name], f"{where} ({name})")
+                if not np.isfinite(deltas[place]).all():
+                    raise self._file.damaged(f"{where} adds what is not finite to {name}")
+        return deltas
+
+
+def primitive_lists(file: GltfFile) -> list[list[dict]]:
+    """Return the primitives of each mesh; none, with a warning, of one that makes no sense.
+
+    Raises
+    ------
+    FileFormatError
+        There are too many.
+    """
+    lists = [
+        _primitives_of(file, entry, f"meshes[{index}]")
+        for index, entry in enumerate(file.entries("meshes"))
+    ]
+    if sum(map(len, lists)) > _MAX_PRIMITIVES:
+        raise file.error(f"more than {_MAX_PRIMITIVES} primitives")
+    return lists
+
+
+def _primitives_of(file: GltfFile, entry: dict, where: str) -> list[dict]:
+    try:
+        if "primitives" not in entry:
+            raise file.damaged(f"{where} has no primitives")
+        return file.entries("primitives", entry, f"{where}.")
+    except DamagedError as error:
+        file.lose(where, error)
+        return []
+
+
+class _Vertices:
+    """What the vertices of a primitive carry; ``rows`` are those that are asked for."""
+
+    def __init__(
+        self,
+        accessors: GltfAccessors,
+        draco: GltfDraco,
+        shared: SharedArrays,
+        attributes: dict,
+        entry: dict,
+        where: str,
+    ) -> None:
+        self.attributes, self.where = attributes, where
+        self._accessors, self._shared, self._entry = accessors, shared, entry
+        self._unpacked = draco.unpacked(entry, where)
+        self.rows: slice | np.ndarray = slice(None)
+        self.total = len(self.raw("POSITION", 3))
+
+    @property
+    def is_indexed(self) -> bool:
+        """Whether the elements name their vertices."""
+        return "indices" in self._entry
+
+    def corners(self) -> np.ndarray:
+        """The vertices (C,) that the elements name one after the other."""
+        if self._unpacked is not None and self._unpacked.corners is not None:
+            corners = self._unpacked.corners
+        elif not self.is_indexed:
+            return np.arange(self.total, dtype=np.int32)
+        else:
+            corners = self._accessors.indices(self._entry["indices"], self.where)
+        highest = int(corners.max()) if len(corners) else -1
+        if highest >= self.total:
+            raise self._accessors.file.damaged(
+                f"{self.where} names vertex {highest}, there are {self.total}"
+            )
+        made = native.large_array(corners.shape, np.int32)
+        made[:] = corners
+        return made
+
+    def elements(self, mode: int) -> tuple[slice | np.ndarray, np.ndarray]:
+        """The rows of the vertices in use, and triangles or segments of the numbers they get."""
+
+        def make():
+            return compact(_elements(self.corners(), mode), self.total)
+
+        if self._unpacked is not None:
+            return make()
+        return self._shared.get("elements", self._entry.get("indices"), make, mode, self.total)
+
+    def raw(self, name: str, *widths: int) -> np.ndarray:
+        """An attribute as it is stored."""
+        values = self._stored(name, *widths)
+        return values[self.rows]
+
+    def _stored(self, name: str, *widths: int) -> np.ndarray:
+        where = f"{self.where} ({name})"
+        unpacked = None if self._unpacked is None else self._unpacked.arrays.get(name)
+        if unpacked is not None:
+            index = self._accessors.check(self.attributes[name], where, *widths)
+            values = self._accessors.typed(unpacked, index)
+        else:
+            values = self._accessors.raw(self.attributes[name], where, *widths)
+        self._check_count(values, name)
+        return values
+
+    def floats(self, name: str, *widths: int, changed=None) -> np.ndarray:
+        """An attribute as float32, of all vertices one array for whoever has the same.
+
+        Parameters
+        ----------
+        name : str
+        *widths : int
+        changed : callable, optional
+            What a new array becomes.
+        """
+
+        def make() -> np.ndarray:
+            values = self._accessors.as_floats(
+                self._stored(name, *widths), self.attributes[name], self.rows
+            )
+            return values if changed is None else changed(values)
+
+        return self._once(changed, self.attributes[name], make)
+
+    def numbers(self, name: str) -> np.ndarray:
+        """An attribute of the file's own, integers as they are unless they stand for others."""
+        values = self._stored(name, *_WIDTHS)
+        return self._accessors.as_numbers(values, self.attributes[name], self.rows)
+
+    def deltas(self, index: int, where: str) -> np.ndarray:
+        """What a morph target adds to an attribute."""
+
+        def make() -> np.ndarray:
+            values = self._accessors.raw(index, where, 3)
+            self._check_count(values, where)
+            return self._accessors.as_floats(values, index, self.rows)
+
+        return self._once("deltas", index, make)
+
+    def _once(self, role, index, make) -> np.ndarray:
+        if self._unpacked is not None or not isinstance(self.rows, slice):
+            return make()
+        return self._shared.get(role, index, make, self.total)
+
+    def _check_count(self, values: np.ndarray, name: str) -> None:
+        total = getattr(self, "total", len(values))
+        if len(values) != total:
+            raise self._accessors.file.damaged(
+                f"{self.where} has {len(values)} {name} for {total} positions"
+            )
+
+
+def _geometry_of(entry: dict) -> str:
+    """What a primitive says, but for its materials: others of the same have the same arrays."""
+    extensions = entry.get("extensions")
+    packing = extensions.get(DRACO) if isinstance(extensions, dict) else None
+    keys = ("attributes", "indices", "mode", "targets")
+    return repr([*map(entry.get, keys), packing])
+
+
+def _accessors_of(entry: dict) -> list[int]:
+    """The accessors that a primitive names; what is no number is left out."""
+    targets = entry.get("targets")
+    parts = [entry.get("attributes"), *(targets if isinstance(targets, list) else [])]
+    named = [index for part in parts if isinstance(part, dict) for index in part.values()]
+    return [index for index in (*named, entry.get("indices")) if isinstance(index, (int, float))]
+
+
+def compact(elements: np.ndarray, total: int):
+    """The rows of the vertices in use, and the elements with the numbers that these get."""
+    if elements.size * _FEW < total:
+        rows, flat = np.unique(elements, return_inverse=True)
+        return rows, flat.reshape(elements.shape).astype(np.int32)
+    used = native.used_or_all(np.ascontiguousarray(elements).ravel(), total)
+    if used is None:
+        return slice(None), elements
+    number = np.cumsum(used, dtype=np.int32) - np.int32(1)
+    return np.flatnonzero(used), number[elements]
+
+
+def _flipped(values: np.ndarray) -> np.ndarray:
+    """Texture coordinates whose origin is at the bottom left."""
+    uvs = finite_uvs(values)
+    np.subtract(np.float32(1), uvs[:, 1], out=uvs[:, 1])
+    return uvs
+
+
+def _with_alpha(values: np.ndarray) -> np.ndarray:
+    """Colours (V, 4)."""
+    colors = np.nan_to_num(values).clip(0, 1)
+    opaque = np.ones((len(colors), 4 - colors.shape[1]), np.float32)
+    return np.concatenate([colors, opaque], axis=1)
+
+
+def _usable(weights: np.ndarray) -> np.ndarray:
+    """Weights of which each row has one; the first joint moves what none does."""
+    weights = np.where(np.isfinite(weights) & (weights > 0), weights, np.float32(0))
+    weights[~weights.any(axis=1), 0] = 1
+    return weights
+
+
+def _elements(corners: np.ndarray, mode: int) -> np.ndarray:
+    """Triangles, segments or points; corners that are too few for a last one are left out."""
+    if mode == _POINTS:
+        return corners
+    if mode < _TRIANGLES:
+        return _segments(corners, mode)
+    if mode == _TRIANGLES:
+        return corners[: len(corners) // 3 * 3].reshape(-1, 3)
+    if len(corners) < 3:
+        return np.zeros((0, 3), np.int32)
+    first = np.arange(len(corners) - 2)
+    if mode == _FAN:
+        return corners[np.stack([first + 1, first + 2, np.zeros_like(first)], axis=1)]
+    odd = first % 2
+    return corners[np.stack([first, first + 1 + odd, first + 2 - odd], axis=1)]
+
+
+def _segments(corners: np.ndarray, mode: int) -> np.ndarray:
+    """Segments (L, 2)."""
+    if mode == _LINES:
+        return corners[: len(corners) // 2 * 2].reshape(-1, 2)
+    ends = np.roll(corners, -1)
+    segments = np.stack([corners, ends], axis=1)
+    return segments if mode == _LOOP else segments[:-1]

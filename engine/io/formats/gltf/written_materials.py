@@ -1,0 +1,240 @@
+"""Materials and textures of a glTF file that is written.
+
+In: `Material` objects. Out: their numbers, and the lists of the JSON. An image keeps the bytes that
+it came in while its pixels are the same; others become PNG. What is no physical material becomes
+one that looks alike.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from typing import Any
+
+from ...._native.images import encode_png
+from ....model.materials.colors import linear_color
+from ....model.materials.material import Material
+from ....model.materials.textures import PlacedTexture, Texture
+from ...writing.losses import lost_of_reading
+from .gltf_materials import PARTS, Map, Numbers
+from .written_arrays import GltfArrays
+
+_WRAPS = {"clamp": 33071, "mirror": 33648, "repeat": 10497}
+_NEAREST, _LINEAR, _LEVELS = 9728, 9729, 9987
+_FILTERS = {
+    "nearest": (_NEAREST, _NEAREST),
+    "bilinear": (_LINEAR, _LINEAR),
+    "trilinear": (_LINEAR, _LEVELS),
+}
+_TRANSFORM, _UNLIT = "KHR_texture_transform", "KHR_materials_unlit"
+# What images begin with -> their media type, and the extension that texture needs for them.
+_IMAGES = (
+    (b"\x89PNG\r\n\x1a\n", "image/png", None),
+    (b"\xff\xd8\xff", "image/jpeg", None),
+    (b"RIFF", "image/webp", "EXT_texture_webp"),
+    (b"\xabKTX 20\xbb\r\n\x1a\n", "image/ktx2", "KHR_texture_basisu"),
+)
+
+
+class GltfMaterialList:
+    """The materials of a file, each written once.
+
+    Parameters
+    ----------
+    arrays : GltfArrays
+
+    Attributes
+    ----------
+    materials, textures, images, samplers : list of dict
+        As the JSON has them.
+    extensions : set of str
+        Those that were used.
+    required : set of str
+    converted : int
+        How many materials were none of the physical ones.
+    lost : dict of str to int
+        What of how textures are read such files do not hold, and how many textures have it.
+    """
+
+    def __init__(self, arrays: GltfArrays) -> None:
+        self._arrays = arrays
+        self.materials: list[dict[str, Any]] = []
+        self.textures: list[dict[str, Any]] = []
+        self.images: list[dict[str, Any]] = []
+        self.samplers: list[dict[str, Any]] = []
+        self.extensions: set[str] = set()
+        self.required: set[str] = set()
+        self.converted = 0
+        self.lost: dict[str, int] = {}
+        self._numbers: dict[int, int] = {}
+        self._twins: dict[tuple[str, bool], list[int]] = {}
+        self._images: dict[int, tuple[int, str | None]] = {}
+        self._read: set[int] = set()
+        self._kept: list[Any] = []  # so that no other thing gets an id meanwhile
+
+    def number(self, material: Material) -> int | None:
+        """Return the number of a material; None for that of what has no material."""
+        if id(material) not in self._numbers:
+            self._kept.append(material)
+            self._numbers[id(material)] = self._add(material)
+        number = self._numbers[id(material)]
+        return None if number < 0 else number
+
+    def _add(self, material: Material) -> int:
+        entry = self._entry(material)
+        if not entry and material._is_implied:
+            return -1
+        # Of a flat and a smooth one that are else the same, a file's meshes tell which is which.
+        words, flat = repr(entry), material.flat_shading
+        if twins := self._twins.get((words, not flat)):
+            return twins.pop()
+        self._twins.setdefault((words, flat), []).append(len(self.materials))
+        self.materials.append(entry)
+        self.converted += not material.is_physical
+        return len(self.materials) - 1
+
+    def _entry(self, material: Material) -> dict[str, Any]:
+        entry: dict[str, Any] = {"name": material.name} if material.name else {}
+        if material.extras:
+            entry["extras"] = material.extras
+        extensions: dict[str, Any] = {}
+        if material.unlit:
+            extensions[_UNLIT] = {}
+        for name, items in PARTS.items():
+            part: dict[str, Any] = {}
+            for item in items:
+                part.update(self._words(material, item))
+            if not name:
+                entry.update(part)
+            elif part and name == "pbrMetallicRoughness":
+                entry[name] = part
+            elif part:
+                extensions[name] = part
+        if material.alpha_mode != "opaque":
+            entry["alphaMode"] = material.alpha_mode.upper()
+        if material.two_sided:
+            entry["doubleSided"] = True
+        if extensions:
+            self.extensions |= extensions.keys()
+            entry["extensions"] = extensions
+        return entry
+
+    def _words(self, material: Material, item: Numbers | Map) -> dict[str, Any]:
+        """What the JSON says of one item; nothing where it is as by default."""
+        if isinstance(item, Numbers):
+            value = _value(material, item.field)
+            return {} if value == item.default else {item.key: value}
+        held = getattr(material, item.field)
+        if held is None:
+            return {}
+        info = self._info(held)
+        if item.beside and (beside := getattr(material, item.beside)) != 1.0:
+            info[item.beside_key] = beside
+        return {item.key: info}
+
+    def _info(self, held: Texture | PlacedTexture) -> dict[str, Any]:
+        if isinstance(held, Texture):
+            return {"index": self._texture(held)}
+        info: dict[str, Any] = {"index": self._texture(held.texture)}
+        if held.uv_set:
+            info["texCoord"] = held.uv_set
+        defaults = {"offset": (0.0, 0.0), "rotation": 0.0, "scale": (1.0, 1.0)}
+        values = {key: getattr(held, key) for key in defaults}
+        moved = {key: value for key, value in values.items() if value != defaults[key]}
+        if moved:
+            self.extensions.add(_TRANSFORM)
+            info["extensions"] = {_TRANSFORM: moved}
+        return info
+
+    def _texture(self, texture: Texture) -> int:
+        if id(texture) not in self._read:
+            self._read.add(id(texture))
+            self._kept.append(texture)
+            for thing in lost_of_reading(texture):
+                self.lost[thing] = self.lost.get(thing, 0) + 1
+        image, extension = self._image(texture)
+        entry: dict[str, Any] = {}
+        if extension is None:
+            entry["source"] = image
+        else:
+            entry["extensions"] = {extension: {"source": image}}
+        if (texture.wrap, texture.filter) != ("repeat", "trilinear"):
+            entry["sampler"] = self._sampler(texture)
+        return _number_of(self.textures, entry)
+
+    def _sampler(self, texture: Texture) -> int:
+        magnified, reduced = _FILTERS[texture.filter]
+        u, v = (_WRAPS[wrap] for wrap in texture.side_wraps)
+        entry = {"magFilter": magnified, "minFilter": reduced, "wrapS": u, "wrapT": v}
+        return _number_of(self.samplers, entry)
+
+    def _image(self, texture: Texture) -> tuple[int, str | None]:
+        """The number of a texture's image, and the extension that it needs."""
+        key = id(texture.pixels)
+        if key not in self._images:
+            self._kept.append(texture.pixels)
+            content, media, extension = _content(texture)
+            if extension is not None:
+                self.extensions.add(extension)
+                self.required.add(extension)
+            entry = {"bufferView": self._arrays.bytes(content), "mimeType": media}
+            if texture.name:
+                entry["name"] = texture.name
+            self.images.append(entry)
+            self._images[key] = len(self.images) - 1, extension
+        return self._images[key]
+
+
+def _number_of(entries: list[dict[str, Any]], entry: dict[str, Any]) -> int:
+    if entry not in entries:
+        entries.append(entry)
+    return entries.index(entry)
+
+
+def _content(texture: Texture) -> tuple[bytes, str, str | None]:
+    """The bytes of a texture's image, their media type, and the extension that they need."""
+    content = texture._file
+    if content is None and texture._path is not None and not texture._is_missing:
+        content = _read(texture._path)
+    if content is not None:
+        for signature, media, extension in _IMAGES:
+            if content.startswith(signature):
+                return content, media, extension
+    return bytes(encode_png(texture.pixels)), "image/png", None
+
+
+def _read(path: str) -> bytes | None:
+    """The file that a texture came from, if it still is there."""
+    try:
+        if not os.path.isfile(path):
+            return None
+        with open(path, "rb") as file:
+            return file.read()
+    except OSError:
+        return None
+
+
+def _value(material: Material, field: str) -> Any:
+    """A number or several of a material, linear, as files have them."""
+    if field == "color":
+        return (*_linear(material.rgb), material.alpha)
+    if field in ("metallic", "roughness"):
+        return _physical(material)[field == "roughness"]
+    value = getattr(material, field)
+    return _linear(value) if isinstance(value, tuple) else value
+
+
+def _linear(color: tuple[Any, ...]) -> tuple[float, ...]:
+    if all(isinstance(part, float) for part in color):
+        return tuple(color)
+    return tuple(map(float, linear_color(color)))
+
+
+def _physical(material: Material) -> tuple[float, float]:
+    """Metallic and roughness; of a highlight of Blinn's, GGX's that is about as wide."""
+    if material.is_physical:
+        metallic = 1.0 if material.metallic is None else material.metallic
+        return metallic, 1.0 if material.roughness is None else material.roughness
+    if not any(_linear(material.specular)):
+        return 0.0, 1.0
+    return 0.0, math.sqrt(math.sqrt(2.0 / (material.shininess + 2.0)))

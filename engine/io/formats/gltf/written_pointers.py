@@ -1,0 +1,79 @@
+"""What clips change besides poses, as a glTF file that is written names it: KHR_animation_pointer.
+
+In: the clips of a `TreeRecord`, and the JSON of all else. Out: the targets of their channels; in
+the JSON, whatever these point to, which a file has to say though it is as by default.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from ...reading.documents import ClipRecord, PropertyRecord, TreeRecord
+from .gltf_pointers import POINTER, pointer_of
+from .written_materials import GltfMaterialList
+
+# Keys that have no default: what does not say them cannot change them.
+_WITHOUT_DEFAULT = ("zfar", "range")
+
+
+class GltfPointers:
+    """The pointers of a file's clips.
+
+    Parameters
+    ----------
+    tree : TreeRecord
+    materials : GltfMaterialList
+
+    Attributes
+    ----------
+    extensions : set of str
+        Those that the pointers go through.
+    """
+
+    def __init__(self, tree: TreeRecord, materials: GltfMaterialList) -> None:
+        self._tree, self._materials = tree, materials
+        self._pointers: dict[str, None] = {}
+        self._told: list[str] = []
+        self.extensions: set[str] = set()
+
+    def targets(self, clip: ClipRecord) -> Iterator[tuple[PropertyRecord, dict[str, Any]]]:
+        """Yield what changes, and the target of its channel; each pointer once."""
+        seen = set()
+        for held in clip.properties:
+            pointer = self._pointer(held)
+            if pointer is None or self._is_lacking(held):
+                what = f"{held.path} of a {held.kind}"
+                self._told.append(f"gltf files do not hold how {what} changes")
+            elif pointer not in seen:
+                seen.add(pointer)
+                self._pointers[pointer] = None
+                keys = pointer.split("/")
+                self.extensions.update(
+                    after for key, after in zip(keys, keys[1:], strict=False) if key == "extensions"
+                )
+                yield held, {"path": "pointer", "extensions": {POINTER: {"pointer": pointer}}}
+
+    def _pointer(self, held: PropertyRecord) -> str | None:
+        number: int | None = held.number
+        lens = ""
+        if held.kind == "material":
+            number = self._materials.number(self._tree.materials[held.number])
+        elif held.kind == "camera":
+            lens = self._tree.cameras[held.number].kind
+        return None if number is None else pointer_of(held.kind, number, held.path, lens)
+
+    def _is_lacking(self, held: PropertyRecord) -> bool:
+        """Whether the file will not say what changes, since it is infinite at first."""
+        things = {"camera": self._tree.cameras, "light": self._tree.lights}.get(held.kind)
+        if things is None or held.path not in _WITHOUT_DEFAULT:
+            return False
+        return getattr(things[held.number], held.path) == float("inf")
+
+    def define(self, json: dict[str, Any]) -> list[str]:
+        """Put the objects that pointers go through into the JSON; return what is told."""
+        for pointer in self._pointers:
+            place: Any = json
+            for key in pointer.split("/")[1:-1]:
+                place = place[int(key)] if isinstance(place, list) else place.setdefault(key, {})
+        return self._told

@@ -1,0 +1,223 @@
+"""PNG, JPEG and the other common image formats, decoded by Pillow.
+
+In: the bytes of an image file. Out: (H, W, 4) uint8 RGBA, the top row first. Pillow is imported
+when the first image is read, and is allowed the listed formats only (others may start programs).
+Sizes are checked here for all images, whoever decodes them.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import re
+import warnings
+from contextvars import ContextVar
+
+import numpy as np
+
+from ..._native.loaders import frozen
+from ...errors import FileFormatError
+from ...model.materials.textures import MAX_SIDE
+from ..reading.reader_registry import Reader
+from ..reading.sources import Source
+
+# More pixels than this are refused before anything is decoded; as RGBA they take 683 MiB. Assign
+# another value to change it (beyond this one, which is Pillow's, Image.MAX_IMAGE_PIXELS as well).
+MAX_PIXELS = 178_956_970
+# The images of one model may together have MAX_PIXELS, and so many for each byte of their files.
+PIXELS_PER_BYTE = 10
+# Pixels that are converted at a time.
+_STRIP = 1 << 20
+
+_left: ContextVar[list[int] | None] = ContextVar("pixels_left", default=None)
+
+
+@contextlib.contextmanager
+def images_of_one_model():
+    """Limit the pixels of all images that are checked within the block together."""
+    token = _left.set([MAX_PIXELS])
+    try:
+        yield
+    finally:
+        _left.reset(token)
+
+
+def check_image_size(width: int, height: int, path: str, size: int = 0) -> None:
+    """Refuse images without pixels, and those too large to be honest.
+
+    Parameters
+    ----------
+    width, height : int
+    path : str
+        What the error names.
+    size : int
+        Bytes of the image's file.
+
+    Raises
+    ------
+    FileFormatError
+    """
+    if width < 1 or height < 1:
+        raise FileFormatError(f"an image of {width}x{height} pixels", path)
+    if max(width, height) > MAX_SIDE:
+        raise FileFormatError(f"{width}x{height} pixels: a side is limited to {MAX_SIDE}", path)
+    if width * height > MAX_PIXELS:
+        raise FileFormatError(
+            f"{width}x{height} pixels: an image is limited to {MAX_PIXELS} pixels", path
+        )
+    left = _left.get()
+    if left is None:
+        return
+    taken = max(width * height - PIXELS_PER_BYTE * size, 0)
+    if taken > left[0]:
+        raise FileFormatError(
+            f"{width}x{height} pixels: the images of a model are limited to {MAX_PIXELS} pixels "
+            "together",
+            path,
+        )
+    left[0] -= taken
+
+
+def read_image(source: Source) -> np.ndarray:
+    """Decode an image file with Pillow.
+
+    Returns
+    -------
+    pixels : (H, W, 4) uint8, the top row first
+        The first frame of an animation.
+
+    Raises
+    ------
+    FileFormatError
+    """
+    from PIL import Image
+
+    try:
+        with quiet_pillow(), Image.open(io.BytesIO(source.data), formats=PILLOW_FORMATS) as image:
+            check_image_size(*image.size, source.path, source.size)
+            return rgba_pixels(image, source.path)
+    except FileFormatError:
+        raise
+    except Image.DecompressionBombError as error:
+        raise FileFormatError(f"an image is limited to {MAX_PIXELS} pixels", source.path) from error
+    except Image.UnidentifiedImageError as error:
+        raise FileFormatError("not an image of a known format", source.path) from error
+    # Pillow's plugins raise whatever a damaged file leads them to: OSError, SyntaxError,
+    # struct.error, IndexError, ...
+    except Exception as error:
+        raise FileFormatError(f"damaged image: {error}", source.path) from error
+
+
+@contextlib.contextmanager
+def quiet_pillow():
+    """Silence warnings of what Pillow passes over, and of sizes that are not too large here."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
+
+
+def rgba_pixels(image, path: str) -> np.ndarray:
+    """Convert an image of Pillow's.
+
+    Parameters
+    ----------
+    image : PIL.Image.Image
+        Of any mode. The high byte counts of 16-bit channels.
+    path : str
+        What the error names.
+
+    Returns
+    -------
+    pixels : (H, W, 4) uint8, read-only
+
+    Raises
+    ------
+    FileFormatError
+        Its pixels have no range that is known: floats, or integers beyond 16 bits.
+    """
+    if image.mode == "F":  # Pillow would make them 0 and 1 of 255
+        raise FileFormatError("pixels that are floats are not read", path)
+    convert = _wide_grey if image.mode.startswith("I") else _converted
+    # Strip by strip: Pillow's own conversion and the way from it to an array copy an image each.
+    pixels = np.empty((image.height, image.width, 4), np.uint8)
+    rows = max(_STRIP // image.width, 1)
+    for top in range(0, image.height, rows):
+        bottom = min(top + rows, image.height)
+        convert(image, image.crop((0, top, image.width, bottom)), pixels[top:bottom], path)
+    return frozen(pixels)  # so that a texture takes it over
+
+
+def made_pixels(image, path: str) -> np.ndarray:
+    """Convert an image of Pillow's that a program made; otherwise as `rgba_pixels`.
+
+    Integers and floats without a range of their own are of 0 to 255 where a conversion made them.
+    Other integers are of 0 to 65535, and floats of 0 to 1.
+    """
+    if image.mode == "F":
+        values = np.asarray(image)
+        scale = 255.0 if values.max(initial=0) <= 1 else 1.0
+        codes = np.clip(np.nan_to_num(values * scale), 0, 255).astype(np.uint8)
+        return np.stack([codes, codes, codes, np.full_like(codes, 255)], axis=-1)
+    if image.mode == "I" and image.getextrema()[1] <= 255:
+        image = image.convert("L")
+    return rgba_pixels(image, path)
+
+
+# Modes that Pillow does not convert to RGBA, or not as they look -> the one on the way.
+_THROUGH = {"HSV": "RGB", "YCbCr": "RGB", "RGBX": "RGB", "CMYK": "RGB", "La": "LA", "PA": "RGBA"}
+
+
+def _converted(image, strip, pixels: np.ndarray, path: str) -> None:
+    if strip.mode == "LAB":
+        strip = _of_lab(strip)
+    elif strip.mode in _THROUGH:
+        strip = strip.convert(_THROUGH[strip.mode])
+    pixels[:] = np.asarray(strip.convert("RGBA"))
+
+
+def _of_lab(strip):
+    """CIE Lab under D50 as sRGB."""
+    from PIL import ImageCms
+
+    profiles = ImageCms.createProfile("LAB"), ImageCms.createProfile("sRGB")
+    return ImageCms.profileToProfile(strip, *profiles, outputMode="RGB")
+
+
+def _wide_grey(image, strip, pixels: np.ndarray, path: str) -> None:
+    """16-bit grey, which Pillow's own conversion would clip at 255."""
+    wide = np.asarray(strip)
+    if wide.dtype.itemsize > 2 and (wide.min() < 0 or wide.max() > 0xFFFF):
+        raise FileFormatError("pixels of more than 16 bits are not read", path)
+    pixels[:, :, :3] = (wide >> 8).astype(np.uint8)[:, :, np.newaxis]
+    transparent = image.info.get("transparency")
+    pixels[:, :, 3] = 255 if transparent is None else np.where(wide == transparent, 0, 255)
+
+
+def _starts_with(*signatures: bytes):
+    return lambda head: head.startswith(signatures)
+
+
+def _is_webp(head: bytes) -> bool:
+    return head[:4] == b"RIFF" and head[8:12] == b"WEBP"
+
+
+def _is_ppm(head: bytes) -> bool:
+    return re.match(rb"P[1-6]\s", head) is not None
+
+
+_FORMATS = (
+    ("png", "Portable Network Graphics", (".png",), "PNG", _starts_with(b"\x89PNG\r\n\x1a\n")),
+    ("jpeg", "JPEG", (".jpg", ".jpeg"), "JPEG", _starts_with(b"\xff\xd8\xff")),
+    ("webp", "WebP", (".webp",), "WEBP", _is_webp),
+    ("bmp", "Windows bitmap", (".bmp",), "BMP", _starts_with(b"BM")),
+    ("gif", "GIF, first frame", (".gif",), "GIF", _starts_with(b"GIF87a", b"GIF89a")),
+    ("tiff", "TIFF", (".tif", ".tiff"), "TIFF", _starts_with(b"II*\0", b"MM\0*")),
+    ("ppm", "Portable pixmap", (".ppm", ".pgm", ".pbm"), "PPM", _is_ppm),
+)
+# What Pillow may open, whatever a file claims to be.
+PILLOW_FORMATS = [pillow_name for _, _, _, pillow_name, _ in _FORMATS]
+
+READERS = tuple(
+    Reader(name, description, "image", extensions, read_image, signature)
+    for name, description, extensions, _, signature in _FORMATS
+)

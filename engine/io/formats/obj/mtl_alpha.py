@@ -1,0 +1,84 @@
+"""The alpha of Wavefront materials: ``d``, ``Tr``, opacity maps, and images that have alpha.
+
+In: what an MTL library says of a material. Out: its `alpha_mode`, alpha and texture. The format
+knows no modes. A map whose values are black and white cuts out (foliage, fences); anything between
+is blended. An image of the colour with alpha cuts out if its alpha is black and white, too, as
+viewers do that blend it; any other alpha of it is taken for something else, such as a gloss map.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ....model.materials.material import Material
+from ....model.materials.textures import Texture
+
+#: The statements that name an opacity map, in lower case -> whether it holds transparency.
+OPACITY_MAPS = {"map_d": False, "map_opacity": False, "map_tr": True}
+_LOW, _HIGH = 8, 247  # what counts as nothing and as all, of 255
+_MOST_BETWEEN = 0.1  # of the texels of a mask: edges are smoothed
+_LEAST_EACH = 0.002  # of them in and out
+
+
+def set_alpha(
+    material: Material, opacity: float, opacity_map: Texture | None, inverted: bool
+) -> None:
+    """Let a material be masked or blended where its file says so.
+
+    Parameters
+    ----------
+    material : Material
+        With its colour and texture.
+    opacity : float
+        0 to 1: ``d``, or 1 - ``Tr``.
+    opacity_map : Texture or None
+    inverted : bool
+        Whether the map is white where nothing shows.
+    """
+    texture = material.texture
+    if opacity_map is not None:
+        alpha = _map_values(opacity_map, inverted)
+        material.texture = _with_alpha(texture, opacity_map, alpha)
+        material.alpha_mode = "mask" if opacity == 1 and _is_mask(alpha) else "blend"
+    elif isinstance(texture, Texture) and _is_mask(texture.pixels[:, :, 3]):
+        material.alpha_mode = "mask" if opacity == 1 else "blend"
+    elif opacity < 1:
+        material.alpha_mode = "blend"
+    if opacity < 1:
+        material.color = (*material.rgb, opacity)
+
+
+def _map_values(texture: Texture, inverted: bool) -> np.ndarray:
+    """(H, W) uint8: the map's alpha if it has any, else its red, of grey images the grey."""
+    pixels = texture.pixels
+    values = pixels[:, :, 3] if (pixels[:, :, 3] != 255).any() else pixels[:, :, 0]
+    return 255 - values if inverted else values
+
+
+def _is_mask(alpha: np.ndarray) -> bool:
+    out, within = np.mean(alpha <= _LOW), np.mean(alpha >= _HIGH)
+    return min(out, within) >= _LEAST_EACH and 1 - out - within <= _MOST_BETWEEN
+
+
+def _with_alpha(texture: Texture | None, opacity_map: Texture, alpha: np.ndarray) -> Texture:
+    """The image of the colour with this alpha: in the larger of both sizes, by nearest texels."""
+    given = opacity_map if texture is None else texture
+    height = max(given.height, alpha.shape[0])
+    width = max(given.width, alpha.shape[1])
+    pixels = np.full((height, width, 4), 255, np.uint8)
+    if texture is not None:
+        pixels[:, :, :3] = _resized(texture.pixels[:, :, :3], height, width)
+    pixels[:, :, 3] = _resized(alpha, height, width)
+    return Texture(
+        pixels,
+        color_space=given.color_space,
+        filter=given.filter,
+        wrap=given.wrap,
+        name=given.name,
+    )
+
+
+def _resized(pixels: np.ndarray, height: int, width: int) -> np.ndarray:
+    rows = np.arange(height) * pixels.shape[0] // height
+    columns = np.arange(width) * pixels.shape[1] // width
+    return pixels[rows[:, np.newaxis], columns]

@@ -1,0 +1,143 @@
+"""The statements of MTL: keywords in any letter case, numbers, and maps with their options.
+
+In: the words of a line. Out: values and maps by the format's own keywords. What a statement means
+is said in mtl.py and its neighbours.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+
+from ...reading.text import words_of
+
+COLORS = {"Ka", "Kd", "Ks", "Ke", "Tf"}
+SCALARS = {"Ns", "Ni", "d", "Tr", "illum", "sharpness", "Pr", "Pm", "Ps", "Pc", "Pcr"}
+SCALARS |= {"aniso", "anisor", "Pcor"}
+_MAPS = {"bump", "disp", "decal", "refl", "norm"}
+#: Maps that are called so, and whatever else begins with ``map_``.
+_KNOWN_MAPS = {"map_Ka", "map_Kd", "map_Ks", "map_Ke", "map_Ns", "map_d", "map_Tr", "map_opacity"}
+_KNOWN_MAPS |= {"map_Bump", "map_bump", "map_disp", "map_decal", "map_refl", "map_norm", "map_Kn"}
+_KNOWN_MAPS |= {"map_Pr", "map_Pm", "map_Ps", "map_Pc", "map_Pcr", "map_ORM", "map_RMA", "map_AO"}
+_KNOWN_MAPS |= {"map_aniso", "map_anisor", "map_aat"}
+_KNOWN = sorted({"newmtl", *COLORS, *SCALARS, *_MAPS, *_KNOWN_MAPS}, reverse=True)
+_SPELLINGS = {keyword.lower(): keyword for keyword in _KNOWN} | {word: word for word in _KNOWN}
+# What other statements are called that say how a surface looks.
+_LOOKS = re.compile(
+    r"k[a-z]\w?|.*(?:colou?r|diffuse|specular|shin|gloss|albedo|ambient|emi|opacity|alpha|transp|tex|"
+    r"map|image|metal|rough|normal|bump).*",
+    re.IGNORECASE,
+)
+# The words that follow each option of a map; the last three of -s, -o and -t may be left out.
+_OPTIONS = {
+    "-blendu": 1,
+    "-blendv": 1,
+    "-boost": 1,
+    "-bm": 1,
+    "-cc": 1,
+    "-clamp": 1,
+    "-colorspace": 1,
+    "-imfchan": 1,
+    "-mm": 2,
+    "-o": 3,
+    "-s": 3,
+    "-t": 3,
+    "-texres": 1,
+    "-type": 1,
+}
+_NUMBERED = ("-s", "-o", "-t", "-mm")
+
+
+def keyword_of(word: str) -> str:
+    """Return the format's spelling of a keyword, or the word where it has none."""
+    return _SPELLINGS.get(word) or _SPELLINGS.get(word.lower(), word)
+
+
+def is_map(keyword: str) -> bool:
+    """Whether a keyword names an image."""
+    return keyword in _MAPS or keyword[:4].lower() == "map_"
+
+
+def looks_like_a_look(keyword: str) -> bool:
+    """Whether a keyword that is not understood seems to be of a colour, of opacity or of a map."""
+    return keyword not in _SPELLINGS and _LOOKS.fullmatch(keyword) is not None
+
+
+def color_of(rest: bytes) -> tuple[float, float, float] | None:
+    """Three numbers, or one for all channels; None for anything else (``spectral``, ``xyz``)."""
+    numbers = _numbers(rest.split()[:3])
+    if numbers is None or len(numbers) not in (1, 3):
+        return None
+    numbers = numbers * 3 if len(numbers) == 1 else numbers
+    return tuple(max(0.0, number) for number in numbers)
+
+
+def scalar_of(rest: bytes) -> float | None:
+    """The first number, or None."""
+    words = [word for word in rest.split() if word != b"-halo"]
+    numbers = _numbers(words[:1])
+    return numbers[0] if numbers else None
+
+
+def _numbers(words: list[bytes]) -> list[float] | None:
+    """Finite floats that float32 can hold, or None."""
+    try:
+        numbers = [float(word) for word in words]
+    except ValueError:
+        return None
+    return numbers if all(math.isfinite(n) and abs(n) < 3e38 for n in numbers) else None
+
+
+def parse_map(text: str) -> dict:
+    """Take the arguments of a map statement apart.
+
+    Returns
+    -------
+    entry : dict
+        ``name`` (the file's, which may hold blanks; "" if there is none), and each option without
+        its dash, in lower case: a list of words. Options may stand before the name or behind it.
+    """
+    words = words_of(text)
+    entry: dict = {"name": ""}
+    position = _take_options(words, 0, entry)
+    if position == len(words):
+        return entry
+    last = len(words)
+    for start in range(position + 1, len(words)):
+        behind: dict = {}
+        if words[start].lower() in _OPTIONS and _take_options(words, start, behind) == len(words):
+            entry |= {key: values for key, values in behind.items() if values}
+            last = start
+            break
+    # As it was written: blanks in a name count.
+    entry["name"] = _between(text, position, last)
+    return entry
+
+
+def _take_options(words: list[str], position: int, entry: dict) -> int:
+    """Read options into an entry; return the place behind them."""
+    while position < len(words) and words[position].lower() in _OPTIONS:
+        option = words[position].lower()
+        position += 1
+        values: list[str] = []
+        while len(values) < _OPTIONS[option] and position < len(words):
+            if option in _NUMBERED and not _is_number(words[position]):
+                break
+            values.append(words[position])
+            position += 1
+        entry[option[1:]] = values
+    return position
+
+
+def _between(text: str, first: int, last: int) -> str:
+    """The text of the words first..last-1, with what stands between them."""
+    found = list(re.finditer(r"[^ \t\r\n\v\f]+", text))
+    return text[found[first].start() : found[last - 1].end()]
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True

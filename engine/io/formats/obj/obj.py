@@ -1,0 +1,122 @@
+"""Wavefront OBJ: polygons, lines and points, with the materials of its libraries.
+
+In: the bytes of a file, and the libraries and images that it names. Out: a `Document`. The order of
+work: arrays of the file (in C), triangles, materials, normals, welding. Free-form curves and
+surfaces are left out with a warning; ``call`` and ``csh`` are never followed.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...._native.loaders import frozen
+from ....model.geometry.creases import SMOOTH
+from ....model.materials.material import Material
+from ...reading.corner_mesh import Triangles
+from ...reading.documents import Document
+from ...reading.linked_textures import give_companion_texture
+from ...reading.reader_registry import Reader
+from ...reading.smoothing import fill_normals
+from ...reading.sources import Source
+from ...reading.triangulation import Triangulation, WorkBudget, triangulate
+from ...reading.undrawn import warn_of_undrawn
+from ...reading.warning_list import WarningList
+from .mtl import undrawn_kinds
+from .obj_file import Elements, ObjFile, read_obj_file
+from .obj_materials import only_material, read_library, used_materials
+from .obj_parts import ObjParts
+from .obj_states import ObjStates, run_lengths
+
+
+def read_obj(source: Source, split: bool = False) -> Document:
+    """Read an OBJ file, as `Reader.read`; an ``o`` statement begins an object."""
+    warnings = WarningList(source.path)
+    file = read_obj_file(source, warnings)
+    states = ObjStates(file, warnings)
+    cut = _cut(source, file, warnings)
+    materials, material_ids = _materials(source, file, states, cut, warnings)
+    triangles = _triangles(file.faces, cut, material_ids)
+    # What the file says of smoothing holds whatever the angle.
+    crease_angle = SMOOTH if states.has_smoothing else source.crease_angle
+    normals = _fill_normals(file, triangles, states, crease_angle)
+    parts = ObjParts(file, triangles, normals, states, materials, crease_angle, moves=split)
+    objects = parts.objects(source.stem, warnings) if split else [parts.whole(source.stem)]
+    return Document("obj", objects, counts=parts.counts(), warnings=warnings.messages())
+
+
+def _cut(source, file: ObjFile, warnings) -> Triangulation | None:
+    """Cut the faces into triangles; None if all are."""
+    if file.faces.are_triangles:
+        return None
+    budget = WorkBudget.for_file(source.size)
+    faces = file.faces
+    cut = triangulate(faces.sizes, file.vertices.positions, budget, indices=faces.positions)
+    if not cut.is_complete:
+        warnings.add("too many concave polygons: some are cut as if they were convex")
+    return cut
+
+
+def _materials(source, file: ObjFile, states: ObjStates, cut: Triangulation | None, warnings):
+    """The materials in use, and the one of each triangle.
+
+    Without any there is one without a name; so there is for triangles before the first ``usemtl``.
+    """
+    library = read_library(source, states.libraries, len(states.materials) > 0, warnings)
+    materials, material_of_use = used_materials(states.materials, library, warnings)
+    only = None if materials else only_material(library, warnings)
+    is_of_library = only is not None or any(m.name in library for m in materials)
+    if is_of_library:
+        warn_of_undrawn(map(undrawn_kinds, [only] if only else materials), warnings)
+    faces = len(file.faces.sizes)
+    lengths = run_lengths(states.materials, faces)
+    ids = np.repeat(np.array([len(materials), *material_of_use], np.int32), lengths)
+    ids = frozen(ids if cut is None else ids[cut.polygons])
+    if not materials or (lengths[0] > 0 and (ids == len(materials)).any()):
+        materials.append(Material() if only is None else only)
+    if not is_of_library and len(file.vertices.uvs):
+        give_companion_texture(source, materials, warnings)
+    return materials, ids
+
+
+def _triangles(faces: Elements, cut: Triangulation | None, material_ids: np.ndarray) -> Triangles:
+    indices = (faces.positions, faces.uvs, faces.normals)
+    if cut is None:
+        corners = [None if array is None else array.reshape(-1, 3) for array in indices]
+        polygons = np.arange(len(faces.sizes), dtype=np.int32)
+        return Triangles(*corners, material_ids, polygons, None)
+    corners = [None if array is None else array[cut.corners] for array in indices]
+    return Triangles(*corners, material_ids, cut.polygons, cut.edge_visible)
+
+
+def _fill_normals(file: ObjFile, triangles: Triangles, states: ObjStates, crease_angle: float):
+    """Give the triangles the normals that they lack; returns what their indices refer to."""
+    vertices = file.vertices
+    if triangles.normals is None and not states.has_smoothing:
+        # What `fill_normals` comes to, without looking at each triangle.
+        return None
+    if triangles.normals is not None and triangles.normals.min(initial=0) >= 0:
+        return vertices.normals
+    filled = fill_normals(
+        vertices.positions,
+        triangles.positions,
+        triangles.normals,
+        vertices.normals,
+        states.smoothing_groups(len(file.faces.sizes))[triangles.polygons],
+        triangles.polygons,
+        crease_angle=crease_angle,
+    )
+    if filled is None:
+        return None
+    triangles.normals, normals = filled
+    return normals
+
+
+def _resembles_obj(head: bytes, size: int) -> bool:
+    return b"\0" not in head and any(
+        line.startswith((b"v ", b"vn ", b"vt ", b"f ", b"mtllib ")) for line in head.splitlines()
+    )
+
+
+READERS = (
+    Reader("obj", "Wavefront OBJ with MTL", "mesh", (".obj",), read_obj, resembles=_resembles_obj),
+)

@@ -1,0 +1,136 @@
+"""An OBJ file as arrays: the C parser's result, its errors told in words.
+
+In: the bytes of a file. Out: vertices, the corners of faces, lines and points, zero-based and
+checked, and the statements that set something for the elements behind them. Every error names its
+line.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ...._native import loaders as native
+from ....errors import FileFormatError
+from ...reading.corner_mesh import Vertices
+from ...reading.sources import Source
+from ...reading.text import checked_text, shown
+from ...reading.warning_list import WarningList
+
+# Bytes between two looks at what else is to be done, such as Ctrl-C.
+_STEP = 4 << 20
+# The share of the work that is done when all bytes are read.
+_PARSING = 0.8
+_ROWS = ("vertex", "texture coordinate", "normal")
+_LEAST = (3, 1, 3)
+
+
+class Elements(NamedTuple):
+    """Faces, lines or points.
+
+    Attributes
+    ----------
+    sizes : (E,) int32
+        The number of corners of each element.
+    positions : (C,) int32
+        Of all corners, element after element: indices from 0.
+    uvs, normals : (C,) int32 or None
+        The same, -1 for none; None if no corner has any.
+    are_triangles : bool
+        Whether each has three corners.
+    """
+
+    sizes: np.ndarray
+    positions: np.ndarray
+    uvs: np.ndarray | None
+    normals: np.ndarray | None
+    are_triangles: bool
+
+    def part(self, first: int, last: int) -> Elements:
+        """Return the elements first..last-1."""
+        corners = slice(int(self.sizes[:first].sum()), int(self.sizes[:last].sum()))
+        indices = (self.positions, self.uvs, self.normals)
+        parts = [None if array is None else array[corners] for array in indices]
+        return Elements(self.sizes[first:last], *parts, self.are_triangles)
+
+
+@dataclass
+class ObjFile:
+    """What an OBJ file holds.
+
+    Attributes
+    ----------
+    vertices : Vertices
+    faces, lines, points : Elements
+    setters : (S,) `engine3d._native.loaders.SETTER`
+        The statements that set something, in the order of the file.
+    names : memoryview
+        The bytes that the names of ``setters`` are part of.
+    """
+
+    vertices: Vertices
+    faces: Elements
+    lines: Elements
+    points: Elements
+    setters: np.ndarray
+    names: memoryview
+
+
+def read_obj_file(source: Source, warnings: WarningList) -> ObjFile:
+    """Parse the bytes of an OBJ file.
+
+    Raises
+    ------
+    FileFormatError
+        A number or an index is none, or a vertex does not exist. A texture coordinate or a normal
+        that does not exist is a warning, and the corner goes without.
+    """
+    reader = native.ObjReader(checked_text(source))
+    while reader.read(_STEP):
+        source.progress(_PARSING * min(reader.consumed / len(source.data), 1.0))
+    problem = reader.end()
+    if problem != native.DONE:
+        raise _error(problem, reader.error, source.path)
+    found = reader.take()
+    elements = [
+        _elements(found[kind], found, warnings, of_faces=kind == "faces")
+        for kind in ("faces", "lines", "points")
+    ]
+    vertices = Vertices(found["positions"], found["colors"], found["uvs"], found["normals"])
+    return ObjFile(vertices, *elements, found["setters"], found["names"])
+
+
+def _error(problem: int, details: tuple[int, int, int, bytes], path: str) -> Exception:
+    if problem == native.NO_MEMORY:
+        return MemoryError()
+    which, count, line, word = details
+    what = _ROWS[which]
+    message = {
+        native.TOO_LARGE: "more than 2^31 vertices, corners or lines",
+        native.NO_VERTICES: "no vertices in this OBJ file",
+        native.FEW_NUMBERS: f"{what} with {count} numbers, at least {_LEAST[which]} are needed",
+        native.NOT_A_NUMBER: f"not a number: {shown(word)}",
+        native.NOT_AN_INDEX: f"not a {what} index: {shown(word)}",
+        native.NO_INDEX: f"a corner without a vertex index: {shown(word)}",
+        native.MANY_INDICES: f"a corner has at most three indices: {shown(word)}",
+        native.OUT_OF_RANGE: f"{what} index out of range, there are {count}: {shown(word)}",
+    }[problem]
+    return FileFormatError(message, path, line or None)
+
+
+def _elements(read: tuple, found: dict, warnings: WarningList, *, of_faces: bool) -> Elements:
+    """One kind of elements; warns of what was left out."""
+    sizes, indices, are_triangles, (short, line), outside = read
+    for which, (count, first, word) in enumerate(outside):
+        if count:
+            total = len(found["uvs" if which == 1 else "normals"])
+            warnings.add(
+                f"{_ROWS[which]} index out of range, there are {total}: {shown(word)}; "
+                f"left out in {count} corners",
+                first,
+            )
+    if of_faces and short:
+        warnings.add(f"{short} faces of fewer than three corners are left out", line)
+    return Elements(sizes, *indices, are_triangles)

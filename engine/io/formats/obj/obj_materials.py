@@ -1,0 +1,164 @@
+"""The materials that an OBJ file uses, from its libraries.
+
+In: the names in ``usemtl`` and ``mtllib`` with their lines. Out: `Material` objects. A library that
+is missing, damaged or out of bounds is a warning; its materials are plain then.
+"""
+
+from __future__ import annotations
+
+import os
+
+from ....errors import Engine3DError
+from ....model.materials.material import Material
+from ...reading.linked_files import LinkedFileError, LinkedFiles
+from ...reading.linked_textures import TextureCache
+from ...reading.sources import Source
+from ...reading.text import shown, words_of
+from ...reading.warning_list import WarningList
+from .mtl import read_mtl
+from .obj_states import Setters
+
+
+def read_library(
+    source: Source, statements: Setters, is_used: bool, warnings: WarningList
+) -> dict[str, Material]:
+    """Read all material libraries of a model.
+
+    If none of them is there, the one that bears the model's name takes their place.
+
+    Parameters
+    ----------
+    source : Source
+        The model.
+    statements : Setters
+        All ``mtllib``.
+    is_used : bool
+        Whether the model names any material.
+    warnings : WarningList
+
+    Returns
+    -------
+    library : dict of str to Material
+        Of materials with the same name, the first.
+    """
+    library: dict[str, Material] = {}
+    files = LinkedFiles.of(source)
+    textures = TextureCache(files)
+    paths: dict[str, int | None] = {}
+    for names, line in zip(statements.names(), statements.lines, strict=True):
+        for path in _library_paths(names, files, line, warnings):
+            paths.setdefault(path, line)
+    if not paths and (is_used or len(statements)):
+        paths = dict.fromkeys(_namesake(source, files, warnings))
+    for path, line in paths.items():
+        try:
+            found = read_mtl(files.read(path), textures, warnings)
+        except Engine3DError as error:
+            warnings.add(f"material library left out: {error}", line)
+            continue
+        for name, material in found.items():
+            library.setdefault(name, material)
+    return library
+
+
+def _namesake(source: Source, files: LinkedFiles, warnings: WarningList) -> list[str]:
+    """The library that bears the model's name: files are renamed, and some name no library."""
+    path = _found_or_none(files, f"{source.stem}.mtl") if source.stem else None
+    if path is None:
+        return []
+    warnings.add(f"no material library is found: {shown(os.path.basename(path))} is used")
+    return [path]
+
+
+def used_materials(
+    uses: Setters, library: dict[str, Material], warnings: WarningList
+) -> tuple[list[Material], list[int]]:
+    """Return the materials that ``usemtl`` names, and the number of each use's material.
+
+    Parameters
+    ----------
+    uses : Setters
+        All ``usemtl``.
+    """
+    materials: list[Material] = []
+    number: dict[str, int] = {}
+    alike: dict[str, list[str]] = {}
+    for name in library:
+        alike.setdefault(name.casefold(), []).append(name)
+    names = uses.names()
+    for name, line in zip(names, uses.lines, strict=True):
+        if name in number:
+            continue
+        number[name] = len(materials)
+        materials.append(_named(name, library, alike, line, warnings))
+    return materials, [number[name] for name in names]
+
+
+def _named(
+    name: str,
+    library: dict[str, Material],
+    alike: dict[str, list[str]],
+    line: int,
+    warnings: WarningList,
+) -> Material:
+    """The material of a name, or the only one whose name differs by letter case alone."""
+    if name in library:
+        return library[name]
+    others = alike.get(name.casefold(), [])
+    if len(others) == 1:
+        warnings.add(f"material {shown(name)} is in no library; {shown(others[0])} is used", line)
+        return library[others[0]]
+    if library:
+        warnings.add(f"material {shown(name)} is in no library", line)
+    return Material(name=name)
+
+
+def only_material(library: dict[str, Material], warnings: WarningList) -> Material | None:
+    """Return what a file of no ``usemtl`` is made of: the only material of its libraries.
+
+    Of several, none is more likely than the others, and a warning says so.
+    """
+    if not library:
+        return None
+    if len(library) > 1:
+        warnings.add(f"no usemtl: none of the {len(library)} materials of the library is used")
+        return None
+    (material,) = library.values()
+    warnings.add(f"no usemtl: the only material of the library, {shown(material.name)}, is used")
+    return material
+
+
+def _library_paths(names: str, files: LinkedFiles, line: int, warnings: WarningList) -> list[str]:
+    """``mtllib`` names one file, whose name may hold blanks, or several files."""
+    try:
+        return [files.find(names)]
+    except LinkedFileError:
+        pass
+    words = words_of(names)
+    found = []
+    if len(words) > 1:
+        found = [_found_or_none(files, word) for word in words]
+    if any(path is not None for path in found):
+        names_and_paths = zip(words, found, strict=True)
+        near = [path or _near(files, word, line, warnings) for word, path in names_and_paths]
+        return [path for path in near if path is not None]
+    path = _near(files, names, line, warnings)
+    return [] if path is None else [path]
+
+
+def _found_or_none(files: LinkedFiles, name: str) -> str | None:
+    try:
+        return files.find(name)
+    except LinkedFileError:
+        return None
+
+
+def _near(files: LinkedFiles, name: str, line: int, warnings: WarningList) -> str | None:
+    """A file that stands in for a library."""
+    try:
+        path, note = files.find_near(name)
+    except LinkedFileError as error:
+        warnings.add(f"material library {shown(name)}: {error}", line)
+        return None
+    warnings.add(f"material library {shown(name)}: {note}", line)
+    return path

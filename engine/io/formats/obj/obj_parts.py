@@ -1,0 +1,178 @@
+"""The objects and groups of an OBJ file.
+
+In: everything that was read of the file. Out: one `Mesh` for all, or one for each ``o`` statement;
+the triangles of each group; the counts of a `Document`.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ....model.materials.material import Material
+from ...reading.corner_mesh import Geometry, Triangles, build_mesh
+from ...reading.documents import DocumentObject
+from ...reading.far_coordinates import moved_near
+from ...reading.smoothing import join_seams
+from ...reading.text import words_of
+from ...reading.warning_list import WarningList
+from .obj_file import Elements, ObjFile
+from .obj_states import ObjStates
+
+# No model has more; files that do are taken as one object, and a group name beyond is left out.
+_MAX_OBJECTS = 1000
+_MAX_GROUPS_OF_A_FACE = 16
+
+
+class ObjParts(NamedTuple):
+    """What an OBJ file holds.
+
+    Attributes
+    ----------
+    file : ObjFile
+    triangles : Triangles
+    normals : (N, 3) float or None
+        What ``triangles.normals`` refers to, if anything.
+    states : ObjStates
+    materials : list of Material
+    crease_angle : float
+        Radians, of normals that neither the file nor its smoothing groups give.
+    moves : bool
+        Whether objects far from the origin get one of their own.
+    """
+
+    file: ObjFile
+    triangles: Triangles
+    normals: np.ndarray | None
+    states: ObjStates
+    materials: list[Material]
+    crease_angle: float
+    moves: bool = False
+
+    def counts(self) -> dict:
+        """Return the lists of the file, as `Document.counts` shows them."""
+        file, states = self.file, self.states
+        groups = [name for names in states.groups.names() for name in words_of(names)]
+        colors = file.vertices.colors
+        return {
+            "vertices": len(file.vertices.positions),
+            "uvs": len(file.vertices.uvs),
+            "normals": len(file.vertices.normals),
+            "colors": 0 if colors is None else len(colors),
+            "faces": len(file.faces.sizes),
+            "triangles": len(self.triangles.positions),
+            "lines": len(file.lines.sizes),
+            "points": len(file.points.positions),
+            "objects": _unique(states.objects.names()),
+            "groups": _unique(groups),
+            "materials": [material.name for material in self.materials if material.name],
+            "libraries": _unique(states.libraries.names()),
+        }
+
+    def whole(self, stem: str) -> DocumentObject:
+        """Return all as one object, named by its only ``o`` statement or else ``stem``."""
+        file, objects = self.file, self.states.objects
+        name = (objects.names()[0] if len(objects) == 1 else "") or stem
+        points = file.points.positions
+        if not (len(file.faces.sizes) or len(file.lines.sizes) or len(points)):
+            # Nothing but vertices: a point cloud.
+            points = np.arange(len(file.vertices.positions))
+        geometry = Geometry(
+            file.vertices,
+            self.triangles,
+            self.normals,
+            _segments(file.lines),
+            points,
+            self.crease_angle,
+        )
+        return self._built(geometry, name, self._starts(), slice(None))
+
+    def objects(self, stem: str, warnings: WarningList) -> list[DocumentObject]:
+        """Return one object for each ``o`` that holds anything, and one for what stands before."""
+        setters = self.states.objects
+        if not len(setters):
+            return [self.whole(stem)]
+        if len(setters) > _MAX_OBJECTS:
+            warnings.add(f"{len(setters)} objects are taken as one, {_MAX_OBJECTS} are the limit")
+            return [self.whole(stem)]
+        names = [stem, *(name or stem for name in setters.names())]
+        file = self.file
+        bounds = {
+            what: [0, *setters.before[what].tolist(), len(elements.sizes)]
+            for what, elements in (
+                ("faces", file.faces),
+                ("lines", file.lines),
+                ("points", file.points),
+            )
+        }
+        triangles = self._first_triangles(np.array(bounds["faces"])).tolist()
+        starts = self._starts()
+        found = []
+        for k, name in enumerate(names):
+            lines = file.lines.part(*bounds["lines"][k : k + 2])
+            points = file.points.part(*bounds["points"][k : k + 2])
+            chosen = slice(*triangles[k : k + 2])
+            if chosen.start < chosen.stop or len(lines.sizes) or len(points.sizes):
+                found.append(self._object(name, chosen, lines, points, starts))
+        return found or [self.whole(stem)]
+
+    def _object(self, name, chosen: slice, lines, points, starts) -> DocumentObject:
+        """Some triangles, lines and points that stand together."""
+        geometry = Geometry(
+            self.file.vertices,
+            self.triangles.part(chosen),
+            self.normals,
+            _segments(lines),
+            points.positions,
+            self.crease_angle,
+        )
+        return self._built(geometry.with_own_positions(), name, starts, chosen)
+
+    def _built(self, geometry: Geometry, name: str, starts, chosen: slice) -> DocumentObject:
+        pose = None
+        if self.moves:
+            positions, pose = moved_near(geometry.vertices.positions)
+            geometry = geometry._replace(vertices=geometry.vertices._replace(positions=positions))
+        mesh = build_mesh(geometry, self.materials, name)
+        if not mesh.has_normals:
+            join_seams(mesh)
+        mesh._take_groups(self._groups(starts, chosen))
+        return DocumentObject(name, mesh, pose)
+
+    def _starts(self) -> np.ndarray:
+        """The first triangle behind each ``g``, and the number of triangles."""
+        faces = np.append(self.states.groups.before["faces"], len(self.file.faces.sizes))
+        return self._first_triangles(faces)
+
+    def _first_triangles(self, faces: np.ndarray) -> np.ndarray:
+        """The first triangle of each face, or behind it if it has none."""
+        return np.searchsorted(self.triangles.polygons, faces)
+
+    def _groups(self, starts: np.ndarray, chosen: slice) -> dict[str, np.ndarray]:
+        """Triangles of each group name; ``g`` may put what follows into several groups."""
+        first, last, _ = chosen.indices(int(starts[-1]))
+        starts = np.clip(starts, first, last) - first
+        ranges: dict[str, list[np.ndarray]] = {}
+        names = self.states.groups.names()
+        for number in np.flatnonzero(starts[:-1] < starts[1:]).tolist():
+            triangles = np.arange(starts[number], starts[number + 1], dtype=np.int32)
+            for name in _unique(words_of(names[number]))[:_MAX_GROUPS_OF_A_FACE]:
+                ranges.setdefault(name, []).append(triangles)
+        return {
+            name: parts[0] if len(parts) == 1 else np.concatenate(parts)
+            for name, parts in ranges.items()
+        }
+
+
+def _segments(lines: Elements) -> np.ndarray:
+    """The segments (L, 2) of polylines, as position indices."""
+    is_last = np.zeros(len(lines.positions), bool)
+    ends = np.cumsum(lines.sizes)
+    is_last[ends[lines.sizes > 0] - 1] = True
+    first = np.flatnonzero(~is_last)
+    return np.stack([lines.positions[first], lines.positions[first + 1]], axis=1)
+
+
+def _unique(names: list[str]) -> list[str]:
+    return list(dict.fromkeys(names))

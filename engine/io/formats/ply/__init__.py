@@ -1,0 +1,1 @@
+"""PLY, both ways."""

@@ -1,0 +1,280 @@
+"""The rows of a PLY file's body as columns.
+
+In: the body of a file, and the elements that its header announces. Out: a `PlyTable` for
+each element that is asked for. Rows whose lists all have the length of those in the first row lie
+at equal distances and are read as they lie; others are walked along once. No row is believed in
+before the file was found long enough for it.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...._native import loaders as native
+from ....errors import FileFormatError
+from ...reading.sources import Source
+from .ply_body import (
+    BadListError,
+    BinaryBody,
+    ListInRow,
+    ShortBodyError,
+    TextBody,
+    WalkedRows,
+)
+from .ply_header import PlyElement, PlyHeader
+
+
+class PlyList(NamedTuple):
+    """A list property of all rows.
+
+    Attributes
+    ----------
+    sizes : (N,) int64
+        Items in each row.
+    values : (M,) number
+        All items, row after row.
+    length : int or None
+        How many items each row has, where that was found out.
+    """
+
+    sizes: np.ndarray
+    values: np.ndarray
+    length: int | None = None
+
+
+class _Layout(NamedTuple):
+    """Where the numbers of an element stand.
+
+    Attributes
+    ----------
+    count : int
+        Number of rows, N.
+    stride : int or None
+        The distance of rows if all have the same shape.
+    rows : WalkedRows
+        All rows; only the first if there is a stride.
+    end : int
+        The place behind the last row.
+    items : (N, K) number or None
+        All items, where rows are nothing but one list, of the same length in each.
+    """
+
+    count: int
+    stride: int | None
+    rows: WalkedRows
+    end: int
+    items: np.ndarray | None = None
+
+
+class PlyTable:
+    """One element of a file.
+
+    Attributes
+    ----------
+    element : PlyElement
+    """
+
+    def __init__(self, element: PlyElement, body, layout: _Layout, path: str) -> None:
+        self.element = element
+        self._body = body
+        self._layout = layout
+        self._path = path
+        self._places = _places_in_row(element, body)
+
+    def __len__(self) -> int:
+        return self._layout.count
+
+    def has(self, *names: str, lists: bool = False) -> bool:
+        """Tell whether all these properties exist, as numbers or as lists."""
+        found = [self.element.properties.get(name) for name in names]
+        return all(p is not None and (p.count_type is not None) == lists for p in found)
+
+    def type(self, name: str) -> str:
+        """Return the announced type of a property, such as ``"f4"``."""
+        return self.element.properties[name].type
+
+    def column(self, name: str) -> np.ndarray:
+        """Return a property of single numbers: (N,)."""
+        code = self.type(name)
+        after, offset = self._places[name]
+        layout = self._layout
+        if layout.stride is not None:
+            first = self._first_place(after, offset)
+            return self._body.column(first, len(self), layout.stride, code)
+        if after == 0:
+            return self._body.numbers(layout.rows.places + offset, code)
+        return self._body.numbers(self._list_ends(after - 1) + offset, code)
+
+    def columns(self, *names: str) -> np.ndarray:
+        """Return several such properties beside each other: (N, len(names)).
+
+        float64, or the properties' own type where they are alike and stand beside each other.
+        """
+        block = self._block(names)
+        if block is not None:
+            return block
+        table = np.empty((len(self), len(names)), np.float64)
+        for index, name in enumerate(names):
+            table[:, index] = self.column(name)
+        return table
+
+    def _block(self, names: tuple[str, ...]) -> np.ndarray | None:
+        """Columns that lie beside each other in rows of one shape, copied at once."""
+        code, layout = self.type(names[0]), self._layout
+        size = self._body.size(code)
+        after, offset = self._places[names[0]]
+        expected = [(after, offset + size * index) for index in range(len(names))]
+        if (
+            layout.stride is None
+            or any(self.type(name) != code for name in names)
+            or [self._places[name] for name in names] != expected
+        ):
+            return None
+        shape = (len(self), len(names))
+        return self._rows(self._first_place(after, offset), shape, code)
+
+    def list(self, name: str) -> PlyList:
+        """Return a list property."""
+        code = self.type(name)
+        number = self._places[name][0]
+        layout = self._layout
+        sizes = layout.rows.sizes[:, number]
+        if layout.stride is None:
+            return PlyList(sizes, native.frozen(self._body.lists(layout.rows, number, code)))
+        values, length = layout.items, int(sizes[0])
+        if values is None:
+            shape = (len(self), length)
+            values = self._rows(int(layout.rows.starts[0, number]), shape, code)
+        values = native.frozen(values).reshape(-1)
+        return PlyList(np.broadcast_to(sizes, len(self)), values, length)
+
+    def _rows(self, start: int, shape: tuple[int, int], code: str) -> np.ndarray:
+        """Neighbouring numbers of all rows, of one shape; those of the first row at ``start``."""
+        place, stride = int(self._layout.rows.places[0]), self._layout.stride
+        return native.frozen(self._body.rows(place, start - place, shape, stride, code))
+
+    def fail(self, row: int, message: str):
+        """Raise an error about a row."""
+        layout = self._layout
+        if layout.stride is None:
+            place = int(layout.rows.places[row])
+        else:
+            place = int(layout.rows.places[0]) + row * layout.stride
+        raise FileFormatError(
+            f"{self.element.name} {row}{self._body.describe(place)}: {message}",
+            self._path,
+            self._body.line(place),
+        )
+
+    def _first_place(self, after: int, offset: int) -> int:
+        base = self._layout.rows.places[:1] if after == 0 else self._list_ends(after - 1)[:1]
+        return int(base[0]) + offset
+
+    def _list_ends(self, number: int) -> np.ndarray:
+        lists = [p for p in self.element.properties.values() if p.count_type is not None]
+        size = self._body.size(lists[number].type)
+        rows = self._layout.rows
+        return rows.starts[:, number] + rows.sizes[:, number] * size
+
+
+def read_tables(
+    source: Source, header: PlyHeader, body: BinaryBody | TextBody
+) -> dict[str, PlyTable]:
+    """Find the rows of all elements.
+
+    Raises
+    ------
+    FileFormatError
+        The file ends before what is announced, or a list has an impossible length.
+    """
+    tables = {}
+    place = body.start
+    for name, element in header.elements.items():
+        layout = _find_rows(source, element, body, place)
+        tables[name] = PlyTable(element, body, layout, source.path)
+        place = layout.end
+    if place < body.end and not header.byte_order:
+        # Rows of another width than announced: everything after the first would be wrong.
+        raise FileFormatError(
+            f"{body.end - place} numbers more than the header announces",
+            source.path,
+            body.line(place),
+        )
+    return tables
+
+
+def _places_in_row(element: PlyElement, body) -> dict[str, tuple[int, int]]:
+    """For each number the lists before it and its distance from the last; for lists, which one."""
+    places, lists, offset = {}, 0, 0
+    for name, item in element.properties.items():
+        places[name] = (lists, offset)
+        if item.count_type is None:
+            offset += body.size(item.type)
+        else:
+            lists, offset = lists + 1, 0
+    return places
+
+
+def _find_rows(source: Source, element: PlyElement, body, start: int) -> _Layout:
+    lists, tail = _lists(element, body)
+    least = sum(before + body.size(count_type) for before, count_type, _ in lists) + tail
+    count = element.count if least else 0
+    if count * least > body.end - start:
+        _fail_short(source, element, body)
+    try:
+        first = body.walk(lists, tail, start, min(count, 1))
+        stride = first.end - start
+        fits = count * stride <= body.end - start
+        if count and fits:
+            found = _Layout(count, stride, first, start + stride * count)
+            if len(element.properties) == 1 and lists:
+                _, *types = lists[0]
+                items = body.even_lists(start, count, *types, int(first.sizes[0, 0]))
+                if items is not None:
+                    return found._replace(items=items)
+            elif _is_uniform(element, body, first, stride, count):
+                return found
+        rows = body.walk(lists, tail, start, count)
+    except ShortBodyError:
+        _fail_short(source, element, body)
+    except BadListError as error:
+        raise FileFormatError(
+            f"{element.name} {error.row}{body.describe(error.place)}: "
+            "the length of a list must be an integer from 0 on",
+            source.path,
+            body.line(error.place),
+        ) from None
+    return _Layout(count, None, rows, rows.end)
+
+
+def _lists(element: PlyElement, body) -> tuple[list[ListInRow], int]:
+    """The lists of a row, and the number of places behind the last."""
+    lists, before = [], 0
+    for item in element.properties.values():
+        if item.count_type is None:
+            before += body.size(item.type)
+        else:
+            lists.append((before, item.count_type, item.type))
+            before = 0
+    return lists, before
+
+
+def _is_uniform(element: PlyElement, body, first: WalkedRows, stride: int, count: int) -> bool:
+    """Whether the lists of all rows have the lengths of those in the first."""
+    lists = [p for p in element.properties.values() if p.count_type is not None]
+    for item, begin, size in zip(lists, first.starts[0], first.sizes[0], strict=True):
+        place = int(first.places[0])
+        offset = int(begin) - body.size(item.count_type) - place
+        if not body.lengths_are(place, offset, stride, count, item.count_type, int(size)):
+            return False
+    return True
+
+
+def _fail_short(source: Source, element: PlyElement, body):
+    raise FileFormatError(
+        f"the file ends before the {element.count} rows of element {element.name!r} do",
+        source.path,
+        body.line(body.end),
+    )

@@ -1,0 +1,91 @@
+"""The vertices of a PLY file: positions, normals, colours and texture coordinates.
+
+In: the table of the element ``vertex``. Out: arrays as a `Mesh` takes them. The names are those
+that programs in use write; properties with other names are numbers to
+colour by, if anybody asks for them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from ...reading.vertex_values import finite_uvs
+from ...reading.warning_list import WarningList
+from .ply_colors import color_names, is_splats, read_colors, splat_colors
+from .ply_tables import PlyTable
+
+_WIDEST = 16  # lists of more items are no vectors
+_UVS = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "texture_t"))
+
+
+class PlyVertices(NamedTuple):
+    """What a file says about its vertices.
+
+    Attributes
+    ----------
+    positions : (V, 3) float32 or float64
+    normals : (V, 3) float32 or None
+    colors : (V, 4) uint8 or float32, or None
+    uvs : (V, 2) float32 or None
+    position_ids : (V,) number or None
+        What our own writer says of vertices that are one point of the surface.
+    """
+
+    positions: np.ndarray
+    normals: np.ndarray | None
+    colors: np.ndarray | None
+    uvs: np.ndarray | None
+    position_ids: np.ndarray | None
+
+
+def read_vertices(table: PlyTable, warnings: WarningList, is_own: bool = False) -> PlyVertices:
+    """Read the vertices; the table has ``x``, ``y`` and ``z``.
+
+    Other parameters are those of `read_colors`.
+    """
+    positions = table.columns("x", "y", "z")
+    normals = None
+    if table.has("nx", "ny", "nz"):
+        with np.errstate(over="ignore"):
+            normals = table.columns("nx", "ny", "nz").astype(np.float32, copy=False)
+    uvs = None
+    for names in _UVS:
+        if table.has(*names):
+            uvs = finite_uvs(table.columns(*names))
+            break
+    position_ids = table.column("position_id") if table.has("position_id") else None
+    if is_splats(table):
+        colors = splat_colors(table, warnings)
+    else:
+        colors = read_colors(table, warnings, is_own)
+    return PlyVertices(positions, normals, colors, uvs, position_ids)
+
+
+def scalar_names(table: PlyTable) -> list[str]:
+    """Return the names of the numbers of vertices that `read_vertices` does not read."""
+    uvs = next((names for names in _UVS if table.has(*names)), ())
+    return names_but(table, {"x", "y", "z", "nx", "ny", "nz", "position_id", *uvs})
+
+
+def names_but(table: PlyTable, taken: Collection[str]) -> list[str]:
+    """Return the names of an element's properties but for its colours and those in ``taken``."""
+    taken = {*taken, *color_names(table)}
+    return [name for name in table.element.properties if name not in taken]
+
+
+def numbers_of(table: PlyTable, names: Iterable[str]) -> dict[str, np.ndarray]:
+    """Read some properties: (N,), or (N, K) of lists that all have K items; no other lists."""
+    found = {}
+    for name in names:
+        if table.has(name):
+            found[name] = table.column(name).astype(np.dtype(table.type(name)), copy=False)
+            continue
+        items = table.list(name)
+        width = int(items.sizes[0]) if len(table) else 0
+        if 1 <= width <= _WIDEST and (items.sizes == width).all():
+            values = items.values.astype(np.dtype(table.type(name)), copy=False)
+            found[name] = values.reshape(-1, width)
+    return found

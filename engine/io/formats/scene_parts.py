@@ -1,0 +1,86 @@
+"""The parts of files that a scene's file names: each file is read once, each part given out once.
+
+In: the name of a file, and of a part of it. Out: a mesh; where a part is asked for again, another
+one that shares its arrays. Parts of a file share materials only where all of them are new.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ...errors import FileFormatError
+from ...model.geometry.mesh import Mesh
+from ...model.materials.material import Material
+from ..reading.linked_files import LinkedFileError, LinkedFiles
+from ..reading.loading import document_of, parts_of, whole_mesh
+from ..reading.reader_registry import find_reader
+from ..reading.sources import Source
+from ..reading.text import shown
+
+_MAX_COPIES = 20_000
+
+
+class PartsOfFiles:
+    """Meshes out of the files that a scene names; ``told`` is what their readers warned of."""
+
+    def __init__(self, source: Source, files: LinkedFiles) -> None:
+        self._source, self._files = source, files
+        self._meshes: dict[tuple, dict[Any, Mesh] | Exception] = {}
+        self._given: dict[tuple, int] = {}  # how often each part was given out
+        self._materials_of: dict[Mesh, list[Material]] = {}  # as they were read
+        self._copies: dict[tuple[int, int], Material] = {}
+        self.told: list[str] = []
+
+    def part(
+        self, name: str, format: str | None, part: tuple[str, int] | None, crease_angle: float
+    ) -> Mesh:
+        """Return a part of a file, or all of it; what was read or given out before is not again."""
+        key = name, format, part is not None, crease_angle
+        if key not in self._meshes:
+            try:
+                self._meshes[key] = self._read(*key)
+            except (LinkedFileError, FileFormatError, OSError) as error:
+                self._meshes[key] = error
+        found = self._meshes[key]
+        if isinstance(found, Exception):
+            raise found.with_traceback(None)
+        mesh = found.get(part)
+        if mesh is None:
+            raise LinkedFileError(f"it has no part {shown(part[0])} number {part[1]}")
+        times = self._given[key, part] = self._given.get((key, part), -1) + 1
+        return self._twin(mesh, times) if times else mesh
+
+    def _twin(self, mesh: Mesh, times: int) -> Mesh:
+        """A mesh that is used once more: parts of a file share materials only if all are new."""
+        materials = [self._material_copy(m, times) for m in self._materials_of[mesh]]
+        return mesh._twin(materials, name_in_file(mesh))
+
+    def _material_copy(self, material: Material, times: int) -> Material:
+        key = id(material), times
+        if key not in self._copies:
+            if len(self._copies) >= _MAX_COPIES:
+                raise FileFormatError(f"more than {_MAX_COPIES} materials of repeated files")
+            self._copies[key] = material._twin()
+        return self._copies[key]
+
+    def _read(
+        self, name: str, format: str | None, split: bool, crease_angle: float
+    ) -> dict[Any, Mesh]:
+        with self._files.read(self._files.find(name)) as source:
+            source = source._replace(crease_angle=crease_angle, root=self._source.root)
+            if find_reader(source, "mesh", format).name == "e3d":
+                raise FileFormatError("a scene within a scene is not read", source.path)
+            document = document_of(source, format, split=split)
+            self.told += document.warnings
+            parts: dict[Any, Mesh] = (
+                dict(parts_of(document, source, format))
+                if split
+                else {None: whole_mesh(document, source, format)}
+            )
+            self._materials_of.update((mesh, mesh.materials) for mesh in parts.values())
+            return parts
+
+
+def name_in_file(mesh: Mesh) -> str:
+    """Return the name that a mesh came with, whatever it is called by now."""
+    return mesh.name if mesh._origin is None else mesh._origin.name

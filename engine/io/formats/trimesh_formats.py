@@ -1,0 +1,167 @@
+"""COLLADA and other formats that the package trimesh reads, where it is installed.
+
+In: the bytes of a file. Out: a `Document` with one object for each node. trimesh and the libraries
+that it calls are given a process of their own, see `limited_process`: a few hundred bytes can lead
+them to any amount of memory and time. The files that a model names are looked for as for any model:
+in its folder only.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib.util
+import io
+import logging
+
+from ...errors import Engine3DError, FileFormatError, InvalidArgumentError, printable
+from ..reading.documents import Document
+from ..reading.limited_process import in_limited_process
+from ..reading.linked_files import LinkedFileError, LinkedFiles
+from ..reading.posed_parts import MAX_REPEATED, counts_of, document_objects
+from ..reading.reader_registry import Reader, find_reader
+from ..reading.sources import Source
+from ..reading.warning_list import WarningList
+from ..reading.zip_archives import ZIP, ZipArchive
+
+# What trimesh reads by itself, and what it reads with further packages.
+_EXTENSIONS = (".xyz", ".dxf", ".dae", ".zae", ".3dxml", ".xaml")
+# What files of a kind begin with, if anything.
+_BEGINNINGS = {
+    **dict.fromkeys(("3dxml", "zae"), ZIP),
+    **dict.fromkeys(("dae", "xaml"), b"<"),
+}
+# Letters of what trimesh says that are passed on.
+_SAID = 200
+_BYTE_ORDER_MARKS = (b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")
+
+
+def read_with_trimesh(source: Source, split: bool = False) -> Document:
+    """Read a file with trimesh, in a process of its own, as `Reader.read`; a node is an object."""
+    kind = source.extension.removeprefix(".")
+    _check_beginning(source, kind)
+    if importlib.util.find_spec("trimesh") is None:
+        raise FileFormatError(
+            f"{source.extension or 'such'} files need the package trimesh: "
+            "pip install engine3d[formats]",
+            source.path,
+        )
+    is_packed = source.head(len(ZIP)) == ZIP
+    size = source.size
+    if is_packed:
+        archive = ZipArchive(source)
+        archive.check_packings()
+        size = archive.unpacked_size
+    return in_limited_process(read_here, source, split, size=size)
+
+
+def read_here(source: Source, split: bool) -> Document:
+    """Read a file with trimesh in this process."""
+    import trimesh
+
+    from ..trimesh_conversion import scene_parts
+
+    kind = source.extension.removeprefix(".")
+    if kind not in trimesh.available_formats():
+        raise FileFormatError(
+            f"trimesh needs further packages for {kind} files: pip install trimesh[easy]",
+            source.path,
+        )
+    warnings = WarningList(source.path)
+    try:
+        with _said(warnings):
+            loaded = trimesh.load(
+                io.BytesIO(source.data),
+                file_type=kind,
+                resolver=_resolver(trimesh, source, warnings),
+                process=False,
+            )
+        scene = loaded if isinstance(loaded, trimesh.Scene) else trimesh.Scene(loaded)
+        parts = scene_parts(scene, warnings, near=split)
+    except InvalidArgumentError as error:
+        raise FileFormatError(f"damaged: {error}", source.path) from error
+    except (Engine3DError, MemoryError):
+        raise
+    except FileNotFoundError as error:
+        raise FileFormatError(f"trimesh cannot read it: {error}", source.path) from error
+    # Damaged files lead trimesh to whatever its libraries raise: KeyError, struct.error, ...
+    except Exception as error:
+        said = " ".join(str(error).split())
+        reason = f"{type(error).__name__}: {said}" if said else type(error).__name__
+        raise FileFormatError(
+            f"damaged, or no {kind} file (trimesh ended with {printable(reason[:_SAID])})",
+            source.path,
+        ) from error
+    for part in parts:
+        if not part.mesh.has_normals:
+            part.mesh.crease_angle = source.crease_angle
+    objects = document_objects(source, parts, MAX_REPEATED + source.size, split)
+    return Document(kind, objects, counts=counts_of(objects), warnings=warnings.messages())
+
+
+@contextlib.contextmanager
+def _said(warnings: WarningList):
+    """Let what trimesh would print become warnings."""
+    handler = logging.Handler(logging.WARNING)
+    handler.emit = lambda record: warnings.add(printable(record.getMessage()[:_SAID]))
+    logger = logging.getLogger("trimesh")
+    logger.addHandler(handler)
+    try:
+        yield
+    finally:
+        logger.removeHandler(handler)
+
+
+def _check_beginning(source: Source, kind: str) -> None:
+    """Refuse what is no such file at all: trimesh would find fault with something else."""
+    head = source.head(64)
+    is_marked = head.startswith(_BYTE_ORDER_MARKS) and kind in ("dae", "xaml")
+    if not is_marked and not head.lstrip().startswith(_BEGINNINGS.get(kind, b"")):
+        raise FileFormatError(f"not a {kind} file", source.path)
+
+
+def _resolver(trimesh, source: Source, warnings: WarningList):
+    """Gives trimesh the images beside the model, and nothing else."""
+    files = LinkedFiles.of(source, warnings)
+
+    class FolderResolver(trimesh.resolvers.Resolver):
+        def __init__(self):
+            pass
+
+        def get(self, name):
+            try:
+                return _image(files.read(files.find_uri(str(name))))
+            except (LinkedFileError, Engine3DError) as error:
+                warnings.add(f"{name!r}: {error}")
+                raise FileNotFoundError(f"{name!r}: {error}") from None
+
+        def keys(self):
+            return []
+
+        def namespaced(self, namespace):
+            return self
+
+        def write(self, name, data):
+            raise PermissionError("a model is only read")
+
+    return FolderResolver()
+
+
+def _image(source: Source) -> bytes:
+    """An image as trimesh can open it, decoded as all others are."""
+    from PIL import Image
+
+    file = io.BytesIO()
+    pixels = find_reader(source, "image").read(source)
+    Image.fromarray(pixels).save(file, "PNG", compress_level=0)
+    return file.getvalue()
+
+
+READERS = (
+    Reader(
+        "trimesh",
+        "COLLADA, DXF and others, through trimesh",
+        "mesh",
+        _EXTENSIONS,
+        read_with_trimesh,
+    ),
+)

@@ -1,0 +1,1 @@
+"""What readers share: sources, documents, limits, meshes being put together."""

@@ -1,0 +1,209 @@
+"""A mesh from corners that name a position, a texture coordinate and a normal each.
+
+In: the lists of a file, and triangles of indices into them. Out: a `Mesh` with one vertex for each
+combination that occurs; triangles keep their order. Positions that nothing uses are left out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ..._native import loaders as native
+from ...model.geometry.creases import SMOOTH
+from ...model.geometry.mesh import Mesh
+from ...model.materials.material import Material
+from ..formats.obj.mtl import uv_transform
+
+# All positions as they are.
+_ALL = slice(None)
+
+
+class Vertices(NamedTuple):
+    """The vertex lists of a file.
+
+    Attributes
+    ----------
+    positions : (V, 3) float64
+    colors : (V, 4) uint8 or None
+        sRGB; white for vertices without a colour.
+    uvs : (T, 2) float64
+    normals : (N, 3) float64
+    """
+
+    positions: np.ndarray
+    colors: np.ndarray | None
+    uvs: np.ndarray
+    normals: np.ndarray
+
+
+@dataclass
+class Triangles:
+    """Triangles of a file.
+
+    Attributes
+    ----------
+    positions : (T, 3) int32
+        Indices of the corners' positions.
+    uvs, normals : (T, 3) int32 or None
+        Those of texture coordinates and normals, -1 for none; None if no corner has any.
+    materials : (T,) int32
+    polygons : (T,) int32
+        The polygon that each triangle was cut from.
+    edge_visible : (T, 3) bool or None
+    """
+
+    positions: np.ndarray
+    uvs: np.ndarray | None
+    normals: np.ndarray | None
+    materials: np.ndarray
+    polygons: np.ndarray
+    edge_visible: np.ndarray | None
+
+    def part(self, chosen: slice) -> Triangles:
+        """Return some triangles that stand together."""
+        arrays = (self.positions, self.uvs, self.normals, self.materials, self.polygons)
+        parts = [None if array is None else array[chosen] for array in arrays]
+        return Triangles(*parts, None if self.edge_visible is None else self.edge_visible[chosen])
+
+
+class Geometry(NamedTuple):
+    """What one mesh is made of: lists, and elements that refer to them.
+
+    Attributes
+    ----------
+    vertices : Vertices
+    triangles : Triangles
+    normals : (N, 3) float or None
+        What ``triangles.normals`` refers to; None leaves normals to the mesh.
+    lines : (L, 2) int, points : (P,) int
+        Position indices.
+    crease_angle : float
+        Radians, of normals that are left to the mesh.
+    """
+
+    vertices: Vertices
+    triangles: Triangles
+    normals: np.ndarray | None
+    lines: np.ndarray
+    points: np.ndarray
+    crease_angle: float = SMOOTH
+
+    def with_own_positions(self) -> Geometry:
+        """Return the same with only the positions in use, for one of many parts of a file."""
+        corners = self.triangles.positions
+        used = np.unique(np.concatenate([corners.ravel(), self.lines.ravel(), self.points]))
+        colors = self.vertices.colors
+        vertices = self.vertices._replace(
+            positions=self.vertices.positions[used], colors=None if colors is None else colors[used]
+        )
+        return self._replace(
+            vertices=vertices,
+            triangles=replace(self.triangles, positions=np.searchsorted(used, corners)),
+            lines=np.searchsorted(used, self.lines),
+            points=np.searchsorted(used, self.points),
+        )
+
+
+def build_mesh(geometry: Geometry, materials: list[Material], name: str) -> Mesh:
+    """Weld corners into vertices."""
+    vertices, triangles, normals, lines, points, crease_angle = geometry
+    count = len(vertices.positions)
+    uv_indices, uvs = _transformed_uvs(triangles, vertices.uvs, materials)
+    normal_indices = None if normals is None else triangles.normals
+    faces, welded = _weld(triangles.positions, uv_indices, normal_indices, count)
+    of_position, of_uv, of_normal = welded
+    used = np.concatenate([lines.ravel(), points])
+    vertex_of, of_position, extra = _vertices_for(used, of_position, count)
+    is_split = uv_indices is not None or normal_indices is not None
+    return Mesh(
+        vertices.positions if of_position is _ALL else vertices.positions[of_position],
+        faces,
+        normals=None if normals is None else _gather(normals, of_normal, extra),
+        uvs=None if uv_indices is None else _finite(_gather(uvs, of_uv, extra)),
+        colors=None if vertices.colors is None else vertices.colors[of_position],
+        materials=materials,
+        material_ids=triangles.materials,
+        lines=vertex_of[: lines.size].reshape(-1, 2),
+        points=vertex_of[lines.size :],
+        edge_visible=triangles.edge_visible,
+        position_ids=of_position if is_split else None,
+        crease_angle=crease_angle if normals is None else SMOOTH,
+        name=name,
+    )
+
+
+def _transformed_uvs(triangles, uvs, materials):
+    """Texture coordinates as each material's ``-s`` and ``-o`` want them, and their indices.
+
+    A coordinate that materials of different transforms share becomes several.
+    """
+    transforms: dict[tuple, int] = {(1.0, 1.0, 0.0, 0.0): 0}
+    kinds = [transforms.setdefault(uv_transform(m), len(transforms)) for m in materials]
+    indices = triangles.uvs
+    if indices is None or len(transforms) == 1:
+        return indices, uvs
+    kind = np.array(kinds)[triangles.materials].reshape(-1, 1)
+    keys = np.where(indices < 0, -1, indices.astype(np.int64) * len(transforms) + kind)
+    unique, inverse = np.unique(keys, return_inverse=True)
+    source, kind = np.divmod(unique, len(transforms))
+    table = np.array(list(transforms), np.float64)[kind]
+    moved = uvs[source] * table[:, :2] + table[:, 2:]
+    moved[unique < 0] = 0
+    return inverse.reshape(indices.shape), moved
+
+
+def _weld(positions, uvs, normals, position_count):
+    """Number the combinations of indices that occur.
+
+    Returns the faces (T, 3), and for each vertex its index of position, of texture coordinate and
+    of normal. Vertices stand in the order of their positions.
+    """
+    if uvs is None and normals is None:
+        return _without_unused(positions, position_count)
+    lists = [
+        None if indices is None else np.ascontiguousarray(indices, np.int32).ravel()
+        for indices in (positions, uvs, normals)
+    ]
+    faces, *welded = native.weld_corners(*lists, position_count)
+    return faces.reshape(-1, 3), welded
+
+
+def _without_unused(positions, position_count):
+    """Faces over the positions that they use, if only positions matter."""
+    corners = np.ascontiguousarray(positions, np.int32).ravel()
+    is_used = native.used_or_all(corners, position_count)
+    if is_used is None:
+        return positions, (_ALL, None, None)
+    number = np.cumsum(is_used, dtype=np.int32) - 1
+    return number[positions], (np.flatnonzero(is_used), None, None)
+
+
+def _vertices_for(used, of_position, position_count):
+    """A vertex for each used position: one that the faces have, or a new one at the end."""
+    if of_position is _ALL:
+        return used, _ALL, 0
+    vertex = np.full(position_count, -1, np.int32)
+    vertex[of_position[::-1]] = np.arange(len(of_position), dtype=np.int32)[::-1]
+    is_new = np.zeros(position_count, bool)
+    is_new[used[vertex[used] < 0]] = True
+    new = np.flatnonzero(is_new)
+    vertex[new] = len(of_position) + np.arange(len(new), dtype=np.int32)
+    return vertex[used], np.concatenate([of_position, new]), len(new)
+
+
+def _gather(table, indices, extra):
+    """Rows of a table; zero for index -1 and for the vertices that only lines and points use."""
+    rows = np.zeros((len(indices) + extra, table.shape[1]), np.float32)
+    present = slice(None) if indices.min(initial=0) >= 0 else indices >= 0
+    with np.errstate(over="ignore"):
+        rows[: len(indices)][present] = table[indices[present]]
+    return rows
+
+
+def _finite(rows):
+    """Rows with zero for what is not finite."""
+    rows[~np.isfinite(rows)] = 0
+    return rows

@@ -1,0 +1,180 @@
+"""A mesh from faces whose corners name one vertex each.
+
+In: vertices with their attributes, triangles of vertex indices, and what differs from corner to
+corner (texture coordinates) or from face to face (colours). Out: a `Mesh`, its vertices split where
+their corners differ; triangles keep their order. Vertices that nothing uses are left out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..._native import loaders as native
+from ...model.geometry.creases import CREASE_ANGLE, SMOOTH
+from ...model.geometry.mesh import Mesh
+from ...model.geometry.vertex_attributes import vertex_attributes
+from .smoothing import join_seams
+from .welding import number_rows
+
+# All vertices as they are.
+_ALL = slice(None)
+
+
+@dataclass
+class IndexedGeometry:
+    """What a mesh is made of.
+
+    Attributes
+    ----------
+    positions : (V, 3) float
+    corners : (T, 3) int
+        Vertex indices.
+    normals : (V, 3) float32 or None
+    uvs : (V, 2) float32 or None
+    uvs1 : (V, 2) float32 or None
+    tangents : (V, 4) float32 or None
+    colors : (V, 4) uint8 or float32, or None
+    corner_uvs : (T, 3, 2) float32 or None
+        Take the place of ``uvs``.
+    corner_colors : (T, 3, 4) uint8 or None
+        Take the place of ``colors`` and ``face_colors``.
+    face_colors : (T, 4) uint8 or float32, or None
+        Count only without ``colors``.
+    lines : (L, 2) int or None
+    position_ids : (V,) number or None
+        Vertices with the same number are one point of the surface.
+    edge_visible : (T, 3) bool or None
+    scalars : dict of str to (V,) or (V, N) number
+        Numbers of the vertices, by name.
+    face_scalars : dict of str to (T,) or (T, N) number
+        Numbers of the faces: become those of vertices, which are split for it.
+    crease_angle : float
+        Radians, of normals that are not given.
+    """
+
+    positions: np.ndarray
+    corners: np.ndarray
+    normals: np.ndarray | None = None
+    uvs: np.ndarray | None = None
+    uvs1: np.ndarray | None = None
+    tangents: np.ndarray | None = None
+    colors: np.ndarray | None = None
+    corner_uvs: np.ndarray | None = None
+    corner_colors: np.ndarray | None = None
+    face_colors: np.ndarray | None = None
+    lines: np.ndarray | None = None
+    position_ids: np.ndarray | None = None
+    edge_visible: np.ndarray | None = None
+    scalars: dict[str, np.ndarray] = field(default_factory=dict)
+    face_scalars: dict[str, np.ndarray] = field(default_factory=dict)
+    crease_angle: float = CREASE_ANGLE
+
+
+def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
+    """Return the mesh; vertices alone are a point cloud."""
+    corners, count = geometry.corners, len(geometry.positions)
+    lines = np.zeros((0, 2), np.int32) if geometry.lines is None else geometry.lines
+    if not len(corners) and not len(lines):
+        cloud = Mesh(
+            geometry.positions,
+            points=np.arange(count),
+            name=name,
+            **_chosen(geometry, _ALL),
+        )
+        cloud._scalars = geometry.scalars
+        return cloud
+    of_corner, kinds = _corner_attributes(geometry), _face_kinds(geometry)
+    splitting = [*of_corner.values(), *([] if kinds is None else [np.repeat(kinds, 3, axis=0)])]
+    faces, vertices, first_corner = _split(corners, splitting, count)
+    vertex_of, vertices, added = _vertices_for(lines.ravel(), vertices, count)
+    attributes = _chosen(geometry, vertices)
+    for attribute, rows in of_corner.items():
+        filler = vertex_attributes(Mesh)[attribute].filler(added, rows)
+        attributes[attribute] = np.concatenate([rows[first_corner], filler])
+    mesh = Mesh(
+        _rows(geometry.positions, vertices),
+        faces,
+        lines=vertex_of.reshape(-1, 2),
+        edge_visible=geometry.edge_visible,
+        position_ids=_position_ids(geometry, vertices, bool(splitting)),
+        crease_angle=SMOOTH if geometry.normals is not None else geometry.crease_angle,
+        name=name,
+        **attributes,
+    )
+    mesh._scalars = {name: _rows(row, vertices) for name, row in geometry.scalars.items()}
+    for name, row in geometry.face_scalars.items():
+        filler = np.full((added, *row.shape[1:]), np.nan)
+        mesh._scalars[name] = np.concatenate([row[first_corner // 3], *([filler] * bool(added))])
+    if not mesh.has_normals and geometry.position_ids is None:
+        join_seams(mesh)
+    return mesh
+
+
+def _chosen(geometry: IndexedGeometry, vertices) -> dict[str, np.ndarray]:
+    """What some vertices carry beside positions, as parameters of a mesh."""
+    given = {name: getattr(geometry, name) for name in ("normals", *vertex_attributes(Mesh))}
+    return {name: _rows(array, vertices) for name, array in given.items() if array is not None}
+
+
+def _rows(array: np.ndarray, vertices) -> np.ndarray:
+    return array if vertices is _ALL else array[vertices]
+
+
+def _position_ids(geometry: IndexedGeometry, vertices: np.ndarray, is_split: bool):
+    """The points of the surface, numbered from 0 without gaps."""
+    ids = geometry.position_ids
+    if ids is None and not is_split:
+        return None
+    return np.unique(vertices if ids is None else ids[vertices], return_inverse=True)[1].reshape(-1)
+
+
+def _corner_attributes(geometry: IndexedGeometry) -> dict[str, np.ndarray]:
+    """Attributes of all corners (3T, ...) that may split vertices."""
+    found = {}
+    if geometry.corner_uvs is not None:
+        found["uvs"] = geometry.corner_uvs.reshape(-1, 2)
+    if geometry.corner_colors is not None:
+        found["colors"] = geometry.corner_colors.reshape(-1, 4)
+    elif geometry.face_colors is not None and geometry.colors is None:
+        found["colors"] = np.repeat(geometry.face_colors, 3, axis=0)
+    return found
+
+
+def _face_kinds(geometry: IndexedGeometry) -> np.ndarray | None:
+    """A number (T, 1) uint32 for each face, equal where all their numbers are."""
+    if not geometry.face_scalars:
+        return None
+    rows = [row.reshape(len(row), -1) for row in geometry.face_scalars.values()]
+    rows = np.concatenate([row.astype(np.float64).view(np.uint32) for row in rows], axis=1)
+    return number_rows(rows)[0].astype(np.uint32).reshape(-1, 1)
+
+
+def _split(corners: np.ndarray, splitting: list[np.ndarray], count: int):
+    """Faces, the old vertex of each new one, and a corner that each new one stands at."""
+    if not splitting:
+        is_used = native.used_or_all(np.ascontiguousarray(corners, np.int32).ravel(), count)
+        if is_used is None:
+            return corners, _ALL, None
+        number = np.cumsum(is_used, dtype=np.int32) - 1
+        return number[corners], np.flatnonzero(is_used), None
+    keys = corners.ravel().astype(np.int64)
+    for attribute in splitting:
+        number, first = number_rows(attribute)
+        # Numbered anew each time, so that the product cannot overflow.
+        _, keys = np.unique(keys * len(first) + number, return_inverse=True)
+        keys = keys.reshape(-1)
+    _, first, faces = np.unique(keys, return_index=True, return_inverse=True)
+    return faces.reshape(-1, 3), corners.ravel()[first], first
+
+
+def _vertices_for(used: np.ndarray, vertices: np.ndarray, count: int):
+    """For each old vertex in use a new one, the list of new ones with those it lacked, how many."""
+    if vertices is _ALL:
+        return used, _ALL, 0
+    vertex_of = np.full(count, -1, np.int32)
+    vertex_of[vertices[::-1]] = np.arange(len(vertices), dtype=np.int32)[::-1]
+    lacking = np.unique(used[vertex_of[used] < 0])
+    vertex_of[lacking] = len(vertices) + np.arange(len(lacking), dtype=np.int32)
+    return vertex_of[used], np.concatenate([vertices, lacking]), len(lacking)

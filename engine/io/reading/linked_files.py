@@ -1,0 +1,285 @@
+"""Finding the files that a file names, without ever leaving the folder of the model.
+
+In: a name as it stands in a file (``mtllib``, ``map_Kd``, a URI), written on any system. Out: the
+path of a regular file inside the folder, or the reason why there is none. Absolute names, ``..``
+and symbolic links that lead out are refused, unless the caller named a root that they stay in;
+devices and FIFOs are never read. Whatever becomes of the folder meanwhile, what is read is a
+regular file that was inside it when it was opened. How a name may be written is in
+linked_names.py.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Callable, Iterable
+from contextlib import contextmanager
+from contextvars import ContextVar
+
+from ...base.numbers import shown as shown_value
+from ...base.system import FOLDER, NO_LINK
+from ...errors import FileAccessError, InvalidArgumentError
+from .linked_names import ends, is_absolute, match_key, spellings
+from .open_files import unreadable
+from .sources import READING, Source, opened_source, unpacked
+from .text import shown
+from .warning_list import WarningList
+
+_MAX_NAME = 4096
+# Taking the escapes of a longer name apart would take many times its memory.
+_MAX_SPELT = 3 * _MAX_NAME
+# A file that looks in vain for more places than this only wants to keep the disk busy.
+_MAX_FAILURES = 16_000
+_NOT_FOUND = "not found"
+
+_listeners: ContextVar[tuple[Callable[[str], object], ...]] = ContextVar("listeners", default=())
+
+
+@contextmanager
+def found_files(note: Callable[[str], object]):
+    """Call ``note`` with each path that is found within the block, before it is read."""
+    token = _listeners.set((*_listeners.get(), note))
+    try:
+        yield
+    finally:
+        _listeners.reset(token)
+
+
+def tell_found(paths: Iterable[str]) -> None:
+    """Call what `found_files` was given with paths that were found elsewhere."""
+    for path in paths:
+        for note in _listeners.get():
+            note(path)
+
+
+def checked_root(root: str | os.PathLike[str] | None) -> str | None:
+    """Return the path of a folder that files named in a model may be in.
+
+    Raises
+    ------
+    InvalidArgumentError
+        It is no path.
+    FileAccessError
+        There is no such folder.
+    """
+    if root is None:
+        return None
+    try:
+        path = os.fspath(root)
+    except TypeError:
+        path = None
+    if not isinstance(path, str):
+        raise InvalidArgumentError(f"root must be the path of a folder, not {shown_value(root)}")
+    if not os.path.isdir(path):
+        raise FileAccessError("root: there is no such folder", path)
+    return path
+
+
+class LinkedFileError(Exception):
+    """The reason, in a few words, why a named file is not read."""
+
+
+class LinkedFiles:
+    """The files that one model may name.
+
+    Parameters
+    ----------
+    folder : str or None
+        The model's folder, which no name may leave; None if it has none, being no file.
+    root : str, optional
+        Another folder that names may lead into.
+    warnings : WarningList, optional
+        What `find_uri` tells of a file that stands in for another.
+    """
+
+    def __init__(
+        self, folder: str | None, root: str | None = None, warnings: WarningList | None = None
+    ) -> None:
+        places = [place for place in (folder, root) if place is not None]
+        self._places = list(dict.fromkeys(places))
+        self._has_root = root is not None
+        self._roots = [os.path.realpath(place) for place in self._places]
+        self._warnings = warnings
+        self._listings: dict[str, dict[str, str]] = {}
+        self._failures = 0
+
+    @classmethod
+    def of(cls, source: Source, warnings: WarningList | None = None) -> LinkedFiles:
+        """Return the files that a model may name."""
+        return cls(source.folder, source.root, warnings)
+
+    def find(self, name: str, folder: str | None = None) -> str:
+        """Return the path of the file that ``name`` means.
+
+        Parameters
+        ----------
+        name : str
+            Backslashes count as slashes. Where the letter case differs from that of the one on
+            disk, or the name is in another encoding, the file is still found.
+        folder : str, optional
+            The folder that the name is relative to first; then the model's, then the root.
+
+        Raises
+        ------
+        LinkedFileError
+        """
+        if len(name) > _MAX_SPELT:
+            raise LinkedFileError("not a file name")
+        places = self._places_from(folder)
+        path = self._first_found(spellings(name), places)
+        tell_found([path])
+        return path
+
+    def find_near(self, name: str, folder: str | None = None) -> tuple[str, str]:
+        """Return the path of what ``name`` means or else of what stands in for it.
+
+        Files name others by paths of another machine. What has the last parts of such a path, as
+        many as possible, is taken for what was meant.
+
+        Returns
+        -------
+        path : str
+        note : str
+            What to say of a file that stands in for another; empty for one that was found as named.
+
+        Raises
+        ------
+        LinkedFileError
+        """
+        try:
+            return self.find(name, folder), ""
+        except LinkedFileError as error:
+            reason = error
+        if len(name) > _MAX_SPELT:
+            raise reason
+        try:
+            path = self._first_found(ends(name), self._places_from(folder))
+        except LinkedFileError:
+            raise reason from None
+        tell_found([path])
+        return path, f"{reason}; {path} is used"
+
+    def find_uri(self, uri: str) -> str:
+        """Return the path of the file that a URI, or a plain name, means, as `find_near`.
+
+        Raises
+        ------
+        LinkedFileError
+        """
+        path, note = self.find_near(uri)
+        if note and self._warnings is not None:
+            self._warnings.add(f"{shown(uri)}: {note}")
+        return path
+
+    def _places_from(self, folder: str | None) -> list[str]:
+        """The folders that a name may be relative to, the likeliest first."""
+        if not self._places:
+            raise LinkedFileError("not looked for, the model is in no folder")
+        return self._places if folder is None else list(dict.fromkeys([folder, *self._places]))
+
+    def _first_found(self, names: Iterable[str], places: list[str]) -> str:
+        """The first file that any of the names means in any of the folders.
+
+        Where there is none, the reason is the first one that says more than that.
+        """
+        reason = LinkedFileError(_NOT_FOUND)
+        for name in names:
+            for place in places:
+                if self._failures >= _MAX_FAILURES:
+                    raise LinkedFileError("not looked for, too many files are missing")
+                try:
+                    return self._found(name, place)
+                except LinkedFileError as error:
+                    self._failures += 1
+                    if str(reason) == _NOT_FOUND:
+                        reason = error
+        raise reason
+
+    def read(self, path: str) -> Source:
+        """Read a file that `find` returned.
+
+        It is looked for anew, opened once, and what was opened is read: a link that has taken the
+        place of the file, or of a folder on the way to it, since then leads nowhere.
+
+        Raises
+        ------
+        FileAccessError, FileFormatError
+        """
+        try:
+            handle = self._opened(path)
+        except LinkedFileError as error:
+            raise FileAccessError(str(error), path) from None
+        except (OSError, ValueError) as error:
+            raise unreadable(path, error) from error
+        return unpacked(opened_source(path, handle))
+
+    def _opened(self, path: str) -> int:
+        """Go from the folder that holds it to the file, folder by folder, following no link."""
+        real = self._real_path(path)
+        if not FOLDER:  # a system that opens no folders
+            return os.open(real, READING)
+        root = next(root for root in self._roots if _is_inside(real, root))
+        *folders, name = os.path.relpath(real, root).split(os.sep)
+        handle = os.open(root, FOLDER)
+        try:
+            for folder in folders:
+                outer, handle = handle, os.open(folder, FOLDER | NO_LINK, dir_fd=handle)
+                os.close(outer)
+            return os.open(name, READING | NO_LINK, dir_fd=handle)
+        finally:
+            os.close(handle)
+
+    def _real_path(self, path: str) -> str:
+        """The path without links, which must be inside."""
+        real = os.path.realpath(path)
+        if not any(_is_inside(real, root) for root in self._roots):
+            raise LinkedFileError(
+                "a path that leaves the model's folder is refused; root=FOLDER allows another"
+            )
+        return real
+
+    def _found(self, name: str, folder: str) -> str:
+        """The path of the file of one name in one folder."""
+        if not name or "\0" in name or len(name) > _MAX_NAME:
+            raise LinkedFileError("not a file name")
+        if is_absolute(name) and not (self._has_root and os.path.isabs(name)):
+            raise LinkedFileError("an absolute path is refused")
+        path = os.path.join(folder, name)
+        try:
+            if not os.path.lexists(path):
+                path = self._as_on_disk(folder, name)
+            mode = os.stat(self._real_path(path)).st_mode
+        except FileNotFoundError:
+            raise LinkedFileError(_NOT_FOUND) from None
+        except (OSError, ValueError) as error:
+            raise LinkedFileError(getattr(error, "strerror", None) or "not a file name") from None
+        if not stat.S_ISREG(mode):
+            raise LinkedFileError("not a regular file")
+        return path
+
+    def _as_on_disk(self, folder: str, name: str) -> str:
+        """The path with its parts as folders spell them, where `match_key` is the same."""
+        path = folder
+        for part in name.split("/"):
+            inner = os.path.join(path, part)
+            if part not in ("", ".", "..") and not os.path.lexists(inner):
+                self._real_path(path)  # nothing is listed outside
+                inner = os.path.join(path, self._listing(path).get(match_key(part), part))
+            path = inner
+        return path
+
+    def _listing(self, folder: str) -> dict[str, str]:
+        if folder not in self._listings:
+            try:
+                entries = sorted(os.listdir(folder or "."), reverse=True)
+            except OSError:
+                entries = []
+            self._listings[folder] = {match_key(entry): entry for entry in entries}
+        return self._listings[folder]
+
+
+def _is_inside(path: str, root: str) -> bool:
+    try:
+        return os.path.commonpath([root, path]) == root
+    except ValueError:  # on another drive
+        return False

@@ -1,0 +1,95 @@
+"""Numbers out of text, each rounded correctly whatever the locale.
+
+In: text of nothing but numbers and comments, or one word. Out: an array, or a float.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+import numpy as np
+
+from ..._native import loaders as native
+
+# What the C runtimes of Microsoft's compilers write for values that are not numbers.
+_MICROSOFT = re.compile(rb"([+-]?)(?:\d\.#(INF|IND|QNAN|SNAN|QNB)\d*|nan\([a-z]*\))", re.IGNORECASE)
+_WORD = re.compile(rb"\S+")
+
+
+class NotANumberError(ValueError):
+    """Something else than a number stands in a text.
+
+    Attributes
+    ----------
+    word : bytes
+    position : int
+        Its offset in the text.
+    widths : (R,) int64 or None
+        Of the lines before: see `NumberRows`.
+    """
+
+    def __init__(self, word: bytes, position: int, widths: np.ndarray | None) -> None:
+        super().__init__(word, position, widths)
+        self.word, self.position, self.widths = word, position, widths
+
+
+class NumberRows(NamedTuple):
+    """The numbers of a text.
+
+    Attributes
+    ----------
+    values : (N,) float64
+    widths : (R,) int64 or None
+        How many each line has, of those that hold any.
+    end : int
+        The offset behind the last line read.
+    """
+
+    values: np.ndarray
+    widths: np.ndarray | None
+    end: int
+
+
+def read_numbers(text, comments: int, rows: int | None = None, widths: bool = False) -> NumberRows:
+    """Read numbers between blanks.
+
+    Parameters
+    ----------
+    text : bytes-like
+        Its last byte is a blank or ends a line: see `ended`.
+    comments : int
+        ``native.NO_COMMENTS``, ``HASH_COMMENTS`` or ``PLY_COMMENTS``.
+    rows : int, optional
+        Lines to read, of those that hold numbers; all of them by default.
+    widths : bool
+        Count the numbers of each.
+
+    Raises
+    ------
+    NotANumberError
+    """
+    values, found, end, wrong = native.read_numbers(text, comments, rows, widths)
+    if wrong is not None:
+        word = _WORD.match(text, wrong)[0]
+        if comments == native.HASH_COMMENTS:
+            word = word.partition(b"#")[0]
+        raise NotANumberError(word, wrong, found)
+    return NumberRows(values, found, end)
+
+
+def ended(text):
+    """Return a text with a blank or a line's end behind it: itself, or a copy."""
+    return text if bytes(text[-1:]).isspace() else bytes(text) + b"\n"
+
+
+def parse_float(word: bytes) -> float:
+    """Read one float, also ``1.#QNAN`` and the like; raises ValueError."""
+    try:
+        return float(word)
+    except ValueError:
+        match = _MICROSOFT.fullmatch(word)
+        if match is None:
+            raise
+        value = float("inf") if (match[2] or b"").upper() == b"INF" else float("nan")
+        return -value if match[1] == b"-" else value

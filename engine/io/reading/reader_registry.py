@@ -1,0 +1,154 @@
+"""The one list of readers, and the choice among them.
+
+A format is a module of `formats` with a tuple ``READERS``; adding the file registers it. The
+choice goes by the first bytes where a format has a signature, then by the extension, then by a look
+at the text of a file whose extension says nothing. A module that bears the name of the extension is
+tried alone before all are imported.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import NamedTuple
+
+from ...base.calls import checks_types
+from ...errors import FileFormatError, InvalidArgumentError
+from ..formats import modules, named
+from .sources import Source
+
+SNIFFED_BYTES = 4096
+
+
+class Reader(NamedTuple):
+    """One format that can be read.
+
+    Attributes
+    ----------
+    name : str
+        Short name, such as ``"obj"``.
+    description : str
+    kind : {"mesh", "image"}
+    extensions : tuple of str
+        Lower case, with the dot.
+    read : callable
+        ``read(source, split=False) -> Document`` for meshes: with ``split`` every object of the
+        file becomes one of the document, with its pose; otherwise poses are applied.
+        ``read(source) -> (H, W, 4) uint8`` for images. Both raise `FileFormatError` where a file is
+        damaged, larger than it may be, or needs a package that is not installed.
+    signature : callable, optional
+        ``signature(head) -> bool``: whether the first bytes can be of this format only.
+    resembles : callable, optional
+        ``resembles(head, size) -> bool``: whether the first bytes of a file of so many bytes look
+        like this format.
+    read_linear : callable, optional
+        Of images whose pixels are light: as ``read``, with codes proportional to it.
+    up : str
+        Which axis of a mesh is up, by custom.
+    """
+
+    name: str
+    description: str
+    kind: str
+    extensions: tuple[str, ...]
+    read: Callable
+    signature: Callable[[bytes], bool] | None = None
+    resembles: Callable[[bytes, int], bool] | None = None
+    read_linear: Callable | None = None
+    up: str = "+Y"
+
+
+class Format(NamedTuple):
+    """A readable format, as listings show it."""
+
+    name: str
+    description: str
+    kind: str
+    extensions: tuple[str, ...]
+
+
+@functools.cache
+def readers() -> tuple[Reader, ...]:
+    """Return all readers, sorted by name."""
+    found = [reader for module in modules() for reader in getattr(module, "READERS", ())]
+    return tuple(sorted(found, key=lambda reader: reader.name))
+
+
+@checks_types
+def formats(kind: str | None = None) -> list[Format]:
+    """Return the formats that can be read.
+
+    Parameters
+    ----------
+    kind : {"mesh", "image"}, optional
+        Only those of one kind.
+    """
+    return [
+        Format(reader.name, reader.description, reader.kind, reader.extensions)
+        for reader in readers()
+        if kind in (None, reader.kind)
+    ]
+
+
+def find_reader(source: Source, kind: str, name: str | None = None) -> Reader:
+    """Return the reader for a file.
+
+    Parameters
+    ----------
+    source : Source
+    kind : {"mesh", "image"}
+    name : str, optional
+        The format, whatever the file looks like.
+
+    Raises
+    ------
+    FileFormatError
+        No format of this kind fits.
+    InvalidArgumentError
+        No format of this kind has that name.
+    """
+    head = source.head(SNIFFED_BYTES)
+    namesake = _namesake(source.extension, kind)
+    if name is None and namesake is not None and _recognises(namesake, head, source.size):
+        return namesake
+    candidates = [reader for reader in readers() if reader.kind == kind]
+    if name is not None:
+        return _by_name(candidates, name, kind)
+    for reader in candidates:
+        if reader.signature is not None and reader.signature(head):
+            return reader
+    for reader in candidates:
+        if source.extension in reader.extensions:
+            return reader
+    for reader in candidates:
+        if reader.resembles is not None and reader.resembles(head, source.size):
+            return reader
+    known = ", ".join(sorted(e for reader in candidates for e in reader.extensions))
+    what = repr(source.extension) if source.extension else "without an extension"
+    raise FileFormatError(f"unknown {kind} format {what} (known: {known})", source.path)
+
+
+def _namesake(extension: str, kind: str) -> Reader | None:
+    """The reader of an extension in the module of that name, without importing the others."""
+    if not extension[1:].isidentifier():
+        return None
+    module = named(extension[1:])
+    for reader in getattr(module, "READERS", ()):
+        if reader.kind == kind and extension in reader.extensions:
+            return reader
+    return None
+
+
+def _recognises(reader: Reader, head: bytes, size: int) -> bool:
+    if reader.signature is not None and reader.signature(head):
+        return True
+    return reader.resembles is not None and reader.resembles(head, size)
+
+
+def _by_name(candidates: list[Reader], name: str, kind: str) -> Reader:
+    wanted = str(name).lower().removeprefix(".")
+    for reader in candidates:
+        if wanted == reader.name or "." + wanted in reader.extensions:
+            return reader
+    known = ", ".join(reader.name for reader in candidates)
+    raise InvalidArgumentError(f"format={name!r} is no {kind} format (known: {known})")

@@ -1,0 +1,165 @@
+"""The normals that a file leaves out, by its smoothing groups.
+
+In: triangles with indices of positions and normals, -1 where there is none, and the smoothing
+groups of each. Out: the same with every corner's normal filled in. Corners of one position in one
+group share an angle-weighted normal; a triangle without a group is flat: all corners of its polygon
+have the same.
+"""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+
+from ..._native import loaders as native
+from ...model.geometry.creases import SMOOTH, find_creases
+from ...model.geometry.mesh import Mesh
+from ...model.geometry.normals import face_normals, smooth_sums, unit_vectors
+from .welding import number_rows, rows_repeat
+
+FLAT = 0
+# Parts of a surface that meet at an angle of less than 30 degrees were smooth where they were cut.
+_SEAM_COSINE = 0.8660254
+_MAX_MASKS = 64
+
+
+def fill_normals(
+    positions: np.ndarray,
+    corners: np.ndarray,
+    normal_indices: np.ndarray | None,
+    normals: np.ndarray,
+    groups: np.ndarray,
+    polygons: np.ndarray,
+    *,
+    are_masks: bool = False,
+    crease_angle: float = SMOOTH,
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """Give every corner a normal.
+
+    Parameters
+    ----------
+    positions : (V, 3) float64
+    corners : (T, 3) int32
+        Position index of each triangle's corners.
+    normal_indices : (T, 3) int32 or None
+        Their normals in ``normals``, -1 for none; None if no corner has any.
+    normals : (N, 3) float64
+        The file's normals.
+    groups : (T,) int64
+        Smoothing group of each triangle, 0 for flat.
+    polygons : (T,) int32
+        The polygon that each triangle is part of.
+    are_masks : bool
+        Each bit of ``groups`` is a group, and a triangle may be in several.
+    crease_angle : float
+        Radians, between triangles that are of one group because the file has none.
+
+    Returns
+    -------
+    (normal_indices, normals) or None
+        None if no corner has a normal and all are in one group: then the mesh computes the same
+        by itself.
+    """
+    is_flat = groups == FLAT
+    if normal_indices is None:
+        if not is_flat.any() and (groups == groups[:1]).all():
+            return None
+        normal_indices = np.full(corners.shape, -1, np.int32)
+    missing = normal_indices < 0
+    if not missing.any():
+        return normal_indices, normals
+    filled = normal_indices.copy()
+    grouped = _grouped_normals
+    if crease_angle < SMOOTH:
+        grouped = functools.partial(_creased_normals, crease_angle=crease_angle)
+    tables = [np.asarray(normals, np.float32).reshape(-1, 3)]
+    for chosen, compute in (
+        (missing & ~is_flat[:, np.newaxis], _masked_normals if are_masks else grouped),
+        (missing & is_flat[:, np.newaxis], _flat_normals),
+    ):
+        if chosen.any():
+            by = polygons if compute is _flat_normals else groups
+            table, indices = compute(positions, corners, by)
+            filled[chosen] = indices[chosen] + sum(map(len, tables))
+            tables.append(table)
+    return filled, np.concatenate(tables)
+
+
+def _grouped_normals(positions, corners, groups):
+    """One normal for each position in each group, and the one of every corner."""
+    _, group = np.unique(groups, return_inverse=True)
+    group = np.repeat(group.astype(np.int32), 3)
+    corners = np.ascontiguousarray(corners, np.int32)
+    shared, places, *_ = native.weld_corners(corners.ravel(), group, None, len(positions))
+    shared = shared.reshape(corners.shape)
+    sums = smooth_sums(positions, corners, shared, len(places))
+    return unit_vectors(sums).astype(np.float32), shared
+
+
+def _creased_normals(positions, corners, groups, *, crease_angle: float):
+    """A normal for each position and side of a crease, and the one of every corner."""
+    arrays = {
+        "positions": np.ascontiguousarray(positions, np.float32),
+        "faces": np.ascontiguousarray(corners, np.int32),
+        "edge_visible": None,
+    }
+    made = find_creases(arrays, crease_angle)
+    return made.normals, made.faces
+
+
+def _masked_normals(positions, corners, masks):
+    """One normal for each position and mask, from all triangles there that share a group."""
+    distinct, mask = np.unique(masks, return_inverse=True)
+    if len(distinct) > _MAX_MASKS:
+        # Nobody models like this; the lowest group alone keeps the work in bounds.
+        return _grouped_normals(positions, corners, masks & -masks)
+    count = len(positions)
+    tables = []
+    for value in distinct:
+        near = corners[(masks & value) != 0]
+        sums = smooth_sums(positions, near, near, count)
+        tables.append(unit_vectors(sums).astype(np.float32))
+    return np.concatenate(tables), corners + mask.reshape(-1, 1) * count
+
+
+def _flat_normals(positions, corners, polygons):
+    """One normal for each polygon, and the one of every corner."""
+    # Polygons stand in their order.
+    is_first = np.r_[True, polygons[1:] != polygons[:-1]]
+    polygon = np.cumsum(is_first) - 1
+    table = face_normals(positions, corners, polygon)[is_first]
+    return table, np.repeat(polygon.reshape(-1, 1), 3, axis=1)
+
+
+def join_seams(mesh: Mesh) -> None:
+    """Make vertices of equal coordinates one point where the surface goes on smoothly.
+
+    Many files list the points along the border of two patches twice. Their normals would show a
+    crease there. Vertices whose normals differ from the one they would have together by 30
+    degrees or more stay apart: that is an edge of the model.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Without normals of its own; its ``position_ids`` may change.
+    """
+    positions, ids = mesh.positions, mesh.position_ids
+    if ids is None and not rows_repeat(positions):
+        return
+    group, first = number_rows(positions)
+    ids = np.arange(len(positions)) if ids is None else ids
+    differs = ids != ids[first[group]]
+    if not differs.any():
+        return
+    is_apart = np.bincount(group, weights=differs)[group] > 0
+    faces = mesh.faces[is_apart[mesh.faces].any(axis=1)]
+    together, own = (
+        unit_vectors(smooth_sums(positions, faces, by[faces], int(by.max()) + 1))[by]
+        for by in (group, ids)
+    )
+    x, y, z = own[:, 0] * together[:, 0], own[:, 1] * together[:, 1], own[:, 2] * together[:, 2]
+    joined = is_apart & (x + y + z > _SEAM_COSINE)
+    _, mesh.position_ids = np.unique(
+        np.where(joined, group, int(group.max()) + 1 + ids), return_inverse=True
+    )

@@ -1,0 +1,35 @@
+"""Equal rows of an array found.
+
+In: rows of numbers, such as the corners of all triangles of a file. Out: the number of each row,
+equal ones having the same, in the order of their first appearance. Rows are equal if all their bits
+are, but for the two zeros; the result is exact, whatever the rows hold.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..._native import loaders as native
+
+
+def number_rows(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Number rows, equal ones alike.
+
+    Parameters
+    ----------
+    rows : (N, C) float32 or uint32, or (N, 4) uint8
+
+    Returns
+    -------
+    numbers : (N,) int32
+    first : (M,) int32
+        The first row of each number, in rising order.
+    """
+    rows = np.ascontiguousarray(rows)
+    return native.number_rows(rows.view(np.uint32), rows.dtype == np.float32)
+
+
+def rows_repeat(rows: np.ndarray) -> bool:
+    """Tell whether any two rows are equal; faster than to number them where none are."""
+    rows = np.ascontiguousarray(rows)
+    return native.rows_repeat(rows.view(np.uint32), rows.dtype == np.float32)

@@ -1,0 +1,86 @@
+"""XML, element by element, of which nothing expands.
+
+In: bytes, piece by piece. Out: calls for each beginning and end of an element. A document type,
+with which entities would come, is refused, and so is what is nested deeper than formats need.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from xml.parsers import expat
+
+from ...errors import FileFormatError
+
+_MOST_DEPTH = 64
+#: Between the namespace and the local part of a name.
+SEPARATOR = " "
+
+Attributes = dict[str, str]
+
+
+class XmlFault(ValueError):
+    """What is wrong with an element; `read_xml` adds where it stands."""
+
+
+def read_xml(
+    pieces: Iterable[bytes],
+    begin: Callable[[str, Attributes, int], object],
+    end: Callable[[str], object],
+    path: str,
+    part: str = "",
+) -> None:
+    """Call ``begin(name, attributes, place)`` and ``end(name)`` for each element, in their order.
+
+    Parameters
+    ----------
+    pieces : iterable of bytes
+    begin, end : callable
+        Names, those of attributes too, are ``"namespace local"``, or local only where there is no
+        namespace; ``place`` is the offset in the text. `XmlFault` may be raised.
+    path, part : str
+        The file that messages name, and which part of it the text is.
+
+    Raises
+    ------
+    FileFormatError
+        It is no well-formed XML, has a document type, or is too deep.
+    """
+    parser = expat.ParserCreate(namespace_separator=SEPARATOR)
+    depth = 0
+
+    def enter(name: str, attributes: Attributes) -> None:
+        nonlocal depth
+        depth += 1
+        if depth > _MOST_DEPTH:
+            raise XmlFault(f"elements are nested more than {_MOST_DEPTH} deep")
+        begin(name, attributes, parser.CurrentByteIndex)
+
+    def leave(name: str) -> None:
+        nonlocal depth
+        depth -= 1
+        end(name)
+
+    def refuse(*_) -> None:
+        raise XmlFault("a document type is not allowed")
+
+    parser.StartElementHandler, parser.EndElementHandler = enter, leave
+    parser.StartDoctypeDeclHandler = refuse
+    try:
+        for piece in pieces:
+            parser.Parse(piece, False)
+        parser.Parse(b"", True)
+    except FileFormatError:  # of the pieces
+        raise
+    except XmlFault as fault:
+        raise _located(str(fault), path, part, parser.CurrentLineNumber) from None
+    except expat.ExpatError as error:
+        message = f"no well-formed XML: {expat.ErrorString(error.code)}"
+        raise _located(message, path, part, error.lineno) from error
+    except (LookupError, ValueError) as error:
+        raise _located("no readable XML: its encoding is not known", path, part, 1) from error
+
+
+def _located(message: str, path: str, part: str, line: int) -> FileFormatError:
+    if part:
+        return FileFormatError(f"{part}:{line}: {message}", path)
+    return FileFormatError(message, path, line)

@@ -1,0 +1,1 @@
+"""Scenes of what files hold, and records of them."""

@@ -1,0 +1,100 @@
+"""How nodes move, as a scene's file tells it: spins and keyframes, node by node.
+
+In: an `Animator`, or the nodes of a file. Out: entries for the file, or an `Animator` that moves
+the same nodes the same way, to the bit. Numbers stand as they were given.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..._native.loaders import frozen
+from ...errors import InvalidArgumentError
+from ...model.scene.animation import Animator, Spin, Track
+from ...model.scene.nodes import Node, check_rotation
+from ...model.scene.scene import Scene
+from ..reading.json_values import JsonValue
+
+MOTION_KEYS = {"spins", "tracks"}
+_SPIN_KEYS = {"axis", "period", "phase", "rotation"}
+#: What keyframes hold, and how many numbers each row has.
+_PARTS = {"translations": 3, "rotations": 4, "scales": 3}
+
+
+def motion_entries(animator: Animator | None) -> dict[Node, dict[str, list]]:
+    """Return what the file says of each node that moves."""
+    entries: dict[Node, dict[str, list]] = {}
+    spins, tracks = ((), ()) if animator is None else animator._motions
+    for spin in spins:
+        entries.setdefault(spin.node, {}).setdefault("spins", []).append(_spin_entry(spin))
+    for track in tracks:
+        entries.setdefault(track.node, {}).setdefault("tracks", []).append(_track_entry(track))
+    return entries
+
+
+def _spin_entry(spin: Spin) -> dict[str, Any]:
+    entry = {"axis": spin.axis.tolist(), "period": spin.period}
+    if spin.phase:
+        entry["phase"] = spin.phase
+    return {**entry, "rotation": spin.rotation.tolist()}
+
+
+def _track_entry(track: Track) -> dict[str, Any]:
+    entry: dict[str, Any] = {"times": track.times.tolist()}
+    for part in _PARTS:
+        if getattr(track, part) is not None:
+            entry[part] = getattr(track, part).tolist()
+    return entry if track.repeat else {**entry, "repeat": False}
+
+
+def fill_animator(scene: Scene, nodes: list[Node], entries: list[JsonValue], rate: float) -> None:
+    """Give a scene the animator that the entries of its nodes ask for, if they ask for one."""
+    spins, tracks = [], []
+    for node, entry in zip(nodes, entries, strict=True):
+        spins += [_spin(node, each) for each in entry.entries("spins")]
+        tracks += [_track(node, each) for each in entry.entries("tracks")]
+    animator = Animator(scene, full_rate_distance=rate)
+    if spins or tracks:
+        animator._motions = spins, tracks
+        scene.animator = animator
+
+
+def _spin(node: Node, entry: JsonValue) -> Spin:
+    _check_keys(entry, _SPIN_KEYS)
+    rotation = entry.get("rotation")
+    first = node.rotation if rotation is None else np.array(rotation.numbers(4))
+    phase = entry.get("phase")
+    try:
+        return Spin(
+            node,
+            frozen(check_rotation(first)),
+            entry.need("axis").numbers(3),
+            entry.need("period").value,
+            0.0 if phase is None else phase.value,
+        )
+    except (InvalidArgumentError, TypeError) as error:
+        raise entry.error(str(error)) from None
+
+
+def _track(node: Node, entry: JsonValue) -> Track:
+    _check_keys(entry, {"times", "repeat", *_PARTS})
+    repeat = entry.get("repeat")
+    parts = []
+    for part, count in _PARTS.items():
+        rows = entry.get(part)
+        parts.append(None if rows is None else [row.numbers(count) for row in rows])
+    times = entry.need("times")
+    try:
+        return Track(
+            node, times.numbers(len(list(times))), *parts, True if repeat is None else repeat.flag()
+        )
+    except (InvalidArgumentError, TypeError) as error:
+        raise entry.error(str(error)) from None
+
+
+def _check_keys(entry: JsonValue, known: set[str]) -> None:
+    for key in entry.value:
+        if key not in known:
+            raise entry.need(key).error("is no property of a motion")

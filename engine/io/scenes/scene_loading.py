@@ -1,0 +1,148 @@
+"""From a file that holds objects, lights and cameras to a scene.
+
+In: a path, or the `Document` that a loader made of it. Out: a `Scene` in the file's coordinates,
+with the file's tree of nodes if it has one, else one node an object. What a file says in other
+terms than ours (lights without falloff, camera rolls) is translated here.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+
+import numpy as np
+
+from ...base import linalg
+from ...base.calls import checks_types
+from ...errors import InvalidArgumentError
+from ...model.geometry.creases import CREASE_ANGLE
+from ...model.scene.cameras import PerspectiveCamera
+from ...model.scene.lights import DirectionalLight, PointLight
+from ...model.scene.scene import Scene
+from ..loaders import CameraRecord, Document, LightRecord, load_document
+from ..reading.sources import File
+from .scene_records import fill_scene
+from .tree_records import choose_variant, fill_from_tree
+
+
+@checks_types
+def load_scene(
+    path: File,
+    *,
+    format: str | None = None,
+    progress: Callable[[float], object] | None = None,
+    variant: str | int | None = None,
+    crease_angle: float = CREASE_ANGLE,
+    root: str | os.PathLike[str] | None = None,
+) -> Scene:
+    """Read a file with all its objects, lights, cameras, skins and animations.
+
+    Parameters
+    ----------
+    path : str, path-like, bytes, binary file object or Traversable
+        A file of any mesh format; as in `load_mesh`.
+    format : str, optional
+        The format's name, such as ``"asc"``. Left out, it is told by the content and the name.
+    progress : callable, optional
+        As in `load_mesh`.
+    variant : str or int, optional
+        The name or number of one of the sets of materials that a glTF file offers
+        (KHR_materials_variants); the usual one if left out.
+    crease_angle : float, optional
+        As in `load_mesh`.
+    root : path-like, optional
+        As in `load_mesh`.
+
+    Returns
+    -------
+    scene : Scene
+        In the file's coordinates; ``scene.warnings`` tells what was left out or replaced.
+
+    Raises
+    ------
+    FileFormatError, FileAccessError, InvalidArgumentError
+    """
+    document = load_document(
+        path, format=format, progress=progress, crease_angle=crease_angle, root=root
+    )
+    return scene_from_document(document, variant)
+
+
+@np.errstate(all="ignore")
+def scene_from_document(document: Document, variant: str | int | None = None) -> Scene:
+    """Return the scene that a document describes; ``variant`` as in `load_scene`.
+
+    Raises
+    ------
+    InvalidArgumentError
+        There is no such variant.
+    """
+    scene = Scene()
+    scene.warnings.extend(document.warnings)
+    if variant is not None:
+        choose_variant(document.tree, variant)
+    if document.tree is not None:
+        scene.ambient = (0, 0, 0)  # glTF has no such light
+        fill_from_tree(scene, document.tree)
+        return scene
+    if document.scene is not None:
+        fill_scene(scene, document.scene)
+        return scene
+    for name, mesh, pose in document.objects:
+        scene.add(mesh, name=name, pose=pose)
+    bounds = scene.bounds
+    for light in document.lights:
+        _try_light(scene, light, bounds)
+    for camera in document.cameras:
+        _add_camera(scene, camera, bounds)
+    return scene
+
+
+def _try_light(scene: Scene, record: LightRecord, bounds: np.ndarray) -> None:
+    """Add a light, or tell why it is left out."""
+    try:
+        _add_light(scene, record, bounds)
+    except InvalidArgumentError as error:
+        scene.warnings.append(f"light {record.name!r} is left out: {error}")
+
+
+def _add_light(scene: Scene, record: LightRecord, bounds: np.ndarray) -> None:
+    """Add a light; files give lights no falloff, so theirs are as bright at the scene's centre."""
+    color = tuple(float(component) for component in record.color)
+    if record.kind == "ambient":
+        scene.ambient = tuple(component * record.intensity for component in color)
+        return
+    if record.kind == "directional" and record.target is not None:
+        direction = np.subtract(record.target, record.position)
+        light = DirectionalLight(direction, color, record.intensity)
+        scene.add(light, name=record.name)
+        return
+    if record.kind == "spot":
+        scene.warnings.append(f"spot light {record.name!r} shines in all directions")
+    distance = max(_distance(record.position, bounds), _radius(bounds))
+    light = PointLight(color, record.intensity * distance * distance)
+    scene.add(light, name=record.name, translation=record.position)
+
+
+def _add_camera(scene: Scene, record: CameraRecord, bounds: np.ndarray) -> None:
+    distance, radius = _distance(record.position, bounds), _radius(bounds)
+    zfar = 1.1 * (distance + radius)
+    znear = max(0.9 * (distance - radius), 1e-3 * zfar)
+    try:
+        pose = linalg.look_at(record.position, record.target, record.up)
+        camera = PerspectiveCamera(record.fov, znear=znear, zfar=zfar)
+    except InvalidArgumentError as error:
+        scene.warnings.append(f"camera {record.name!r} is left out: {error}")
+        return
+    pose = linalg.multiply(pose, linalg.rotation_z(record.roll))
+    scene.add(camera, name=record.name, pose=pose)
+
+
+def _distance(position, bounds: np.ndarray) -> float:
+    """Distance of a point from the centre of a box."""
+    return float(linalg.length(np.subtract(position, (bounds[0] + bounds[1]) * 0.5)))
+
+
+def _radius(bounds: np.ndarray) -> float:
+    """Half the diagonal of a box, 1 for an empty one."""
+    return float(linalg.length((bounds[1] - bounds[0]) * 0.5)) or 1.0

@@ -1,0 +1,88 @@
+"""The objects of a document that holds a tree: what its scene shows, node by node.
+
+In: a `TreeRecord`. Out: an object for each mesh of each shown node, and counts. Any number of nodes
+may repeat a mesh, so that joined they are limited.
+"""
+
+from __future__ import annotations
+
+from ...errors import FileFormatError
+from ..reading.documents import DocumentObject, TreeRecord
+from ..reading.posed_parts import counts_of, document_objects
+from ..reading.sources import Source
+from .tree_posing import RestPose
+
+# Each takes some kilobytes, however little the file says of it.
+_MAX_OBJECTS = 50_000
+
+
+def tree_objects(
+    source: Source, tree: TreeRecord, most_vertices: int, split: bool
+) -> list[DocumentObject]:
+    """Return what a tree shows.
+
+    Parameters
+    ----------
+    source : Source
+    tree : TreeRecord
+    most_vertices : int
+        How many vertices all objects may have if their poses are applied.
+    split : bool
+        Keep poses apart and meshes as they are stored, each instanced one once; otherwise poses,
+        skins and morph targets are applied.
+
+    Raises
+    ------
+    FileFormatError
+        There are too many objects or vertices, or no vertices though there is to be one mesh.
+    """
+    rest = RestPose(tree)
+    shown = [node for node in rest.nodes if node.visible]
+    drawn = [node for node in shown if tree.nodes[node.index].mesh is not None]
+    if sum(len(tree.meshes[tree.nodes[n.index].mesh].parts) for n in drawn) > _MAX_OBJECTS:
+        raise FileFormatError(f"more than {_MAX_OBJECTS} objects", source.path)
+    if not split:
+        _check_vertices(source, tree, drawn, most_vertices)
+    parts: list[DocumentObject] = []
+    for node in drawn:
+        if split:
+            record = tree.nodes[node.index]
+            meshes = [(part.mesh, node.world.copy()) for part in tree.meshes[record.mesh].parts]
+        else:
+            meshes = list(rest.posed(node))
+        meshes = [(mesh, pose) for mesh, pose in meshes if len(mesh.positions)]
+        name = tree.nodes[node.index].name or str(node.index)
+        names = [name] if len(meshes) == 1 else [f"{name}_{k}" for k in range(len(meshes))]
+        named = zip(names, meshes, strict=True)
+        parts += [DocumentObject(name, mesh, pose) for name, (mesh, pose) in named]
+    if not parts and split:
+        return []
+    return document_objects(source, parts, most_vertices, split)
+
+
+def _check_vertices(source: Source, tree: TreeRecord, drawn: list, most: int) -> None:
+    """Refuse too many before any are made."""
+    total = 0
+    for node in drawn:
+        record = tree.nodes[node.index]
+        times = 1 if record.instances is None else len(record.instances)
+        parts = tree.meshes[record.mesh].parts
+        total += times * sum(len(part.mesh.positions) for part in parts)
+        if times > _MAX_OBJECTS:
+            raise FileFormatError(f"more than {_MAX_OBJECTS} objects", source.path)
+    if total > most:
+        raise FileFormatError(
+            f"{total} vertices where meshes are repeated: one mesh of them is limited to "
+            f"{most}; load_scene keeps the meshes apart",
+            source.path,
+        )
+
+
+def tree_counts(tree: TreeRecord, objects: list[DocumentObject]) -> dict:
+    """Return the lists that a tree holds, as `Document.counts` shows them."""
+    return {
+        **counts_of(objects),
+        "nodes": len(tree.nodes),
+        "meshes": len(tree.meshes),
+        "materials": [material.name for material in tree.materials if material.name],
+    }

@@ -1,0 +1,332 @@
+"""From the tree of a file to a scene.
+
+In: a `TreeRecord`, whose meshes are made. Out: the nodes of its shown scene with what they hold:
+meshes, shared as in the file, cameras, lights, skins, and clips for an `AnimationPlayer`. What has
+no place in a scene is warned of.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from ..._native.loaders import frozen
+from ...base.numbers import shown
+from ...errors import InvalidArgumentError
+from ...model.geometry.mesh import Mesh
+from ...model.materials.material import Material
+from ...model.scene.cameras import Camera, OrthographicCamera, PerspectiveCamera
+from ...model.scene.instances import InstancedMesh
+from ...model.scene.lights import DIRECT_LIGHTS, Light, PointLight
+from ...model.scene.nodes import Node
+from ...model.scene.scene import Scene
+from ..reading.documents import (
+    ClipRecord,
+    LampRecord,
+    LensRecord,
+    NodeRecord,
+    PropertyRecord,
+    TreeRecord,
+)
+from .object_kinds import parameters
+from .tree_posing import shown_nodes
+
+if TYPE_CHECKING:
+    from ...model.motion.clips import Channel
+    from ...model.motion.properties import PropertyChannel
+
+#: What a file says of what a scene holds, for whoever writes it again: the record of each thing.
+records: WeakKeyDictionary = WeakKeyDictionary()
+#: Pairs of properties of which the first must be less.
+_APART = (("znear", "zfar"), ("inner_cone_angle", "outer_cone_angle"))
+#: Stands there for a node that holds what the one above it could not hold besides.
+FURTHER_PART = object()
+
+
+class MeshWords(NamedTuple):
+    """What a file says of a mesh, without the mesh: what holds its key is never forgotten.
+
+    Attributes
+    ----------
+    morph_weights, variants, extras
+        As in `MeshRecord`.
+    variant_names : tuple of str
+        Of the file.
+    """
+
+    morph_weights: tuple[float, ...]
+    variants: dict[int, tuple[Material, ...]]
+    extras: Any
+    variant_names: tuple[str, ...]
+
+
+class InstanceWords(NamedTuple):
+    """What a file says of instances.
+
+    Attributes
+    ----------
+    poses : (N, 4, 4) float32
+        The very array that they had then.
+    parts : tuple of arrays or None
+        As in `NodeRecord`.
+    """
+
+    poses: Any
+    parts: tuple | None
+
+
+def choose_variant(tree: TreeRecord | None, variant: str | int) -> None:
+    """Give the meshes of a tree the materials of one of its variants.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+    names = () if tree is None else tree.variants
+    number = (
+        variant
+        if isinstance(variant, int)
+        else next((index for index, name in enumerate(names) if name == variant), -1)
+    )
+    if tree is None or not 0 <= number < len(names):
+        known = ", ".join(map(repr, names)) or "none"
+        raise InvalidArgumentError(f"no variant {shown(variant)} (there are: {known})")
+    for record in tree.meshes:
+        for part in record.parts:
+            if number in part.variants:
+                part.mesh.materials = part.variants[number]
+
+
+def fill_from_tree(scene: Scene, tree: TreeRecord) -> None:
+    """Add the nodes of a tree's shown scene to an empty scene, and its clips."""
+    records[scene] = tree.extras
+    _Filling(scene, tree).fill()
+
+
+class _Filling:
+    """Makes each thing of a tree once."""
+
+    def __init__(self, scene: Scene, tree: TreeRecord) -> None:
+        self._scene, self._tree = scene, tree
+        self._objects: dict[tuple, object] = {}
+        self._nodes: dict[int, Node] = {}  # by their numbers in the tree
+        self._parts: dict[int, list[Node]] = {}  # the nodes that show parts of their meshes
+        self._keys: dict[int, tuple[np.ndarray, np.ndarray]] = {}  # by the ids of the first
+
+    def fill(self) -> None:
+        """Add everything."""
+        for node in shown_nodes(self._tree):
+            self._add(node.index, self._nodes.get(node.parent))
+        self._add_skins()
+        for number, clip in enumerate(self._tree.clips):
+            self._add_clip(clip, number)
+
+    def _add(self, index: int, parent: Node | None) -> None:
+        record = self._tree.nodes[index]
+        held = [*self._meshes(record), *self._placed(record)]
+        # What a node of ours cannot hold besides hangs below it.
+        first, others = (held[0], held[1:]) if held else (None, [])
+        node = self._scene.add(first, name=record.name, parent=parent, **_place(record))
+        node.visible = record.visible
+        # What the node itself does not tell; of very many nodes, records take as much as they do.
+        if any(x is not None for x in (record.extras, record.rotation, record.matrix)):
+            records[node] = record
+        self._nodes[index] = node
+        shows = [node] if isinstance(first, (Mesh, InstancedMesh)) else []
+        for number, obj in enumerate(others, start=1):
+            below = self._scene.add(obj, name=f"{record.name}_{number}", parent=node)
+            records[below] = FURTHER_PART
+            shows += [below] if isinstance(obj, (Mesh, InstancedMesh)) else []
+        if shows:
+            self._parts[index] = shows
+            self._set_weights(record, shows)
+
+    def _meshes(self, record: NodeRecord) -> list[Mesh | InstancedMesh]:
+        if record.mesh is None:
+            return []
+        mesh_record = self._tree.meshes[record.mesh]
+        meshes = [part.mesh for part in mesh_record.parts if len(part.mesh.positions)]
+        for part in mesh_record.parts:
+            said = MeshWords(part.morph_weights, part.variants, part.extras, self._tree.variants)
+            records.setdefault(part.mesh, said)
+        if record.instances is None:
+            return meshes
+        return [self._instanced(mesh, record) for mesh in meshes]
+
+    def _instanced(self, mesh: Mesh, record: NodeRecord) -> InstancedMesh:
+        """The instances of a mesh, once for all nodes that have the same."""
+        poses, colors = record.instances, record.instance_colors
+        key = "instances", id(mesh), id(poses), id(colors)
+        if key not in self._objects:
+            made = self._objects[key] = InstancedMesh(mesh, poses, colors=colors)
+            records[made] = InstanceWords(made.poses, record.instance_parts)
+        return self._objects[key]
+
+    def _placed(self, record: NodeRecord) -> list[Camera | Light]:
+        """The camera and the light of a node, each made once for all nodes that name it."""
+        found = []
+        for kind, number, entries, make in (
+            ("camera", record.camera, self._tree.cameras, _camera),
+            ("light", record.light, self._tree.lights, _light),
+        ):
+            if number is None:
+                continue
+            key = kind, number
+            if key not in self._objects:
+                self._objects[key] = self._made(kind, entries[number], make)
+            found += [] if self._objects[key] is None else [self._objects[key]]
+        return found
+
+    def _made(self, kind: str, entry: LensRecord | LampRecord, make):
+        try:
+            obj = make(entry)
+        except InvalidArgumentError as error:
+            self._scene.warnings.append(f"{kind} {entry.name!r} is left out: {error}")
+            return None
+        records[obj] = entry
+        return obj
+
+    def _set_weights(self, record: NodeRecord, shows: list[Node]) -> None:
+        mesh_record = self._tree.meshes[record.mesh]
+        count = len(mesh_record.mesh.morph_targets)
+        weights = mesh_record.morph_weights if record.weights is None else record.weights
+        if any(weights) and count and record.instances is None:
+            weights = [*weights[:count], *(0.0,) * (count - len(weights))]
+            for node in shows:
+                node.morph_weights = weights
+
+    def _add_skins(self) -> None:
+        from ...model.motion.skins import Skin
+
+        for index, shows in self._parts.items():
+            number = self._tree.nodes[index].skin
+            if number is None:
+                continue
+            key = "skin", number
+            record = self._tree.skins[number]
+            if key not in self._objects:
+                joints = [self._nodes.get(joint) for joint in record.joints]
+                if None in joints:
+                    self._scene.warnings.append(
+                        f"skin {record.name!r} is left out: a joint of it is not in the scene"
+                    )
+                    self._objects[key] = None
+                else:
+                    skin = Skin(joints, record.inverse_binds, record.name)
+                    self._objects[key] = skin
+                    records[skin] = record
+            skin = self._objects[key]
+            for node in shows if skin is not None else ():
+                if isinstance(node.object, Mesh) and node.object.joints is not None:
+                    node.skin = skin
+
+    def _add_clip(self, record: ClipRecord, number: int) -> None:
+        from ...model.motion.clips import AnimationClip, Channel
+
+        channels: list[Channel | PropertyChannel] = []
+        missing = 0
+        for channel in record.channels:
+            node = self._nodes.get(channel.node)
+            moved = [] if node is None else [node]
+            if channel.path == "weights":
+                moved = self._parts.get(channel.node, []) if node is not None else []
+            missing += not moved
+            times, values = self._shared(channel.times), self._shared(channel.values)
+            channels += [
+                Channel(each, channel.path, times, values, channel.interpolation) for each in moved
+            ]
+        made = [self._property_channels(each, record.name) for each in record.properties]
+        missing += sum(not each for each in made)
+        channels += self._without_crossing([one for each in made for one in each], record.name)
+        if missing:
+            self._scene.warnings.append(
+                f"animation {record.name!r}: {missing} of its channels move nothing that is shown"
+            )
+        clip = AnimationClip(channels, record.name)
+        records[clip] = record
+        self._scene.animations[_free(record.name or f"animation_{number}", self._scene)] = clip
+
+    def _shared(self, array: np.ndarray) -> np.ndarray:
+        """The float64 numbers that channels hold of an array, the same for all that name it."""
+        held = self._keys.get(id(array))
+        if held is None:
+            held = self._keys[id(array)] = array, frozen(array.astype(np.float64))
+        return held[1]
+
+    def _property_channels(self, record: PropertyRecord, clip: str) -> list[PropertyChannel]:
+        """The channels of what a record means: several where a scene has several things for it."""
+        targets: list[Any] = []
+        if record.kind == "node":
+            node = self._nodes.get(record.number)
+            parts = self._parts.get(record.number, []) if record.path != "visible" else [node]
+            targets = [] if node is None else parts
+        elif record.kind == "material":
+            targets = list(self._tree.made_materials.get(record.number, ()))
+        else:
+            thing = self._objects.get((record.kind, record.number))
+            targets = [] if thing is None else [thing]
+        made = (self._property_channel(target, record, clip) for target in targets)
+        return [channel for channel in made if channel is not None]
+
+    def _property_channel(self, target, record: PropertyRecord, clip: str):
+        """A channel of one thing; None, which is told, if that has no such property."""
+        from ...model.motion.properties import PropertyChannel
+
+        try:
+            times, values = self._shared(record.times), self._shared(record.values)
+            return PropertyChannel(target, record.path, times, values, record.interpolation)
+        except InvalidArgumentError as error:
+            what = f"{record.path} of {record.kind} {record.number}"
+            self._scene.warnings.append(f"animation {clip!r}: {what} stays: {error}")
+            return None
+
+    def _without_crossing(self, channels: list[PropertyChannel], clip: str) -> list:
+        """The channels without those by which a near plane would pass the far one, and such."""
+        crossing = set()
+        for low, high in _APART:
+            ends = {(c.target, c.path): c.reach for c in channels if c.path in (low, high)}
+            for target in {target for target, _ in ends}:
+                lows = ends.get((target, low), (getattr(target, low),) * 2)
+                highs = ends.get((target, high), (getattr(target, high),) * 2)
+                if not lows[1] < highs[0]:
+                    crossing |= {(target, low), (target, high)}
+                    told = f"animation {clip!r}: {low} would be beyond {high}: both stay"
+                    self._scene.warnings.append(told)
+        return [c for c in channels if (c.target, c.path) not in crossing]
+
+
+def _free(name: str, scene: Scene) -> str:
+    """The name, or one with a number behind it where another clip is called so."""
+    number, free = 1, name
+    while free in scene.animations:
+        number += 1
+        free = f"{name}_{number}"
+    return free
+
+
+def _place(record: NodeRecord) -> dict:
+    """The parts of a node's pose, as `Scene.add` takes them."""
+    if record.matrix is not None:
+        return {"pose": record.matrix}
+    parts = {name: getattr(record, name) for name in ("translation", "rotation", "scale")}
+    return {name: value for name, value in parts.items() if value is not None}
+
+
+def _camera(record: LensRecord) -> Camera:
+    """A camera of the picture's own shape, whatever shape the file thinks of."""
+    if record.kind == "orthographic":
+        return OrthographicCamera(record.ymag, znear=record.znear, zfar=record.zfar)
+    return PerspectiveCamera(record.yfov, znear=record.znear, zfar=record.zfar)
+
+
+def _light(record: LampRecord) -> Light:
+    light = DIRECT_LIGHTS.get(record.kind)
+    if light is None:
+        raise InvalidArgumentError(f"no light is known of the kind {shown(record.kind)}")
+    held = {name: getattr(record, name) for name in parameters(light) if hasattr(record, name)}
+    if light is PointLight:
+        held["falloff"] = "inverse_square" if math.isinf(record.range) else "gltf"
+    return light(**held)

@@ -1,0 +1,63 @@
+"""What the shown scene of a tree comes to: its triangles, and the box around it at rest.
+
+In: a `TreeRecord`. Out: numbers. What is hidden does not count.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...base import linalg
+from ...model.geometry.mesh import Mesh
+from ..reading.documents import TreeRecord
+from .tree_posing import RestPose
+
+# Where meshes are repeated so often that this many vertices would have to be placed, the corners of
+# their boxes are.
+_MOST_PLACED = 1 << 26
+
+
+def triangle_count(tree: TreeRecord) -> int:
+    """Return how many triangles are drawn, each instance's counted."""
+    total = 0
+    for shown in RestPose(tree).nodes:
+        node = tree.nodes[shown.index]
+        if shown.visible and node.mesh is not None:
+            times = 1 if node.instances is None else len(node.instances)
+            total += times * sum(len(part.mesh.faces) for part in tree.meshes[node.mesh].parts)
+    return total
+
+
+def rest_bounds(tree: TreeRecord) -> list[list[float]] | None:
+    """Return the lowest and highest coordinates in the world, with skins and morph weights applied.
+
+    None if nothing shows. Where vertices are not finite they do not count.
+    """
+    rest = RestPose(tree)
+    drawn = [shown for shown in rest.nodes if shown.visible]
+    is_exact = sum(_vertices(tree, shown.index) for shown in drawn) <= _MOST_PLACED
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    for shown in drawn:
+        for mesh, pose in rest.posed(shown):
+            points = mesh.positions if is_exact else _corners(mesh)
+            placed = linalg.transform_points(pose, points)
+            placed = placed[np.isfinite(placed).all(axis=1)]
+            low = np.minimum(low, placed.min(axis=0, initial=np.inf))
+            high = np.maximum(high, placed.max(axis=0, initial=-np.inf))
+    return None if (low > high).any() else [low.tolist(), high.tolist()]
+
+
+def _vertices(tree: TreeRecord, index: int) -> int:
+    """How many vertices a node shows."""
+    node = tree.nodes[index]
+    if node.mesh is None:
+        return 0
+    times = 1 if node.instances is None else len(node.instances)
+    return times * sum(len(part.mesh.positions) for part in tree.meshes[node.mesh].parts)
+
+
+def _corners(mesh: Mesh) -> np.ndarray:
+    """The corners of a mesh's box."""
+    low, high = mesh.bounds
+    choices = np.array(np.meshgrid(*zip(low, high, strict=True), indexing="ij"))
+    return choices.reshape(3, -1).T

@@ -1,0 +1,53 @@
+"""Scenes of the package trimesh, to be drawn or shown in one line.
+
+In: a trimesh.Scene, or one of its geometries. Out: a `Scene` with their meshes where they are, and
+with the camera where the other scene was given one.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...model.scene.cameras import PerspectiveCamera
+from ...model.scene.scene import Scene
+
+
+def is_of_trimesh(thing) -> bool:
+    """Return whether something is a scene or a geometry of trimesh."""
+    return type(thing).__module__.partition(".")[0] == "trimesh" and (
+        hasattr(thing, "graph") or hasattr(thing, "vertices")
+    )
+
+
+def scene_from_trimesh(thing) -> Scene:
+    """Return a scene of what trimesh holds.
+
+    Parameters
+    ----------
+    thing : trimesh.Scene, Trimesh, PointCloud or Path
+    """
+    from ..trimesh_conversion import mesh_from_trimesh, scene_parts
+
+    scene = Scene()
+    if not hasattr(thing, "graph"):
+        scene.add(mesh_from_trimesh(thing))
+        return scene
+    for name, mesh, pose in scene_parts(thing):
+        scene.add(mesh, name=name, pose=pose)
+    if thing.has_camera:
+        _add_camera(scene, thing)
+    return scene
+
+
+def _add_camera(scene: Scene, other) -> None:
+    """Add the camera of another scene, far enough to see all of it."""
+    pose = np.asarray(other.camera_transform, np.float64)
+    bounds = scene.bounds
+    radius = 0.5 * float(np.linalg.norm(bounds[1] - bounds[0])) or 1.0
+    distance = float(np.linalg.norm(pose[:3, 3] - (bounds[0] + bounds[1]) * 0.5))
+    zfar = 1.1 * (distance + radius)
+    znear = max(0.9 * (distance - radius), 1e-3 * zfar)
+    yfov = math.radians(float(other.camera.fov[1]))
+    scene.add(PerspectiveCamera(yfov, znear=znear, zfar=zfar), name="camera", pose=pose)

@@ -1,0 +1,238 @@
+"""Meshes from and for the package trimesh, which is optional.
+
+In: geometry of trimesh, or a `Mesh`. Out: the other. trimesh is imported only to make its objects:
+what comes from it is known by its attributes. Colours of its materials are taken for linear light,
+as its loaders make them of the numbers in files; vertex colours are sRGB bytes on both sides.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..base.numbers import shown
+from ..errors import InvalidArgumentError
+from ..model.geometry.mesh import Mesh
+from ..model.geometry.posing import posed_mesh
+from ..model.materials.colors import linear_color, srgb_bytes
+from ..model.materials.material import Material, textures_of
+from ..model.materials.textures import Texture
+from .formats.images import check_image_size, made_pixels
+from .reading.documents import DocumentObject
+from .reading.far_coordinates import moved_near
+from .reading.indexed_mesh import IndexedGeometry, build_indexed_mesh
+from .reading.warning_list import WarningList
+
+
+def mesh_from_trimesh(geometry) -> Mesh:
+    """Return the mesh of a geometry; see `Mesh.from_trimesh`."""
+    if hasattr(geometry, "graph") and hasattr(geometry, "geometry"):
+        parts = scene_parts(geometry)
+        return Mesh.concatenate([posed_mesh(part.mesh, part.pose) for part in parts])
+    return _mesh(geometry, "", _Textures())
+
+
+def scene_parts(
+    scene, warnings: WarningList | None = None, *, near: bool = False
+) -> list[DocumentObject]:
+    """Return the nodes of a trimesh scene; those of the same geometry share a mesh.
+
+    With ``warnings``, images that cannot be read are left out. With ``near``, coordinates far from
+    the origin get another one, and poses that take them back.
+    """
+    meshes: dict[str, tuple[Mesh, np.ndarray | None]] = {}
+    textures = _Textures(warnings)
+    parts = []
+    for node in scene.graph.nodes_geometry:
+        pose, name = scene.graph[node]
+        if name not in meshes:
+            meshes[name] = _near_mesh(scene.geometry[name], str(name), textures, near)
+        mesh, back = meshes[name]
+        pose = np.array(pose, np.float64)
+        parts.append(DocumentObject(str(node), mesh, pose if back is None else pose @ back))
+    return parts
+
+
+def _near_mesh(
+    geometry, name: str, textures: _Textures, near: bool
+) -> tuple[Mesh, np.ndarray | None]:
+    """The mesh of a geometry, and what takes its coordinates back if they were moved."""
+    vertices = np.asarray(getattr(geometry, "vertices", ()), np.float64)
+    if not near or vertices.ndim != 2 or vertices.shape[1] != 3:
+        return _mesh(geometry, name, textures), None
+    moved, back = moved_near(vertices)
+    return _mesh(geometry, name, textures, moved), back
+
+
+def _mesh(geometry, name: str, textures: _Textures, positions: np.ndarray | None = None) -> Mesh:
+    """The mesh of a Trimesh, a PointCloud or a Path; its vertices may stand elsewhere."""
+    if positions is None:
+        positions = np.asarray(getattr(geometry, "vertices", ()), np.float64)
+    if hasattr(geometry, "faces") and hasattr(geometry, "visual"):
+        return _triangle_mesh(geometry, name, textures, positions)
+    if hasattr(geometry, "entities"):
+        return _path_mesh(geometry, name, positions)
+    if hasattr(geometry, "vertices"):
+        colors = getattr(geometry, "colors", None)
+        colors = None if colors is None or len(colors) != len(positions) else _bytes(colors)
+        return Mesh(positions, colors=colors, points=np.arange(len(positions)), name=name)
+    raise InvalidArgumentError(f"geometry must be one of trimesh, not {shown(geometry)}")
+
+
+def _triangle_mesh(geometry, name: str, textures: _Textures, positions: np.ndarray) -> Mesh:
+    visual = geometry.visual
+    kind = getattr(visual, "kind", None)
+    indexed = IndexedGeometry(positions, np.asarray(geometry.faces, np.int32))
+    # Asking for the normals of a mesh without any would make trimesh compute them.
+    if "vertex_normals" in getattr(geometry, "_cache", ()):
+        indexed.normals = np.asarray(geometry.vertex_normals, np.float32)
+    if kind == "vertex":
+        indexed.colors = _bytes(visual.vertex_colors)
+    elif kind == "face":
+        indexed.face_colors = _bytes(visual.face_colors)
+    elif kind == "texture" and visual.uv is not None and len(visual.uv) == len(indexed.positions):
+        indexed.uvs = np.nan_to_num(np.asarray(visual.uv, np.float32)[:, :2])
+    mesh = build_indexed_mesh(indexed, name)
+    mesh.materials = [_material(visual.material, textures)] if kind == "texture" else [Material()]
+    return mesh
+
+
+def _path_mesh(geometry, name: str, vertices: np.ndarray) -> Mesh:
+    # Without the scale a circle would get a point every twentieth of a unit, however large it is.
+    scale = float(np.ptp(vertices, axis=0).max(initial=0.0)) if len(vertices) else 1.0
+    runs = [
+        np.asarray(entity.discrete(vertices, scale=scale or 1.0), np.float64)
+        for entity in geometry.entities
+    ]
+    runs = [run for run in runs if len(run) > 1]
+    if not runs:
+        return Mesh(np.zeros((0, 3)), name=name)
+    positions = np.zeros((sum(map(len, runs)), 3))
+    positions[:, : vertices.shape[1]] = np.concatenate(runs)
+    first = np.arange(len(positions) - 1)
+    ends = np.cumsum([len(run) for run in runs])[:-1] - 1
+    first = np.delete(first, ends)
+    return Mesh(positions, lines=np.stack([first, first + 1], axis=1), name=name)
+
+
+def _bytes(colors) -> np.ndarray:
+    return np.array(colors, np.uint8).reshape(len(colors), -1)
+
+
+def _material(material, textures: _Textures) -> Material:
+    """A `SimpleMaterial` or a `PBRMaterial`; of a `MultiMaterial` the first."""
+    material = (getattr(material, "materials", None) or [material])[0]
+    factor = getattr(material, "baseColorFactor", None)
+    if factor is None:
+        factor = getattr(material, "diffuse", None)
+    image = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
+    # The grey that trimesh gives a material without a colour would darken its image.
+    is_default = factor is None or (image is not None and not hasattr(material, "baseColorFactor"))
+    emissive = getattr(material, "emissiveFactor", None)
+    extras = {
+        key: float(value)
+        for key, name in (("Pm", "metallicFactor"), ("Pr", "roughnessFactor"))
+        if (value := getattr(material, name, None)) is not None
+    }
+    return Material(
+        name=str(getattr(material, "name", None) or ""),
+        color=(1.0, 1.0, 1.0) if is_default else _linear(factor),
+        texture=None if image is None else textures.get(image),
+        emissive=(0.0, 0.0, 0.0) if emissive is None else _linear(emissive),
+        two_sided=bool(getattr(material, "doubleSided", False)),
+        extras=extras,
+    )
+
+
+def _linear(color) -> tuple[float, float, float]:
+    color = np.asarray(color)
+    scale = 255.0 if color.dtype.kind in "iu" else 1.0
+    return tuple(float(c) / scale for c in np.nan_to_num(color[:3]).clip(min=0).tolist())
+
+
+class _Textures:
+    """The textures of images of Pillow's, one for each that several materials share."""
+
+    def __init__(self, warnings: WarningList | None = None) -> None:
+        self._warnings = warnings
+        # The image is kept, too: another could get its identity.
+        self._textures: dict[int, tuple[object, Texture | None]] = {}
+
+    def get(self, image) -> Texture | None:
+        if id(image) not in self._textures:
+            self._textures[id(image)] = (image, self._texture(image))
+        return self._textures[id(image)][1]
+
+    def _texture(self, image) -> Texture | None:
+        name = str(getattr(image, "name", None) or "")
+        try:
+            check_image_size(*image.size, "texture")
+            return Texture(made_pixels(image, "texture"), name=name)
+        # Pillow decodes an image only now, and raises what damaged ones lead it to.
+        except Exception as error:
+            if self._warnings is None:
+                raise
+            reason = str(error) or type(error).__name__
+            self._warnings.add(f"texture {name!r} is left out: {reason}")
+            return None
+
+
+def mesh_to_trimesh(mesh: Mesh):
+    """Return a trimesh geometry; see `Mesh.to_trimesh`."""
+    try:
+        import trimesh
+    except ImportError as error:
+        message = "to_trimesh needs the package trimesh: engine3d[formats]"
+        raise ImportError(message, name=error.name) from error
+    if not len(mesh.faces):
+        colors = None if mesh.colors is None else srgb_bytes(mesh.colors)[mesh.points]
+        return trimesh.PointCloud(mesh.positions[mesh.points].astype(np.float64), colors=colors)
+    used = np.unique(mesh.material_ids)
+    parts = [_trimesh_part(trimesh, mesh, number, len(used) > 1) for number in used.tolist()]
+    if len(parts) == 1:
+        return parts[0]
+    scene = trimesh.Scene()
+    for number, part in zip(used.tolist(), parts, strict=True):
+        scene.add_geometry(part, geom_name=mesh.materials[number].name or f"material_{number}")
+    return scene
+
+
+def _trimesh_part(trimesh, mesh: Mesh, number: int, is_part: bool):
+    """The faces of one material; all vertices stay if there is no other."""
+    faces, vertices = mesh.faces, slice(None)
+    if is_part:
+        vertices, faces = np.unique(faces[mesh.material_ids == number], return_inverse=True)
+        faces = faces.reshape(-1, 3)
+    geometry = trimesh.Trimesh(
+        mesh.positions[vertices].astype(np.float64),
+        faces,
+        vertex_normals=mesh.normals[vertices] if mesh.has_normals else None,
+        process=False,
+    )
+    material = mesh.materials[number]
+    if mesh.colors is not None:
+        geometry.visual.vertex_colors = srgb_bytes(mesh.colors)[vertices]
+    elif mesh.uvs is not None:
+        geometry.visual = trimesh.visual.TextureVisuals(
+            uv=mesh.uvs[vertices].astype(np.float64), material=_trimesh_material(trimesh, material)
+        )
+    elif not np.array_equal(linear_color(material.rgb), (1, 1, 1)):
+        linear = np.append(linear_color(material.rgb), np.float32(1))[np.newaxis]
+        geometry.visual.face_colors = np.repeat(srgb_bytes(linear), len(faces), axis=0)
+    return geometry
+
+
+def _trimesh_material(trimesh, material: Material):
+    image = None
+    texture = textures_of(material).get("texture")
+    if texture is not None:
+        from PIL import Image
+
+        image = Image.fromarray(texture.pixels)
+    return trimesh.visual.material.PBRMaterial(
+        name=material.name or None,
+        baseColorFactor=[*map(float, linear_color(material.rgb).clip(0, 1)), 1.0],
+        baseColorTexture=image,
+        metallicFactor=material.extras.get("Pm"),
+        roughnessFactor=material.extras.get("Pr"),
+        doubleSided=material.two_sided,
+    )

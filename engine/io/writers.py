@@ -1,0 +1,12 @@
+"""Writing meshes to files: OBJ with MTL, PLY, STL, glTF.
+
+`save_mesh` chooses the writer by the file's extension. A format is one module of this package that
+defines ``WRITERS``; `registry` finds it.
+"""
+
+from __future__ import annotations
+
+from .writing.saving import save_mesh
+from .writing.writer_registry import formats
+
+__all__ = ["formats", "save_mesh"]

@@ -1,0 +1,1 @@
+"""What writers share: names, side files, losses."""

@@ -1,0 +1,121 @@
+"""Normals of surfaces that are smooth but for their creases, and the vertices that this takes.
+
+In: the arrays of a mesh without normals, and the angle between two triangles beyond which the edge
+between them is a crease. Out: the arrays with normals, vertices split where their triangles have
+several (csrc/io/loaders/creases.c has the method). Vertices at exactly the same place are one point
+of the surface, whatever they carry. The old vertices keep their numbers.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..._native import loaders as native
+from ...base import linalg
+from ...base.angles import limited_angle
+from ._splitting import split_mesh
+from .normals import vertex_normals
+
+if TYPE_CHECKING:
+    from .mesh import Mesh
+
+#: No edge is a crease.
+SMOOTH = math.pi
+#: What loaders take: cylinders of a dozen sides are round, bevels of 45 degrees are not.
+CREASE_ANGLE = math.radians(35.0)
+
+
+class Creased(NamedTuple):
+    """Triangles whose vertices have one normal each.
+
+    Attributes
+    ----------
+    faces : (F, 3) int32
+    rows : (W,) int32 or None
+        The old vertex of each; None if they are the old ones.
+    normals : (W, 3) float32
+    """
+
+    faces: np.ndarray
+    rows: np.ndarray | None
+    normals: np.ndarray
+
+
+def check_crease_angle(value: float, what: str = "crease_angle") -> float:
+    """Return an angle, checked."""
+    return limited_angle(value, what, math.pi, "from 0 to pi radians")
+
+
+def has_creases(arrays: dict[str, Any], angle: float) -> bool:
+    """Whether the arrays of a mesh get normals by creases: none are given, and nothing bends it."""
+    movers = ("_given_normals", "joints", "morph_positions")
+    return angle < SMOOTH and len(arrays["faces"]) > 0 and all(arrays[m] is None for m in movers)
+
+
+def find_creases(arrays: dict[str, Any], angle: float) -> Creased:
+    """Return the triangles of a mesh and their normals.
+
+    Parameters
+    ----------
+    arrays : dict of str to ndarray
+        As `Mesh` keeps them.
+    angle : float
+        Radians.
+    """
+    positions, faces, visible = (arrays[n] for n in ("positions", "faces", "edge_visible"))
+    places, count = None, len(positions)
+    bits = positions.view(np.uint32)
+    if native.rows_repeat(bits, True):
+        places, first = native.number_rows(bits, True)
+        count = len(first)
+    split, sources, normals, is_smooth = native.find_creases(
+        positions,
+        faces,
+        places,
+        None if visible is None else visible.view(np.uint8),
+        count,
+        float(linalg.cos(angle)),
+    )
+    if is_smooth:
+        # The bits of a surface without creases don't depend on whether one looked for them.
+        return Creased(faces, None, vertex_normals(positions, faces, places))
+    if not len(sources):
+        return Creased(split, None, normals)
+    return Creased(
+        split, np.concatenate([np.arange(len(positions), dtype=np.int32), sources]), normals
+    )
+
+
+def creased_arrays(
+    arrays: dict[str, Any], attributes: Iterable[str], angle: float
+) -> dict[str, Any]:
+    """Return the arrays of a mesh, with normals and the vertices that these need.
+
+    Parameters
+    ----------
+    arrays, angle
+        As for `find_creases`.
+    attributes : iterable of str
+        The names of what vertices carry.
+    """
+    made = find_creases(arrays, angle)
+    changed = {"faces": made.faces, "_given_normals": made.normals}
+    if made.rows is not None:
+        named = ("positions", "position_ids", *attributes)
+        rows = {name: arrays[name] for name in named if arrays[name] is not None}
+        changed |= {name: array[made.rows] for name, array in rows.items()}
+    return {**arrays, **{name: native.frozen(array) for name, array in changed.items()}}
+
+
+def mesh_with_creases(mesh: Mesh) -> Mesh:
+    """Return the mesh with given normals; see `Mesh.with_creases`."""
+    arrays = dict(mesh._arrays)
+    if not has_creases(arrays, mesh.crease_angle):
+        return mesh
+    made = find_creases(arrays, mesh.crease_angle)
+    rows = np.arange(len(mesh.positions)) if made.rows is None else made.rows
+    return split_mesh(mesh, made.faces, rows, normals=made.normals)

@@ -1,0 +1,60 @@
+"""The core's handle of a mesh's arrays.
+
+In: the arrays of a `Mesh`, as they were at one moment. Out: a `NativeMesh` that borrows them.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..._native.rasterizer import VERTEX_ATTRIBUTES, NativeMesh
+from ._tangents import mesh_with_tangents
+from .mesh import Mesh
+from .vertex_attributes import vertex_attributes
+
+
+def drawn_arrays(mesh: Mesh, arrays: dict[str, Any]) -> dict[str, Any]:
+    """Return the arrays of a mesh as they are drawn: with the tangents that its file leaves out.
+
+    They are found when it is drawn first: many meshes never are, and reading stays fast.
+    """
+    uv_set = mesh._tangent_uv_set
+    if uv_set is None or arrays["tangents"] is not None or not len(arrays["faces"]):
+        return arrays
+    if arrays["_given_normals"] is None or arrays["uvs1" if uv_set else "uvs"] is None:
+        return arrays
+    return mesh_with_tangents(mesh, uv_set)._arrays
+
+
+def make_native_mesh(
+    arrays: dict[str, Any], threads: int, movers: np.ndarray | None = None
+) -> NativeMesh:
+    """Return a handle of a mesh's arrays.
+
+    Parameters
+    ----------
+    arrays : dict of str to ndarray
+    threads : int
+        That cut it into clusters; 0: all.
+    movers : (V,) int32, optional
+        Vertices with different numbers move differently: clusters keep them apart.
+    """
+    held = {name: arrays[name] for name in vertex_attributes(Mesh) if arrays[name] is not None}
+    return NativeMesh(
+        arrays["positions"],
+        arrays["faces"],
+        {_core_name(name, array): array for name, array in held.items()},
+        material_ids=arrays["material_ids"],
+        lines=arrays["lines"],
+        points=arrays["points"],
+        movers=movers,
+        threads=threads,
+    )
+
+
+def _core_name(name: str, array: np.ndarray) -> str:
+    """What the core calls an attribute: by its type as well, where it may have several."""
+    kind = "u8" if array.dtype == np.uint8 else "f32"
+    return name if name in VERTEX_ATTRIBUTES else f"{name}_{kind}"

@@ -1,0 +1,63 @@
+"""Colours as the screen shows them, for modes whose colours do not go through the sRGB encoder.
+
+In: a colour as people write it. Out: display values, 8-bit codes over 255, so that a background or
+a line has the same bytes in every mode.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from typing import Any
+
+from ...choices import ColorSpace
+from .colors import linear_color
+
+
+def shading_color(value: tuple[Any, ...], color_space: ColorSpace) -> tuple[float, float, float]:
+    """Return a colour in the space that lighting computes in."""
+    return _shading_color(value, tuple(map(type, value)), color_space)
+
+
+def display_color(value: tuple[Any, ...], color_space: ColorSpace) -> tuple[float, float, float]:
+    """Return the display values that the colour has after a lit frame's encoder."""
+    return _display_color(value, tuple(map(type, value)), color_space)
+
+
+# The types are part of the key: 255 is an sRGB code, 255.0 a very bright light, and both are equal.
+@functools.lru_cache(maxsize=256)
+def _shading_color(value: tuple[Any, ...], types: tuple[type, ...], color_space: ColorSpace) -> Any:
+    return tuple(linear_color(value, color_space).tolist())
+
+
+@functools.lru_cache(maxsize=256)
+def _display_color(value: tuple[Any, ...], types: tuple[type, ...], color_space: ColorSpace) -> Any:
+    linear = _shading_color(value, types, color_space)
+    if color_space == "linear":
+        return linear
+    return tuple(encode_srgb(component) / 255 for component in linear)
+
+
+def exact_display_color(
+    value: tuple[Any, ...], color_space: ColorSpace
+) -> tuple[float, float, float]:
+    """Return the display values of a colour, clamped, without rounding them to 8-bit codes."""
+    linear = shading_color(value, color_space)
+    if color_space == "linear":
+        red, green, blue = (min(component, 1.0) for component in linear)
+    else:
+        red, green, blue = map(srgb_value, linear)
+    return red, green, blue
+
+
+def srgb_value(value: float) -> float:
+    """Return the sRGB value of a linear one, both in 0..1, clamped (IEC 61966-2-1)."""
+    value = min(max(value, 0.0), 1.0)
+    if value <= 0.0031308:
+        return 12.92 * value
+    return 1.055 * math.pow(value, 1 / 2.4) - 0.055
+
+
+def encode_srgb(value: float) -> int:
+    """Return the 8-bit sRGB code of a linear value, clamped."""
+    return int(255 * srgb_value(value) + 0.5)

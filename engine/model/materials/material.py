@@ -1,0 +1,383 @@
+"""What a surface is made of: the numbers and the textures that shading reads.
+
+A `Material` is plain data, with the fields of glTF 2.0. Colours are kept as they were given (floats
+are linear light, 8-bit integers sRGB; see `colors`) and become linear when the renderer reads
+them. Whatever a file says beyond this is kept in ``extras``.
+
+A new number is a row here, and a member of e3d_physical (csrc/include/e3d_material.h): of the same
+name where the core takes it as it is, else rendering/draw_list/native_materials.py says what it
+becomes. A new texture is a row here and one of E3D_EACH_TEXTURE_SLOT, in the same order; what it
+varies is a row in csrc/kernels/types/texture_slots.h. The rest is what kernels and reference make
+of both.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from ...base.calls import refuse_unknown
+from ...base.dirty_tracking import renew
+from ...base.validation import Versioned
+from ...choices import AlphaMode, Color, ColorLike, SurfaceColor
+from .colors import linear_color, split_alpha
+from .parameters import (
+    ALPHA_MODE,
+    ANGLE,
+    AT_LEAST_ONE,
+    COLOR,
+    DICT,
+    FLAG,
+    IOR,
+    NOT_NEGATIVE,
+    NUMBER,
+    REACH,
+    SHARE,
+    SHARE_OR_NONE,
+    SURFACE_COLOR,
+    TEXT,
+    Parameter,
+    TextureSlot,
+    made_of_parameters,
+    parameters_of,
+)
+from .textures import PlacedTexture, Texture
+
+Number: TypeAlias = Parameter[float, float]
+OptionalNumber: TypeAlias = Parameter[float | None, float | None]
+ColorNumbers: TypeAlias = Parameter[ColorLike, Color]
+Flag: TypeAlias = Parameter[bool, bool]
+
+
+@made_of_parameters
+class Material(Versioned):
+    """Surface properties shared by the faces that name it.
+
+    With ``metallic`` or ``roughness`` a material is physically based: lit by the model of glTF 2.0
+    (its appendix B: GGX, Smith, Schlick). Without, it is lit by Lambert's and Blinn's and Phong's.
+    A texture of a slot multiplies what the slot is named after, by the channels given below. What
+    glTF has as an extension is named after it: ``clearcoat`` is of KHR_materials_clearcoat.
+
+    Parameters
+    ----------
+    Each attribute below.
+
+    Attributes
+    ----------
+    version : int
+        Grows with every assignment to one of the above.
+
+    Raises
+    ------
+    InvalidArgumentError
+
+    Notes
+    -----
+    Textures of colours are read as their ``color_space`` says; the bytes of all others are numbers,
+    whatever it says.
+    """
+
+    _is_implied = False  # whether a file names no material where this one is
+    color: Parameter[ColorLike, SurfaceColor] = Parameter(
+        SURFACE_COLOR,
+        default=(1, 1, 1),
+        gltf="pbrMetallicRoughness/baseColorFactor",
+        doc="Base colour; multiplies the texture, the vertex colour and the instance colour. The "
+        "fourth is alpha: linear, from 0 to 1, or to 255 if the four are 8-bit integers.",
+    )
+    texture: TextureSlot = TextureSlot(
+        default=None, is_color=True, gltf="pbrMetallicRoughness/baseColorTexture", doc="RGBA."
+    )
+    specular: ColorNumbers = Parameter(
+        COLOR, default=(0, 0, 0), doc="Colour of the Blinn-Phong highlight, if not physical."
+    )
+    shininess: Number = Parameter(NOT_NEGATIVE, default=32.0, doc="Blinn-Phong exponent.")
+    emissive: ColorNumbers = Parameter(
+        COLOR, default=(0, 0, 0), gltf="emissiveFactor", doc="Light of its own, added at the end."
+    )
+    two_sided: Flag = Parameter(
+        FLAG, default=False, doc="Draw and light the back of the faces as well, whatever is culled."
+    )
+    flat_shading: Flag = Parameter(
+        FLAG, default=False, doc="Use one normal per polygon instead of the vertex normals."
+    )
+    name: Parameter[str, str] = Parameter(TEXT, default="", doc="")
+    extras: Parameter[dict[str, Any] | None, dict[str, Any]] = Parameter(
+        DICT, default=None, doc="What else a file says of it, by its own keys; not drawn."
+    )
+    metallic: OptionalNumber = Parameter(
+        SHARE_OR_NONE,
+        default=None,
+        gltf="pbrMetallicRoughness/metallicFactor",
+        doc="If this or ``roughness`` is given, the material is physical. The other counts as 1.",
+    )
+    roughness: OptionalNumber = Parameter(
+        SHARE_OR_NONE,
+        default=None,
+        gltf="pbrMetallicRoughness/roughnessFactor",
+        doc="Perceptual: its square is GGX's alpha. Less than 0.045 is drawn as 0.045.",
+    )
+    unlit: Flag = Parameter(
+        FLAG, default=False, doc="Lit frames show the base colour alone (KHR_materials_unlit)."
+    )
+    alpha_mode: Parameter[AlphaMode, AlphaMode] = Parameter(
+        ALPHA_MODE,
+        default="opaque",
+        doc="Alpha means nothing, holes below ``alpha_cutoff``, or how much hides what is behind.",
+    )
+    alpha_cutoff: Number = Parameter(
+        NOT_NEGATIVE, default=0.5, gltf="alphaCutoff", doc="The least alpha shown in mode mask."
+    )
+    normal_scale: Number = Parameter(
+        NUMBER,
+        default=1.0,
+        gltf="normalTexture.scale",
+        doc="Multiplies the first two components of ``normal_texture``.",
+    )
+    occlusion_strength: Number = Parameter(
+        SHARE, default=1.0, gltf="occlusionTexture.strength", doc="Of ``occlusion_texture``."
+    )
+    emissive_strength: Number = Parameter(
+        NOT_NEGATIVE,
+        default=1.0,
+        gltf="emissive_strength/emissiveStrength",
+        doc="Multiplies ``emissive`` of physical materials.",
+    )
+    ior: Number = Parameter(
+        IOR, default=1.5, gltf="ior/ior", doc="Index of refraction; 0 reflects everything."
+    )
+    specular_intensity: Number = Parameter(
+        SHARE, default=1.0, gltf="specular/specularFactor", doc="Of the reflection of non-metals."
+    )
+    specular_color: ColorNumbers = Parameter(
+        COLOR, default=(1, 1, 1), gltf="specular/specularColorFactor", doc="Its colour from above."
+    )
+    clearcoat: Number = Parameter(
+        SHARE, default=0.0, gltf="clearcoat/clearcoatFactor", doc="Strength of a coat of varnish."
+    )
+    clearcoat_roughness: Number = Parameter(
+        SHARE, default=0.0, gltf="clearcoat/clearcoatRoughnessFactor", doc="Of the coat."
+    )
+    clearcoat_normal_scale: Number = Parameter(
+        NUMBER,
+        default=1.0,
+        gltf="clearcoat/clearcoatNormalTexture.scale",
+        doc="Multiplies the first two components of ``clearcoat_normal_texture``.",
+    )
+    sheen_color: ColorNumbers = Parameter(
+        COLOR, default=(0, 0, 0), gltf="sheen/sheenColorFactor", doc="Of cloth's fuzz; black: none."
+    )
+    sheen_roughness: Number = Parameter(
+        SHARE, default=0.0, gltf="sheen/sheenRoughnessFactor", doc="Of the fuzz."
+    )
+    transmission: Number = Parameter(
+        SHARE,
+        default=0.0,
+        gltf="transmission/transmissionFactor",
+        doc="Share of the light that passes. It is neither bent nor blurred.",
+    )
+    thickness: Number = Parameter(
+        NOT_NEGATIVE,
+        default=0.0,
+        unit="units of the mesh",
+        gltf="volume/thicknessFactor",
+        doc="What lies below the surface, which the mesh's pose scales; 0 for a thin wall.",
+    )
+    attenuation_color: ColorNumbers = Parameter(
+        COLOR,
+        default=(1, 1, 1),
+        gltf="volume/attenuationColor",
+        doc="What white becomes after ``attenuation_distance``.",
+    )
+    attenuation_distance: Number = Parameter(
+        REACH,
+        default=math.inf,
+        unit="world units",
+        gltf="volume/attenuationDistance",
+        doc="Infinite: nothing is absorbed.",
+    )
+    metallic_roughness_texture: TextureSlot = TextureSlot(
+        default=None,
+        is_color=False,
+        gltf="pbrMetallicRoughness/metallicRoughnessTexture",
+        doc="G is the roughness, B metallic.",
+    )
+    normal_texture: TextureSlot = TextureSlot(
+        default=None,
+        is_color=False,
+        gltf="normalTexture",
+        doc="Directions in tangent space, 0 … 255 for -1 … 1: red to the right, green up in the "
+        "image.",
+    )
+    occlusion_texture: TextureSlot = TextureSlot(
+        default=None, is_color=False, gltf="occlusionTexture", doc="R: of light from all around."
+    )
+    emissive_texture: TextureSlot = TextureSlot(
+        default=None, is_color=True, gltf="emissiveTexture", doc="RGB."
+    )
+    clearcoat_texture: TextureSlot = TextureSlot(
+        default=None, is_color=False, gltf="clearcoat/clearcoatTexture", doc="R."
+    )
+    clearcoat_roughness_texture: TextureSlot = TextureSlot(
+        default=None, is_color=False, gltf="clearcoat/clearcoatRoughnessTexture", doc="G."
+    )
+    clearcoat_normal_texture: TextureSlot = TextureSlot(
+        default=None,
+        is_color=False,
+        gltf="clearcoat/clearcoatNormalTexture",
+        doc="As ``normal_texture``, of the coat.",
+    )
+    specular_texture: TextureSlot = TextureSlot(
+        default=None, is_color=False, gltf="specular/specularTexture", doc="Alpha: the intensity."
+    )
+    specular_color_texture: TextureSlot = TextureSlot(
+        default=None, is_color=True, gltf="specular/specularColorTexture", doc="RGB."
+    )
+    sheen_color_texture: TextureSlot = TextureSlot(
+        default=None, is_color=True, gltf="sheen/sheenColorTexture", doc="RGB."
+    )
+    sheen_roughness_texture: TextureSlot = TextureSlot(
+        default=None, is_color=False, gltf="sheen/sheenRoughnessTexture", doc="Alpha."
+    )
+    transmission_texture: TextureSlot = TextureSlot(
+        default=None, is_color=False, gltf="transmission/transmissionTexture", doc="R."
+    )
+    thickness_texture: TextureSlot = TextureSlot(
+        default=None, is_color=False, gltf="volume/thicknessTexture", doc="G."
+    )
+    anisotropy: Number = Parameter(
+        SHARE,
+        default=0.0,
+        gltf="anisotropy/anisotropyStrength",
+        doc="How much rougher the surface is along a direction than across it: brushed metal.",
+    )
+    anisotropy_rotation: Number = Parameter(
+        ANGLE,
+        default=0.0,
+        unit="radians",
+        gltf="anisotropy/anisotropyRotation",
+        doc="From the tangent to that direction, counter-clockwise.",
+    )
+    iridescence: Number = Parameter(
+        SHARE, default=0.0, gltf="iridescence/iridescenceFactor", doc="Share of a thin film above."
+    )
+    iridescence_ior: Number = Parameter(
+        AT_LEAST_ONE, default=1.3, gltf="iridescence/iridescenceIor", doc="Of the film, as ``ior``."
+    )
+    iridescence_thickness_minimum: Number = Parameter(
+        NOT_NEGATIVE,
+        default=100.0,
+        unit="nanometres",
+        gltf="iridescence/iridescenceThicknessMinimum",
+        doc="Of the film where its texture is black.",
+    )
+    iridescence_thickness_maximum: Number = Parameter(
+        NOT_NEGATIVE,
+        default=400.0,
+        unit="nanometres",
+        gltf="iridescence/iridescenceThicknessMaximum",
+        doc="Of the film where its texture is white, and where there is no texture.",
+    )
+    anisotropy_texture: TextureSlot = TextureSlot(
+        default=None,
+        is_color=False,
+        gltf="anisotropy/anisotropyTexture",
+        doc="R and G: a direction in tangent space, 0 … 255 for -1 … 1, which is then turned; B: "
+        "the strength.",
+    )
+    iridescence_texture: TextureSlot = TextureSlot(
+        default=None, is_color=False, gltf="iridescence/iridescenceTexture", doc="R."
+    )
+    iridescence_thickness_texture: TextureSlot = TextureSlot(
+        default=None, is_color=False, gltf="iridescence/iridescenceThicknessTexture", doc="G."
+    )
+
+    if not TYPE_CHECKING:  # which make it of the parameters
+
+        def __init__(self, **values) -> None:
+            refuse_unknown(Material, values, PARAMETERS)
+            given = {
+                name: PARAMETERS[name].kind.check(value, name) for name, value in values.items()
+            }
+            vars(self).update({**_DEFAULTS, "extras": {}, **given})
+            renew(self)
+
+    @property
+    def is_physical(self) -> bool:
+        """Whether the material is physically based: metallic or roughness is given."""
+        return self.metallic is not None or self.roughness is not None
+
+    @property
+    def rgb(self) -> Color:
+        """The base colour without its alpha."""
+        return split_alpha(self.color)[0]
+
+    @property
+    def alpha(self) -> float:
+        """The alpha of the base colour, from 0 to 1."""
+        return split_alpha(self.color)[1]
+
+    def _twin(self) -> Material:
+        """Return a copy in a fraction of the time: files may ask for very many."""
+        twin = type(self).__new__(type(self))
+        vars(twin).update(vars(self), extras=dict(self.extras))
+        return twin
+
+    def __repr__(self) -> str:
+        texture = "" if self.texture is None else f", texture={self.texture!r}"
+        return f"Material(name={self.name!r}, color={self.color}{texture})"
+
+
+PARAMETERS = parameters_of(Material)
+TEXTURE_SLOTS = tuple(name for name, row in PARAMETERS.items() if isinstance(row, TextureSlot))
+_DEFAULTS = {name: row.kind.check(row.default, name) for name, row in PARAMETERS.items()}
+_UNSAID = ("name", "two_sided", "flat_shading", *TEXTURE_SLOTS)
+_SAID = tuple(name for name in PARAMETERS if name not in _UNSAID)
+
+
+def placed_textures_of(material: Material) -> dict[str, PlacedTexture]:
+    """Return the textures that a material has, by slot, with the coordinates they are read at."""
+    held = vars(material)
+    return {
+        slot: texture if isinstance(texture, PlacedTexture) else PlacedTexture(texture)
+        for slot in TEXTURE_SLOTS
+        if (texture := held[slot]) is not None
+    }
+
+
+def textures_of(material: Material) -> dict[str, Texture]:
+    """Return the textures that a material has, by slot."""
+    return {slot: placed.texture for slot, placed in placed_textures_of(material).items()}
+
+
+def put_texture(material: Material, slot: str, texture: Texture) -> None:
+    """Put another texture into a slot that has one, at the same coordinates."""
+    held = getattr(material, slot)
+    if isinstance(held, PlacedTexture):
+        texture = replace(held, texture=texture)
+    setattr(material, slot, texture)
+
+
+def says_something(material: Material) -> bool:
+    """Return whether anything of a material but its name differs from a default one.
+
+    Its facets and sides do not count: an STL file sets them without a word on materials.
+    """
+    return bool(textures_of(material)) or _words(material) != _DEFAULT_WORDS
+
+
+def _words(material: Material) -> list:
+    held = vars(material)
+    return [_word(held[name]) for name in _SAID]
+
+
+def _word(value: Any) -> Any:
+    """A value, or of a colour what it is in linear light."""
+    if not isinstance(value, tuple):
+        return value
+    rgb, alpha = split_alpha(value)
+    return *linear_color(rgb).tolist(), alpha
+
+
+_DEFAULT_WORDS = _words(Material())

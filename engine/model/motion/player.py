@@ -1,0 +1,203 @@
+"""What plays clips: it moves the nodes of a scene to where clips have them at a time.
+
+In: clips, and the time. Out: translations, rotations, scales and morph weights of nodes, and other
+properties. What they are depends on the clips that play and their times alone, never on the frames
+before, with the same bits on every machine. All channels are found together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import get_args
+
+import numpy as np
+
+from ...base.calls import checks_types
+from ...base.numbers import real, shown
+from ...base.validation import choose, finite, not_negative
+from ...choices import Loop
+from ...errors import InvalidArgumentError
+from ..scene.clock import Clock
+from ..scene.nodes import Node
+from ..scene.scene import Scene
+from .animated_parts import AnimatedParts
+from .clips import AnimationClip
+from .layers import Layer, mixed
+from .properties import PropertyChannel
+
+LOOPS = get_args(Loop)
+
+
+class AnimationPlayer(Clock):
+    """Plays clips of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+    clips : iterable of AnimationClip, optional
+        ``scene.animations`` if left out. None plays until `play`.
+
+    Attributes
+    ----------
+    time : float
+        Seconds since the clip's start, as far as `advance` and `seek` brought it.
+    speed : float
+        Seconds of the clip in a second; negative plays backwards.
+    loop : {"repeat", "once", "ping-pong"}
+        What comes after the end: the start, nothing, or the way back.
+    paused : bool
+        Whether `advance` does nothing.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    def __init__(self, scene: Scene, clips: Iterable[AnimationClip] | None = None) -> None:
+        super().__init__(scene)
+        self._clips = _check_clips(scene.animations.values() if clips is None else clips, scene)
+        self.speed = 1.0
+        self.loop = "repeat"
+        self._layers: list[Layer] = []  # the last one plays, those before are faded out
+        self._parts = AnimatedParts(scene, self._clips)
+
+    @property
+    def clips(self) -> tuple[AnimationClip, ...]:
+        return self._clips
+
+    @property
+    def playing(self) -> tuple[AnimationClip, ...]:
+        """The clips that play now, without those that are faded out."""
+        return self._layers[-1].clips if self._layers else ()
+
+    @property
+    def duration(self) -> float:
+        """Seconds of the longest clip that plays; 0 if none does."""
+        return max((clip.duration for clip in self.playing), default=0.0)
+
+    @property
+    def speed(self) -> float:
+        return self._speed
+
+    @speed.setter
+    def speed(self, value: float) -> None:
+        self._speed = finite(value, "speed")
+
+    @property
+    def loop(self) -> Loop:
+        return self._loop
+
+    @loop.setter
+    def loop(self, value: Loop) -> None:
+        self._loop = choose(value, LOOPS, "loop")
+
+    @checks_types
+    def play(
+        self,
+        clip: str | int | AnimationClip | Iterable[AnimationClip] | None = None,
+        *,
+        fade: float = 0.0,
+        offsets: float | Iterable[float] = 0.0,
+    ) -> None:
+        """Play a clip from its start, or go on after `pause`.
+
+        Parameters
+        ----------
+        clip : str, int, AnimationClip or several of these, optional
+            By name, number or itself; several play at once, the later ones having the last word
+            on what several move. Left out, what played before goes on; at first, the first clip.
+        fade : float
+            Seconds in which what played before fades into this.
+        offsets : float or iterable of float
+            Seconds that a clip, or each of several, is ahead of `time`.
+
+        Raises
+        ------
+        InvalidArgumentError
+            There is no such clip.
+        """
+        self.paused = False
+        if clip is None and self._layers:
+            return
+        fade = not_negative(fade, "fade")
+        clips = self._find(0 if clip is None else clip)
+        layer = Layer(clips, _check_offsets(offsets, len(clips)), self._parts, fade)
+        if fade == 0.0:
+            self.stop()
+        shares = [before.share(self.time) for before in self._layers]
+        first = max((k for k, share in enumerate(shares) if share >= 1.0), default=0)
+        self._put_back(self._layers[:first])
+        self._layers = self._layers[first:]
+        for before in self._layers:
+            before.since += self.time
+        self._layers.append(layer)
+        self.time = 0.0
+        self._move()
+
+    def pause(self) -> None:
+        """Stay where everything is, until `play`."""
+        self.paused = True
+
+    def stop(self) -> None:
+        """Play nothing, and put back what was moved to where it was."""
+        self._put_back(self._layers)
+        self._layers = []
+
+    def _find(self, clip) -> tuple[AnimationClip, ...]:
+        if isinstance(clip, Iterable) and not isinstance(clip, str):
+            found = tuple(self._find_one(one) for one in clip)
+            if not found:
+                raise InvalidArgumentError("play() needs a clip")
+            return found
+        return (self._find_one(clip),)
+
+    def _find_one(self, clip) -> AnimationClip:
+        if isinstance(clip, AnimationClip) and clip in self._clips:
+            return clip
+        if isinstance(clip, str):
+            named = [each for each in self._clips if each.name == clip]
+            named = [self._scene.animations.get(clip), *named]
+            named = [each for each in named if each in self._clips]
+            if named:
+                return named[0]
+        elif isinstance(clip, int) and 0 <= clip < len(self._clips):
+            return self._clips[clip]
+        names = ", ".join(repr(each.name) for each in self._clips)
+        raise InvalidArgumentError(f"there is no clip {shown(clip)}; there are {names or 'none'}")
+
+    def _move(self) -> None:
+        if self._layers:
+            values = mixed(self._layers, self.time, self._loop)
+            self._parts.write(self._scene, values, self._masks(self._layers))
+
+    def _put_back(self, layers: list[Layer]) -> None:
+        self._parts.write(self._scene, self._parts.rest, self._masks(layers))
+
+    def _masks(self, layers: list[Layer]) -> dict[str, np.ndarray]:
+        """What layers move."""
+        masks = self._parts.none()
+        for layer in layers:
+            for path, moved in layer.masks.items():
+                masks[path] |= moved
+        return masks
+
+
+def _check_clips(value, scene: Scene) -> tuple[AnimationClip, ...]:
+    if not isinstance(value, Iterable):
+        raise InvalidArgumentError(f"clips must be several AnimationClip, not {value!r}")
+    clips = tuple(value)
+    for clip in clips:
+        if not isinstance(clip, AnimationClip):
+            kind = type(clip).__name__
+            raise InvalidArgumentError(f"clips must be several AnimationClip, not {kind}")
+        moved = (c.target if isinstance(c, PropertyChannel) else c.node for c in clip.channels)
+        scene.select({node: None for node in moved if isinstance(node, Node)})
+    return clips
+
+
+def _check_offsets(value, count: int) -> np.ndarray:
+    many = isinstance(value, Iterable) and not isinstance(value, str)
+    offsets = np.array(list(map(real, value)) if many else [real(value)] * count)
+    if len(offsets) != count or not np.isfinite(offsets).all():
+        raise InvalidArgumentError(f"offsets must be {count} finite numbers, not {value!r}")
+    return offsets

@@ -1,0 +1,198 @@
+"""The nodes of a scene whose meshes are bent, and what of them has to be posed anew.
+
+In: nodes with skins or weights of morph targets. Out: posed meshes, which the scene's arrays draw
+instead of the meshes at rest, and their boxes. What did not move is not posed again.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+from weakref import WeakValueDictionary
+
+import numpy as np
+
+from ..._native.rasterizer import NativePose, pose_meshes
+from ...base.dirty_tracking import Watch
+from ...errors import InvalidArgumentError
+from ..geometry.mesh import Mesh
+from ..materials.colors import float32_of
+from .posed_mesh import PosedMesh
+from .skeletons import WORLD, skeleton_of
+from .skins import Skin
+
+if TYPE_CHECKING:
+    from ..scene.nodes import Node
+    from ..scene.scene import Scene
+
+
+class Posing:
+    """The posed nodes of one scene.
+
+    Attributes
+    ----------
+    moment : int
+        Grows whenever a mesh was posed anew.
+    numbers : (N,) int32
+        The objects of `ObjectTable` that are posed.
+    poses : list of NativePose
+        Of each.
+    """
+
+    def __init__(self) -> None:
+        self.moment = 0
+        self.numbers = np.empty(0, np.int32)
+        self.poses: list[NativePose] = []
+        self._nodes: WeakValueDictionary[int, Node] = WeakValueDictionary()
+        self._here: list[Node] = []  # those of them that are in the scene, by their ids
+        self._watch = Watch()  # of their meshes
+        self._posed: list[PosedMesh] = []
+        self._linked: tuple | None = None  # the arrays and the links that skeletons are of
+        self._changes = -1
+
+    def take(self, node: Node) -> None:
+        """Look at a node from now on: it has what may bend its mesh."""
+        self._nodes[node.id] = node
+        self._linked = None
+
+    def leave(self, node: Node) -> None:
+        """Look at a node no longer."""
+        if self._nodes.pop(node.id, None) is not None:
+            self._linked = None
+
+    def update(self, scene: Scene, threads: int) -> None:
+        """Pose what moved since the last time."""
+        arrays = scene._arrays
+        is_other_tree = self._linked != (arrays, arrays.links)
+        if is_other_tree:
+            self._find_nodes(scene)
+        changed = self._watch.found()
+        if is_other_tree or changed:
+            # First the meshes: what is linked is what they are now.
+            are_others = self._follow_meshes(scene)
+            if is_other_tree or are_others:
+                self._link(scene)
+            for mesh, version in changed:
+                self._watch.saw(mesh, version)
+        if arrays.changes == self._changes:
+            return
+        moved = pose_meshes(self.poses, arrays.columns["pose"], threads)
+        if moved:
+            boxes = np.array([self._posed[number].box() for number in moved])
+            arrays.renew_boxes(scene._objects, self.numbers[moved], boxes)
+            scene._objects.forget_shapes()
+            arrays.changes += 1
+            self.moment += 1
+        self._changes = arrays.changes
+
+    def _find_nodes(self, scene: Scene) -> None:
+        """Find the nodes that are in the scene, and look at their meshes."""
+        self._here = [node for _, node in sorted(self._nodes.items()) if node._scene is scene]
+        self._watch = Watch(node._object for node in self._here)
+
+    def _follow_meshes(self, scene: Scene) -> bool:
+        """Let nodes show their meshes as these are now; return whether any shows another."""
+        are_others = False
+        for node in self._here:
+            if _is_bent(node) != (node._posed is not None):
+                scene._show(node)
+                are_others = True
+            elif node._posed is not None and node._posed.renew():
+                are_others = True
+        return are_others
+
+    def _link(self, scene: Scene) -> None:
+        """Find the joints of all skins in the tree as it is now."""
+        arrays = scene._arrays
+        nodes = [node for node in self._here if node._posed is not None]
+        self._posed = [node._posed for node in nodes]
+        self.poses = [posed.native for posed in self._posed]
+        numbers = [scene._objects.number_of(posed) for posed in self._posed]
+        self.numbers = np.array(numbers, np.int32)
+        slots, anchors = [], []
+        for node in nodes:
+            set_weights(node._posed, node._morph_weights)
+            anchor = self._find_joints(node, scene)
+            if anchor is not None:
+                slots.append(node._slot)
+                anchors.append(node._slot if anchor == WORLD else anchor)
+        arrays.place_by(np.array(slots, np.int32), np.array(anchors, np.int32))
+        self._linked = arrays, arrays.links
+        self._changes = -1
+        self.moment += 1
+
+    def _find_joints(self, node: Node, scene: Scene) -> int | None:
+        """Tell a node's pose its joints; return the anchor's slot, or None without a skin."""
+        skin, native = node._skin, node._posed.native
+        fits = skin is not None and 0 < native.rest.joints <= len(skin.joints)
+        if not fits or any(joint._scene is not scene for joint in skin.joints):
+            native.forget_skeleton()  # the mesh became another, or joints were removed
+            return None
+        skeleton = skeleton_of(skin, scene._arrays)
+        native.set_skeleton(*skeleton[1:])
+        return -1 if skeleton.anchor == node._slot else skeleton.anchor
+
+
+def check_skin(value: Skin | None, node: Node) -> Skin | None:
+    """Check a skin for a node."""
+    if value is None:
+        return None
+    if not isinstance(value, Skin):
+        raise InvalidArgumentError(f"skin must be a Skin or None, not {type(value).__name__}")
+    if value.joints[0]._scene is not node._scene:
+        raise InvalidArgumentError("the joints of a skin must be nodes of the node's scene")
+    check_fit(node._object, value)
+    return value
+
+
+def check_fit(obj, skin: Skin) -> None:
+    """Check that a skin has the joints that an object refers to."""
+    if not isinstance(obj, Mesh) or obj.joints is None:
+        raise InvalidArgumentError("a skin needs a Mesh with joints and weights")
+    used = int(obj.joints[obj.weights != 0].max(initial=0)) + 1
+    if used > len(skin.joints):
+        raise InvalidArgumentError(
+            f"the mesh refers to joint {used - 1}, but the skin has {len(skin.joints)} joints"
+        )
+
+
+def check_morph_weights(value, obj) -> np.ndarray | None:
+    """Check weights of an object's morph targets: a read-only (T,) float64 array."""
+    if value is None:
+        return None
+    targets = obj.morph_targets if isinstance(obj, Mesh) else ()
+    from ...base.validation import frozen_floats
+
+    return frozen_floats(value, "morph_weights", (len(targets),))
+
+
+def may_bend(node: Node) -> bool:
+    """Whether a node has what bends a mesh, if its mesh is one that can be bent."""
+    has_means = node._skin is not None or node._morph_weights is not None
+    return has_means and isinstance(node._object, Mesh)
+
+
+def _is_bent(node: Node) -> bool:
+    """Whether a node shows its mesh bent."""
+    if not may_bend(node):
+        return False
+    mesh = node._object
+    bends = node._skin is not None and mesh.joints is not None
+    return bends or (node._morph_weights is not None and len(mesh.morph_targets) > 0)
+
+
+def posed_for(node: Node) -> PosedMesh | None:
+    """Return what a node shows instead of its mesh, or None for the mesh itself."""
+    if not _is_bent(node):
+        return None
+    posed = node._posed
+    if posed is None or posed.mesh is not node._object:
+        posed = PosedMesh(node._object)
+    set_weights(posed, node._morph_weights)
+    return posed
+
+
+def set_weights(posed: PosedMesh, weights: np.ndarray | None) -> None:
+    """Give a posed mesh its weights: zeros without any, or if its targets are others by now."""
+    targets = posed.native.rest.targets
+    fit = weights is not None and len(weights) == targets
+    posed.native.set_weights(float32_of(weights) if fit else np.zeros(targets, np.float32))

@@ -1,0 +1,71 @@
+"""The meshes of a thing to walk in, each with its place in the world.
+
+In: a `Mesh`, an `InstancedMesh`, a `Scene` or a sequence of meshes. Out: (mesh, world_from_mesh)
+one by one, instances too; and the box around all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import numpy as np
+
+from ...base import linalg
+from ...errors import InvalidArgumentError
+from ..geometry.mesh import Mesh
+from ..motion.shown import placing_pose, shown_object
+from ..scene.instances import InstancedMesh
+from ..scene.scene import Scene
+
+_IDENTITY = np.eye(4)
+
+
+def placed_meshes(thing: Any) -> list[tuple[Mesh, np.ndarray]]:
+    """Return the meshes that have faces and the (4, 4) float64 matrices that place them."""
+    if isinstance(thing, Scene):
+        thing._update()
+        nodes = [node for node in thing.nodes if node.shown]
+        shown = [(shown_object(node), placing_pose(node)) for node in nodes]
+        placed = [part for obj, pose in shown for part in _placed(obj, pose)]
+    elif isinstance(thing, (Mesh, InstancedMesh)):
+        placed = list(_placed(thing, _IDENTITY))
+    elif isinstance(thing, Iterable):
+        placed = [part for item in thing for part in _placed(_checked(item), _IDENTITY)]
+    else:
+        _checked(thing)
+    return [(mesh, pose) for mesh, pose in placed if len(mesh.faces)]
+
+
+def _checked(item: Any) -> Any:
+    if not isinstance(item, (Mesh, InstancedMesh)):
+        raise InvalidArgumentError(f"thing must be a scene or meshes, not {type(item).__name__}")
+    return item
+
+
+def _placed(thing: Any, pose: np.ndarray) -> Iterator[tuple[Mesh, np.ndarray]]:
+    if isinstance(thing, Mesh):
+        yield thing, pose
+    elif isinstance(thing, InstancedMesh):
+        for instance in thing.poses.astype(np.float64):
+            yield thing.mesh, linalg.multiply(pose, _matrix(instance))
+
+
+def _matrix(instance: np.ndarray) -> np.ndarray:
+    """A pose as a matrix: it is one already, or an offset and a scale."""
+    if instance.shape == (4, 4):
+        return instance
+    x, y, z, scale = instance.tolist()
+    return np.array([[scale, 0, 0, x], [0, scale, 0, y], [0, 0, scale, z], [0, 0, 0, 1.0]])
+
+
+def bounds_of(placed: list[tuple[Mesh, np.ndarray]]) -> np.ndarray:
+    """Return the box around placed meshes, (2, 3) float64."""
+    boxes = []
+    for mesh, pose in placed:
+        low, high = mesh.bounds
+        corners = np.array([[(low, high)[k >> a & 1][a] for a in range(3)] for k in range(8)])
+        corners = linalg.transform_points(pose, corners)
+        boxes.append((corners.min(axis=0), corners.max(axis=0)))
+    lows, highs = zip(*boxes, strict=True)
+    return np.stack([np.min(lows, axis=0), np.max(highs, axis=0)])

@@ -1,0 +1,43 @@
+"""What is read of a part of a node's pose: an array that adds up, and cannot be changed in place.
+
+``node.translation += step`` moves the node: the sum is another array, which is assigned. What would
+change a part of the array alone, and so nothing of the node, is an error that says what to do.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...errors import InvalidArgumentError
+
+
+class PosePart(np.ndarray):
+    """A read-only copy of translation, rotation, Euler angles or scale."""
+
+    __slots__ = ()
+
+    def __setitem__(self, key, value) -> None:
+        if not self.flags.writeable:
+            raise InvalidArgumentError(
+                "this is a read-only copy of a part of the node's pose: assign all of it, as in "
+                "node.translation = (x, y, z)"
+            )
+        super().__setitem__(key, value)
+
+    def __iadd__(self, other):
+        return super().__iadd__(other) if self.flags.writeable else np.asarray(self) + other
+
+    def __isub__(self, other):
+        return super().__isub__(other) if self.flags.writeable else np.asarray(self) - other
+
+    def __imul__(self, other):
+        return super().__imul__(other) if self.flags.writeable else np.asarray(self) * other
+
+    def __itruediv__(self, other):
+        return super().__itruediv__(other) if self.flags.writeable else np.asarray(self) / other
+
+    def __reduce_ex__(self, protocol):
+        return np.asarray(self).__reduce_ex__(protocol)
+
+    def __repr__(self) -> str:
+        return repr(np.asarray(self))

@@ -1,0 +1,111 @@
+"""Lights that shine from all around: plain data that a scene's nodes turn, but do not place.
+
+A `HemisphereLight` has a colour above and one below, a `LightProbe` spherical harmonics of light
+that was measured or computed somewhere. What they add to `Scene.ambient` is in docs/exactness,
+section 21.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...base.validation import (
+    CheckedAttribute,
+    Closed,
+    ColorAttribute,
+    NumberAttribute,
+    VectorAttribute,
+    frozen_floats,
+    not_negative,
+)
+from ...choices import ColorLike
+from ..materials.colors import check_color
+
+
+def _coefficients(value: ArrayLike, what: str) -> np.ndarray:
+    return frozen_floats(value, what, (9, 3))
+
+
+class HemisphereLight(Closed):
+    """Light of one colour from above and another from below, which blend in between.
+
+    Above is the +Y of its node. It has no place and is in no shadow; ambient occlusion dims it.
+
+    Parameters
+    ----------
+    sky_color, ground_color : sequence of 3 numbers
+    intensity : float
+        Multiplies both; a white surface that faces the sky shows ``sky_color * intensity``,
+        whatever its material. (In three.js, which divides by pi, it is pi times as much.)
+
+    Attributes
+    ----------
+    version : int
+        Grows with every assignment.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    version: int
+    sky_color: ColorAttribute = CheckedAttribute(check_color)
+    ground_color: ColorAttribute = CheckedAttribute(check_color)
+    intensity: NumberAttribute = CheckedAttribute(not_negative)
+
+    def __init__(
+        self,
+        sky_color: ColorLike = (1, 1, 1),
+        ground_color: ColorLike = (0, 0, 0),
+        intensity: float = 1.0,
+    ) -> None:
+        self.sky_color = sky_color
+        self.ground_color = ground_color
+        self.intensity = intensity
+
+    def __repr__(self) -> str:
+        return (
+            f"HemisphereLight({self.sky_color}, {self.ground_color}, intensity={self.intensity:g})"
+        )
+
+
+class LightProbe(Closed):
+    """Light from all around as nine spherical harmonics, such as three.js's `LightProbe` has.
+
+    It has no place and is in no shadow; ambient occlusion dims it. Its node turns it.
+
+    Parameters
+    ----------
+    coefficients : (9, 3) float
+        Red, green and blue of radiance in linear light, for the real harmonics of degree 0, 1 and 2
+        in the order 1; y, z, x; xy, yz, 3z² - 1, xz, x² - y², each of unit norm over the sphere.
+        Radiance that is L everywhere is ``2 * sqrt(pi) * L`` and eight zeros.
+    intensity : float
+        Multiplies them.
+
+    Attributes
+    ----------
+    coefficients : (9, 3) float64
+        Read-only.
+    version : int
+        As for `HemisphereLight`.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    version: int
+    coefficients: VectorAttribute = CheckedAttribute(_coefficients)
+    intensity: NumberAttribute = CheckedAttribute(not_negative)
+
+    def __init__(self, coefficients: ArrayLike, intensity: float = 1.0) -> None:
+        self.coefficients = coefficients
+        self.intensity = intensity
+
+    def __repr__(self) -> str:
+        return f"LightProbe({self.coefficients.tolist()}, intensity={self.intensity:g})"
+
+
+AMBIENT_LIGHTS = (HemisphereLight, LightProbe)

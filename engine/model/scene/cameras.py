@@ -1,0 +1,281 @@
+"""Cameras: how view space becomes clip space.
+
+In: fields of view, sizes, distances. Out: 4x4 float64 projection matrices (clip_from_view) with
+OpenGL's clip volume. A camera has no place of its own: its pose (world-from-camera) is its node's;
+it looks along its -Z with +Y up. Everything here is float64 arithmetic of single operations, so
+that a matrix has the same bits on every machine.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...base import linalg
+from ...base.angles import field_of_view
+from ...base.numbers import real, shown
+from ...base.validation import (
+    CheckedAttribute,
+    Closed,
+    NumberAttribute,
+    OptionalNumberAttribute,
+    VectorAttribute,
+    finite,
+    flag,
+    frozen_floats,
+    matrix4,
+    optional_positive,
+    positive,
+)
+from ...errors import InvalidArgumentError
+
+#: Nearer near planes are of models that are too small for the clip space of others.
+_SMALL = 2.0**-18
+_MOST = 100  # a power that floats take
+
+
+def _far(value: float | None, what: str) -> float:
+    """A far plane: a positive number, or infinity or None for none."""
+    if value is None:
+        return math.inf
+    number = real(value)
+    if not number > 0:
+        raise InvalidArgumentError(f"{what} must be greater than 0, not {shown(value)}")
+    return number
+
+
+def _check_range(camera) -> None:
+    if not camera.znear < camera.zfar:
+        raise InvalidArgumentError(
+            f"znear must be less than zfar: {camera.znear:g} and {camera.zfar:g}"
+        )
+
+
+def _check_size(width: int, height: int) -> None:
+    """Check a picture's sides, which are integers nearly always: this is done for every frame."""
+    if width.__class__ is height.__class__ is int and 0 < width < 2**31 and 0 < height < 2**31:
+        return
+    for side, what in ((width, "width"), (height, "height")):
+        positive(side, what)
+
+
+def _enlarged(matrix: NDArray[np.float64], znear: float) -> NDArray[np.float64]:
+    """A projection of what may be tiny: the same, times a power of two if the near plane is near.
+
+    What has a w of less than a millionth is clipped away (WMIN in docs/exactness).
+    """
+    if znear >= _SMALL:
+        return matrix
+    return matrix * 2.0 ** min(-math.frexp(znear)[1], _MOST)
+
+
+class Camera(Closed):
+    """A camera given by its projection matrix.
+
+    Parameters
+    ----------
+    projection : (4, 4) float
+        clip_from_view, with OpenGL's clip volume ``-w <= z <= w``.
+
+    Attributes
+    ----------
+    version : int
+        Grows with every assignment.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    version: int
+    matrix: VectorAttribute = CheckedAttribute(
+        lambda value, what: frozen_floats(value, what, (4, 4)),
+        "clip_from_view, (4, 4) float64, read-only.",
+    )
+    znear: float | None = None
+    zfar: float | None = None
+    #: Depth of the far plane in clip space, divided by w; the near plane's is -1.
+    _far_depth = 1.0
+
+    def __init__(self, projection: ArrayLike) -> None:
+        self.matrix = matrix4(projection, "projection")
+
+    def projection(self, width: int, height: int) -> NDArray[np.float64]:
+        """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
+        _check_size(width, height)
+        return self.matrix
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self._parameters()})"
+
+    def _parameters(self) -> str:
+        return repr(self.matrix.tolist())
+
+
+class PerspectiveCamera(Camera):
+    """A pinhole camera given by its vertical field of view.
+
+    Parameters
+    ----------
+    yfov : float
+        Vertical field of view in radians, between 0 and pi.
+    znear, zfar : float
+        Distances of the near and far planes, ``0 < znear < zfar``; ``zfar`` may be infinite.
+    aspect : float, optional
+        Width over height; the image's own if left out.
+    reversed_depth : bool
+        Keep depth such that what is far away has as many significant digits as what is near: -1 at
+        the near plane, 0 at the far one, which is no limit then. Things close together are told
+        apart from far away, however near the near plane is.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    def __init__(
+        self,
+        yfov: float = 0.9,
+        *,
+        znear: float = 0.05,
+        zfar: float = 100.0,
+        aspect: float | None = None,
+        reversed_depth: bool = False,
+    ) -> None:
+        self.yfov = yfov
+        self.znear, self.zfar = znear, zfar
+        self.aspect = aspect
+        self.reversed_depth = reversed_depth
+        _check_range(self)
+
+    yfov: NumberAttribute = CheckedAttribute(field_of_view)
+    znear: NumberAttribute = CheckedAttribute(positive)
+    zfar: CheckedAttribute[float | None, float] = CheckedAttribute(_far)
+    aspect: OptionalNumberAttribute = CheckedAttribute(optional_positive)
+    reversed_depth: CheckedAttribute[bool, bool] = CheckedAttribute(flag)
+
+    @property
+    def _far_depth(self) -> float:
+        return 0.0 if self.reversed_depth else 1.0
+
+    def projection(self, width: int, height: int) -> NDArray[np.float64]:
+        _check_range(self)
+        _check_size(width, height)
+        aspect = width / height if self.aspect is None else self.aspect
+        matrix = linalg.perspective(self.yfov, aspect, self.znear, self.zfar)
+        if self.reversed_depth:
+            ratio = self.znear / self.zfar
+            matrix[2, 2] = -ratio / (1.0 - ratio)
+            matrix[2, 3] = -self.znear / (1.0 - ratio)
+        return _enlarged(matrix, self.znear)
+
+    def _parameters(self) -> str:
+        reversed_depth = ", reversed_depth=True" if self.reversed_depth else ""
+        return f"yfov={self.yfov:g}, znear={self.znear:g}, zfar={self.zfar:g}{reversed_depth}"
+
+
+class OrthographicCamera(Camera):
+    """A camera without perspective.
+
+    Parameters
+    ----------
+    ymag : float
+        Half the height of what is seen, in world units.
+    xmag : float, optional
+        Half the width; from ``ymag`` and the image's aspect if left out.
+    znear, zfar : float
+        As for `PerspectiveCamera`, but they may be 0 or negative, and not infinite.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    def __init__(
+        self,
+        ymag: float,
+        *,
+        xmag: float | None = None,
+        znear: float = 0.05,
+        zfar: float = 100.0,
+    ) -> None:
+        self.ymag = ymag
+        self.xmag = xmag
+        self.znear, self.zfar = znear, zfar
+        _check_range(self)
+
+    ymag: NumberAttribute = CheckedAttribute(positive)
+    xmag: OptionalNumberAttribute = CheckedAttribute(optional_positive)
+    znear: NumberAttribute = CheckedAttribute(finite)
+    zfar: NumberAttribute = CheckedAttribute(finite)
+
+    def projection(self, width: int, height: int) -> NDArray[np.float64]:
+        _check_range(self)
+        _check_size(width, height)
+        xmag = self.ymag * (width / height) if self.xmag is None else self.xmag
+        return linalg.orthographic(xmag, self.ymag, self.znear, self.zfar)
+
+    def _parameters(self) -> str:
+        return f"ymag={self.ymag:g}, znear={self.znear:g}, zfar={self.zfar:g}"
+
+
+class IntrinsicsCamera(Camera):
+    """A pinhole camera given in pixels, as calibration gives it.
+
+    Parameters
+    ----------
+    fx, fy : float
+        Focal lengths in pixels.
+    cx, cy : float
+        Principal point in pixels from the image's left and top edges. The centre of the top left
+        pixel is (0.5, 0.5): add 0.5 to numbers that put it at (0, 0), as OpenCV's do.
+    znear, zfar : float
+        As for `PerspectiveCamera`.
+
+    Notes
+    -----
+    The camera still looks along -Z with +Y up. A pose from software whose cameras look along +Z
+    with +Y down (OpenCV, COLMAP) is converted by negating its second and third columns.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    def __init__(
+        self,
+        fx: float,
+        fy: float,
+        cx: float,
+        cy: float,
+        *,
+        znear: float = 0.05,
+        zfar: float = 100.0,
+    ) -> None:
+        self.fx, self.fy = fx, fy
+        self.cx, self.cy = cx, cy
+        self.znear, self.zfar = znear, zfar
+        _check_range(self)
+
+    fx: NumberAttribute = CheckedAttribute(positive)
+    fy: NumberAttribute = CheckedAttribute(positive)
+    cx: NumberAttribute = CheckedAttribute(finite)
+    cy: NumberAttribute = CheckedAttribute(finite)
+    znear: NumberAttribute = CheckedAttribute(positive)
+    zfar: CheckedAttribute[float | None, float] = CheckedAttribute(_far)
+
+    def projection(self, width: int, height: int) -> NDArray[np.float64]:
+        _check_range(self)
+        # The depth rows are those of any perspective; only the pixel grid differs.
+        _check_size(width, height)
+        matrix = linalg.perspective(1.0, 1.0, self.znear, self.zfar)
+        matrix[0, 0] = 2.0 * self.fx / width
+        matrix[1, 1] = 2.0 * self.fy / height
+        matrix[0, 2] = 1.0 - 2.0 * self.cx / width
+        matrix[1, 2] = 2.0 * self.cy / height - 1.0
+        return _enlarged(matrix, self.znear)
+
+    def _parameters(self) -> str:
+        return f"fx={self.fx:g}, fy={self.fy:g}, cx={self.cx:g}, cy={self.cy:g}"

@@ -1,0 +1,188 @@
+"""One mesh drawn many times in one go.
+
+In: a mesh, a pose for each instance, perhaps a colour for each. Out: read-only float32 arrays that
+the core reads directly; they are rounded to float32 once, here.
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..._native.loaders import frozen
+from ..._native.scene_graph import BOX, OBJECT_BOX, NativeTree, instance_boxes, union
+from ...base.dirty_tracking import renew
+from ...base.numbers import as_array, floats
+from ...base.validation import CheckedAttribute, Closed
+from ...errors import InvalidArgumentError
+from ..geometry.mesh import Mesh
+from ..materials.colors import eight_bit_or_float, float32_of
+
+#: So many instances are worth a tree of their boxes when a picture is drawn.
+MANY = 1024
+
+
+def _check_mesh(value: Mesh, what: str) -> Mesh:
+    if not isinstance(value, Mesh):
+        raise InvalidArgumentError(f"{what} must be a Mesh, not {type(value).__name__}")
+    return value
+
+
+class InstancedMesh(Closed):
+    """A mesh at many poses: one node of a scene, drawn far faster than one node per pose.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    poses : (N, 4, 4) or (N, 4) float
+        node-from-instance matrices, or offset x, y, z and uniform scale. N may be 0.
+    colors : (N, 3) or (N, 4) int or float, optional
+        Multiplies the mesh's colours: integers 0..255 are sRGB, floats are linear. Alpha is
+        ignored.
+
+    Attributes
+    ----------
+    poses, colors
+        Read-only; assigning copies. Assign both with `replace` to change N.
+    version : int
+        Grows with every assignment.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    mesh: CheckedAttribute[Mesh, Mesh] = CheckedAttribute(_check_mesh)
+    version: int
+    _box_of: tuple | None = None  # poses and positions, and the box that follows from them
+    _tree_of: tuple | None = None  # likewise
+    _FORGOTTEN = ("_box_of", "_tree_of")
+
+    def __init__(self, mesh: Mesh, poses: ArrayLike, *, colors: ArrayLike | None = None) -> None:
+        self._ids: np.ndarray | None = None  # what instance_id shows; None: the rows' numbers
+        self.mesh = mesh
+        self.replace(poses, colors)
+
+    @property
+    def poses(self) -> NDArray[np.float32]:
+        """(N, 4, 4) or (N, 4) float32, as given."""
+        return self._poses
+
+    @poses.setter
+    def poses(self, value: ArrayLike) -> None:
+        poses = _check_poses(value)
+        if self._colors is not None and len(self._colors) != len(poses):
+            raise InvalidArgumentError(
+                f"poses has {len(poses)} rows, but colors {len(self._colors)}: use replace()"
+            )
+        self._poses = poses
+        renew(self)
+
+    @property
+    def colors(self) -> NDArray[np.uint8] | NDArray[np.float32] | None:
+        """(N, 4) uint8 (sRGB) or float32 (linear), or None."""
+        return self._colors
+
+    @colors.setter
+    def colors(self, value: ArrayLike | None) -> None:
+        self._colors = _check_colors(value, len(self._poses))
+        renew(self)
+
+    def replace(self, poses: ArrayLike, colors: ArrayLike | None = None) -> None:
+        """Set poses and colours together; their number may change."""
+        checked = _check_poses(poses)
+        self._ids = None
+        self._colors = _check_colors(colors, len(checked))
+        self._poses = checked
+        renew(self)
+
+    def _replace_by_rows(self, rows: np.ndarray, poses, colors) -> None:
+        """Draw some rows of others' poses and colours, under the numbers that they have there."""
+        self.replace(poses[rows], None if colors is None else colors[rows])
+        self._ids = rows.astype(np.int32)
+
+    def bounds_in_node(self) -> NDArray[np.float64] | None:
+        """Return the box around all instances in the node's space, (2, 3) float64, or None."""
+        box = self._box_in_node()
+        return box[:6].reshape(2, 3).copy() if box[0] <= box[3] else None
+
+    def _boxes(self, poses: np.ndarray) -> np.ndarray:
+        """The boxes of the instances in the node's space, (N, BOX); poses as C reads them."""
+        boxes = np.empty((len(poses), BOX))
+        instance_boxes(poses, mesh_box(self.mesh), boxes)
+        return boxes
+
+    def _flat_poses(self) -> np.ndarray:
+        """The poses as C reads them, (N, 16) or (N, 4)."""
+        poses = self._poses
+        return poses.reshape(len(poses), math.prod(poses.shape[1:]))
+
+    def _pose_of(self, instance: int) -> np.ndarray:
+        """node-from-instance, (4, 4) float64."""
+        pose = self._poses[instance].astype(np.float64)
+        if pose.ndim == 2:
+            return pose
+        matrix = np.diag((pose[3], pose[3], pose[3], 1.0))
+        matrix[:3, 3] = pose[:3]
+        return matrix
+
+    def _tree(self) -> tuple[NativeTree, np.ndarray]:
+        """The tree of the instances' boxes, and the poses that it is of, as C reads them."""
+        state = self._poses, self.mesh.positions
+        if not _same(self._tree_of, state):
+            poses = self._flat_poses()
+            self._tree_of = state, (NativeTree(self._boxes(poses)), poses)
+        return self._tree_of[1]
+
+    def _box_in_node(self) -> np.ndarray:
+        """The box around all instances, (OBJECT_BOX,); kept until something in it changes."""
+        state = self._poses, self.mesh.positions
+        if not _same(self._box_of, state):
+            box = np.empty(OBJECT_BOX)
+            union(self._boxes(self._flat_poses()), box)
+            self._box_of = state, box
+        return self._box_of[1]
+
+    def __len__(self) -> int:
+        return len(self._poses)
+
+    def __repr__(self) -> str:
+        return f"InstancedMesh({self.mesh!r}, {len(self)} instances)"
+
+
+def _same(known: tuple | None, state: tuple) -> bool:
+    """Whether what is known follows from these very arrays."""
+    return known is not None and all(map(operator.is_, known[0], state))
+
+
+def mesh_box(mesh: Mesh) -> np.ndarray:
+    """Return a mesh's box as C reads it, (OBJECT_BOX,): lowest, highest, farthest from 0."""
+    low, high = mesh.bounds if len(mesh.positions) else (np.full(3, np.inf), np.full(3, -np.inf))
+    return np.concatenate([low, high, np.maximum(np.abs(low), np.abs(high))])
+
+
+def _check_poses(value) -> np.ndarray:
+    poses = float32_of(floats(value, "poses"))
+    if poses.shape == (0,):
+        poses = poses.reshape(0, 4)
+    if poses.shape[1:] not in ((4, 4), (4,)) or poses.ndim < 2:
+        raise InvalidArgumentError(f"poses must be (N, 4, 4) or (N, 4), not {poses.shape}")
+    if poses.ndim == 3 and not (poses[:, 3] == (0, 0, 0, 1)).all():
+        raise InvalidArgumentError("poses must be affine: the last row of each is 0 0 0 1")
+    return frozen(poses)
+
+
+def _check_colors(value, count: int) -> np.ndarray | None:
+    if value is None:
+        return None
+    colors = as_array(value, "colors")
+    if colors.shape not in ((count, 3), (count, 4)):
+        raise InvalidArgumentError(f"colors must be ({count}, 3 or 4), not {colors.shape}")
+    colors = eight_bit_or_float(colors, "colors")
+    opaque = 255 if colors.dtype == np.uint8 else 1
+    result = np.full((count, 4), opaque, colors.dtype)
+    result[:, : colors.shape[1]] = colors
+    return frozen(result)

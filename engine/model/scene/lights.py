@@ -1,0 +1,317 @@
+"""Lights: plain data that a scene's nodes place in the world.
+
+A light has a colour (floats are linear light, 8-bit integers sRGB) times an intensity. Directional
+lights shine along their node's rotated ``direction``, point lights from their node's origin, spot
+lights from there along its -Z. docs/exactness, sections 9 and 12, has the formulas;
+docs/conventions.md says in which units intensities are.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TypeAlias, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...base.angles import limited_angle
+from ...base.linalg import cos
+from ...base.numbers import real, shown
+from ...base.validation import (
+    CheckedAttribute,
+    ColorAttribute,
+    NumberAttribute,
+    VectorAttribute,
+    frozen_floats,
+    not_negative,
+    one_of,
+)
+from ...choices import ColorLike, Falloff, LightShadow, LightUnit, ShadowTaps
+from ...errors import InvalidArgumentError
+from ..materials.colors import check_color
+from ._shadow_casting import CastsShadows, CountAttribute, count_of
+from .ambient_lights import AMBIENT_LIGHTS, HemisphereLight, LightProbe
+
+FALLOFFS: tuple[Falloff, ...] = get_args(Falloff)
+UNITS: tuple[LightUnit, ...] = get_args(LightUnit)
+
+UnitAttribute: TypeAlias = CheckedAttribute[LightUnit, LightUnit]
+
+
+def _direction(value: ArrayLike, what: str) -> NDArray[np.float64]:
+    direction = frozen_floats(value, what, (3,))
+    if not direction.any():
+        raise InvalidArgumentError(f"{what} must not be the zero vector")
+    return direction
+
+
+def _range(value: float, what: str) -> float:
+    number = real(value)
+    if not number > 0:
+        raise InvalidArgumentError(f"{what} must be greater than 0, not {shown(value)}")
+    return number
+
+
+def _angle(value: float, what: str) -> float:
+    return limited_angle(value, what, math.pi / 2, "from 0 to pi/2 radians")
+
+
+class DirectLight(CastsShadows):
+    """Base of lights that shine from one side: what all of them have."""
+
+    color: ColorAttribute = CheckedAttribute(check_color)
+    intensity: NumberAttribute = CheckedAttribute(not_negative)
+    unit: UnitAttribute = CheckedAttribute(one_of(UNITS))
+
+    @property
+    def kind(self) -> str:
+        """What the core and files call such a light: a name of `DIRECT_LIGHTS`."""
+        return next(name for name, kind in DIRECT_LIGHTS.items() if isinstance(self, kind))
+
+
+class DirectionalLight(DirectLight):
+    """A light infinitely far away, such as the sun.
+
+    Parameters
+    ----------
+    direction : (3,) float
+        The way the light travels, in the space of its node; of any length but zero.
+    color : sequence of 3 numbers
+    intensity : float
+        Multiplies the colour; a white surface that faces the light gets ``color * intensity``. Of
+        physical materials it is in lux: such a surface shows it over pi.
+    unit : {"photometric", "white"}
+        With ``"white"``, physical materials take the intensity as the others do.
+    shadow : {False, True, "exact"}
+        Whether what stands in its way keeps the light off what is behind. True: by maps that are
+        drawn from the light, as in three.js. ``"exact"``: wholly, wherever a ray from the surface
+        to the light meets a face, so that edges are hard, and without a map, a bias or anything
+        else to choose; up to 32 lights. Nodes cast and receive shadows by their own switches.
+    shadow_map_size : int
+        Texels a side, 32 to 8192, of each map.
+    shadow_bias : float
+        Is added to the depth that is compared, of a range of 1 from the nearest to the farthest.
+    shadow_normal_bias : float
+        World units by which samples move along their normals before they are looked up. Both are
+        beside what the size of a texel asks for, which is done by itself, so that 0 looks right.
+    shadow_radius : float
+        How far the comparisons around a sample are apart, in texels, 0 to 16.
+    shadow_taps : {1, 3, 5}
+        Comparisons a side: 1, 3 x 3 or 5 x 5, each between four texels.
+    shadow_cascades : int
+        Most maps, 1 to 8: the last shows the whole scene, each before it what the camera sees to a
+        quarter of the depth. A scene that is small beside that takes fewer.
+
+    Attributes
+    ----------
+    version : int
+        Grows with every assignment.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    direction: VectorAttribute = CheckedAttribute(_direction)
+    shadow_cascades: CountAttribute = CheckedAttribute(count_of(1, 8))
+
+    def __init__(
+        self,
+        direction: ArrayLike = (0, 0, -1),
+        color: ColorLike = (1, 1, 1),
+        intensity: float = 1.0,
+        unit: LightUnit = "photometric",
+        *,
+        shadow: LightShadow = False,
+        shadow_map_size: int = 1024,
+        shadow_bias: float = 0.0,
+        shadow_normal_bias: float = 0.0,
+        shadow_radius: float = 1.0,
+        shadow_taps: ShadowTaps = 3,
+        shadow_cascades: int = 4,
+    ) -> None:
+        self._keep(locals())
+        self.check()
+
+    def check(self) -> None:
+        """Raise unless ``shadow_radius`` and ``shadow_map_size`` go together."""
+        self._check_shadow()
+
+    @classmethod
+    def sun(cls, sun_direction: ArrayLike, turbidity: float = 3.0) -> DirectionalLight:
+        """Return the light of the sun, as it shines from `Environment.sky`.
+
+        Parameters
+        ----------
+        sun_direction : (3,) float
+            Towards the sun.
+        turbidity : float
+            How hazy the air is, 2 to 10; the lower the sun, the more of blue and green it takes.
+
+        Raises
+        ------
+        InvalidArgumentError
+        """
+        from ..environments.daylight import sunlight
+        from ..environments.environment import daylight_arguments
+
+        (x, y, z), haze = daylight_arguments(sun_direction, turbidity)
+        light = sunlight((x, y, z), haze)
+        most = max(light)
+        red, green, blue = (component / most for component in light)
+        return cls((-x, -y, -z), (red, green, blue), most / math.pi, "white")
+
+    def __repr__(self) -> str:
+        direction = tuple(self.direction.tolist())
+        return f"DirectionalLight({direction}, color={self.color}, intensity={self.intensity:g})"
+
+
+class PointLight(DirectLight):
+    """A light that shines from one point in all directions.
+
+    Parameters
+    ----------
+    color : sequence of 3 numbers
+    intensity : float
+        As for `DirectionalLight`; at distance 1 but with ``"window"``. Of physical materials it is
+        in candela.
+    range : float
+        World units; the light adds exactly nothing from this distance on. May be infinite but with
+        ``"window"``.
+    falloff : {"inverse_square", "window", "gltf"}
+        Attenuation at distance d: ``1 / d**2``, or ``(1 - d**2 / range**2)**2``, or, as
+        KHR_lights_punctual has it, ``(1 - (d / range)**4) / d**2``.
+    unit : {"photometric", "white"}
+        As for `DirectionalLight`.
+    shadow, shadow_map_size, shadow_bias, shadow_normal_bias, shadow_radius, shadow_taps
+        As for `DirectionalLight`; six maps, the faces of a cube.
+
+    Attributes
+    ----------
+    version : int
+        As for `DirectionalLight`.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    range: NumberAttribute = CheckedAttribute(_range)
+    falloff: CheckedAttribute[Falloff, Falloff] = CheckedAttribute(one_of(FALLOFFS))
+
+    def __init__(
+        self,
+        color: ColorLike = (1, 1, 1),
+        intensity: float = 1.0,
+        range: float = math.inf,
+        falloff: Falloff = "inverse_square",
+        unit: LightUnit = "photometric",
+        *,
+        shadow: LightShadow = False,
+        shadow_map_size: int = 1024,
+        shadow_bias: float = 0.0,
+        shadow_normal_bias: float = 0.0,
+        shadow_radius: float = 1.0,
+        shadow_taps: ShadowTaps = 3,
+    ) -> None:
+        self._keep(locals())
+        self.check()
+
+    def check(self) -> None:
+        """Raise unless ``range`` and ``falloff`` go together, and what there is of shadows."""
+        if self.falloff == "window" and math.isinf(self.range):
+            raise InvalidArgumentError("falloff 'window' needs a finite range")
+        self._check_shadow()
+
+    def __repr__(self) -> str:
+        return (
+            f"PointLight(color={self.color}, intensity={self.intensity:g}, range={self.range:g}, "
+            f"falloff={self.falloff!r})"
+        )
+
+
+class SpotLight(DirectLight):
+    """A light that shines from one point into a cone, along the -Z of its node.
+
+    As KHR_lights_punctual has it: all of it inside of the inner cone, nothing outside of the outer
+    one, and in between the square of how far the cosine of the angle has come. Attenuation at
+    distance d is ``(1 - (d / range)**4) / d**2``.
+
+    Parameters
+    ----------
+    color : sequence of 3 numbers
+    intensity : float
+        As for `PointLight`, along the axis.
+    range : float
+        World units; the light adds exactly nothing from this distance on. May be infinite.
+    inner_cone_angle, outer_cone_angle : float
+        Radians from the axis: 0 <= inner < outer <= pi/2.
+    unit : {"photometric", "white"}
+        As for `DirectionalLight`.
+    shadow, shadow_map_size, shadow_bias, shadow_normal_bias, shadow_radius, shadow_taps
+        As for `DirectionalLight`; one map.
+        What is more than 84 degrees off the axis gets all of the light.
+
+    Attributes
+    ----------
+    version : int
+        As for `DirectionalLight`.
+
+    Raises
+    ------
+    InvalidArgumentError
+    """
+
+    range: NumberAttribute = CheckedAttribute(_range)
+    inner_cone_angle: NumberAttribute = CheckedAttribute(_angle)
+    outer_cone_angle: NumberAttribute = CheckedAttribute(_angle)
+
+    def __init__(
+        self,
+        color: ColorLike = (1, 1, 1),
+        intensity: float = 1.0,
+        range: float = math.inf,
+        inner_cone_angle: float = 0.0,
+        outer_cone_angle: float = math.pi / 4,
+        unit: LightUnit = "photometric",
+        *,
+        shadow: LightShadow = False,
+        shadow_map_size: int = 1024,
+        shadow_bias: float = 0.0,
+        shadow_normal_bias: float = 0.0,
+        shadow_radius: float = 1.0,
+        shadow_taps: ShadowTaps = 3,
+    ) -> None:
+        self._keep(locals())
+        self.check()
+
+    def check(self) -> None:
+        """Raise unless the inner cone is narrower than the outer, and the shadow fits its map."""
+        if not self.inner_cone_angle < self.outer_cone_angle:
+            raise InvalidArgumentError(
+                f"inner_cone_angle must be less than outer_cone_angle, {self.outer_cone_angle:g}, "
+                f"not {self.inner_cone_angle:g}"
+            )
+        self._check_shadow()
+
+    def cone(self) -> tuple[float, float]:
+        """Return the cosine of the outer angle, and 1 over what the inner one's is more."""
+        inner, outer = cos(self.inner_cone_angle), cos(self.outer_cone_angle)
+        return outer, 1.0 / max(0.001, inner - outer)
+
+    def __repr__(self) -> str:
+        return (
+            f"SpotLight(color={self.color}, intensity={self.intensity:g}, range={self.range:g}, "
+            f"inner_cone_angle={self.inner_cone_angle:g}, "
+            f"outer_cone_angle={self.outer_cone_angle:g})"
+        )
+
+
+#: By what the core and files call them.
+DIRECT_LIGHTS: dict[str, type[DirectLight]] = {
+    "directional": DirectionalLight,
+    "point": PointLight,
+    "spot": SpotLight,
+}
+LIGHTS = (*DIRECT_LIGHTS.values(), *AMBIENT_LIGHTS)
+Light: TypeAlias = DirectionalLight | PointLight | SpotLight | HemisphereLight | LightProbe

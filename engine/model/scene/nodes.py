@@ -1,0 +1,404 @@
+"""A node: the handle of one row of a scene's arrays.
+
+In: poses and their parts, parents, visibility, one node at a time; `Scene.select` does it for many.
+Out: the same, read-only, and what follows from what is above: world pose, `shown`, bounds. World
+poses are products in a fixed order of operations, found when asked for and kept until something
+above moves.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..._native.loaders import frozen
+from ..._native.scene_graph import STATIC, VISIBLE
+from ...base import linalg
+from ...base.angles import angles
+from ...base.foreign_names import refuses_foreign_names
+from ...base.linalg.quaternions import quaternion_of_turns
+from ...base.numbers import floats, shown
+from ...base.validation import finite_floats, flag, matrix4, text, vector3
+from ...errors import InvalidArgumentError
+from ..spatial.colliders import check_collider
+from ._pose_parts import PosePart
+from .node_arrays import CASTS_NONE, RECEIVES_NONE
+
+if TYPE_CHECKING:
+    from ..geometry.mesh import Mesh
+    from ..motion.skins import Skin
+    from ..spatial.colliders import Collider
+    from .cameras import Camera
+    from .instances import InstancedMesh
+    from .lights import Light
+    from .scene import Scene
+
+    #: What a node holds.
+    SceneObject: TypeAlias = Mesh | InstancedMesh | Camera | Light
+
+
+@refuses_foreign_names
+class Node:
+    """An object's place in a scene; made by `Scene.add`.
+
+    ``pose`` is parent-from-node, a 4x4 matrix; ``translation``, ``rotation`` (quaternion x, y, z,
+    w), ``euler`` and ``scale`` are the same pose in parts. Assign any of them at any time; the
+    arrays that are read are read-only. Setting a part of a pose that is sheared drops the shear.
+    """
+
+    __slots__ = (
+        "__weakref__",
+        "_arrays",
+        "_collider",
+        "_drawn",
+        "_id",
+        "_morph_weights",
+        "_name",
+        "_object",
+        "_pose",
+        "_pose_version",
+        "_posed",
+        "_read_pose",
+        "_scene",
+        "_skin",
+        "_slot",
+        "_taken",
+        "_taken_with",
+        "_translation",
+        "_world_pose",
+        "_world_version",
+    )
+
+    def __init__(self, scene: Scene, obj: SceneObject | None, name: str, number: int) -> None:
+        self._scene = scene
+        self._object = self._drawn = obj  # drawn: what is shown of it
+        self._skin = self._morph_weights = self._posed = None
+        self._name = name
+        self._collider = None
+        self._taken = ()  # the nodes below that were removed with this one
+        self._taken_with = None  # the node above that this one was removed with
+        self._pose_version = self._world_version = -1
+        self._read_pose = self._translation = None  # as they were when they were last read
+        self._id = number
+
+    @property
+    def id(self) -> int:
+        """What frames show as ``object_id``; counts up from 0 in the order of adding."""
+        return self._id
+
+    @property
+    def object(self) -> SceneObject | None:
+        """Mesh, InstancedMesh, Camera, one of the lights, or None for a group.
+
+        Assign another, or None, at any time: the node keeps its id, name, pose and children. A
+        collider of the node's own mesh needs a mesh there.
+        """
+        return self._object
+
+    @object.setter
+    def object(self, value: SceneObject | None) -> None:
+        scene = self._in_scene()
+        if self._collider is not None:
+            check_collider(value, self._collider)
+        scene._put(self, value)
+
+    @property
+    def skin(self) -> Skin | None:
+        """The joints that bend the node's mesh, or None.
+
+        The mesh needs ``joints`` and ``weights``. It then stands where the joints put it, wherever
+        the node itself is. A mesh may be shown by many nodes, each with a skin of its own. Whatever
+        else the node holds meanwhile is shown as it is.
+        """
+        return self._skin
+
+    @skin.setter
+    def skin(self, value: Skin | None) -> None:
+        self._in_scene()._set_skin(self, value)
+
+    @property
+    def morph_weights(self) -> NDArray[np.float64] | None:
+        """How much of each morph target is added to the node's mesh, (T,) float64; None is 0."""
+        return self._morph_weights
+
+    @morph_weights.setter
+    def morph_weights(self, value: ArrayLike | None) -> None:
+        self._in_scene()._set_morph_weights(self, value)
+
+    @property
+    def name(self) -> str:
+        return self._name
+
+    @name.setter
+    def name(self, value: str) -> None:
+        self._name = text(value, "name")
+        if self._scene is not None:
+            self._scene._names = None
+            self._scene._renames += 1
+
+    @property
+    def parent(self) -> Node | None:
+        """The node that this one moves with; assigning keeps ``pose``, see `reparent`."""
+        slot = self._arrays.parent_of(self._slot)
+        return None if slot < 0 else self._arrays.nodes[slot]
+
+    @parent.setter
+    def parent(self, value: Node | None) -> None:
+        self.reparent(value)
+
+    @property
+    def children(self) -> tuple[Node, ...]:
+        """The nodes directly below, in the order in which they came there."""
+        nodes = self._arrays.nodes
+        below = (nodes[slot] for slot in self._arrays.children(self._slot))
+        return tuple(node for node in below if node is not None)
+
+    def __reduce_ex__(self, protocol):
+        raise TypeError("a Node belongs to its Scene: it cannot be copied or pickled")
+
+    def reparent(
+        self,
+        parent: Node | None,
+        *,
+        keep_world_pose: bool = False,
+        before: Node | None = None,
+    ) -> None:
+        """Give the node, with everything below it, another parent.
+
+        Parameters
+        ----------
+        parent : Node or None
+            A node of the same scene; None is the scene itself.
+        keep_world_pose : bool
+            Change ``pose`` so that the node stays where it is in the world, up to rounding;
+            otherwise ``pose`` stays and the node moves.
+        before : Node, optional
+            A child of the parent: the node takes its place among ``parent.children``, instead of
+            the last. The order of drawing stays that of the ids.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The parent is the node itself, below it, or of another scene, or its world pose has no
+            inverse; or ``before`` is no other child of the parent.
+        """
+        scene = self._scene
+        if parent is not None and not (isinstance(parent, Node) and parent._scene is scene):
+            raise InvalidArgumentError(f"parent must be a node of this scene, not {shown(parent)}")
+        if scene is None:
+            raise InvalidArgumentError("the node was removed from its scene")
+        pose = None
+        if flag(keep_world_pose, "keep_world_pose"):
+            pose = self.world_pose
+            if parent is not None:
+                pose = linalg.multiply(linalg.inverse(parent.world_pose), pose)
+        if before is not None and (before is self or not _hangs_under(before, parent)):
+            raise InvalidArgumentError(f"before must be another child of the parent: {before!r}")
+        slots = (-1 if node is None else node._slot for node in (parent, before))
+        if not self._arrays.link(self._slot, *slots):
+            raise InvalidArgumentError(f"{parent!r} is {self!r} or below it: that would be a cycle")
+        if pose is not None:
+            self.pose = pose
+
+    @property
+    def pose(self) -> NDArray[np.float64]:
+        """parent-from-node, (4, 4) float64."""
+        version = self._arrays.pose_version(self._slot)
+        if version != self._pose_version:
+            self._pose, self._pose_version = self._arrays.pose(self._slot), version
+        return self._pose
+
+    @pose.setter
+    def pose(self, value: ArrayLike) -> None:
+        self._arrays.set_pose(self._slot, check_pose(value))
+
+    @property
+    def translation(self) -> NDArray[np.float64]:
+        """(3,) float64."""
+        pose = self.pose
+        if pose is not self._read_pose:
+            self._read_pose, self._translation = pose, pose[:3, 3].view(PosePart)
+        return self._translation
+
+    @translation.setter
+    def translation(self, value: ArrayLike) -> None:
+        self._arrays.set_translation(self._slot, vector3(value, "translation"))
+
+    @property
+    def rotation(self) -> NDArray[np.float64]:
+        """Quaternion x, y, z, w, (4,) float64."""
+        return self._arrays.rotation(self._slot).view(PosePart)
+
+    @rotation.setter
+    def rotation(self, value: ArrayLike) -> None:
+        self._arrays.set_parts(self._slot, check_rotation(value), None)
+
+    @property
+    def euler(self) -> NDArray[np.float64]:
+        """The rotation as angles in radians about x, y and z, (3,) float64.
+
+        Turns about x, then about the new y, then about the newest z, which is the default order of
+        `linalg.euler_to_quaternion`.
+        """
+        return frozen(linalg.quaternion_to_euler(np.asarray(self.rotation))).view(PosePart)
+
+    @euler.setter
+    def euler(self, value: ArrayLike) -> None:
+        self.rotation = quaternion_of_turns(check_euler(value))
+
+    @property
+    def scale(self) -> NDArray[np.float64]:
+        """Factors along the node's axes, (3,) float64; one number may be assigned."""
+        return self._arrays.scale(self._slot).view(PosePart)
+
+    @scale.setter
+    def scale(self, value: ArrayLike) -> None:
+        self._arrays.set_parts(self._slot, None, check_scale(value))
+
+    @property
+    def visible(self) -> bool:
+        """False hides the node and everything below it."""
+        return self._arrays.get_flag(self._slot, VISIBLE)
+
+    @visible.setter
+    def visible(self, value: bool) -> None:
+        on = value if value is True or value is False else flag(value, "visible")
+        self._arrays.set_flag(self._slot, VISIBLE, on)
+
+    @property
+    def shown(self) -> bool:
+        """Whether the node and all nodes above it are visible."""
+        return self._arrays.shown(self._slot)
+
+    @property
+    def static(self) -> bool:
+        """Whether the node is meant to stay where it is: a note for programs; it may be moved.
+
+        Nodes of the same mesh are drawn together whether they are static or not.
+        """
+        return self._arrays.get_flag(self._slot, STATIC)
+
+    @static.setter
+    def static(self, value: bool) -> None:
+        self._arrays.set_flag(self._slot, STATIC, flag(value, "static"))
+
+    @property
+    def cast_shadows(self) -> bool:
+        """Whether what the node holds keeps light off others; its children have their own switch.
+
+        See `DirectionalLight`. Lines and points cast no shadows.
+        """
+        return self._takes_part(CASTS_NONE)
+
+    @cast_shadows.setter
+    def cast_shadows(self, value: bool) -> None:
+        self._take_part(CASTS_NONE, flag(value, "cast_shadows"))
+
+    @property
+    def receive_shadows(self) -> bool:
+        """Whether shadows fall on what the node holds; its children have their own switch."""
+        return self._takes_part(RECEIVES_NONE)
+
+    @receive_shadows.setter
+    def receive_shadows(self, value: bool) -> None:
+        self._take_part(RECEIVES_NONE, flag(value, "receive_shadows"))
+
+    @property
+    def collider(self) -> Collider | None:
+        """BoxCollider, SphereCollider, MeshCollider or None; see `Scene.overlap_box`."""
+        return self._collider
+
+    @collider.setter
+    def collider(self, value: Collider | None) -> None:
+        check_collider(self._object, value)
+        self._collider = value
+        if self._scene is not None:
+            self._scene._set_collider(self)
+
+    @property
+    def world_pose(self) -> NDArray[np.float64]:
+        """world-from-node, (4, 4) float64, read-only."""
+        version = self._arrays.world_version(self._slot)
+        if version != self._world_version:
+            self._world_pose = self._arrays.world_pose(self._slot)
+            self._world_version = version
+        return self._world_pose
+
+    @property
+    def bounds(self) -> NDArray[np.float64] | None:
+        """The box around the node's own object in world space, (2, 3) float64.
+
+        None if nothing of it can show: the node holds no mesh, an empty one, or is hidden. The box
+        encloses the object's own box, not its vertices, so it is loose where the node is turned.
+        """
+        if self._scene is None:
+            return None
+        self._scene._update()
+        bounds = frozen(self._arrays.columns["bounds"][self._slot, :6].reshape(2, 3).copy())
+        return bounds if bounds[0, 0] <= bounds[1, 0] else None
+
+    def __repr__(self) -> str:
+        what = "group" if self._object is None else type(self._object).__name__
+        return f"<Node {self.id} {self.name!r}: {what}>"
+
+    def _in_scene(self) -> Scene:
+        """The scene that the node is in."""
+        if self._scene is None:
+            raise InvalidArgumentError("the node was removed from its scene")
+        return self._scene
+
+    def _show_as(self, other: Node) -> None:
+        """Let frames show another node's id for this one."""
+        self._arrays.columns["object_id"][self._slot] = other.id
+        self._arrays.changes += 1
+
+    def _takes_part(self, bit: int) -> bool:
+        return not self._arrays.columns["unshadowed"][self._slot] & bit
+
+    def _take_part(self, bit: int, on: bool) -> None:
+        """Let the node cast or receive shadows, or not."""
+        if self._takes_part(bit) != on:
+            self._arrays.columns["unshadowed"][self._slot] ^= bit
+            self._arrays.changes += 1
+
+
+def _hangs_under(node, parent: Node | None) -> bool:
+    return parent is not None and isinstance(node, Node) and node.parent is parent
+
+
+def check_pose(value: ArrayLike) -> NDArray[np.float64]:
+    """Check an affine matrix; return it as (4, 4) float64."""
+    matrix = matrix4(value, "pose")
+    if matrix[3].tolist() != [0.0, 0.0, 0.0, 1.0]:
+        raise InvalidArgumentError("pose must be affine: its last row is 0 0 0 1")
+    return matrix
+
+
+def check_rotation(value: ArrayLike) -> NDArray[np.float64]:
+    """Check a quaternion; return it as (4,) float64."""
+    try:
+        rotation = finite_floats(value, "rotation", (4,))
+    except InvalidArgumentError:
+        if floats(value, "rotation").shape != (3,):
+            raise
+        raise InvalidArgumentError(
+            "rotation is a quaternion (x, y, z, w), not three numbers: three angles are euler=, "
+            f"in radians: {shown(value)}"
+        ) from None
+    if not 0.0 < sum(x * x for x in rotation.tolist()) < math.inf:
+        raise InvalidArgumentError("rotation must not be the zero quaternion, nor overflow")
+    return rotation
+
+
+def check_euler(value: ArrayLike) -> NDArray[np.float64]:
+    """Check three angles; return them as a read-only (3,) float64 array."""
+    return vector3(angles(value, "euler"), "euler")
+
+
+def check_scale(value: ArrayLike) -> NDArray[np.float64]:
+    """Check one factor or three; return three as (3,) float64."""
+    factors = floats(value, "scale")
+    return vector3(np.broadcast_to(factors, (3,)) if factors.ndim == 0 else factors, "scale")

@@ -1,0 +1,50 @@
+"""What `render` and `show` take besides a scene: a mesh, a part of a scene, what trimesh holds.
+
+In: one of these. Out: a `Scene` of it, whose nodes share the meshes that were given.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ...io.scenes.trimesh_scenes import is_of_trimesh, scene_from_trimesh
+from ..geometry.mesh import Mesh
+from ..motion.shown import placing_pose, shown_object
+from .instances import InstancedMesh
+from .nodes import Node
+from .scene import Scene
+
+
+def scene_of(thing: Any) -> Scene | None:
+    """Return a scene that shows a thing; None for what no scene can be made of.
+
+    Parameters
+    ----------
+    thing : Scene, Node, Mesh, InstancedMesh, or a scene or geometry of trimesh
+        A scene is returned as it is. Of a node, all that is below it and visible is in the new
+        scene, too: where it is in the world, and as it is bent now.
+    """
+    if isinstance(thing, Scene):
+        return thing
+    if is_of_trimesh(thing):
+        return scene_from_trimesh(thing)
+    scene = Scene()
+    if isinstance(thing, Mesh | InstancedMesh):
+        scene.add(thing, name=getattr(thing, "name", "") or "mesh")
+    elif isinstance(thing, Node):
+        if thing._scene is not None:
+            thing._scene._update()
+        _add_branch(scene, thing)
+    else:
+        return None
+    return scene
+
+
+def _add_branch(scene: Scene, top: Node) -> None:
+    """Add what a node and those below it hold, where they are in the world."""
+    waiting = [top]
+    while waiting:  # not by calling itself: trees may be deep
+        node = waiting.pop()
+        if node.visible:
+            scene.add(shown_object(node), name=node.name, pose=placing_pose(node))
+            waiting += reversed(node.children)

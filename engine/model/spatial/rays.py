@@ -1,0 +1,136 @@
+"""Rays against the faces of a scene.
+
+In: a scene, rays in world space. Out: the nearest hits. C searches, through trees of nodes,
+instances and triangles, in float64: the same bits on every machine.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..._native.rasterizer import CULLS
+from ...base import linalg
+from ...base.calls import shows_annotations
+from ...base.numbers import floats
+from ...base.validation import choose, how_far, vector3
+from ...errors import InvalidArgumentError
+from ..scene.nodes import Node
+from ._shapes import tell
+
+
+@shows_annotations
+class RayHit(NamedTuple):
+    """Where a ray meets a face.
+
+    Attributes
+    ----------
+    node : Node
+    instance : int
+        Row of the instances; 0 for a plain mesh.
+    face : int
+        Index into ``mesh.faces``.
+    distance : float
+        From the ray's origin, in world units.
+    position, normal : (3,) float64
+        World space; the unit normal of the face's front.
+    barycentric : (3,) float64
+        Weights of the face's vertices.
+    """
+
+    node: Node
+    instance: int
+    face: int
+    distance: float
+    position: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    barycentric: NDArray[np.float64]
+
+
+@shows_annotations
+class RayHits(NamedTuple):
+    """Where many rays meet faces: a row per ray.
+
+    Attributes
+    ----------
+    object_id, instance, face : (N,) int32
+        -1 where a ray meets nothing.
+    distance : (N,) float64
+        Infinite where a ray meets nothing; the other arrays are then zero.
+    position, normal, barycentric : (N, 3) float64
+    """
+
+    object_id: NDArray[np.int32]
+    instance: NDArray[np.int32]
+    face: NDArray[np.int32]
+    distance: NDArray[np.float64]
+    position: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    barycentric: NDArray[np.float64]
+
+
+def raycast(scene: Any, origin: Any, direction: Any, max_distance: Any, cull: Any) -> RayHit | None:
+    """See `Scene.raycast`."""
+    origin, direction = vector3(origin, "origin"), vector3(direction, "direction")
+    ids, values = _cast(scene, origin[np.newaxis], direction[np.newaxis], max_distance, cull)
+    slot, instance, face = ids[0].tolist()
+    if slot < 0:
+        return None
+    position, normal, barycentric = values[0, 1:].reshape(3, 3)
+    node = scene._arrays.nodes[slot]
+    return RayHit(node, instance, face, float(values[0, 0]), position, normal, barycentric)
+
+
+def raycast_many(
+    scene: Any, origins: Any, directions: Any, max_distance: Any, cull: Any
+) -> RayHits:
+    """See `Scene.raycast_many`."""
+    origins, directions = _vectors(origins, "origins"), _vectors(directions, "directions")
+    try:
+        origins, directions = np.broadcast_arrays(origins, directions)
+    except ValueError:
+        raise InvalidArgumentError("origins and directions must be equally many") from None
+    ids, values = _cast(scene, origins, directions, max_distance, cull)
+    met = ids[:, 0] >= 0
+    values[~met] = 0.0
+    values[~met, 0] = np.inf
+    ids[met, 0] = scene._arrays.columns["id"][ids[met, 0]]
+    parts = values[:, 1:4], values[:, 4:7], values[:, 7:]
+    object_id, instance, face = ids.T.copy()
+    position, normal, barycentric = (part.copy() for part in parts)
+    distance = values[:, 0].copy()
+    return RayHits(object_id, instance, face, distance, position, normal, barycentric)
+
+
+def _cast(
+    scene: Any, origins: Any, directions: Any, max_distance: Any, cull: Any
+) -> tuple[np.ndarray, np.ndarray]:
+    if not directions.any(axis=1).all():
+        raise InvalidArgumentError("direction must not be the zero vector")
+    max_distance = how_far(max_distance, "max_distance")
+    number = CULLS[choose(cull, CULLS, "cull")]
+    scene._update()
+    objects = scene._objects
+    origins = np.ascontiguousarray(origins)
+    directions = np.ascontiguousarray(linalg.normalize(directions))
+    ids = np.empty((len(origins), 3), np.int32)
+    values = np.empty((len(origins), 10))
+    done, missing = 0, 0
+    while missing >= 0:
+        done, missing = scene._arrays.cast(
+            objects.shapes, origins, directions, max_distance, number, ids, values, done
+        )
+        if missing >= 0:
+            tell(objects.shapes, missing, objects.objects[missing])
+    return ids, values
+
+
+def _vectors(value: Any, what: str) -> np.ndarray:
+    vectors = np.atleast_2d(floats(value, what))
+    if vectors.ndim != 2 or vectors.shape[1] != 3:
+        raise InvalidArgumentError(f"{what} must have shape (N, 3), not {vectors.shape}")
+    if not np.isfinite(vectors).all():
+        raise InvalidArgumentError(f"{what} must be finite")
+    return vectors

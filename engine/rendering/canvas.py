@@ -1,0 +1,461 @@
+"""The 2-D canvas: points, lines, triangles, rectangles and text on an array of pixels.
+
+In:  positions in screen space, in pixels: x right, y down, from the top left corner of the picture.
+     Pixel (i, j) is the square [i, i+1) x [j, j+1); its centre is (i + 0.5, j + 0.5).
+Out: the pixels, changed in place. Opaque colours overwrite; others are blended with straight alpha.
+Every position is legal: what lies outside is clipped, what is not finite draws nothing. The drawing
+itself is C (csrc/extras/canvas); docs/canvas.md gives its rules.
+"""
+
+from __future__ import annotations
+
+import numbers
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Literal, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._native import canvas as native
+from .._native.images import encode_png
+from ..base.numbers import as_array, floats, real, shown
+from ..base.validation import choose, flag
+from ..errors import InvalidArgumentError
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+Color = Sequence[int]
+LineAlgorithm = Literal["bresenham", "dda"]
+TriangleAlgorithm = Literal["edge", "scanline"]
+
+_TAB_COLUMNS = 4
+_MAX_TEXT_SCALE = 4096
+# The font's codes of characters, and that of the hollow box which stands for all others.
+_FONT_CODES = {code: code for code in (ord("\n"), *range(32, 127))}
+_FONT_CODES |= {ord(letter): code for code, letter in enumerate("àâçèéêëîïôùûœÀÇÉ", 128)}
+_REPLACEMENT_CODE = 127
+
+
+class Canvas:
+    """A framebuffer to draw on in two dimensions.
+
+    Parameters
+    ----------
+    width, height : int
+        Size in pixels of a new canvas, which starts opaque black.
+    pixels : ndarray of uint8, shape (H, W, 4)
+        Or, instead of a size, the RGBA pixels to draw on, top row first: a writable array whose
+        pixels are contiguous within each row. It is not copied. A slice of rows and columns of a
+        larger image is a canvas that clips to that window.
+
+    Raises
+    ------
+    InvalidArgumentError
+        If the size is not 0 to 262144 a side, or the array is not of that kind.
+
+    Examples
+    --------
+    >>> canvas = Canvas(320, 200)
+    >>> canvas.line(10, 10, 300, 180, (255, 200, 0))
+    >>> canvas.text(10, 10, "engine3d", (255, 255, 255), background=(0, 0, 0, 160))
+    """
+
+    @overload
+    def __init__(self, width: int, height: int, /) -> None: ...
+
+    @overload
+    def __init__(self, pixels: NDArray[np.uint8], /) -> None: ...
+
+    def __init__(self, *args: Any) -> None:
+        self._pixels = _new_pixels(*args) if len(args) == 2 else _given_pixels(*args)
+        try:
+            self._surface = native.Surface(self._pixels)
+        except ValueError as error:
+            raise InvalidArgumentError(
+                f"pixels must be a writable (H, W, 4) uint8 array with contiguous rows: {error}"
+            ) from None
+
+    @property
+    def pixels(self) -> NDArray[np.uint8]:
+        """The (H, W, 4) uint8 RGBA pixels, top row first: the array itself, not a copy."""
+        return self._pixels
+
+    @property
+    def width(self) -> int:
+        """Width in pixels."""
+        return self._pixels.shape[1]
+
+    @property
+    def height(self) -> int:
+        """Height in pixels."""
+        return self._pixels.shape[0]
+
+    def __reduce__(self):
+        # A shallow copy draws on the same pixels; what is pickled has its own.
+        return type(self), (self._pixels,)
+
+    def __repr__(self) -> str:
+        return f"Canvas({self.width}, {self.height})"
+
+    def image(self) -> Image.Image:
+        """Return a copy of the pixels as a Pillow image in mode RGBA."""
+        from PIL import Image
+
+        return Image.fromarray(self._pixels.copy())
+
+    def _repr_png_(self) -> bytes | None:
+        return encode_png(np.ascontiguousarray(self._pixels)) if self._pixels.size else None
+
+    def clear(self, color: Color = (0, 0, 0, 255)) -> None:
+        """Overwrite every pixel, alpha included.
+
+        Parameters
+        ----------
+        color : (r, g, b) or (r, g, b, a)
+            Integers 0 to 255. Here, and in every other call, alpha is 255 if left out.
+        """
+        self._surface.clear(_color_bytes(color))
+
+    def point(self, x: float, y: float, color: Color) -> None:
+        """Draw the pixel that holds (x, y)."""
+        self._surface.point(*_numbers("x and y", x, y), _color_bytes(color))
+
+    def points(self, xy: ArrayLike, color: Color | NDArray[np.uint8]) -> None:
+        """Draw many points in one call.
+
+        Parameters
+        ----------
+        xy : array_like, shape (N, 2)
+            Positions in pixels.
+        color : (r, g, b[, a]), or array of uint8, shape (N, 3) or (N, 4)
+            One colour for all points, or one for each.
+        """
+        positions = _positions(xy, 2, "xy")
+        self._surface.points(positions, _colors_bytes(color, len(positions)))
+
+    def line(
+        self,
+        x0: float,
+        y0: float,
+        x1: float,
+        y1: float,
+        color: Color,
+        *,
+        width: float = 1,
+        algorithm: LineAlgorithm = "bresenham",
+    ) -> None:
+        """Draw a line from the pixel that holds one end to the pixel that holds the other.
+
+        Both end pixels are included, and the two directions of a line give the same pixels.
+
+        Parameters
+        ----------
+        x0, y0, x1, y1 : float
+            The ends, in pixels.
+        color : (r, g, b) or (r, g, b, a)
+            Integers 0 to 255.
+        width : float, optional
+            Thickness in pixels along the minor axis (y for a line that is rather horizontal). A
+            line up to 1 wide has one pixel a step; a wider one is a filled parallelogram.
+        algorithm : {"bresenham", "dda"}, optional
+            How a line up to 1 wide finds its pixels: by an integer error term, or by the slope in
+            floating point. They differ at most where two pixels are equally near.
+
+        Raises
+        ------
+        InvalidArgumentError
+            If the width is not a positive number or the algorithm is unknown.
+        """
+        algorithm_code = _algorithm(native.LINE_ALGORITHMS, algorithm)
+        ends = _numbers("x0, y0, x1 and y1", x0, y0, x1, y1)
+        self._surface.line(*ends, _color_bytes(color), _width(width), algorithm_code)
+
+    def lines(
+        self,
+        xyxy: ArrayLike,
+        color: Color | NDArray[np.uint8],
+        *,
+        width: float = 1,
+        algorithm: LineAlgorithm = "bresenham",
+    ) -> None:
+        """Draw many separate lines in one call, in the order given.
+
+        Parameters
+        ----------
+        xyxy : array_like, shape (N, 4)
+            The ends (x0, y0, x1, y1) of each line, in pixels. (N, 2, 2) is taken too.
+        color : (r, g, b[, a]), or array of uint8, shape (N, 3) or (N, 4)
+            One colour for all lines, or one for each.
+        width, algorithm
+            As for `line`.
+        """
+        positions = _positions(xyxy, 4, "xyxy")
+        colors = _colors_bytes(color, len(positions))
+        algorithm_code = _algorithm(native.LINE_ALGORITHMS, algorithm)
+        self._surface.lines(positions, colors, _width(width), algorithm_code)
+
+    def polyline(
+        self,
+        xy: ArrayLike,
+        color: Color,
+        *,
+        closed: bool = False,
+        width: float = 1,
+        algorithm: LineAlgorithm = "bresenham",
+    ) -> None:
+        """Draw lines from each point to the next.
+
+        Parameters
+        ----------
+        xy : array_like, shape (N, 2)
+            The points, in pixels. One that is not finite interrupts the polyline.
+        color : (r, g, b) or (r, g, b, a)
+            Integers 0 to 255. Up to a width of 1, the pixel that two lines share is drawn once.
+        closed : bool, optional
+            Whether a line goes from the last point back to the first.
+        width, algorithm
+            As for `line`.
+        """
+        positions = _positions(xy, 2, "xy")
+        algorithm_code = _algorithm(native.LINE_ALGORITHMS, algorithm)
+        color_bytes = _color_bytes(color)
+        self._surface.polyline(
+            positions, flag(closed, "closed"), color_bytes, _width(width), algorithm_code
+        )
+
+    def triangle(
+        self,
+        a: Sequence[float],
+        b: Sequence[float],
+        c: Sequence[float],
+        color: Color,
+        *,
+        algorithm: TriangleAlgorithm = "edge",
+    ) -> None:
+        """Fill a triangle, in either winding.
+
+        A pixel is covered if its centre is inside; a centre on an edge belongs to the triangle if
+        the edge is a top or a left one. So triangles that share an edge share no pixel and leave
+        none out.
+
+        Parameters
+        ----------
+        a, b, c : (x, y)
+            The vertices in pixels, snapped to 1/256 pixel.
+        color : (r, g, b) or (r, g, b, a)
+            Integers 0 to 255.
+        algorithm : {"edge", "scanline"}, optional
+            Test the pixels of the bounding box with edge functions, or sweep from row to row. The
+            pixels are the same.
+        """
+        algorithm_code = _algorithm(native.TRIANGLE_ALGORITHMS, algorithm)
+        corners = (*_pair(a, "a"), *_pair(b, "b"), *_pair(c, "c"))
+        self._surface.triangle(*corners, _color_bytes(color), algorithm_code)
+
+    def triangles(
+        self,
+        xyxyxy: ArrayLike,
+        color: Color | NDArray[np.uint8],
+        *,
+        algorithm: TriangleAlgorithm = "edge",
+    ) -> None:
+        """Fill many triangles in one call, in the order given.
+
+        Parameters
+        ----------
+        xyxyxy : array_like, shape (N, 6)
+            The vertices (x0, y0, x1, y1, x2, y2) of each, in pixels. (N, 3, 2) is taken too.
+        color : (r, g, b[, a]), or array of uint8, shape (N, 3) or (N, 4)
+            One colour for all triangles, or one for each.
+        algorithm
+            As for `triangle`.
+        """
+        positions = _positions(xyxyxy, 6, "xyxyxy")
+        colors = _colors_bytes(color, len(positions))
+        algorithm_code = _algorithm(native.TRIANGLE_ALGORITHMS, algorithm)
+        self._surface.triangles(positions, colors, algorithm_code)
+
+    def rectangle(
+        self,
+        x: float,
+        y: float,
+        width: float,
+        height: float,
+        color: Color,
+        *,
+        fill: bool = True,
+    ) -> None:
+        """Draw an upright rectangle.
+
+        Parameters
+        ----------
+        x, y : float
+            The top left corner, in pixels.
+        width, height : float
+            The size in pixels; the rectangle takes the pixels whose centres it holds, so that one
+            with integer corners takes exactly width x height pixels.
+        color : (r, g, b) or (r, g, b, a)
+            Integers 0 to 255.
+        fill : bool, optional
+            Fill it, or draw its outermost pixels only.
+        """
+        box = _numbers("x, y, width and height", x, y, width, height)
+        self._surface.rectangle(*box, _color_bytes(color), flag(fill, "fill"))
+
+    def text(
+        self,
+        x: float,
+        y: float,
+        string: str,
+        color: Color,
+        *,
+        scale: int = 1,
+        background: Color | None = None,
+    ) -> None:
+        """Write text in the built-in bitmap font, whose cells are 8 x 14 pixels.
+
+        Parameters
+        ----------
+        x, y : float
+            The top left corner of the first cell, in pixels.
+        string : str
+            ASCII and the letters àâçèéêëîïôùûœÀÇÉ are drawn, ``\\n`` starts a new line, a tab goes
+            to the next multiple of four columns, and everything else shows as a hollow box.
+        color : (r, g, b) or (r, g, b, a)
+            Integers 0 to 255.
+        scale : int, optional
+            Pixels of the canvas for one of the font, 1 to 4096.
+        background : (r, g, b) or (r, g, b, a), optional
+            Draw the text on a box of this colour, which reaches ``2 * scale`` pixels beyond the
+            text on all sides. A translucent one keeps text legible on any picture.
+        """
+        place, codes, scale = _numbers("x and y", x, y), _codes(string), _scale(scale)
+        if background is not None and string:
+            width, height = native.text_size(codes, scale)
+            pad = 2 * scale
+            left, top = np.floor(place) - pad
+            _color_bytes(background, "background")
+            self.rectangle(left, top, width + 2 * pad, height + 2 * pad, background)
+        self._surface.text(*place, codes, scale, _color_bytes(color))
+
+
+def text_size(string: str, scale: int = 1) -> tuple[int, int]:
+    """Return the size of a text in the built-in font.
+
+    Parameters
+    ----------
+    string : str
+        The text; it may have several lines.
+    scale : int, optional
+        Pixels of the canvas for one of the font, 1 to 4096.
+
+    Returns
+    -------
+    width, height : int
+        Size in pixels of the block of its cells, without the margin of a background.
+    """
+    return native.text_size(_codes(string), _scale(scale))
+
+
+def _new_pixels(width: int, height: int) -> NDArray[np.uint8]:
+    for side in (width, height):
+        if not isinstance(side, int | np.integer) or not 0 <= side <= native.MAX_SIDE:
+            raise InvalidArgumentError(
+                f"width and height must be integers from 0 to {native.MAX_SIDE}, not {shown(side)}"
+            )
+    pixels = np.zeros((height, width, 4), np.uint8)
+    pixels[..., 3] = 255
+    return pixels
+
+
+def _given_pixels(*args) -> NDArray[np.uint8]:
+    if len(args) != 1 or not isinstance(args[0], np.ndarray):
+        raise InvalidArgumentError("a Canvas takes a width and a height, or an array of pixels")
+    return args[0]
+
+
+def _color_bytes(color: Color, what: str = "color") -> bytes:
+    try:
+        rgba = bytes(tuple(color))
+    except (TypeError, ValueError):
+        rgba = b""
+    if len(rgba) == 3:
+        return rgba + b"\xff"
+    if len(rgba) != 4:
+        raise InvalidArgumentError(
+            f"{what} must be (r, g, b) or (r, g, b, a), integers from 0 to 255, not {shown(color)}"
+        )
+    return rgba
+
+
+def _colors_bytes(color: Color | NDArray[np.uint8], count: int) -> bytes | NDArray[np.uint8]:
+    """Return 4 bytes for all primitives, or 4 for each of them."""
+    colors = as_array(color, "color")
+    if colors.ndim != 2:
+        return _color_bytes(color)
+    if colors.dtype != np.uint8 or colors.shape not in ((count, 3), (count, 4)):
+        raise InvalidArgumentError(
+            f"color for {count} primitives is one, or a ({count}, 3) or ({count}, 4) uint8 array, "
+            f"not {colors.shape} {colors.dtype}"
+        )
+    rgba = np.full((count, 4), 255, np.uint8)
+    rgba[:, : colors.shape[1]] = colors
+    return rgba.reshape(-1)
+
+
+def _positions(values: ArrayLike, columns: int, name: str) -> NDArray[np.float64]:
+    positions = floats(values, name)
+    if positions.size == 0:
+        return np.empty((0, columns))
+    if positions.ndim == 3 and positions.shape[1] * positions.shape[2] == columns:
+        positions = positions.reshape(-1, columns)
+    if positions.ndim != 2 or positions.shape[1] != columns:
+        raise InvalidArgumentError(f"{name} must be (N, {columns}), not {positions.shape}")
+    return positions
+
+
+def _numbers(what: str, *values: float) -> list[float]:
+    for value in values:
+        if not isinstance(value, numbers.Real):
+            raise InvalidArgumentError(f"{what} must be numbers, not {shown(value)}")
+    return list(map(real, values))
+
+
+def _pair(value: Sequence[float], what: str) -> list[float]:
+    try:
+        x, y = value
+    except (TypeError, ValueError):
+        raise InvalidArgumentError(f"{what} must be (x, y), not {shown(value)}") from None
+    return _numbers(what, x, y)
+
+
+def _algorithm(codes: dict[str, int], name: str) -> int:
+    return codes[choose(name, codes, "algorithm")]
+
+
+def _width(width: float) -> float:
+    number = real(width)
+    if not number > 0:
+        raise InvalidArgumentError(f"width must be a positive number, not {shown(width)}")
+    return number
+
+
+def _scale(scale: int) -> int:
+    if not isinstance(scale, int | np.integer) or not 1 <= scale <= _MAX_TEXT_SCALE:
+        raise InvalidArgumentError(
+            f"scale must be an integer from 1 to {_MAX_TEXT_SCALE}, not {shown(scale)}"
+        )
+    return int(scale)
+
+
+def _codes(string: str) -> bytes:
+    if not isinstance(string, str):
+        raise InvalidArgumentError(f"string must be a str, not {shown(string)}")
+    characters = string.expandtabs(_TAB_COLUMNS).encode("utf-32-le", "surrogatepass")
+    codes = np.frombuffer(characters, "<u4")
+    if codes.size and (codes.max() > 126 or codes.min() < 32):
+        unique, places = np.unique(codes, return_inverse=True)
+        known = [_FONT_CODES.get(code, _REPLACEMENT_CODE) for code in unique.tolist()]
+        codes = np.array(known)[places]
+    return codes.astype(np.uint8).tobytes()

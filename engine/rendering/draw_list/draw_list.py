@@ -1,0 +1,298 @@
+"""From a scene to what the core draws: draws, materials and lights, renewed where they changed.
+
+In: a `Scene` and what the picture needs of its meshes. Out: a `NativeDrawList` that is up to date.
+Between frames it keeps the part of the list that tells of objects, and what that was made from;
+nodes are placed by C, from the arrays of the scene. Python looks at the objects that came, went or
+changed, at all of them only where many did, and never at every node.
+"""
+
+from __future__ import annotations
+
+import weakref
+from typing import NamedTuple
+
+import numpy as np
+
+from ..._native.rasterizer import NativeDrawList
+from ...base.dirty_tracking import Watch
+from ...model.geometry.mesh import Mesh
+from ...model.materials.material import Material
+from ...model.motion.posed_mesh import PosedMesh
+from ...model.scene.instances import InstancedMesh
+from ...model.scene.scene import Scene
+from .._view import View
+from .closed_meshes import Holes, holes_of
+from .instance_trees import InstanceTrees
+from .light_list import LightList
+from .material_list import MaterialList
+from .native_handles import MeshNeeds, native_mesh
+from .native_materials import make_textures
+from .placement import Placement, Placing
+
+
+class Listing(NamedTuple):
+    """How a picture's objects are listed."""
+
+    needs: MeshNeeds  # which of the two kinds of normals a mesh needs is decided for each mesh
+    normals: str
+    by_mesh: bool  # materials of meshes that enclose no volume show both sides
+
+
+class DrawList:
+    """The draw list of one renderer, for the scene that it drew last.
+
+    Parameters
+    ----------
+    color_space : {"srgb", "linear"}
+        How 8-bit colours of materials and lights are read.
+    threads : int
+        That cut meshes into clusters, and move nodes; 0: all.
+
+    Attributes
+    ----------
+    native : NativeDrawList
+    renewals : int
+        Grows when objects or materials changed, or meshes were bent anew.
+    lights : LightList
+    """
+
+    def __init__(self, color_space: str, threads: int) -> None:
+        self.native = NativeDrawList()
+        self._color_space, self._threads = color_space, threads
+        self._scene = lambda: None
+        self._objects_version = -1
+        self._listing: Listing | None = None
+        self._untextured: frozenset[Material] = frozenset()
+        # Numbers of the objects that enclose a volume.
+        self._closed: set[int] = set()
+        self._with_holes: set[int] = set()  # of these, those that have holes
+        self._watch = Watch()
+        self._changed: list = []  # of what is watched, since the list was made
+        self._materials = MaterialList(self.native, color_space, self._watch)
+        self._listed: list = []  # what the objects were made of, by number: things, materials' ids
+        self._left = 0  # how often an object went, or took other materials, since all were listed
+        self._marks = False
+        self._trees = InstanceTrees(self.native)
+        self._placement = Placement(self.native)
+        self._posed: tuple | None = None  # what poses the scene's meshes, and its moment
+        self.lights = LightList(self.native, color_space)
+        self.renewals = 0
+
+    @property
+    def changes(self) -> int:
+        """Grows whenever `update` finds that something else is to be drawn, or elsewhere."""
+        return self._placement.changes
+
+    def update(self, scene: Scene, listing: Listing, headlight, placing: Placing) -> None:
+        """Make the native list draw ``scene``.
+
+        Parameters
+        ----------
+        scene : Scene
+        listing : Listing
+        headlight : tuple of three vectors, or None
+            Colour, lux and direction towards the light, for a scene that has no light.
+        placing : Placing
+        """
+        scene._update(self._threads)
+        if self._listing != listing or not self._lists(scene):
+            self._renew(scene, listing)
+        self._follow_poses(scene)
+        if self._trees.settle():
+            self._placement.forget()
+        has_marks = self._marks or listing.needs.edges
+        self._placement.place(scene._arrays, placing, has_marks, self._trees.made)
+        self.lights.update(scene, headlight)
+
+    def _follow_poses(self, scene: Scene) -> None:
+        """Draw meshes that were bent anew as they are now."""
+        posing = scene._posing
+        posed = None if posing is None else (posing, posing.moment)
+        if posed != self._posed and posing is not None:
+            self.native.set_meshes(posing.numbers, posing.poses)
+            self._placement.forget()
+            self.renewals += 1
+        self._posed = posed
+
+    def open_windows(self, scene: Scene, view: View, size: tuple[int, int]) -> int | None:
+        """Let backs show where the camera may look into holes of meshes that enclose a volume.
+
+        Elsewhere they may be left out, of materials that do not show both sides anyway.
+
+        Parameters
+        ----------
+        scene : Scene
+        view : View
+        size : (int, int)
+            Width and height of the picture in pixels.
+
+        Returns
+        -------
+        count : int or None
+            How many windows there are; None if backs may show anywhere, because the near plane may
+            cut such a mesh or no mesh encloses a volume.
+        """
+        if not self._closed:
+            return None
+        arrays = scene._arrays
+        return self.native.open_windows(
+            arrays.count, arrays.columns, view.clip_from_world, view.view_from_world, *size
+        )
+
+    @property
+    def has_holes(self) -> bool:
+        """Whether a mesh that encloses a volume has holes, which a light may look into."""
+        return bool(self._with_holes)
+
+    def shows(self, scene: Scene) -> bool:
+        """Whether everything in the scene is still as and where it was at the last update."""
+        return self._placement.shows(scene._arrays) and self._lists(scene)
+
+    def _lists(self, scene: Scene) -> bool:
+        """Whether the objects are those of the scene, as they are now."""
+        self._changed += self._watch.changed()
+        return (
+            self._scene() is scene
+            and self._objects_version == scene._objects.version
+            and not self._changed
+        )
+
+    def _renew(self, scene: Scene, listing: Listing) -> None:
+        """Make the list of objects anew, or only what changed of it."""
+        self.renewals += 1
+        self._changed += self._watch.changed()
+        same = self._scene() is scene and self._listing == listing
+        numbers = self._numbers_that_changed(scene) if same else None
+        self._scene = lambda: None  # if anything below raises, the list is not current
+        self._listing = listing
+        self._untextured = self._materials.untextured = scene._untextured
+        if numbers is None:
+            self._rebuild(scene)
+        else:
+            self._replace(scene, sorted(numbers))
+        self._objects_version = scene._objects.version
+        self._scene = weakref.ref(scene)
+
+    def _numbers_that_changed(self, scene: Scene) -> set[int] | None:
+        """Numbers of objects that are others or changed; None where all are to be listed anew."""
+        objects = scene._objects
+        numbers = objects.renewed_since(self._objects_version)
+        if numbers is None:
+            return None
+        for thing in self._changed:
+            if isinstance(thing, (Mesh, InstancedMesh)):
+                numbers |= objects.drawn_by(thing)
+            elif isinstance(thing, Material) and self._materials.is_listed_otherwise(thing):
+                numbers |= self._numbers_with(thing)
+        # Materials that nothing shows any longer are let go of when the list is made anew.
+        few = 4 * (self._left + len(numbers)) <= len(objects.objects)
+        return numbers if few or not numbers else None
+
+    def _numbers_with(self, material: Material) -> set[int]:
+        """Numbers of the objects that a material was listed with."""
+        key = id(material)
+        return {number for number, (_, surfaces) in enumerate(self._listed) if key in surfaces}
+
+    def _replace(self, scene: Scene, numbers: list[int]) -> None:
+        """Renew the materials that changed, and the objects of some numbers."""
+        self._materials.renew(self._changed)
+        self._changed = []
+        if numbers:
+            self._placement.forget()
+        for number in numbers:
+            self._forget(scene, number)
+            self._set_object(number, scene._objects.objects[number])
+
+    def _rebuild(self, scene: Scene) -> None:
+        self._placement.forget()
+        self._closed, self._with_holes = set(), set()
+        self.native.clear()
+        self.lights.forget()
+        self._watch, self._changed = Watch(), []
+        self._materials = MaterialList(self.native, self._color_space, self._watch)
+        self._materials.untextured = self._untextured
+        self._trees = InstanceTrees(self.native)
+        self._listed, self._left, self._marks = [], 0, False
+        self._make_textures(scene)
+        for number, obj in enumerate(scene._objects.objects):
+            self._set_object(number, obj)
+
+    def _make_textures(self, scene: Scene) -> None:
+        meshes = (getattr(obj, "mesh", obj) for obj in scene._objects.objects if obj is not None)
+        materials = {material for mesh in meshes for material in mesh.materials}
+        make_textures(materials - self._untextured, self._color_space, self._threads)
+
+    def _set_object(self, number: int, obj) -> None:
+        """List a mesh, once or at many poses, or nothing, under a number or the next one."""
+        self._trees.note(number, obj)
+        self._closed.discard(number)
+        self._with_holes.discard(number)
+        if obj is None:
+            self.native.set_object(number, None, 0)
+            self._note(number, (), ())
+            return
+        mesh = obj if isinstance(obj, Mesh) else obj.mesh
+        things = (mesh, obj) if isinstance(obj, InstancedMesh) else (mesh,)
+        for thing in things:
+            self._watch.add(thing)  # before it is read
+        holes = self._holes_of(obj)
+        both = self._listing.by_mesh and holes is None
+        if holes is not None:
+            self._closed.add(number)
+            if len(holes.ends):
+                self._with_holes.add(number)
+        base = self._materials.base_of(mesh.materials, both)
+        needs = _needs_of(mesh, self._listing.needs, self._listing.normals)
+        if isinstance(obj, PosedMesh):
+            native = obj.handle(needs, self._threads)
+        else:
+            native = native_mesh(mesh, needs, self._threads)
+        closed = () if holes is None else (True, holes.ends, holes.points)
+        self.native.set_object(number, native, base, *closed)
+        self._marks = self._marks or len(mesh.lines) > 0 or len(mesh.points) > 0
+        self._note(number, things, tuple(map(id, mesh.materials)))
+        if isinstance(obj, InstancedMesh):
+            self._set_instances(number, obj)
+
+    def _holes_of(self, obj) -> Holes | None:
+        """The holes of an object that encloses a volume but for them."""
+        if not self._listing.by_mesh or isinstance(obj, PosedMesh):
+            return None
+        holes = holes_of(obj if isinstance(obj, Mesh) else obj.mesh)
+        if holes is not None and len(holes.ends) and not isinstance(obj, Mesh):
+            return None  # each instance would have to be looked at
+        return holes
+
+    def _set_instances(self, number: int, obj: InstancedMesh) -> None:
+        colors = obj.colors
+        eight_bit = colors is not None and colors.dtype == np.uint8
+        self.native.set_instances(
+            number,
+            obj._flat_poses(),
+            colors if eight_bit else None,
+            None if eight_bit else colors,
+            obj._ids,
+        )
+
+    def _note(self, number: int, things: tuple, surfaces: tuple) -> None:
+        """Remember what would make a listed object out of date."""
+        if number == len(self._listed):
+            self._listed.append(((), ()))
+        self._left += self._listed[number][1] not in ((), surfaces)
+        self._listed[number] = things, surfaces
+
+    def _forget(self, scene: Scene, number: int) -> None:
+        """Look no longer at what a number's object was made of, where no other is."""
+        if number < len(self._listed):
+            for thing in self._listed[number][0]:
+                if not scene._objects.drawn_by(thing):
+                    self._watch.remove(thing)
+
+
+def _needs_of(mesh: Mesh, needs: MeshNeeds, normals: str) -> MeshNeeds:
+    """Which arrays of this mesh are read, once its materials' flat shading is known."""
+    smooth, flat = needs.vertex_normals, needs.face_normals
+    if normals == "auto":
+        flat = flat and any(material.flat_shading for material in mesh.materials)
+        smooth = smooth and not all(material.flat_shading for material in mesh.materials)
+    return MeshNeeds(smooth, flat, needs.edges)

@@ -1,0 +1,50 @@
+"""Trees over many instances, made once these have stayed as they are for some frames."""
+
+from __future__ import annotations
+
+from ..._native.rasterizer import NativeDrawList
+from ...model.scene.instances import MANY, InstancedMesh
+
+_SETTLED = 3  # frames in which they did not change
+
+
+class InstanceTrees:
+    """The trees of one native draw list.
+
+    Attributes
+    ----------
+    made : bool
+        Whether there are any.
+    """
+
+    def __init__(self, native: NativeDrawList) -> None:
+        self._native = native
+        self._many: dict[int, InstancedMesh] = {}  # by the object's number
+        self._frames = 0
+        self.made = False
+
+    def note(self, number: int, obj) -> None:
+        """Take notice of an object that is listed under a number from now on."""
+        is_many = isinstance(obj, InstancedMesh) and len(obj) >= MANY
+        if is_many or number in self._many:
+            self._unsettle()
+            self._many.pop(number, None)
+            if is_many:
+                self._many[number] = obj
+
+    def settle(self) -> bool:
+        """Make the trees, if it is time; return whether they were made now."""
+        if self.made or not self._many:
+            return False
+        self._frames += 1
+        if self._frames == _SETTLED:
+            for number, instances in self._many.items():
+                self._native.set_instance_tree(number, instances._tree()[0])
+            self.made = True
+        return self.made
+
+    def _unsettle(self) -> None:
+        if self.made:
+            for number in self._many:
+                self._native.set_instance_tree(number, None)
+        self.made, self._frames = False, 0

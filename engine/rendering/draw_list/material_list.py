@@ -1,0 +1,100 @@
+"""The materials of a draw list: where each stands there, set anew where it or a texture changed.
+
+In: materials of meshes. Out: materials of a `NativeDrawList`, and a `Watch` that looks at them and
+at their textures.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ..._native.rasterizer import NativeDrawList
+from ...base.dirty_tracking import Watch
+from ...model.materials.material import Material, placed_textures_of
+from ...model.materials.textures import Texture
+from .native_materials import set_material
+
+
+class MaterialList:
+    """The materials of one native draw list, which has none yet.
+
+    Parameters
+    ----------
+    native : NativeDrawList
+    color_space : {"srgb", "linear"}
+        How 8-bit colours are read.
+    watch : Watch
+
+    Attributes
+    ----------
+    untextured : frozenset of Material
+        Set without their textures.
+    """
+
+    def __init__(self, native: NativeDrawList, color_space: str, watch: Watch) -> None:
+        self._native, self._color_space, self._watch = native, color_space, watch
+        self.untextured: frozenset[Material] = frozenset()
+        # Where they are, as whose, and whether both sides show anyway.
+        self._places: dict[Material, list[tuple[int, int, bool]]] = {}
+        # Which normals they asked for, and whether nothing shows through them.
+        self._traits: dict[Material, tuple[bool, bool]] = {}
+        self._textured: dict[Material, set[Texture]] = {}
+        self._users: dict[Texture, set[Material]] = {}
+        # Where materials begin, by their ids, and whether both sides show anyway.
+        self._bases: dict[tuple[tuple[int, ...], bool], int] = {}
+
+    def base_of(self, materials: list[Material], both: bool) -> int:
+        """Return the number of the first of a mesh's materials, which are listed now.
+
+        Parameters
+        ----------
+        materials : list of Material
+        both : bool
+            Whether both sides show, whatever the materials say.
+        """
+        key = tuple(map(id, materials)), both
+        if key not in self._bases:
+            base = self._native.material_count
+            for number, material in enumerate(materials):
+                self._places.setdefault(material, []).append((base + number, number, both))
+                self._set(base + number, material, number, both)
+            self._bases[key] = base
+        return self._bases[key]
+
+    def is_listed_otherwise(self, material: Material) -> bool:
+        """Return whether meshes with a material are to be listed anew, for it changed so much."""
+        return self._traits[material] != _traits_of(material)
+
+    def renew(self, changed: Iterable) -> None:
+        """Set the materials that changed, and those of textures that did."""
+        changed = list(changed)
+        materials = {thing for thing in changed if isinstance(thing, Material)}
+        for material in materials.union(*(self._users.get(thing, ()) for thing in changed)):
+            for index, number, both in self._places[material]:
+                self._set(index, material, number, both)
+
+    def _set(self, index: int, material: Material, number: int, both: bool) -> None:
+        self._watch.add(material)
+        self._traits[material] = _traits_of(material)
+        placed = {} if material in self.untextured else placed_textures_of(material)
+        self._note_textures(material, {use.texture for use in placed.values()})
+        two_sided = both or material.two_sided
+        set_material(self._native, index, number, material, placed, self._color_space, two_sided)
+
+    def _note_textures(self, material: Material, textures: set[Texture]) -> None:
+        """Look at the textures of a material, and no longer at those that no material has now."""
+        for gone in self._textured.pop(material, set()) - textures:
+            self._users[gone].discard(material)
+            if not self._users[gone]:
+                del self._users[gone]
+                self._watch.remove(gone)
+        for texture in textures:
+            self._watch.add(texture)
+            self._users.setdefault(texture, set()).add(material)
+        if textures:
+            self._textured[material] = textures
+
+
+def _traits_of(material: Material) -> tuple[bool, bool]:
+    """What of a material decides how meshes with it are listed."""
+    return material.flat_shading, material.alpha_mode == "opaque"

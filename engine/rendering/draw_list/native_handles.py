@@ -1,0 +1,96 @@
+"""The core's side of meshes, textures and environments, made when first needed and kept.
+
+In: `Mesh`, `Texture`, `Environment`. Out: their native handles, made anew when arrays are others
+(and one for each way to decode a texture), forgotten with the object. The arrays that only some
+pictures need (normals, edges) are added to a mesh's handle when one does.
+"""
+
+from __future__ import annotations
+
+import operator
+from typing import NamedTuple
+from weakref import WeakKeyDictionary
+
+from ..._native.rasterizer import (
+    FILTERS,
+    WRAPS,
+    NativeEnvironment,
+    NativeMesh,
+    NativeTexture,
+)
+from ...model.environments.environment import Environment
+from ...model.geometry.creases import creased_arrays, has_creases
+from ...model.geometry.mesh import Mesh
+from ...model.geometry.native_meshes import drawn_arrays, make_native_mesh
+from ...model.geometry.vertex_attributes import vertex_attributes
+from ...model.materials.textures import Texture
+
+
+class MeshNeeds(NamedTuple):
+    """Which of a mesh's derived arrays a picture reads."""
+
+    vertex_normals: bool = False
+    face_normals: bool = False
+    edges: bool = False
+
+
+_meshes: WeakKeyDictionary[Mesh, tuple[dict, dict, NativeMesh]] = WeakKeyDictionary()
+_environments: WeakKeyDictionary[Environment, NativeEnvironment] = WeakKeyDictionary()
+_textures: WeakKeyDictionary[Texture, dict[bool, tuple[tuple, NativeTexture]]] = WeakKeyDictionary()
+
+
+def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
+    """Return the handle of a mesh as it is now, with what is needed; 0 threads are all.
+
+    Threads that ask at once for the first time may each make one: these are alike.
+    """
+    arrays = dict(mesh._arrays)  # at one moment: another may be assigned meanwhile
+    angle = mesh.crease_angle
+    state = {**arrays, "crease_angle": angle}
+    made_of, drawn, native = _meshes.get(mesh, (None, None, None))
+    if made_of is None or not all(map(operator.is_, state.values(), made_of.values())):
+        drawn = drawn_arrays(mesh, arrays)
+        native = make_native_mesh(drawn, threads)
+        _meshes[mesh] = state, drawn, native
+    if needs.vertex_normals and "normals" not in native.attributes:
+        if has_creases(arrays, angle):
+            creased = creased_arrays(arrays, vertex_attributes(Mesh), angle)
+            if creased["faces"] is not arrays["faces"]:
+                native = make_native_mesh(creased, threads)
+                _meshes[mesh] = state, drawn, native
+            native.set_attribute("normals", creased["_given_normals"])
+        else:
+            native.set_attribute("normals", mesh._derive("normals", drawn))
+    if needs.face_normals and not native.has_face_normals:
+        native.set_face_normals(mesh._derive("face_normals", arrays))
+    if needs.edges and not native.has_edges:
+        native.set_edges(mesh._derive("edges", arrays))
+    return native
+
+
+def is_new(texture: Texture) -> bool:
+    """Whether no handle of a texture has been made yet."""
+    return texture not in _textures
+
+
+def native_texture(texture: Texture, color_space: str) -> NativeTexture:
+    """Return the handle of a texture as it is now, for renderers of one colour space."""
+    pixels = texture.pixels
+    sampling = texture.filter, texture.side_wraps, texture.anisotropy, texture.lod_bias
+    decode = color_space == "srgb" and texture.color_space == "srgb"
+    natives = _textures.setdefault(texture, {})
+    made_of, native = natives.get(decode, (None, None))
+    if made_of is None or made_of[0] is not pixels or made_of[1:] != sampling:
+        filter, sides, *level = sampling
+        wraps = (WRAPS[name] for name in sides)
+        native = NativeTexture(pixels, decode, FILTERS[filter], *wraps, *level)
+        natives[decode] = (pixels, *sampling), native
+    return native
+
+
+def native_environment(environment: Environment, threads: int) -> NativeEnvironment:
+    """Return the handle of an environment, blurred for each roughness; 0 threads are all."""
+    native = _environments.get(environment)
+    if native is None:
+        native = _environments[environment] = NativeEnvironment(environment.pixels, threads)
+    return native

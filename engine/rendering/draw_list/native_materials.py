@@ -1,0 +1,135 @@
+"""Materials as the core takes them: constants computed once in float64, textures by slot.
+
+In: a `Material` with its textures. Out: one material of a `NativeDrawList`.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterable
+from typing import Any
+
+from ..._native.rasterizer import ALPHA_MODES, PHYSICAL_NUMBERS, NativeDrawList, NativeTexture
+from ...base import linalg
+from ...base.side_by_side import side_by_side
+from ...model.materials.display_colors import shading_color
+from ...model.materials.material import PARAMETERS, Material, placed_textures_of
+from ...model.materials.textures import PlacedTexture
+from .native_handles import is_new, native_texture
+
+_SMALLEST_SHININESS = 1e-3  # the core wants an exponent above 0; this one shows as 0 would
+_LEAST_LEFT = 2.0**-126  # of light that is absorbed: its logarithm is finite
+_LARGE = 512 * 512  # pixels of a texture whose levels take as long as starting a thread, and longer
+# What the core calls as `Material` does is the same number, or the same colour.
+_SAME = [name for name in PHYSICAL_NUMBERS if name in PARAMETERS]
+_SAME_NUMBERS = [name for name in _SAME if PARAMETERS[name].kind.width == 1]
+_SAME_COLORS = [name for name in _SAME if PARAMETERS[name].kind.width == 3]
+
+
+def set_material(
+    native: NativeDrawList,
+    index: int,
+    id: int,
+    material: Material,
+    textures: dict[str, PlacedTexture],
+    color_space: str,
+    two_sided: bool,
+) -> None:
+    """Set a material of a native draw list, or the next one.
+
+    Parameters
+    ----------
+    native : NativeDrawList
+    index : int
+        Its number there.
+    id : int
+        What the output material_id says.
+    material : Material
+    textures : dict of str to PlacedTexture
+        Its own, by slot.
+    color_space : {"srgb", "linear"}
+        How 8-bit colours are read.
+    two_sided : bool
+        Whether both sides of its faces show, whatever is culled.
+    """
+    strength = material.emissive_strength if material.is_physical else 1.0
+    emissive = shading_color(material.emissive, color_space)
+    numbers = {
+        "color": shading_color(material.rgb, color_space),
+        "specular": shading_color(material.specular, color_space),
+        "shininess": max(material.shininess, _SMALLEST_SHININESS),
+        "emissive": tuple(component * strength for component in emissive),
+        "id": id,
+        "two_sided": two_sided,
+        "flat": material.flat_shading,
+        "is_unlit": material.unlit,
+        "normal_scale": material.normal_scale,
+        "alpha": material.alpha,
+        "alpha_mode": ALPHA_MODES[material.alpha_mode],
+        "alpha_cutoff": material.alpha_cutoff,
+    }
+    physical = _physical(material, color_space) if material.is_physical else None
+    uses = {slot: _use(slot, placed, color_space) for slot, placed in textures.items()}
+    native.set_material(index, numbers, physical, uses)
+
+
+def make_textures(materials: Iterable[Material], color_space: str, threads: int) -> None:
+    """Make the first handles of large textures side by side, before materials ask one by one.
+
+    Parameters
+    ----------
+    materials : iterable of Material
+    color_space : {"srgb", "linear"}
+        How 8-bit colours are read.
+    threads : int
+        How many may be made at once; 0: as many as there are CPUs.
+    """
+    wanted = dict.fromkeys(
+        (placed.texture, _space(slot, color_space))
+        for material in materials
+        for slot, placed in placed_textures_of(material).items()
+        if is_new(placed.texture) and placed.texture.width * placed.texture.height >= _LARGE
+    )
+    count = min(len(wanted), threads or os.cpu_count() or 1)
+    if count > 1:
+        side_by_side(lambda one: native_texture(*one), list(wanted), count)
+
+
+def _space(slot: str, color_space: str) -> str:
+    return color_space if PARAMETERS[slot].is_color else "linear"
+
+
+def _use(
+    slot: str, placed: PlacedTexture, color_space: str
+) -> tuple[NativeTexture, int, list[float] | None]:
+    """A texture of a slot: its handle, its set of coordinates, and the matrix of these."""
+    handle = native_texture(placed.texture, _space(slot, color_space))
+    return handle, placed.uv_set, placed.matrix.ravel().tolist() if placed.is_moved else None
+
+
+def _physical(material: Material, color_space: str) -> dict[str, Any]:
+    """The numbers of a physically based material."""
+    root = (1.0 - material.ior) / (1.0 + material.ior)
+    tint = shading_color(material.specular_color, color_space)
+    left = shading_color(material.attenuation_color, color_space)
+    depth, turn = material.attenuation_distance, material.anisotropy_rotation
+    held = vars(material)
+    return {
+        **{name: held[name] for name in _SAME_NUMBERS},
+        **{name: shading_color(held[name], color_space) for name in _SAME_COLORS},
+        "metallic": 1.0 if material.metallic is None else material.metallic,
+        "roughness": 1.0 if material.roughness is None else material.roughness,
+        "reflectance": tuple(root * root * component for component in tint),
+        "absorption": tuple(_absorption(component, depth) for component in left),
+        "anisotropy_turn": (linalg.cos(turn), linalg.sin(turn)),
+        "iridescence_thickness": (
+            material.iridescence_thickness_minimum,
+            material.iridescence_thickness_maximum,
+        ),
+    }
+
+
+def _absorption(left: float, depth: float) -> float:
+    """Log2 of what a unit leaves of light of which ``left`` is there after ``depth``."""
+    return min(0.0, math.log2(max(left, _LEAST_LEFT)) / depth)

@@ -1,0 +1,94 @@
+"""Ambient occlusion: what of the light from all around reaches each pixel of a picture.
+
+In: depths of what the picture shows, at one sample a pixel, and its view. Out: a share of light for
+each pixel, which the core multiplies ambient light by (docs/exactness, section 21).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..._native.rasterizer import find_occlusion
+from ...base import linalg
+from .._view import View
+from ..options import RenderOptions, shows_light
+from .protocol import Pass, Picture, Shapes
+
+#: How far things count where nothing is said, as a share of the diagonal of the scene's box.
+RADIUS_SHARE = 0.1
+
+
+class PixelRays(NamedTuple):
+    """Where pixels look: R125 in docs/exactness."""
+
+    across: tuple[float, float]
+    down: tuple[float, float]
+    is_perspective: bool
+
+
+def pixel_rays(view: View, width: int, height: int) -> PixelRays | None:
+    """Return where the pixels of a picture look; None for a projection that has no such rays."""
+    matrix = view.projection
+    is_perspective = view.eye[3] != 0.0
+    scale = -matrix[3, 2] if is_perspective else matrix[3, 3]
+    if not scale:
+        return None
+    matrix = matrix / scale
+    middle = matrix[:2, 2] if is_perspective else -matrix[:2, 3]
+    sizes = matrix[0, 0] * width, -matrix[1, 1] * height
+    with np.errstate(all="ignore"):
+        across = 2.0 / sizes[0], (1.0 / width - 1.0 + middle[0]) / matrix[0, 0]
+        down = 2.0 / sizes[1], (1.0 - 1.0 / height + middle[1]) / matrix[1, 1]
+        steps = np.float32(across[0]), np.float32(down[0])
+    usable = np.isfinite((*across, *down)).all() and all(steps) and np.isfinite(steps).all()
+    return PixelRays(tuple(across), tuple(down), is_perspective) if usable else None
+
+
+def radius_of(options: RenderOptions, bounds: NDArray[np.float64]) -> float:
+    """Return how far away things count, in world units; ``bounds`` are the scene's."""
+    if options.ambient_occlusion_radius is not None:
+        return options.ambient_occlusion_radius
+    return RADIUS_SHARE * float(linalg.length(bounds[1] - bounds[0]))
+
+
+def view_scale(view: View) -> float:
+    """How long a length of the world is in view space, where the camera's pose is scaled."""
+    return float(linalg.length(view.view_from_world[2, :3]))
+
+
+class AmbientOcclusion(Pass):
+    """Finds the ambient visibility of each pixel from its metric depth, 0 where nothing shows."""
+
+    reads = ("surface_depth", "scene")
+    writes = ("ambient_visibility",)
+    name, advice = "ambient occlusion", "ambient_occlusion=False"
+
+    def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
+        if not options.ambient_occlusion or options.mode != "lit" or not shows_light(wanted):
+            return False
+        return options.wireframe != "only"
+
+    def arrays(self, width: int, height: int) -> Shapes:
+        form = (height, width), np.dtype(np.float32)
+        return {"ambient_visibility": form, "occlusion": form}
+
+    def draw(self, picture: Picture) -> None:
+        visibility = picture.arrays["ambient_visibility"]
+        rays = pixel_rays(picture.view, *picture.size)
+        radius = radius_of(picture.options, picture.scene.bounds) * view_scale(picture.view)
+        if rays is None or not 0.0 < radius < math.inf:
+            visibility.fill(1.0)
+            return
+        find_occlusion(
+            picture.arrays["surface_depth"],
+            *rays,
+            radius,
+            self.tools.backend,
+            self.tools.threads,
+            picture.arrays["occlusion"],
+            visibility,
+        )

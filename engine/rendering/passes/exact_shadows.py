@@ -1,0 +1,77 @@
+"""Exact shadows: which lights have them, and what may hide these lights.
+
+In: a scene whose draw list is up to date, its lights without shadows or with maps. Out: the native
+draw list holds what casts shadows, in the picture or not. The core finds, sample by sample, whether
+any of it is between the sample and the light (docs/exactness, section 17); what it found out
+about the casters it keeps for as long as they have the same version.
+"""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from ...model.scene.node_arrays import NodeArrays
+from ...model.scene.scene import Scene
+from .._memo import Memo
+from ..casters import placed_casters
+from ..draw_list.lamps import lamp_slots
+from ..options import RenderOptions, shows_light
+from .protocol import Pass, Picture, Tools
+
+_versions = itertools.count(1)
+
+
+class ExactShadows(Pass):
+    """Lets lights whose ``shadow`` is "exact" have it.
+
+    There may be more such lights than the core takes, or their shadows may take more memory than a
+    frame may: these are InvalidArgumentErrors.
+    """
+
+    reads = ("scene",)
+    writes = ("exact_shadows",)
+
+    def __init__(self, tools: Tools) -> None:
+        super().__init__(tools)
+        self._moment, self._casters = Memo(), Memo()  # when casters were listed, and which
+        self._version = 0
+
+    def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
+        return options.mode == "lit" and shows_light(wanted)
+
+    def draw(self, picture: Picture) -> None:
+        draw_list, scene = self.tools.draw_list, picture.scene
+        lights = [at for at in draw_list.lights.placed() if at[1].shadow == "exact"]
+        for number, *_ in lights:
+            draw_list.native.set_exact_shadow(number)
+        if lights:
+            spared = [self._spared(scene, number, place) for number, _, (_, place) in lights]
+            self._list_casters(scene._arrays, spared)
+            self.tools.memory.add_exact(len(lights), draw_list.native.hiding_faces())
+
+    def _spared(self, scene: Scene, number: int, place) -> tuple[int, ...]:
+        """The slots of what does not hide a light."""
+        if place is None:
+            return ()
+        return lamp_slots(scene, self.tools.draw_list.lights.slot_of(number), place)
+
+    def _list_casters(self, arrays: NodeArrays, spared: list[tuple[int, ...]]) -> None:
+        """List the casters, unless they are listed; a version is theirs until one is another.
+
+        ``spared`` are, for each light, the slots of what does not hide it.
+        """
+        draw_list = self.tools.draw_list
+        if not self._moment.differs(arrays, arrays.updated, draw_list.renewals, spared):
+            return
+        if self._casters.differs(arrays, draw_list.renewals, spared, *placed_casters(arrays)):
+            self._version = next(_versions)
+        bits = None
+        if any(spared):
+            bits = np.zeros(arrays.count, np.uint32)
+            for number, slots in enumerate(spared):
+                bits[list(slots)] |= np.uint32(1 << number)
+        draw_list.native.place_hiding(arrays.count, arrays.columns, self._version, bits)
+        self._casters.done()
+        self._moment.done()

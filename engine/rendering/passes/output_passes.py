@@ -1,0 +1,75 @@
+"""The passes that draw outputs, by the core in one call without the GIL.
+
+The same core draws both, with its backend and threads, so that the scalar reference stays apart
+from the kernels.
+"""
+
+from __future__ import annotations
+
+from ..._native.rasterizer import NativeOptions, NativeStats
+from ..frame import OUTPUTS
+from .protocol import Pass, Picture
+
+#: Before the names of outputs: those of the surfaces.
+SURFACE = "surface_"
+_ONE_SAMPLE = 1, 0
+
+
+class SurfacePass(Pass):
+    """Draws outputs that other passes read, before the picture, at the middle of each pixel.
+
+    They are of the surfaces that the picture keeps: the nearest that aren't blended (R16).
+    """
+
+    writes = tuple(SURFACE + name for name in OUTPUTS if name != "color")
+
+    def draw(self, picture: Picture) -> None:
+        targets = {
+            name.removeprefix(SURFACE): array
+            for name, array in picture.arrays.items()
+            if name.startswith(SURFACE)
+        }
+        _render(self, picture, targets, picture.frame_options.surfaces, _ONE_SAMPLE)
+
+
+class ColorPass(Pass):
+    """Draws the picture: the frame's outputs, and others that passes after it read."""
+
+    reads = ("shadow_maps", "exact_shadows", "ambient_visibility")
+    writes = tuple(OUTPUTS)
+
+    def draw(self, picture: Picture) -> None:
+        options = picture.frame_options
+        picture.drawn = _render(
+            *(self, picture, picture.targets, options.native, self.tools.samples),
+            picture.view.rays if options.has_backdrop else None,
+            picture.arrays.get("ambient_visibility"),
+        )
+        picture.drawn.shadow_maps, picture.drawn.shadow_maps_drawn = picture.shadow_maps
+
+
+def _render(
+    one: Pass,
+    picture: Picture,
+    targets: dict,
+    options: NativeOptions,
+    samples: tuple[int, int],
+    rays=None,
+    visibility=None,
+) -> NativeStats:
+    view = picture.view
+    return one.tools.native.render(
+        one.tools.draw_list.native,
+        targets,
+        options,
+        *picture.size,
+        *samples,
+        view.clip_from_world,
+        view.view_from_world,
+        view.eye,
+        id(view.camera),
+        *picture.depth_range,
+        picture.frozen_clip_from_world,
+        rays,
+        visibility,
+    )

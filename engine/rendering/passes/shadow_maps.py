@@ -1,0 +1,164 @@
+"""The maps of shadows of a scene's lights, drawn anew where what they show changed.
+
+In: a scene whose draw list is up to date, and what the camera sees. Out: the lights of the native
+draw list have their maps. A map is kept while neither its light, nor what it shows, nor, of
+directional lights, the part of the world that it covers has changed.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..._native.rasterizer import CULLS, LIGHT_TRAITS, find_shadow_ranges, shadow_ranges_side
+from .._memo import Memo
+from .._view import View
+from ..casters import placed_casters
+from ..draw_list.lamps import lamp_slots
+from ..options import RenderOptions, shows_light
+from .protocol import Pass, Picture, Tools
+from .shadow_views import VIEWS, MapView, ShadowViews
+
+
+class _LightMaps:
+    """The maps of one light: their depths and ranges, and of each what it was drawn of."""
+
+    def __init__(self, count: int, size: int) -> None:
+        side = shadow_ranges_side(size)
+        self.depths = np.empty((count, size, size), np.float32)
+        self.ranges = np.empty((count, side, side), np.uint32)
+        self.drawn = [_Drawn() for _ in range(count)]
+
+    def fits(self, count: int, size: int) -> bool:
+        return self.depths.shape == (count, size, size)
+
+    def find_ranges(self, taps: int, step: int) -> NDArray[np.uint32] | None:
+        """The ranges of all maps; None where one is new.
+
+        They are found when a map is looked up for the second time: to find them takes about as
+        long as they save in a frame.
+        """
+        for depths, ranges, drawn in zip(self.depths, self.ranges, self.drawn, strict=True):
+            if not drawn.is_new and drawn.compared != (taps, step):
+                find_shadow_ranges(depths, taps, step, ranges)
+                drawn.compared = taps, step
+        are_found = all(drawn.compared == (taps, step) for drawn in self.drawn)
+        for drawn in self.drawn:
+            drawn.is_new = False
+        return self.ranges if are_found else None
+
+
+class _Drawn:
+    """What a map was drawn of: first the moment of the scene, then the nodes themselves.
+
+    And by which comparisons it is looked up, if its ranges are found.
+    """
+
+    def __init__(self) -> None:
+        self.moment, self.casters = Memo(), Memo()
+        self.is_new = True
+        self.compared: tuple[int, int] | None = None
+
+
+class ShadowMaps(Pass):
+    """Draws the maps of lights, for pictures with lit surfaces.
+
+    A light's shadow_radius may be too wide for its maps, or the maps may take more memory than a
+    frame may: these are InvalidArgumentErrors.
+    """
+
+    reads = ("scene",)
+    writes = ("shadow_maps",)
+
+    def __init__(self, tools: Tools) -> None:
+        super().__init__(tools)
+        self._kept: dict[int, _LightMaps] = {}
+        # From where each light's maps are drawn, by its number, and what that was found from.
+        self._found: dict[int, tuple[tuple, ShadowViews | None]] = {}
+
+    def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
+        return options.mode == "lit" and shows_light(wanted)
+
+    def draw(self, picture: Picture) -> None:
+        scene, draw_list = picture.scene, self.tools.draw_list
+        self._drawn = self._count = 0
+        draw_list.native.clear_shadows()
+        lights = [entry for entry in draw_list.lights.placed() if entry[1].shadow is True]
+        if not lights:
+            self._kept.clear()
+            self._found.clear()
+            return
+        for known in (self._kept, self._found):
+            for number in known.keys() - {number for number, _, _ in lights}:
+                del known[number]
+        bounds = scene.bounds
+        cull = CULLS[picture.shadow_cull]
+        moment = scene._arrays, scene._arrays.updated, draw_list.renewals, cull
+        seen = [
+            (number, light, pose, self._views_of(number, light, pose, bounds, picture.view))
+            for number, light, pose in lights
+        ]
+        seen = [each for each in seen if each[-1] is not None]
+        self.tools.memory.add_maps(
+            (type(light).__name__, len(views.maps), light.shadow_map_size)
+            for _, light, _, views in seen
+        )
+        for number, light, (_, place), views in seen:
+            slot = draw_list.lights.slot_of(number)
+            spared = () if place is None else lamp_slots(scene, slot, place)
+            self._update_light(number, light, views, (*moment, spared))
+        picture.shadow_maps = self._count, self._drawn
+
+    def _views_of(self, number: int, light, pose: tuple, bounds, view: View) -> ShadowViews | None:
+        """From where a light's maps are drawn: as before, if nothing that decides it changed."""
+        layout = LIGHT_TRAITS[light.kind].maps
+        seen_by = view if layout == "cascades" else None
+        found_from = light, light.version, pose, bounds.tobytes(), seen_by
+        known = self._found.get(number)
+        if known is None or known[0] != found_from:
+            light.check()
+            known = self._found[number] = found_from, VIEWS[layout](light, pose, bounds, view)
+        return known[1]
+
+    def _update_light(self, number: int, light, views: ShadowViews, moment: tuple) -> None:
+        count, size = len(views.maps), light.shadow_map_size
+        kept = self._kept.get(number)
+        if kept is None or not kept.fits(count, size):
+            kept = self._kept[number] = _LightMaps(count, size)
+        for k, seen in enumerate(views.maps):
+            self._update_map(kept.depths[k], kept.drawn[k], seen, moment)
+        self._count += count
+        taps, step = light.shadow_taps, round(256 * light.shadow_radius)
+        self.tools.draw_list.native.set_shadow(
+            number,
+            kept.depths,
+            views.places,
+            taps=taps,
+            step=step,
+            ranges=kept.find_ranges(taps, step),
+            margin=views.margin,
+            bias=2.0 * light.shadow_bias,  # depths are from -1 to 1
+            normal_bias=light.shadow_normal_bias,
+            axes=views.axes,
+            depth=views.depth,
+        )
+
+    def _update_map(self, depths, drawn: _Drawn, seen: MapView, moment: tuple) -> None:
+        """Draw a map, unless it would show the same again."""
+        clip = seen.clip_from_world.tobytes()
+        if not drawn.moment.differs(clip, moment):
+            return
+        arrays, _, renewals, cull, spared = moment
+        selection = np.empty((arrays.count + 63) // 64, np.uint64)
+        arrays.select(seen.clip_from_world, 1.0, False, selection)
+        for slot in spared:
+            selection[slot >> 6] &= ~np.uint64(1 << (slot & 63))
+        casters = placed_casters(arrays, selection)
+        if drawn.casters.differs(clip, arrays, renewals, cull, casters):
+            drawn.is_new, drawn.compared = True, None
+            native = self.tools.draw_list.native
+            native.place_casters(arrays.count, arrays.columns, selection, seen.clip_from_world)
+            self.tools.native.draw_shadow_map(native, depths, *seen, cull, id(drawn))
+            self._drawn += 1
+            drawn.casters.done()
+        drawn.moment.done()

@@ -1,0 +1,301 @@
+"""From where the maps of shadows are drawn, and where samples are in them.
+
+In: a light, where it is, the box around the scene, and for directional lights what the camera sees.
+Out: `ShadowViews`: matrices to draw each map with (R95, R96 of docs/exactness), and the numbers by
+which the core finds samples in it (R92). These are float32, so the matrices are made of what they
+round to. Source of the cascades: Zhang et al. 2006 (parallel-split shadow maps); that they are as
+large as spheres, and move by whole texels, is Valient 2008.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...base import linalg
+from ...base.linalg.single import cross, length, normalize
+from .._view import View
+
+_RATIO = 4.0  # each map of a directional light shows so many times as far as the one before
+_PLAY = 1.0 / 8.0  # of a map's side: by such steps it follows the camera
+_WIDEST = 10.0  # tangent of the widest angle that a spot light's map shows
+_NEAREST = 2.0**-12  # of the farthest: what is nearer to a point or spot light casts no shadow
+#: The faces of a point light's cube, +x, -x, +y, -y, +z, -z: to the right, down, ahead.
+_FACES = (
+    ((0, 0, 1), (0, -1, 0), (1, 0, 0)),
+    ((0, 0, -1), (0, -1, 0), (-1, 0, 0)),
+    ((1, 0, 0), (0, 0, -1), (0, 1, 0)),
+    ((1, 0, 0), (0, 0, 1), (0, -1, 0)),
+    ((-1, 0, 0), (0, -1, 0), (0, 0, 1)),
+    ((1, 0, 0), (0, -1, 0), (0, 0, -1)),
+)
+
+Axes = NDArray[np.float64]
+Pose = tuple[Sequence[float], Sequence[float]]  # of a light, as `LightList.placed` has it
+
+
+class MapView(NamedTuple):
+    """What one map is drawn with."""
+
+    clip_from_world: NDArray[np.float64]
+    view_from_world: NDArray[np.float64]
+    eye: tuple[float, float, float, float]
+
+
+class ShadowViews(NamedTuple):
+    """The maps of one light.
+
+    Attributes
+    ----------
+    maps : list of MapView
+    places : list of (float, float, float)
+        Scale, x and y of `e3d_shadow_map`.
+    axes : (3, 3) float64
+        To the right, down and ahead; of point lights those of the world, which are not read.
+    depth : (float, float)
+    margin : int
+    """
+
+    maps: list[MapView]
+    places: list[tuple[float, float, float]]
+    axes: Axes
+    depth: tuple[float, float]
+    margin: int
+
+
+def _single(value: float) -> float:
+    return float(np.float32(value))
+
+
+def _dot(a: Sequence[float], b: Sequence[float]) -> float:
+    """The scalar product, from left to right."""
+    total = float(a[0]) * float(b[0])
+    for one, other in zip(a[1:], b[1:], strict=True):
+        total += float(one) * float(other)
+    return total
+
+
+def _rounded_up(value: float, steps: int) -> float:
+    """The next of so many numbers between powers of two: small changes mostly change nothing."""
+    if not value > 0.0:
+        return 1.0
+    mantissa, exponent = math.frexp(value)
+    return math.ldexp(math.ceil(mantissa * 2 * steps) / (2 * steps), exponent)
+
+
+def _axes_along(ahead: Sequence[float]) -> Axes:
+    """Unit vectors to the right, down and ahead, as float32 has them."""
+    x, y, z = ahead
+    up = (0.0, 0.0, 1.0) if abs(y) > 0.999 else (0.0, 1.0, 0.0)
+    right = normalize(cross((x, y, z), up))
+    down = cross((x, y, z), right)
+    return np.array([right, down, (x, y, z)], np.float32).astype(np.float64)
+
+
+def _extent(axis: NDArray[np.float64], bounds: NDArray[np.float64]) -> tuple[float, float]:
+    """From where to where a box lies along an axis."""
+    center, half = (bounds[0] + bounds[1]) * 0.5, (bounds[1] - bounds[0]) * 0.5
+    middle = _dot(axis, center)
+    reach = _dot(np.abs(axis), half)
+    return middle - reach, middle + reach
+
+
+def _view_of(axes: Axes, position: Sequence[float]) -> NDArray[np.float64]:
+    """view_from_world of an eye that looks ahead."""
+    matrix = np.eye(4)
+    matrix[:3, :3] = axes[0], -axes[1], -axes[2]
+    for row in range(3):
+        matrix[row, 3] = -_dot(matrix[row, :3], np.asarray(position, np.float64))
+    return matrix
+
+
+# Directional lights
+
+
+class _Square(NamedTuple):
+    """What a map shows: texels in a unit of the world, and where its middle is, in texels."""
+
+    scale: float
+    column: int
+    row: int
+
+
+def _square(side: float, middle: tuple[float, float], inside: int, play: float) -> _Square:
+    """A square of that side, moved to the next step, of a map with so many texels inside."""
+    scale = _single((inside - 1) / (side * (1.0 + play)))
+    step = max(int(side * play * scale), 1)
+    column, row = (round(at * scale / step) * step for at in middle)
+    return _Square(scale, column, row)
+
+
+def _slices(view: View, bounds: NDArray[np.float64], count: int) -> list[tuple[float, tuple]]:
+    """Spheres around what the camera sees from depth to depth: side of the square, and middle.
+
+    The depths are shares of the scene's diagonal, so that they stay as they are when the camera
+    moves. What is farther away is for a map of the whole scene.
+    """
+    near, far = view.depth_range(bounds)
+    reach = length(bounds[1] - bounds[0])
+    ends = [reach * _RATIO ** (k - count) for k in range(1, count)]
+    starts = [0.0, *ends[:-1]]
+    if view.eye[3] == 0.0 and count > 1:  # without perspective, what is far away is no smaller
+        starts, ends = [near], [near + _rounded_up(far - near, 1)]
+    view_from_clip = linalg.inverse(view.projection)
+    corners = [(x, y) for x in (-1.0, 1.0) for y in (-1.0, 1.0)]
+    lines = [[_unproject(view_from_clip, x, y, z) for z in (-1.0, 0.0)] for x, y in corners]
+    world_from_view = linalg.inverse(view.view_from_world)
+    found = []
+    for start, end in zip(starts, ends, strict=False):
+        if end < near:
+            continue
+        points = [_at_depth(line, depth) for depth in (start, end) for line in lines]
+        middle, radius = _sphere(points)
+        world = [_dot(row[:3], middle) + float(row[3]) for row in world_from_view[:3]]
+        found.append((2.0 * radius, tuple(world)))
+    return found
+
+
+def _unproject(view_from_clip, x: float, y: float, z: float) -> NDArray[np.float64]:
+    point = [_dot(row, np.array([x, y, z, 1.0])) for row in view_from_clip]
+    return np.array(point[:3]) / point[3]
+
+
+def _at_depth(line: list[NDArray[np.float64]], depth: float) -> NDArray[np.float64]:
+    """The point of a line through two points that is so deep in view space."""
+    first, second = line
+    share = (-depth - first[2]) / (second[2] - first[2])
+    return first + (second - first) * share
+
+
+def _sphere(points: list[NDArray[np.float64]]) -> tuple[NDArray[np.float64], float]:
+    """A small sphere around four points and four others behind them: its middle and radius."""
+    front, back = sum(points[:4]) / 4.0, sum(points[4:]) / 4.0
+    wide = [max(length(p - at) for p in of) for of, at in ((points[:4], front), (points[4:], back))]
+    deep = length(back - front)
+    share = min((deep * deep + wide[1] ** 2 - wide[0] ** 2) / (2.0 * deep * deep), 1.0)
+    middle = front + (back - front) * max(share, 0.0)
+    return middle, max(length(p - middle) for p in points)
+
+
+def _cascades(light, pose: Pose, bounds: NDArray[np.float64], view: View) -> ShadowViews:
+    """The maps of a light that is infinitely far away.
+
+    The last map shows the whole scene, each before it a sphere around a part of what the camera
+    sees, whichever way it looks, where that is smaller. It moves by whole texels, so that edges
+    stay where they are. Along the light it reaches from the first thing of the scene to the last.
+    """
+    axes = _axes_along(tuple(-part for part in pose[0]))
+    size, margin = light.shadow_map_size, light._shadow_margin()
+    sides, downs, depths = (_extent(axis, bounds) for axis in axes)
+    step = _rounded_up(depths[1] - depths[0], 1) / 32.0
+    first, last = (
+        (math.floor(depths[0] / step) - 1) * step,
+        (math.ceil(depths[1] / step) + 1) * step,
+    )
+    rise = _single(2.0 / (last - first))
+    depth = rise, _single(-1.0 - first * rise)
+    whole = _rounded_up(max(sides[1] - sides[0], downs[1] - downs[0]), 8)
+    squares = []
+    for side, middle in _slices(view, bounds, light.shadow_cascades):
+        if side < whole:
+            at = tuple(_dot(axis, middle) for axis in axes[:2])
+            squares.append(_square(side, at, size - 2 * margin, _PLAY))
+    at = (sides[0] + sides[1]) * 0.5, (downs[0] + downs[1]) * 0.5
+    squares.append(_square(whole, at, size - 2 * margin, 0.0))
+    eye = (*(float(part) for part in -axes[2]), 0.0)
+    view_from_world = _view_of(axes, (0.0, 0.0, 0.0))
+    maps, places = [], []
+    for square in squares:
+        scale = square.scale
+        x, y = size / 2 - square.column, size / 2 - square.row
+        clip = np.zeros((4, 4))
+        clip[0, :3], clip[0, 3] = axes[0] * (2.0 * scale / size), 2.0 * x / size - 1.0
+        clip[1, :3], clip[1, 3] = axes[1] * (-2.0 * scale / size), 1.0 - 2.0 * y / size
+        clip[2, :3], clip[2, 3] = axes[2] * depth[0], depth[1]
+        clip[3, 3] = 1.0
+        maps.append(MapView(clip, view_from_world, eye))
+        places.append((scale, x, y))
+    return ShadowViews(maps, places, axes, depth, margin)
+
+
+# Point and spot lights
+
+
+def _between(light, nearest: float, farthest: float) -> tuple[float, float] | None:
+    """The depths between which a map shows; None where nothing is."""
+    farthest = min(_rounded_up(farthest, 4), light.range) if farthest > 0.0 else 0.0
+    if not farthest > 0.0:
+        return None
+    nearest = math.ldexp(0.5, math.frexp(nearest)[1]) if nearest > 0.0 else 0.0
+    return max(min(nearest, farthest * 0.5), farthest * _NEAREST), farthest
+
+
+def _looks_from(
+    position: NDArray[np.float64],
+    all_axes: Sequence[Axes],
+    scale: float,
+    size: int,
+    depth: tuple[float, float],
+) -> list[MapView]:
+    maps = []
+    for axes in all_axes:
+        clip, view_from_world = np.zeros((4, 4)), _view_of(axes, position)
+        clip[0] = view_from_world[0] * (2.0 * scale / size)
+        clip[1] = view_from_world[1] * (2.0 * scale / size)
+        clip[3] = -view_from_world[2]
+        clip[2] = clip[3] * depth[0]
+        clip[2, 3] += depth[1]
+        maps.append(MapView(clip, view_from_world, (*position.tolist(), 1.0)))
+    return maps
+
+
+def _local_views(
+    light, position: Sequence[float], all_axes: list[Axes], tangent: float, between
+) -> ShadowViews:
+    size = light.shadow_map_size
+    # Comparisons reach to so many texels beyond, and rounding a little farther.
+    margin = math.ceil(light.shadow_radius * (light.shadow_taps - 1) / 2 + 1.5)
+    scale = _single((size / 2 - margin - 0.5) / tangent)
+    near, far = between
+    depth = _single((far + near) / (far - near)), _single(-2.0 * far * near / (far - near))
+    at = np.array(position, np.float32).astype(np.float64)
+    maps = _looks_from(at, all_axes, scale, size, depth)
+    places = [(scale, size / 2, size / 2)] * len(maps)
+    return ShadowViews(maps, places, all_axes[0], depth, margin)
+
+
+def _ahead(light, pose: Pose, bounds: NDArray[np.float64], view: View) -> ShadowViews | None:
+    """The map of a spot light, which shows its cone; None where there is nothing in front of it."""
+    to_light, position = pose
+    axes = _axes_along(tuple(-part for part in to_light))
+    here = _dot(axes[2], np.asarray(position, np.float64))
+    nearest, farthest = (depth - here for depth in _extent(axes[2], bounds))
+    between = _between(light, nearest, farthest)
+    if between is None:
+        return None
+    angle = light.outer_cone_angle
+    cosine, sine = float(linalg.cos(angle)), float(linalg.sin(angle))
+    tangent = sine / cosine if sine < _WIDEST * cosine else _WIDEST
+    return _local_views(light, position, [axes], tangent, between)
+
+
+def _cube(light, pose: Pose, bounds: NDArray[np.float64], view: View) -> ShadowViews | None:
+    """The six maps around a light; None where there is nothing."""
+    position = pose[1]
+    low, high = np.asarray(position) - bounds[0], bounds[1] - np.asarray(position)
+    farthest = float(max(low.max(), high.max()))
+    nearest = -float(min(low.min(), high.min()))  # positive where the light is outside of the box
+    between = _between(light, nearest, farthest)
+    if between is None:
+        return None
+    return _local_views(
+        light, position, [np.array(axes, np.float64) for axes in _FACES], 1.0, between
+    )
+
+
+#: From where the maps of a light are drawn, by their layout: its pose, the scene's box, the camera.
+VIEWS = {"cascades": _cascades, "cube": _cube, "ahead": _ahead}

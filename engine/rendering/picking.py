@@ -1,0 +1,149 @@
+"""What a pixel of a frame shows.
+
+In: the scene that was drawn, the frame, a pixel. Out: the face that the frame says was drawn there,
+or what a ray through the pixel's centre meets.
+"""
+
+from __future__ import annotations
+
+import math
+import numbers
+from typing import Any
+
+import numpy as np
+
+from ..base import linalg
+from ..base.numbers import shown
+from ..errors import InvalidArgumentError
+from ..model.motion.shown import placing_pose, shown_object
+from ..model.scene.instances import InstancedMesh
+from ..model.scene.nodes import Node
+from ..model.spatial.rays import RayHit, raycast
+from .frame import Frame
+
+_LAYERS = 256  # faces that are not drawn, one behind the other, that a pick looks through
+
+
+def pick(scene: Any, frame: Any, x: int, y: int) -> RayHit | None:
+    """See `Scene.pick`."""
+    if not isinstance(frame, Frame):
+        raise InvalidArgumentError(f"frame must be a Frame, not {type(frame).__name__}")
+    for value in (x, y):
+        if not isinstance(value, numbers.Real):
+            raise InvalidArgumentError(f"x and y, a pixel, are numbers, not {shown(value)}")
+    if not (0 <= x < frame.width and 0 <= y < frame.height):
+        raise InvalidArgumentError(
+            f"pixel ({x}, {y}) is outside of the frame, {frame.width}x{frame.height}"
+        )
+    x, y = int(x), int(y)
+    if frame._seen is None:
+        raise InvalidArgumentError("the frame was not drawn by a Renderer")
+    near, direction, length, eye = _pixel_ray(frame, x, y)
+    if not {"object_id", "instance_id", "triangle_id"} <= set(frame.outputs):
+        return _from(eye, _drawn_hit(scene, near, direction, length, frame._seen[1]))
+    number, face = int(frame.object_id[y, x]), int(frame.triangle_id[y, x])
+    node = None if number < 0 else scene._node_of(number)
+    if node is None:
+        return None
+    instance = int(frame.instance_id[y, x])
+    hit = _drawn_hit(scene, near, direction, length, frame._seen[1])
+    if node.object is None:  # several nodes show as this one: levels of detail
+        return (
+            None
+            if hit is None
+            else _from(eye, hit._replace(node=node, instance=instance, face=face))
+        )
+    if hit is None or (hit.node, hit.instance, hit.face) != (node, instance, face):
+        if not _has_face(node.object, instance, face):
+            return None
+        hit = _hit_of_face(node, instance, face, near, direction)
+    return _from(eye, hit)
+
+
+def _pixel_ray(frame: Any, x: int, y: int) -> Any:
+    """The ray through a pixel's centre, from the near plane on: origin, unit direction, length."""
+    view, _ = frame._seen
+    world_from_clip = linalg.inverse(view.clip_from_world)
+    across = 2.0 * (x + 0.5) / frame.width - 1.0
+    upward = 1.0 - 2.0 * (y + 0.5) / frame.height
+    end = view.camera._far_depth
+    depths = -1.0, (end - 1.0) * 0.5, end
+    near, within, far = (_unproject(world_from_clip, across, upward, z) for z in depths)
+    direction = linalg.normalize(within - near)
+    length = math.inf if far is None else float(linalg.dot(far - near, direction))
+    return near, direction, length, view.eye
+
+
+def _unproject(world_from_clip: np.ndarray, x: float, y: float, z: float) -> Any:
+    rows = world_from_clip
+    point = rows[:, 0] * x + rows[:, 1] * y + rows[:, 2] * z + rows[:, 3]
+    if not abs(point[3]) > 1e-12 * np.abs(rows[3]).max():
+        return None  # without a far plane, its points are at infinity
+    return point[:3] / point[3]
+
+
+def _drawn_hit(scene: Any, origin: Any, direction: Any, length: float, cull: str) -> RayHit | None:
+    """The nearest face that is drawn: the sides that were culled are looked through."""
+    gone = 0.0
+    for _ in range(_LAYERS):
+        start = origin + direction * gone
+        hit = raycast(scene, start, direction, max(length - gone, 0.0), "none")
+        if hit is None or _is_drawn(hit, direction, cull):
+            return hit
+        gone = (gone + hit.distance) * (1.0 + 1e-12) + 1e-300
+    return None
+
+
+def _is_drawn(hit: RayHit, direction: np.ndarray, cull: str) -> bool:
+    mesh = _mesh_of(hit.node)
+    if cull == "none" or mesh.materials[mesh.material_ids[hit.face]].two_sided:
+        return True
+    return (linalg.dot(hit.normal, direction) < 0.0) == (cull == "back")
+
+
+def _mesh_of(node: Node) -> Any:
+    obj = node.object
+    return obj.mesh if isinstance(obj, InstancedMesh) else obj
+
+
+def _has_face(obj: Any, instance: int, face: int) -> bool:
+    """Whether what a frame showed is there still."""
+    many = isinstance(obj, InstancedMesh)
+    return instance < (len(obj) if many else 1) and face < len((obj.mesh if many else obj).faces)
+
+
+def _hit_of_face(node: Node, instance: int, face: int, origin: Any, direction: Any) -> RayHit:
+    """Where a ray meets the plane of a face that the frame says it shows; of a line, nowhere."""
+    unknown = np.full(3, np.nan)
+    if face < 0:
+        return RayHit(node, instance, face, math.nan, unknown, unknown, unknown)
+    mesh, pose = shown_object(node), placing_pose(node)
+    if isinstance(mesh, InstancedMesh):
+        pose = linalg.multiply(pose, mesh._pose_of(instance))
+        mesh = mesh.mesh
+    a, b, c = linalg.transform_points(pose, mesh.positions[mesh.faces[face]])
+    across = linalg.cross(b - a, c - a)
+    normal = linalg.normalize(across)
+    along = float(linalg.dot(normal, direction))
+    distance = float(linalg.dot(normal, a - origin)) / along if along else math.nan
+    position = origin + direction * distance
+    area = float(linalg.dot(across, across)) or 1.0
+    v = float(linalg.dot(linalg.cross(position - a, c - a), across)) / area
+    w = float(linalg.dot(linalg.cross(b - a, position - a), across)) / area
+    mirrored = linalg.dot(linalg.cross(pose[:3, 0], pose[:3, 1]), pose[:3, 2]) < 0.0
+    return RayHit(
+        node,
+        instance,
+        face,
+        distance,
+        position,
+        -normal if mirrored else normal,
+        np.array((1.0 - v - w, v, w)),
+    )
+
+
+def _from(eye: Any, hit: RayHit | None) -> RayHit | None:
+    """Measure the distance from the camera; without perspective, from the near plane."""
+    if hit is None or eye[3] == 0.0:
+        return hit
+    return hit._replace(distance=float(linalg.length(hit.position - np.array(eye[:3]))))

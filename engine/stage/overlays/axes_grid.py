@@ -1,0 +1,174 @@
+"""A grid around the scene with numbers and units along its edges.
+
+In: the box around a scene, and where it is seen from. Out: lines on the three sides of the box that
+are behind the scene, as a `Mesh`; and text over the picture.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ...model.geometry.mesh import Mesh
+from ...rendering.canvas import text_size
+from ...rendering.frame import Frame
+from .theme import Theme
+from .ticks import label as number_text
+from .ticks import ticks
+
+_MOST_TICKS = 6
+_LINE, _EDGE = (120, 125, 135, 255), (165, 170, 180, 255)
+#: From the edge to its numbers, in letters.
+_GAP = 1.5
+#: From number to number above each other, in heights of letters.
+_APART = 1.4
+
+
+class AxesGrid(NamedTuple):
+    """The grid of a box.
+
+    Attributes
+    ----------
+    low, high : (3,) float64
+        The box, in world space.
+    origin : (3,) float64
+        What is added to world space to have the file's coordinates.
+    unit : str
+    """
+
+    low: np.ndarray
+    high: np.ndarray
+    origin: np.ndarray
+    unit: str
+
+    def numbers(self, axis: int) -> list[float]:
+        """Return the file's coordinates of the grid's lines across an axis."""
+        low = float(self.low[axis] + self.origin[axis])
+        high = float(self.high[axis] + self.origin[axis])
+        return ticks(low, high, _MOST_TICKS) if low < high else [low]
+
+    def far_sides(self, toward_eye: np.ndarray) -> tuple[bool, bool, bool]:
+        """Return for each axis whether its higher side is the one behind the scene.
+
+        Parameters
+        ----------
+        toward_eye : (3,) float
+            From the box's middle, world space.
+        """
+        return tuple(bool(value < 0.0) for value in toward_eye)
+
+    def lines(self, far: tuple[bool, bool, bool]) -> Mesh:
+        """Return the lines on the far sides."""
+        points, colors = [], []
+        for across in range(3):  # the axis that a side is at right angles to
+            for along in range(3):
+                if along == across:
+                    continue
+                other = 3 - across - along
+                places = [value - self.origin[along] for value in self.numbers(along)]
+                ends = float(self.low[along]), float(self.high[along])
+                for place in sorted({*places, *ends}):
+                    for end in (self.low, self.high):
+                        point = np.empty(3)
+                        point[across] = (self.high if far[across] else self.low)[across]
+                        point[along], point[other] = place, end[other]
+                        points.append(point)
+                        colors.append(_EDGE if place in ends else _LINE)
+        lines = np.arange(len(points), dtype=np.int32).reshape(-1, 2)
+        colors = np.array(colors, np.uint8)
+        return Mesh(np.array(points), lines=lines, colors=colors, name="axes grid")
+
+    def label(self, frame: Frame, far: tuple[bool, bool, bool], scale: int, theme: Theme) -> None:
+        """Write the numbers along one edge of each axis, and the axis's name and unit."""
+        canvas = frame.canvas()
+        middle, _ = frame.project((self.low + self.high) / 2)
+        taken: list[tuple] = []
+        for axis in range(3):
+            edge = self._edge(frame, axis, far)
+            if edge is not None:
+                for label in self._labels(frame, axis, edge, middle, scale):
+                    self._write(label, canvas, taken, scale, theme)
+
+    def _edge(self, frame: Frame, axis: int, far) -> np.ndarray | None:
+        """The edge along an axis that has its numbers, (2, 3); None where none is in sight.
+
+        Of the two edges that bound a far side and a near one, the one farther down, or for one that
+        stands upright farther left.
+        """
+        first, second = (other for other in range(3) if other != axis)
+        edges = []
+        for high_first, high_second in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            if (high_first == far[first]) == (high_second == far[second]):
+                continue
+            ends = np.stack([self.low, self.high])
+            ends[:, first] = (self.low, self.high)[high_first][first]
+            ends[:, second] = (self.low, self.high)[high_second][second]
+            pixels, _ = frame.project(ends)
+            if np.isfinite(pixels).all():
+                edges.append((ends, pixels))
+        if not edges:
+            return None
+        along = np.abs(edges[0][1][1] - edges[0][1][0])
+        sign, column = (1.0, 1) if along[0] > along[1] else (-1.0, 0)
+        return max(edges, key=lambda edge: sign * edge[1][:, column].mean())[0]
+
+    def _labels(
+        self, frame: Frame, axis: int, edge: np.ndarray, middle: np.ndarray, scale: int
+    ) -> list[_Label]:
+        """The name of an axis, and its numbers as far as there is room."""
+        numbers = self.numbers(axis)
+        step = numbers[1] - numbers[0] if len(numbers) > 1 else 1.0
+        unit = self.unit.replace("µ", "u")  # the font has no other
+        texts = [(value - self.origin[axis], number_text(value, step)) for value in numbers]
+        name = "XYZ"[axis] + (f" [{unit}]" if unit else "")
+        cell = np.array(text_size("M", scale), np.float64)
+        pixels, _ = frame.project(edge)
+        direction = pixels[1] - pixels[0]
+        outward = np.array([direction[1], -direction[0]])
+        length = float(np.sqrt((outward * outward).sum()))
+        if length < 2 * cell[0]:
+            return []  # seen from its end
+        outward *= np.sign((outward * (pixels.mean(axis=0) - middle)).sum() or 1.0) / length
+        widest = cell[0] * max(len(text) for _, text in texts)
+        gap = _GAP * cell[0]
+        aside = np.abs(outward)
+        room = float((aside * (widest, cell[1])).sum())
+        labels = [_Label(name, pixels.mean(axis=0), outward, 2 * gap + room)]
+        for place, text in texts[:: self._stride(texts, length, aside, widest, cell[1])]:
+            point = edge[0].copy()
+            point[axis] = place
+            labels.append(_Label(text, frame.project(point)[0], outward, gap))
+        return labels
+
+    def _stride(self, texts, length: float, outward: np.ndarray, wide: float, high: float) -> int:
+        """Every how many numbers stand apart from each other along an edge of so many pixels."""
+        needed = outward[1] * (wide + high) + outward[0] * high * _APART
+        return max(1, math.ceil(needed * (len(texts) - 1) / length))
+
+    def _write(self, label: _Label, canvas, taken: list[tuple], scale: int, theme: Theme) -> None:
+        """Write a text outward of a point, unless another one is there."""
+        size = np.array(text_size(label.text, scale), np.float64)
+        reach = label.gap + abs(label.outward[0]) * size[0] / 2
+        corner = np.asarray(label.at) + label.outward * reach - size / 2
+        if not np.isfinite(corner).all():
+            return
+        box = (*corner.tolist(), *(corner + size).tolist())
+        if any(_overlap(box, other) for other in taken):
+            return
+        taken.append(box)
+        canvas.text(round(box[0]), round(box[1]), label.text, theme.text, scale=scale)
+
+
+class _Label(NamedTuple):
+    """A text, the pixel that it is about, and in which direction and how far away it stands."""
+
+    text: str
+    at: np.ndarray
+    outward: np.ndarray
+    gap: float
+
+
+def _overlap(a: tuple, b: tuple) -> bool:
+    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]

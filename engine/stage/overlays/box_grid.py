@@ -1,0 +1,65 @@
+"""The grid around what is shown, which goes to the far sides as the camera moves.
+
+In: a scene to view. Out: a node beside it, and text over the picture.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...model.scene.staged_scene import StagedScene
+from ...rendering.frame import Frame
+from ..viewed_scene import ViewedScene
+from ..views.viewpoint import Viewpoint
+from .axes_grid import AxesGrid
+from .theme import Theme
+
+
+class BoxGrid:
+    """The grid around a scene; nothing before it is shown.
+
+    Parameters
+    ----------
+    viewed : ViewedScene
+        As it first stands.
+    staged : StagedScene
+        Of its scene.
+    """
+
+    def __init__(self, viewed: ViewedScene, staged: StagedScene):
+        self._staged = staged
+        low, high = viewed.scene.bounds
+        self._grid = AxesGrid(low, high, np.array(viewed.origin), viewed.unit)
+        self._node = None
+        self._far: tuple[bool, bool, bool] | None = None
+
+    @property
+    def corners(self) -> np.ndarray:
+        """The corners of the grid, (8, 3)."""
+        ends = np.stack([self._grid.low, self._grid.high])
+        return np.array([[ends[k >> axis & 1, axis] for axis in range(3)] for k in range(8)])
+
+    @property
+    def shows(self) -> bool:
+        """Whether the grid is drawn."""
+        return self._node is not None and self._node.visible
+
+    def follow(self, view: Viewpoint, shown: bool) -> None:
+        """Show the grid as it is seen by a view, or hide it."""
+        if shown and not np.isfinite([self._grid.low, self._grid.high]).all():
+            return
+        if shown:
+            middle = (self._grid.low + self._grid.high) / 2
+            far = self._grid.far_sides(view.position() - middle)
+            if self._node is None or far != self._far:
+                mesh = self._grid.lines(far)
+                if self._node is None:
+                    self._node = self._staged.beside.add(mesh, name=mesh.name, cast_shadows=False)
+                self._node.object, self._far = mesh, far
+        if self._node is not None:
+            self._node.visible = shown
+
+    def label(self, frame: Frame, scale: int, theme: Theme) -> None:
+        """Write the numbers of the grid, if it is shown in the frame."""
+        if self._node is not None and self._far is not None:
+            self._grid.label(frame, self._far, scale, theme)

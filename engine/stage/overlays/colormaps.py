@@ -1,0 +1,94 @@
+"""Colour maps: from numbers to colours.
+
+In: the name of a map, a picture whose middle row is one, or places and colours. Out: a table of
+colours. The maps of matplotlib and of Google's turbo are interpolated between a few of their own
+colours; both are free for any use (CC0 and Apache-2.0).
+"""
+
+from __future__ import annotations
+
+import os
+import re
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import InvalidArgumentError
+from ...io.loaders import load_texture
+
+SIZE = 256
+#: What has no number.
+MISSING = (128, 128, 128)
+_COLORS = {
+    "viridis": "440154 482878 3e4a89 31688e 26828e 1f9e89 35b779 6ece58 b5de2b fde725",
+    "plasma": "0d0887 47039f 7301a8 9c179e bd3786 d8576b ed7953 fa9e3b fdc926 f0f921",
+    "inferno": "000004 1b0c41 4a0c6b 781c6d a52c60 cf4446 ed6925 fb9b06 f7d13d fcffa4",
+    "magma": "000004 180f3d 440f76 721f81 9e2f7f cd4071 f1605d fd9668 feca8d fcfdbf",
+    "turbo": "30123b 4145ab 4675ed 39a2fc 1bcfd4 24eca6 61fc6c a4fc3b d1e834 f3c63a fe9b2d "
+    "f36315 d93806 b11901 7a0402",
+    "coolwarm": "3b4cc0 6788ee 9abbff c9d7f0 edd1c2 f7a889 e26952 b40426",
+    "gray": "000000 ffffff",
+}
+COLORMAPS = tuple(_COLORS)
+_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
+_PART = re.compile(r"[^,(]+(?:\([^)]*\))?")  # rgb(1,2,3) is one
+
+
+def colormap(name: str) -> NDArray[np.uint8]:
+    """Return the table of a colour map.
+
+    Parameters
+    ----------
+    name : str
+        One of `COLORMAPS`, the path of a picture, or places with their colours, as f3d has them:
+        ``0,#000000,1,white``, or with three numbers from 0 to 1 a colour ``0,0,0,0,1,1,1,1``.
+
+    Returns
+    -------
+    colors : (N, 3) uint8
+        sRGB, that of the least number first.
+
+    Raises
+    ------
+    InvalidArgumentError
+        There is neither such a map nor such a file, or the places do not ascend from 0 to 1.
+    FileFormatError
+        The file is no picture.
+    """
+    if name in _COLORS:
+        given = np.array([list(bytes.fromhex(color)) for color in _COLORS[name].split()], float)
+        return _table(np.linspace(0.0, 1.0, len(given)), given)
+    if not os.path.isfile(name):
+        if "," in name:
+            return _placed(name)
+        known = ", ".join(COLORMAPS)
+        raise InvalidArgumentError(f"{name!r} is neither a picture nor one of {known}")
+    pixels = load_texture(name).pixels
+    return np.ascontiguousarray(pixels[len(pixels) // 2, :, :3])
+
+
+def _table(places: NDArray[np.float64], colors: NDArray[np.float64]) -> NDArray[np.uint8]:
+    """Interpolate between colours at places from 0 to 1."""
+    wanted = np.linspace(0.0, 1.0, SIZE)
+    columns = [np.interp(wanted, places, colors[:, k]) for k in range(3)]
+    return np.rint(np.stack(columns, axis=1)).astype(np.uint8)
+
+
+def _placed(text: str) -> NDArray[np.uint8]:
+    """The table of places and colours."""
+    from PIL import ImageColor
+
+    parts = [part.strip() for part in _PART.findall(text)]
+    try:
+        if len(parts) % 4 == 0 and all(_NUMBER.fullmatch(part) for part in parts):
+            numbers = np.array(parts, np.float64).reshape(-1, 4)
+            places, colors = numbers[:, 0], numbers[:, 1:].clip(0.0, 1.0) * 255.0
+        else:
+            places = np.array(parts[::2], np.float64)
+            colors = np.array([ImageColor.getrgb(part)[:3] for part in parts[1::2]], np.float64)
+    except ValueError as error:
+        raise InvalidArgumentError(f"{text!r} is no list of places and colours: {error}") from None
+    is_rising = len(places) == len(colors) > 1 and (np.diff(places) > 0).all()
+    if not (is_rising and places[0] >= 0.0 and places[-1] <= 1.0):
+        raise InvalidArgumentError(f"{text!r}: the places of colours must ascend from 0 to 1")
+    return _table(places, colors)

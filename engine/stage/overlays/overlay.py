@@ -1,0 +1,176 @@
+"""Text and marks over the picture: statistics, metadata, messages, the axes.
+
+In: a `Canvas` over the frame's pixels. Out: the same pixels, drawn on. Text sits on
+translucent blocks in the corners; lines that are wider than the picture are wrapped.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from itertools import zip_longest
+
+from ...rendering.canvas import text_size
+from ..views.viewpoint import Viewpoint
+from .draw_counts import count_names, count_table, told_tests
+from .frame_times import FrameTimes
+from .theme import DARK, Theme
+
+PADDING = 8
+MARGIN = 10
+LINE_GAP = 3
+#: Pictures at least this high get text twice the size.
+LARGE_HEIGHT = 1400
+#: Larger text stays legible where this many characters fit into a line.
+FEWEST_COLUMNS = 40
+#: X, Y and Z, the usual red, green and blue, light enough for a dark background.
+AXIS_COLORS = ((235, 80, 80, 255), (95, 205, 95, 255), (95, 140, 255, 255))
+AXIS_LENGTH = 34
+
+
+def text_scale(canvas, screen: int = 1) -> int:
+    """Return the factor on the font's size that suits the picture, on a screen of some scale."""
+    return text_scale_for(canvas.width, canvas.height, screen)
+
+
+def text_scale_for(width: int, height: int, screen: int = 1) -> int:
+    """Return the same for a picture of some size."""
+    scale = max(screen, 2 if height >= LARGE_HEIGHT else 1)
+    return max(1, min(scale, width // (FEWEST_COLUMNS * text_size("M")[0])))
+
+
+def draw_block(
+    canvas,
+    lines: list[str],
+    *,
+    corner: str = "top left",
+    scale: int | None = None,
+    theme: Theme = DARK,
+) -> None:
+    """Draw lines of text on a translucent block.
+
+    Parameters
+    ----------
+    canvas : Canvas
+        Over the frame.
+    lines : list of str
+        The text. What is wider than the picture goes on in the next line; what is higher ends with
+        a line of dots.
+    corner : str
+        Such as ``"top left"``, ``"bottom right"``, ``"bottom"`` or ``"middle"``.
+    scale : int, optional
+        Factor on the font's size; by default what suits the picture.
+    theme : Theme
+    """
+    scale = scale or text_scale(canvas)
+    lines = _fitting(canvas, lines, scale)
+    if not lines:
+        return
+    sizes = [text_size(line, scale) for line in lines]
+    line_height = text_size("M", scale)[1] + LINE_GAP * scale
+    width = max(size[0] for size in sizes) + 2 * PADDING
+    height = line_height * len(lines) - LINE_GAP * scale + 2 * PADDING
+    x, y = place(canvas, width, height, corner)
+    canvas.rectangle(x, y, width, height, theme.block)
+    for row, line in enumerate(lines):
+        canvas.text(x + PADDING, y + PADDING + row * line_height, line, theme.text, scale=scale)
+
+
+def _fitting(canvas, lines: list[str], scale: int) -> list[str]:
+    """Return the lines, wrapped to the picture's width and cut to its height."""
+    cell_width, cell_height = text_size("M", scale)
+    room = canvas.width - 2 * PADDING - MARGIN, canvas.height - 2 * PADDING - MARGIN
+    columns = max(room[0] // cell_width, 1)
+    rows = max(room[1] // (cell_height + LINE_GAP * scale), 1)
+    wrapped = []
+    for line in lines:
+        wrapped += [line] if len(line) <= columns else textwrap.wrap(line, columns)
+    return wrapped if len(wrapped) <= rows else [*wrapped[: rows - 1], "..."[:columns]]
+
+
+def place(canvas, width: int, height: int, corner: str) -> tuple[int, int]:
+    """Return the top left pixel of a block in the given corner."""
+    picture_height, picture_width = canvas.pixels.shape[:2]
+    x, y = MARGIN, MARGIN
+    if "right" in corner:
+        x = picture_width - width - MARGIN
+    if corner in ("bottom", "middle"):
+        x = (picture_width - width) // 2
+    if "bottom" in corner:
+        y = picture_height - height - MARGIN
+    if corner == "middle":
+        y = (picture_height - height) // 2
+    return max(x, 0), max(y, 0)
+
+
+def short_statistics(times: FrameTimes, stats: dict) -> str:
+    """Return what most people want to know of the last frame, in one line."""
+    drawn, total = stats["triangles_drawn"], stats["triangles"]
+    parts = [f"{times.drawing_seconds * 1000:.1f} ms to draw", f"{drawn:,} of {total:,} triangles"]
+    if times.count > 1:
+        parts.insert(0, f"{1.0 / times.seconds:.0f} frames per second")
+    return ", ".join(parts)
+
+
+def statistics_lines(
+    seconds: float, size, samples: int, stats: dict, place: str = "", culling: str = "all"
+) -> list[str]:
+    """Return the statistics of the last frame, line by line; they fit 640 x 480 pixels.
+
+    Parameters
+    ----------
+    seconds : float
+        Mean time from frame to frame.
+    size : (int, int)
+        Width and height in pixels.
+    samples : int
+        Samples a pixel.
+    stats : dict
+        `Frame.stats`: counters and milliseconds of each stage.
+    place : str
+        Where the camera is.
+    culling : str
+        What was left out before it was drawn.
+    """
+    rate = 1.0 / seconds if seconds > 0.0 else 0.0
+    lines = [
+        f"{rate:7.1f} frames/s {seconds * 1000:8.2f} ms",
+        f"{size[0]}x{size[1]}" + (f", {samples} samples per pixel" if samples > 1 else ""),
+    ]
+    if place:
+        lines[1] += f"; {place}"
+    tabled = count_names()
+    if tabled <= stats.keys():
+        lines += [*count_table(stats), told_tests(stats, culling)]
+        tabled.add("boxes_tested")
+    else:
+        tabled = set()
+    entries = []
+    for name, value in stats.items():
+        if name in tabled or name == "plan":
+            continue  # what the plan names is for those who change the rasteriser
+        text = f"{value:.3f}" if isinstance(value, float) else f"{value}"
+        entries.append(f"{name.replace('_', ' '):<19}{text:>11}")
+    return lines + _in_two_columns(entries)
+
+
+def _in_two_columns(entries: list[str]) -> list[str]:
+    """Return lines of two entries each, the first half of them on the left."""
+    half = (len(entries) + 1) // 2
+    pairs = zip_longest(entries[:half], entries[half:], fillvalue="")
+    return ["   ".join(pair).rstrip() for pair in pairs]
+
+
+def draw_axes(canvas, view: Viewpoint, scale: int | None = None) -> None:
+    """Draw the world's axes, as the camera sees their directions, in the bottom left corner."""
+    scale = scale or text_scale(canvas)
+    length = AXIS_LENGTH * scale
+    reach = length + 14 * scale
+    x0, y0 = reach, canvas.pixels.shape[0] - reach
+    # Row k of the rotation is the world's axis k in camera space: right, up, back.
+    axes = zip(view.rotation().tolist(), "XYZ", AXIS_COLORS, strict=True)
+    for (right, up, _), letter, color in sorted(axes, key=lambda axis: axis[0][2]):
+        x, y = round(x0 + right * length), round(y0 - up * length)
+        canvas.line(x0, y0, x, y, color, width=2 * scale)
+        half_width, half_height = (side / 2 for side in text_size(letter, scale))
+        x, y = x0 + right * (length + 8 * scale), y0 - up * (length + 8 * scale)
+        canvas.text(round(x - half_width), round(y - half_height), letter, color, scale=scale)

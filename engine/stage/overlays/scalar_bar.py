@@ -1,0 +1,178 @@
+"""The bar that tells which colour stands for which number: where it is, and what it looks like.
+
+In: a picture's size, a `ScalarBar`, and a `Canvas` over the frame's pixels. Out: the bar's place,
+beside which the model is framed; the same pixels, drawn on. The bar stands at the right where it
+takes a quarter of the width at most, and lies at the bottom else, in small pictures without title
+or numbers.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from typing import NamedTuple
+
+import numpy as np
+
+from ...rendering.canvas import text_size
+from ..scalars import ScalarBar
+from ..views.free_region import Taken
+from .overlay import MARGIN, PADDING
+from .theme import DARK, Theme
+from .ticks import label, ticks
+
+_SHARE, _MOST_TICKS = 0.6, 6
+_FINEST, _TICK = 6, 4  # pixels for each of the font: how thick the bar is, and a tick long
+_UNITS = 40  # thickness, margin and padding are this part of the picture's smaller side
+_MOST, _MOST_FLAT = 0.25, 1 / 3  # of the picture
+
+
+class BarPlace(NamedTuple):
+    """Where the parts of a bar are, in pixels.
+
+    Attributes
+    ----------
+    left, top, width, height : int
+        The block behind it.
+    upright : bool
+    title : list of str
+        Its lines; none where there is no room.
+    length, thick, padding, margin : int
+        Of the colours, and around them and the block.
+    numbers : list of float
+    labels : list of str
+        None where there is no room.
+    """
+
+    left: int
+    top: int
+    width: int
+    height: int
+    upright: bool
+    title: list[str]
+    length: int
+    thick: int
+    padding: int
+    margin: int
+    numbers: list[float]
+    labels: list[str]
+
+    def taken(self, width: int, height: int) -> Taken:
+        """Return which part of a picture of this size the bar takes from the model."""
+        if self.upright:
+            return Taken(right=(width - self.left) / width)
+        return Taken(bottom=(height - self.top) / height)
+
+
+def place_bar(width: int, height: int, bar: ScalarBar, scale: int = 1) -> BarPlace:
+    """Return where a bar is in a picture of some size, with texts of some scale."""
+    upright = _upright(width, height, bar, scale)
+    fits = width - upright.left <= _MOST * width and upright.top >= 0
+    return upright if fits else _flat(width, height, bar, scale)
+
+
+def _edges(width: int, height: int, scale: int) -> tuple[int, int, int]:
+    """How thick a bar is, and the width of padding and margin."""
+    unit = min(width, height) // _UNITS
+    return max(unit, _FINEST * scale), min(max(unit, 2), PADDING), min(max(unit, 3), MARGIN)
+
+
+def _numbers(bar: ScalarBar, most: int) -> tuple[list[float], list[str]]:
+    numbers = ticks(bar.low, bar.high, max(1, min(_MOST_TICKS, most)))
+    step = numbers[1] - numbers[0] if len(numbers) > 1 else bar.high - bar.low
+    return numbers, [label(number, step) for number in numbers]
+
+
+def _longest(texts: list[str]) -> int:
+    return max(map(len, texts), default=0)
+
+
+def _upright(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
+    cell_width, cell_height = text_size("M", scale)
+    thick, padding, margin = _edges(width, height, scale)
+    length = max(int(height * _SHARE), 2)
+    numbers, labels = _numbers(bar, length // (2 * cell_height))
+    if len(numbers) < 2:  # one alone says little: closer together, they still fit
+        numbers, labels = _numbers(bar, length // cell_height)
+    columns = max(int(_MOST * width - margin - 2 * padding) // cell_width, 1)
+    title = textwrap.wrap(bar.title, columns, break_long_words=False, break_on_hyphens=False)
+    wide = thick + _TICK * scale + cell_width // 2 + cell_width * _longest(labels)
+    wide = max(wide, cell_width * _longest(title)) + 2 * padding
+    high = length + 2 * padding + cell_height * (len(title) + 1)
+    left, top = width - wide - margin, (height - high) // 2
+    return BarPlace(
+        left, top, wide, high, True, title, length, thick, padding, margin, numbers, labels
+    )
+
+
+def _flat(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
+    cell_width, cell_height = text_size("M", scale)
+    thick, padding, margin = _edges(width, height, scale)
+    length = max(width - 2 * (margin + padding), 2)
+    high = thick + 2 * padding
+    title, numbers, labels = [], [], []
+    for most in range(_MOST_TICKS, 0, -1):
+        numbers, labels = _numbers(bar, most)
+        if (_longest(labels) + 1) * cell_width * len(labels) <= length:
+            break
+    below = _TICK * scale + cell_height
+    if high + below + margin > _MOST_FLAT * height or length < cell_width * _longest(labels):
+        numbers, labels = [], []
+    else:
+        high += below
+        is_short = cell_width * len(bar.title) <= length
+        if bar.title and is_short and high + cell_height + margin <= _MOST * height:
+            title, high = [bar.title], high + cell_height
+    wide = length + 2 * padding
+    left, top = (width - wide) // 2, height - high - margin
+    return BarPlace(
+        left, top, wide, high, False, title, length, thick, padding, margin, numbers, labels
+    )
+
+
+def draw_scalar_bar(canvas, bar: ScalarBar, scale: int = 1, theme: Theme = DARK) -> None:
+    """Draw the bar on a block, with its title above it."""
+    place = place_bar(canvas.width, canvas.height, bar, scale)
+    cell_height = text_size("M", scale)[1]
+    canvas.rectangle(place.left, place.top, place.width, place.height, theme.block)
+    left, top = place.left + place.padding, place.top + place.padding
+    for line in place.title:
+        canvas.text(left, top, line, theme.text, scale=scale)
+        top += cell_height
+    if place.upright:
+        _draw_upright(canvas, bar, place, (left, top + cell_height // 2), scale, theme)
+    else:
+        _draw_flat(canvas, bar, place, (left, top), scale, theme)
+
+
+def _colors(bar: ScalarBar, length: int) -> list[list[int]]:
+    """The colour of each pixel along the bar, that of the lowest number first."""
+    return bar.colors[np.linspace(0, len(bar.colors) - 1, length).round().astype(int)].tolist()
+
+
+def _at(number: float, bar: ScalarBar, length: int) -> int:
+    return round((number - bar.low) / (bar.high - bar.low) * (length - 1))
+
+
+def _draw_upright(canvas, bar, place: BarPlace, corner, scale: int, theme: Theme) -> None:
+    (left, top), last = corner, place.length - 1
+    cell_width, cell_height = text_size("M", scale)
+    for row, color in enumerate(_colors(bar, place.length)):
+        canvas.rectangle(left, top + last - row, place.thick, 1, (*color, 255))
+    right, tick = left + place.thick, _TICK * scale
+    for number, text in zip(place.numbers, place.labels, strict=True):
+        y = top + last - _at(number, bar, place.length)
+        canvas.rectangle(right, y, tick, 1, theme.text)
+        x = right + tick + cell_width // 2
+        canvas.text(x, y - cell_height // 2, text, theme.text, scale=scale)
+
+
+def _draw_flat(canvas, bar, place: BarPlace, corner, scale: int, theme: Theme) -> None:
+    left, top = corner
+    for column, color in enumerate(_colors(bar, place.length)):
+        canvas.rectangle(left + column, top, 1, place.thick, (*color, 255))
+    bottom, tick = top + place.thick, _TICK * scale
+    for number, text in zip(place.numbers, place.labels, strict=True):
+        x, wide = left + _at(number, bar, place.length), text_size(text, scale)[0]
+        canvas.rectangle(x, bottom, 1, tick, theme.text)
+        x = min(max(x - wide // 2, left), left + place.length - wide)
+        canvas.text(x, bottom + tick, text, theme.text, scale=scale)

@@ -1,0 +1,77 @@
+"""What the user has selected: told in a corner, and outlined in the picture.
+
+In: a `RayHit`, and frames that hold object and instance IDs. Out: lines of text; the same pixels,
+with an outline round what shows of the selected object.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...model.scene.instances import InstancedMesh
+from ...model.spatial.rays import RayHit
+
+#: What a frame must hold to be clicked at, and to show an outline.
+CLICK_OUTPUTS = ("color", "object_id", "instance_id", "triangle_id")
+OUTLINE_OUTPUTS = ("color", "object_id", "instance_id")
+OUTLINE = (255, 160, 40, 255)
+WIDTH = 2
+
+
+def selection_lines(hit: RayHit, origin=(0.0, 0.0, 0.0)) -> list[str]:
+    """Return what a corner of the window says of what was clicked at.
+
+    Parameters
+    ----------
+    hit : RayHit
+    origin : (3,) sequence of float
+        Where the scene's origin is in the file's coordinates, which are shown.
+    """
+    thing = hit.node.object
+    lines = [hit.node.name or f"object {hit.node.id}"]
+    if isinstance(thing, InstancedMesh):
+        lines.append(f"instance {hit.instance:,} of {len(thing.poses):,}")
+    mesh = getattr(thing, "mesh", thing)
+    if mesh is None or hit.face < 0:
+        return lines
+    lines.append(f"triangle {hit.face:,} of {len(mesh.faces):,}")
+    if mesh.materials:
+        number = 0 if mesh.material_ids is None else int(mesh.material_ids[hit.face])
+        lines.append(f"material {mesh.materials[number].name or number}")
+    digits = 10 if any(origin) else 4
+    place = (value + moved for value, moved in zip(hit.position, origin, strict=True))
+    return [*lines, "at " + ", ".join(f"{value:.{digits}g}" for value in place)]
+
+
+def draw_outline(frame, hit: RayHit, width: int = WIDTH) -> None:
+    """Draw a line round what a frame shows of the selected object, or of the selected instance."""
+    inside = frame.object_id == hit.node.id
+    if isinstance(hit.node.object, InstancedMesh):
+        inside &= frame.instance_id == hit.instance
+    outline_pixels(frame, inside, width)
+
+
+def outline_pixels(frame, inside: np.ndarray, width: int = WIDTH) -> None:
+    """Draw a line round pixels of a frame, (H, W) of bool."""
+    rows, columns = (np.flatnonzero(inside.any(axis=axis)) for axis in (1, 0))
+    if not rows.size:
+        return
+    part = tuple(
+        slice(max(0, int(places[0]) - width), int(places[-1]) + width + 1)
+        for places in (rows, columns)
+    )
+    inside = inside[part]
+    frame.color[part][_grown(inside, width) & ~inside] = OUTLINE
+
+
+def _grown(inside: np.ndarray, width: int) -> np.ndarray:
+    """Return the pixels that are at most ``width`` rows and columns from one that is inside."""
+    for axis in (0, 1):
+        grown = inside.copy()
+        for step in range(1, width + 1):
+            near, far = [slice(None)] * 2, [slice(None)] * 2
+            near[axis], far[axis] = slice(step, None), slice(None, -step)
+            grown[tuple(near)] |= inside[tuple(far)]
+            grown[tuple(far)] |= inside[tuple(near)]
+        inside = grown
+    return inside

@@ -1,0 +1,1 @@
+"""From where a model is seen, and how one moves."""

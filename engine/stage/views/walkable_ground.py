@@ -1,0 +1,106 @@
+"""The ground of a model: where one who is as tall as suits it can walk.
+
+In: the scene, its bounds and its up direction. Out: a `NavigationGrid` in the space of the walk,
+where Y is up, and a `Walker` on it.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...base import linalg
+from ...model.motion.shown import placing_pose, shown_object
+from ...model.navigation import NavigationGrid, Walker
+from ...model.scene.orbiting import home_axes
+from ...model.scene.scene import Scene
+from ..visibility import DRAWABLE
+from .viewpoint import Sphere, Viewpoint
+
+#: One who walks is as tall as if the model's unit were the metre, but for small and large models:
+#: their radius is at least and at most so many of those metres.
+LEAST_RADIUS, MOST_RADIUS = 4.0, 400.0
+#: Sizes in these metres, and how many cells a side of the grid has at most.
+CELL, STEP, HEADROOM, RADIUS, EYES = 0.25, 0.4, 1.8, 0.25, 1.7
+MOST_CELLS = 1500
+
+
+class Ground(NamedTuple):
+    """Where one walks.
+
+    Attributes
+    ----------
+    axes : (3, 3) ndarray
+        Right, up and back of the walk, in world space: its X, Y and Z.
+    metre : float
+        World units of a metre of one who walks.
+    walker : Walker
+        At the place nearest to where the camera is.
+    """
+
+    axes: np.ndarray
+    metre: float
+    walker: Walker
+
+
+def find_ground(
+    scene: Scene, bounds: Sphere, view: Viewpoint, walkable=None, slope: float | None = None
+) -> Ground:
+    """Find the ground of a scene, and a place to stand on it.
+
+    Parameters
+    ----------
+    scene : Scene
+    bounds : Sphere
+    view : Viewpoint
+        Tells what is up, and where the camera is.
+    walkable : collection of str, optional
+        Names of the materials that one walks on; by default all.
+    slope : float, optional
+        The steepest ground in radians; by default `NavigationGrid`'s.
+
+    Raises
+    ------
+    InvalidArgumentError
+        There is nowhere to stand.
+    """
+    axes = home_axes(view.up)
+    metre = min(max(1.0, bounds.radius / MOST_RADIUS), bounds.radius / LEAST_RADIUS)
+    turned = _turned(scene, axes)
+    low, high = turned.bounds
+    cell = max(CELL * metre, float((high - low)[[0, 2]].max()) / MOST_CELLS)
+    options = {} if slope is None else {"max_slope": slope}
+    grid = NavigationGrid(
+        turned,
+        cell=cell,
+        walkable=walkable,
+        step=STEP * metre,
+        headroom=HEADROOM * metre,
+        radius=RADIUS * metre,
+        **options,
+    )
+    eye = np.clip(linalg.dot(axes, view.position()), low, high)
+    walker = Walker(grid, float(eye[0]), float(eye[2]), float(low[1]), EYES * metre)
+    return Ground(axes, metre, walker)
+
+
+def _turned(scene: Scene, axes: np.ndarray) -> Scene:
+    """Return a scene that holds what another shows, turned so that Y is up."""
+    turned, pose = Scene(), np.eye(4)
+    pose[:3, :3] = axes
+    group = turned.add(pose=pose)
+    scene._update()
+    for node in scene.nodes:
+        if isinstance(node.object, DRAWABLE) and node.shown:
+            turned.add(shown_object(node), parent=group, pose=placing_pose(node))
+    return turned
+
+
+def told(grid: NavigationGrid) -> str:
+    """Return what to say of a grid."""
+    rows, columns = grid.shape
+    return (
+        f"navigation grid: {columns} x {rows} = {rows * columns:,} cells, "
+        f"{int(grid.walkable.sum()):,} places to stand"
+    )

@@ -134,14 +134,19 @@ def test_walking_resizing_hiding_and_turning(desktop):
 LATE_MESSAGE = """
 import ctypes, sys
 from engine3d.apps.viewer.sdl import close_video, open_video
-sdl = open_video()
 x11 = ctypes.CDLL("libX11.so.6")
 x11.XOpenDisplay.restype = ctypes.c_void_p
-display, window = ctypes.c_void_p(x11.XOpenDisplay(None)), ctypes.c_ulong(12345)
-message = (ctypes.c_long * 24)(33, 0, 1, 0, 0, 0, 32)
-getattr(x11, sys.argv[1])(display, window, 0, ctypes.c_long(0), message)
-x11.XSync(display, 0)
-close_video(sdl)
+
+def send():
+    display, window = ctypes.c_void_p(x11.XOpenDisplay(None)), ctypes.c_ulong(12345)
+    message = (ctypes.c_long * 24)(33, 0, 1, 0, 0, 0, 32)
+    getattr(x11, sys.argv[1])(display, window, 0, ctypes.c_long(0), message)
+    x11.XSync(display, 0)
+
+sdl = open_video()
+send()
+close_video(sdl)  # SDL's own handler is gone now
+send()
 print("still here")
 """
 

@@ -56,14 +56,14 @@ def open_video():
     if os.environ.get("DISPLAY") and not os.environ.get("WAYLAND_DISPLAY"):
         # Looking for Wayland as well would print its complaints on standard error.
         sdl.SDL_SetHint(sdl.SDL_HINT_VIDEODRIVER, b"x11")
+    if os.environ.get("DISPLAY"):
+        forgive_late_messages()
     if sdl.SDL_InitSubSystem(sdl.SDL_INIT_VIDEO) != 0:
         raise DisplayError(f"no screen (SDL: {last_error(sdl)})")
     driver = (sdl.SDL_GetCurrentVideoDriver() or b"").decode()
     if driver in SCREENLESS_DRIVERS and os.environ.get("SDL_VIDEODRIVER") != driver:
         close_video(sdl)
         raise DisplayError("no screen (the one that DISPLAY names does not answer)")
-    if driver == "x11":
-        forgive_late_messages()
     return sdl
 
 

@@ -35,11 +35,15 @@ _installed: list[ctypes._CFuncPtr] = []
 def forgive_late_messages() -> None:
     """Let messages to closed windows pass; every other error goes to the handler of before.
 
-    It is called once SDL runs its driver for X11, so the library is there.
+    It is called before SDL starts its video, which puts a handler of its own in front of this one
+    and takes it away again when it ends: the error comes at the very end.
     """
     if _installed:
         return
-    set_handler = ctypes.CDLL("libX11.so.6").XSetErrorHandler
+    try:
+        set_handler = ctypes.CDLL("libX11.so.6").XSetErrorHandler
+    except OSError:  # without the library SDL has no such screen
+        return
     set_handler.argtypes, set_handler.restype = [ctypes.c_void_p], ctypes.c_void_p
 
     def handle(display, error):

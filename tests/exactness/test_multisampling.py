@@ -178,6 +178,31 @@ def test_alpha_to_coverage_covers_half_at_the_cutoff(backend):
         assert (sharp[..., 0] == 255 * (alpha >= 0.4)).all()
 
 
+@pytest.mark.parametrize("to_coverage", [False, True])
+def test_what_hides_a_part_of_a_pixel_does_not_move_the_alpha_of_what_is_behind(to_coverage):
+    """R105, R108: edges of a mask, whose alpha changes within pixels, behind edges of others."""
+    rng = np.random.default_rng(0)
+    texture = e3d.Texture(rng.integers(0, 256, (16, 16, 4), np.uint8))
+    mask = e3d.Material(
+        texture=texture, alpha_mode="mask", alpha_cutoff=0.5, two_sided=True, unlit=True
+    )
+    solid = e3d.Material(color=(0.2, 0.4, 0.6), two_sided=True, unlit=True)
+    scene = e3d.Scene(background=(0, 0, 0))
+    for depth, material in ((0.0, solid), (0.5, mask)):
+        points = np.full((200, 3, 3), depth, np.float32)
+        sides = 0.3 * rng.uniform(-1, 1, (200, 3, 2))
+        points[..., :2] = rng.uniform(-1, 1, (200, 1, 2)) + sides
+        points = points.reshape(-1, 3)
+        faces = np.arange(600).reshape(-1, 3)
+        scene.add(e3d.Mesh(points, faces, uvs=4 * points[:, :2], materials=[material]))
+    pictures = []
+    for backend in ("scalar", *e3d.backends()):
+        with e3d.Renderer(64, 64, backend=backend, samples=16, antialias="msaa") as renderer:
+            frame = renderer.render(scene, clip_camera(), alpha_to_coverage=to_coverage)
+            pictures.append(frame.color)
+    assert all(np.array_equal(pictures[0], other) for other in pictures[1:])
+
+
 def test_numbers_of_samples_that_methods_lack():
     with pytest.raises(e3d.InvalidArgumentError, match="samples"):
         e3d.Renderer(8, 8, samples=8)

@@ -236,6 +236,7 @@ static int visit_masked(const e3d_tile_job *job, int all, e3d_alpha_action actio
     return !job->memory->shade.shown.count || action(job);
 }
 
-int e3d_alpha_cut(const e3d_tile_job *job) { return !job->masked || visit_masked(job, 0, show_list); }
+/* With multisampling all that a record covers is listed, hidden or not: it decides where in a pixel the alpha is found (R105). */
+int e3d_alpha_cut(const e3d_tile_job *job) { return !job->masked || visit_masked(job, job->in->pass->pattern != NULL, show_list); }
 
 int e3d_alpha_count(const e3d_tile_job *job) { return !job->masked || visit_masked(job, 1, count_list); }

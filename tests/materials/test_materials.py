@@ -38,7 +38,8 @@ def test_rows_make_the_attributes_the_signature_and_the_docstring():
     for name, row in PARAMETERS.items():
         assert keywords[name].default == row.default
         assert getattr(material, name) == row.kind.check(row.default, name)
-        assert f"    {name} : {row.words}\n        {row.doc}".rstrip() in Material.__doc__
+        entry = f"{name} : {row.words}\n    {row.doc}".rstrip()
+        assert entry in Material.__doc__
 
 
 def test_each_has_extras_of_its_own():

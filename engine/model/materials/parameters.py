@@ -203,8 +203,8 @@ def made_of_parameters(cls: Class) -> Class:
     made = inspect.unwrap(cls.__init__)
     made.__signature__ = inspect.Signature([mine, *keywords], return_annotation="None")
     if cls.__doc__ is not None:  # which -OO leaves out
-        entries = "\n    ".join(
-            f"{name} : {row.words}\n        {row.doc}".rstrip() for name, row in rows.items()
+        entries = "\n".join(
+            f"{name} : {row.words}\n    {row.doc}".rstrip() for name, row in rows.items()
         )
-        cls.__doc__ = cls.__doc__.replace("Each attribute below.", entries)
+        cls.__doc__ = inspect.cleandoc(cls.__doc__).replace("Each attribute below.", entries)
     return cls

@@ -37,10 +37,10 @@ CPU_FEATURES = {"sse41": "sse4.1", "avx2": "avx2", "avx512": "avx512bw"}
 CPU_LACKS_IT = 3  # exit status of the timer
 TIMERS = {"kernels": "benchmarks/kernel_timer.c", "frame": "benchmarks/frame_timer.c"}
 # What frames need beside the kernels, and of that what the kernels do.
-CORE = ["csrc/data/*.c", "csrc/frame/*/*.c", "csrc/reference/*.c"]
+CORE = ["csrc/base/*.c", "csrc/data/*.c", "csrc/frame/*/*.c", "csrc/reference/*.c"]
 CORE += ["csrc/light/dfg_table.c", "csrc/light/handle.c"]
 # What the kernels alone are linked with.
-TABLES = ["core_encode_tables", "core_srgb_tables", "environment_dfg_table", "environment_handle"]
+TABLES = ["data_encode_tables", "data_srgb_tables", "light_dfg_table", "light_handle"]
 # Kernel -> its heading, and the element that a time is given for.
 KERNELS = {
     "transform": ("transform", "vertex"),

@@ -70,7 +70,9 @@ class Format(NamedTuple):
 @functools.cache
 def readers() -> tuple[Reader, ...]:
     """Return all readers, sorted by name."""
-    found = [reader for module in modules() for reader in getattr(module, "READERS", ())]
+    found = [
+        reader for module in modules(writing=False) for reader in getattr(module, "READERS", ())
+    ]
     return tuple(sorted(found, key=lambda reader: reader.name))
 
 

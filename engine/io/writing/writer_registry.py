@@ -1,6 +1,7 @@
 """The one list of writers, and the choice among them by extension or name.
 
-A format is a module of `formats` with a tuple ``WRITERS``; adding the file registers it.
+A format is a module ``NAME_writer`` of `formats` with a tuple ``WRITERS``; adding the file
+registers it.
 """
 
 from __future__ import annotations
@@ -42,7 +43,9 @@ class Writer(NamedTuple):
 @functools.cache
 def writers() -> tuple[Writer, ...]:
     """Return all writers, sorted by name."""
-    found = [writer for module in modules() for writer in getattr(module, "WRITERS", ())]
+    found = [
+        writer for module in modules(writing=True) for writer in getattr(module, "WRITERS", ())
+    ]
     return tuple(sorted(found, key=lambda writer: writer.name))
 
 

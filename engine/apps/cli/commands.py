@@ -31,15 +31,6 @@ class Command(NamedTuple):
     is_quiet: bool = True
 
 
-def _add_run(command: argparse.ArgumentParser) -> None:
-    from .options import run_options, scene_options
-    from .options import shared_options as options
-
-    scene_options.add_viewed_scene(command)
-    run_options.add_run(command)
-    options.add_shared(command)
-
-
 def _add_edit(command: argparse.ArgumentParser) -> None:
     from . import values
 
@@ -50,15 +41,6 @@ def _add_edit(command: argparse.ArgumentParser) -> None:
         metavar="WxH",
         help="size of the window in pixels; 1600x900 by default",
     )
-
-
-def _add_render(command: argparse.ArgumentParser) -> None:
-    from .options import render_options, scene_options
-    from .options import shared_options as options
-
-    scene_options.add_viewed_scene(command)
-    render_options.add_render(command)
-    options.add_shared(command)
 
 
 def _add_info(command: argparse.ArgumentParser) -> None:
@@ -83,11 +65,12 @@ def _add_completion(command: argparse.ArgumentParser) -> None:
     command.add_argument("shell", choices=("bash", "zsh", "fish"), help="which shell")
 
 
-def _of_module(name: str) -> Callable[[argparse.ArgumentParser], None]:
-    """Return what imports a module of options, and lets it add them."""
+def _of_modules(*names: str) -> Callable[[argparse.ArgumentParser], None]:
+    """Return what imports modules of options, and lets each add its own."""
 
     def add(command: argparse.ArgumentParser) -> None:
-        importlib.import_module(f".options.{name}", __package__).add(command)
+        for name in names:
+            importlib.import_module(f".options.{name}", __package__).add(command)
 
     return add
 
@@ -96,7 +79,7 @@ COMMANDS = {
     "run": Command(
         "show a model or a scene in a window",
         "Show a model or a scene in a window. H in the window lists the keys.",
-        _add_run,
+        _of_modules("scene_options", "run_options", "shared_options"),
     ),
     "edit": Command(
         "put a scene together in a window with panels",
@@ -108,7 +91,7 @@ COMMANDS = {
         "draw a model or a scene to a file",
         "Draw a model or a scene to a picture (PNG, JPEG, TGA, WebP) or, with --turntable, to an "
         "animation (GIF, WebP, APNG).",
-        _add_render,
+        _of_modules("scene_options", "render_options", "shared_options"),
     ),
     "info": Command(
         "print what model files hold, or what a report of a bug should say",
@@ -120,39 +103,39 @@ COMMANDS = {
         "compare pictures, or folders of them",
         "Compare two pictures, or the pictures of two folders: what was drawn with what it should "
         "be. Exit status 1 if one changed. Options are those of reg-cli.",
-        _of_module("diff_options"),
+        _of_modules("diff_options"),
     ),
     "sheet": Command(
         "draw a model from several sides, with dimensions and a report",
         "Draw models from several sides on one sheet (PNG), with dimensions, axes and a scale, and "
         "report as JSON what shows where and how pixels and the world are related.",
-        _of_module("sheet_options"),
+        _of_modules("sheet_options"),
     ),
     "convert": Command(
         "write a model in another format",
         "Write a model as OBJ (with MTL), PLY or STL; the extension of OUT decides. A warning "
         "names what that format cannot hold. Coordinates do not change, whichever axis is up.",
-        _of_module("convert_options"),
+        _of_modules("convert_options"),
     ),
     "batch": Command(
         "draw many pictures, or a data set, with many processes",
         "Draw the pictures that a manifest lists (docs/batches.md tells its format), with many "
         "processes. A picture is there whole or not at all. Ends with status 1 if some could not "
         "be drawn; they are listed at the end.",
-        _of_module("batch_options"),
+        _of_modules("batch_options"),
     ),
     "city": Command(
         "generate a city and write it as a model",
         "Generate a city and write it as OBJ (with MTL), PLY or STL; the extension of OUT decides. "
         "The same options give the same bytes on every machine.",
-        _of_module("city_options"),
+        _of_modules("city_options"),
     ),
     "learn": Command(
         "show how a 3D engine works, lesson by lesson",
         "Show the lessons of the course in a window, step by step. Each is a short program that "
         "draws as a student would. Right and left arrow go from step to step, N and P from lesson "
         "to lesson, Q leaves.",
-        _of_module("learn_options"),
+        _of_modules("learn_options"),
         is_quiet=False,
     ),
     "bench": Command(
@@ -160,7 +143,7 @@ COMMANDS = {
         "Measure how fast this machine draws, stage by stage. The scenes are\n"
         "generated; nothing is downloaded. Scripts of the source distribution, in\n"
         "benchmarks/, draw charts of the results and compare with Mesa's llvmpipe.",
-        _of_module("bench_options"),
+        _of_modules("bench_options"),
         is_quiet=False,
     ),
     "completion": Command(

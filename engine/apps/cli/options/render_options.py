@@ -5,7 +5,7 @@ from __future__ import annotations
 from .. import values
 
 
-def add_render(parser) -> None:
+def add(parser) -> None:
     """Add the options of ``render`` alone."""
     group = parser.add_argument_group("output")
     group.add_argument(

@@ -7,7 +7,7 @@ import argparse
 from .. import values
 
 
-def add_run(parser) -> None:
+def add(parser) -> None:
     """Add the options of ``run`` alone."""
     group = parser.add_argument_group("window")
     group.add_argument(

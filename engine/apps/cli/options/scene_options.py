@@ -20,7 +20,7 @@ OF_MODELS = (
 )
 
 
-def add_viewed_scene(parser) -> None:
+def add(parser) -> None:
     """Add what to show."""
     group = parser.add_argument_group("what to show")
     group.add_argument(

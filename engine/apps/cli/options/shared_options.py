@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ..report import Report
 
 
-def add_shared(command) -> None:
+def add(command) -> None:
     """Add what ``run`` and ``render`` both have besides what to show and where it goes."""
     config.add_config(command)
     picture_options.add_picture(command)

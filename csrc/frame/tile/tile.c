@@ -273,7 +273,7 @@ static int draw_tile(const e3d_tiles_in *in, e3d_tiles_out *out, e3d_tile_memory
     const e3d_tile_job job = {.in = in,
                               .out = out,
                               .memory = memory,
-                              .shades = {&memory->shade, &memory->pixels, &memory->blank},
+                              .shades = {.memory = &memory->shade, .pixels = &memory->pixels, .blank = &memory->blank},
                               .visible = visible_of(in->pass, out, memory, number, state),
                               .tile = e3d_tile_at(in->pass->view, number),
                               .number = number,

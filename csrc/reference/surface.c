@@ -3,7 +3,7 @@
  * In:  a piece and a sample that it covers; everything is computed again from the mesh.
  * Out: ref_surface, in world and view space.
  * Rules: R19 and R20 (interpolation), R21 (position), R22 (normal), R23 and R24 (colours), R25 (uv);
- *      what textures add to it is in maps.c.
+ *      what textures add to it is in texture_slots.c.
  */
 #include "reference/arithmetic.h"
 #include "data/srgb_tables.h"

@@ -16,7 +16,6 @@ def modules():
 
 
 MODULES = modules()
-NATIVE = {path.stem for path in (ROOT / "engine/_native").glob("*.pyx")}
 
 
 @functools.cache

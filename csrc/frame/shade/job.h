@@ -81,7 +81,7 @@ typedef struct e3d_shade_out {
 typedef struct e3d_bucket {
     const e3d_material *material;
     int8_t face, flat, textured, by_vertex, by_instance, unshadowed;
-    int8_t mapped;                          /* by more than a texture of the base colour at the mesh's own coordinates: maps.h */
+    int8_t mapped;                          /* by more than a texture of the base colour at the mesh's own coordinates: texture_slots.h */
     int8_t has_uvs, has_uvs1, has_tangents; /* of mapped ones */
     int8_t transmits;                       /* R133 */
     int8_t lit, hidden;                     /* light falls on it; faces that a wireframe leaves out */

@@ -1,6 +1,6 @@
 """The lights of a frame: those of a scene that show, where they are now.
 
-Those that shine from all around become one polynomial (_ambient_terms.py), the others a list.
+Those that shine from all around become one polynomial (ambient_terms.py), the others a list.
 
 In: a `Scene` that is up to date. Out: the lights of a `NativeDrawList`, renewed where they changed:
 Python looks at every light that moved, and at the others' versions only.

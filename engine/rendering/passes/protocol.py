@@ -1,7 +1,7 @@
 """What a pass is: one step of a picture, such as its maps of shadows, its colours or their glow.
 
-In: a picture as far as earlier passes have it. Out: what the pass writes. _passes.py lists them in
-their order, and gives each the arrays that it declares.
+In: a picture as far as earlier passes have it. Out: what the pass writes. all_passes.py lists them
+in their order, and gives each the arrays that it declares.
 """
 
 from __future__ import annotations

@@ -113,8 +113,8 @@ COMMANDS = {
     ),
     "convert": Command(
         "write a model in another format",
-        "Write a model as OBJ (with MTL), PLY or STL; the extension of OUT decides. A warning "
-        "names what that format cannot hold. Coordinates do not change, whichever axis is up.",
+        "Write a model in the format that the extension of OUT names. A warning names what that "
+        "format cannot hold. Coordinates do not change, whichever axis is up.",
         _of_modules("convert_options"),
     ),
     "batch": Command(
@@ -126,7 +126,7 @@ COMMANDS = {
     ),
     "city": Command(
         "generate a city and write it as a model",
-        "Generate a city and write it as OBJ (with MTL), PLY or STL; the extension of OUT decides. "
+        "Generate a city and write it in the format that the extension of OUT names. "
         "The same options give the same bytes on every machine.",
         _of_modules("city_options"),
     ),

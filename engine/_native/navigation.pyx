@@ -73,7 +73,7 @@ cdef class NativeGrid:
             status = e3d_navigation_sort(self.handle)
         check(status)
 
-    def layers(self) -> tuple[NDArray, NDArray, NDArray, NDArray, NDArray]:
+    def layers(self) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]:
         """Return starts, heights, slopes along x and z, and what is walkable, as new arrays."""
         cdef e3d_navigation_view view
         e3d_navigation_get_view(self.handle, &view)

@@ -54,7 +54,7 @@ cdef object owned(void **data, size_t count, object dtype):
     return np.ndarray((count,), dtype, memory)
 
 
-def large_array(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray:
+def large_array(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray[Any]:
     """Return an array of any content, in large pages where it is large."""
     dtype = np.dtype(dtype)
     cdef size_t size = dtype.itemsize * int(np.prod(shape, dtype=object)), large
@@ -86,7 +86,7 @@ cdef object NDARRAY = np.ndarray
 cdef Py_ssize_t SMALL = 1024  # bytes: to copy them takes less time than to lend them
 
 
-def frozen(array: NDArray) -> NDArray:
+def frozen(array: NDArray[Any]) -> NDArray[Any]:
     """Return an array that nobody can write to: over the memory of this one, if only the caller has it.
 
     A flag alone would not do, because whoever has an array can set its flag again.

@@ -70,7 +70,7 @@ def ply_lengths_are(const uint8_t[::1] data not None, bint is_big_endian, size_t
 
 def copy_ply_lists(const uint8_t[::1] data not None, bint is_big_endian,
                    const int64_t[:, ::1] starts not None, const int64_t[:, ::1] sizes not None,
-                   size_t number, dtype: np.dtype) -> NDArray:
+                   size_t number, dtype: np.dtype[Any]) -> NDArray[Any]:
     """Copy the items of one list of each row (N, K), as `walk_ply_rows` found them, to (M,)."""
     cdef size_t rows = starts.shape[0], step = starts.shape[1], row, total = 0
     cdef size_t item_size = dtype.itemsize

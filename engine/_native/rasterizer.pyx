@@ -67,7 +67,7 @@ cdef tuple names_of_physical():
 
 
 # What the core wants to know of a physically based material.
-PHYSICAL_NUMBERS = names_of_physical()
+PHYSICAL_NUMBERS: tuple[str, ...] = names_of_physical()
 
 
 class LightTraits(NamedTuple):

@@ -180,7 +180,7 @@ cdef class FormReader:
         values = owned(<void **>&taken.values, rows * width, np.dtype(np.float64))
         return values.reshape(rows, width)
 
-    def take_marks(self) -> NDArray:
+    def take_marks(self) -> NDArray[Any]:
         """Hand over the marks since the last time: (N,) `MARK`."""
         cdef size_t count = self.read_text.mark_count * MARK.itemsize
         marks = owned(<void **>&self.read_text.marks, count, np.dtype(np.uint8)).view(MARK)

@@ -10,7 +10,7 @@ import math
 import operator
 from collections.abc import Callable
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeAlias, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ from .._native import rasterizer as _native
 from .._native.rasterizer import same_objects
 from ..base import linalg
 from ..base.calls import refuse_unknown
+from ..choices import Color, ColorSpace
 from ..errors import InvalidArgumentError
 from ..model.environments.environment import Environment
 from ..model.materials.display_colors import display_color, exact_display_color, shading_color
@@ -33,12 +34,18 @@ from .draw_list.placement import Placing
 from .options import (
     DEFAULTS,
     WHITE,
+    OptionKeywords,
     RenderKeywords,
     RenderOptions,
     check_outputs,
     core_numbers,
     shows_light,
 )
+
+Key = TypeVar("Key")
+Value = TypeVar("Value")
+#: Makes of a colour what the core takes.
+Convert: TypeAlias = Callable[[tuple[Any, ...], ColorSpace], Color]
 
 _NO_CLAMP = (0.0, math.inf)
 _MOST_BLURRED = 8.0  # the last level of an environment: E3D_ENVIRONMENT_LEVELS - 1
@@ -86,7 +93,7 @@ class FrameOptions:
     def __init__(
         self,
         scene: Scene,
-        color_space: str,
+        color_space: ColorSpace,
         options: RenderOptions,
         threads: int,
         height: int,
@@ -112,7 +119,7 @@ class FrameOptions:
                 **self._numbers,
                 **_background(scene, color_space, convert),
                 **_environment(scene),
-                "line_color": convert(options.line_color, color_space),
+                "line_color": convert(cast(Color, options.line_color), color_space),
                 "encode_srgb": encoded,
                 "decode_srgb": color_space == "srgb",
                 "ambient": ambient,
@@ -159,7 +166,7 @@ class FrameOptions:
         )
 
 
-def _background(scene: Scene, color_space: str, convert: Callable) -> dict[str, Any]:
+def _background(scene: Scene, color_space: ColorSpace, convert: Convert) -> dict[str, Any]:
     """What shows where nothing is drawn, as the core takes it; an environment comes beside."""
     background = scene.background
     if background is None:
@@ -168,7 +175,7 @@ def _background(scene: Scene, color_space: str, convert: Callable) -> dict[str, 
         return {"background": (0.0, 0.0, 0.0, 1.0)}
     if isinstance(background, Gradient):
         ends = background.top, background.bottom
-        top, bottom = (exact_display_color(color, color_space) for color in ends)
+        top, bottom = (exact_display_color(cast(Color, end), color_space) for end in ends)
         shown = {"gradient.shows": True, "gradient.top": top, "gradient.bottom": bottom}
         return {"background": (0.0, 0.0, 0.0, 1.0), **shown}
     return {"background": (*convert(background, color_space), 1.0)}
@@ -189,12 +196,12 @@ def _environment(scene: Scene) -> dict[str, float]:
     }
 
 
-def _fog(scene: Scene, color_space: str, options: RenderOptions):
+def _fog(scene: Scene, color_space: ColorSpace, options: RenderOptions) -> tuple[Any, ...] | None:
     """A scene's fog as the core takes it: colours, depths and density; or None."""
     fog = scene.fog
     if fog is None:
         return None
-    color = shading_color(fog.color, color_space)
+    color = shading_color(cast(Color, fog.color), color_space)
     lit = light_that_shows(color, options.tone_mapping) if options.mode == "lit" else color
     if isinstance(fog, Fog):
         return color, lit, (fog.near, fog.far), 0.0
@@ -208,15 +215,15 @@ class OptionsCache:
     colour. What is compared cannot change in place: a colour that could is not kept.
     """
 
-    def __init__(self, color_space: str, threads: int) -> None:
+    def __init__(self, color_space: ColorSpace, threads: int) -> None:
         self._color_space = color_space
         self._threads = threads
         # By outputs and the other keywords: their values, and what they name.
-        self._named: dict[tuple, tuple[tuple, RenderOptions]] = {}
+        self._named: dict[tuple[object, ...], tuple[tuple[Any, ...], RenderOptions]] = {}
         # By the identity of options: these, the scene's colours, and what they are together.
-        self._found: dict[int, tuple[tuple, FrameOptions]] = {}
+        self._found: dict[int, tuple[tuple[Any, ...], FrameOptions]] = {}
 
-    def named(self, options: RenderOptions | None, keywords: dict[str, Any]) -> RenderOptions:
+    def named(self, options: RenderOptions | None, keywords: OptionKeywords) -> RenderOptions:
         """Return the options of a call: those that it was given, or that its keywords name.
 
         Raises
@@ -238,7 +245,7 @@ class OptionsCache:
             )
         return options
 
-    def _of_keywords(self, keywords: dict[str, Any]) -> RenderOptions:
+    def _of_keywords(self, keywords: OptionKeywords) -> RenderOptions:
         names = keywords.pop("outputs", DEFAULTS.outputs)
         if type(names) is not tuple:
             names = check_outputs(names)
@@ -251,7 +258,8 @@ class OptionsCache:
         if known is not None and same_objects(given, known[0]):
             return known[1]
         refuse_unknown("render", keywords, RenderKeywords.__annotations__)
-        options = RenderOptions(outputs=names, **keywords)
+        keywords["outputs"] = names
+        options = RenderOptions(**keywords)
         if type(keywords.get("line_color", WHITE)) is tuple:
             _keep(self._named, key, (given, options))
         return options
@@ -266,7 +274,7 @@ class OptionsCache:
         return known[1]
 
 
-def _keep(cache: dict, key, value) -> None:
+def _keep(cache: dict[Key, Value], key: Key, value: Value) -> None:
     if len(cache) >= _MAX_KEPT:
         cache.clear()
     cache[key] = value

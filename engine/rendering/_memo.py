@@ -9,14 +9,14 @@ class Memo:
     __slots__ = ("_made_of", "_next")
 
     def __init__(self) -> None:
-        self._made_of: tuple | None = None
-        self._next: tuple | None = None
+        self._made_of: tuple[object, ...] | None = None
+        self._next: tuple[object, ...] | None = None
 
-    def is_of(self, *made_of) -> bool:
+    def is_of(self, *made_of: object) -> bool:
         """Return whether the thing was made of these values."""
         return self._made_of == made_of
 
-    def differs(self, *made_of) -> bool:
+    def differs(self, *made_of: object) -> bool:
         """Return whether the thing has to be made of these values; it is not, until `done`."""
         if self._made_of == made_of:
             return False

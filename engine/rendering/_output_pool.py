@@ -10,27 +10,31 @@ from __future__ import annotations
 
 import math
 import weakref
+from collections.abc import Iterable
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .frame import OUTPUTS
+
+#: Shape and dtype of arrays, by name.
+Shapes: TypeAlias = dict[str, tuple[tuple[int, ...], np.dtype[Any]]]
 
 _LINE = 64
 _MAX_FREE = 2  # frames' worth of blocks that are kept: a steady loop needs one or two
 
 
-def _aligned(size: int) -> np.ndarray:
+def _aligned(size: int) -> NDArray[np.uint8]:
     """Return fresh bytes that begin with a cache line: tiles then share few with neighbours."""
     room = np.empty(size + _LINE, np.uint8)
     start = -room.ctypes.data % _LINE
     return room[start : start + size]
 
 
-def shapes_of(
-    outputs: tuple[str, ...], width: int, height: int
-) -> dict[str, tuple[tuple[int, ...], np.dtype]]:
+def shapes_of(outputs: Iterable[str], width: int, height: int) -> Shapes:
     """Return shape and dtype of each output of a picture."""
-    wanted = {}
+    wanted: Shapes = {}
     for name in outputs:
         dtype, channels = OUTPUTS[name]
         wanted[name] = ((height, width, channels) if channels else (height, width), dtype)
@@ -41,11 +45,11 @@ class OutputPool:
     """Blocks of memory by their size in bytes."""
 
     def __init__(self) -> None:
-        self._free: dict[int, list[np.ndarray]] = {}
+        self._free: dict[int, list[NDArray[np.uint8]]] = {}
         self._a_frame: dict[int, int] = {}  # of each size, how many the last frame has
-        self._lent: dict[int, tuple[weakref.ref, np.ndarray]] = {}
+        self._lent: dict[int, tuple[weakref.ref[NDArray[np.uint8]], NDArray[np.uint8]]] = {}
 
-    def take(self, outputs: dict[str, tuple[tuple[int, ...], np.dtype]]) -> dict[str, np.ndarray]:
+    def take(self, outputs: Shapes) -> dict[str, np.ndarray]:
         """Return an array with arbitrary contents for each of a frame's shapes and dtypes."""
         arrays, self._a_frame = {}, {}
         for name, (shape, dtype) in outputs.items():
@@ -53,12 +57,12 @@ class OutputPool:
             self._a_frame[array.nbytes] = self._a_frame.get(array.nbytes, 0) + 1
         return arrays
 
-    def prepare(self, outputs: dict[str, tuple[tuple[int, ...], np.dtype]]) -> None:
+    def prepare(self, outputs: Shapes) -> None:
         """Have memory for a frame's arrays, and all its pages, before there is a frame."""
         for array in self.take(outputs).values():
             array.fill(0)
 
-    def _lend(self, shape: tuple[int, ...], dtype: np.dtype) -> np.ndarray:
+    def _lend(self, shape: tuple[int, ...], dtype: np.dtype[Any]) -> np.ndarray:
         size = dtype.itemsize * math.prod(shape)
         try:
             block = self._free[size].pop()
@@ -66,7 +70,7 @@ class OutputPool:
             block = _aligned(size)
         # The base of an array made from a memoryview is not an array, so NumPy does not look
         # through it: every view of a view holds on to `owner`, whose end is the end of them all.
-        owner = np.frombuffer(memoryview(block), np.uint8)
+        owner = np.frombuffer(block.data, np.uint8)
         reference = weakref.ref(owner, self._take_back)
         self._lent[id(reference)] = (reference, block)
         return np.ndarray(shape, dtype, owner)
@@ -75,7 +79,7 @@ class OutputPool:
         """Free what is not in use; sizes that come back later are not kept for long."""
         self._free.clear()
 
-    def _take_back(self, reference: weakref.ref) -> None:
+    def _take_back(self, reference: weakref.ref[NDArray[np.uint8]]) -> None:
         # Runs in whatever thread dropped the last array; each step is one atomic operation.
         _, block = self._lent.pop(id(reference))
         blocks = self._free.setdefault(block.nbytes, [])

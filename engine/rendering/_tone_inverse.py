@@ -8,6 +8,7 @@ then, as the background beside it does.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -99,7 +100,7 @@ def _agx_power(w: float) -> float:
 def _agx_stops(value: float, first: float) -> float:
     """Of which logarithm, plus ``first``, the curve makes a value: with the error of R119's."""
 
-    def curve(stops):
+    def curve(stops: float) -> float:
         whole = math.floor(stops)
         m = 2.0 ** (stops - whole)
         more = ((_AGX_LOG[3] * m + _AGX_LOG[2]) * m + _AGX_LOG[1]) * m + _AGX_LOG[0]
@@ -108,7 +109,7 @@ def _agx_stops(value: float, first: float) -> float:
     return _where(curve, value, -12.47393 - first, 4.026069 - first)
 
 
-def _where(function, value: float, low: float, high: float) -> float:
+def _where(function: Callable[[float], float], value: float, low: float, high: float) -> float:
     """Where a function, which rises, has a value; found by halving."""
     for _ in range(50):
         middle = 0.5 * (low + high)

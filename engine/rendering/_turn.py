@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import threading
 import weakref
+from collections.abc import Iterator
 from contextlib import contextmanager
 
+from .._native.rasterizer import NativeRenderer
 from ..base.system import after_fork
 from ..errors import RendererBusyError
 
@@ -33,14 +35,14 @@ class RendererTurn:
         Of which a forked process must let go.
     """
 
-    def __init__(self, native) -> None:
-        self._native = native
+    def __init__(self, native: NativeRenderer) -> None:
+        self._native: NativeRenderer | None = native
         self._lock = threading.RLock()  # who comes from within gets past it, and is told
         self._drawing = self._forked = False
         _turns.add(self)
 
     @contextmanager
-    def taken(self, *, closing: bool = False):
+    def taken(self, *, closing: bool = False) -> Iterator[None]:
         """Wait for the turn, and have it within the block; a renderer can be closed after a fork.
 
         Raises

@@ -7,7 +7,7 @@ in C (csrc/scene/view.c), in float64 and a fixed order of operations: the same b
 from __future__ import annotations
 
 import functools
-from typing import TypeAlias
+from typing import TypeAlias, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -52,7 +52,7 @@ class View:
             projection = previous.projection  # only the pose has changed
         else:
             projection = np.ascontiguousarray(camera.projection(width, height), np.float64)
-        self.projection = projection
+        self.projection: NDArray[np.float64] = projection
         self.camera = camera
         self._pose_bytes = pose.tobytes()
         self.view_from_world, self.clip_from_world = np.empty((4, 4)), np.empty((4, 4))
@@ -108,8 +108,9 @@ class View:
         middle = -(float(linalg.dot(row[:3], center)) + float(row[3]))
         reach = float(linalg.dot(np.abs(row[:3]), half))
         near, far = middle - reach, middle + reach
-        if self.camera.znear is not None:
-            near, far = max(near, self.camera.znear), min(far, self.camera.zfar)
+        nearest, farthest = self.camera.znear, self.camera.zfar
+        if nearest is not None and farthest is not None:
+            near, far = max(near, nearest), min(far, farthest)
         if not near < far or np.float32(near) == np.float32(far):
             near, far = middle - 0.5, middle + 0.5  # flat, or outside: any range shows as much
         return near, far
@@ -118,6 +119,16 @@ class View:
 def _rise(row: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
     """A row of a matrix times points with w = 1."""
     return linalg.dot(points, row[:3]) + row[3]
+
+
+@overload
+def find_camera(scene: Scene, camera: None) -> tuple[Camera, np.ndarray] | None: ...
+
+
+@overload
+def find_camera(
+    scene: Scene, camera: Node | tuple[Camera, ArrayLike]
+) -> tuple[Camera, np.ndarray]: ...
 
 
 def find_camera(scene: Scene, camera: CameraChoice) -> tuple[Camera, np.ndarray] | None:
@@ -140,7 +151,7 @@ def find_camera(scene: Scene, camera: CameraChoice) -> tuple[Camera, np.ndarray]
     """
     if camera is None:
         node = scene._camera_node()
-        return None if node is None else (node.object, node.world_pose)
+        return None if node is None else (cast(Camera, node.object), node.world_pose)
     if isinstance(camera, Node):
         if not isinstance(camera.object, Camera):
             raise InvalidArgumentError(

@@ -28,14 +28,14 @@ class Viewpoint:
         self._draw_list = draw_list
         self._view: View | None = None
         self._framing: tuple[Camera, np.ndarray] | None = None
-        self._framed = ()
+        self._framed: tuple[int, int, int] | None = None
 
     def look(self, scene: Scene, camera: CameraChoice, width: int, height: int) -> View:
         """Find the camera; a view that has not changed is used again."""
-        camera, pose = find_camera(scene, camera) or self._frame_scene(scene, width, height)
+        chosen, pose = find_camera(scene, camera) or self._frame_scene(scene, width, height)
         view = self._view
-        if view is None or not view.is_of(camera, pose, width, height):
-            view = self._view = View(camera, pose, width, height, view)
+        if view is None or not view.is_of(chosen, pose, width, height):
+            view = self._view = View(chosen, pose, width, height, view)
         return view
 
     def _frame_scene(self, scene: Scene, width: int, height: int) -> tuple[Camera, np.ndarray]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numbers
 import os
+from typing import cast
 
 from .._native import rasterizer as _native
 from ..base.numbers import shown
@@ -24,7 +25,8 @@ def backends() -> list[Backend]:
     ``"scalar"`` is the reference, one thread of obvious loops; ``"portable"`` runs on every
     processor; the others are named after the instruction set that they need. All draw the same.
     """
-    return [name for name, number in _native.BACKENDS.items() if _native.backend_available(number)]
+    known = cast("dict[Backend, int]", _native.BACKENDS)
+    return [name for name, number in known.items() if _native.backend_available(number)]
 
 
 def resolve_backend(backend: Backend = "auto") -> int:
@@ -37,7 +39,7 @@ def resolve_backend(backend: Backend = "auto") -> int:
     """
     source = "backend"
     if isinstance(backend, str) and backend == "auto":
-        backend = os.environ.get("ENGINE3D_BACKEND") or "auto"
+        backend = cast(Backend, os.environ.get("ENGINE3D_BACKEND") or "auto")
         source = "ENGINE3D_BACKEND"
         if backend == "auto":
             return _native.best_backend()

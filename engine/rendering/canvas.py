@@ -91,7 +91,7 @@ class Canvas:
         """Height in pixels."""
         return self._pixels.shape[0]
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[type[Canvas], tuple[NDArray[np.uint8]]]:
         # A shallow copy draws on the same pixels; what is pickled has its own.
         return type(self), (self._pixels,)
 
@@ -119,7 +119,8 @@ class Canvas:
 
     def point(self, x: float, y: float, color: Color) -> None:
         """Draw the pixel that holds (x, y)."""
-        self._surface.point(*_numbers("x and y", x, y), _color_bytes(color))
+        x, y = _numbers("x and y", x, y)
+        self._surface.point(x, y, _color_bytes(color))
 
     def points(self, xy: ArrayLike, color: Color | NDArray[np.uint8]) -> None:
         """Draw many points in one call.
@@ -168,8 +169,8 @@ class Canvas:
             If the width is not a positive number or the algorithm is unknown.
         """
         algorithm_code = _algorithm(native.LINE_ALGORITHMS, algorithm)
-        ends = _numbers("x0, y0, x1 and y1", x0, y0, x1, y1)
-        self._surface.line(*ends, _color_bytes(color), _width(width), algorithm_code)
+        x0, y0, x1, y1 = _numbers("x0, y0, x1 and y1", x0, y0, x1, y1)
+        self._surface.line(x0, y0, x1, y1, _color_bytes(color), _width(width), algorithm_code)
 
     def lines(
         self,
@@ -250,8 +251,8 @@ class Canvas:
             pixels are the same.
         """
         algorithm_code = _algorithm(native.TRIANGLE_ALGORITHMS, algorithm)
-        corners = (*_pair(a, "a"), *_pair(b, "b"), *_pair(c, "c"))
-        self._surface.triangle(*corners, _color_bytes(color), algorithm_code)
+        (ax, ay), (bx, by), (cx, cy) = _pair(a, "a"), _pair(b, "b"), _pair(c, "c")
+        self._surface.triangle(ax, ay, bx, by, cx, cy, _color_bytes(color), algorithm_code)
 
     def triangles(
         self,
@@ -300,8 +301,8 @@ class Canvas:
         fill : bool, optional
             Fill it, or draw its outermost pixels only.
         """
-        box = _numbers("x, y, width and height", x, y, width, height)
-        self._surface.rectangle(*box, _color_bytes(color), flag(fill, "fill"))
+        x, y, width, height = _numbers("x, y, width and height", x, y, width, height)
+        self._surface.rectangle(x, y, width, height, _color_bytes(color), flag(fill, "fill"))
 
     def text(
         self,
@@ -330,14 +331,14 @@ class Canvas:
             Draw the text on a box of this colour, which reaches ``2 * scale`` pixels beyond the
             text on all sides. A translucent one keeps text legible on any picture.
         """
-        place, codes, scale = _numbers("x and y", x, y), _codes(string), _scale(scale)
+        (x, y), codes, scale = _numbers("x and y", x, y), _codes(string), _scale(scale)
         if background is not None and string:
             width, height = native.text_size(codes, scale)
             pad = 2 * scale
-            left, top = np.floor(place) - pad
+            left, top = np.floor((x, y)) - pad
             _color_bytes(background, "background")
             self.rectangle(left, top, width + 2 * pad, height + 2 * pad, background)
-        self._surface.text(*place, codes, scale, _color_bytes(color))
+        self._surface.text(x, y, codes, scale, _color_bytes(color))
 
 
 def text_size(string: str, scale: int = 1) -> tuple[int, int]:
@@ -369,13 +370,13 @@ def _new_pixels(width: int, height: int) -> NDArray[np.uint8]:
     return pixels
 
 
-def _given_pixels(*args) -> NDArray[np.uint8]:
+def _given_pixels(*args: Any) -> NDArray[np.uint8]:
     if len(args) != 1 or not isinstance(args[0], np.ndarray):
         raise InvalidArgumentError("a Canvas takes a width and a height, or an array of pixels")
     return args[0]
 
 
-def _color_bytes(color: Color, what: str = "color") -> bytes:
+def _color_bytes(color: Color | NDArray[np.uint8], what: str = "color") -> bytes:
     try:
         rgba = bytes(tuple(color))
     except (TypeError, ValueError):

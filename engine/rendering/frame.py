@@ -20,7 +20,7 @@ from ..base.calls import checks_types
 from ..base.files.atomic_write import atomic_write, checked_path
 from ..base.foreign_names import refuses_foreign_names
 from ..base.validation import choose
-from ..choices import ImageFormat
+from ..choices import FrameCull, ImageFormat
 from ..errors import InvalidArgumentError, MissingOutputError
 from .picture_mark import TGA_MARK
 from .transparency import refuse_transparency
@@ -28,6 +28,7 @@ from .transparency import refuse_transparency
 if TYPE_CHECKING:
     from PIL import Image
 
+    from ._view import View
     from .canvas import Canvas
 
 # What a frame may hold, for type checkers. `Frame` has a property of each.
@@ -52,8 +53,8 @@ Output = Literal[
     "radiance",
 ]
 # Their dtypes and numbers of channels (0: no third axis), as the core lists them.
-OUTPUTS: dict[Output, tuple[np.dtype[Any], int]] = {
-    cast(Output, name): (np.dtype(dtype), channels if channels > 1 else 0)
+OUTPUTS: dict[str, tuple[np.dtype[Any], int]] = {
+    name: (np.dtype(dtype), channels if channels > 1 else 0)
     for name, (dtype, channels) in _native.OUTPUTS.items()
 }
 
@@ -85,7 +86,7 @@ class _Output(Generic[Scalar]):
     @overload
     def __get__(self, frame: Frame, owner: type | None = None) -> NDArray[Scalar]: ...
 
-    def __get__(self, frame, owner=None):
+    def __get__(self, frame: Frame | None, owner: type | None = None) -> Any:
         if frame is None:
             return self
         try:
@@ -177,17 +178,19 @@ class Frame:
         "behind it, as in the picture."
     )
 
-    def __init__(self, width: int, height: int, outputs: dict[Output, NDArray[Any]]) -> None:
+    def __init__(self, width: int, height: int, outputs: dict[str, NDArray[Any]]) -> None:
         self.width = width
         self.height = height
         self._stats: dict[str, Any] = {}
-        self._drawn: tuple | None = None  # nodes and a NativeStats, till they are read
-        self._seen: tuple | None = None  # the view and the side culled: what picking needs
+        # Till they are read: how many nodes there are, and what the core counted.
+        self._drawn: tuple[int, _native.NativeStats] | None = None
+        # What picking needs: the view and the side culled.
+        self._seen: tuple[View, FrameCull] | None = None
         self._outputs = outputs
 
     @property
     def outputs(self) -> tuple[Output, ...]:
-        return tuple(self._outputs)
+        return cast("tuple[Output, ...]", tuple(self._outputs))
 
     @property
     def stats(self) -> dict[str, Any]:
@@ -197,7 +200,7 @@ class Frame:
             self._stats, self._drawn = {"nodes": nodes, **drawn.as_dict()}, None
         return self._stats
 
-    def __getstate__(self) -> dict:
+    def __getstate__(self) -> dict[str, Any]:
         self._stats = self.stats  # what is left of a frame elsewhere
         return self.__dict__
 
@@ -267,7 +270,7 @@ class Frame:
             The file cannot be written.
         """
         suffix = os.path.splitext(checked_path(path))[1].lstrip(".").lower()
-        data = self.encode(suffix, **options)
+        data = self.encode(cast(ImageFormat, suffix), **options)
         with atomic_write(path) as file:
             file.write(data)
 

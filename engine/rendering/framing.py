@@ -106,7 +106,15 @@ def frame_scene(
 
 
 @np.errstate(all="ignore")
-def _frame(support: SupportFunction | None, bounds, aspect, yfov, direction, up, margin):
+def _frame(
+    support: SupportFunction | None,
+    bounds: ArrayLike,
+    aspect: float,
+    yfov: float,
+    direction: ArrayLike,
+    up: ArrayLike,
+    margin: float,
+) -> tuple[PerspectiveCamera, NDArray[np.float64]]:
     smallest, largest = _corners(bounds)
     y_slope = linalg.tan(0.5 * field_of_view(yfov))
     x_slope = y_slope * positive(aspect, "aspect")
@@ -158,7 +166,13 @@ def fit_frustum(
     return x, y, distance, edges
 
 
-def _middle(support, axes, center, edges: FrustumReach, distance: float) -> tuple[float, float]:
+def _middle(
+    support: SupportFunction,
+    axes: np.ndarray,
+    center: np.ndarray,
+    edges: FrustumReach,
+    distance: float,
+) -> tuple[float, float]:
     """Where the eye stands across its line of sight, to have as much room on both sides.
 
     From farther away than one of the ways needs, narrower planes touch there, and between them is
@@ -262,10 +276,11 @@ def frustum_reach(
             -back,
         ]
     )
-    return FrustumReach(*(support(directions) - linalg.dot(directions, center)), x_slope, y_slope)
+    to_right, left, top, bottom, near, far = support(directions) - linalg.dot(directions, center)
+    return FrustumReach(to_right, left, top, bottom, near, far, x_slope, y_slope)
 
 
-def _corners(bounds) -> tuple[np.ndarray, np.ndarray]:
+def _corners(bounds: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     array = floats(bounds, "bounds")
     if array.shape != (2, 3) or not np.isfinite(array).all():
         raise InvalidArgumentError("bounds must be two finite corners, (2, 3)")
@@ -274,7 +289,7 @@ def _corners(bounds) -> tuple[np.ndarray, np.ndarray]:
     return array[0], array[1]
 
 
-def _direction(value) -> np.ndarray:
+def _direction(value: ArrayLike) -> np.ndarray:
     array = floats(value, "direction")
     if array.shape != (3,) or not np.isfinite(array).all() or not array.any():
         raise InvalidArgumentError(f"direction must be a vector of 3 numbers, not {shown(value)}")

@@ -10,7 +10,7 @@ import functools
 import inspect
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
-from typing import TYPE_CHECKING, Any, TypedDict, get_args
+from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, get_args
 
 from .._native import rasterizer as _native
 from ..base.calls import Function, checks_types, hints_keywords
@@ -38,6 +38,11 @@ if TYPE_CHECKING:
     from ._view import CameraChoice
     from .frame import Frame
 
+#: Checks a value of so named an option, and returns what to keep.
+Check: TypeAlias = Callable[[Any, str], Any]
+#: What the values of an option are to the core.
+Numbers: TypeAlias = Mapping[Any, float]
+
 #: Bytes that a frame may take beside its outputs, and a few for each pixel: docs/reliability.md.
 MAX_FRAME_BYTES = 1 << 30
 WHITE = (1.0, 1.0, 1.0)
@@ -47,7 +52,7 @@ SIZE_UNITS: tuple[SizeUnit, ...] = get_args(SizeUnit)
 _ROWS = 1000  # of a picture on which sizes in "picture" are pixels
 
 
-def check_outputs(outputs: Iterable[str]) -> tuple[str, ...]:
+def check_outputs(outputs: Iterable[str]) -> tuple[Output, ...]:
     """Return the names of outputs, checked."""
     if isinstance(outputs, str) or not isinstance(outputs, Iterable):
         raise InvalidArgumentError(f"outputs must be a tuple of names, not {outputs!r}")
@@ -67,7 +72,7 @@ def size_in_picture(pixels: float, height: int) -> float:
     return pixels * _ROWS / height
 
 
-def _line_size(value, what: str) -> float:
+def _line_size(value: float, what: str) -> float:
     number = real(value)
     if not 0 < number <= MAX_LINE:
         raise InvalidArgumentError(
@@ -76,14 +81,14 @@ def _line_size(value, what: str) -> float:
     return number
 
 
-def _strength(value, what: str) -> float:
+def _strength(value: float, what: str) -> float:
     number = real(value)
     if not 0 <= number <= _MAX_BLOOM:
         raise InvalidArgumentError(f"{what} must be in 0..{_MAX_BLOOM:g}, not {shown(value)}")
     return number
 
 
-def _option(default: Any, check: Callable, core: str = "", numbers: Mapping | None = None) -> Any:
+def _option(default: Any, check: Check, core: str = "", numbers: Numbers | None = None) -> Any:
     """A row of `RenderOptions`: ``check(value, name)`` returns what to keep, or raises.
 
     ``core`` is the member of e3d_frame that takes it, if nothing else decides, and ``numbers`` what
@@ -92,7 +97,7 @@ def _option(default: Any, check: Callable, core: str = "", numbers: Mapping | No
     return field(default=default, metadata={"check": check, "core": core, "numbers": numbers})
 
 
-def _choice(default: str | None, numbers: Mapping, core: str) -> Any:
+def _choice(default: str | None, numbers: Numbers, core: str) -> Any:
     return _option(default, one_of(tuple(numbers)), core, numbers)
 
 
@@ -289,7 +294,7 @@ def shows_options(function: Function) -> Function:
         )
         for one in fields(RenderOptions)
     ]
-    function.__signature__ = signature.replace(parameters=own + rows)
+    vars(function)["__signature__"] = signature.replace(parameters=own + rows)
     return function
 
 

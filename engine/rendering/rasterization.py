@@ -87,7 +87,7 @@ def rasterize(
     return result
 
 
-def _float_rows(clip) -> np.ndarray:
+def _float_rows(clip: ArrayLike) -> np.ndarray:
     if not (isinstance(clip, np.ndarray) and clip.dtype == np.float32):
         clip = floats(clip, "clip")
     with np.errstate(over="ignore"):  # what float32 cannot hold is infinite and drops out
@@ -97,7 +97,7 @@ def _float_rows(clip) -> np.ndarray:
     return positions
 
 
-def _index_rows(faces, count: int) -> np.ndarray:
+def _index_rows(faces: ArrayLike, count: int) -> np.ndarray:
     indices = as_array(faces, "faces")
     if indices.size == 0:
         return np.empty((0, 3), np.int32)

@@ -7,7 +7,7 @@ gives the same bytes on every backend and every number of threads.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn, SupportsIndex
 
 from .._native import rasterizer as _native
 from ..base.calls import refuse_unknown
@@ -120,7 +120,7 @@ class Renderer(Closed):
         per_pixel = _SAMPLES[antialias][samples]
         memory = FrameMemory(*per_pixel, threads)
         is_srgb = color_space == "srgb"
-        self._passes: Passes | None = Passes(
+        self._passes = Passes(
             Tools(self._native, self._draw_list, memory, number, threads, is_srgb, per_pixel)
         )
         self._turn = RendererTurn(self._native)
@@ -159,7 +159,9 @@ class Renderer(Closed):
     def close(self) -> None:
         """Free what the renderer holds; frames stay valid. Drawing afterwards raises."""
         with self._turn.taken(closing=True):
-            self._native = self._draw_list = self._viewpoint = self._passes = None
+            # Nothing reads them again: `_check_drawable` refuses to draw.
+            self._native = self._draw_list = None  # type: ignore[assignment]
+            self._viewpoint = self._passes = None  # type: ignore[assignment]
             self._turn.let_go()
             self._pool.forget()
 
@@ -168,7 +170,7 @@ class Renderer(Closed):
         if self._passes is not None:
             self._passes.forget()
 
-    def __reduce_ex__(self, protocol):
+    def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
         raise TypeError("a Renderer cannot be copied or pickled: make one in each process")
 
     def __enter__(self) -> Renderer:
@@ -206,7 +208,7 @@ class Renderer(Closed):
             options = self._options.named(options, keywords)
             frame_options = self._options.get(scene, options, self._height)
             size = self._width, self._height
-            plan = self._passes.plan(options, options.outputs, size)
+            plan = self._passes.plan(options, tuple(options.outputs), size)
             headlight = (*frame_options.headlight, (0.0, 0.0, 1.0))
             listing, census = frame_options.listing(plan.listed), scene._census()
             try:
@@ -218,7 +220,7 @@ class Renderer(Closed):
             axis, multiple = _SAMPLES[self._antialias][self._samples]
             self._native.prepare(self._width * axis, self._height * axis, multiple or 1)
 
-    def _check_drawable(self, scene) -> None:
+    def _check_drawable(self, scene: object) -> None:
         if not isinstance(scene, (Scene, StagedScene)):
             raise InvalidArgumentError(f"scene must be a Scene, not {type(scene).__name__}")
         if self._native is None:
@@ -284,7 +286,7 @@ class Renderer(Closed):
     ) -> Frame:
         """Draw a frame in the turn that the caller has."""
         size = self._width, self._height
-        outputs = options.outputs if out is None else self._check_out(out).outputs
+        outputs = tuple(options.outputs if out is None else self._check_out(out).outputs)
         plan = self._passes.plan(options, outputs, size)
         frame = Frame(*size, self._pool.take(plan.outputs)) if out is None else out
         census, reads_scene = scene._census(), True

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .._native.scene_graph import SHOWN
 from ..base import linalg
@@ -27,7 +28,7 @@ _MAX_VERTICES = 1 << 23
 _MAX_INSTANCES = 1 << 16
 
 
-def support_of_box(bounds) -> SupportFunction:
+def support_of_box(bounds: ArrayLike) -> SupportFunction:
     """Return the support function of a box, (2, 3)."""
     low, high = np.asarray(bounds, np.float64)
     center, half = (low + high) * 0.5, (high - low) * 0.5
@@ -66,7 +67,7 @@ class _Placed:
         self._poses: list[np.ndarray] = []
         self._boxes: list[np.ndarray] = []
 
-    def add(self, obj, poses: np.ndarray) -> None:
+    def add(self, obj: Mesh | InstancedMesh, poses: np.ndarray) -> None:
         """Add an object at each of the world poses (K, 4, 4)."""
         if isinstance(obj, Mesh):
             if len(obj.positions):
@@ -111,7 +112,7 @@ class _Placed:
         return np.where(np.isfinite(farthest), farthest, most)
 
 
-def _in_their_own_space(poses, directions) -> tuple[np.ndarray, np.ndarray]:
+def _in_their_own_space(poses: np.ndarray, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Directions as (K, D, 3) in the spaces of K poses, and (K, D) what each origin reaches."""
     columns = (poses[:, np.newaxis, :3, k] for k in range(4))
     *local, offset = (linalg.dot(column, directions) for column in columns)

@@ -6,6 +6,8 @@ while somebody waits for the text of a cell.
 
 from __future__ import annotations
 
+from typing import Any
+
 from ..errors import Engine3DError
 from ..model.geometry.mesh import Mesh
 from ..model.motion.shown import shown_object
@@ -20,9 +22,8 @@ MOST_PARTS = 1_000_000
 
 def thumbnail(thing: Scene | Mesh) -> bytes | None:
     """Return a picture as the bytes of a PNG, or None."""
-    scene = thing
+    scene = Scene(background=None) if isinstance(thing, Mesh) else thing
     if isinstance(thing, Mesh):
-        scene = Scene(background=None)
         scene.add(thing)
     shown = [shown_object(node) for node in scene.nodes if node.shown]
     if not 0 < sum(map(_parts, shown)) <= MOST_PARTS:
@@ -34,7 +35,7 @@ def thumbnail(thing: Scene | Mesh) -> bytes | None:
     return frame.encode()
 
 
-def _parts(shown) -> int:
+def _parts(shown: Any) -> int:
     mesh = shown.mesh if isinstance(shown, InstancedMesh) else shown
     if not hasattr(mesh, "faces"):
         return 0  # a light, a camera, a group

@@ -8,7 +8,7 @@ thing NumPy spends ten times as long on calls as on numbers.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 Vector = tuple[float, float, float]
 Rows = Sequence[Sequence[float]]
@@ -35,13 +35,13 @@ def cross(a: Vector, b: Vector) -> Vector:
     return (ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
 
 
-def length(v: Vector) -> float:
+def length(v: Iterable[float]) -> float:
     """Return the Euclidean length."""
     x, y, z = v
     return math.sqrt(x * x + y * y + z * z)
 
 
-def normalize(v: Vector) -> Vector:
+def normalize(v: Iterable[float]) -> Vector:
     """Return a finite vector at length 1; the null vector stays null."""
     x, y, z = v
     largest = max(abs(x), abs(y), abs(z)) or 1.0

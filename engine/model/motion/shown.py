@@ -6,7 +6,7 @@ others that look at vertices.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,13 @@ from numpy.typing import NDArray
 from .posed_mesh import PosedMesh
 
 if TYPE_CHECKING:
+    from ..geometry.mesh import Mesh
+    from ..scene.instances import InstancedMesh
+    from ..scene.node_arrays import NodeArrays
     from ..scene.nodes import Node
+
+    #: What of a node is drawn.
+    Drawn: TypeAlias = Mesh | InstancedMesh | PosedMesh
 
 
 def shown_object(node: Node) -> Any:
@@ -32,7 +38,7 @@ def source_of(drawn: Any) -> Any:
     return drawn.mesh if isinstance(drawn, PosedMesh) else drawn
 
 
-def placing_poses(arrays, slots: np.ndarray) -> NDArray[np.float64]:
+def placing_poses(arrays: NodeArrays, slots: np.ndarray) -> NDArray[np.float64]:
     """Return the world poses (N, 4, 4) that place what nodes draw, as of the last update."""
     anchors = arrays.columns["anchor"][slots]
     poses = arrays.world_poses(np.where(anchors < 0, slots, anchors))

@@ -7,6 +7,8 @@ section 21.
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -109,3 +111,4 @@ class LightProbe(Closed):
 
 
 AMBIENT_LIGHTS = (HemisphereLight, LightProbe)
+AmbientLight: TypeAlias = HemisphereLight | LightProbe

@@ -46,7 +46,7 @@ def _far(value: float | None, what: str) -> float:
     return number
 
 
-def _check_range(camera) -> None:
+def _check_range(camera: PerspectiveCamera | OrthographicCamera | IntrinsicsCamera) -> None:
     if not camera.znear < camera.zfar:
         raise InvalidArgumentError(
             f"znear must be less than zfar: {camera.znear:g} and {camera.zfar:g}"
@@ -96,11 +96,14 @@ class Camera(Closed):
     )
     znear: float | None = None
     zfar: float | None = None
-    #: Depth of the far plane in clip space, divided by w; the near plane's is -1.
-    _far_depth = 1.0
 
     def __init__(self, projection: ArrayLike) -> None:
         self.matrix = matrix4(projection, "projection")
+
+    @property
+    def _far_depth(self) -> float:
+        """Depth of the far plane in clip space, divided by w; the near plane's is -1."""
+        return 1.0
 
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""

@@ -68,6 +68,10 @@ class DirectLight(CastsShadows):
         """What the core and files call such a light: a name of `DIRECT_LIGHTS`."""
         return next(name for name, kind in DIRECT_LIGHTS.items() if isinstance(self, kind))
 
+    def check(self) -> None:
+        """Raise unless ``shadow_radius`` and ``shadow_map_size`` go together."""
+        self._check_shadow()
+
 
 class DirectionalLight(DirectLight):
     """A light infinitely far away, such as the sun.
@@ -132,10 +136,6 @@ class DirectionalLight(DirectLight):
     ) -> None:
         self._keep(locals())
         self.check()
-
-    def check(self) -> None:
-        """Raise unless ``shadow_radius`` and ``shadow_map_size`` go together."""
-        self._check_shadow()
 
     @classmethod
     def sun(cls, sun_direction: ArrayLike, turbidity: float = 3.0) -> DirectionalLight:

@@ -25,10 +25,11 @@ from ...base.validation import finite_floats, flag, matrix4, text, vector3
 from ...errors import InvalidArgumentError
 from ..spatial.colliders import check_collider
 from ._pose_parts import PosePart
-from .node_arrays import CASTS_NONE, RECEIVES_NONE
+from .node_arrays import CASTS_NONE, RECEIVES_NONE, NodeArrays
 
 if TYPE_CHECKING:
     from ..geometry.mesh import Mesh
+    from ..motion.posed_mesh import PosedMesh
     from ..motion.skins import Skin
     from ..spatial.colliders import Collider
     from .cameras import Camera
@@ -71,6 +72,22 @@ class Node:
         "_world_pose",
         "_world_version",
     )
+
+    # Set by the scene, which has a row for each node.
+    _arrays: NodeArrays
+    _slot: int
+    # What bends the mesh, and what is drawn then.
+    _skin: Skin | None
+    _morph_weights: NDArray[np.float64] | None
+    _posed: PosedMesh | None
+    _drawn: SceneObject | PosedMesh | None
+    _collider: Collider | None
+    _taken: tuple[Node, ...]
+    _taken_with: Node | None
+    _pose: NDArray[np.float64]
+    _read_pose: NDArray[np.float64] | None
+    _translation: PosePart | None
+    _world_pose: NDArray[np.float64]
 
     def __init__(self, scene: Scene, obj: SceneObject | None, name: str, number: int) -> None:
         self._scene = scene

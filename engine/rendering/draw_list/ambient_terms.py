@@ -13,8 +13,9 @@ import math
 from collections.abc import Iterable, Sequence
 
 from ...base.linalg.single import normalize
+from ...choices import ColorSpace
 from ...model.materials.display_colors import shading_color
-from ...model.scene.ambient_lights import HemisphereLight, LightProbe
+from ...model.scene.ambient_lights import AmbientLight, HemisphereLight, LightProbe
 
 _CONSTANT = 0.5 / math.sqrt(math.pi)
 _LINEAR = math.sqrt(3.0 / math.pi) / 3.0
@@ -25,7 +26,7 @@ _Rows = list[list[float]]
 
 
 def ambient_terms(
-    lights: Iterable[tuple[HemisphereLight | LightProbe, Sequence[float]]], color_space: str
+    lights: Iterable[tuple[AmbientLight, Sequence[float]]], color_space: ColorSpace
 ) -> _Rows:
     """Return the sum of what lights add.
 
@@ -54,7 +55,7 @@ def ambient_terms(
     return total
 
 
-def _of_hemisphere(light: HemisphereLight, up: Sequence[float], color_space: str) -> _Rows:
+def _of_hemisphere(light: HemisphereLight, up: Sequence[float], color_space: ColorSpace) -> _Rows:
     """R131."""
     sky = shading_color(light.sky_color, color_space)
     ground = shading_color(light.ground_color, color_space)
@@ -63,13 +64,13 @@ def _of_hemisphere(light: HemisphereLight, up: Sequence[float], color_space: str
     return [half, *([part * c for c in rise] for part in up), *([0.0] * 3 for _ in range(5))]
 
 
-def _of_probe(light: LightProbe, axes: list[Sequence[float]]) -> _Rows:
+def _of_probe(light: LightProbe, axes: Sequence[Sequence[float]]) -> _Rows:
     """R132: each channel as a vector and a symmetric matrix without trace, which are turned."""
     channels = [_turned(values, axes) for values in light.coefficients.T.tolist()]
     return [list(row) for row in zip(*channels, strict=True)]
 
 
-def _turned(c: list[float], axes: list[Sequence[float]]) -> list[float]:
+def _turned(c: list[float], axes: Sequence[Sequence[float]]) -> list[float]:
     linear = [_LINEAR * c[3], _LINEAR * c[1], _LINEAR * c[2]]
     xy, yz, zx = _ACROSS * c[4], _ACROSS * c[5], _ACROSS * c[7]
     along, difference = _ALONG_Z * c[6], _ACROSS * c[8]

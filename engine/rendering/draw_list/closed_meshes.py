@@ -8,7 +8,7 @@ that is bent may turn its inside out: of these, both sides count.
 from __future__ import annotations
 
 import operator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -18,7 +18,7 @@ from ...model.geometry.mesh import Mesh
 
 _READ = ("positions", "faces", "joints", "morph_positions")
 _MOST_SIDES = 4096  # of holes: what has more is no volume with a few holes
-_known: WeakKeyDictionary[Mesh, tuple[list, Holes | None]] = WeakKeyDictionary()
+_known: WeakKeyDictionary[Mesh, tuple[list[Any], Holes | None]] = WeakKeyDictionary()
 
 
 class Holes(NamedTuple):
@@ -49,7 +49,7 @@ def holes_of(mesh: Mesh) -> Holes | None:
     """
     if any(material.alpha_mode != "opaque" for material in mesh.materials):
         return None
-    arrays = dict(mesh._arrays)
+    arrays: dict[str, Any] = dict(mesh._arrays)
     read = [arrays[name] for name in _READ]
     made_of, holes = _known.get(mesh, ([None], None))
     if not all(map(operator.is_, read, made_of)):

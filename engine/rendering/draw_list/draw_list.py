@@ -9,12 +9,14 @@ changed, at all of them only where many did, and never at every node.
 from __future__ import annotations
 
 import weakref
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from ..._native.rasterizer import NativeDrawList
 from ...base.dirty_tracking import Watch
+from ...choices import ColorSpace, Normals
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from ...model.motion.posed_mesh import PosedMesh
@@ -23,18 +25,25 @@ from ...model.scene.scene import Scene
 from .._view import View
 from .closed_meshes import Holes, holes_of
 from .instance_trees import InstanceTrees
-from .light_list import LightList
+from .light_list import Headlight, LightList
 from .material_list import MaterialList
 from .native_handles import MeshNeeds, native_mesh
 from .native_materials import make_textures
 from .placement import Placement, Placing
+
+if TYPE_CHECKING:
+    from ...model.motion.posing import Posing
+    from ...model.motion.shown import Drawn
+
+#: What a listed object is made of: a mesh, and the instances that it is drawn at.
+Things: TypeAlias = tuple[()] | tuple[Mesh] | tuple[Mesh, InstancedMesh]
 
 
 class Listing(NamedTuple):
     """How a picture's objects are listed."""
 
     needs: MeshNeeds  # which of the two kinds of normals a mesh needs is decided for each mesh
-    normals: str
+    normals: Normals
     by_mesh: bool  # materials of meshes that enclose no volume show both sides
 
 
@@ -56,25 +65,27 @@ class DrawList:
     lights : LightList
     """
 
-    def __init__(self, color_space: str, threads: int) -> None:
+    def __init__(self, color_space: ColorSpace, threads: int) -> None:
         self.native = NativeDrawList()
         self._color_space, self._threads = color_space, threads
-        self._scene = lambda: None
+        self._scene: Callable[[], Scene | None] = lambda: None
         self._objects_version = -1
-        self._listing: Listing | None = None
+        self._listing = Listing(MeshNeeds(), "auto", by_mesh=False)
         self._untextured: frozenset[Material] = frozenset()
         # Numbers of the objects that enclose a volume.
         self._closed: set[int] = set()
         self._with_holes: set[int] = set()  # of these, those that have holes
         self._watch = Watch()
-        self._changed: list = []  # of what is watched, since the list was made
+        self._changed: list[Any] = []  # of what is watched, since the list was made
         self._materials = MaterialList(self.native, color_space, self._watch)
-        self._listed: list = []  # what the objects were made of, by number: things, materials' ids
+        # What the objects were made of, by number: things, materials' ids.
+        self._listed: list[tuple[Things, tuple[int, ...]]] = []
         self._left = 0  # how often an object went, or took other materials, since all were listed
         self._marks = False
         self._trees = InstanceTrees(self.native)
         self._placement = Placement(self.native)
-        self._posed: tuple | None = None  # what poses the scene's meshes, and its moment
+        # What poses the scene's meshes, and its moment.
+        self._posed: tuple[Posing, int] | None = None
         self.lights = LightList(self.native, color_space)
         self.renewals = 0
 
@@ -83,7 +94,9 @@ class DrawList:
         """Grows whenever `update` finds that something else is to be drawn, or elsewhere."""
         return self._placement.changes
 
-    def update(self, scene: Scene, listing: Listing, headlight, placing: Placing) -> None:
+    def update(
+        self, scene: Scene, listing: Listing, headlight: Headlight, placing: Placing
+    ) -> None:
         """Make the native list draw ``scene``.
 
         Parameters
@@ -222,7 +235,7 @@ class DrawList:
         materials = {material for mesh in meshes for material in mesh.materials}
         make_textures(materials - self._untextured, self._color_space, self._threads)
 
-    def _set_object(self, number: int, obj) -> None:
+    def _set_object(self, number: int, obj: Drawn | None) -> None:
         """List a mesh, once or at many poses, or nothing, under a number or the next one."""
         self._trees.note(number, obj)
         self._closed.discard(number)
@@ -232,7 +245,7 @@ class DrawList:
             self._note(number, (), ())
             return
         mesh = obj if isinstance(obj, Mesh) else obj.mesh
-        things = (mesh, obj) if isinstance(obj, InstancedMesh) else (mesh,)
+        things: Things = (mesh, obj) if isinstance(obj, InstancedMesh) else (mesh,)
         for thing in things:
             self._watch.add(thing)  # before it is read
         holes = self._holes_of(obj)
@@ -254,7 +267,7 @@ class DrawList:
         if isinstance(obj, InstancedMesh):
             self._set_instances(number, obj)
 
-    def _holes_of(self, obj) -> Holes | None:
+    def _holes_of(self, obj: Drawn) -> Holes | None:
         """The holes of an object that encloses a volume but for them."""
         if not self._listing.by_mesh or isinstance(obj, PosedMesh):
             return None
@@ -264,7 +277,7 @@ class DrawList:
         return holes
 
     def _set_instances(self, number: int, obj: InstancedMesh) -> None:
-        colors = obj.colors
+        colors: Any = obj.colors  # of either type, as asked below
         eight_bit = colors is not None and colors.dtype == np.uint8
         self.native.set_instances(
             number,
@@ -274,7 +287,7 @@ class DrawList:
             obj._ids,
         )
 
-    def _note(self, number: int, things: tuple, surfaces: tuple) -> None:
+    def _note(self, number: int, things: Things, surfaces: tuple[int, ...]) -> None:
         """Remember what would make a listed object out of date."""
         if number == len(self._listed):
             self._listed.append(((), ()))
@@ -289,7 +302,7 @@ class DrawList:
                     self._watch.remove(thing)
 
 
-def _needs_of(mesh: Mesh, needs: MeshNeeds, normals: str) -> MeshNeeds:
+def _needs_of(mesh: Mesh, needs: MeshNeeds, normals: Normals) -> MeshNeeds:
     """Which arrays of this mesh are read, once its materials' flat shading is known."""
     smooth, flat = needs.vertex_normals, needs.face_normals
     if normals == "auto":

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from ..._native.rasterizer import NativeDrawList
 from ...model.scene.instances import MANY, InstancedMesh
+
+if TYPE_CHECKING:
+    from ...model.motion.shown import Drawn
 
 _SETTLED = 3  # frames in which they did not change
 
@@ -23,14 +28,14 @@ class InstanceTrees:
         self._frames = 0
         self.made = False
 
-    def note(self, number: int, obj) -> None:
+    def note(self, number: int, obj: Drawn | None) -> None:
         """Take notice of an object that is listed under a number from now on."""
-        is_many = isinstance(obj, InstancedMesh) and len(obj) >= MANY
-        if is_many or number in self._many:
+        many = obj if isinstance(obj, InstancedMesh) and len(obj) >= MANY else None
+        if many is not None or number in self._many:
             self._unsettle()
             self._many.pop(number, None)
-            if is_many:
-                self._many[number] = obj
+            if many is not None:
+                self._many[number] = many
 
     def settle(self) -> bool:
         """Make the trees, if it is time; return whether they were made now."""

@@ -10,14 +10,17 @@ wherever it is in the tree, if it glows all over and the light is in the middle 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ..._native.scene_graph import SHOWN
+from ...model.materials.material import Material
 from ...model.scene.node_arrays import NodeArrays
 from ...model.scene.scene import Scene
 
 
-def lamp_slots(scene: Scene, light: int, place) -> tuple[int, ...]:
+def lamp_slots(scene: Scene, light: int, place: Sequence[float]) -> tuple[int, ...]:
     """Return the slots of what lets a light pass.
 
     Parameters
@@ -46,12 +49,12 @@ def lamp_slots(scene: Scene, light: int, place) -> tuple[int, ...]:
     return tuple(found)
 
 
-def _emits(material) -> bool:
+def _emits(material: Material) -> bool:
     strength = material.emissive_strength if material.is_physical else 1.0
     return strength > 0.0 and any(component > 0 for component in material.emissive)
 
 
-def _glows(material) -> bool:
+def _glows(material: Material) -> bool:
     """Whether a material emits all over, as a texture can't tell."""
     return _emits(material) and material.emissive_texture is None
 

@@ -9,17 +9,25 @@ Python looks at every light that moved, and at the others' versions only.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import TypeAlias, cast
 
 import numpy as np
 
 from ..._native.rasterizer import FALLOFFS, LIGHT_KINDS, LIGHT_TRAITS, NativeDrawList
 from ..._native.scene_graph import SHOWN
 from ...base.linalg.single import normalize
+from ...choices import ColorSpace
 from ...model.materials.display_colors import shading_color
-from ...model.scene.ambient_lights import AMBIENT_LIGHTS
-from ...model.scene.lights import DirectionalLight
+from ...model.scene.ambient_lights import AMBIENT_LIGHTS, AmbientLight
+from ...model.scene.lights import DirectionalLight, DirectLight
 from ...model.scene.scene import Scene
 from .ambient_terms import ambient_terms
+
+#: Unit direction towards a light that is turned, and the place of one that has a position.
+Where: TypeAlias = tuple[Sequence[float] | None, Sequence[float] | None]
+#: Colour, lux and direction towards the light of a scene that has none.
+Headlight: TypeAlias = tuple[Sequence[float], Sequence[float], Sequence[float]]
 
 _HEADLIGHT = DirectionalLight()
 _NOT_KNOWN = (object(),)  # equal to nothing that a scene has, not even to no light at all
@@ -35,32 +43,34 @@ class LightList:
         How 8-bit colours are read.
     """
 
-    def __init__(self, native: NativeDrawList, color_space: str) -> None:
+    def __init__(self, native: NativeDrawList, color_space: ColorSpace) -> None:
         self._native = native
         self._color_space = color_space
-        self._slots_of: tuple | None = None
+        self._slots_of: tuple[object, ...] | None = None
         self._slots = np.empty(0, np.int32)
-        self._lights: list = []  # not their nodes, which hold the scene
+        self._lights: list[DirectLight] = []  # not their nodes, which hold the scene
         self._around_slots = np.empty(0, np.int32)
-        self._around: list = []  # likewise
+        self._around: list[AmbientLight] = []  # likewise
         self.forget()
 
     def forget(self) -> None:
         """List all lights anew at the next update."""
-        self._listed: tuple | None = None
+        self._listed: tuple[object, ...] | None = None
         self._shown = np.empty(0, bool)
-        self._at: dict[int, tuple] = {}  # of each light that shows what it is, and where
+        # Of each light that shows what it is, and where.
+        self._at: dict[int, tuple[DirectLight, Where]] = {}
         self._changes = 0
         self._placed = np.empty(0, np.uint32)
-        self._added: tuple = _NOT_KNOWN
+        self._added: tuple[object, ...] = _NOT_KNOWN
 
-    def update(self, scene: Scene, headlight) -> None:
+    def update(self, scene: Scene, headlight: Headlight | None) -> None:
         """Make the native lights those of a scene; ``headlight`` is for one that has none."""
         self._find_slots(scene)
-        none = None, None, None
         self._add_around(scene)
-        color, lux, towards = none if self._lights or self._around else headlight or none
-        listed = self._slots_of, [light.version for light in self._lights], color, lux
+        if self._lights or self._around:
+            headlight = None
+        versions = [light.version for light in self._lights]
+        listed = self._slots_of, versions, headlight and headlight[:2]
         same, self._listed = self._listed == listed, None  # for if anything below raises
         if self._lights:
             changes = scene._arrays.updated
@@ -70,11 +80,11 @@ class LightList:
         elif not same:
             self._native.clear_lights()
             self._at = {}
-            if towards is not None:
-                self._add_native(color, lux, _HEADLIGHT)
-                self._native.turn_light(0, towards)
-        elif towards is not None:
-            self._native.turn_light(0, towards)
+            if headlight is not None:
+                self._add_native(*headlight[:2], _HEADLIGHT)
+                self._native.turn_light(0, headlight[2])
+        elif headlight is not None:
+            self._native.turn_light(0, headlight[2])
         self._listed = listed
 
     def _renew(self, scene: Scene, same: bool) -> None:
@@ -100,7 +110,7 @@ class LightList:
 
     def _add_around(self, scene: Scene) -> None:
         """Sum up the light from all around, where anything of it changed."""
-        added: tuple = ()
+        added: tuple[object, ...] = ()
         if self._around:
             columns = scene._arrays.columns
             shown = (columns["flags"][self._around_slots] & SHOWN != 0).tolist()
@@ -126,20 +136,20 @@ class LightList:
             nodes = list(scene._lights.values())
             around = [node for node in nodes if isinstance(node.object, AMBIENT_LIGHTS)]
             others = [node for node in nodes if not isinstance(node.object, AMBIENT_LIGHTS)]
-            self._lights = [node.object for node in others]
+            self._lights = [cast(DirectLight, node.object) for node in others]
             self._slots = np.array([node._slot for node in others], np.int32)
-            self._around = [node.object for node in around]
+            self._around = [cast(AmbientLight, node.object) for node in around]
             self._around_slots = np.array([node._slot for node in around], np.int32)
             self._slots_of = slots_of
 
-    def _add(self, light) -> None:
-        color = shading_color(light.color, self._color_space)
-        color = [component * light.intensity for component in color]
+    def _add(self, light: DirectLight) -> None:
+        shading = shading_color(light.color, self._color_space)
+        color = [component * light.intensity for component in shading]
         lux = color if light.unit == "photometric" else [math.pi * component for component in color]
         light.check()
         self._add_native(color, lux, light)
 
-    def _add_native(self, color, lux, light) -> None:
+    def _add_native(self, color: Sequence[float], lux: Sequence[float], light: DirectLight) -> None:
         """Add a light; what its kind does not have is as with those that reach everywhere."""
         falloff = FALLOFFS[getattr(light, "falloff", "gltf")]
         cone = light.cone() if hasattr(light, "cone") else (0.0, 0.0)
@@ -147,7 +157,7 @@ class LightList:
         kind = LIGHT_KINDS[light.kind]
         self._native.add_light(kind, color, lux, range=reach, falloff=falloff, cone=cone)
 
-    def placed(self) -> list[tuple]:
+    def placed(self) -> list[tuple[int, DirectLight, Where]]:
         """Return the lights that show: number, light, and the pair of where it shines from.
 
         That is the unit direction towards a light that is turned, and the place of one that has a
@@ -159,16 +169,17 @@ class LightList:
         """Return the slot of a light that shows, by its number."""
         return int(self._slots[self._shown][number])
 
-    def _place(self, number: int, light, pose: list[float]) -> None:
+    def _place(self, number: int, light: DirectLight, pose: list[float]) -> None:
         """Put a light where the first three rows of its world pose say."""
-        towards, position = None, None
+        towards: Sequence[float] | None = None
+        position: Sequence[float] | None = None
         traits = LIGHT_TRAITS[light.kind]
         if traits.has_position:
             position = pose[3::4]
             self._native.move_light(number, position)
             if traits.is_turned:
                 towards = [pose[2], pose[6], pose[10]]
-        else:
+        elif isinstance(light, DirectionalLight):
             x, y, z = light.direction.tolist()
             towards = [-(pose[k] * x + pose[k + 1] * y + pose[k + 2] * z) for k in (0, 4, 8)]
         if towards is not None:

@@ -7,9 +7,11 @@ at their textures.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
 
 from ..._native.rasterizer import NativeDrawList
 from ...base.dirty_tracking import Watch
+from ...choices import ColorSpace
 from ...model.materials.material import Material, placed_textures_of
 from ...model.materials.textures import Texture
 from .native_materials import set_material
@@ -31,7 +33,7 @@ class MaterialList:
         Set without their textures.
     """
 
-    def __init__(self, native: NativeDrawList, color_space: str, watch: Watch) -> None:
+    def __init__(self, native: NativeDrawList, color_space: ColorSpace, watch: Watch) -> None:
         self._native, self._color_space, self._watch = native, color_space, watch
         self.untextured: frozenset[Material] = frozenset()
         # Where they are, as whose, and whether both sides show anyway.
@@ -65,7 +67,7 @@ class MaterialList:
         """Return whether meshes with a material are to be listed anew, for it changed so much."""
         return self._traits[material] != _traits_of(material)
 
-    def renew(self, changed: Iterable) -> None:
+    def renew(self, changed: Iterable[Any]) -> None:
         """Set the materials that changed, and those of textures that did."""
         changed = list(changed)
         materials = {thing for thing in changed if isinstance(thing, Material)}

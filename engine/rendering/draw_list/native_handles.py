@@ -8,7 +8,7 @@ pictures need (normals, edges) are added to a mesh's handle when one does.
 from __future__ import annotations
 
 import operator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary
 
 from ..._native.rasterizer import (
@@ -18,6 +18,7 @@ from ..._native.rasterizer import (
     NativeMesh,
     NativeTexture,
 )
+from ...choices import ColorSpace
 from ...model.environments.environment import Environment
 from ...model.geometry.creases import creased_arrays, has_creases
 from ...model.geometry.mesh import Mesh
@@ -34,9 +35,13 @@ class MeshNeeds(NamedTuple):
     edges: bool = False
 
 
-_meshes: WeakKeyDictionary[Mesh, tuple[dict, dict, NativeMesh]] = WeakKeyDictionary()
+_meshes: WeakKeyDictionary[Mesh, tuple[dict[str, Any], dict[str, Any], NativeMesh]] = (
+    WeakKeyDictionary()
+)
 _environments: WeakKeyDictionary[Environment, NativeEnvironment] = WeakKeyDictionary()
-_textures: WeakKeyDictionary[Texture, dict[bool, tuple[tuple, NativeTexture]]] = WeakKeyDictionary()
+_textures: WeakKeyDictionary[Texture, dict[bool, tuple[tuple[Any, ...], NativeTexture]]] = (
+    WeakKeyDictionary()
+)
 
 
 def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
@@ -44,14 +49,14 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
 
     Threads that ask at once for the first time may each make one: these are alike.
     """
-    arrays = dict(mesh._arrays)  # at one moment: another may be assigned meanwhile
+    arrays: dict[str, Any] = dict(mesh._arrays)  # at one moment: another may be assigned meanwhile
     angle = mesh.crease_angle
     state = {**arrays, "crease_angle": angle}
-    made_of, drawn, native = _meshes.get(mesh, (None, None, None))
-    if made_of is None or not all(map(operator.is_, state.values(), made_of.values())):
-        drawn = drawn_arrays(mesh, arrays)
-        native = make_native_mesh(drawn, threads)
-        _meshes[mesh] = state, drawn, native
+    known = _meshes.get(mesh)
+    if known is None or not all(map(operator.is_, state.values(), known[0].values())):
+        made = drawn_arrays(mesh, arrays)
+        known = _meshes[mesh] = state, made, make_native_mesh(made, threads)
+    _, drawn, native = known
     if needs.vertex_normals and "normals" not in native.attributes:
         if has_creases(arrays, angle):
             creased = creased_arrays(arrays, vertex_attributes(Mesh), angle)
@@ -73,19 +78,19 @@ def is_new(texture: Texture) -> bool:
     return texture not in _textures
 
 
-def native_texture(texture: Texture, color_space: str) -> NativeTexture:
+def native_texture(texture: Texture, color_space: ColorSpace) -> NativeTexture:
     """Return the handle of a texture as it is now, for renderers of one colour space."""
     pixels = texture.pixels
     sampling = texture.filter, texture.side_wraps, texture.anisotropy, texture.lod_bias
     decode = color_space == "srgb" and texture.color_space == "srgb"
     natives = _textures.setdefault(texture, {})
-    made_of, native = natives.get(decode, (None, None))
-    if made_of is None or made_of[0] is not pixels or made_of[1:] != sampling:
+    known = natives.get(decode)
+    if known is None or known[0][0] is not pixels or known[0][1:] != sampling:
         filter, sides, *level = sampling
         wraps = (WRAPS[name] for name in sides)
         native = NativeTexture(pixels, decode, FILTERS[filter], *wraps, *level)
-        natives[decode] = (pixels, *sampling), native
-    return native
+        known = natives[decode] = (pixels, *sampling), native
+    return known[1]
 
 
 def native_environment(environment: Environment, threads: int) -> NativeEnvironment:

@@ -13,8 +13,10 @@ from typing import Any
 from ..._native.rasterizer import ALPHA_MODES, PHYSICAL_NUMBERS, NativeDrawList, NativeTexture
 from ...base import linalg
 from ...base.side_by_side import side_by_side
+from ...choices import ColorSpace
 from ...model.materials.display_colors import shading_color
 from ...model.materials.material import PARAMETERS, Material, placed_textures_of
+from ...model.materials.parameters import TextureSlot
 from ...model.materials.textures import PlacedTexture
 from .native_handles import is_new, native_texture
 
@@ -33,7 +35,7 @@ def set_material(
     id: int,
     material: Material,
     textures: dict[str, PlacedTexture],
-    color_space: str,
+    color_space: ColorSpace,
     two_sided: bool,
 ) -> None:
     """Set a material of a native draw list, or the next one.
@@ -74,7 +76,7 @@ def set_material(
     native.set_material(index, numbers, physical, uses)
 
 
-def make_textures(materials: Iterable[Material], color_space: str, threads: int) -> None:
+def make_textures(materials: Iterable[Material], color_space: ColorSpace, threads: int) -> None:
     """Make the first handles of large textures side by side, before materials ask one by one.
 
     Parameters
@@ -96,19 +98,20 @@ def make_textures(materials: Iterable[Material], color_space: str, threads: int)
         side_by_side(lambda one: native_texture(*one), list(wanted), count)
 
 
-def _space(slot: str, color_space: str) -> str:
-    return color_space if PARAMETERS[slot].is_color else "linear"
+def _space(slot: str, color_space: ColorSpace) -> ColorSpace:
+    row = PARAMETERS[slot]
+    return color_space if isinstance(row, TextureSlot) and row.is_color else "linear"
 
 
 def _use(
-    slot: str, placed: PlacedTexture, color_space: str
+    slot: str, placed: PlacedTexture, color_space: ColorSpace
 ) -> tuple[NativeTexture, int, list[float] | None]:
     """A texture of a slot: its handle, its set of coordinates, and the matrix of these."""
     handle = native_texture(placed.texture, _space(slot, color_space))
     return handle, placed.uv_set, placed.matrix.ravel().tolist() if placed.is_moved else None
 
 
-def _physical(material: Material, color_space: str) -> dict[str, Any]:
+def _physical(material: Material, color_space: ColorSpace) -> dict[str, Any]:
     """The numbers of a physically based material."""
     root = (1.0 - material.ior) / (1.0 + material.ior)
     tint = shading_color(material.specular_color, color_space)

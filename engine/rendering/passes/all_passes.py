@@ -13,14 +13,14 @@ import numpy as np
 
 from .. import options as limits
 from .._frame_memory import Use
-from .._output_pool import OutputPool, shapes_of
+from .._output_pool import OutputPool, Shapes, shapes_of
 from ..frame import OUTPUTS
 from ..options import RenderOptions
 from .ambient_occlusion import AmbientOcclusion
 from .bloom import Bloom
 from .exact_shadows import ExactShadows
 from .output_passes import SURFACE, ColorPass, SurfacePass
-from .protocol import Pass, Shapes, Tools
+from .protocol import Pass, Tools
 from .shadow_maps import ShadowMaps
 
 _MAX_KEPT = 16  # plans of programs that draw several kinds of pictures in turns
@@ -91,7 +91,7 @@ class Passes:
         self._all = [make(tools) for make in PASSES]
         self._pool = OutputPool()
         # By the identity of options, and what else decides: these, the plan, and all its memory.
-        self._plans: dict[tuple, tuple[RenderOptions, Plan, list[Use]]] = {}
+        self._plans: dict[tuple[object, ...], tuple[RenderOptions, Plan, list[Use]]] = {}
 
     def plan(self, options: RenderOptions, outputs: tuple[str, ...], size: tuple[int, int]) -> Plan:
         """Return the plan of a picture, whose memory is checked.

@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from ..._native.rasterizer import find_occlusion
 from ...base import linalg
+from .._output_pool import Shapes
 from .._view import View
 from ..options import RenderOptions, shows_light
-from .protocol import Pass, Picture, Shapes
+from .protocol import Pass, Picture
 
 #: How far things count where nothing is said, as a share of the diagonal of the scene's box.
 RADIUS_SHARE = 0.1

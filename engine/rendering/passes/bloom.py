@@ -8,8 +8,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..._native import rasterizer as _native
+from .._output_pool import Shapes
 from ..options import RenderOptions
-from .protocol import Pass, Picture, Shapes
+from .protocol import Pass, Picture
 
 
 class Bloom(Pass):

@@ -9,6 +9,7 @@ about the casters it keeps for as long as they have the same version.
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -51,7 +52,7 @@ class ExactShadows(Pass):
             self._list_casters(scene._arrays, spared)
             self.tools.memory.add_exact(len(lights), draw_list.native.hiding_faces())
 
-    def _spared(self, scene: Scene, number: int, place) -> tuple[int, ...]:
+    def _spared(self, scene: Scene, number: int, place: Sequence[float] | None) -> tuple[int, ...]:
         """The slots of what does not hide a light."""
         if place is None:
             return ()

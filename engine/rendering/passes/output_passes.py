@@ -6,6 +6,9 @@ from the kernels.
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..._native.rasterizer import NativeOptions, NativeStats
 from ..frame import OUTPUTS
 from .protocol import Pass, Picture
@@ -51,11 +54,11 @@ class ColorPass(Pass):
 def _render(
     one: Pass,
     picture: Picture,
-    targets: dict,
+    targets: dict[str, np.ndarray],
     options: NativeOptions,
     samples: tuple[int, int],
-    rays=None,
-    visibility=None,
+    rays: NDArray[np.float32] | None = None,
+    visibility: NDArray[np.float32] | None = None,
 ) -> NativeStats:
     view = picture.view
     return one.tools.native.render(

@@ -7,7 +7,7 @@ in their order, and gives each the arrays that it declares.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,12 +17,10 @@ from ...choices import FrameCull
 from ...model.scene.scene import Scene
 from .._frame_memory import FrameMemory
 from .._frame_options import FrameOptions
+from .._output_pool import Shapes
 from .._view import View
 from ..draw_list.draw_list import DrawList
 from ..options import RenderOptions
-
-#: Shape and dtype of arrays, by name.
-Shapes: TypeAlias = dict[str, tuple[tuple[int, ...], np.dtype]]
 
 
 class Tools(NamedTuple):
@@ -52,7 +50,7 @@ class Picture:
     arrays: dict[str, np.ndarray] = field(init=False)  # all else that passes declare
     depth_range: tuple[float, float] = (0.0, 1.0)  # white and black in mode "depth"
     shadow_maps: tuple[int, int] = (0, 0)  # how many there are, and how many were drawn
-    drawn: NativeStats | None = None
+    drawn: NativeStats = field(init=False)
 
 
 class Pass:

@@ -7,17 +7,25 @@ directional lights, the part of the world that it covers has changed.
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ..._native.rasterizer import CULLS, LIGHT_TRAITS, find_shadow_ranges, shadow_ranges_side
+from ...model.scene.lights import DirectLight
+from ...model.scene.node_arrays import NodeArrays
 from .._memo import Memo
 from .._view import View
 from ..casters import placed_casters
 from ..draw_list.lamps import lamp_slots
+from ..draw_list.light_list import Where
 from ..options import RenderOptions, shows_light
 from .protocol import Pass, Picture, Tools
 from .shadow_views import VIEWS, MapView, ShadowViews
+
+#: The scene's nodes, their changes, the list's renewals, the side culled, and slots to spare.
+Moment: TypeAlias = tuple[NodeArrays, object, int, int, tuple[int, ...]]
 
 
 class _LightMaps:
@@ -74,7 +82,7 @@ class ShadowMaps(Pass):
         super().__init__(tools)
         self._kept: dict[int, _LightMaps] = {}
         # From where each light's maps are drawn, by its number, and what that was found from.
-        self._found: dict[int, tuple[tuple, ShadowViews | None]] = {}
+        self._found: dict[int, tuple[tuple[object, ...], ShadowViews | None]] = {}
 
     def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
         return options.mode == "lit" and shows_light(wanted)
@@ -95,10 +103,10 @@ class ShadowMaps(Pass):
         cull = CULLS[picture.shadow_cull]
         moment = scene._arrays, scene._arrays.updated, draw_list.renewals, cull
         seen = [
-            (number, light, pose, self._views_of(number, light, pose, bounds, picture.view))
+            (number, light, pose, views)
             for number, light, pose in lights
+            if (views := self._views_of(number, light, pose, bounds, picture.view)) is not None
         ]
-        seen = [each for each in seen if each[-1] is not None]
         self.tools.memory.add_maps(
             (type(light).__name__, len(views.maps), light.shadow_map_size)
             for _, light, _, views in seen
@@ -109,7 +117,9 @@ class ShadowMaps(Pass):
             self._update_light(number, light, views, (*moment, spared))
         picture.shadow_maps = self._count, self._drawn
 
-    def _views_of(self, number: int, light, pose: tuple, bounds, view: View) -> ShadowViews | None:
+    def _views_of(
+        self, number: int, light: DirectLight, pose: Where, bounds: NDArray[np.float64], view: View
+    ) -> ShadowViews | None:
         """From where a light's maps are drawn: as before, if nothing that decides it changed."""
         layout = LIGHT_TRAITS[light.kind].maps
         seen_by = view if layout == "cascades" else None
@@ -120,7 +130,9 @@ class ShadowMaps(Pass):
             known = self._found[number] = found_from, VIEWS[layout](light, pose, bounds, view)
         return known[1]
 
-    def _update_light(self, number: int, light, views: ShadowViews, moment: tuple) -> None:
+    def _update_light(
+        self, number: int, light: DirectLight, views: ShadowViews, moment: Moment
+    ) -> None:
         count, size = len(views.maps), light.shadow_map_size
         kept = self._kept.get(number)
         if kept is None or not kept.fits(count, size):
@@ -143,7 +155,9 @@ class ShadowMaps(Pass):
             depth=views.depth,
         )
 
-    def _update_map(self, depths, drawn: _Drawn, seen: MapView, moment: tuple) -> None:
+    def _update_map(
+        self, depths: NDArray[np.float32], drawn: _Drawn, seen: MapView, moment: Moment
+    ) -> None:
         """Draw a map, unless it would show the same again."""
         clip = seen.clip_from_world.tobytes()
         if not drawn.moment.differs(clip, moment):

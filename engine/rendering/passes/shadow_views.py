@@ -10,14 +10,15 @@ large as spheres, and move by whole texels, is Valient 2008.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...base import linalg
 from ...base.linalg.single import cross, length, normalize
+from ...model.scene.lights import DirectionalLight, PointLight, SpotLight
 from .._view import View
 
 _RATIO = 4.0  # each map of a directional light shows so many times as far as the one before
@@ -35,7 +36,7 @@ _FACES = (
 )
 
 Axes = NDArray[np.float64]
-Pose = tuple[Sequence[float], Sequence[float]]  # of a light, as `LightList.placed` has it
+Numbers = Sequence[float] | NDArray[np.float64]
 
 
 class MapView(NamedTuple):
@@ -71,7 +72,7 @@ def _single(value: float) -> float:
     return float(np.float32(value))
 
 
-def _dot(a: Sequence[float], b: Sequence[float]) -> float:
+def _dot(a: Numbers, b: Numbers) -> float:
     """The scalar product, from left to right."""
     total = float(a[0]) * float(b[0])
     for one, other in zip(a[1:], b[1:], strict=True):
@@ -104,7 +105,7 @@ def _extent(axis: NDArray[np.float64], bounds: NDArray[np.float64]) -> tuple[flo
     return middle - reach, middle + reach
 
 
-def _view_of(axes: Axes, position: Sequence[float]) -> NDArray[np.float64]:
+def _view_of(axes: Axes, position: Numbers) -> NDArray[np.float64]:
     """view_from_world of an eye that looks ahead."""
     matrix = np.eye(4)
     matrix[:3, :3] = axes[0], -axes[1], -axes[2]
@@ -132,7 +133,9 @@ def _square(side: float, middle: tuple[float, float], inside: int, play: float) 
     return _Square(scale, column, row)
 
 
-def _slices(view: View, bounds: NDArray[np.float64], count: int) -> list[tuple[float, tuple]]:
+def _slices(
+    view: View, bounds: NDArray[np.float64], count: int
+) -> list[tuple[float, tuple[float, ...]]]:
     """Spheres around what the camera sees from depth to depth: side of the square, and middle.
 
     The depths are shares of the scene's diagonal, so that they stay as they are when the camera
@@ -159,7 +162,9 @@ def _slices(view: View, bounds: NDArray[np.float64], count: int) -> list[tuple[f
     return found
 
 
-def _unproject(view_from_clip, x: float, y: float, z: float) -> NDArray[np.float64]:
+def _unproject(
+    view_from_clip: NDArray[np.float64], x: float, y: float, z: float
+) -> NDArray[np.float64]:
     point = [_dot(row, np.array([x, y, z, 1.0])) for row in view_from_clip]
     return np.array(point[:3]) / point[3]
 
@@ -173,7 +178,7 @@ def _at_depth(line: list[NDArray[np.float64]], depth: float) -> NDArray[np.float
 
 def _sphere(points: list[NDArray[np.float64]]) -> tuple[NDArray[np.float64], float]:
     """A small sphere around four points and four others behind them: its middle and radius."""
-    front, back = sum(points[:4]) / 4.0, sum(points[4:]) / 4.0
+    front, back = sum(points[:4], np.zeros(3)) / 4.0, sum(points[4:], np.zeros(3)) / 4.0
     wide = [max(length(p - at) for p in of) for of, at in ((points[:4], front), (points[4:], back))]
     deep = length(back - front)
     share = min((deep * deep + wide[1] ** 2 - wide[0] ** 2) / (2.0 * deep * deep), 1.0)
@@ -181,7 +186,12 @@ def _sphere(points: list[NDArray[np.float64]]) -> tuple[NDArray[np.float64], flo
     return middle, max(length(p - middle) for p in points)
 
 
-def _cascades(light, pose: Pose, bounds: NDArray[np.float64], view: View) -> ShadowViews:
+def _cascades(
+    light: DirectionalLight,
+    pose: tuple[Sequence[float], None],
+    bounds: NDArray[np.float64],
+    view: View,
+) -> ShadowViews:
     """The maps of a light that is infinitely far away.
 
     The last map shows the whole scene, each before it a sphere around a part of what the camera
@@ -202,11 +212,12 @@ def _cascades(light, pose: Pose, bounds: NDArray[np.float64], view: View) -> Sha
     squares = []
     for side, middle in _slices(view, bounds, light.shadow_cascades):
         if side < whole:
-            at = tuple(_dot(axis, middle) for axis in axes[:2])
+            at = _dot(axes[0], middle), _dot(axes[1], middle)
             squares.append(_square(side, at, size - 2 * margin, _PLAY))
     at = (sides[0] + sides[1]) * 0.5, (downs[0] + downs[1]) * 0.5
     squares.append(_square(whole, at, size - 2 * margin, 0.0))
-    eye = (*(float(part) for part in -axes[2]), 0.0)
+    ahead = (-axes[2]).tolist()
+    eye = (ahead[0], ahead[1], ahead[2], 0.0)
     view_from_world = _view_of(axes, (0.0, 0.0, 0.0))
     maps, places = [], []
     for square in squares:
@@ -225,7 +236,9 @@ def _cascades(light, pose: Pose, bounds: NDArray[np.float64], view: View) -> Sha
 # Point and spot lights
 
 
-def _between(light, nearest: float, farthest: float) -> tuple[float, float] | None:
+def _between(
+    light: PointLight | SpotLight, nearest: float, farthest: float
+) -> tuple[float, float] | None:
     """The depths between which a map shows; None where nothing is."""
     farthest = min(_rounded_up(farthest, 4), light.range) if farthest > 0.0 else 0.0
     if not farthest > 0.0:
@@ -254,7 +267,11 @@ def _looks_from(
 
 
 def _local_views(
-    light, position: Sequence[float], all_axes: list[Axes], tangent: float, between
+    light: PointLight | SpotLight,
+    position: Sequence[float],
+    all_axes: list[Axes],
+    tangent: float,
+    between: tuple[float, float],
 ) -> ShadowViews:
     size = light.shadow_map_size
     # Comparisons reach to so many texels beyond, and rounding a little farther.
@@ -268,7 +285,12 @@ def _local_views(
     return ShadowViews(maps, places, all_axes[0], depth, margin)
 
 
-def _ahead(light, pose: Pose, bounds: NDArray[np.float64], view: View) -> ShadowViews | None:
+def _ahead(
+    light: SpotLight,
+    pose: tuple[Sequence[float], Sequence[float]],
+    bounds: NDArray[np.float64],
+    view: View,
+) -> ShadowViews | None:
     """The map of a spot light, which shows its cone; None where there is nothing in front of it."""
     to_light, position = pose
     axes = _axes_along(tuple(-part for part in to_light))
@@ -283,7 +305,12 @@ def _ahead(light, pose: Pose, bounds: NDArray[np.float64], view: View) -> Shadow
     return _local_views(light, position, [axes], tangent, between)
 
 
-def _cube(light, pose: Pose, bounds: NDArray[np.float64], view: View) -> ShadowViews | None:
+def _cube(
+    light: PointLight,
+    pose: tuple[None, Sequence[float]],
+    bounds: NDArray[np.float64],
+    view: View,
+) -> ShadowViews | None:
     """The six maps around a light; None where there is nothing."""
     position = pose[1]
     low, high = np.asarray(position) - bounds[0], bounds[1] - np.asarray(position)
@@ -297,5 +324,10 @@ def _cube(light, pose: Pose, bounds: NDArray[np.float64], view: View) -> ShadowV
     )
 
 
-#: From where the maps of a light are drawn, by their layout: its pose, the scene's box, the camera.
-VIEWS = {"cascades": _cascades, "cube": _cube, "ahead": _ahead}
+#: From where the maps of a light are drawn, by their layout, which tells what light and pose it is:
+#: these, the scene's box, the camera.
+VIEWS: dict[str, Callable[[Any, Any, NDArray[np.float64], View], ShadowViews | None]] = {
+    "cascades": _cascades,
+    "cube": _cube,
+    "ahead": _ahead,
+}

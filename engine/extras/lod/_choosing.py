@@ -9,6 +9,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...base.image_size import check_size
 from ...base.numbers import real, shown
@@ -17,7 +18,9 @@ from ...errors import InvalidArgumentError
 from ...model.scene.cameras import Camera
 
 
-def checked_view(camera, pose, size) -> tuple[np.ndarray, tuple[int, int]]:
+def checked_view(
+    camera: Camera, pose: ArrayLike, size: tuple[int, int]
+) -> tuple[np.ndarray, tuple[int, int]]:
     """Return the pose and the size of whatever looks at things, or raise `InvalidArgumentError`."""
     if not isinstance(camera, Camera):
         raise InvalidArgumentError(f"camera must be a Camera, not {type(camera).__name__}")
@@ -36,7 +39,9 @@ def pixels_a_unit(camera: Camera, size: tuple[int, int], distances: np.ndarray) 
     return np.full(len(distances), pixels)
 
 
-def choose_levels(last: np.ndarray, errors: np.ndarray, limit: float, hysteresis: float):
+def choose_levels(
+    last: np.ndarray, errors: np.ndarray, limit: float, hysteresis: float
+) -> np.ndarray:
     """Return the levels to draw: refine what is too coarse now, coarsen what is so by a margin.
 
     Parameters

@@ -25,6 +25,7 @@ from ...model.materials.material import Material
 from ...model.materials.textures import Texture
 from ...model.scene.cameras import OrthographicCamera
 from ...model.scene.scene import Scene
+from ...rendering.frame import Output
 from ...rendering.renderer import Renderer
 
 _CELLS = 4  # along each side of a card: normals are kept at their corners
@@ -120,7 +121,9 @@ class Impostor(Closed):
         keep = (last >= 0) & (likeness[rows, last] > likeness[rows, best] - 0.01)
         return np.where(keep, last, best)
 
-    def _card(self, number: int, normals, mask, materials) -> Mesh:
+    def _card(
+        self, number: int, normals: np.ndarray, mask: np.ndarray, materials: list[Material]
+    ) -> Mesh:
         """The mesh of one picture."""
         texels = len(mask)
         rectangles = np.array(_rectangles(mask), np.float64).reshape(-1, 4)
@@ -185,13 +188,15 @@ def _axes(direction: np.ndarray) -> np.ndarray:
     return linalg.look_at(direction, (0.0, 0.0, 0.0), up)[:3, :3].T
 
 
-def _pictures(mesh: Mesh, directions, center, radius: float, texels: int) -> list:
+def _pictures(
+    mesh: Mesh, directions: np.ndarray, center: np.ndarray, radius: float, texels: int
+) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Of each direction: colours (N, N, 3) linear, normals (N, N, 3), mask (N, N) bool."""
     scene = Scene()
     scene.add(mesh)
     radius = max(radius, 1e-12)
     camera = OrthographicCamera(radius, znear=0.5 * radius, zfar=3.5 * radius)
-    outputs = ("albedo", "world_normal", "object_id")
+    outputs: tuple[Output, ...] = ("albedo", "world_normal", "object_id")
     size = texels * _PIXELS
     pictures = []
     with Renderer(size, size) as renderer:
@@ -262,7 +267,9 @@ def _in_cell(mask: np.ndarray, left: int, top: int) -> list[tuple[int, int, int,
     return found
 
 
-def _corner_normals(normals: np.ndarray, mask: np.ndarray, x, y) -> np.ndarray:
+def _corner_normals(
+    normals: np.ndarray, mask: np.ndarray, x: np.ndarray, y: np.ndarray
+) -> np.ndarray:
     """The mean normal of the covered texels that meet nearest to some corners, (N, 3)."""
     padded = np.zeros((len(mask) + 2, len(mask) + 2, 3))
     padded[1:-1, 1:-1] = np.where(mask[..., np.newaxis], normals, 0.0)

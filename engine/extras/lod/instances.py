@@ -6,7 +6,7 @@ In: meshes from fine to coarse with their errors, poses, and before each frame a
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -137,7 +137,11 @@ class DetailedInstances(Closed):
         pose, size = checked_view(camera, pose, size)
         errors = self._errors_on_screen(camera, pose, size)
         level = frozen(choose_levels(self.level, errors, self.pixels, self.hysteresis))
-        drawn = level if self._impostor is None else self._with_cards(level, camera, pose, size)
+        drawn = (
+            level
+            if self._impostor is None
+            else self._with_cards(self._impostor, level, camera, pose, size)
+        )
         touched = set(drawn[drawn != self._drawn]) | set(self._drawn[drawn != self._drawn])
         self.level, self._drawn = level, drawn
         for number in touched:
@@ -145,17 +149,26 @@ class DetailedInstances(Closed):
             self.instances[number]._replace_by_rows(rows, self._poses, self._colors)
         return bool(touched)
 
-    def _with_cards(self, level: np.ndarray, camera, pose, size) -> np.ndarray:
+    def _with_cards(
+        self,
+        impostor: Impostor,
+        level: np.ndarray,
+        camera: Camera,
+        pose: np.ndarray,
+        size: tuple[int, int],
+    ) -> np.ndarray:
         """The number of the level or of the card that each instance is drawn as."""
         far = np.flatnonzero(level == len(self.levels))
         drawn = level.copy()
         if len(far):
             towards = self._towards_viewer(self._poses[far].astype(np.float64), camera, pose, size)
             last = np.maximum(self._drawn[far] - len(self.levels), -1)
-            drawn[far] += self._impostor.nearest(towards, last)
+            drawn[far] += impostor.nearest(towards, last)
         return drawn
 
-    def _towards_viewer(self, poses: np.ndarray, camera, pose, size) -> np.ndarray:
+    def _towards_viewer(
+        self, poses: np.ndarray, camera: Camera, pose: np.ndarray, size: tuple[int, int]
+    ) -> np.ndarray:
         """From instances to who looks at them, in their own space, (N, 3), of any length."""
         perspective = float(camera.projection(*size)[3, 3]) == 0.0
         world = linalg.inverse(self._nodes[0].world_pose) if self._nodes else np.eye(4)
@@ -173,7 +186,9 @@ class DetailedInstances(Closed):
         local = np.stack([linalg.dot(row, way) for row in back], axis=1)
         return local * np.copysign(1.0, volume) - center * np.abs(volume)
 
-    def _errors_on_screen(self, camera, pose, size) -> np.ndarray:
+    def _errors_on_screen(
+        self, camera: Camera, pose: np.ndarray, size: tuple[int, int]
+    ) -> np.ndarray:
         """Errors of each level of each instance in pixels, (levels, N)."""
         center, radius = self._center, self._radius
         poses = self._poses.astype(np.float64)
@@ -209,7 +224,7 @@ def _made_levels(mesh: Mesh) -> tuple[tuple[Mesh, float], ...]:
     return tuple(levels)
 
 
-def _checked(levels) -> tuple[tuple[Mesh, float], ...]:
+def _checked(levels: Iterable[tuple[Mesh, float]]) -> tuple[tuple[Mesh, float], ...]:
     try:
         levels = tuple((mesh, real(error)) for mesh, error in levels)
     except (TypeError, ValueError):

@@ -6,7 +6,7 @@ which one a mesh is visible: the coarsest whose error is then less than some pix
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -128,14 +128,16 @@ class DetailedMeshes(Closed):
         return f"DetailedMeshes({len(self.level)} meshes; by level: {counts})"
 
 
-def _checked(levels) -> tuple[tuple[tuple[Mesh, ...], float], ...]:
+def _checked(
+    levels: Iterable[tuple[Iterable[Mesh], float]],
+) -> tuple[tuple[tuple[Mesh, ...], float], ...]:
     try:
-        levels = tuple((tuple(meshes), real(error)) for meshes, error in levels)
+        found = tuple((tuple(meshes), real(error)) for meshes, error in levels)
     except (TypeError, ValueError):
         raise InvalidArgumentError("levels must be pairs of meshes and an error") from None
-    check_errors([error for _, error in levels])
-    if not all(isinstance(mesh, Mesh) for meshes, _ in levels for mesh in meshes):
+    check_errors([error for _, error in found])
+    if not all(isinstance(mesh, Mesh) for meshes, _ in found for mesh in meshes):
         raise InvalidArgumentError("levels must be meshes with their errors")
-    if len({len(meshes) for meshes, _ in levels}) != 1:
+    if len({len(meshes) for meshes, _ in found}) != 1:
         raise InvalidArgumentError("every level must have the same meshes")
-    return levels
+    return found

@@ -8,6 +8,8 @@ borders as well.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ...base import linalg
@@ -77,7 +79,9 @@ def _equal_vertices(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
     return number.reshape(-1), first
 
 
-def _simplified(positions: np.ndarray, faces: np.ndarray, ratio: float):
+def _simplified(
+    positions: np.ndarray, faces: np.ndarray, ratio: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
     """Positions and faces of one part, the old vertex behind each new one, and the error."""
     try:
         import fast_simplification
@@ -103,7 +107,7 @@ def _simplified(positions: np.ndarray, faces: np.ndarray, ratio: float):
     return new, new_faces, used[sources], _error(old, new, new_faces, becomes)
 
 
-def _error(old, new, faces, becomes) -> float:
+def _error(old: np.ndarray, new: np.ndarray, faces: np.ndarray, becomes: np.ndarray) -> float:
     """The farthest of the old vertices from the triangles near the vertices that they became."""
     edges = np.unique(faces[:, [0, 1, 1, 2, 2, 0, 1, 0, 2, 1, 0, 2]].reshape(-1, 2), axis=0)
     edges = np.concatenate([edges, np.repeat(np.arange(len(new)), 2).reshape(-1, 2)])
@@ -116,7 +120,9 @@ def _error(old, new, faces, becomes) -> float:
     return float(nearest[np.isfinite(nearest)].max(initial=0.0))
 
 
-def _expanded(owner, key, keys, values, count: int) -> tuple[np.ndarray, np.ndarray]:
+def _expanded(
+    owner: np.ndarray, key: np.ndarray, keys: np.ndarray, values: np.ndarray, count: int
+) -> tuple[np.ndarray, np.ndarray]:
     """Each owner with every value whose key it has; keys are below ``count``."""
     order = np.argsort(keys, kind="stable")
     starts = np.searchsorted(keys[order], np.arange(count + 1))
@@ -125,7 +131,7 @@ def _expanded(owner, key, keys, values, count: int) -> tuple[np.ndarray, np.ndar
     return np.repeat(owner, sizes), values[order[np.repeat(starts[key], sizes) + step]]
 
 
-def _distances(points, a, b, c) -> np.ndarray:
+def _distances(points: np.ndarray, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
     """Distances of points from triangles, (N,): to the plane inside them, else to an edge."""
     edges = [_to_segments(points, p, q) for p, q in ((a, b), (b, c), (c, a))]
     normal = linalg.normalize(linalg.cross(b - a, c - a))
@@ -136,14 +142,14 @@ def _distances(points, a, b, c) -> np.ndarray:
     return np.where(inside & normal.any(axis=1), height, np.minimum.reduce(edges))
 
 
-def _to_segments(points, a, b) -> np.ndarray:
+def _to_segments(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
     way = b - a
     square = linalg.dot(way, way)
     along = linalg.dot(points - a, way) / np.where(square > 0.0, square, 1.0)
     return linalg.length(points - (a + way * np.clip(along, 0.0, 1.0)[:, np.newaxis]))
 
 
-def _joined(mesh: Mesh, parts) -> Mesh:
+def _joined(mesh: Mesh, parts: Sequence[tuple[np.ndarray, np.ndarray, np.ndarray, int]]) -> Mesh:
     """One mesh of all parts, with the attributes that the old one had."""
     if not parts:
         return Mesh(np.zeros((0, 3), np.float32), materials=mesh.materials, name=mesh.name)

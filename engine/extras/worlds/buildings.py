@@ -21,7 +21,7 @@ from .facades import (
     flat_quads,
     relief_quads,
 )
-from .frames import Frames, each
+from .frames import Frames, Lengths, each
 from .patchwork import Patchwork
 from .plan import DEPTH, Houses
 from .roofs import (
@@ -115,7 +115,7 @@ def add_houses(patch: Patchwork, houses: Houses, seed: int) -> None:
     _add_tops(patch, houses)
 
 
-def _facades(houses: Houses, frame: Frames, width) -> Facades:
+def _facades(houses: Houses, frame: Frames, width: np.ndarray) -> Facades:
     shop = _has_shop(houses)
     wall = _WALLS[_digit(houses.style, 0, len(_WALLS))]
     half = 0.5 + 0.12 * _digit(houses.style, 4, 3)
@@ -124,7 +124,7 @@ def _facades(houses: Houses, frame: Frames, width) -> Facades:
     )  # fmt: skip
 
 
-def _moved(frame: Frames, s, o, turns: int) -> Frames:
+def _moved(frame: Frames, s: Lengths, o: Lengths, turns: int) -> Frames:
     """Frames at (s, o) of others, turned to the left by quarter turns as seen from above."""
     x = frame.x + frame.dx * s - frame.dz * o
     z = frame.z + frame.dz * s + frame.dx * o

@@ -8,7 +8,9 @@ round it make up the number of triangles.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -18,8 +20,10 @@ from ...base.validation import own
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from ...model.primitives.arguments import integer
-from ...model.scene.scene import Node, Scene
+from ...model.scene.nodes import Node
+from ...model.scene.scene import Scene
 from .buildings import add_houses, house_quads
+from .frames import Frames
 from .furniture import LAMP_HEIGHT, template
 from .parks import add_parks
 from .patchwork import Patchwork
@@ -48,6 +52,11 @@ _MEADOWS = 1
 _FEWEST_A_TILE = 1_500
 #: What coarser districts leave out or move, in metres.
 _TOLERANCES = (0.3, 1.5)
+#: By the kind of tile: what makes a table of buildings, counts their quads, and adds them.
+_BUILDINGS: tuple[tuple[int, Callable[..., Any], Callable[..., Any], Callable[..., Any]], ...] = (
+    (HOUSES, houses, house_quads, add_houses),
+    (TOWERS, towers, tower_quads, add_towers),
+)
 _LAND = {HOUSES: "gravel", TOWERS: "stone", PARK: "grass", PLAZA: "stone"}
 
 
@@ -115,7 +124,7 @@ class World:
             scene.add(mesh, parent=group)
         return group
 
-    def __setstate__(self, state: dict) -> None:
+    def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update({name: own(value) for name, value in state.items()})
 
     def __repr__(self) -> str:
@@ -153,8 +162,8 @@ def city(triangles: int = 1_000_000, seed: int = 0) -> World:
         mesh, lights = _district(ground, key, shared)
         districts.append(mesh)
         lamps.append(lights)
-    lamps = frozen(np.concatenate(lamps))
-    return World(seed, tuple(districts), shared, lamps, WALKABLE, FOLIAGE, triangles)
+    light = frozen(np.concatenate(lamps))
+    return World(seed, tuple(districts), shared, light, WALKABLE, FOLIAGE, triangles)
 
 
 class _Ground:
@@ -210,7 +219,7 @@ def _meadows(i: np.ndarray, j: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return columns + low, rows + low
 
 
-def _tile_triangles(seed: int, i, j, kinds) -> np.ndarray:
+def _tile_triangles(seed: int, i: np.ndarray, j: np.ndarray, kinds: np.ndarray) -> np.ndarray:
     """Return how many triangles each tile has."""
     count = np.zeros(len(i), np.int64)
     for kind in (HOUSES, TOWERS, PARK, PLAZA):
@@ -219,7 +228,7 @@ def _tile_triangles(seed: int, i, j, kinds) -> np.ndarray:
     ends = has_bridge(seed, j[river]).astype(np.int64) + has_bridge(seed, j[river] + 1)
     none, both = (_river_triangles(flag) for flag in (False, True))
     count[river] = none + (both - none) // 2 * ends
-    for kind, table, quads in ((HOUSES, houses, house_quads), (TOWERS, towers, tower_quads)):
+    for kind, table, quads, _ in _BUILDINGS:
         tiles = np.flatnonzero(kinds == kind)
         things = table(seed, i[tiles], j[tiles])
         np.add.at(count, tiles[things.tile], 2 * quads(things))
@@ -246,7 +255,7 @@ def _meadow_triangles(i: np.ndarray) -> int:
     return patch.triangles
 
 
-def _add_land(patch: Patchwork, tile, kinds: np.ndarray) -> None:
+def _add_land(patch: Patchwork, tile: Frames, kinds: np.ndarray) -> None:
     """Add the ground of tiles that the river does not flow through."""
     land = np.array([NUMBER[_LAND[kind]] for kind in range(len(_LAND))])[kinds]
     add_ground(patch, tile, land)
@@ -259,7 +268,9 @@ def _add_meadows(patch: Patchwork, i: np.ndarray, j: np.ndarray) -> None:
     add_wild_river(patch, tile[wet])
 
 
-def _district(ground: _Ground, key, shared, tolerance: float = 0.0) -> tuple[Mesh, np.ndarray]:
+def _district(
+    ground: _Ground, key: tuple[int, int], shared: list[Material], tolerance: float = 0.0
+) -> tuple[Mesh, np.ndarray]:
     """Return a district's mesh, and where its lamps shine."""
     inside = (ground.i // DISTRICT == key[0]) & (ground.j // DISTRICT == key[1])
     seed, i, j, kinds = ground.seed, ground.i[inside], ground.j[inside], ground.kinds[inside]
@@ -267,14 +278,14 @@ def _district(ground: _Ground, key, shared, tolerance: float = 0.0) -> tuple[Mes
     dry = kinds != RIVER
     _add_land(patch, tile[dry], kinds[dry])
     add_river(patch, tile[~dry], has_bridge(seed, j[~dry]), has_bridge(seed, j[~dry] + 1))
-    for kind, table, add in ((HOUSES, houses, add_houses), (TOWERS, towers, add_towers)):
+    for kind, table, _, add in _BUILDINGS:
         chosen = kinds == kind
         add(patch, table(seed, i[chosen], j[chosen]), seed)
     wild = (ground.wild_i // DISTRICT == key[0]) & (ground.wild_j // DISTRICT == key[1])
     _add_meadows(patch, ground.wild_i[wild], ground.wild_j[wild])
     wooded = (ground.wood_i // DISTRICT == key[0]) & (ground.wood_j // DISTRICT == key[1])
-    for name, (tile, places) in ground.wood.items():
-        patch.place(template(name, tolerance), places[wooded[tile]])
+    for name, (tiles, places) in ground.wood.items():
+        patch.place(template(name, tolerance), places[wooded[tiles]])
     lights = np.zeros((0, 3))
     for name, (_, places) in placements(seed, i, j, kinds).items():
         patch.place(template(name, tolerance), places)

@@ -41,7 +41,7 @@ class Facades:
     half: np.ndarray
     shop: np.ndarray
 
-    def __getitem__(self, index) -> Facades:
+    def __getitem__(self, index: np.ndarray) -> Facades:
         return Facades(*(getattr(self, name)[index] for name in self.__dataclass_fields__))
 
     @property
@@ -53,13 +53,13 @@ class Facades:
         return GROUND + STOREY * self.storeys
 
 
-def relief_quads(width, storeys) -> np.ndarray:
+def relief_quads(width: np.ndarray, storeys: np.ndarray) -> np.ndarray:
     """Return how many quads `add_reliefs` makes of facades of that width and storeys."""
     bays = np.maximum(1, (width / _BAY).astype(np.int64))
     return 9 * bays + storeys * (2 + 6 * bays) + 12
 
 
-def flat_quads(width, storeys) -> np.ndarray:
+def flat_quads(width: np.ndarray, storeys: np.ndarray) -> np.ndarray:
     """Return how many quads `add_flats` makes."""
     return 1 + np.maximum(1, (width / _BAY).astype(np.int64)) * (storeys + 1)
 
@@ -140,7 +140,16 @@ def _add_upper_floors(patch: Patchwork, facades: Facades, seed: int) -> None:
     _add_openings(patch, frame[which], a, b, low + _SILL, low + _HEAD, wall[which], pane)
 
 
-def _add_openings(patch: Patchwork, frame, a, b, sill, head, wall, pane) -> None:
+def _add_openings(
+    patch: Patchwork,
+    frame: Frames,
+    a: np.ndarray,
+    b: np.ndarray,
+    sill: np.ndarray,
+    head: np.ndarray,
+    wall: np.ndarray,
+    pane: np.ndarray,
+) -> None:
     """A pane that stands back, and the four sides of the hole in the wall."""
     if _is_level(patch):
         patch.add(front(frame, a, b, sill, head, _BEFORE), pane)
@@ -197,7 +206,7 @@ def add_awnings(patch: Patchwork, facades: Facades, material: np.ndarray) -> Non
     patch.add(back(frame, 0.4, end, 2.62, 2.9, 1.4), material)
 
 
-def _lit(seed: int, frame: Frames, bay, storey) -> np.ndarray:
+def _lit(seed: int, frame: Frames, bay: np.ndarray, storey: int | np.ndarray) -> np.ndarray:
     """1 where somebody is at home, else 0."""
     chance = unit_floats(seed, _LIT, _metres(frame.x), _metres(frame.z), bay, storey)
     return (chance < _LIT_SHARE).astype(np.int64)

@@ -7,9 +7,14 @@ bridges are all said in these terms, so none of them knows which way it faces.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
+
+#: One length for all frames, or an array with one for each.
+Lengths: TypeAlias = float | np.ndarray
 
 
 @dataclass(frozen=True)
@@ -25,14 +30,16 @@ class Frames:
     dx: np.ndarray
     dz: np.ndarray
 
-    def __getitem__(self, index) -> Frames:
+    def __getitem__(self, index: np.ndarray) -> Frames:
         return Frames(self.x[index], self.y[index], self.z[index], self.dx[index], self.dz[index])
 
     def __len__(self) -> int:
         return len(self.x)
 
 
-def frames(x, z, dx=1.0, dz=0.0, y=0.0) -> Frames:
+def frames(
+    x: Lengths, z: Lengths, dx: Lengths = 1.0, dz: Lengths = 0.0, y: Lengths = 0.0
+) -> Frames:
     """Return frames of numbers or arrays, broadcast against each other."""
     arrays = np.broadcast_arrays(*(np.atleast_1d(np.asarray(a, np.float64)) for a in (x, y, z)))
     count = len(arrays[0])
@@ -40,7 +47,9 @@ def frames(x, z, dx=1.0, dz=0.0, y=0.0) -> Frames:
     return Frames(*arrays, *way)
 
 
-def quads(frame: Frames, s, y, o) -> np.ndarray:
+def quads(
+    frame: Frames, s: Sequence[Lengths], y: Sequence[Lengths], o: Sequence[Lengths]
+) -> np.ndarray:
     """Return quads of given corners: s, y, o each four numbers or arrays."""
     count = len(frame)
     corners = np.empty((count, 4, 3))
@@ -51,37 +60,58 @@ def quads(frame: Frames, s, y, o) -> np.ndarray:
     return corners
 
 
-def front(frame, s0, s1, y0, y1, o) -> np.ndarray:
+def front(
+    frame: Frames, s0: Lengths, s1: Lengths, y0: Lengths, y1: Lengths, o: Lengths
+) -> np.ndarray:
     """Upright, seen from outside."""
     return quads(frame, (s0, s1, s1, s0), (y0, y0, y1, y1), (o, o, o, o))
 
 
-def back(frame, s0, s1, y0, y1, o) -> np.ndarray:
+def back(
+    frame: Frames, s0: Lengths, s1: Lengths, y0: Lengths, y1: Lengths, o: Lengths
+) -> np.ndarray:
     """Upright, seen from behind."""
     return quads(frame, (s1, s0, s0, s1), (y0, y0, y1, y1), (o, o, o, o))
 
 
-def top(frame, s0, s1, y, o0, o1) -> np.ndarray:
+def top(
+    frame: Frames, s0: Lengths, s1: Lengths, y: Lengths, o0: Lengths, o1: Lengths
+) -> np.ndarray:
     """Level, seen from above; o0 is farther in than o1."""
     return quads(frame, (s0, s1, s1, s0), (y, y, y, y), (o1, o1, o0, o0))
 
 
-def bottom(frame, s0, s1, y, o0, o1) -> np.ndarray:
+def bottom(
+    frame: Frames, s0: Lengths, s1: Lengths, y: Lengths, o0: Lengths, o1: Lengths
+) -> np.ndarray:
     """Level, seen from below."""
     return quads(frame, (s0, s1, s1, s0), (y, y, y, y), (o0, o0, o1, o1))
 
 
-def left(frame, s, y0, y1, o0, o1) -> np.ndarray:
+def left(
+    frame: Frames, s: Lengths, y0: Lengths, y1: Lengths, o0: Lengths, o1: Lengths
+) -> np.ndarray:
     """Upright across the frame, seen from the left."""
     return quads(frame, (s, s, s, s), (y0, y0, y1, y1), (o0, o1, o1, o0))
 
 
-def right(frame, s, y0, y1, o0, o1) -> np.ndarray:
+def right(
+    frame: Frames, s: Lengths, y0: Lengths, y1: Lengths, o0: Lengths, o1: Lengths
+) -> np.ndarray:
     """Upright across the frame, seen from the right."""
     return quads(frame, (s, s, s, s), (y0, y0, y1, y1), (o1, o0, o0, o1))
 
 
-def box(frame, s0, s1, y0, y1, o0, o1, sides="ftlrb") -> np.ndarray:
+def box(
+    frame: Frames,
+    s0: Lengths,
+    s1: Lengths,
+    y0: Lengths,
+    y1: Lengths,
+    o0: Lengths,
+    o1: Lengths,
+    sides: str = "ftlrb",
+) -> np.ndarray:
     """Sides of boxes, one kind after another: front, top, left, right, back, underside (u)."""
     made = {
         "f": lambda: front(frame, s0, s1, y0, y1, o1),

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...base import linalg
 from ...model.geometry.mesh import Mesh
+from ...model.materials.material import Material
 from ...model.primitives import icosphere
 from .frames import box, frames, quads, top
 from .hashing import unit_floats
@@ -31,14 +32,16 @@ def template(name: str, tolerance: float = 0.0) -> Template:
     return patch.template()
 
 
-def car(name: str, materials: list) -> Mesh:
+def car(name: str, materials: list[Material]) -> Mesh:
     """Return one of `CARS` as a mesh with the city's materials."""
     patch = Patchwork()
     patch.place(template(name), _ORIGIN)
     return patch.mesh(name, materials)
 
 
-def _ring(patch: Patchwork, sides: int, low, high, material: str) -> None:
+def _ring(
+    patch: Patchwork, sides: int, low: tuple[float, float], high: tuple[float, float], material: str
+) -> None:
     """The sides of a prism or cone: ``low`` and ``high`` are (radius, y)."""
     x, z = linalg.unit_circle(sides)
     x1, z1 = np.roll(x, -1), np.roll(z, -1)
@@ -62,22 +65,35 @@ def _disc(patch: Patchwork, sides: int, radius: float, y: float, material: str) 
     patch.add(corners, NUMBER[material])
 
 
-def _box(patch: Patchwork, x, y, z, material: str, sides="ftlrb") -> None:
+def _box(
+    patch: Patchwork,
+    x: tuple[float, float],
+    y: tuple[float, float],
+    z: tuple[float, float],
+    material: str,
+    sides: str = "ftlrb",
+) -> None:
     patch.add(box(_HERE, *x, *y, *z, sides), NUMBER[material])
 
 
-def _crown(patch: Patchwork, middle, radii, material: str, channel: int) -> Template:
+def _crown(
+    patch: Patchwork,
+    middle: tuple[float, float, float],
+    radii: tuple[float, float, float],
+    material: str,
+    channel: int,
+) -> Template:
     """A lump of leaves: a sphere whose points lie a little in or out."""
     rough = patch.tolerance >= 1.0
     ball = icosphere(1.0, 0 if rough else 1)
     normals = ball.positions.astype(np.float64)
-    stretch = 0.80 + 0.36 * unit_floats(0, channel, ball.position_ids) + 0.16 * rough
+    stretch = 0.80 + 0.36 * unit_floats(0, channel, np.asarray(ball.position_ids)) + 0.16 * rough
     positions = normals * stretch[:, np.newaxis] * np.array(radii) + np.array(middle)
     normals = linalg.normalize(normals / np.array(radii))
     return Template(
         positions,
         normals,
-        ball.uvs.astype(np.float64) * np.array([4.0, 2.0]),
+        np.asarray(ball.uvs, np.float64) * np.array([4.0, 2.0]),
         ball.faces,
         np.ones((len(ball.faces), 3), bool),
         np.full(len(ball.faces), NUMBER[material], np.int32),

@@ -11,13 +11,14 @@ Wellons's "lowbias32": x ^= x >> 16; x *= 0x7FEB352D; x ^= x >> 15; x *= 0x846CA
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 _GOLDEN = np.uint32(0x9E3779B9)
 _FIRST, _SECOND = np.uint32(0x7FEB352D), np.uint32(0x846CA68B)
 _HALF, _OTHER = np.uint32(16), np.uint32(15)
 
 
-def hash_words(seed: int, *words) -> np.ndarray:
+def hash_words(seed: int, *words: ArrayLike) -> np.ndarray:
     """Return the hash of a seed and of integers, all taken modulo 2**32.
 
     Parameters
@@ -36,12 +37,12 @@ def hash_words(seed: int, *words) -> np.ndarray:
     return state
 
 
-def unit_floats(seed: int, *words) -> np.ndarray:
+def unit_floats(seed: int, *words: ArrayLike) -> np.ndarray:
     """Return the upper 24 bits of `hash_words` as float64 in [0, 1)."""
     return (hash_words(seed, *words) >> np.uint32(8)) * (1.0 / (1 << 24))
 
 
-def _word(value) -> np.ndarray:
+def _word(value: ArrayLike) -> np.ndarray:
     return np.atleast_1d(np.asarray(value, np.int64) & 0xFFFFFFFF).astype(np.uint32)
 
 

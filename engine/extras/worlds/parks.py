@@ -33,7 +33,9 @@ def add_parks(patch: Patchwork, tile: Frames) -> None:
     patch.add(_discs(tile, _RIM - 0.4, 0.3), NUMBER["water"])
 
 
-def _annulus(tile: Frames, inner: float, outer: float, y_inner: float, y_outer: float):
+def _annulus(
+    tile: Frames, inner: float, outer: float, y_inner: float, y_outer: float
+) -> np.ndarray:
     """Quads between two circles round the middle of each tile, seen from above or outside."""
     x, z = linalg.unit_circle(_SIDES)
     x1, z1 = np.roll(x, -1), np.roll(z, -1)
@@ -47,7 +49,7 @@ def _annulus(tile: Frames, inner: float, outer: float, y_inner: float, y_outer: 
     return corners.reshape(-1, 4, 3)
 
 
-def _discs(tile: Frames, radius: float, y: float):
+def _discs(tile: Frames, radius: float, y: float) -> np.ndarray:
     """Quads of polygons round the middle of each tile, like fans of two triangles a leaf."""
     x, z = linalg.unit_circle(_SIDES)
     corners = np.zeros((len(tile), _SIDES // 2, 4, 3))

@@ -15,6 +15,7 @@ import numpy as np
 from ..._native.loaders import frozen
 from ...base import linalg
 from ...model.geometry.mesh import Mesh
+from ...model.materials.material import Material
 from ...model.primitives.faces import split_quads
 from .surfaces import FITTED, TEXTURE_METRES
 
@@ -57,7 +58,7 @@ class Patchwork:
         self._materials: list[np.ndarray] = []
         self._parts: list[Template] = []
 
-    def add(self, corners: np.ndarray, material) -> None:
+    def add(self, corners: np.ndarray, material: int | np.ndarray) -> None:
         """Add quads: corners (N, 4, 3), and a material number for all, for each or for each box."""
         if len(corners):
             given = np.atleast_1d(np.int32(material))
@@ -110,7 +111,7 @@ class Patchwork:
             np.concatenate([part.material_ids for part in parts]),
         )
 
-    def mesh(self, name: str, materials: list) -> Mesh:
+    def mesh(self, name: str, materials: list[Material]) -> Mesh:
         """Return everything as a mesh; ``materials`` are those of `surfaces`."""
         whole = self.template()
         return Mesh(

@@ -8,8 +8,10 @@ tile's coordinates alone.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...base import linalg
+from .frames import Lengths
 from .furniture import CARS, TREES, template
 from .hashing import unit_floats
 from .plan import DEPTH, EDGE, HOUSES, KERB, LAND, PARK, PITCH, PLAZA, RIVER, TOWERS
@@ -56,20 +58,38 @@ class _Things:
 
     def __init__(self, seed: int, i: np.ndarray, j: np.ndarray) -> None:
         self.seed, self.i, self.j = seed, i, j
-        self._found: dict[str, list] = {}
+        self._found: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {}
 
-    def chance(self, channel: int, tile: np.ndarray, *numbers) -> np.ndarray:
+    def chance(self, channel: int, tile: np.ndarray, *numbers: int | np.ndarray) -> np.ndarray:
         """Return numbers in [0, 1) of the tiles."""
         return unit_floats(self.seed, channel, self.i[tile], self.j[tile], *numbers)
 
-    def add(self, name, tile, x, z, y=_CURB, scale=1.0, cosine=1.0, sine=0.0) -> None:
+    def add(
+        self,
+        name: str,
+        tile: np.ndarray,
+        x: Lengths,
+        z: Lengths,
+        y: float = _CURB,
+        scale: Lengths = 1.0,
+        cosine: Lengths = 1.0,
+        sine: Lengths = 0.0,
+    ) -> None:
         if len(tile):
             x, z = self.i[tile] * PITCH + x, self.j[tile] * PITCH + z
             parts = np.broadcast_arrays(x, y, z, scale, cosine, sine)
             place = np.stack([np.asarray(part, np.float64) for part in parts], axis=1)
             self._found.setdefault(name, []).append((tile, place))
 
-    def add_trees(self, tile, x, z, y, number, channel) -> None:
+    def add_trees(
+        self,
+        tile: np.ndarray,
+        x: np.ndarray,
+        z: np.ndarray,
+        y: float,
+        number: np.ndarray,
+        channel: int,
+    ) -> None:
         """Add trees of all kinds and sizes, turned anyhow."""
         kind = self.tree_kinds(tile, number, channel)
         scale = 0.75 + 0.6 * self.chance(_SIZE, tile, number, channel)
@@ -79,7 +99,7 @@ class _Things:
             way = _COSINES[turn[m]], _SINES[turn[m]]
             self.add(name, tile[m], x[m], z[m], y, scale[m], *way)
 
-    def tree_kinds(self, tile, number, channel) -> np.ndarray:
+    def tree_kinds(self, tile: np.ndarray, number: np.ndarray, channel: int) -> np.ndarray:
         """Return indices of `TREES`: the round and the wide are twice as frequent."""
         kind = (self.chance(channel, tile, number, 7) * 6.0).astype(np.int64)
         return np.array([0, 0, 1, 1, 2, 3])[kind]
@@ -93,15 +113,15 @@ class _Things:
         return places
 
 
-def _along_sides(tiles: np.ndarray, along, inward: float):
+def _along_sides(tiles: np.ndarray, along: ArrayLike, inward: float) -> tuple[np.ndarray, ...]:
     """Points on the four sides of tiles: tile, side, number, x, z, and the way to the street."""
     along = np.asarray(along)
     tile = np.repeat(tiles, 4 * len(along))
     side = np.tile(np.repeat(np.arange(4), len(along)), len(tiles))
     number = np.tile(np.arange(len(along)), 4 * len(tiles))
     t = along[number]
-    x = np.choose(side, (inward, PITCH - inward, t, t))
-    z = np.choose(side, (t, t, inward, PITCH - inward))
+    x = np.choose(side, np.broadcast_arrays(inward, PITCH - inward, t, t))
+    z = np.choose(side, np.broadcast_arrays(t, t, inward, PITCH - inward))
     return tile, side, number, x, z
 
 
@@ -136,7 +156,9 @@ def _line_streets(things: _Things, kinds: np.ndarray) -> None:
         things.add(name, tile[m], x[m], z[m], 0.0, 1.0, cosine, sine)
 
 
-def _scatter(things: _Things, tiles, count: int, channel: int, low: float, high: float):
+def _scatter(
+    things: _Things, tiles: np.ndarray, count: int, channel: int, low: float, high: float
+) -> tuple[np.ndarray, ...]:
     """``count`` points anywhere in the square from ``low`` to ``high`` of each tile."""
     tile = np.repeat(tiles, count)
     number = np.tile(np.arange(count), len(tiles))
@@ -164,9 +186,9 @@ def _plant_parks(things: _Things, tiles: np.ndarray) -> None:
     free = (a > 2.6) & (b > 2.6) & (a * a + b * b > 196.0)
     free &= things.chance(_GROVE, tile, number, 2) < 0.8
     things.add_trees(tile[free], x[free], z[free], _CURB, number[free], _GROVE)
-    for x, z, cosine, sine in ((0, -1, 1, 0), (0, 1, -1, 0), (-1, 0, 0, 1), (1, 0, 0, -1)):
+    for dx, dz, cosine, sine in ((0, -1, 1, 0), (0, 1, -1, 0), (-1, 0, 0, 1), (1, 0, 0, -1)):
         for aside in (-2.6, 2.6):
-            at = PITCH / 2 + 12.4 * x + aside * abs(z), PITCH / 2 + 12.4 * z + aside * abs(x)
+            at = PITCH / 2 + 12.4 * dx + aside * abs(dz), PITCH / 2 + 12.4 * dz + aside * abs(dx)
             things.add("bench", tiles, *at, _CURB + 0.04, 1.0, float(cosine), float(sine))
 
 

@@ -122,7 +122,16 @@ def houses(seed: int, i: np.ndarray, j: np.ndarray) -> Houses:
     )
 
 
-def _row(seed, i, j, number, origin, way, lots, has_corners) -> tuple:
+def _row(
+    seed: int,
+    i: np.ndarray,
+    j: np.ndarray,
+    number: int,
+    origin: tuple[float, float],
+    way: tuple[float, float],
+    lots: int,
+    has_corners: bool,
+) -> tuple[np.ndarray, ...]:
     """One row of houses on every tile: tile, x, z, dx, dz, width, corner and lot of each."""
     length = LAND if has_corners else LAND - 2.0 * DEPTH
     start = 0.0 if has_corners else DEPTH
@@ -170,5 +179,5 @@ def towers(seed: int, i: np.ndarray, j: np.ndarray) -> Towers:
     open_plot = (unit_floats(seed, _PLOT, a, b) * 4.0).astype(np.int64)
     kept = plot != open_plot
     height = 8.0 + 30.0 * chance[2] * chance[3] + 8.0 * chance[4]
-    table = (tile, x, z, 7.5 + 4.0 * chance[0], 7.5 + 4.0 * chance[1], height.astype(np.int64))
-    return Towers(*(column[kept] for column in table), chance[5][kept])
+    sizes = 7.5 + 4.0 * chance[0], 7.5 + 4.0 * chance[1], height.astype(np.int64)
+    return Towers(*(column[kept] for column in (tile, x, z, *sizes, chance[5])))

@@ -32,7 +32,7 @@ def has_bridge(seed: int, line: np.ndarray) -> np.ndarray:
     return (unit_floats(seed, _BRIDGE, line) < 0.5) | (line == 0)
 
 
-def add_river(patch: Patchwork, tile: Frames, starts, ends) -> None:
+def add_river(patch: Patchwork, tile: Frames, starts: np.ndarray, ends: np.ndarray) -> None:
     """Add the river's tiles; ``starts`` and ``ends`` (N,) bool tell where they have bridges."""
     turned = _turned(tile)
     patch.add(top(tile, BRINK, PITCH - BRINK, WATER, 0.0, PITCH), NUMBER["water"])
@@ -47,7 +47,7 @@ def _turned(tile: Frames) -> Frames:
     return Frames(tile.x + PITCH, tile.y, tile.z + PITCH, -tile.dx, -tile.dz)
 
 
-def _add_bank(patch: Patchwork, bank: Frames, starts, ends) -> None:
+def _add_bank(patch: Patchwork, bank: Frames, starts: np.ndarray, ends: np.ndarray) -> None:
     """The street, its pavement, the wall, the quay with its ramp."""
     stone, wall = NUMBER["stone"], NUMBER["masonry"]
     far = PITCH - KERB
@@ -91,8 +91,8 @@ def _add_half_bridges(patch: Patchwork, bank: Frames) -> None:
     patch.add(top(bank, EDGE, end, CURB, KERB, EDGE), stone)
     patch.add(box(bank, KERB, PITCH - KERB, 0.0, CURB, KERB, EDGE, "b"), NUMBER["trim"])
     patch.add(box(bank, EDGE, end, CURB, _PARAPET, EDGE - 0.3, EDGE, "ftlr"), wall)
-    for s0, s1 in ((EDGE, BRINK), (PITCH - BRINK, end)):
-        patch.add(box(bank, s0, s1, _CROWN, CURB, 0.0, EDGE, "fu"), wall)
+    for near, far in ((EDGE, BRINK), (PITCH - BRINK, end)):
+        patch.add(box(bank, near, far, _CROWN, CURB, 0.0, EDGE, "fu"), wall)
     owner, step = each(np.full(len(bank), _ARCHES * _STEPS))
     frame, span = bank[owner], (PITCH - 2.0 * BRINK) / _ARCHES
     arch, step = step // _STEPS, step % _STEPS

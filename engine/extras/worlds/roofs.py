@@ -7,9 +7,11 @@ corner in the middle of its base, so that neither of its two triangles is empty.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from .frames import Frames, box, each, front, left, quads, right, top
+from .frames import Frames, Lengths, box, each, front, left, quads, right, top
 from .patchwork import Patchwork
 from .plan import DEPTH
 from .surfaces import NUMBER
@@ -27,7 +29,15 @@ def dormers(kind: np.ndarray, width: np.ndarray) -> np.ndarray:
     return np.where(kind == MANSARD, (width / _DORMER_PITCH).astype(np.int64), 0)
 
 
-def add_roofs(patch: Patchwork, frame: Frames, width, kind, cover, wall, pane) -> None:
+def add_roofs(
+    patch: Patchwork,
+    frame: Frames,
+    width: np.ndarray,
+    kind: np.ndarray,
+    cover: np.ndarray,
+    wall: np.ndarray,
+    pane: np.ndarray,
+) -> None:
     """Add a roof to each house.
 
     Parameters
@@ -39,15 +49,22 @@ def add_roofs(patch: Patchwork, frame: Frames, width, kind, cover, wall, pane) -
     cover, wall, pane : (N,) arrays
         Material numbers of the roof, of the walls at its ends and of dormer windows.
     """
-    for number, add in enumerate((_add_gables, _add_hips, _add_mansards, _add_flats)):
-        chosen = np.flatnonzero(kind == number)
+    for which, add in enumerate((_add_gables, _add_hips, _add_mansards, _add_flats)):
+        chosen = np.flatnonzero(kind == which)
         add(patch, frame[chosen], width[chosen], cover[chosen], wall[chosen])
     owner, number = each(dormers(kind, width))
     middle = (number + 0.5) * (width / np.maximum(1, dormers(kind, width)))[owner]
     _add_dormers(patch, frame[owner], middle, cover[owner], pane[owner])
 
 
-def _add_slopes(patch: Patchwork, frame, s, ridge, rise, cover) -> None:
+def _add_slopes(
+    patch: Patchwork,
+    frame: Frames,
+    s: Sequence[Lengths],
+    ridge: float,
+    rise: float,
+    cover: np.ndarray,
+) -> None:
     """Two slopes: from the eaves s[0]..s[1] up to a ridge s[2]..s[3], at ``ridge`` inward."""
     a, b, c, d = s
     y = (0.0, 0.0, rise, rise)
@@ -56,7 +73,9 @@ def _add_slopes(patch: Patchwork, frame, s, ridge, rise, cover) -> None:
     patch.add(quads(frame, (b, a, c, d), y, (far[0], far[0], far[1], far[1])), cover)
 
 
-def _add_gables(patch: Patchwork, frame, width, cover, wall) -> None:
+def _add_gables(
+    patch: Patchwork, frame: Frames, width: np.ndarray, cover: np.ndarray, wall: np.ndarray
+) -> None:
     rise = 4.2
     _add_slopes(patch, frame, (0.0, width, 0.0, width), DEPTH / 2, rise, cover)
     y = (0.0, 0.0, rise, 0.0)
@@ -65,7 +84,9 @@ def _add_gables(patch: Patchwork, frame, width, cover, wall) -> None:
     patch.add(quads(frame, (width,) * 4, y, (middle, -DEPTH, middle, 0.0)), wall)
 
 
-def _add_hips(patch: Patchwork, frame, width, cover, wall) -> None:
+def _add_hips(
+    patch: Patchwork, frame: Frames, width: np.ndarray, cover: np.ndarray, wall: np.ndarray
+) -> None:
     rise, inset = 3.8, np.minimum(4.5, width * 0.4)
     low, high = -_EAVES, width + _EAVES
     _add_slopes(patch, frame, (low, high, inset, width - inset), DEPTH / 2, rise, cover)
@@ -76,7 +97,9 @@ def _add_hips(patch: Patchwork, frame, width, cover, wall) -> None:
     patch.add(quads(frame, (high, high, apex, high), y, (middle, far, middle, near)), cover)
 
 
-def _add_mansards(patch: Patchwork, frame, width, cover, wall) -> None:
+def _add_mansards(
+    patch: Patchwork, frame: Frames, width: np.ndarray, cover: np.ndarray, wall: np.ndarray
+) -> None:
     rise, inset = 2.7, 1.2
     _add_slopes(patch, frame, (0.0, width, 0.0, width), inset, rise, cover)
     patch.add(top(frame, 0.0, width, rise, inset - DEPTH, -inset), NUMBER["roof gravel"])
@@ -85,7 +108,9 @@ def _add_mansards(patch: Patchwork, frame, width, cover, wall) -> None:
     patch.add(quads(frame, (width,) * 4, y, (0.0, -DEPTH, inset - DEPTH, -inset)), wall)
 
 
-def _add_flats(patch: Patchwork, frame, width, cover, wall) -> None:
+def _add_flats(
+    patch: Patchwork, frame: Frames, width: np.ndarray, cover: np.ndarray, wall: np.ndarray
+) -> None:
     """A flat roof behind parapets, with a hut on it."""
     patch.add(top(frame, 0.0, width, 0.0, -DEPTH, 0.0), NUMBER["roof gravel"])
     for o in (0.0, 0.3 - DEPTH):
@@ -96,7 +121,9 @@ def _add_flats(patch: Patchwork, frame, width, cover, wall) -> None:
     patch.add(box(frame, *hut), NUMBER["concrete"])
 
 
-def _add_dormers(patch: Patchwork, frame, middle, cover, pane) -> None:
+def _add_dormers(
+    patch: Patchwork, frame: Frames, middle: np.ndarray, cover: np.ndarray, pane: np.ndarray
+) -> None:
     a, b, low, high, o = middle - 0.7, middle + 0.7, 0.45, 2.15, -0.12
     patch.add(front(frame, a, b, low, high, o), pane)
     patch.add(left(frame, a, low, high, -1.4, o), cover)
@@ -104,7 +131,9 @@ def _add_dormers(patch: Patchwork, frame, middle, cover, pane) -> None:
     patch.add(top(frame, a - 0.1, b + 0.1, high, -1.4, o + 0.1), cover)
 
 
-def add_chimneys(patch: Patchwork, frame: Frames, s, o, height) -> None:
+def add_chimneys(
+    patch: Patchwork, frame: Frames, s: np.ndarray, o: np.ndarray, height: np.ndarray
+) -> None:
     """Add a chimney at s, o of each frame, ``height`` above the eaves."""
     brick = NUMBER["brick red"]
     patch.add(box(frame, s - 0.5, s + 0.5, 0.0, height, o - 0.35, o + 0.35), brick)

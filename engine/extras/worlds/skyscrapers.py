@@ -120,7 +120,15 @@ def _side(sections: _Sections, turn: int) -> tuple[Frames, np.ndarray]:
     return frames(x, z, dx, dz, 0.15 + sections.foot), 2.0 * along
 
 
-def _add_ribbons(patch, frame, width, lobby, storeys, glass, stone) -> None:
+def _add_ribbons(
+    patch: Patchwork,
+    frame: Frames,
+    width: np.ndarray,
+    lobby: np.ndarray,
+    storeys: np.ndarray,
+    glass: np.ndarray,
+    stone: np.ndarray,
+) -> None:
     """Bands of glass that stand back between bands of stone, and a pillar at each end."""
     owner, storey = each(storeys)
     f, w, low = frame[owner], width[owner], (lobby[owner] + _FLOOR * storey)
@@ -135,7 +143,15 @@ def _add_ribbons(patch, frame, width, lobby, storeys, glass, stone) -> None:
     patch.add(box(frame, width - 0.9, width, 0.0, height, -0.4, 0.05, "flr"), stone)
 
 
-def _add_fins(patch, frame, width, lobby, storeys, glass, stone) -> None:
+def _add_fins(
+    patch: Patchwork,
+    frame: Frames,
+    width: np.ndarray,
+    lobby: np.ndarray,
+    storeys: np.ndarray,
+    glass: np.ndarray,
+    stone: np.ndarray,
+) -> None:
     """Glass from top to bottom behind upright fins."""
     if patch.tolerance >= 0.65:
         patch.add(front(frame, 0.0, width, lobby, lobby + _FLOOR * storeys, -0.3), glass)
@@ -151,7 +167,7 @@ def _add_fins(patch, frame, width, lobby, storeys, glass, stone) -> None:
     patch.add(fins, stone[owner])
 
 
-def _add_roofs(patch: Patchwork, sections: _Sections, style, stone) -> None:
+def _add_roofs(patch: Patchwork, sections: _Sections, style: np.ndarray, stone: np.ndarray) -> None:
     """A roof and parapets on each section."""
     grid = style == _GRID
     height = np.where(

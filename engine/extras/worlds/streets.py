@@ -6,6 +6,8 @@ half of each of the four streets round it.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from .frames import Frames, box, each, frames, top
@@ -38,7 +40,7 @@ def add_ground(patch: Patchwork, tile: Frames, land: np.ndarray) -> None:
     add_markings(patch, turned)
 
 
-def _ring(patch: Patchwork, tile: Frames, edges, y: float, material: int) -> None:
+def _ring(patch: Patchwork, tile: Frames, edges: Sequence[float], y: float, material: int) -> None:
     """Four level quads between two squares."""
     a, b, c, d = edges
     patch.add(top(tile, a, d, y, a, b), material)

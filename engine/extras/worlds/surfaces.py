@@ -8,6 +8,7 @@ element, so their bytes are the same everywhere.
 from __future__ import annotations
 
 import functools
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -135,7 +136,7 @@ def _soft(noise: np.ndarray, times: int) -> np.ndarray:
     return noise
 
 
-def _grey(level: np.ndarray, tint=(1.0, 1.0, 1.0)) -> np.ndarray:
+def _grey(level: np.ndarray, tint: tuple[float, float, float] = (1.0, 1.0, 1.0)) -> np.ndarray:
     """Return levels of light, 0 to 1, as pixels (H, W, 3)."""
     pixels = np.stack([level * part for part in tint], axis=-1)
     return (np.clip(pixels, 0.0, 1.0) * 255.0).astype(np.uint8)
@@ -187,7 +188,14 @@ def _tiles() -> np.ndarray:
     return _grey(level * (0.78 + 0.22 * y / (_SIDE // 8)))
 
 
-def _sash(level: np.ndarray, left: int, right: int, top: int, bottom: int, bars) -> np.ndarray:
+def _sash(
+    level: np.ndarray,
+    left: int,
+    right: int,
+    top: int,
+    bottom: int,
+    bars: Sequence[tuple[int | None, int | None]],
+) -> np.ndarray:
     """Pixels of a white frame with bars around glass of the given level."""
     pixels = np.full((_SIDE, _SIDE, 3), 228, np.uint8)
     glass = np.zeros((_SIDE, _SIDE), bool)

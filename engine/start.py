@@ -22,7 +22,7 @@ def main() -> int:
     return run(begin=_heed_interrupts)
 
 
-def _leave(number, frame) -> None:
+def _leave(number: int, frame: object) -> None:
     os._exit(INTERRUPTED)
 
 

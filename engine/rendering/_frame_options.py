@@ -25,7 +25,7 @@ from ..model.environments.environment import Environment
 from ..model.materials.display_colors import display_color, exact_display_color, shading_color
 from ..model.scene.fog import Fog
 from ..model.scene.gradients import Gradient
-from ..model.scene.scene import Scene
+from ..model.scene.staged_scene import AnyScene
 from ..model.scene.surroundings import SCENE_VALUES
 from ._tone_inverse import light_that_shows
 from .draw_list.draw_list import Listing
@@ -92,7 +92,7 @@ class FrameOptions:
 
     def __init__(
         self,
-        scene: Scene,
+        scene: AnyScene,
         color_space: ColorSpace,
         options: RenderOptions,
         threads: int,
@@ -166,7 +166,7 @@ class FrameOptions:
         )
 
 
-def _background(scene: Scene, color_space: ColorSpace, convert: Convert) -> dict[str, Any]:
+def _background(scene: AnyScene, color_space: ColorSpace, convert: Convert) -> dict[str, Any]:
     """What shows where nothing is drawn, as the core takes it; an environment comes beside."""
     background = scene.background
     if background is None:
@@ -181,7 +181,7 @@ def _background(scene: Scene, color_space: ColorSpace, convert: Convert) -> dict
     return {"background": (*convert(background, color_space), 1.0)}
 
 
-def _environment(scene: Scene) -> dict[str, float]:
+def _environment(scene: AnyScene) -> dict[str, float]:
     """How an environment is turned, how bright it is, and how blurred behind all, for the core."""
     turn, intensity = scene.environment_rotation, scene.environment_intensity
     cosine, sine = linalg.cos(turn), linalg.sin(turn)
@@ -196,7 +196,9 @@ def _environment(scene: Scene) -> dict[str, float]:
     }
 
 
-def _fog(scene: Scene, color_space: ColorSpace, options: RenderOptions) -> tuple[Any, ...] | None:
+def _fog(
+    scene: AnyScene, color_space: ColorSpace, options: RenderOptions
+) -> tuple[Any, ...] | None:
     """A scene's fog as the core takes it: colours, depths and density; or None."""
     fog = scene.fog
     if fog is None:
@@ -264,7 +266,7 @@ class OptionsCache:
             _keep(self._named, key, (given, options))
         return options
 
-    def get(self, scene: Scene, options: RenderOptions, height: int) -> FrameOptions:
+    def get(self, scene: AnyScene, options: RenderOptions, height: int) -> FrameOptions:
         """Return what the options are for a scene as it is now, in a picture of some height."""
         seen = options, height, *_scene_values(scene)
         known = self._found.get(id(options))

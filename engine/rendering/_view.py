@@ -20,7 +20,7 @@ from ..base.validation import matrix4
 from ..errors import InvalidArgumentError
 from ..model.scene.cameras import Camera
 from ..model.scene.nodes import Node
-from ..model.scene.scene import Scene
+from ..model.scene.staged_scene import AnyScene
 
 #: How a camera is chosen: the scene's own, a node that holds one, or a camera and its pose.
 CameraChoice: TypeAlias = Node | tuple[Camera, ArrayLike] | None
@@ -122,16 +122,16 @@ def _rise(row: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.f
 
 
 @overload
-def find_camera(scene: Scene, camera: None) -> tuple[Camera, np.ndarray] | None: ...
+def find_camera(scene: AnyScene, camera: None) -> tuple[Camera, np.ndarray] | None: ...
 
 
 @overload
 def find_camera(
-    scene: Scene, camera: Node | tuple[Camera, ArrayLike]
+    scene: AnyScene, camera: Node | tuple[Camera, ArrayLike]
 ) -> tuple[Camera, np.ndarray]: ...
 
 
-def find_camera(scene: Scene, camera: CameraChoice) -> tuple[Camera, np.ndarray] | None:
+def find_camera(scene: AnyScene, camera: CameraChoice) -> tuple[Camera, np.ndarray] | None:
     """Return the camera to draw with, and its pose.
 
     Parameters

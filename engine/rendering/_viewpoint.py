@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..model.scene.cameras import Camera
-from ..model.scene.scene import Scene
+from ..model.scene.staged_scene import AnyScene
 from ._view import CameraChoice, View, find_camera
 from .draw_list.draw_list import DrawList
 from .framing import frame_scene
@@ -30,7 +30,7 @@ class Viewpoint:
         self._framing: tuple[Camera, np.ndarray] | None = None
         self._framed: tuple[int, int, int] | None = None
 
-    def look(self, scene: Scene, camera: CameraChoice, width: int, height: int) -> View:
+    def look(self, scene: AnyScene, camera: CameraChoice, width: int, height: int) -> View:
         """Find the camera; a view that has not changed is used again."""
         chosen, pose = find_camera(scene, camera) or self._frame_scene(scene, width, height)
         view = self._view
@@ -38,16 +38,18 @@ class Viewpoint:
             view = self._view = View(chosen, pose, width, height, view)
         return view
 
-    def _frame_scene(self, scene: Scene, width: int, height: int) -> tuple[Camera, np.ndarray]:
+    def _frame_scene(self, scene: AnyScene, width: int, height: int) -> tuple[Camera, np.ndarray]:
         """A camera that shows the whole scene, kept until something in it changes or moves."""
         state = self._draw_list.changes, width, height
         if self._framing is None or self._framed != state or not self._draw_list.shows(scene):
-            self._framing = frame_scene(scene, aspect=width / height)
+            aspect = width / height
+            # It refuses staged scenes, which are looked at through cameras.
+            self._framing = frame_scene(scene, aspect=aspect)  # type: ignore[arg-type]
             self._framed = state
         return self._framing
 
 
-def frustum_of(scene: Scene, camera: CameraChoice, width: int, height: int) -> np.ndarray | None:
+def frustum_of(scene: AnyScene, camera: CameraChoice, width: int, height: int) -> np.ndarray | None:
     """Return clip_from_world of a camera to cull by; None for no camera."""
     if camera is None:
         return None

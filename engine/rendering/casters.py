@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from .._native.scene_graph import SHOWN
-from ..model.scene.node_arrays import CASTS_NONE, NodeArrays
+from ..model.scene.node_arrays import CASTS_NONE
+from ..model.scene.staged_scene import NodeRows
 
 
-def placed_casters(arrays: NodeArrays, selection: np.ndarray | None = None) -> tuple[bytes, ...]:
+def placed_casters(arrays: NodeRows, selection: np.ndarray | None = None) -> tuple[bytes, ...]:
     """Return what is the same while the nodes that cast shadows are, and stay where they are.
 
     Parameters

@@ -21,7 +21,7 @@ from ..model.scene.instances import InstancedMesh
 from ..model.scene.nodes import Node
 from ..model.scene.scene import Scene
 from ..model.scene.scenes_of_things import scene_of
-from ..model.scene.staged_scene import StagedScene
+from ..model.scene.staged_scene import AnyScene, StagedScene
 from ._frame_memory import FrameMemory
 from ._frame_options import OptionsCache
 from ._output_pool import OutputPool
@@ -182,7 +182,7 @@ class Renderer(Closed):
     @shows_options
     def prepare(
         self,
-        scene: Scene,
+        scene: AnyScene,
         *,
         options: RenderOptions | None = None,
         **keywords: Unpack[OptionKeywords],
@@ -229,7 +229,7 @@ class Renderer(Closed):
     @shows_options
     def render(
         self,
-        scene: Scene,
+        scene: AnyScene,
         camera: CameraChoice = None,
         *,
         out: Frame | None = None,
@@ -278,7 +278,7 @@ class Renderer(Closed):
 
     def _draw(
         self,
-        scene: Scene,
+        scene: AnyScene,
         camera: CameraChoice,
         options: RenderOptions,
         out: Frame | None,
@@ -307,7 +307,7 @@ class Renderer(Closed):
 
     def _look(
         self,
-        scene: Scene,
+        scene: AnyScene,
         camera: CameraChoice,
         options: RenderOptions,
         listed: tuple[str, ...],
@@ -369,7 +369,7 @@ def _check_samples(samples: Samples, antialias: Antialias) -> Samples:
 _RENDERER_KEYWORDS = ("size", "backend", "threads", "color_space", "samples", "antialias")
 
 
-def _blame_change(scene: Scene, census: tuple[int, int], error: Exception) -> None:
+def _blame_change(scene: AnyScene, census: tuple[object, ...], error: Exception) -> None:
     """Raise, where nodes came or went since a census, an error that says so instead of another."""
     if scene._census() != census:
         raise SceneChangedError(

@@ -6,9 +6,10 @@ In: option values. Out: the keyword arguments of one ``render`` call.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import fields
 from types import SimpleNamespace
-from typing import Any, get_args
+from typing import Any, TypeVar, get_args
 
 from ..base import linalg
 from ..base.calls import refuse_unknown
@@ -18,6 +19,8 @@ from ..model.geometry.mesh import Mesh
 from ..model.materials.colors import linear_color
 from ..model.scene.gradients import Gradient
 from ..model.scene.instances import InstancedMesh
+from ..model.scene.scene import Scene
+from ..model.scene.surroundings import Background
 from ..rendering.options import RenderOptions
 
 MODES = (*get_args(Mode), *get_args(OutputMode))
@@ -37,6 +40,7 @@ DEFAULTS = {one.name: one.default for one in fields(RenderOptions) if one.name !
     "line_color": None,
     "point_size": None,
 }
+Value = TypeVar("Value")
 #: What the options with few choices can be, in the order in which keys go round.
 CHOICES = {
     one.name: tuple(one.metadata["numbers"])
@@ -57,7 +61,7 @@ class Appearance(SimpleNamespace):
         refuse_unknown(Appearance, given, DEFAULTS)
         super().__init__(**(DEFAULTS | given))
 
-    def arguments(self, background, point_size: float) -> dict:
+    def arguments(self, background: Background, point_size: float) -> dict[str, Any]:
         """Return the keyword arguments for `Renderer.render`.
 
         Parameters
@@ -79,13 +83,14 @@ class Appearance(SimpleNamespace):
         return arguments
 
 
-def contrasting(background) -> tuple[int, int, int]:
+def contrasting(background: Background) -> tuple[int, int, int]:
     """Return a dark or a light colour, whichever is seen better before a background."""
     if background is None or isinstance(background, Environment):
         return LIGHT
     if isinstance(background, Gradient):
-        background = linear_color(background.top) + linear_color(background.bottom)
-        background = tuple(float(component) / 2 for component in background)
+        ends = linear_color(background.top) + linear_color(background.bottom)
+        red, green, blue = (float(component) / 2 for component in ends)
+        background = red, green, blue
     here, dark, light = (
         float(linalg.dot(linear_color(color), _LUMINANCE)) + 0.05
         for color in (background, DARK, LIGHT)
@@ -101,7 +106,7 @@ def point_size(count: int, size: tuple[int, int]) -> float:
     return float(round(max(pixel, min(MOST_PIXELS * pixel, POINT_SHARE * apart))))
 
 
-def count_points(scene) -> int:
+def count_points(scene: Scene) -> int:
     """Return how many points a scene shows."""
     count = 0
     for node in scene.nodes:
@@ -115,7 +120,7 @@ def count_points(scene) -> int:
     return count
 
 
-def following(value, choices, step: int = 1):
+def following(value: Value, choices: Sequence[Value], step: int = 1) -> Value:
     """Return the choice ``step`` places after ``value``, going round."""
     index = choices.index(value) if value in choices else -1
     return choices[(index + step) % len(choices)]

@@ -174,7 +174,7 @@ def _of_content(sight: Sight, nodes: list[Node]) -> Reason | None:
 
 def _has_finite(mesh: Mesh) -> bool:
     """Whether any face, line or point of a mesh has finite corners alone."""
-    finite = np.isfinite(mesh.positions).all(axis=1)
+    finite = np.asarray(np.isfinite(mesh.positions).all(axis=1))
     if finite.all():
         return True
     elements = (mesh.faces, mesh.lines, mesh.points)

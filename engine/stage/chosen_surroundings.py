@@ -6,13 +6,16 @@ In: plain values. Out: a staged scene that has them; what was left open stays as
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import cast
 
+from ..choices import Color
 from ..model.environments.environment import Environment
 from ..model.materials.display_colors import display_color
 from ..model.materials.material import Material
 from ..model.scene.gradients import Gradient
 from ..model.scene.scene import Scene
 from ..model.scene.staged_scene import StagedScene
+from ..model.scene.surroundings import Background
 from ..model.scene.usage import uses_in
 
 _USUAL_INTENSITY = 0.5  # of the environment that scenes get by themselves, beside their lights
@@ -69,9 +72,11 @@ def _has_physical(scene: Scene) -> bool:
     )
 
 
-def fog_color(background) -> tuple[int, ...] | None:
+def fog_color(background: Background) -> tuple[float, ...] | None:
     """Return the colour of a background, or of a gradient's middle; None where it has no one."""
     if isinstance(background, Gradient):
-        ends = (display_color(end, "srgb") for end in (background.top, background.bottom))
+        ends = (
+            display_color(cast(Color, end), "srgb") for end in (background.top, background.bottom)
+        )
         return tuple(round(255 * (top + bottom) / 2) for top, bottom in zip(*ends, strict=True))
     return background if isinstance(background, tuple) else None

@@ -35,6 +35,7 @@ class CullingStudy:
 
     def lines(self, scene: Scene, size: tuple[int, int]) -> list[Lines]:
         """Return the lines to draw over a frame."""
-        if self.drawing == "frustum":
-            return frustum_lines(*(self.camera or self._from), size)
+        seen = self.camera or self._from
+        if self.drawing == "frustum" and seen is not None:
+            return frustum_lines(*seen, size)
         return box_lines(scene) if self.drawing == "boxes" else tree_lines(scene)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ..model.materials.material import Material, textures_of
@@ -47,10 +48,9 @@ class Filtering:
                 texture.lod_bias = bias
 
 
-def _textures(materials) -> list[Texture]:
+def _textures(materials: Iterable[Material]) -> list[Texture]:
     """The textures of materials, each once."""
     found: dict[int, Texture] = {}
-    material: Material
     for material in materials:
         found.update((id(texture), texture) for texture in textures_of(material).values())
     return list(found.values())

@@ -14,9 +14,13 @@ are the same on every machine.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 
 from ..base import linalg
+from ..choices import FrameCull
 from ..model.geometry.mesh import Mesh
 from ..model.materials.material import textures_of
 from ..model.scene.cameras import Camera
@@ -64,9 +68,9 @@ class GroundShadow:
         self._ground = ground
         self._axes = axes
         self._renderers: dict[bool, Renderer] = {}
-        self._kept: dict[float, tuple[tuple, np.ndarray]] = {}
+        self._kept: dict[float, tuple[tuple[object, ...], np.ndarray]] = {}
 
-    def alphas(self, lowest: float, sphere: Sphere, azimuth: float, cull: str) -> np.ndarray:
+    def alphas(self, lowest: float, sphere: Sphere, azimuth: float, cull: FrameCull) -> np.ndarray:
         """Return how dark the ground is; rows go from the back to the front.
 
         Parameters
@@ -89,12 +93,17 @@ class GroundShadow:
         turned, tipped = cosine(azimuth), sine(azimuth)
         slant = -_LEFT * turned - _BACK * tipped, _LEFT * tipped - _BACK * turned
         stands = lowest, sphere, cull, self._state()
-        sky = self._darkness((0.0, 0.0), _SKY_SPREAD, *stands)
-        key = self._darkness(slant, _KEY_SPREAD, *stands)
+        sky = self._darkness((0.0, 0.0), _SKY_SPREAD, stands)
+        key = self._darkness(slant, _KEY_SPREAD, stands)
         dark = (sky * np.float32(255 * _SKY) + key * np.float32(255 * _KEY)) * _fading()
         return np.rint(dark).astype(np.uint8)
 
-    def _darkness(self, slant, spread: float, *stands) -> np.ndarray:
+    def _darkness(
+        self,
+        slant: tuple[float, float],
+        spread: float,
+        stands: tuple[float, Sphere, FrameCull, Any],
+    ) -> np.ndarray:
         """How much of a light is taken, (SIDE, SIDE) float32 from 0 to 1."""
         kept = self._kept.get(spread)
         if kept is None or kept[0] != (slant, stands):
@@ -102,12 +111,12 @@ class GroundShadow:
             kept = self._kept[spread] = (slant, stands), _darkness(*heights, spread)
         return kept[1]
 
-    def _state(self) -> tuple:
+    def _state(self) -> tuple[object, ...]:
         """What is the same while all that casts a shadow is, and stays as and where it is."""
         scene = self._scene
         scene._update()
         posing = None if scene._posing is None else scene._posing.moment
-        versions = {}
+        versions: dict[object, int] = {}
         for shape in scene._objects.objects:
             if shape is None or shape is self._ground:
                 continue
@@ -121,7 +130,9 @@ class GroundShadow:
                     versions.update((t, t.version) for t in textures_of(material).values())
         return versions, scene._shows_textures, posing, placed_casters(scene._arrays)
 
-    def _heights(self, slant, lowest: float, sphere: Sphere, cull: str):
+    def _heights(
+        self, slant: tuple[float, float], lowest: float, sphere: Sphere, cull: FrameCull
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Where along rays the model begins and ends: two of (SIDE, SIDE) float32, in radii.
 
         Where nothing is, it begins infinitely high and ends infinitely low.
@@ -138,7 +149,13 @@ class GroundShadow:
         first = np.minimum(np.float32(_LOW) + below * np.float32(_HIGH - _LOW), last)
         return np.where(np.isfinite(above), first, np.float32(np.inf)), last
 
-    def _depths(self, camera: Camera, middle: np.ndarray, axes, cull="none") -> np.ndarray:
+    def _depths(
+        self,
+        camera: Camera,
+        middle: np.ndarray,
+        axes: Sequence[np.ndarray],
+        cull: FrameCull = "none",
+    ) -> np.ndarray:
         """Depths from 0 to 1 of what a camera on the ground sees; infinite where nothing is."""
         pose = np.eye(4)
         pose[:3, :3], pose[:3, 3] = np.stack(axes, axis=1), middle
@@ -151,7 +168,7 @@ class GroundShadow:
         return (frame.ndc_depth + np.float32(1.0)) * np.float32(0.5)
 
 
-def _camera(lean, reached: float, radius: float) -> Camera:
+def _camera(lean: tuple[float, float], reached: float, radius: float) -> Camera:
     """A camera without perspective whose picture shows where rays that lean meet the ground.
 
     Parameters
@@ -270,7 +287,7 @@ def _sums(rows: np.ndarray, reach: int) -> np.ndarray:
     return rows
 
 
-def _lay(part: np.ndarray, taken: np.ndarray, corner, margin: int) -> None:
+def _lay(part: np.ndarray, taken: np.ndarray, corner: Sequence[int], margin: int) -> None:
     """Let a part take its light, if another does not take more already."""
     to, source = [], []
     for start, size in zip(corner, part.shape, strict=True):

@@ -9,11 +9,15 @@ lights, if it has any, are the first set-up.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import cast
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..base import linalg
-from ..model.scene.lights import LIGHTS, DirectionalLight, PointLight
+from ..model.scene.lights import LIGHTS, DirectionalLight, Light, PointLight
+from ..model.scene.nodes import Node
 from ..model.scene.orbiting import home_axes
 from ..model.scene.staged_scene import StagedScene
 from .views.viewpoint import Sphere
@@ -54,11 +58,11 @@ class Lighting:
         Factor on the set-ups' intensities. In an environment they are dimmer.
     """
 
-    def __init__(self, staged: StagedScene, up, intensity: float = 1.0):
+    def __init__(self, staged: StagedScene, up: ArrayLike, intensity: float = 1.0) -> None:
         own = [node for node in staged.scene.nodes if is_light(node) and node.visible]
         self._staged = staged
         self._nodes = {OWN_LIGHTS: own} if own else {}
-        self._home = np.stack(home_axes(up), axis=1)
+        self._home = np.stack(tuple(home_axes(up)), axis=1)
         if staged.environment is not None:
             intensity *= _IN_ENVIRONMENT
         for name, lights in SETUPS.items():
@@ -78,9 +82,9 @@ class Lighting:
             for node in self._nodes[setup]:
                 node.visible = setup == name
 
-    def groups(self) -> list[list]:
+    def groups(self) -> list[list[Light]]:
         """Return the lights that shine together: those of each set-up."""
-        return [[node.object for node in nodes] for nodes in self._nodes.values()]
+        return [[cast(Light, node.object) for node in nodes] for nodes in self._nodes.values()]
 
     def follow(self, pose: np.ndarray) -> None:
         """Turn the set-up with the camera, whose pose is (4, 4)."""
@@ -123,15 +127,20 @@ class OnlyLight:
         Where a point light is, in world space.
     """
 
-    def __init__(self, staged: StagedScene, light, position=(0.0, 0.0, 0.0)):
+    def __init__(
+        self,
+        staged: StagedScene,
+        light: DirectionalLight | PointLight,
+        position: Sequence[float] = (0.0, 0.0, 0.0),
+    ) -> None:
         self.name = "placed light" if isinstance(light, PointLight) else "directed light"
         self.names = (self.name,)
         staged.keeps_lights = False
         self._node = staged.beside.add(light, translation=position)
 
-    def groups(self) -> list[list]:
+    def groups(self) -> list[list[Light]]:
         """As of `Lighting`."""
-        return [[self._node.object]]
+        return [[cast(Light, self._node.object)]]
 
     def choose(self, name: str) -> None:
         """Do nothing: there is one set-up."""
@@ -149,7 +158,7 @@ class OnlyLight:
 
 
 def placed_light(
-    staged: StagedScene, position, bounds: Sphere, intensity: float | None = None
+    staged: StagedScene, position: Sequence[float], bounds: Sphere, intensity: float | None = None
 ) -> OnlyLight:
     """Light a scene with one point light.
 
@@ -186,6 +195,6 @@ def _pose_of(rotation: np.ndarray) -> np.ndarray:
     return pose
 
 
-def is_light(node) -> bool:
+def is_light(node: Node) -> bool:
     """Return whether a scene's node holds a light."""
     return isinstance(node.object, LIGHTS)

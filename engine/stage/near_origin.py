@@ -6,6 +6,8 @@ light and shadow are fine; and where the origin is in the files' coordinates.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ..io.reading.far_coordinates import origin_near
 from .viewed_scene import ViewedScene
 
@@ -19,17 +21,19 @@ def moved_near(viewed: ViewedScene) -> ViewedScene:
     What is at its top hangs under one more node then.
     """
     scene = viewed.scene
-    origin = origin_near(*scene.bounds, _FAR)
+    low, high = scene.bounds
+    origin = origin_near(low, high, _FAR)
     if origin is not None:
         tops = [node for node in scene.nodes if node.parent is None]
         group = scene.add(name="origin", translation=-origin)
         for node in tops:
             node.reparent(group, keep_world_pose=False)
-        viewed.origin = tuple(origin.tolist())
+        x, y, z = origin.tolist()
+        viewed.origin = (x, y, z)
     return viewed
 
 
-def from_file(viewed: ViewedScene, position) -> tuple[float, ...]:
+def from_file(viewed: ViewedScene, position: Sequence[float]) -> tuple[float, ...]:
     """Return where a position in the files' coordinates is in the scene."""
     pairs = zip(position, viewed.origin, strict=True)
     return tuple(float(place) - origin for place, origin in pairs)

@@ -8,13 +8,20 @@ from __future__ import annotations
 
 import os
 import warnings
+from collections.abc import Callable
+from typing import Any, cast
 
+from ..choices import ColorLike
 from ..errors import Engine3DWarning, InvalidArgumentError, printable
 from ..io.loaders import load_document, load_texture
 from ..io.reading.documents import Document
+from ..io.reading.loading import Progress
+from ..io.reading.sources import File
 from ..io.scenes.scene_loading import scene_from_document
 from ..model.geometry.creases import CREASE_ANGLE
+from ..model.geometry.mesh import Mesh
 from ..model.materials.material import Material, says_something, textures_of
+from ..model.materials.textures import Texture
 from ..model.scene.scene import Scene
 from .overlays.theme import DARK
 from .scalars import ScalarColoring
@@ -45,7 +52,9 @@ def color_by(viewed: ViewedScene, document: Document, scalars: ScalarColoring) -
         raise InvalidArgumentError(f"{printable(viewed.path)}: {error}") from None
 
 
-def open_model(path, *, animation=None, **options) -> ViewedScene:
+def open_model(
+    path: File, *, animation: Callable[[ViewedScene], object] | None = None, **options: Any
+) -> ViewedScene:
     """Load a file to look at.
 
     Parameters
@@ -75,17 +84,17 @@ def open_model(path, *, animation=None, **options) -> ViewedScene:
 
 
 def read_model(
-    path,
+    path: File,
     *,
-    texture=None,
-    color=None,
-    progress=None,
-    companion=None,
-    variant=None,
-    crease_angle=CREASE_ANGLE,
-    format=None,
-    scalars=None,
-    root=None,
+    texture: File | None = None,
+    color: ColorLike | None = None,
+    progress: Progress | None = None,
+    companion: Callable[[str], bool] | None = None,
+    variant: str | int | None = None,
+    crease_angle: float = CREASE_ANGLE,
+    format: str | None = None,
+    scalars: ScalarColoring | None = None,
+    root: str | os.PathLike[str] | None = None,
 ) -> tuple[ViewedScene, Document]:
     """Load a file to look at, which may be coloured by other numbers later.
 
@@ -133,10 +142,11 @@ def read_model(
         scalars=None if scalars is None else scalars.kind,
         root=root,
     )
-    path = None if hasattr(path, "read") else os.fsdecode(path)
+    is_named = not hasattr(path, "read")
+    name = os.fsdecode(cast("str | os.PathLike[str]", path)) if is_named else None
     if is_dressed:
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
-    viewed = view_document(document, path, variant)
+    viewed = view_document(document, name, variant)
     if scalars is not None:
         color_by(viewed, document, scalars)
         # Tone mapping would change the colours that the bar shows.
@@ -144,7 +154,9 @@ def read_model(
     return viewed, document
 
 
-def view_document(document, path: str | None, variant: str | int | None = None) -> ViewedScene:
+def view_document(
+    document: Document, path: str | None, variant: str | int | None = None
+) -> ViewedScene:
     """Return what a file holds as a scene to look at; see `open_model`."""
     scene = scene_from_document(document, variant)
     if document.scene is None:
@@ -169,12 +181,12 @@ def _no_image(path: str) -> bool:
     return False
 
 
-def has_materials(mesh) -> bool:
+def has_materials(mesh: Mesh) -> bool:
     """Return whether any material of a mesh says how it looks; a name alone does not."""
     return any(map(says_something, mesh.materials))
 
 
-def _dress(meshes, image, color) -> None:
+def _dress(meshes: list[Mesh], image: Texture | None, color: ColorLike | None) -> None:
     """Give the materials of the meshes the image and the colour; warn if that changes nothing."""
     if not meshes:
         _warn("the model has materials of its own: it gets no other texture or colour")
@@ -187,7 +199,7 @@ def _dress(meshes, image, color) -> None:
             material.color = color
 
 
-def dress_scene(scene: Scene, color) -> None:
+def dress_scene(scene: Scene, color: ColorLike) -> None:
     """Give a colour to what in a scene has no texture and does not glow; warn if all has."""
     things = [node.object for node in scene.nodes if isinstance(node.object, DRAWABLE)]
     painted = False
@@ -211,7 +223,7 @@ def _warn(message: str) -> None:
     warnings.warn(message, Engine3DWarning, stacklevel=4)
 
 
-def document_lines(document) -> list[str]:
+def document_lines(document: Document) -> list[str]:
     """Return the format and the counts of a document, a line each."""
     lines = [f"{'format':<12}{document.format:>11}"]
     if document.unit:

@@ -8,22 +8,25 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from ..base import linalg
 from ..errors import Engine3DWarning
 from ..io.reading.documents import Document
+from ..io.reading.sources import File
 from ..model.geometry.mesh import Mesh
 from ..model.motion.shown import placing_pose, shown_object
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.lights import LIGHTS
+from ..model.scene.orbiting import home_axes
 from ..model.scene.scene import Scene
 from .near_origin import moved_near
 from .open_model import color_by, read_model
 from .scalars import ScalarColoring
 from .viewed_scene import ViewedScene
-from .views.viewpoint import UP_DIRECTIONS, home_axes
+from .views.viewpoint import UP_DIRECTIONS
 
 #: Room between models that stand side by side, as a share of the widest.
 GAP = 0.15
@@ -33,12 +36,12 @@ _SHOWN = (Mesh, InstancedMesh, *LIGHTS)
 
 
 def open_models(
-    paths: Sequence,
+    paths: Sequence[File],
     *,
     side_by_side: bool = False,
     up: str | None = None,
     animation: Callable[[ViewedScene], object] | None = None,
-    **options,
+    **options: Any,
 ) -> ViewedScene:
     """Load files to look at together.
 
@@ -167,7 +170,9 @@ def _box(viewed: ViewedScene, turn: np.ndarray, axes: np.ndarray) -> tuple[np.nd
     return along.min(axis=0), along.max(axis=0)
 
 
-def _compare_sizes(viewed_scenes: list[ViewedScene], boxes) -> None:
+def _compare_sizes(
+    viewed_scenes: list[ViewedScene], boxes: list[tuple[np.ndarray, np.ndarray]]
+) -> None:
     """Warn of models so different in size that one of them hardly shows."""
     sizes = [float((high - low).max()) for low, high in boxes]
     small, large = sizes.index(min(sizes)), sizes.index(max(sizes))

@@ -12,15 +12,15 @@ import numpy as np
 
 from ..choices import OutputMode
 from ..model.materials.colors import srgb_to_linear_table
-from ..rendering.frame import Frame
+from ..rendering.frame import Frame, Output
 from .overlays.theme import Theme
 from .views.viewpoint import Sphere
 
 OUTPUT_MODES = get_args(OutputMode)
 #: Tells what shows a surface: everything else is background.
-COVERAGE = "depth"
+COVERAGE: Output = "depth"
 #: What the split view shows, row by row.
-SPLIT = (
+SPLIT: tuple[tuple[Output, ...], ...] = (
     ("color", "albedo", "world_normal"),
     ("world_position", "depth", "uv"),
     ("object_id", "triangle_id", "material_id"),
@@ -128,5 +128,5 @@ def _nearness(depth: np.ndarray) -> np.ndarray:
 def _placed(name: str, positions: np.ndarray, bounds: Sphere) -> np.ndarray:
     """Return where positions are in the bounds, from 0 to 1; in view space round the camera."""
     center = bounds.center if name == "world_position" else (0.0, 0.0, 0.0)
-    middle, reach = np.float32(center), np.float32(2 * bounds.radius)
+    middle, reach = np.array(center, np.float32), np.float32(2 * bounds.radius)
     return (positions - middle) / reach + np.float32(0.5)

@@ -7,8 +7,9 @@ texture, so that what is interpolated across a triangle is the number, not the c
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,14 +118,14 @@ class ScalarColoring:
         own = () if self.by_faces else (*_AXES, _NORMALS)
         if self.name is None and (known or own):
             return known[0] if known else up[1:].lower()
-        if self.name not in (*known, *own):
+        if self.name is None or self.name not in (*known, *own):
             lacking = "array of faces" if self.by_faces else "array"
             lacking += "" if self.name is None else f" {self.name!r}"
             names = f"there are {', '.join([*known, *own])}" if known or own else "there are none"
             raise InvalidArgumentError(f"there is no {lacking}; {names}")
         return self.name
 
-    def _values(self, array: NDArray) -> NDArray[np.float64]:
+    def _values(self, array: NDArray[Any]) -> NDArray[np.float64]:
         """One number of each row, NaN where it has none."""
         rows = array.astype(np.float64)
         if self.component >= rows.shape[1]:
@@ -140,7 +141,7 @@ class ScalarColoring:
         return Texture(pixels, filter="bilinear", wrap="clamp", name="colour map")
 
     def _show(
-        self, entry: DocumentObject, values: NDArray, low: float, high: float, texture: Texture
+        self, entry: DocumentObject, values: NDArray[Any], low: float, high: float, texture: Texture
     ) -> None:
         mesh, count = entry.mesh, len(self.colors)
         is_number = np.isfinite(values)
@@ -160,7 +161,7 @@ class ScalarColoring:
         mesh.materials = [Material()]
 
 
-def _show_colors(mesh: Mesh, array: NDArray) -> None:
+def _show_colors(mesh: Mesh, array: NDArray[Any]) -> None:
     """Colour a mesh by numbers that are colours: of 0 to 255 if they are integers, else to 1."""
     scale = 1.0 if array.dtype.kind in "iu" else 255.0
     numbers = np.clip(np.nan_to_num(array.astype(np.float64)) * scale, 0.0, 255.0)
@@ -170,7 +171,7 @@ def _show_colors(mesh: Mesh, array: NDArray) -> None:
     mesh.materials = [Material()]
 
 
-def _array(entry: DocumentObject, name: str) -> NDArray:
+def _array(entry: DocumentObject, name: str) -> NDArray[Any]:
     """The numbers of an object's vertices, (V, N); NaN where it has none of that name."""
     mesh, pose = entry.mesh, entry.pose
     if name in mesh._scalars:
@@ -188,7 +189,7 @@ def _array(entry: DocumentObject, name: str) -> NDArray:
     return positions[:, [_AXES.index(name)]]
 
 
-def _range(arrays) -> tuple[float, float]:
+def _range(arrays: Iterable[NDArray[np.float64]]) -> tuple[float, float]:
     """The lowest and the highest number, apart from each other."""
     finite = [array[np.isfinite(array)] for array in arrays]
     finite = [array for array in finite if len(array)]

@@ -10,12 +10,15 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..base import linalg
 from ..model.geometry.mesh import Mesh
 from ..model.motion.shown import placing_pose, shown_object
 from ..model.scene.instances import InstancedMesh
+from ..model.scene.nodes import Node
 from ..model.scene.orbiting import cosine, home_axes, sine
+from ..model.scene.scene import Scene
 from .views.viewpoint import Sphere
 
 #: How finely `turning_outline` follows a scene.
@@ -23,7 +26,7 @@ OUTLINE_BANDS = 24
 OUTLINE_ANGLES = 24
 
 
-def bounding_sphere(scene) -> Sphere:
+def bounding_sphere(scene: Scene) -> Sphere:
     """Return a sphere round every visible mesh of ``scene``.
 
     It is centred on the bounding box and reaches to the farthest vertex; instances count as their
@@ -44,7 +47,7 @@ def sphere_of_box(box: np.ndarray) -> Sphere:
     return Sphere(tuple(center.tolist()), float(linalg.length(half)) or 1.0)
 
 
-def turning_outline(scene, up) -> np.ndarray:
+def turning_outline(scene: Scene, up: ArrayLike) -> np.ndarray:
     """Return points round everything visible in ``scene``, however it turns about ``up``.
 
     Framing them keeps a turntable in the picture, closer than a sphere would. They lie on rings
@@ -65,13 +68,13 @@ def turning_outline(scene, up) -> np.ndarray:
     right, up, back = home_axes(up)
     low, high = scene.bounds
     center = (low + high) / 2
-    heights, squares = [np.zeros(1)], [np.zeros(1)]
+    rises, squares = [np.zeros(1)], [np.zeros(1)]
     for points in _world_points(scene):
         offsets = points - center
-        heights.append(linalg.dot(offsets, up))
+        rises.append(linalg.dot(offsets, up))
         across, along = linalg.dot(offsets, right), linalg.dot(offsets, back)
         squares.append(across * across + along * along)
-    heights, widths = np.concatenate(heights), np.sqrt(np.concatenate(squares))
+    heights, widths = np.concatenate(rises), np.sqrt(np.concatenate(squares))
     bottom, top = heights.min(), heights.max()
     if top == bottom and not widths.any():
         bottom, top, widths = -1.0, 1.0, np.ones_like(widths)
@@ -92,7 +95,7 @@ def _ends(widest: np.ndarray) -> list[tuple[float, float]]:
     return list(zip([0.0, *widest], [*widest, 0.0], strict=True))
 
 
-def _world_points(scene) -> Iterator[np.ndarray]:
+def _world_points(scene: Scene) -> Iterator[np.ndarray]:
     """Yield the finite vertices of each visible mesh, (N, 3) in world space; instances as boxes."""
     scene._update()
     for node in scene.nodes:
@@ -103,7 +106,7 @@ def _world_points(scene) -> Iterator[np.ndarray]:
             yield points[np.isfinite(points).all(axis=1)]
 
 
-def _outline(node) -> np.ndarray | None:
+def _outline(node: Node) -> np.ndarray | None:
     """Return points of the node's mesh, (N, 3) in its own space, that its hull goes through."""
     shape = shown_object(node)
     if isinstance(shape, Mesh):

@@ -6,6 +6,7 @@ Plain data: the command line fills it in, `ViewRenderer` applies it to each scen
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 from ..choices import LightShadow
 from ..model.scene.fog import ExponentialFog, Fog
@@ -68,7 +69,7 @@ class Settings:
         Whether models in the look "studio" do not choose the theme that they stand out from.
     """
 
-    appearance: dict
+    appearance: dict[str, Any]
     look: str = "plain"
     up: str | None = None
     background: tuple[int, int, int] | Gradient | None = None

@@ -156,7 +156,14 @@ class Staging:
             self._set_studio(self._studio, view, appearance, split, draw_alone)
         self.box.follow(view, self.settings.axes_grid and not split)
 
-    def _set_studio(self, studio: Studio, view, appearance, split: bool, draw_alone) -> None:
+    def _set_studio(
+        self,
+        studio: Studio,
+        view: Viewpoint,
+        appearance: Appearance,
+        split: bool,
+        draw_alone: Callable[[Viewpoint], np.ndarray],
+    ) -> None:
         if self._chooses_theme:
             studio.show_shadow(False)
             self.alone = None if self.settings.keeps_theme else draw_alone(view)

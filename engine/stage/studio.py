@@ -14,12 +14,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..base import linalg
+from ..choices import FrameCull
 from ..model.geometry.mesh import Mesh
-from ..model.materials.material import Material
+from ..model.materials.material import Material, textures_of
 from ..model.materials.textures import Texture
 from ..model.scene.ambient_lights import HemisphereLight
+from ..model.scene.nodes import Node
 from ..model.scene.orbiting import home_axes
 from ..model.scene.staged_scene import StagedScene
 from .ground_shadow import REACH, SIDE, GroundShadow
@@ -52,15 +55,17 @@ class Studio:
         How far the scene reaches as it moves, in world space; by default it stays where it is.
     """
 
-    def __init__(self, staged: StagedScene, up, is_lit: bool, places: np.ndarray | None = None):
+    def __init__(
+        self, staged: StagedScene, up: ArrayLike, is_lit: bool, places: np.ndarray | None = None
+    ) -> None:
         self._staged = staged
         self._axes = home_axes(up)
         if is_lit:
             pose = np.eye(4)
-            pose[:3, :3] = np.stack(self._axes, axis=1)
+            pose[:3, :3] = np.stack(tuple(self._axes), axis=1)
             staged.beside.add(HemisphereLight(_SKY, _GROUND), pose=pose)
             staged.ambient = (0.0, 0.0, 0.0)
-        self._ground = None
+        self._ground: Node | None = None
         self._square = _square()
         self._shadow = GroundShadow(staged, self._square, self._axes)
         places = staged.scene.bounds if places is None else places
@@ -71,7 +76,7 @@ class Studio:
         """Whether the shadow is drawn."""
         return self._ground is not None and self._ground.visible
 
-    def lay_shadow(self, bounds: Sphere, azimuth: float, cull: str, eye) -> None:
+    def lay_shadow(self, bounds: Sphere, azimuth: float, cull: FrameCull, eye: np.ndarray) -> None:
         """Show the shadow of the scene as it is on the ground.
 
         Parameters
@@ -94,7 +99,7 @@ class Studio:
         ground = self._darkened(alphas)
         farther = 1.0 + BEHIND * eye[3]
         pose = np.eye(4)
-        pose[:3, :3] = np.stack(self._axes, axis=1) * (farther * bounds.radius)
+        pose[:3, :3] = np.stack(tuple(self._axes), axis=1) * (farther * bounds.radius)
         pose[:3, 3] = middle - towards * (BEHIND if eye[3] else BEHIND * bounds.radius)
         ground.pose = pose
         self.show_shadow(True)
@@ -103,13 +108,12 @@ class Studio:
         """How low the scene reaches now."""
         return float(linalg.dot(self._staged.bounds, self._axes[1]).min())
 
-    def _darkened(self, alphas: np.ndarray):
+    def _darkened(self, alphas: np.ndarray) -> Node:
         """Return the ground with a shadow on it; it is added when it is needed first."""
         if self._ground is None:
-            ground = self._staged.beside.add(self._square, name="shadow", cast_shadows=False)
-            self._ground = ground
+            self._ground = self._staged.beside.add(self._square, name="shadow", cast_shadows=False)
         material = self._square.materials[0]
-        known = material.texture
+        known = textures_of(material).get("texture")
         if known is None or (known.pixels[..., 3] != alphas).any():
             pixels = np.zeros((SIDE, SIDE, 4), np.uint8)
             pixels[..., 3] = alphas
@@ -147,14 +151,14 @@ def theme_for(picture: np.ndarray, themes: Iterable[Theme] = (LIGHT, DARK)) -> T
     around = np.pad(shows, 1, mode="edge")
     inside = around[:-2, 1:-1] & around[2:, 1:-1] & around[1:-1, :-2] & around[1:-1, 2:]
     outline = np.nonzero(shows & ~inside)
-    thin = len(outline[0]) / max(np.count_nonzero(shows), 1)
+    thin = len(outline[0]) / max(int(np.count_nonzero(shows)), 1)
     needed = _CONTRAST + (_THIN_CONTRAST - _CONTRAST) * thin
     distances = [(_distance(picture, outline, theme), theme) for theme in themes]
     enough = [theme for distance, theme in distances if distance >= needed]
     return enough[0] if enough else max(distances, key=lambda entry: entry[0])[1]
 
 
-def _distance(picture: np.ndarray, outline, theme: Theme) -> float:
+def _distance(picture: np.ndarray, outline: tuple[np.ndarray, ...], theme: Theme) -> float:
     """How far an outline's pixels are from a theme's background, in codes; 0 if there are none."""
     rows, columns = outline
     if not len(rows):

@@ -6,10 +6,16 @@ drawn on it.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
+from typing import Any, TypedDict
+
 import numpy as np
 
-from ..model.scene.cameras import PerspectiveCamera
+from ..choices import Antialias, Backend, Samples
+from ..model.scene.cameras import Camera, OrthographicCamera, PerspectiveCamera
 from ..model.spatial.rays import RayHit
+from ..rendering.canvas import Canvas
+from ..rendering.frame import Frame, Output
 from ..rendering.options import size_in_picture
 from ..rendering.renderer import Renderer
 from ..rendering.support_functions import support_of_scene
@@ -43,6 +49,14 @@ STUDIO = {"tone_mapping": "neutral", "ambient_occlusion": True}
 _OCCLUSION_REACH = 0.2
 #: How much farther away what has numbers around it is seen from.
 _LABEL_ROOM = 1.12
+
+
+class _Options(TypedDict):
+    """What all renderers of a view are made with."""
+
+    backend: Backend
+    threads: int
+    antialias: Antialias
 
 
 class ViewRenderer:
@@ -89,19 +103,23 @@ class ViewRenderer:
         settings: Settings,
         size: tuple[int, int],
         *,
-        backend: str = "auto",
+        backend: Backend = "auto",
         threads: int = 0,
-        samples: int = 1,
-        antialias: str = "ssaa",
+        samples: Samples = 1,
+        antialias: Antialias = "ssaa",
         transparent: bool = False,
-        report=None,
-    ):
+        report: Callable[[Frame], object] | None = None,
+    ) -> None:
         self._transparent = transparent
         self._report = report
-        self._options = {"backend": backend, "threads": threads, "antialias": antialias}
+        self._options: _Options = {
+            "backend": backend,
+            "threads": threads,
+            "antialias": antialias,
+        }
         self.samples = samples
         self.size = size
-        self.stats: dict = {}
+        self.stats: dict[str, Any] = {}
         self.split = False
         self.culling = CullingStudy()
         self.screen_scale = 1
@@ -142,9 +160,10 @@ class ViewRenderer:
 
     def _find_outline(self) -> None:
         viewed = self.viewed
-        self._outline = viewed.focus
-        if self._outline is None:
-            self._outline = turning_outline(viewed.scene, UP_DIRECTIONS[self.staging.up])
+        outline = viewed.focus
+        if outline is None:
+            outline = turning_outline(viewed.scene, UP_DIRECTIONS[self.staging.up])
+        self._outline = outline
 
     def turn_up(self, up: str) -> None:
         """Look at the scene with another direction up, from now on."""
@@ -184,7 +203,8 @@ class ViewRenderer:
         width, height = self.size
         scale = max(width, height) / 240
         size = max(1, round(width / scale)), max(1, round(height / scale))
-        with Renderer(*size, **{**self._options, "antialias": "ssaa"}) as renderer:
+        options: _Options = {**self._options, "antialias": "ssaa"}
+        with Renderer(*size, **options) as renderer:
             try:
                 look = self._appearance()
                 return renderer.render(scene, (self._camera(view), view.pose()), **look).color
@@ -236,7 +256,9 @@ class ViewRenderer:
 
         return place_bar(*self.size, bar, self._text_scale(*self.size)).taken(*self.size)
 
-    def draw(self, view: Viewpoint, time: float = 0.0, outputs=("color",)):
+    def draw(
+        self, view: Viewpoint, time: float = 0.0, outputs: Iterable[Output] = ("color",)
+    ) -> Frame:
         """Return the frame at ``time`` (seconds) as seen by ``view``."""
         frame = self._render(view, time, outputs)
         if self.culling.drawing is not None:
@@ -261,7 +283,7 @@ class ViewRenderer:
         self.visibility.tell_whole_face(frame, x, y)
         return self.viewed.scene.pick(frame, x, y)
 
-    def _render(self, view: Viewpoint, time: float, outputs):
+    def _render(self, view: Viewpoint, time: float, outputs: Iterable[Output]) -> Frame:
         if self.viewed.update is not None:
             self.viewed.update(time)
         pose = view.pose()
@@ -288,18 +310,18 @@ class ViewRenderer:
         self._blanks.look(frame, self.staging, lambda: self._sight(camera, pose))
         return frame
 
-    def _sight(self, camera, pose: np.ndarray) -> Sight:
+    def _sight(self, camera: Camera, pose: np.ndarray) -> Sight:
         """What a frame looks at."""
         look = self._appearance()
         look = {name: look[name] for name in ("cull", "point_size", "size_unit") if name in look}
-        drawing = {name: self._options[name] for name in ("backend", "threads")}
+        drawing = {name: held for name, held in self._options.items() if name != "antialias"}
         return Sight(self.viewed.scene, camera, pose, self.size, look, drawing)
 
     def why_blank(self) -> Reason | None:
         """Return why no frame so far has shown anything of the scene; None if one has."""
         return self._blanks.reason()
 
-    def _appearance(self) -> dict:
+    def _appearance(self) -> dict[str, Any]:
         """Return the drawing options of a frame."""
         options = self.appearance.arguments(self.staging.scene.background, self.point_size)
         if options["ambient_occlusion_radius"] is None:
@@ -318,7 +340,7 @@ class ViewRenderer:
             else size_in_picture(pixels, self.size[1])
         )
 
-    def _camera(self, view: Viewpoint):
+    def _camera(self, view: Viewpoint) -> PerspectiveCamera | OrthographicCamera:
         clearance = self.viewed.clearance
         free = 0.0 if clearance is None else clearance(view.position()) / view.stretch(self.aspect)
         camera = view.camera(self.staging.reach(view), self.viewed.nearest, free)
@@ -338,7 +360,7 @@ class ViewRenderer:
         """Draw what culling works with: one of `debug_lines.DEBUG_DRAWINGS`, as from a view."""
         self.culling.choose(drawing, (self._camera(view), view.pose()))
 
-    def text_scale(self, picture) -> int:
+    def text_scale(self, picture: Canvas | Frame) -> int:
         """Return the factor on the font's size of texts over a `Canvas` or `Frame`."""
         return self._text_scale(picture.width, picture.height)
 
@@ -355,5 +377,5 @@ class ViewRenderer:
     def __enter__(self) -> ViewRenderer:
         return self
 
-    def __exit__(self, *exception) -> None:
+    def __exit__(self, *exception: object) -> None:
         self.close()

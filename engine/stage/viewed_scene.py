@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from .views.viewpoint import DEFAULT_AZIMUTH, DEFAULT_ELEVATION, Sphere
 if TYPE_CHECKING:
     from ..model.motion.player import AnimationPlayer
     from ..model.navigation import Walker
+    from ..model.scene.scene import Scene
     from .scalars import ScalarBar
 
 #: Seconds of one turn of a turntable.
@@ -90,7 +91,7 @@ class ViewedScene:
         What its colours mean, if they stand for numbers.
     """
 
-    scene: object
+    scene: Scene
     title: str
     up: str = "+Y"
     azimuth: float = DEFAULT_AZIMUTH
@@ -100,7 +101,7 @@ class ViewedScene:
     plays: bool = False
     player: AnimationPlayer | None = None
     focus: np.ndarray | None = None
-    appearance: dict = field(default_factory=dict)
+    appearance: dict[str, Any] = field(default_factory=dict)
     follow: Callable[[np.ndarray], None] | None = None
     detail: Callable[..., object] | None = None
     walker: Callable[[], Walker] | None = None

@@ -14,7 +14,7 @@ from .views.viewpoint import UP_DIRECTIONS
 
 
 def viewed_thing(
-    thing,
+    thing: object,
     *,
     title: str | None,
     up: str,
@@ -40,7 +40,7 @@ def viewed_thing(
     return viewed
 
 
-def check_motion(function, what: str) -> None:
+def check_motion(function: object, what: str) -> None:
     """Raise `InvalidArgumentError` unless it is None or can be called."""
     if function is not None and not callable(function):
         raise InvalidArgumentError(f"{what} must be a function of the time, not {shown(function)}")

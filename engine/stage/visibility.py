@@ -7,7 +7,7 @@ hidden nodes, and with meshes that lack the faces of hidden materials; the scene
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -20,6 +20,10 @@ from ..model.scene.staged_scene import StagedScene
 from ..rendering.frame import Frame
 
 DRAWABLE = (Mesh, InstancedMesh)
+Drawable: TypeAlias = Mesh | InstancedMesh
+#: What tells materials apart: their name, or the identity of those without.
+MaterialKey: TypeAlias = str | int
+Key = TypeVar("Key")
 
 
 class Entry(NamedTuple):
@@ -38,14 +42,14 @@ class Visibility:
     staged : StagedScene
     """
 
-    def __init__(self, staged: StagedScene):
+    def __init__(self, staged: StagedScene) -> None:
         self._staged = staged
         nodes = staged.scene.nodes
         self._nodes = [node for node in nodes if isinstance(node.object, DRAWABLE)]
         used = [material for mesh in self._meshes() for material in mesh.materials]
         self._materials = list(dict.fromkeys(map(_key, used)))
         self._hidden_nodes: set[Node] = set()
-        self._hidden_materials: set = set()
+        self._hidden_materials: set[MaterialKey] = set()
 
     def _meshes(self) -> Iterator[Mesh]:
         return (mesh_of(thing) for thing in self._things())
@@ -108,7 +112,7 @@ class Visibility:
         hidden = [_key(material) in self._hidden_materials for material in mesh.materials]
         return ~np.array(hidden, bool)[mesh.material_ids]
 
-    def _visible_part(self, thing):
+    def _visible_part(self, thing: Drawable) -> Drawable:
         """Return a mesh, or instances of one, without the faces of hidden materials."""
         mesh = mesh_of(thing)
         kept = self._kept(mesh)
@@ -120,22 +124,22 @@ class Visibility:
         return part
 
 
-def mesh_of(thing) -> Mesh:
+def mesh_of(thing: Any) -> Mesh:
     """Return the mesh of what a node holds."""
     return thing.mesh if isinstance(thing, InstancedMesh) else thing
 
 
-def _key(material: Material):
+def _key(material: Material) -> MaterialKey:
     """Return what tells materials apart: their name, or for want of one themselves."""
     return material.name or id(material)
 
 
-def _triangles(thing) -> int:
+def _triangles(thing: Drawable) -> int:
     count = len(mesh_of(thing).faces)
     return count * len(thing.poses) if isinstance(thing, InstancedMesh) else count
 
 
-def _toggled(hidden: set, everything: list, number: int, alone: bool) -> set:
+def _toggled(hidden: set[Key], everything: list[Key], number: int, alone: bool) -> set[Key]:
     one = everything[number]
     if not alone:
         return hidden ^ {one}
@@ -146,6 +150,7 @@ def _toggled(hidden: set, everything: list, number: int, alone: bool) -> set:
 def _with_faces(mesh: Mesh, kept: np.ndarray) -> Mesh:
     mesh = mesh.with_creases()  # what is left keeps the normals that it had
     edges = mesh.edge_visible
+    attributes: dict[str, Any] = attributes_of(mesh)
     return Mesh(
         mesh.positions,
         mesh.faces[kept],
@@ -160,5 +165,5 @@ def _with_faces(mesh: Mesh, kept: np.ndarray) -> Mesh:
         weights=mesh.weights,
         morph_targets=mesh.morph_targets,
         name=mesh.name,
-        **attributes_of(mesh),
+        **attributes,
     )

@@ -5,6 +5,7 @@ from PIL import Image
 
 import engine3d as e3d
 from engine3d.apps.cli import main
+from engine3d.model.scene.ambient_lights import HemisphereLight
 from engine3d.model.scene.lights import DirectionalLight, PointLight
 from engine3d.stage.shadow_switch import switch_shadows
 
@@ -57,3 +58,9 @@ def test_only_main_lights_cast():
     assert [light.shadow for light in (key, fill)] == [True, False]
     assert not any(lamp.shadow for lamp in lamps)
     assert all(lamp.shadow for lamp in few)
+
+
+def test_light_from_all_around_is_left_alone():
+    sky, sun = HemisphereLight(intensity=9.0), DirectionalLight()
+    switch_shadows([[sky, sun]], True)
+    assert sun.shadow is True

@@ -76,13 +76,13 @@ def orbit(
 
 def orbit_axes(up: ArrayLike, azimuth: float, elevation: float) -> NDArray[np.float64]:
     """Return a camera's axes in world space: (3, 3), columns right, up and back."""
-    right, up, front = home_axes(up)
+    right, upward, front = home_axes(up)
     sin_a, cos_a = sine(azimuth), cosine(azimuth)
     sin_e, cos_e = sine(elevation), cosine(elevation)
     outward = right * sin_a + front * cos_a
     camera_right = right * cos_a - front * sin_a
-    camera_up = up * cos_e - outward * sin_e
-    camera_back = outward * cos_e + up * sin_e
+    camera_up = upward * cos_e - outward * sin_e
+    camera_back = outward * cos_e + upward * sin_e
     return np.stack([camera_right, camera_up, camera_back], axis=1)
 
 

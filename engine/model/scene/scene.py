@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from ..motion.skins import Skin
     from .animation import Animator
     from .nodes import SceneObject
+    from .staged_scene import AnyScene
 
 _LEAST_REMOVED = 1024  # slots of removed nodes that are not worth packing
 _OBJECT_TYPES = (Mesh, InstancedMesh, Camera, *LIGHTS)
@@ -424,7 +425,7 @@ class Scene(Surroundings, SceneQueries):
             self._colliders[node.id] = node
             self._colliders = dict(sorted(self._colliders.items()))
 
-    def _census(self) -> tuple[int, int]:
+    def _census(self: AnyScene) -> tuple[object, ...]:
         """What is another once a node has come or gone."""
         return self._arrays.count, self._removals
 
@@ -442,7 +443,7 @@ class Scene(Surroundings, SceneQueries):
         self._arrays.update(self._objects.boxes, threads)
 
     @property
-    def bounds(self) -> NDArray[np.float64]:
+    def bounds(self: AnyScene) -> NDArray[np.float64]:
         """The box around all visible meshes, (2, 3) float64 in world space; zeros if none."""
         self._update()
         box = np.empty(OBJECT_BOX)

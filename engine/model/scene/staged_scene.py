@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import weakref
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from ..._native.scene_graph import BOX, SHOWN
 from ..materials.material import Material
 from ..motion.shown import as_shown
 from ._objects import NO_BOX
+from .node_arrays import NodeArrays
 from .nodes import Node
 from .scene import Scene
 from .surroundings import SCENE_VALUES, Surroundings
@@ -27,6 +28,8 @@ _COLUMNS = (
     *("parent", "object", "object_id", "flags", "world", "bounds"),
     *("world_version", "anchor", "unshadowed"),
 )
+#: What tells whether something was made of the same: compared, and not looked into.
+Moment: TypeAlias = tuple[Any, ...]
 _LEAST_ROOM = 64  # for objects of a scene; twice as much when it is not enough
 
 
@@ -126,7 +129,7 @@ class StagedScene(Surroundings):
         return self.scene._removed + self.beside._removed
 
     @property
-    def _removals(self) -> tuple:
+    def _removals(self) -> tuple[object, ...]:
         """What is another once a node, or what it held, went, or rows stand elsewhere."""
         trees = [(tree._arrays, tree._arrays.count, tree._removals) for tree in self._trees()]
         return self.keeps_lights, *trees
@@ -168,11 +171,11 @@ class _JoinedRows:
     def __init__(self, staged: StagedScene) -> None:
         self.columns: dict[str, NDArray[Any]] = {}
         self.count = 0
-        self.updated: tuple[tuple, tuple] = ((), ())
-        self._made_of = weakref.ref(staged)
+        self.updated: tuple[Moment, Moment] = ((), ())
+        self._made_of = cast("Callable[[], StagedScene]", weakref.ref(staged))  # which owns it
 
     @property
-    def changes(self) -> tuple[tuple, tuple]:
+    def changes(self) -> tuple[Moment, Moment]:
         staged = self._made_of()
         return _state_of(staged, *(tree._arrays.changes for tree in staged._trees()))
 
@@ -215,7 +218,9 @@ class _JoinedRows:
             added = self.columns[name][first:]
             added[added >= 0] += offset
 
-    def select(self, frustum, widen: float, flat: bool, bits: NDArray[np.uint64]) -> int:
+    def select(
+        self, frustum: NDArray[np.float64], widen: float, flat: bool, bits: NDArray[np.uint64]
+    ) -> int:
         """As of `NodeArrays`; what was added is always taken."""
         arrays = self._made_of().scene._arrays
         own = bits[: (arrays.count + 63) // 64]
@@ -226,7 +231,7 @@ class _JoinedRows:
         return tested
 
 
-def _state_of(staged: StagedScene, own: int, added: int) -> tuple[tuple, tuple]:
+def _state_of(staged: StagedScene, own: int, added: int) -> tuple[Moment, Moment]:
     """What the rows of a scene, and those of what was added, are made of, at some changes."""
     scene, beside, objects = staged.scene._arrays, staged.beside._arrays, staged._objects
     return (
@@ -253,14 +258,14 @@ class _JoinedObjects:
     """
 
     def __init__(self) -> None:
-        self.objects: list = []
-        self.version: tuple = ()
+        self.objects: list[Any] = []
+        self.version: Moment = ()
         self.parts: dict[int, int] = {}
         self.first_added = self._room = _LEAST_ROOM
         self.renewals = 0
         self._own: Any = None
         self._added: Any = None
-        self._made: dict[int, tuple[tuple, Any]] = {}  # by number what a part is made of, and it
+        self._made: dict[int, tuple[Moment, Any]] = {}  # by number what a part is made of, and it
 
     def forget_parts(self) -> None:
         """Make all parts anew."""
@@ -302,7 +307,7 @@ class _JoinedObjects:
             cut = [n for n, (of, part) in self._made.items() if part is not as_shown(of[0])]
             self.parts = {number: self._room + place for place, number in enumerate(cut)}
 
-    def renewed_since(self, version: tuple) -> set[int] | None:
+    def renewed_since(self, version: tuple[Any, ...]) -> set[int] | None:
         """As of `ObjectTable`."""
         own = self._own.renewed_since(version[0])
         added = self._added.renewed_since(version[1]) if version[2:] == self.version[2:] else None
@@ -314,3 +319,9 @@ class _JoinedObjects:
         """As of `ObjectTable`."""
         added = self._added.drawn_by(thing)
         return self._own.drawn_by(thing) | {self.first_added + number for number in added}
+
+
+#: What can be drawn; the rows of its nodes, and what it lists of each light.
+AnyScene: TypeAlias = Scene | StagedScene
+NodeRows: TypeAlias = NodeArrays | _JoinedRows
+LightNode: TypeAlias = Node | _PlacedLight

@@ -6,6 +6,7 @@ In: values, at any time. Out: the same, checked.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeAlias
 
 from ...base.angles import finite_angle
 from ...base.numbers import real, shown
@@ -30,6 +31,10 @@ SCENE_VALUES = (
     "fog",
 )
 MAX_EXPOSURE = 64
+
+
+#: What shows where nothing is drawn.
+Background: TypeAlias = Color | Gradient | Environment | None
 
 
 class Surroundings(Closed):

@@ -21,7 +21,7 @@ from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from ...model.motion.posed_mesh import PosedMesh
 from ...model.scene.instances import InstancedMesh
-from ...model.scene.scene import Scene
+from ...model.scene.staged_scene import AnyScene
 from .._view import View
 from .closed_meshes import Holes, holes_of
 from .instance_trees import InstanceTrees
@@ -68,8 +68,8 @@ class DrawList:
     def __init__(self, color_space: ColorSpace, threads: int) -> None:
         self.native = NativeDrawList()
         self._color_space, self._threads = color_space, threads
-        self._scene: Callable[[], Scene | None] = lambda: None
-        self._objects_version = -1
+        self._scene: Callable[[], AnyScene | None] = lambda: None
+        self._objects_version: Any = -1  # of the objects, which may be of either kind of scene
         self._listing = Listing(MeshNeeds(), "auto", by_mesh=False)
         self._untextured: frozenset[Material] = frozenset()
         # Numbers of the objects that enclose a volume.
@@ -95,7 +95,7 @@ class DrawList:
         return self._placement.changes
 
     def update(
-        self, scene: Scene, listing: Listing, headlight: Headlight, placing: Placing
+        self, scene: AnyScene, listing: Listing, headlight: Headlight, placing: Placing
     ) -> None:
         """Make the native list draw ``scene``.
 
@@ -117,7 +117,7 @@ class DrawList:
         self._placement.place(scene._arrays, placing, has_marks, self._trees.made)
         self.lights.update(scene, headlight)
 
-    def _follow_poses(self, scene: Scene) -> None:
+    def _follow_poses(self, scene: AnyScene) -> None:
         """Draw meshes that were bent anew as they are now."""
         posing = scene._posing
         posed = None if posing is None else (posing, posing.moment)
@@ -127,7 +127,7 @@ class DrawList:
             self.renewals += 1
         self._posed = posed
 
-    def open_windows(self, scene: Scene, view: View, size: tuple[int, int]) -> int | None:
+    def open_windows(self, scene: AnyScene, view: View, size: tuple[int, int]) -> int | None:
         """Let backs show where the camera may look into holes of meshes that enclose a volume.
 
         Elsewhere they may be left out, of materials that do not show both sides anyway.
@@ -157,11 +157,11 @@ class DrawList:
         """Whether a mesh that encloses a volume has holes, which a light may look into."""
         return bool(self._with_holes)
 
-    def shows(self, scene: Scene) -> bool:
+    def shows(self, scene: AnyScene) -> bool:
         """Whether everything in the scene is still as and where it was at the last update."""
         return self._placement.shows(scene._arrays) and self._lists(scene)
 
-    def _lists(self, scene: Scene) -> bool:
+    def _lists(self, scene: AnyScene) -> bool:
         """Whether the objects are those of the scene, as they are now."""
         self._changed += self._watch.changed()
         return (
@@ -170,7 +170,7 @@ class DrawList:
             and not self._changed
         )
 
-    def _renew(self, scene: Scene, listing: Listing) -> None:
+    def _renew(self, scene: AnyScene, listing: Listing) -> None:
         """Make the list of objects anew, or only what changed of it."""
         self.renewals += 1
         self._changed += self._watch.changed()
@@ -186,7 +186,7 @@ class DrawList:
         self._objects_version = scene._objects.version
         self._scene = weakref.ref(scene)
 
-    def _numbers_that_changed(self, scene: Scene) -> set[int] | None:
+    def _numbers_that_changed(self, scene: AnyScene) -> set[int] | None:
         """Numbers of objects that are others or changed; None where all are to be listed anew."""
         objects = scene._objects
         numbers = objects.renewed_since(self._objects_version)
@@ -206,7 +206,7 @@ class DrawList:
         key = id(material)
         return {number for number, (_, surfaces) in enumerate(self._listed) if key in surfaces}
 
-    def _replace(self, scene: Scene, numbers: list[int]) -> None:
+    def _replace(self, scene: AnyScene, numbers: list[int]) -> None:
         """Renew the materials that changed, and the objects of some numbers."""
         self._materials.renew(self._changed)
         self._changed = []
@@ -216,7 +216,7 @@ class DrawList:
             self._forget(scene, number)
             self._set_object(number, scene._objects.objects[number])
 
-    def _rebuild(self, scene: Scene) -> None:
+    def _rebuild(self, scene: AnyScene) -> None:
         self._placement.forget()
         self._closed, self._with_holes = set(), set()
         self.native.clear()
@@ -230,7 +230,7 @@ class DrawList:
         for number, obj in enumerate(scene._objects.objects):
             self._set_object(number, obj)
 
-    def _make_textures(self, scene: Scene) -> None:
+    def _make_textures(self, scene: AnyScene) -> None:
         meshes = (getattr(obj, "mesh", obj) for obj in scene._objects.objects if obj is not None)
         materials = {material for mesh in meshes for material in mesh.materials}
         make_textures(materials - self._untextured, self._color_space, self._threads)
@@ -294,7 +294,7 @@ class DrawList:
         self._left += self._listed[number][1] not in ((), surfaces)
         self._listed[number] = things, surfaces
 
-    def _forget(self, scene: Scene, number: int) -> None:
+    def _forget(self, scene: AnyScene, number: int) -> None:
         """Look no longer at what a number's object was made of, where no other is."""
         if number < len(self._listed):
             for thing in self._listed[number][0]:

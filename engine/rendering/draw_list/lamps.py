@@ -16,11 +16,10 @@ import numpy as np
 
 from ..._native.scene_graph import SHOWN
 from ...model.materials.material import Material
-from ...model.scene.node_arrays import NodeArrays
-from ...model.scene.scene import Scene
+from ...model.scene.staged_scene import AnyScene, NodeRows
 
 
-def lamp_slots(scene: Scene, light: int, place: Sequence[float]) -> tuple[int, ...]:
+def lamp_slots(scene: AnyScene, light: int, place: Sequence[float]) -> tuple[int, ...]:
     """Return the slots of what lets a light pass.
 
     Parameters
@@ -59,7 +58,7 @@ def _glows(material: Material) -> bool:
     return _emits(material) and material.emissive_texture is None
 
 
-def _is_above(arrays: NodeArrays, slot: int, other: int) -> bool:
+def _is_above(arrays: NodeRows, slot: int, other: int) -> bool:
     """Whether a node is above another one in the tree."""
     parents = arrays.columns["parent"]
     while other >= 0 and other != slot:

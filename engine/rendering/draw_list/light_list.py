@@ -21,7 +21,7 @@ from ...choices import ColorSpace
 from ...model.materials.display_colors import shading_color
 from ...model.scene.ambient_lights import AMBIENT_LIGHTS, AmbientLight
 from ...model.scene.lights import DirectionalLight, DirectLight
-from ...model.scene.scene import Scene
+from ...model.scene.staged_scene import AnyScene, LightNode
 from .ambient_terms import ambient_terms
 
 #: Unit direction towards a light that is turned, and the place of one that has a position.
@@ -59,11 +59,11 @@ class LightList:
         self._shown = np.empty(0, bool)
         # Of each light that shows what it is, and where.
         self._at: dict[int, tuple[DirectLight, Where]] = {}
-        self._changes = 0
+        self._changes: object = 0
         self._placed = np.empty(0, np.uint32)
         self._added: tuple[object, ...] = _NOT_KNOWN
 
-    def update(self, scene: Scene, headlight: Headlight | None) -> None:
+    def update(self, scene: AnyScene, headlight: Headlight | None) -> None:
         """Make the native lights those of a scene; ``headlight`` is for one that has none."""
         self._find_slots(scene)
         self._add_around(scene)
@@ -87,7 +87,7 @@ class LightList:
             self._native.turn_light(0, headlight[2])
         self._listed = listed
 
-    def _renew(self, scene: Scene, same: bool) -> None:
+    def _renew(self, scene: AnyScene, same: bool) -> None:
         """List lights that show, if they are not the same as before, and place those that moved."""
         columns = scene._arrays.columns
         shown = columns["flags"][self._slots] & SHOWN != 0
@@ -108,7 +108,7 @@ class LightList:
                 self._place(number, self._lights[light], pose)
         self._shown, self._placed = shown, placed
 
-    def _add_around(self, scene: Scene) -> None:
+    def _add_around(self, scene: AnyScene) -> None:
         """Sum up the light from all around, where anything of it changed."""
         added: tuple[object, ...] = ()
         if self._around:
@@ -129,11 +129,11 @@ class LightList:
         self._native.set_ambient_light(terms)
         self._added = added
 
-    def _find_slots(self, scene: Scene) -> None:
+    def _find_slots(self, scene: AnyScene) -> None:
         """Find the lights' rows in the scene's arrays, once for as long as these are the same."""
         slots_of = scene._arrays, scene._removals, len(scene._lights)
         if self._slots_of != slots_of:
-            nodes = list(scene._lights.values())
+            nodes: list[LightNode] = list(scene._lights.values())
             around = [node for node in nodes if isinstance(node.object, AMBIENT_LIGHTS)]
             others = [node for node in nodes if not isinstance(node.object, AMBIENT_LIGHTS)]
             self._lights = [cast(DirectLight, node.object) for node in others]

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..._native.rasterizer import NativeDrawList
-from ...model.scene.node_arrays import NodeArrays
+from ...model.scene.staged_scene import NodeRows
 from .._memo import Memo
 
 
@@ -45,11 +45,11 @@ class Placement:
         """Place all that is listed anew."""
         self._placed.forget()
 
-    def shows(self, arrays: NodeArrays) -> bool:
+    def shows(self, arrays: NodeRows) -> bool:
         """Whether everything is still where it was."""
         return self._placed.is_of(arrays, arrays.changes)
 
-    def place(self, arrays: NodeArrays, placing: Placing, has_marks: bool, anew: bool) -> None:
+    def place(self, arrays: NodeRows, placing: Placing, has_marks: bool, anew: bool) -> None:
         """List the draws of what may show, where it is now.
 
         Parameters

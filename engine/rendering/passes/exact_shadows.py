@@ -13,8 +13,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...model.scene.node_arrays import NodeArrays
-from ...model.scene.scene import Scene
+from ...model.scene.staged_scene import AnyScene, NodeRows
 from .._memo import Memo
 from ..casters import placed_casters
 from ..draw_list.lamps import lamp_slots
@@ -52,13 +51,15 @@ class ExactShadows(Pass):
             self._list_casters(scene._arrays, spared)
             self.tools.memory.add_exact(len(lights), draw_list.native.hiding_faces())
 
-    def _spared(self, scene: Scene, number: int, place: Sequence[float] | None) -> tuple[int, ...]:
+    def _spared(
+        self, scene: AnyScene, number: int, place: Sequence[float] | None
+    ) -> tuple[int, ...]:
         """The slots of what does not hide a light."""
         if place is None:
             return ()
         return lamp_slots(scene, self.tools.draw_list.lights.slot_of(number), place)
 
-    def _list_casters(self, arrays: NodeArrays, spared: list[tuple[int, ...]]) -> None:
+    def _list_casters(self, arrays: NodeRows, spared: list[tuple[int, ...]]) -> None:
         """List the casters, unless they are listed; a version is theirs until one is another.
 
         ``spared`` are, for each light, the slots of what does not hide it.

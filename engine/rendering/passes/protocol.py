@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..._native.rasterizer import NativeRenderer, NativeStats
 from ...choices import FrameCull
-from ...model.scene.scene import Scene
+from ...model.scene.staged_scene import AnyScene
 from .._frame_memory import FrameMemory
 from .._frame_options import FrameOptions
 from .._output_pool import Shapes
@@ -39,7 +39,7 @@ class Tools(NamedTuple):
 class Picture:
     """A picture that is being drawn; the draw list is up to date with its scene."""
 
-    scene: Scene
+    scene: AnyScene
     options: RenderOptions
     frame_options: FrameOptions
     view: View

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..._native.rasterizer import CULLS, LIGHT_TRAITS, find_shadow_ranges, shadow_ranges_side
 from ...model.scene.lights import DirectLight
-from ...model.scene.node_arrays import NodeArrays
+from ...model.scene.staged_scene import NodeRows
 from .._memo import Memo
 from .._view import View
 from ..casters import placed_casters
@@ -25,7 +25,7 @@ from .protocol import Pass, Picture, Tools
 from .shadow_views import VIEWS, MapView, ShadowViews
 
 #: The scene's nodes, their changes, the list's renewals, the side culled, and slots to spare.
-Moment: TypeAlias = tuple[NodeArrays, object, int, int, tuple[int, ...]]
+Moment: TypeAlias = tuple[NodeRows, object, int, int, tuple[int, ...]]
 
 
 class _LightMaps:

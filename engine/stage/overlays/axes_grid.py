@@ -7,12 +7,13 @@ are behind the scene, as a `Mesh`; and text over the picture.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from ...model.geometry.mesh import Mesh
-from ...rendering.canvas import text_size
+from ...rendering.canvas import Canvas, text_size
 from ...rendering.frame import Frame
 from .theme import Theme
 from .ticks import label as number_text
@@ -24,6 +25,9 @@ _LINE, _EDGE = (120, 125, 135, 255), (165, 170, 180, 255)
 _GAP = 1.5
 #: From number to number above each other, in heights of letters.
 _APART = 1.4
+
+#: Pixels: left, top, right and bottom.
+Box: TypeAlias = tuple[float, float, float, float]
 
 
 class AxesGrid(NamedTuple):
@@ -57,7 +61,8 @@ class AxesGrid(NamedTuple):
         toward_eye : (3,) float
             From the box's middle, world space.
         """
-        return tuple(bool(value < 0.0) for value in toward_eye)
+        x, y, z = (bool(value < 0.0) for value in toward_eye)
+        return x, y, z
 
     def lines(self, far: tuple[bool, bool, bool]) -> Mesh:
         """Return the lines on the far sides."""
@@ -77,21 +82,21 @@ class AxesGrid(NamedTuple):
                         points.append(point)
                         colors.append(_EDGE if place in ends else _LINE)
         lines = np.arange(len(points), dtype=np.int32).reshape(-1, 2)
-        colors = np.array(colors, np.uint8)
-        return Mesh(np.array(points), lines=lines, colors=colors, name="axes grid")
+        rows = np.array(colors, np.uint8)
+        return Mesh(np.array(points), lines=lines, colors=rows, name="axes grid")
 
     def label(self, frame: Frame, far: tuple[bool, bool, bool], scale: int, theme: Theme) -> None:
         """Write the numbers along one edge of each axis, and the axis's name and unit."""
         canvas = frame.canvas()
         middle, _ = frame.project((self.low + self.high) / 2)
-        taken: list[tuple] = []
+        taken: list[Box] = []
         for axis in range(3):
             edge = self._edge(frame, axis, far)
             if edge is not None:
                 for label in self._labels(frame, axis, edge, middle, scale):
                     self._write(label, canvas, taken, scale, theme)
 
-    def _edge(self, frame: Frame, axis: int, far) -> np.ndarray | None:
+    def _edge(self, frame: Frame, axis: int, far: tuple[bool, bool, bool]) -> np.ndarray | None:
         """The edge along an axis that has its numbers, (2, 3); None where none is in sight.
 
         Of the two edges that bound a far side and a near one, the one farther down, or for one that
@@ -142,12 +147,21 @@ class AxesGrid(NamedTuple):
             labels.append(_Label(text, frame.project(point)[0], outward, gap))
         return labels
 
-    def _stride(self, texts, length: float, outward: np.ndarray, wide: float, high: float) -> int:
+    def _stride(
+        self,
+        texts: Sequence[tuple[float, str]],
+        length: float,
+        outward: np.ndarray,
+        wide: float,
+        high: float,
+    ) -> int:
         """Every how many numbers stand apart from each other along an edge of so many pixels."""
         needed = outward[1] * (wide + high) + outward[0] * high * _APART
         return max(1, math.ceil(needed * (len(texts) - 1) / length))
 
-    def _write(self, label: _Label, canvas, taken: list[tuple], scale: int, theme: Theme) -> None:
+    def _write(
+        self, label: _Label, canvas: Canvas, taken: list[Box], scale: int, theme: Theme
+    ) -> None:
         """Write a text outward of a point, unless another one is there."""
         size = np.array(text_size(label.text, scale), np.float64)
         reach = label.gap + abs(label.outward[0]) * size[0] / 2
@@ -170,5 +184,5 @@ class _Label(NamedTuple):
     gap: float
 
 
-def _overlap(a: tuple, b: tuple) -> bool:
+def _overlap(a: Box, b: Box) -> bool:
     return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...model.scene.nodes import Node
 from ...model.scene.staged_scene import StagedScene
 from ...rendering.frame import Frame
 from ..viewed_scene import ViewedScene
@@ -26,11 +27,11 @@ class BoxGrid:
         Of its scene.
     """
 
-    def __init__(self, viewed: ViewedScene, staged: StagedScene):
+    def __init__(self, viewed: ViewedScene, staged: StagedScene) -> None:
         self._staged = staged
         low, high = viewed.scene.bounds
         self._grid = AxesGrid(low, high, np.array(viewed.origin), viewed.unit)
-        self._node = None
+        self._node: Node | None = None
         self._far: tuple[bool, bool, bool] | None = None
 
     @property

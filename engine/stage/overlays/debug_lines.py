@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...base import linalg
+from ...model.scene.cameras import Camera
 from ...model.scene.instances import MANY, InstancedMesh
 from ...model.scene.scene import Scene
 from ...rendering.frame import Frame
@@ -36,8 +37,7 @@ class Lines(NamedTuple):
 
 def box_lines(scene: Scene) -> list[Lines]:
     """Return the boxes of the objects that show."""
-    boxes = [node.bounds for node in scene.nodes]
-    boxes = [box for box in boxes if box is not None][:MOST_BOXES]
+    boxes = [box for node in scene.nodes if (box := node.bounds) is not None][:MOST_BOXES]
     return [Lines(_edges(np.array(boxes)), BOX)] if boxes else []
 
 
@@ -70,7 +70,7 @@ def _corners(rows: np.ndarray) -> np.ndarray:
     return rows[np.isfinite(rows).all(axis=1)].reshape(-1, 2, 3).astype(np.float64)
 
 
-def frustum_lines(camera, pose: np.ndarray, size: tuple[int, int]) -> list[Lines]:
+def frustum_lines(camera: Camera, pose: np.ndarray, size: tuple[int, int]) -> list[Lines]:
     """Return the frustum of a camera at a pose."""
     view_from_clip = linalg.inverse(np.asarray(camera.projection(*size), np.float64))
     signs = np.array([[(k >> axis & 1) * 2.0 - 1.0 for axis in range(3)] for k in range(8)])

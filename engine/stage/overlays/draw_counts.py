@@ -5,6 +5,8 @@ In: `Frame.stats`. Out: a table and a sentence for the overlay, a line for the l
 
 from __future__ import annotations
 
+from typing import Any
+
 COUNTED = ("nodes", "clusters", "triangles")
 #: What a column is called, and how the names of its counters end.
 STAGES = {
@@ -20,7 +22,7 @@ def count_names() -> set[str]:
     return {what + ending for what in COUNTED for ending in STAGES.values()}
 
 
-def count_table(stats: dict) -> list[str]:
+def count_table(stats: dict[str, Any]) -> list[str]:
     """Return the table, a line each for its head and for what is counted."""
     rows = [f"{'':<9}" + "".join(f"{stage:>12}" for stage in STAGES)]
     for what in COUNTED:
@@ -29,7 +31,7 @@ def count_table(stats: dict) -> list[str]:
     return rows
 
 
-def told_tests(stats: dict, culling: str) -> str:
+def told_tests(stats: dict[str, Any], culling: str) -> str:
     """Say by how many tests the nodes in view were found."""
     tested = stats["boxes_tested"]
     boxes = f"{tested:,} box{'' if tested == 1 else 'es'} tested"
@@ -42,7 +44,7 @@ def told_tests(stats: dict, culling: str) -> str:
     return f"culling {culling}: {text}"
 
 
-def count_line(stats: dict) -> str:
+def count_line(stats: dict[str, Any]) -> str:
     """Return the same in one line, with tests, materials and lights."""
     parts = []
     for what in COUNTED:

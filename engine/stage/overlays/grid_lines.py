@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...base import linalg
 from ...model.geometry.mesh import Mesh
@@ -29,7 +30,7 @@ def grid_step(radius: float) -> float:
     return next(step * power for step in (1.0, 2.0, 5.0, 10.0) if step * power >= rough * 0.999)
 
 
-def grid(lowest: float, sphere: Sphere, up) -> Mesh:
+def grid(lowest: float, sphere: Sphere, up: ArrayLike) -> Mesh:
     """Return a square grid that lies under the scene.
 
     Parameters
@@ -46,7 +47,7 @@ def grid(lowest: float, sphere: Sphere, up) -> Mesh:
     Mesh
         Lines only.
     """
-    right, up, back = home_axes(up)
+    right, upward, back = home_axes(up)
     step = grid_step(sphere.radius)
     count = math.ceil(REACH * sphere.radius / step)
     count += -count % MAJOR_EVERY
@@ -58,7 +59,7 @@ def grid(lowest: float, sphere: Sphere, up) -> Mesh:
         for a, b in (((k, -count), (k, count)), ((-count, k), (count, k))):
             for u, v in (a, b):
                 offset = right * ((along[0] + u) * step) + back * ((along[1] + v) * step)
-                positions.append(offset + up * lowest)
+                positions.append(offset + upward * lowest)
                 colors.append(color)
     lines = np.arange(len(positions), dtype=np.int32).reshape(-1, 2)
     return Mesh(

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import textwrap
 from itertools import zip_longest
+from typing import Any
 
-from ...rendering.canvas import text_size
+from ...rendering.canvas import Canvas, text_size
 from ..views.viewpoint import Viewpoint
 from .draw_counts import count_names, count_table, told_tests
 from .frame_times import FrameTimes
@@ -27,7 +28,7 @@ AXIS_COLORS = ((235, 80, 80, 255), (95, 205, 95, 255), (95, 140, 255, 255))
 AXIS_LENGTH = 34
 
 
-def text_scale(canvas, screen: int = 1) -> int:
+def text_scale(canvas: Canvas, screen: int = 1) -> int:
     """Return the factor on the font's size that suits the picture, on a screen of some scale."""
     return text_scale_for(canvas.width, canvas.height, screen)
 
@@ -39,7 +40,7 @@ def text_scale_for(width: int, height: int, screen: int = 1) -> int:
 
 
 def draw_block(
-    canvas,
+    canvas: Canvas,
     lines: list[str],
     *,
     corner: str = "top left",
@@ -75,7 +76,7 @@ def draw_block(
         canvas.text(x + PADDING, y + PADDING + row * line_height, line, theme.text, scale=scale)
 
 
-def _fitting(canvas, lines: list[str], scale: int) -> list[str]:
+def _fitting(canvas: Canvas, lines: list[str], scale: int) -> list[str]:
     """Return the lines, wrapped to the picture's width and cut to its height."""
     cell_width, cell_height = text_size("M", scale)
     room = canvas.width - 2 * PADDING - MARGIN, canvas.height - 2 * PADDING - MARGIN
@@ -87,7 +88,7 @@ def _fitting(canvas, lines: list[str], scale: int) -> list[str]:
     return wrapped if len(wrapped) <= rows else [*wrapped[: rows - 1], "..."[:columns]]
 
 
-def place(canvas, width: int, height: int, corner: str) -> tuple[int, int]:
+def place(canvas: Canvas, width: int, height: int, corner: str) -> tuple[int, int]:
     """Return the top left pixel of a block in the given corner."""
     picture_height, picture_width = canvas.pixels.shape[:2]
     x, y = MARGIN, MARGIN
@@ -102,7 +103,7 @@ def place(canvas, width: int, height: int, corner: str) -> tuple[int, int]:
     return max(x, 0), max(y, 0)
 
 
-def short_statistics(times: FrameTimes, stats: dict) -> str:
+def short_statistics(times: FrameTimes, stats: dict[str, Any]) -> str:
     """Return what most people want to know of the last frame, in one line."""
     drawn, total = stats["triangles_drawn"], stats["triangles"]
     parts = [f"{times.drawing_seconds * 1000:.1f} ms to draw", f"{drawn:,} of {total:,} triangles"]
@@ -112,7 +113,12 @@ def short_statistics(times: FrameTimes, stats: dict) -> str:
 
 
 def statistics_lines(
-    seconds: float, size, samples: int, stats: dict, place: str = "", culling: str = "all"
+    seconds: float,
+    size: tuple[int, int],
+    samples: int,
+    stats: dict[str, Any],
+    place: str = "",
+    culling: str = "all",
 ) -> list[str]:
     """Return the statistics of the last frame, line by line; they fit 640 x 480 pixels.
 
@@ -160,7 +166,7 @@ def _in_two_columns(entries: list[str]) -> list[str]:
     return ["   ".join(pair).rstrip() for pair in pairs]
 
 
-def draw_axes(canvas, view: Viewpoint, scale: int | None = None) -> None:
+def draw_axes(canvas: Canvas, view: Viewpoint, scale: int | None = None) -> None:
     """Draw the world's axes, as the camera sees their directions, in the bottom left corner."""
     scale = scale or text_scale(canvas)
     length = AXIS_LENGTH * scale

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...rendering.canvas import text_size
+from ...rendering.canvas import Canvas, text_size
 from ..scalars import ScalarBar
 from ..views.free_region import Taken
 from .overlay import MARGIN, PADDING
@@ -109,7 +109,9 @@ def _flat(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
     thick, padding, margin = _edges(width, height, scale)
     length = max(width - 2 * (margin + padding), 2)
     high = thick + 2 * padding
-    title, numbers, labels = [], [], []
+    title: list[str] = []
+    numbers: list[float] = []
+    labels: list[str] = []
     for most in range(_MOST_TICKS, 0, -1):
         numbers, labels = _numbers(bar, most)
         if (_longest(labels) + 1) * cell_width * len(labels) <= length:
@@ -129,7 +131,7 @@ def _flat(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
     )
 
 
-def draw_scalar_bar(canvas, bar: ScalarBar, scale: int = 1, theme: Theme = DARK) -> None:
+def draw_scalar_bar(canvas: Canvas, bar: ScalarBar, scale: int = 1, theme: Theme = DARK) -> None:
     """Draw the bar on a block, with its title above it."""
     place = place_bar(canvas.width, canvas.height, bar, scale)
     cell_height = text_size("M", scale)[1]
@@ -153,7 +155,14 @@ def _at(number: float, bar: ScalarBar, length: int) -> int:
     return round((number - bar.low) / (bar.high - bar.low) * (length - 1))
 
 
-def _draw_upright(canvas, bar, place: BarPlace, corner, scale: int, theme: Theme) -> None:
+def _draw_upright(
+    canvas: Canvas,
+    bar: ScalarBar,
+    place: BarPlace,
+    corner: tuple[int, int],
+    scale: int,
+    theme: Theme,
+) -> None:
     (left, top), last = corner, place.length - 1
     cell_width, cell_height = text_size("M", scale)
     for row, color in enumerate(_colors(bar, place.length)):
@@ -166,7 +175,14 @@ def _draw_upright(canvas, bar, place: BarPlace, corner, scale: int, theme: Theme
         canvas.text(x, y - cell_height // 2, text, theme.text, scale=scale)
 
 
-def _draw_flat(canvas, bar, place: BarPlace, corner, scale: int, theme: Theme) -> None:
+def _draw_flat(
+    canvas: Canvas,
+    bar: ScalarBar,
+    place: BarPlace,
+    corner: tuple[int, int],
+    scale: int,
+    theme: Theme,
+) -> None:
     left, top = corner
     for column, color in enumerate(_colors(bar, place.length)):
         canvas.rectangle(left + column, top, 1, place.thick, (*color, 255))

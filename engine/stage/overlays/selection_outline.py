@@ -6,19 +6,23 @@ with an outline round what shows of the selected object.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from ...model.geometry.mesh import Mesh
 from ...model.scene.instances import InstancedMesh
 from ...model.spatial.rays import RayHit
+from ...rendering.frame import Frame, Output
 
 #: What a frame must hold to be clicked at, and to show an outline.
-CLICK_OUTPUTS = ("color", "object_id", "instance_id", "triangle_id")
-OUTLINE_OUTPUTS = ("color", "object_id", "instance_id")
+CLICK_OUTPUTS: tuple[Output, ...] = ("color", "object_id", "instance_id", "triangle_id")
+OUTLINE_OUTPUTS: tuple[Output, ...] = ("color", "object_id", "instance_id")
 OUTLINE = (255, 160, 40, 255)
 WIDTH = 2
 
 
-def selection_lines(hit: RayHit, origin=(0.0, 0.0, 0.0)) -> list[str]:
+def selection_lines(hit: RayHit, origin: Sequence[float] = (0.0, 0.0, 0.0)) -> list[str]:
     """Return what a corner of the window says of what was clicked at.
 
     Parameters
@@ -31,8 +35,8 @@ def selection_lines(hit: RayHit, origin=(0.0, 0.0, 0.0)) -> list[str]:
     lines = [hit.node.name or f"object {hit.node.id}"]
     if isinstance(thing, InstancedMesh):
         lines.append(f"instance {hit.instance:,} of {len(thing.poses):,}")
-    mesh = getattr(thing, "mesh", thing)
-    if mesh is None or hit.face < 0:
+    mesh = thing.mesh if isinstance(thing, InstancedMesh) else thing
+    if not isinstance(mesh, Mesh) or hit.face < 0:
         return lines
     lines.append(f"triangle {hit.face:,} of {len(mesh.faces):,}")
     if mesh.materials:
@@ -43,7 +47,7 @@ def selection_lines(hit: RayHit, origin=(0.0, 0.0, 0.0)) -> list[str]:
     return [*lines, "at " + ", ".join(f"{value:.{digits}g}" for value in place)]
 
 
-def draw_outline(frame, hit: RayHit, width: int = WIDTH) -> None:
+def draw_outline(frame: Frame, hit: RayHit, width: int = WIDTH) -> None:
     """Draw a line round what a frame shows of the selected object, or of the selected instance."""
     inside = frame.object_id == hit.node.id
     if isinstance(hit.node.object, InstancedMesh):
@@ -51,7 +55,7 @@ def draw_outline(frame, hit: RayHit, width: int = WIDTH) -> None:
     outline_pixels(frame, inside, width)
 
 
-def outline_pixels(frame, inside: np.ndarray, width: int = WIDTH) -> None:
+def outline_pixels(frame: Frame, inside: np.ndarray, width: int = WIDTH) -> None:
     """Draw a line round pixels of a frame, (H, W) of bool."""
     rows, columns = (np.flatnonzero(inside.any(axis=axis)) for axis in (1, 0))
     if not rows.size:

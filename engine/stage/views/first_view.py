@@ -6,6 +6,7 @@ import functools
 from dataclasses import dataclass
 
 from ...model.scene.cameras import Camera
+from ...model.scene.nodes import Node
 from ..near_origin import from_file
 from ..view_renderer import ViewRenderer
 from ..viewed_scene import NotInModelError
@@ -83,7 +84,7 @@ class FirstView:
         return view
 
 
-def _camera_node(view_renderer: ViewRenderer, index: int):
+def _camera_node(view_renderer: ViewRenderer, index: int) -> Node:
     viewed = view_renderer.viewed
     nodes = [node for node in viewed.scene.nodes if isinstance(node.object, Camera)]
     if index >= len(nodes):

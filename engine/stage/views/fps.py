@@ -8,6 +8,7 @@ leaving, so that neither change moves the picture.
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 
 import numpy as np
 
@@ -87,7 +88,7 @@ class FpsController:
         """Walk faster (or slower, if negative) from now on."""
         self.speed *= SPEED_STEP**steps
 
-    def walk(self, positions, seconds: float, fast: bool = False) -> bool:
+    def walk(self, positions: Collection[str], seconds: float, fast: bool = False) -> bool:
         """Move and turn for ``seconds`` as the keys that are down say.
 
         Parameters
@@ -109,9 +110,9 @@ class FpsController:
         if across or rise:
             self._turn(across * RADIANS_A_SECOND * seconds, rise * RADIANS_A_SECOND * seconds)
         steps = [MOVES[key] for key in positions if key in MOVES]
-        way = tuple(sum(step[axis] for step in steps) for axis in range(3))
+        right, up, ahead = (sum(step[axis] for step in steps) for axis in range(3))
         reach = self.speed * (FAST if fast else 1.0) * seconds
-        return self._move(way, reach, seconds) or bool(across or rise)
+        return self._move((right, up, ahead), reach, seconds) or bool(across or rise)
 
     def _move(self, way: tuple[int, int, int], reach: float, seconds: float) -> bool:
         """Go ``reach`` units along right, up and forward; returns whether that is anywhere."""

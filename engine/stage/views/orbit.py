@@ -43,7 +43,9 @@ class OrbitController:
         view.azimuth = math.remainder(view.azimuth + azimuth, 2 * math.pi)
         view.elevation = max(-QUARTER_TURN, min(QUARTER_TURN, view.elevation + elevation))
 
-    def dolly(self, steps: float, at=None, size=None) -> None:
+    def dolly(
+        self, steps: float, at: tuple[int, int] | None = None, size: tuple[int, int] | None = None
+    ) -> None:
         """Approach the target by ``steps`` wheel steps; a negative number recedes.
 
         Parameters
@@ -58,7 +60,7 @@ class OrbitController:
         steps = max(-MAX_STEPS, min(MAX_STEPS, steps))
         before = view.distance
         view.distance = max(MIN_DISTANCE, min(MAX_DISTANCE, before * DOLLY_STEP**steps))
-        if at is not None:
+        if at is not None and size is not None:
             nearer = 1.0 - view.distance / before
             dx, dy = ((place - side / 2) * nearer for place, side in zip(at, size, strict=True))
             self._shift(dx, dy, before, size[1])

@@ -13,10 +13,12 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...base import linalg
 from ...errors import InvalidArgumentError
 from ...model.scene.cameras import OrthographicCamera, PerspectiveCamera
+from ...model.scene.nodes import Node
 from ...model.scene.orbiting import home_axes, orbit_axes
 from ...rendering.framing import fit_frustum, frustum_reach
 from ...rendering.support_functions import SupportFunction, support_of_points
@@ -106,7 +108,9 @@ class Viewpoint:
         pose[:3, 3] = self.position()
         return pose
 
-    def camera(self, bounds: Sphere, nearest: float = math.inf, free: float = 0.0):
+    def camera(
+        self, bounds: Sphere, nearest: float = math.inf, free: float = 0.0
+    ) -> PerspectiveCamera | OrthographicCamera:
         """Return a camera whose clip planes enclose ``bounds`` as seen from here.
 
         From inside, the near plane is at ``nearest`` or nearer, but not nearer than ``free``.
@@ -221,7 +225,7 @@ class Viewpoint:
                 return False
         return sphere.radius > SMALLEST * slopes[1] * max(ahead, sphere.radius)
 
-    def look_from(self, position, focal_point) -> None:
+    def look_from(self, position: ArrayLike, focal_point: ArrayLike) -> None:
         """Stand at ``position`` and look at ``focal_point`` (both (3,), world space)."""
         position = np.asarray(position, dtype=np.float64)
         with np.errstate(over="ignore"):
@@ -238,7 +242,7 @@ class Viewpoint:
         self.azimuth = math.atan2(_dot(offset, right), _dot(offset, front))
 
 
-def look_through(view: Viewpoint, node, bounds: Sphere) -> None:
+def look_through(view: Viewpoint, node: Node, bounds: Sphere) -> None:
     """Stand where a node's camera stands, look where it looks, and turn about what is there.
 
     Up stays up where the camera does not roll; else its own up direction counts from now on.
@@ -260,7 +264,7 @@ def look_through(view: Viewpoint, node, bounds: Sphere) -> None:
 
 
 def clip_planes(
-    position, bounds: Sphere, nearest: float = math.inf, free: float = 0.0
+    position: ArrayLike, bounds: Sphere, nearest: float = math.inf, free: float = 0.0
 ) -> tuple[float, float]:
     """Return the near and far distances that enclose ``bounds`` as seen from ``position``."""
     offset = np.asarray(position, dtype=np.float64) - np.array(bounds.center)
@@ -270,7 +274,9 @@ def clip_planes(
     return znear, zfar
 
 
-def with_clip_planes(camera, near: float | None, far: float | None):
+def with_clip_planes(
+    camera: PerspectiveCamera | OrthographicCamera, near: float | None, far: float | None
+) -> PerspectiveCamera | OrthographicCamera:
     """Return a camera with other clip planes where they are given, at distances from it.
 
     Raises
@@ -290,5 +296,5 @@ def with_clip_planes(camera, near: float | None, far: float | None):
     return PerspectiveCamera(camera.yfov, znear=near, zfar=far)
 
 
-def _dot(a, b) -> float:
+def _dot(a: np.ndarray, b: np.ndarray) -> float:
     return float(linalg.dot(a, b))

@@ -6,7 +6,8 @@ where Y is up, and a `Walker` on it.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Collection
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -45,7 +46,11 @@ class Ground(NamedTuple):
 
 
 def find_ground(
-    scene: Scene, bounds: Sphere, view: Viewpoint, walkable=None, slope: float | None = None
+    scene: Scene,
+    bounds: Sphere,
+    view: Viewpoint,
+    walkable: Collection[str] | None = None,
+    slope: float | None = None,
 ) -> Ground:
     """Find the ground of a scene, and a place to stand on it.
 
@@ -70,7 +75,7 @@ def find_ground(
     turned = _turned(scene, axes)
     low, high = turned.bounds
     cell = max(CELL * metre, float((high - low)[[0, 2]].max()) / MOST_CELLS)
-    options = {} if slope is None else {"max_slope": slope}
+    options: dict[str, Any] = {} if slope is None else {"max_slope": slope}
     grid = NavigationGrid(
         turned,
         cell=cell,

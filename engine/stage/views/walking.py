@@ -49,7 +49,13 @@ class GroundController(FpsController):
         Where to look first: yaw and pitch in radians.
     """
 
-    def __init__(self, view: Viewpoint, bounds: Sphere, ground: Ground, gaze=(0.0, 0.0)):
+    def __init__(
+        self,
+        view: Viewpoint,
+        bounds: Sphere,
+        ground: Ground,
+        gaze: tuple[float, float] = (0.0, 0.0),
+    ) -> None:
         self._walker = ground.walker
         self._world_from_walk = ground.axes.T
         super().__init__(view, bounds)

@@ -354,9 +354,8 @@ def textures_of(material: Material) -> dict[str, Texture]:
 def put_texture(material: Material, slot: str, texture: Texture) -> None:
     """Put another texture into a slot that has one, at the same coordinates."""
     held = getattr(material, slot)
-    if isinstance(held, PlacedTexture):
-        texture = replace(held, texture=texture)
-    setattr(material, slot, texture)
+    is_placed = isinstance(held, PlacedTexture)
+    setattr(material, slot, replace(held, texture=texture) if is_placed else texture)
 
 
 def says_something(material: Material) -> bool:
@@ -367,7 +366,7 @@ def says_something(material: Material) -> bool:
     return bool(textures_of(material)) or _words(material) != _DEFAULT_WORDS
 
 
-def _words(material: Material) -> list:
+def _words(material: Material) -> list[Any]:
     held = vars(material)
     return [_word(held[name]) for name in _SAID]
 

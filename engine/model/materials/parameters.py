@@ -179,7 +179,7 @@ class TextureSlot(Parameter[SlotTexture, SlotTexture]):
         self.is_color = is_color
 
 
-def parameters_of(cls: type) -> dict[str, Parameter]:
+def parameters_of(cls: type) -> dict[str, Parameter[Any, Any]]:
     """Return the rows of a class by name, in their order."""
     return {name: row for name, row in vars(cls).items() if isinstance(row, Parameter)}
 
@@ -200,7 +200,7 @@ def made_of_parameters(cls: Class) -> Class:
         )
         for name, row in rows.items()
     ]
-    made = inspect.unwrap(cls.__init__)
+    made = inspect.unwrap(cls.__init__)  # type: ignore[misc]  # a class's own
     made.__signature__ = inspect.Signature([mine, *keywords], return_annotation="None")
     if cls.__doc__ is not None:  # which -OO leaves out
         entries = "\n".join(

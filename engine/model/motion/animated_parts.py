@@ -7,6 +7,7 @@ first is remembered.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from .properties import Property, PropertyChannel
 #: Of what is no part of a node's pose, the path; the rows are the properties.
 PROPERTIES = "properties"
 #: Values by path: (rows, N) float64; of weights and properties a list of (T,) arrays.
-Values = dict
+Values: TypeAlias = dict[str, Any]
 
 
 def row_of(channel: Channel | PropertyChannel) -> tuple[str, Node | Property]:
@@ -40,7 +41,7 @@ class AnimatedParts:
     """
 
     def __init__(self, scene: Scene, clips: Iterable[AnimationClip]) -> None:
-        self.rows: dict[str, dict] = {path: {} for path in (*PATHS, PROPERTIES)}
+        self.rows: dict[str, dict[Any, int]] = {path: {} for path in (*PATHS, PROPERTIES)}
         for clip in clips:
             for channel in clip.channels:
                 path, moved = row_of(channel)
@@ -48,7 +49,7 @@ class AnimatedParts:
         self.rest: Values = {path: _values_of(scene, path, self.rows[path]) for path in PATHS}
         self.rest[PROPERTIES] = [held.numbers() for held in self.rows[PROPERTIES]]
         self._held = [held.held() for held in self.rows[PROPERTIES]]
-        self._slots: tuple | None = None
+        self._slots: tuple[tuple[object, object], dict[str, np.ndarray]] | None = None
 
     def none(self) -> dict[str, np.ndarray]:
         """Return a mask by path, all False."""
@@ -98,7 +99,7 @@ class AnimatedParts:
         return self._slots[1]
 
 
-def _values_of(scene: Scene, path: str, nodes: dict[Node, int]):
+def _values_of(scene: Scene, path: str, nodes: dict[Node, int]) -> np.ndarray | list[np.ndarray]:
     if path == "weights":
         return [_weights_of(node) for node in nodes]
     return getattr(scene.select(nodes), f"{path}s")

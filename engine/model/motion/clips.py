@@ -7,7 +7,7 @@ hold channels of other properties (`properties.py`) as well.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import get_args
+from typing import NoReturn, SupportsIndex, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -69,7 +69,7 @@ class Channel(Keyed):
     def path(self) -> MotionPath:
         return self._path
 
-    def __reduce_ex__(self, protocol):
+    def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
         raise TypeError("a Channel belongs to the Scene of its node: it cannot be copied")
 
     def __repr__(self) -> str:
@@ -115,7 +115,7 @@ class AnimationClip(Closed):
         """Seconds from 0 to the last key of all channels."""
         return max(self._duration, 0.0)
 
-    def __reduce_ex__(self, protocol):
+    def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
         raise TypeError("an AnimationClip belongs to the Scene of its nodes: it cannot be copied")
 
     def __repr__(self) -> str:
@@ -134,7 +134,7 @@ def check_clips(value: Mapping[str, AnimationClip]) -> dict[str, AnimationClip]:
     return dict(value)
 
 
-def _check_values(value, path: str, interpolation: str, count: int) -> np.ndarray:
+def _check_values(value: ArrayLike, path: str, interpolation: str, count: int) -> np.ndarray:
     values = frozen_or_copied(value, "values")
     middle = (3,) if interpolation == "cubicspline" else ()
     width = _WIDTHS.get(path, values.shape[-1] if values.ndim else 0)

@@ -78,7 +78,9 @@ def straight(a: np.ndarray, b: np.ndarray, shares: np.ndarray) -> np.ndarray:
     return a * (1.0 - shares) + b * shares
 
 
-def spline(before: np.ndarray, after: np.ndarray, shares: np.ndarray, spans: np.ndarray):
+def spline(
+    before: np.ndarray, after: np.ndarray, shares: np.ndarray, spans: np.ndarray
+) -> np.ndarray:
     """Return the values of cubic splines.
 
     Parameters

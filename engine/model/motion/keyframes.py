@@ -85,7 +85,7 @@ class KeyframeTable:
 
 def tables_of(channels: Sequence[Channel | PropertyChannel]) -> list[KeyframeTable]:
     """Return the channels in tables of one kind each."""
-    kinds: dict[tuple, list[Channel | PropertyChannel]] = {}
+    kinds: dict[tuple[str, str, int], list[Channel | PropertyChannel]] = {}
     for channel in channels:
         kind = channel.path, channel.interpolation, channel.values.shape[-1]
         kinds.setdefault(kind, []).append(channel)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import get_args
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..._native.loaders import frozen, is_frozen
 from ...base.numbers import floats
@@ -38,7 +38,7 @@ class Keyed(Closed):
         return self._values
 
 
-def check_times(value) -> np.ndarray:
+def check_times(value: ArrayLike) -> np.ndarray:
     """Check times of keys: (K,) float64, increasing, at least one."""
     times = frozen_or_copied(value, "times")
     if times.ndim != 1 or not len(times):
@@ -48,9 +48,9 @@ def check_times(value) -> np.ndarray:
     return times
 
 
-def frozen_or_copied(value, what: str) -> np.ndarray:
+def frozen_or_copied(value: ArrayLike, what: str) -> np.ndarray:
     """Return numbers as a read-only float64 array: the given one, if nobody can write to it."""
-    is_kept = isinstance(value, np.ndarray) and value.dtype == np.float64 and is_frozen(value)
-    if is_kept and value.flags.c_contiguous:
-        return value
+    if isinstance(value, np.ndarray) and value.dtype == np.float64 and is_frozen(value):
+        if value.flags.c_contiguous:
+            return value
     return frozen(floats(value, what))

@@ -5,6 +5,8 @@ In: clips with the rows of what they move, and a time. Out: values of all rows.
 
 from __future__ import annotations
 
+from typing import cast
+
 import numpy as np
 
 from ...choices import Loop
@@ -12,6 +14,7 @@ from .animated_parts import PROPERTIES, AnimatedParts, Values, row_of
 from .clips import AnimationClip
 from .interpolation import straight, turns
 from .keyframes import tables_of
+from .properties import PropertyChannel
 
 
 class Layer:
@@ -65,9 +68,8 @@ class Layer:
                 for row, weights in zip(rows.tolist(), sampled, strict=True):
                     values["weights"][row] = weights
             elif path == PROPERTIES:
-                for channel, row, numbers in zip(
-                    table.channels, rows.tolist(), sampled, strict=True
-                ):
+                channels = cast("tuple[PropertyChannel, ...]", table.channels)
+                for channel, row, numbers in zip(channels, rows.tolist(), sampled, strict=True):
                     values[PROPERTIES][row] = channel._within(numbers)
             else:
                 values[path][rows] = sampled
@@ -106,7 +108,7 @@ def mixed(layers: list[Layer], time: float, loop: Loop) -> Values:
 
 def _between(some: Values, others: Values, share: float) -> Values:
     shares = {path: np.full(len(some[path]), share) for path in ("translation", "scale")}
-    values = {path: straight(some[path], others[path], s) for path, s in shares.items()}
+    values: Values = {path: straight(some[path], others[path], s) for path, s in shares.items()}
     ways = turns(some["rotation"], others["rotation"])
     values["rotation"] = ways.at(np.full(len(some["rotation"]), share))
     for path in ("weights", PROPERTIES):

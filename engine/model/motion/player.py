@@ -143,7 +143,9 @@ class AnimationPlayer(Clock):
         self._put_back(self._layers)
         self._layers = []
 
-    def _find(self, clip) -> tuple[AnimationClip, ...]:
+    def _find(
+        self, clip: str | int | AnimationClip | Iterable[AnimationClip]
+    ) -> tuple[AnimationClip, ...]:
         if isinstance(clip, Iterable) and not isinstance(clip, str):
             found = tuple(self._find_one(one) for one in clip)
             if not found:
@@ -151,15 +153,15 @@ class AnimationPlayer(Clock):
             return found
         return (self._find_one(clip),)
 
-    def _find_one(self, clip) -> AnimationClip:
+    def _find_one(self, clip: str | int | AnimationClip) -> AnimationClip:
         if isinstance(clip, AnimationClip) and clip in self._clips:
             return clip
         if isinstance(clip, str):
-            named = [each for each in self._clips if each.name == clip]
-            named = [self._scene.animations.get(clip), *named]
-            named = [each for each in named if each in self._clips]
-            if named:
-                return named[0]
+            named = [self._scene.animations.get(clip)]
+            named += [each for each in self._clips if each.name == clip]
+            found = [each for each in named if each is not None and each in self._clips]
+            if found:
+                return found[0]
         elif isinstance(clip, int) and 0 <= clip < len(self._clips):
             return self._clips[clip]
         names = ", ".join(repr(each.name) for each in self._clips)
@@ -182,7 +184,7 @@ class AnimationPlayer(Clock):
         return masks
 
 
-def _check_clips(value, scene: Scene) -> tuple[AnimationClip, ...]:
+def _check_clips(value: Iterable[AnimationClip], scene: Scene) -> tuple[AnimationClip, ...]:
     if not isinstance(value, Iterable):
         raise InvalidArgumentError(f"clips must be several AnimationClip, not {value!r}")
     clips = tuple(value)
@@ -195,9 +197,9 @@ def _check_clips(value, scene: Scene) -> tuple[AnimationClip, ...]:
     return clips
 
 
-def _check_offsets(value, count: int) -> np.ndarray:
-    many = isinstance(value, Iterable) and not isinstance(value, str)
-    offsets = np.array(list(map(real, value)) if many else [real(value)] * count)
+def _check_offsets(value: float | Iterable[float], count: int) -> np.ndarray:
+    given = value if isinstance(value, Iterable) and not isinstance(value, str) else [value] * count
+    offsets = np.array([real(each) for each in given])
     if len(offsets) != count or not np.isfinite(offsets).all():
         raise InvalidArgumentError(f"offsets must be {count} finite numbers, not {value!r}")
     return offsets

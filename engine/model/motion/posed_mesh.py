@@ -7,6 +7,7 @@ asks, a `Mesh` with the vertices where they are now.
 from __future__ import annotations
 
 import operator
+from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -19,7 +20,7 @@ from ..geometry.movers import VERTEX_AXES
 from ..geometry.native_meshes import make_native_mesh
 
 _MOST_COLUMNS = 8  # that C numbers at once
-_rests: WeakKeyDictionary[Mesh, tuple[dict, NativeRest]] = WeakKeyDictionary()
+_rests: WeakKeyDictionary[Mesh, tuple[dict[str, Any], NativeRest]] = WeakKeyDictionary()
 
 
 class PosedMesh:
@@ -34,7 +35,7 @@ class PosedMesh:
 
     def __init__(self, mesh: Mesh) -> None:
         self.mesh = mesh
-        self._made_of: dict = {}
+        self._made_of: dict[str, Any] = {}
         self._version = -1  # of the mesh, when its arrays were last looked at
         self._now: tuple[NativeMesh, Mesh] | None = None
         self.renew()
@@ -56,18 +57,18 @@ class PosedMesh:
         return True
 
     @property
-    def arrays(self) -> dict:
+    def arrays(self) -> dict[str, Any]:
         """The mesh's arrays that the pose was made of."""
         return self._made_of
 
-    def handle(self, needs, threads: int) -> NativeMesh:
+    def handle(self, face_normals: bool, edges: bool, threads: int) -> NativeMesh:
         """Return the handle to draw, with what a picture reads of it."""
         native = self.native
-        if needs.face_normals and not native.face_normals:
+        if face_normals and not native.face_normals:
             native.want_face_normals()
         if native.current is None:
             pose_meshes([native], None, threads)
-        if needs.edges:
+        if edges:
             native.want_edges(self.mesh._derive("edges", self._made_of))
         return native.current
 
@@ -102,11 +103,11 @@ class PosedMesh:
         return copy
 
 
-def _same(some: dict, others: dict) -> bool:
+def _same(some: dict[str, Any], others: dict[str, Any]) -> bool:
     return some.keys() == others.keys() and all(map(operator.is_, some.values(), others.values()))
 
 
-def _rest_of(mesh: Mesh, arrays: dict) -> NativeRest:
+def _rest_of(mesh: Mesh, arrays: dict[str, Any]) -> NativeRest:
     """What is known of a mesh at rest; shared by all that pose it."""
     made_of, rest = _rests.get(mesh, ({}, None))
     if rest is None or not _same(arrays, made_of):
@@ -125,7 +126,7 @@ def _rest_of(mesh: Mesh, arrays: dict) -> NativeRest:
     return rest
 
 
-def _movers_of(arrays: dict) -> np.ndarray:
+def _movers_of(arrays: dict[str, Any]) -> np.ndarray:
     """Number the vertices; those alike are moved alike, wherever they are."""
     count = len(arrays["positions"])
     rows = []

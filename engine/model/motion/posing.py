@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from weakref import WeakValueDictionary
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..._native.rasterizer import NativePose, pose_meshes
 from ...base.dirty_tracking import Watch
@@ -21,7 +22,8 @@ from .skeletons import WORLD, skeleton_of
 from .skins import Skin
 
 if TYPE_CHECKING:
-    from ..scene.nodes import Node
+    from ..scene.node_arrays import NodeArrays
+    from ..scene.nodes import Node, SceneObject
     from ..scene.scene import Scene
 
 
@@ -46,7 +48,7 @@ class Posing:
         self._here: list[Node] = []  # those of them that are in the scene, by their ids
         self._watch = Watch()  # of their meshes
         self._posed: list[PosedMesh] = []
-        self._linked: tuple | None = None  # the arrays and the links that skeletons are of
+        self._linked: tuple[NodeArrays, int] | None = None  # what skeletons are of
         self._changes = -1
 
     def take(self, node: Node) -> None:
@@ -104,14 +106,14 @@ class Posing:
         """Find the joints of all skins in the tree as it is now."""
         arrays = scene._arrays
         nodes = [node for node in self._here if node._posed is not None]
-        self._posed = [node._posed for node in nodes]
+        self._posed = [posed for node in nodes if (posed := node._posed) is not None]
         self.poses = [posed.native for posed in self._posed]
         numbers = [scene._objects.number_of(posed) for posed in self._posed]
         self.numbers = np.array(numbers, np.int32)
         slots, anchors = [], []
-        for node in nodes:
-            set_weights(node._posed, node._morph_weights)
-            anchor = self._find_joints(node, scene)
+        for node, posed in zip(nodes, self._posed, strict=True):
+            set_weights(posed, node._morph_weights)
+            anchor = self._find_joints(node, posed.native, scene)
             if anchor is not None:
                 slots.append(node._slot)
                 anchors.append(node._slot if anchor == WORLD else anchor)
@@ -120,11 +122,11 @@ class Posing:
         self._changes = -1
         self.moment += 1
 
-    def _find_joints(self, node: Node, scene: Scene) -> int | None:
+    def _find_joints(self, node: Node, native: NativePose, scene: Scene) -> int | None:
         """Tell a node's pose its joints; return the anchor's slot, or None without a skin."""
-        skin, native = node._skin, node._posed.native
+        skin = node._skin
         fits = skin is not None and 0 < native.rest.joints <= len(skin.joints)
-        if not fits or any(joint._scene is not scene for joint in skin.joints):
+        if skin is None or not fits or any(joint._scene is not scene for joint in skin.joints):
             native.forget_skeleton()  # the mesh became another, or joints were removed
             return None
         skeleton = skeleton_of(skin, scene._arrays)
@@ -144,7 +146,7 @@ def check_skin(value: Skin | None, node: Node) -> Skin | None:
     return value
 
 
-def check_fit(obj, skin: Skin) -> None:
+def check_fit(obj: SceneObject | None, skin: Skin) -> None:
     """Check that a skin has the joints that an object refers to."""
     if not isinstance(obj, Mesh) or obj.joints is None:
         raise InvalidArgumentError("a skin needs a Mesh with joints and weights")
@@ -155,7 +157,7 @@ def check_fit(obj, skin: Skin) -> None:
         )
 
 
-def check_morph_weights(value, obj) -> np.ndarray | None:
+def check_morph_weights(value: ArrayLike | None, obj: SceneObject | None) -> np.ndarray | None:
     """Check weights of an object's morph targets: a read-only (T,) float64 array."""
     if value is None:
         return None
@@ -173,20 +175,21 @@ def may_bend(node: Node) -> bool:
 
 def _is_bent(node: Node) -> bool:
     """Whether a node shows its mesh bent."""
-    if not may_bend(node):
-        return False
     mesh = node._object
+    if not may_bend(node) or not isinstance(mesh, Mesh):
+        return False
     bends = node._skin is not None and mesh.joints is not None
     return bends or (node._morph_weights is not None and len(mesh.morph_targets) > 0)
 
 
 def posed_for(node: Node) -> PosedMesh | None:
     """Return what a node shows instead of its mesh, or None for the mesh itself."""
-    if not _is_bent(node):
+    mesh = node._object
+    if not _is_bent(node) or not isinstance(mesh, Mesh):
         return None
     posed = node._posed
-    if posed is None or posed.mesh is not node._object:
-        posed = PosedMesh(node._object)
+    if posed is None or posed.mesh is not mesh:
+        posed = PosedMesh(mesh)
     set_weights(posed, node._morph_weights)
     return posed
 
@@ -194,5 +197,6 @@ def posed_for(node: Node) -> PosedMesh | None:
 def set_weights(posed: PosedMesh, weights: np.ndarray | None) -> None:
     """Give a posed mesh its weights: zeros without any, or if its targets are others by now."""
     targets = posed.native.rest.targets
-    fit = weights is not None and len(weights) == targets
-    posed.native.set_weights(float32_of(weights) if fit else np.zeros(targets, np.float32))
+    if weights is None or len(weights) != targets:
+        weights = np.zeros(targets, np.float32)
+    posed.native.set_weights(float32_of(weights))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, NoReturn, SupportsIndex
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -126,8 +126,8 @@ class Property(NamedTuple):
             self._put_weight(values[0])
         elif "." in path:
             slot, _, name = path.partition(".")
-            value = values if limits.width > 1 else values[0]
-            self._set(slot, replace(_placed(getattr(target, slot)), **{name: value}))
+            moved: dict[str, Any] = {name: values if limits.width > 1 else values[0]}
+            self._set(slot, replace(_placed(getattr(target, slot)), **moved))
         else:
             self._set(path, values if limits.width > 1 else values[0])
 
@@ -244,7 +244,7 @@ class PropertyChannel(Keyed):
             return values
         return np.minimum(np.maximum(values, self._hull[0]), self._hull[1])
 
-    def __reduce_ex__(self, protocol):
+    def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
         raise TypeError("a PropertyChannel belongs to what it changes: it cannot be copied")
 
     def __repr__(self) -> str:

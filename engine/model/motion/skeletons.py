@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..scene.node_arrays import NodeArrays
 from .skins import Skin
 
 WORLD = -2  # the joints have no node above them all
@@ -36,7 +37,7 @@ class Skeleton(NamedTuple):
     inverse_binds: np.ndarray
 
 
-def skeleton_of(skin: Skin, arrays) -> Skeleton:
+def skeleton_of(skin: Skin, arrays: NodeArrays) -> Skeleton:
     """Return the skeleton of a skin whose joints are in a scene's arrays."""
     parents = arrays.columns["parent"]
     joints = [joint._slot for joint in skin.joints]

@@ -6,6 +6,7 @@ In: nodes as joints, and where the mesh's rest pose has them. Out: the same, che
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import NoReturn, SupportsIndex
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -62,14 +63,14 @@ class Skin(Closed):
     def name(self) -> str:
         return self._name
 
-    def __reduce_ex__(self, protocol):
+    def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
         raise TypeError("a Skin belongs to the Scene of its joints: it cannot be copied or pickled")
 
     def __repr__(self) -> str:
         return f"Skin({len(self._joints)} joints, name={self._name!r})"
 
 
-def _check_joints(value) -> tuple[Node, ...]:
+def _check_joints(value: Iterable[Node]) -> tuple[Node, ...]:
     if not isinstance(value, Iterable):
         raise InvalidArgumentError(f"joints must be several Node, not {value!r}")
     joints = tuple(value)
@@ -83,7 +84,7 @@ def _check_joints(value) -> tuple[Node, ...]:
     return joints
 
 
-def _check_binds(value, count: int) -> np.ndarray:
+def _check_binds(value: ArrayLike, count: int) -> np.ndarray:
     binds = floats(value, "inverse_binds")
     if binds.shape != (count, 4, 4):
         raise InvalidArgumentError(f"inverse_binds must be ({count}, 4, 4), not {binds.shape}")

@@ -10,6 +10,8 @@ as done before its result is in its place.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any, TypeAlias
+
 import numpy as np
 
 from ..._native.scene_graph import OBJECT_BOX, NativeShapes, move_boxes
@@ -18,6 +20,11 @@ from ..geometry.mesh import Mesh
 from ..motion.posed_mesh import PosedMesh
 from .instances import InstancedMesh, mesh_box
 
+if TYPE_CHECKING:
+    from ..motion.shown import Drawn
+    from .node_arrays import NodeArrays
+
+Part: TypeAlias = Mesh | InstancedMesh
 _REMEMBERED = 1024  # numbers that got other objects
 NO_BOX = np.array((np.inf,) * 3 + (-np.inf,) * 3 + (0.0,) * 3)
 
@@ -37,16 +44,17 @@ class ObjectTable:
     """
 
     def __init__(self) -> None:
-        self.objects: list = []
+        self.objects: list[Drawn | None] = []
         self.boxes = np.empty((0, OBJECT_BOX))
         self.version = 0
         self._shapes: NativeShapes | None = None
-        self._numbers: dict = {}
+        self._numbers: dict[Drawn, int] = {}
         self._uses: list[int] = []
         self._free: list[int] = []
         self._watch = Watch()
-        self._drawn: dict = {}  # numbers of what each mesh or set of instances is drawn by
-        self._parts: dict[int, list] = {}  # the meshes and sets of instances that a number draws
+        # Numbers of what each mesh or set of instances is drawn by.
+        self._drawn: dict[Part, set[int]] = {}
+        self._parts: dict[int, list[Part]] = {}  # what a number draws
         self._renewed: list[int] = []  # the numbers that got other objects, the latest last
         self._given: list[int] = []  # the version at which each number got its object
         self._unboxed: set[int] = set()  # the numbers whose boxes are not renewed since
@@ -59,7 +67,7 @@ class ObjectTable:
             shapes = self._shapes = NativeShapes(len(self.objects))
         return shapes
 
-    def take(self, obj) -> int:
+    def take(self, obj: object) -> int:
         """Return the number of an object for one more node; -1 for what is never drawn."""
         if not isinstance(obj, (Mesh, InstancedMesh, PosedMesh)):
             return -1
@@ -80,7 +88,7 @@ class ObjectTable:
         self._uses[number] += 1
         return number
 
-    def number_of(self, obj) -> int:
+    def number_of(self, obj: Drawn) -> int:
         """Return the number of an object that some node draws."""
         return self._numbers[obj]
 
@@ -88,7 +96,7 @@ class ObjectTable:
         """Say that what is drawn has other faces, or has them elsewhere."""
         self._shapes = None
 
-    def release(self, obj) -> None:
+    def release(self, obj: Any) -> None:
         """Say that a node of the object is gone."""
         number = self._numbers.get(obj)
         if number is None:
@@ -106,11 +114,11 @@ class ObjectTable:
         count = self.version - version
         return set(self._renewed[-count:] if count else ()) if count <= len(self._renewed) else None
 
-    def drawn_by(self, thing) -> set[int]:
+    def drawn_by(self, thing: Part) -> set[int]:
         """Return the numbers of the objects that draw a mesh or set of instances."""
         return set(self._drawn.get(thing, ()))
 
-    def refresh(self, arrays) -> None:
+    def refresh(self, arrays: NodeArrays) -> None:
         """Renew the boxes, and touch the nodes in ``arrays`` whose boxes are others now."""
         found = self._watch.found()
         if not found and not self._unboxed:
@@ -128,9 +136,9 @@ class ObjectTable:
             if self._given[number] != version:  # another object came meanwhile
                 self._unboxed.add(number)
 
-    def _numbers_of(self, changed: list[tuple]) -> set[int]:
+    def _numbers_of(self, changed: list[tuple[Any, int]]) -> set[int]:
         """The numbers of what is drawn by things that changed."""
-        numbers = set()
+        numbers: set[int] = set()
         for thing, _ in changed:
             numbers |= self.drawn_by(thing)
             if isinstance(thing, InstancedMesh) and thing in self._numbers:
@@ -151,7 +159,7 @@ class ObjectTable:
         if len(self.boxes) < len(self.objects):
             move_boxes(self, np.full((2 * len(self.objects), OBJECT_BOX), np.nan))
 
-    def _look_at(self, thing, number: int) -> None:
+    def _look_at(self, thing: Part, number: int) -> None:
         numbers = self._drawn.setdefault(thing, set())
         if not numbers:
             self._watch.add(thing)
@@ -159,14 +167,14 @@ class ObjectTable:
             numbers.add(number)
             self._parts.setdefault(number, []).append(thing)
 
-    def _look_away(self, thing, number: int) -> None:
+    def _look_away(self, thing: Part, number: int) -> None:
         numbers = self._drawn.get(thing, set())
         numbers.discard(number)
         if not numbers:
             self._drawn.pop(thing, None)
             self._watch.remove(thing)
 
-    def _give(self, number: int, obj) -> None:
+    def _give(self, number: int, obj: Drawn | None) -> None:
         self.objects[number] = obj
         self.version += 1
         self._given[number] = self.version
@@ -176,7 +184,7 @@ class ObjectTable:
             del self._renewed[:_REMEMBERED]
 
 
-def _box(obj) -> np.ndarray:
+def _box(obj: Drawn | None) -> np.ndarray:
     if isinstance(obj, Mesh):
         return mesh_box(obj)
     if isinstance(obj, PosedMesh):

@@ -6,6 +6,8 @@ change a part of the array alone, and so nothing of the node, is an error that s
 
 from __future__ import annotations
 
+from typing import Any, SupportsIndex
+
 import numpy as np
 
 from ...errors import InvalidArgumentError
@@ -16,7 +18,7 @@ class PosePart(np.ndarray):
 
     __slots__ = ()
 
-    def __setitem__(self, key, value) -> None:
+    def __setitem__(self, key: Any, value: Any) -> None:
         if not self.flags.writeable:
             raise InvalidArgumentError(
                 "this is a read-only copy of a part of the node's pose: assign all of it, as in "
@@ -24,19 +26,20 @@ class PosePart(np.ndarray):
             )
         super().__setitem__(key, value)
 
-    def __iadd__(self, other):
+    # What these return is assigned, and any numbers may be: `__add__` and others say less.
+    def __iadd__(self, other: Any) -> Any:  # type: ignore[misc]
         return super().__iadd__(other) if self.flags.writeable else np.asarray(self) + other
 
-    def __isub__(self, other):
+    def __isub__(self, other: Any) -> Any:  # type: ignore[misc]
         return super().__isub__(other) if self.flags.writeable else np.asarray(self) - other
 
-    def __imul__(self, other):
+    def __imul__(self, other: Any) -> Any:  # type: ignore[misc]
         return super().__imul__(other) if self.flags.writeable else np.asarray(self) * other
 
-    def __itruediv__(self, other):
+    def __itruediv__(self, other: Any) -> Any:  # type: ignore[misc]
         return super().__itruediv__(other) if self.flags.writeable else np.asarray(self) / other
 
-    def __reduce_ex__(self, protocol):
+    def __reduce_ex__(self, protocol: SupportsIndex) -> str | tuple[Any, ...]:
         return np.asarray(self).__reduce_ex__(protocol)
 
     def __repr__(self) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from typing import Any
 from weakref import ref
 
 import numpy as np
@@ -81,7 +82,7 @@ class Animator(Clock):
         ------
         InvalidArgumentError
         """
-        given = {"axis": axis, "period": period, "phase": phase}
+        given: dict[str, Any] = {"axis": axis, "period": period, "phase": phase}
         nodes = self._scene.select(nodes if isinstance(nodes, Iterable) else [nodes]).nodes
         self._add([Spin(node, node.rotation, **given) for node in nodes], [])
 
@@ -142,7 +143,8 @@ class Animator(Clock):
 
     @_motions.setter
     def _motions(self, value: tuple[Iterable[Spin], Iterable[Track]]) -> None:
-        self._spins, self._tracks = map(list, value)
+        spins, tracks = value
+        self._spins, self._tracks = list(spins), list(tracks)
         self._moving = None
 
     def _move(self, eye: np.ndarray | None = None) -> None:
@@ -153,7 +155,8 @@ class Animator(Clock):
             self._moving = _Moving(self._scene, self._spins, self._tracks)
         moving = self._moving
         moving.spins.move(self.time, self._due(moving.spins.rows, eye))
-        rows = np.array([track.node._slot for track in moving.tracks], np.int32)
+        # The scene holds the nodes of what moves.
+        rows = np.array([track.node._slot for track in moving.tracks], np.int32)  # type: ignore[union-attr]
         for number in self._due(rows, eye).tolist():
             moving.tracks[number].move(self.time)
 
@@ -196,7 +199,9 @@ class Spin(_Described):
         As they were given to `Animator.spin`.
     """
 
-    def __init__(self, node: Node, rotation, axis, period, phase) -> None:
+    def __init__(
+        self, node: Node, rotation: np.ndarray, axis: ArrayLike, period: float, phase: float
+    ) -> None:
         super().__init__(node)
         self.axis, self.period = frozen_floats(axis, "axis", (3,)), finite(period, "period")
         if not self.axis.any() or abs(self.period) < 1e-300:
@@ -223,7 +228,8 @@ class _Spins:
     """All spins of an animator as arrays."""
 
     def __init__(self, scene: Scene, spins: list[Spin]) -> None:
-        self.rows = np.array([spin.node._slot for spin in spins], np.int32)
+        # The scene holds the nodes of what moves.
+        self.rows = np.array([spin.node._slot for spin in spins], np.int32)  # type: ignore[union-attr]
         self._arrays = scene._arrays
         self._axes = np.array([spin.direction for spin in spins]).reshape(-1, 3)
         self._rates = np.array([spin.rate for spin in spins])
@@ -247,15 +253,23 @@ class _Spins:
 class Track(_Described):
     """Keyframes of one node: arrays as they were given to `Animator.track`, or None."""
 
-    def __init__(self, node: Node, times, translations, rotations, scales, repeat: bool) -> None:
+    def __init__(
+        self,
+        node: Node,
+        times: ArrayLike,
+        translations: ArrayLike | None,
+        rotations: ArrayLike | None,
+        scales: ArrayLike | None,
+        repeat: bool,
+    ) -> None:
         super().__init__(node)
         self.times = _keys(() if times is None else times, "times", ())
         if not len(self.times) or not (np.diff(self.times) > 0).all():
             raise InvalidArgumentError("times must increase")
         count = len(self.times)
-        self.translations = _keys(translations, "translations", (3,), count)
-        self.rotations = _keys(rotations, "rotations", (4,), count)
-        self.scales = _keys(scales, "scales", (3,), count)
+        self.translations = _optional_keys(translations, "translations", 3, count)
+        self.rotations = _optional_keys(rotations, "rotations", 4, count)
+        self.scales = _optional_keys(scales, "scales", 3, count)
         if self.rotations is not None:
             with np.errstate(over="ignore"):
                 squares = (self.rotations * self.rotations).sum(axis=1)
@@ -275,6 +289,8 @@ class Track(_Described):
         span = float(self.times[after] - self.times[before]) or 1.0
         share = min(max((time - float(self.times[before])) / span, 0.0), 1.0)
         node = self.node
+        if node is None:
+            return
         if self.translations is not None:
             node.translation = _between(self.translations, before, after, share)
         if self.scales is not None:
@@ -287,9 +303,13 @@ def _between(values: np.ndarray, before: int, after: int, share: float) -> np.nd
     return values[before] * (1.0 - share) + values[after] * share
 
 
-def _keys(value, what: str, row: tuple[int, ...], count: int | None = None) -> np.ndarray | None:
-    if value is None:
-        return None
+def _optional_keys(value: ArrayLike | None, what: str, width: int, count: int) -> np.ndarray | None:
+    return None if value is None else _keys(value, what, (width,), count)
+
+
+def _keys(
+    value: ArrayLike, what: str, row: tuple[int, ...], count: int | None = None
+) -> np.ndarray:
     array = floats(value, what)
     if array.ndim != 1 + len(row) or array.shape[1:] != row:
         raise InvalidArgumentError(f"{what} must have shape (K, {row})" if row else "times: (K,)")

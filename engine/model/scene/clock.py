@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NoReturn, SupportsIndex
+
 from ...base.validation import Closed, finite
 from ...errors import InvalidArgumentError
 from .scene import Scene
@@ -37,7 +39,7 @@ class Clock(Closed):
         self.time = 0.0
         self.paused = False
 
-    def __reduce_ex__(self, protocol):
+    def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
         name = type(self).__name__
         raise TypeError(f"an {name} belongs to its Scene: it cannot be copied or pickled")
 

@@ -57,8 +57,11 @@ class InstancedMesh(Closed):
 
     mesh: CheckedAttribute[Mesh, Mesh] = CheckedAttribute(_check_mesh)
     version: int
-    _box_of: tuple | None = None  # poses and positions, and the box that follows from them
-    _tree_of: tuple | None = None  # likewise
+    _poses: NDArray[np.float32]
+    _colors: NDArray[np.uint8] | NDArray[np.float32] | None
+    # Poses and positions, and the box or the tree that follows from them.
+    _box_of: tuple[tuple[object, ...], np.ndarray] | None = None
+    _tree_of: tuple[tuple[object, ...], tuple[NativeTree, np.ndarray]] | None = None
     _FORGOTTEN = ("_box_of", "_tree_of")
 
     def __init__(self, mesh: Mesh, poses: ArrayLike, *, colors: ArrayLike | None = None) -> None:
@@ -99,7 +102,9 @@ class InstancedMesh(Closed):
         self._poses = checked
         renew(self)
 
-    def _replace_by_rows(self, rows: np.ndarray, poses, colors) -> None:
+    def _replace_by_rows(
+        self, rows: np.ndarray, poses: np.ndarray, colors: np.ndarray | None
+    ) -> None:
         """Draw some rows of others' poses and colours, under the numbers that they have there."""
         self.replace(poses[rows], None if colors is None else colors[rows])
         self._ids = rows.astype(np.int32)
@@ -132,19 +137,21 @@ class InstancedMesh(Closed):
     def _tree(self) -> tuple[NativeTree, np.ndarray]:
         """The tree of the instances' boxes, and the poses that it is of, as C reads them."""
         state = self._poses, self.mesh.positions
-        if not _same(self._tree_of, state):
+        known = self._tree_of
+        if known is None or not _same(known[0], state):
             poses = self._flat_poses()
-            self._tree_of = state, (NativeTree(self._boxes(poses)), poses)
-        return self._tree_of[1]
+            known = self._tree_of = state, (NativeTree(self._boxes(poses)), poses)
+        return known[1]
 
     def _box_in_node(self) -> np.ndarray:
         """The box around all instances, (OBJECT_BOX,); kept until something in it changes."""
         state = self._poses, self.mesh.positions
-        if not _same(self._box_of, state):
+        known = self._box_of
+        if known is None or not _same(known[0], state):
             box = np.empty(OBJECT_BOX)
             union(self._boxes(self._flat_poses()), box)
-            self._box_of = state, box
-        return self._box_of[1]
+            known = self._box_of = state, box
+        return known[1]
 
     def __len__(self) -> int:
         return len(self._poses)
@@ -153,9 +160,9 @@ class InstancedMesh(Closed):
         return f"InstancedMesh({self.mesh!r}, {len(self)} instances)"
 
 
-def _same(known: tuple | None, state: tuple) -> bool:
-    """Whether what is known follows from these very arrays."""
-    return known is not None and all(map(operator.is_, known[0], state))
+def _same(some: tuple[object, ...], others: tuple[object, ...]) -> bool:
+    """Whether these are the very same arrays."""
+    return all(map(operator.is_, some, others))
 
 
 def mesh_box(mesh: Mesh) -> np.ndarray:
@@ -164,7 +171,7 @@ def mesh_box(mesh: Mesh) -> np.ndarray:
     return np.concatenate([low, high, np.maximum(np.abs(low), np.abs(high))])
 
 
-def _check_poses(value) -> np.ndarray:
+def _check_poses(value: ArrayLike) -> np.ndarray:
     poses = float32_of(floats(value, "poses"))
     if poses.shape == (0,):
         poses = poses.reshape(0, 4)
@@ -175,7 +182,7 @@ def _check_poses(value) -> np.ndarray:
     return frozen(poses)
 
 
-def _check_colors(value, count: int) -> np.ndarray | None:
+def _check_colors(value: ArrayLike | None, count: int) -> np.ndarray | None:
     if value is None:
         return None
     colors = as_array(value, "colors")

@@ -9,7 +9,7 @@ above moves.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NoReturn, SupportsIndex, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -86,7 +86,7 @@ class Node:
     _taken_with: Node | None
     _pose: NDArray[np.float64]
     _read_pose: NDArray[np.float64] | None
-    _translation: PosePart | None
+    _translation: PosePart
     _world_pose: NDArray[np.float64]
 
     def __init__(self, scene: Scene, obj: SceneObject | None, name: str, number: int) -> None:
@@ -98,7 +98,7 @@ class Node:
         self._taken = ()  # the nodes below that were removed with this one
         self._taken_with = None  # the node above that this one was removed with
         self._pose_version = self._world_version = -1
-        self._read_pose = self._translation = None  # as they were when they were last read
+        self._read_pose = None  # as it was when the translation was last read
         self._id = number
 
     @property
@@ -173,7 +173,7 @@ class Node:
         below = (nodes[slot] for slot in self._arrays.children(self._slot))
         return tuple(node for node in below if node is not None)
 
-    def __reduce_ex__(self, protocol):
+    def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
         raise TypeError("a Node belongs to its Scene: it cannot be copied or pickled")
 
     def reparent(
@@ -382,7 +382,7 @@ class Node:
             self._arrays.changes += 1
 
 
-def _hangs_under(node, parent: Node | None) -> bool:
+def _hangs_under(node: Node | None, parent: Node | None) -> bool:
     return parent is not None and isinstance(node, Node) and node.parent is parent
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NoReturn, SupportsIndex
 from weakref import WeakSet
 
 import numpy as np
@@ -249,7 +249,7 @@ class Scene(Surroundings, SceneQueries):
                 listed.clear()
                 listed.update(ordered)
 
-    def _put(self, node: Node, obj) -> None:
+    def _put(self, node: Node, obj: SceneObject | None) -> None:
         """Let a node hold another object."""
         _check_object(obj)
         node._object = obj
@@ -457,7 +457,7 @@ class Scene(Surroundings, SceneQueries):
 
         save_scene(self, path)
 
-    def __reduce_ex__(self, protocol):
+    def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
         raise TypeError("a Scene cannot be copied or pickled: add its objects to another Scene")
 
     def _repr_png_(self) -> bytes | None:
@@ -470,19 +470,21 @@ class Scene(Surroundings, SceneQueries):
         return f"Scene({self._arrays.count - self._removed} nodes)"
 
 
-def _take_animations(scene: Scene, clips: dict, put: Callable[[dict], None]) -> None:
+def _take_animations(
+    scene: Scene, clips: dict[Any, Any], put: Callable[[dict[Any, Any]], None]
+) -> None:
     """Let a scene's own dict hold other clips."""
     from ..motion.clips import check_clips
 
     put(check_clips(clips))
 
 
-def _unfound(node) -> str:
+def _unfound(node: object) -> str:
     """What a caller gave for a node: mostly what `Scene.find` returns of an unknown name."""
     return "None, which find() returns of an unknown name" if node is None else shown(node)
 
 
-def _check_object(obj) -> None:
+def _check_object(obj: object) -> None:
     if obj is not None and not isinstance(obj, _OBJECT_TYPES):
         allowed = ", ".join(kind.__name__ for kind in _OBJECT_TYPES)
         raise InvalidArgumentError(f"obj must be {allowed} or None (a group), not {shown(obj)}")

@@ -7,7 +7,7 @@ selection, once.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn, SupportsIndex
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -134,7 +134,7 @@ class NodeSelection(Closed):
         bounds[bounds[:, 0] > bounds[:, 3]] = np.nan
         return bounds.reshape(-1, 2, 3)
 
-    def __reduce_ex__(self, protocol):
+    def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
         raise TypeError("a NodeSelection belongs to its Scene: it cannot be copied or pickled")
 
     def __repr__(self) -> str:
@@ -144,7 +144,7 @@ class NodeSelection(Closed):
         self._scene._arrays.find_parts(self._rows)
         return self._scene._arrays.columns[name][self._rows]
 
-    def _checked(self, value, what: str, row: tuple[int, ...]) -> np.ndarray:
+    def _checked(self, value: ArrayLike, what: str, row: tuple[int, ...]) -> np.ndarray:
         shape = (len(self), *row)
         array = floats(value, what)
         try:

@@ -155,7 +155,7 @@ class Surroundings(Closed):
         self._exposure = number
 
 
-def _pair(value, what: str) -> tuple[float, float]:
+def _pair(value: Sequence[float], what: str) -> tuple[float, float]:
     try:
         low, high = value
         return float(low), float(high)

@@ -231,7 +231,7 @@ class DrawList:
             self._set_object(number, obj)
 
     def _make_textures(self, scene: AnyScene) -> None:
-        meshes = (getattr(obj, "mesh", obj) for obj in scene._objects.objects if obj is not None)
+        meshes = (_mesh_of(obj) for obj in scene._objects.objects if obj is not None)
         materials = {material for mesh in meshes for material in mesh.materials}
         make_textures(materials - self._untextured, self._color_space, self._threads)
 
@@ -244,7 +244,7 @@ class DrawList:
             self.native.set_object(number, None, 0)
             self._note(number, (), ())
             return
-        mesh = obj if isinstance(obj, Mesh) else obj.mesh
+        mesh = _mesh_of(obj)
         things: Things = (mesh, obj) if isinstance(obj, InstancedMesh) else (mesh,)
         for thing in things:
             self._watch.add(thing)  # before it is read
@@ -257,7 +257,7 @@ class DrawList:
         base = self._materials.base_of(mesh.materials, both)
         needs = _needs_of(mesh, self._listing.needs, self._listing.normals)
         if isinstance(obj, PosedMesh):
-            native = obj.handle(needs, self._threads)
+            native = obj.handle(needs.face_normals, needs.edges, self._threads)
         else:
             native = native_mesh(mesh, needs, self._threads)
         closed = () if holes is None else (True, holes.ends, holes.points)
@@ -271,7 +271,7 @@ class DrawList:
         """The holes of an object that encloses a volume but for them."""
         if not self._listing.by_mesh or isinstance(obj, PosedMesh):
             return None
-        holes = holes_of(obj if isinstance(obj, Mesh) else obj.mesh)
+        holes = holes_of(_mesh_of(obj))
         if holes is not None and len(holes.ends) and not isinstance(obj, Mesh):
             return None  # each instance would have to be looked at
         return holes
@@ -300,6 +300,10 @@ class DrawList:
             for thing in self._listed[number][0]:
                 if not scene._objects.drawn_by(thing):
                     self._watch.remove(thing)
+
+
+def _mesh_of(obj: Drawn) -> Mesh:
+    return obj if isinstance(obj, Mesh) else obj.mesh
 
 
 def _needs_of(mesh: Mesh, needs: MeshNeeds, normals: Normals) -> MeshNeeds:

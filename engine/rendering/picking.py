@@ -117,7 +117,8 @@ def _hit_of_face(node: Node, instance: int, face: int, origin: Any, direction: A
     unknown = np.full(3, np.nan)
     if face < 0:
         return RayHit(node, instance, face, math.nan, unknown, unknown, unknown)
-    mesh, pose = shown_object(node), placing_pose(node)
+    mesh: Any = shown_object(node)
+    pose = placing_pose(node)
     if isinstance(mesh, InstancedMesh):
         pose = linalg.multiply(pose, mesh._pose_of(instance))
         mesh = mesh.mesh

@@ -6,8 +6,6 @@ while somebody waits for the text of a cell.
 
 from __future__ import annotations
 
-from typing import Any
-
 from ..errors import Engine3DError
 from ..model.geometry.mesh import Mesh
 from ..model.motion.shown import shown_object
@@ -35,9 +33,9 @@ def thumbnail(thing: Scene | Mesh) -> bytes | None:
     return frame.encode()
 
 
-def _parts(shown: Any) -> int:
+def _parts(shown: object) -> int:
     mesh = shown.mesh if isinstance(shown, InstancedMesh) else shown
-    if not hasattr(mesh, "faces"):
+    if not isinstance(mesh, Mesh):
         return 0  # a light, a camera, a group
     count = len(shown.poses) if isinstance(shown, InstancedMesh) else 1
     return count * (len(mesh.faces) + len(mesh.lines) + len(mesh.points))

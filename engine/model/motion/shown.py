@@ -6,7 +6,7 @@ others that look at vertices.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,23 +17,25 @@ if TYPE_CHECKING:
     from ..geometry.mesh import Mesh
     from ..scene.instances import InstancedMesh
     from ..scene.node_arrays import NodeArrays
-    from ..scene.nodes import Node
+    from ..scene.nodes import Node, SceneObject
 
     #: What of a node is drawn.
     Drawn: TypeAlias = Mesh | InstancedMesh | PosedMesh
 
+Held = TypeVar("Held")
 
-def shown_object(node: Node) -> Any:
+
+def shown_object(node: Node) -> SceneObject | None:
     """Return the node's object; of a mesh that is bent, one with the vertices as they are."""
     return as_shown(node._drawn)
 
 
-def as_shown(drawn: Any) -> Any:
+def as_shown(drawn: Held | PosedMesh) -> Held | Mesh:
     """Return what is drawn as an object of a node."""
     return drawn.now() if isinstance(drawn, PosedMesh) else drawn
 
 
-def source_of(drawn: Any) -> Any:
+def source_of(drawn: Held | PosedMesh) -> Held | Mesh:
     """Return the object that was given to a node, of what is drawn of it."""
     return drawn.mesh if isinstance(drawn, PosedMesh) else drawn
 

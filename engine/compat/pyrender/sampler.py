@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ._named import Named
+from ._held import Named
 from .constants import GLTF
 
 

@@ -59,6 +59,12 @@ def _color(name: str, length: int, default: float, doc: str) -> property:
     return held(name, made, doc)
 
 
+def _checked_mode(value) -> str:
+    if value not in _ALPHA_MODES:
+        raise ValueError(f"Invalid alpha mode {value}")
+    return value
+
+
 class Material(Named, abc.ABC):
     """What all materials have.
 
@@ -117,17 +123,7 @@ class Material(Named, abc.ABC):
     doubleSided = _flag("doubleSided", "Whether backs are drawn.")
     smooth = _flag("smooth", "Not read.")
     wireframe = _flag("wireframe", "Whether only edges are drawn.")
-
-    @property
-    def alphaMode(self) -> str:
-        """ "OPAQUE", "MASK" or "BLEND"."""
-        return self._alphaMode
-
-    @alphaMode.setter
-    def alphaMode(self, value) -> None:
-        if value not in _ALPHA_MODES:
-            raise ValueError(f"Invalid alpha mode {value}")
-        self._alphaMode = value
+    alphaMode = held("alphaMode", _checked_mode, '"OPAQUE", "MASK" or "BLEND".')
 
     @property
     def alphaCutoff(self) -> float:

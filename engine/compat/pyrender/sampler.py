@@ -1,7 +1,5 @@
 """Samplers: how textures are read between and beyond their texels."""
 
-from __future__ import annotations
-
 from ._held import Named
 from .constants import GLTF
 

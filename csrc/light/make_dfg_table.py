@@ -1,4 +1,4 @@
-"""Writes dfg_table.c: what rough surfaces reflect of light that is 1 all around.
+"""Writes dfg_table.inc: what rough surfaces reflect of light that is 1 all around.
 
 In: nothing. Out: tables of nodes (i, j) for roughness i/63 and a cosine v between normal and viewer
 of (j/63)**2, in which the albedo near grazing angles is smooth (64 x 64 nodes lie within 0.0005 of
@@ -93,18 +93,13 @@ def constant(value):
 
 
 def written(values):
-    """Return the text of dfg_table.c."""
-    lines = [
-        "/* Written by make_dfg_table.py, which says what is in it. */",
-        '#include "e3d_environment.h"',
-        "",
-        "const float E3D_DFG_TABLE[E3D_DFG_TABLES][E3D_DFG_SIZE * E3D_DFG_SIZE] = {",
-    ]
+    """Return the text of dfg_table.inc, which dfg_table.c includes."""
+    lines = ["/* Written by make_dfg_table.py, which says what is in it. */"]
     for table in values.astype(np.float32):
         rows = [" ".join(f"{constant(value)}," for value in row) for row in table.reshape(-1, 8)]
-        lines += ["    {", *(f"        {row}" for row in rows), "    },"]
-    return "\n".join([*lines, "};", ""])
+        lines += ["{", *(f"    {row}" for row in rows), "},"]
+    return "\n".join([*lines, ""])
 
 
 if __name__ == "__main__":
-    Path(__file__).with_name("dfg_table.c").write_text(written(tables()), "utf-8")
+    Path(__file__).with_name("dfg_table.inc").write_text(written(tables()), "utf-8")

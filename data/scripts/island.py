@@ -33,7 +33,7 @@ def build():
     """Return the model's files, by name, as functions that make them."""
     title = "A lighthouse on an island"
     return {
-        "island.obj": lambda: obj(title, surfaces(), "island.mtl"),
+        "island.obj": lambda: obj(title, surfaces(), "island.mtl", relative=True),
         "island.mtl": lambda: mtl(title, MATERIALS),
         "island_ground.webp": lambda: webp(ground_texture(standing())),
         "island_details.webp": lambda: webp(details_texture()),

@@ -34,7 +34,7 @@ class _Pool:
         return [f"{self.keyword} {text}" for text in self.indices]
 
 
-def obj(title, surfaces, library):
+def obj(title, surfaces, library, relative=False):
     """Return an OBJ file of surfaces, grouped by their names.
 
     Parameters
@@ -44,6 +44,9 @@ def obj(title, surfaces, library):
     surfaces : list of Surface
     library : str
         Name of the MTL file.
+    relative : bool
+        Write what a face names just before it, and count back from there: a wheel with such a file
+        is smaller.
     """
     pools = [_Pool(keyword) for keyword in ("v", "vt", "vn")]
     body, group, material = [], None, None
@@ -56,19 +59,48 @@ def obj(title, surfaces, library):
             body.append(f"usemtl {material}")
         data = (surface.positions, surface.uvs, surface.normals)
         corners = [
-            "/".join(str(pool.index(values[k])) for pool, values in zip(pools, data, strict=True))
+            [pool.index(values[k]) for pool, values in zip(pools, data, strict=True)]
             for k in range(len(surface.positions))
         ]
         body.extend(_face(corners[vertex] for vertex in polygon) for polygon in surface.polygons)
-    header = [f"# {title}", f"mtllib {library}"]
-    lines = header + [line for pool in pools for line in pool.lines()] + list(filter(None, body))
+    write = _relative if relative else _absolute
+    named = write([pool.lines() for pool in pools], filter(None, body))
+    lines = [f"# {title}", f"mtllib {library}", *named]
     return ("\n".join(lines) + "\n").encode("ascii")
 
 
 def _face(corners):
-    """Return the line of a polygon, without the corners that rounding has made one."""
-    by_position = {corner.split("/")[0]: corner for corner in corners}
-    return "f " + " ".join(by_position.values()) if len(by_position) > 2 else None
+    """Return a polygon without the corners that rounding has made one; None of fewer than three."""
+    by_position = {corner[0]: corner for corner in corners}
+    return list(by_position.values()) if len(by_position) > 2 else None
+
+
+def _absolute(lists, body):
+    """Return all lists, then the body, whose faces count from 1."""
+    lines = [line for one in lists for line in one]
+    return lines + [one if isinstance(one, str) else _line(one, (0, 0, 0)) for one in body]
+
+
+def _relative(lists, body):
+    """Yield the body, and before each face what no face before has named; -1 is the last."""
+    ends = [0, 0, 0]
+    for one in body:
+        if isinstance(one, str):
+            yield one
+            continue
+        for k, numbers in enumerate(zip(*one, strict=True)):
+            last = max(ends[k], *numbers)
+            yield from lists[k][ends[k] : last]
+            ends[k] = last
+        yield _line(one, [end + 1 for end in ends])
+
+
+def _line(face, start):
+    """Return the line of a face, with the numbers of its corners counted from `start`."""
+    return "f " + " ".join(
+        "/".join(str(number - first) for number, first in zip(corner, start, strict=True))
+        for corner in face
+    )
 
 
 def mtl(title, materials):

@@ -45,8 +45,8 @@ def looks_different(
     if count_antialiasing or not mask.any():
         return mask
     a_same, b_same = (_has_many_alike(one) for one in (actual, expected))
-    smooth = _is_antialiased(a[..., 0], actual, a_same & b_same)
-    smooth |= _is_antialiased(b[..., 0], expected, a_same & b_same)
+    smooth = _is_antialiased(a[..., 0], a_same & b_same)
+    smooth |= _is_antialiased(b[..., 0], a_same & b_same)
     return mask & ~smooth
 
 
@@ -93,7 +93,7 @@ def _has_many_alike(shown: np.ndarray) -> np.ndarray:
     return count >= _MANY
 
 
-def _is_antialiased(luma: np.ndarray, shown: np.ndarray, same: np.ndarray) -> np.ndarray:
+def _is_antialiased(luma: np.ndarray, same: np.ndarray) -> np.ndarray:
     """Return which pixels lie between a darker and a brighter neighbour that are plain surfaces.
 
     ``same``: which pixels have many alike in both pictures.

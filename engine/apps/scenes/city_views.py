@@ -5,8 +5,6 @@ Out: scenes with as many lights as asked for, a walk along the same street in a 
      view from above; CPU and wall-clock milliseconds per frame, the medians of several.
 """
 
-from __future__ import annotations
-
 import statistics
 import time
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import abc
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._named import Named
+from ._held import Named, held, number_unless, optional
 from .constants import DEFAULT_Z_FAR, DEFAULT_Z_NEAR
 
 
@@ -27,17 +28,8 @@ class Camera(Named, abc.ABC):
         self.znear = znear
         self.zfar = zfar
 
-    @property
-    def znear(self) -> float:
-        """Distance of the near plane."""
-        return self._znear
-
-    @znear.setter
-    def znear(self, value) -> None:
-        number = float(value)
-        if number < 0:
-            raise ValueError("z-near must be >= 0.0")
-        self._znear = number
+    _near = number_unless(lambda near: near < 0, "z-near must be >= 0.0")
+    znear = held("znear", _near, "Distance of the near plane.")
 
     @property
     def zfar(self) -> float | None:
@@ -68,11 +60,8 @@ class Camera(Named, abc.ABC):
         return matrix
 
 
-def _positive(value, what: str) -> float:
-    number = float(value)
-    if number <= 0.0:
-        raise ValueError(f"{what} must be positive")
-    return number
+def _positive(what: str) -> Callable[[object], float]:
+    return number_unless(lambda number: number <= 0.0, f"{what} must be positive")
 
 
 class PerspectiveCamera(Camera):
@@ -95,14 +84,7 @@ class PerspectiveCamera(Camera):
         self.yfov = yfov
         self.aspectRatio = aspectRatio
 
-    @property
-    def yfov(self) -> float:
-        """Vertical field of view in radians."""
-        return self._yfov
-
-    @yfov.setter
-    def yfov(self, value) -> None:
-        self._yfov = _positive(value, "Field of view")
+    yfov = held("yfov", _positive("Field of view"), "Vertical field of view in radians.")
 
     @property
     def zfar(self) -> float | None:
@@ -113,14 +95,8 @@ class PerspectiveCamera(Camera):
     def zfar(self, value) -> None:
         self._zfar = None if value is None else self._checked_far(float(value))
 
-    @property
-    def aspectRatio(self) -> float | None:
-        """Width over height, or None for the picture's own."""
-        return self._aspectRatio
-
-    @aspectRatio.setter
-    def aspectRatio(self, value) -> None:
-        self._aspectRatio = None if value is None else _positive(value, "Aspect ratio")
+    _aspect = optional(_positive("Aspect ratio"))
+    aspectRatio = held("aspectRatio", _aspect, "Width over height, or None for the picture's own.")
 
     def get_projection_matrix(self, width=None, height=None) -> NDArray[np.float64]:
         aspect = self.aspectRatio
@@ -151,35 +127,10 @@ class OrthographicCamera(Camera):
         self.xmag = xmag
         self.ymag = ymag
 
-    @property
-    def xmag(self) -> float:
-        """Half the width."""
-        return self._xmag
-
-    @xmag.setter
-    def xmag(self, value) -> None:
-        self._xmag = _positive(value, "X magnification")
-
-    @property
-    def ymag(self) -> float:
-        """Half the height."""
-        return self._ymag
-
-    @ymag.setter
-    def ymag(self, value) -> None:
-        self._ymag = _positive(value, "Y magnification")
-
-    @property
-    def znear(self) -> float:
-        """Distance of the near plane, more than 0."""
-        return self._znear
-
-    @znear.setter
-    def znear(self, value) -> None:
-        number = float(value)
-        if number <= 0:
-            raise ValueError("z-near must be > 0.0")
-        self._znear = number
+    xmag = held("xmag", _positive("X magnification"), "Half the width.")
+    ymag = held("ymag", _positive("Y magnification"), "Half the height.")
+    _near = number_unless(lambda near: near <= 0, "z-near must be > 0.0")
+    znear = held("znear", _near, "Distance of the near plane, more than 0.")
 
     def get_projection_matrix(self, width=None, height=None) -> NDArray[np.float64]:
         across = self.xmag if width is None or height is None else width / height * self.ymag
@@ -207,6 +158,11 @@ class IntrinsicsCamera(Camera):
         self.fx, self.fy = fx, fy
         self.cx, self.cy = cx, cy
 
+    fx = held("fx", float, "Focal length along x, in pixels.")
+    fy = held("fy", float, "Focal length along y, in pixels.")
+    cx = held("cx", float, "The principal point from the left edge, in pixels.")
+    cy = held("cy", float, "The principal point from the top edge, in pixels.")
+
     def get_projection_matrix(self, width, height) -> NDArray[np.float64]:
         width, height = float(width), float(height)
         matrix = np.zeros((4, 4))
@@ -214,23 +170,5 @@ class IntrinsicsCamera(Camera):
         matrix[0, 2], matrix[1, 2] = 1.0 - 2.0 * self.cx / width, 2.0 * self.cy / height - 1.0
         return self._depth_rows(matrix)
 
-
-def _number(name: str, doc: str) -> property:
-    """A property that holds a float."""
-    hidden = f"_{name}"
-    return property(
-        lambda self: getattr(self, hidden),
-        lambda self, value: setattr(self, hidden, float(value)),
-        doc=doc,
-    )
-
-
-for _name, _doc in (
-    ("fx", "Focal length along x, in pixels."),
-    ("fy", "Focal length along y, in pixels."),
-    ("cx", "The principal point from the left edge, in pixels."),
-    ("cy", "The principal point from the top edge, in pixels."),
-):
-    setattr(IntrinsicsCamera, _name, _number(_name, _doc))
 
 __all__ = ["Camera", "IntrinsicsCamera", "OrthographicCamera", "PerspectiveCamera"]

@@ -1,7 +1,5 @@
 """Numbers that pyrender's programs name: flags, modes of OpenGL and limits."""
 
-from __future__ import annotations
-
 DEFAULT_Z_NEAR = 0.05  # metres
 DEFAULT_Z_FAR = 100.0
 DEFAULT_SCENE_SCALE = 2.0

@@ -6,9 +6,8 @@ import abc
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ._named import Named
+from ._held import Named, held, number_unless, optional
 from .camera import Camera, OrthographicCamera, PerspectiveCamera
 from .constants import SHADOW_TEX_SZ
 from .texture import Texture
@@ -36,23 +35,10 @@ class Light(Named, abc.ABC):
         self.intensity = 1.0 if intensity is None else intensity
         self.shadow_texture: Texture | None = None
 
-    @property
-    def color(self) -> NDArray[np.float32]:
-        """Colour, (3,) float32."""
-        return self._color
-
-    @color.setter
-    def color(self, value) -> None:
-        self._color = format_color_vector(value, 3)
-
-    @property
-    def intensity(self) -> float:
-        """Lux of directional lights, candela of others; 1 shows white as 1/pi."""
-        return self._intensity
-
-    @intensity.setter
-    def intensity(self, value) -> None:
-        self._intensity = float(value)
+    color = held("color", lambda value: format_color_vector(value, 3), "Colour, (3,) float32.")
+    intensity = held(
+        "intensity", float, "Lux of directional lights, candela of others; 1 shows white as 1/pi."
+    )
 
     def _generate_shadow_texture(self, size=None) -> None:
         side = SHADOW_TEX_SZ if size is None else size
@@ -76,17 +62,8 @@ class DirectionalLight(Light):
 class _Lamp(Light):
     """A light at a place, with a range that nothing reads."""
 
-    @property
-    def range(self) -> float | None:
-        """Kept, but not used: light has no end, as in pyrender."""
-        return self._range
-
-    @range.setter
-    def range(self, value) -> None:
-        number = None if value is None else float(value)
-        if number is not None and number <= 0:
-            raise ValueError("Range must be > 0")
-        self._range = number
+    _reach = optional(number_unless(lambda reach: reach <= 0, "Range must be > 0"))
+    range = held("range", _reach, "Kept, but not used: light has no end, as in pyrender.")
 
 
 class PointLight(_Lamp):

@@ -7,7 +7,7 @@ import abc
 import numpy as np
 from numpy.typing import NDArray
 
-from ._named import Named
+from ._held import Named, held
 from .constants import TexFlags
 from .texture import Texture
 from .utils import format_color_vector, format_texture_source
@@ -17,51 +17,52 @@ _ALPHA_MODES = ("OPAQUE", "MASK", "BLEND")
 
 def _flag(name: str, doc: str) -> property:
     """A property that holds True or False, and takes nothing else."""
-    hidden = f"_{name}"
 
-    def put(self, value) -> None:
+    def made(value) -> bool:
         if not isinstance(value, bool | np.bool_):
             raise TypeError(f"{name} must be a boolean value")
-        setattr(self, hidden, bool(value))
+        return bool(value)
 
-    return property(lambda self: getattr(self, hidden), put, doc=doc)
+    return held(name, made, doc)
 
 
 def _texture(name: str, channels: str, doc: str) -> property:
     """A property that holds a texture, and makes one of what is an image."""
-    hidden = f"_{name}"
 
-    def put(self, value) -> None:
-        if value is not None and not isinstance(value, Texture):
-            texels = format_texture_source(value, channels)
-            value = Texture(source=texels, source_channels=channels)
-        setattr(self, hidden, value)
+    def made(value) -> Texture | None:
+        if value is None or isinstance(value, Texture):
+            return value
+        texels = format_texture_source(value, channels)
+        return Texture(source=texels, source_channels=channels)
 
-    return property(lambda self: getattr(self, hidden), put, doc=doc)
+    return held(name, made, doc)
 
 
 def _share(name: str, what: str, doc: str) -> property:
     """A property that holds a number from 0 to 1; None is 1."""
-    hidden = f"_{name}"
 
-    def put(self, value) -> None:
+    def made(value) -> float:
         value = 1.0 if value is None else value
         if value < 0 or value > 1:
             raise ValueError(f"{what} must be in range [0,1]")
-        setattr(self, hidden, float(value))
+        return float(value)
 
-    return property(lambda self: getattr(self, hidden), put, doc=doc)
+    return held(name, made, doc)
 
 
 def _color(name: str, length: int, default: float, doc: str) -> property:
     """A property that holds a colour, float32; None is the default."""
-    hidden = f"_{name}"
 
-    def put(self, value) -> None:
-        value = np.full(length, default) if value is None else value
-        setattr(self, hidden, format_color_vector(value, length))
+    def made(value) -> NDArray[np.float32]:
+        return format_color_vector(np.full(length, default) if value is None else value, length)
 
-    return property(lambda self: getattr(self, hidden), put, doc=doc)
+    return held(name, made, doc)
+
+
+def _checked_mode(value) -> str:
+    if value not in _ALPHA_MODES:
+        raise ValueError(f"Invalid alpha mode {value}")
+    return value
 
 
 class Material(Named, abc.ABC):
@@ -122,17 +123,7 @@ class Material(Named, abc.ABC):
     doubleSided = _flag("doubleSided", "Whether backs are drawn.")
     smooth = _flag("smooth", "Not read.")
     wireframe = _flag("wireframe", "Whether only edges are drawn.")
-
-    @property
-    def alphaMode(self) -> str:
-        """ "OPAQUE", "MASK" or "BLEND"."""
-        return self._alphaMode
-
-    @alphaMode.setter
-    def alphaMode(self, value) -> None:
-        if value not in _ALPHA_MODES:
-            raise ValueError(f"Invalid alpha mode {value}")
-        self._alphaMode = value
+    alphaMode = held("alphaMode", _checked_mode, '"OPAQUE", "MASK" or "BLEND".')
 
     @property
     def alphaCutoff(self) -> float:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._bounded import Bounded
-from ._named import Named
+from ._held import Named
 from .constants import GLTF
 from .material import Material, MetallicRoughnessMaterial
 from .primitive import Primitive

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ._named import Named
+from ._held import Named, held
 from ._rotations import matrix_of, quaternion_of
 from .camera import Camera
 from .light import Light
@@ -14,14 +14,27 @@ from .mesh import Mesh
 
 def _holds(name: str, kind: type, what: str) -> property:
     """A property that holds an object of a type, or None."""
+
+    def made(value):
+        if value is not None and not isinstance(value, kind):
+            raise TypeError(f"Value must be a {what}")
+        return value
+
+    return held(name, made, f"The {what}, or None.")
+
+
+def _three(name: str, doc: str) -> property:
+    """A property that holds three numbers, a part of the matrix."""
     hidden = f"_{name}"
 
     def put(self, value) -> None:
-        if value is not None and not isinstance(value, kind):
-            raise TypeError(f"Value must be a {what}")
-        setattr(self, hidden, value)
+        vector = np.asarray(value)
+        if vector.shape != (3,):
+            raise ValueError(f"{name.capitalize()} must be a (3,) vector")
+        setattr(self, hidden, vector)
+        self._matrix = None
 
-    return property(lambda self: getattr(self, hidden), put, doc=f"The {what}, or None.")
+    return property(lambda self: getattr(self, hidden), put, doc=doc)
 
 
 class Node(Named):
@@ -73,6 +86,8 @@ class Node(Named):
     camera = _holds("camera", Camera, "camera")
     mesh = _holds("mesh", Mesh, "mesh")
     light = _holds("light", Light, "light")
+    translation = _three("translation", "Where it is in its parent, (3,).")
+    scale = _three("scale", "Factors along x, y and z, (3,).")
 
     @property
     def rotation(self) -> NDArray:
@@ -87,30 +102,6 @@ class Node(Named):
         if abs(np.linalg.norm(quaternion) - 1.0) > 1e-3:
             raise ValueError("Quaternion must have norm == 1.0")
         self._rotation, self._matrix = quaternion, None
-
-    @property
-    def translation(self) -> NDArray:
-        """Where it is in its parent, (3,)."""
-        return self._translation
-
-    @translation.setter
-    def translation(self, value) -> None:
-        vector = np.asarray(value)
-        if vector.shape != (3,):
-            raise ValueError("Translation must be a (3,) vector")
-        self._translation, self._matrix = vector, None
-
-    @property
-    def scale(self) -> NDArray:
-        """Factors along x, y and z, (3,)."""
-        return self._scale
-
-    @scale.setter
-    def scale(self, value) -> None:
-        vector = np.asarray(value)
-        if vector.shape != (3,):
-            raise ValueError("Scale must be a (3,) vector")
-        self._scale, self._matrix = vector, None
 
     @property
     def matrix(self) -> NDArray:

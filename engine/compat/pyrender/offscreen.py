@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 
+from ._held import held
 from .constants import RenderFlags
 from .renderer import Renderer
 
@@ -28,32 +29,9 @@ class OffscreenRenderer:
         self._lock = threading.Lock()
         self._renderer: Renderer | None = Renderer(self.viewport_width, self.viewport_height)
 
-    @property
-    def viewport_width(self) -> int:
-        """Width of pictures, in pixels."""
-        return self._viewport_width
-
-    @viewport_width.setter
-    def viewport_width(self, value) -> None:
-        self._viewport_width = int(value)
-
-    @property
-    def viewport_height(self) -> int:
-        """Height of pictures, in pixels."""
-        return self._viewport_height
-
-    @viewport_height.setter
-    def viewport_height(self, value) -> None:
-        self._viewport_height = int(value)
-
-    @property
-    def point_size(self) -> float:
-        """Of points, in pixels."""
-        return self._point_size
-
-    @point_size.setter
-    def point_size(self, value) -> None:
-        self._point_size = float(value)
+    viewport_width = held("viewport_width", int, "Width of pictures, in pixels.")
+    viewport_height = held("viewport_height", int, "Height of pictures, in pixels.")
+    point_size = held("point_size", float, "Of points, in pixels.")
 
     def render(self, scene, flags=RenderFlags.NONE, seg_node_map=None):
         """Draw a scene from its main camera.

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._bounded import Bounded
+from ._held import held, optional
 from .constants import GLTF, BufFlags
 from .material import Material, MetallicRoughnessMaterial
 from .utils import format_color_array
@@ -46,6 +47,38 @@ def _rows(name: str, doc: str) -> property:
         self._forget()
 
     return property(lambda self: getattr(self, hidden), put, doc=doc)
+
+
+def _drawn_from(name: str, made, doc: str) -> property:
+    """A property that holds what `made` makes of a value, which drawing keeps something of."""
+    hidden = f"_{name}"
+
+    def put(self, value) -> None:
+        setattr(self, hidden, made(value))
+        self._forget()
+
+    return property(lambda self: getattr(self, hidden), put, doc=doc)
+
+
+def _checked_mode(value) -> int:
+    number = int(value)
+    if not GLTF.POINTS <= number <= GLTF.TRIANGLE_FAN:
+        raise ValueError("Invalid mode")
+    return number
+
+
+def _checked_poses(value) -> NDArray[np.float32]:
+    poses = np.ascontiguousarray(value, np.float32)
+    poses = poses[np.newaxis] if poses.ndim == 2 else poses
+    if poses.shape[1:] != (4, 4):
+        raise ValueError(f"Pose matrices must be of shape (n,4,4), got {poses.shape}")
+    return poses
+
+
+def _checked_material(value) -> Material:
+    if value is not None and not isinstance(value, Material):
+        raise TypeError("Object material must be of type Material")
+    return MetallicRoughnessMaterial() if value is None else value
 
 
 class Primitive(Bounded):
@@ -101,6 +134,16 @@ class Primitive(Bounded):
         self.targets = targets
         self.poses = poses
 
+    positions = _drawn_from(
+        "positions", lambda value: np.ascontiguousarray(value, np.float32), "(N, 3) float32."
+    )
+    indices = _drawn_from(
+        "indices",
+        optional(lambda value: np.ascontiguousarray(value).astype(np.int32)),
+        "Whole numbers, as they were shaped, or None.",
+    )
+    mode = _drawn_from("mode", _checked_mode, "A mode of `GLTF`.")
+    poses = _drawn_from("poses", optional(_checked_poses), "(K, 4, 4) float32, or None.")
     normals = _rows("normals", "(N, 3) float32, or None.")
     tangents = _rows("tangents", "(N, 4) float32, or None.")
     texcoord_0 = _rows("texcoord_0", "(N, 2) float32, or None.")
@@ -110,16 +153,6 @@ class Primitive(Bounded):
         """Let go of what drawing made of the arrays."""
         self._bounds = None
         self._drawn: dict = {}
-
-    @property
-    def positions(self) -> NDArray[np.float32]:
-        """(N, 3) float32."""
-        return self._positions
-
-    @positions.setter
-    def positions(self, value) -> None:
-        self._positions = np.ascontiguousarray(value, np.float32)
-        self._forget()
 
     @property
     def color_0(self) -> NDArray[np.float32] | None:
@@ -134,54 +167,7 @@ class Primitive(Bounded):
         self._has_alpha = value is not None and bool(np.any(value[:, 3] != 1.0))
         self._forget()
 
-    @property
-    def indices(self) -> NDArray[np.int32] | None:
-        """Whole numbers, as they were shaped, or None."""
-        return self._indices
-
-    @indices.setter
-    def indices(self, value) -> None:
-        self._indices = None if value is None else np.ascontiguousarray(value).astype(np.int32)
-        self._forget()
-
-    @property
-    def material(self) -> Material:
-        """What it is made of."""
-        return self._material
-
-    @material.setter
-    def material(self, value) -> None:
-        if value is not None and not isinstance(value, Material):
-            raise TypeError("Object material must be of type Material")
-        self._material = MetallicRoughnessMaterial() if value is None else value
-
-    @property
-    def mode(self) -> int:
-        """A mode of `GLTF`."""
-        return self._mode
-
-    @mode.setter
-    def mode(self, value) -> None:
-        number = int(value)
-        if not GLTF.POINTS <= number <= GLTF.TRIANGLE_FAN:
-            raise ValueError("Invalid mode")
-        self._mode = number
-        self._forget()
-
-    @property
-    def poses(self) -> NDArray[np.float32] | None:
-        """(K, 4, 4) float32, or None."""
-        return self._poses
-
-    @poses.setter
-    def poses(self, value) -> None:
-        if value is not None:
-            value = np.ascontiguousarray(value, np.float32)
-            value = value[np.newaxis] if value.ndim == 2 else value
-            if value.shape[1:] != (4, 4):
-                raise ValueError(f"Pose matrices must be of shape (n,4,4), got {value.shape}")
-        self._poses = value
-        self._forget()
+    material = held("material", _checked_material, "What it is made of.")
 
     @property
     def bounds(self) -> NDArray:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ._drawing import Drawing
+from ._held import held
 from .constants import RenderFlags
 from .shader_program import ADVICE
 
@@ -31,14 +32,7 @@ class Renderer:
         self.point_size = point_size
         self._drawing: Drawing | None = None
 
-    @property
-    def point_size(self) -> float:
-        """Of points, in pixels."""
-        return self._point_size
-
-    @point_size.setter
-    def point_size(self, value) -> None:
-        self._point_size = float(value)
+    point_size = held("point_size", float, "Of points, in pixels.")
 
     def render(self, scene, flags, seg_node_map=None):
         """Draw a scene; see `OffscreenRenderer.render`."""

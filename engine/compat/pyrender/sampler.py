@@ -1,8 +1,6 @@
 """Samplers: how textures are read between and beyond their texels."""
 
-from __future__ import annotations
-
-from ._named import Named
+from ._held import Named
 from .constants import GLTF
 
 

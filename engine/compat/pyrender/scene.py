@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._bounded import Bounded
-from ._named import Named
+from ._held import Named
 from .camera import Camera
 from .light import DirectionalLight, Light, PointLight, SpotLight
 from .mesh import Mesh
@@ -19,6 +19,14 @@ from .utils import format_color_vector
 def _entries(node: Node) -> list:
     """What a node holds."""
     return [obj for obj in (node.mesh, node.camera, node.light) if obj is not None]
+
+
+def _of_kind(kind: type, what: str) -> tuple[property, property]:
+    """The properties of lights of a kind, and of the nodes that hold them."""
+    return (
+        property(lambda self: {node.light for node in self._light_nodes[kind]}, doc=f"All {what}."),
+        property(lambda self: self._light_nodes[kind], doc=f"The nodes that hold {what}."),
+    )
 
 
 class Scene(Bounded, Named):
@@ -108,35 +116,9 @@ class Scene(Bounded, Named):
         """The nodes that hold lights."""
         return set().union(*self._light_nodes.values())
 
-    @property
-    def point_lights(self) -> set[Light]:
-        """All point lights."""
-        return {node.light for node in self.point_light_nodes}
-
-    @property
-    def point_light_nodes(self) -> set[Node]:
-        """The nodes that hold point lights."""
-        return self._light_nodes[PointLight]
-
-    @property
-    def spot_lights(self) -> set[Light]:
-        """All spotlights."""
-        return {node.light for node in self.spot_light_nodes}
-
-    @property
-    def spot_light_nodes(self) -> set[Node]:
-        """The nodes that hold spotlights."""
-        return self._light_nodes[SpotLight]
-
-    @property
-    def directional_lights(self) -> set[Light]:
-        """All directional lights."""
-        return {node.light for node in self.directional_light_nodes}
-
-    @property
-    def directional_light_nodes(self) -> set[Node]:
-        """The nodes that hold directional lights."""
-        return self._light_nodes[DirectionalLight]
+    point_lights, point_light_nodes = _of_kind(PointLight, "point lights")
+    spot_lights, spot_light_nodes = _of_kind(SpotLight, "spotlights")
+    directional_lights, directional_light_nodes = _of_kind(DirectionalLight, "directional lights")
 
     @property
     def cameras(self) -> set[Camera]:

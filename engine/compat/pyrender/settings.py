@@ -9,10 +9,26 @@ from __future__ import annotations
 import os
 
 from ...errors import InvalidArgumentError
+from ._held import held
 
 _SAMPLES = (1, 4)
-_DEPTHS = ("metric", "pyrender")
-_PLACES = ("centre", "pyrender")
+
+
+def _checked_samples(value) -> int:
+    if value not in _SAMPLES:
+        raise InvalidArgumentError(f"samples must be 1 or 4, not {value!r}")
+    return int(value)
+
+
+def _one_of(name: str, usual: str) -> property:
+    """A property that is `usual` or "pyrender"."""
+
+    def made(value) -> str:
+        if value not in (usual, "pyrender"):
+            raise InvalidArgumentError(f'{name} must be "{usual}" or "pyrender", not {value!r}')
+        return value
+
+    return held(name, made, f'"{usual}" or "pyrender".')
 
 
 class Settings:
@@ -43,40 +59,9 @@ class Settings:
         )
         self.depth_place = environment.get("ENGINE3D_PYRENDER_DEPTH_PLACE") or "centre"
 
-    @property
-    def samples(self) -> int:
-        """Samples of a pixel's colour, 4 or 1."""
-        return self._samples
-
-    @samples.setter
-    def samples(self, value) -> None:
-        if value not in _SAMPLES:
-            raise InvalidArgumentError(f"samples must be 1 or 4, not {value!r}")
-        self._samples = int(value)
-
-    @property
-    def orthographic_depth(self) -> str:
-        """ "metric" or "pyrender"."""
-        return self._orthographic_depth
-
-    @orthographic_depth.setter
-    def orthographic_depth(self, value) -> None:
-        self._orthographic_depth = _one_of(_DEPTHS, "orthographic_depth", value)
-
-    @property
-    def depth_place(self) -> str:
-        """ "centre" or "pyrender"."""
-        return self._depth_place
-
-    @depth_place.setter
-    def depth_place(self, value) -> None:
-        self._depth_place = _one_of(_PLACES, "depth_place", value)
-
-
-def _one_of(known: tuple[str, str], name: str, value) -> str:
-    if value not in known:
-        raise InvalidArgumentError(f'{name} must be "{known[0]}" or "{known[1]}", not {value!r}')
-    return value
+    samples = held("samples", _checked_samples, "Samples of a pixel's colour, 4 or 1.")
+    orthographic_depth = _one_of("orthographic_depth", "metric")
+    depth_place = _one_of("depth_place", "centre")
 
 
 settings = Settings()

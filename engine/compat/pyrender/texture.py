@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._named import Named
+from ._held import Named, held
 from .sampler import Sampler
 from .utils import format_texture_source
 
@@ -46,14 +46,9 @@ class Texture(Named):
         self.width, self.height = width, height
         self.tex_type, self.data_format = tex_type, data_format
 
-    @property
-    def sampler(self) -> Sampler:
-        """How it is read."""
-        return self._sampler
-
-    @sampler.setter
-    def sampler(self, value) -> None:
-        self._sampler = Sampler() if value is None else value
+    sampler = held(
+        "sampler", lambda value: Sampler() if value is None else value, "How it is read."
+    )
 
     @property
     def source(self) -> np.ndarray | None:

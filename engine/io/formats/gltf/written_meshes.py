@@ -42,13 +42,11 @@ class GltfMeshList:
     ----------
     meshes : list of dict
         As the JSON has them.
-    has_variants : bool
     """
 
     def __init__(self, arrays: GltfArrays, materials: GltfMaterialList) -> None:
         self._arrays, self._materials = arrays, materials
         self.meshes: list[dict[str, Any]] = []
-        self.has_variants = False
 
     def add(self, record: MeshRecord) -> int:
         """Return the number of a new mesh."""
@@ -103,7 +101,6 @@ class GltfMeshList:
                 if other is not None:
                     by_material.setdefault(other, []).append(variant)
         if by_material:
-            self.has_variants = True
             mappings = [{"material": m, "variants": v} for m, v in by_material.items()]
             entry["extensions"] = {_VARIANTS: {"mappings": mappings}}
         return entry

@@ -51,7 +51,9 @@ class NumberRows(NamedTuple):
     end: int
 
 
-def read_numbers(text, comments: int, rows: int | None = None, widths: bool = False) -> NumberRows:
+def read_numbers(
+    text: bytes | memoryview, comments: int, rows: int | None = None, widths: bool = False
+) -> NumberRows:
     """Read numbers between blanks.
 
     Parameters
@@ -71,14 +73,16 @@ def read_numbers(text, comments: int, rows: int | None = None, widths: bool = Fa
     """
     values, found, end, wrong = native.read_numbers(text, comments, rows, widths)
     if wrong is not None:
-        word = _WORD.match(text, wrong)[0]
+        match = _WORD.match(text, wrong)
+        assert match is not None  # what is no number is a word
+        word = match[0]
         if comments == native.HASH_COMMENTS:
             word = word.partition(b"#")[0]
         raise NotANumberError(word, wrong, found)
     return NumberRows(values, found, end)
 
 
-def ended(text):
+def ended(text: bytes | memoryview) -> bytes | memoryview:
     """Return a text with a blank or a line's end behind it: itself, or a copy."""
     return text if bytes(text[-1:]).isspace() else bytes(text) + b"\n"
 

@@ -25,11 +25,11 @@ class NotANumberError(ValueError):
     word : bytes
     position : int
         Its offset in the text.
-    widths : (R,) int64 or None
+    widths : (R,) int64
         Of the lines before: see `NumberRows`.
     """
 
-    def __init__(self, word: bytes, position: int, widths: np.ndarray | None) -> None:
+    def __init__(self, word: bytes, position: int, widths: np.ndarray) -> None:
         super().__init__(word, position, widths)
         self.word, self.position, self.widths = word, position, widths
 
@@ -40,14 +40,14 @@ class NumberRows(NamedTuple):
     Attributes
     ----------
     values : (N,) float64
-    widths : (R,) int64 or None
-        How many each line has, of those that hold any.
+    widths : (R,) int64
+        How many each line has, of those that hold any; empty if they were not counted.
     end : int
         The offset behind the last line read.
     """
 
     values: np.ndarray
-    widths: np.ndarray | None
+    widths: np.ndarray
     end: int
 
 
@@ -71,7 +71,8 @@ def read_numbers(
     ------
     NotANumberError
     """
-    values, found, end, wrong = native.read_numbers(text, comments, rows, widths)
+    values, counted, end, wrong = native.read_numbers(text, comments, rows, widths)
+    found = np.zeros(0, np.int64) if counted is None else counted
     if wrong is not None:
         match = _WORD.match(text, wrong)
         assert match is not None  # what is no number is a word

@@ -26,9 +26,8 @@ KINDS: dict[str, type] = {
     "intrinsics camera": IntrinsicsCamera,
     "camera": Camera,
 }
-_HELD: dict[tuple[type, str], str] = {
-    (Camera, "projection"): "matrix"
-}  # where a parameter is kept under another name
+# Where a parameter is kept under another name.
+_HELD: dict[tuple[type, str], str] = {(Camera, "projection"): "matrix"}
 
 
 def kind_of(obj: Any) -> str | None:

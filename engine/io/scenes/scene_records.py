@@ -65,8 +65,9 @@ def _environment(record: SceneRecord, number: JsonValue) -> Environment | None:
     return record.environments[number.index(len(record.environments), "environments")]
 
 
-def _background(record: SceneRecord, value: JsonValue) -> Any:
-    """An environment or a gradient; black for an environment that cannot be read."""
+def _background(
+    record: SceneRecord, value: JsonValue
+) -> Environment | Gradient | tuple[int, int, int]:
     if "environment" in value.members():
         return _environment(record, value.need("environment")) or (0, 0, 0)
     return _of_fields(value, (Gradient,))

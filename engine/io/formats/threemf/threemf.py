@@ -82,7 +82,8 @@ class _Package:
         path = posixpath.normpath("/" + path.lstrip("/"))
         key = path.lower()
         if key not in self._parts:
-            pieces, lists = self._archive.pieces(path), {}
+            pieces = self._archive.pieces(path)
+            lists: dict[int, np.ndarray] = {}
             if self._archive.size(path) <= _AT_ONCE + _RATIO_AT_ONCE * self._source.size:
                 text, lists = cut_lists(b"".join(pieces))
                 pieces = iter([text])

@@ -7,6 +7,9 @@ as its loaders make them of the numbers in files; vertex colours are sRGB bytes 
 
 from __future__ import annotations
 
+from types import ModuleType
+from typing import Any
+
 import numpy as np
 
 from ..base.numbers import shown
@@ -17,13 +20,13 @@ from ..model.materials.colors import linear_color, srgb_bytes
 from ..model.materials.material import Material, textures_of
 from ..model.materials.textures import Texture
 from .formats.images import check_image_size, made_pixels
-from .reading.documents import DocumentObject
 from .reading.far_coordinates import moved_near
 from .reading.indexed_mesh import IndexedGeometry, build_indexed_mesh
+from .reading.posed_parts import PosedPart
 from .reading.warning_list import WarningList
 
 
-def mesh_from_trimesh(geometry) -> Mesh:
+def mesh_from_trimesh(geometry: Any) -> Mesh:
     """Return the mesh of a geometry; see `Mesh.from_trimesh`."""
     if hasattr(geometry, "graph") and hasattr(geometry, "geometry"):
         parts = scene_parts(geometry)
@@ -32,8 +35,8 @@ def mesh_from_trimesh(geometry) -> Mesh:
 
 
 def scene_parts(
-    scene, warnings: WarningList | None = None, *, near: bool = False
-) -> list[DocumentObject]:
+    scene: Any, warnings: WarningList | None = None, *, near: bool = False
+) -> list[PosedPart]:
     """Return the nodes of a trimesh scene; those of the same geometry share a mesh.
 
     With ``warnings``, images that cannot be read are left out. With ``near``, coordinates far from
@@ -48,12 +51,12 @@ def scene_parts(
             meshes[name] = _near_mesh(scene.geometry[name], str(name), textures, near)
         mesh, back = meshes[name]
         pose = np.array(pose, np.float64)
-        parts.append(DocumentObject(str(node), mesh, pose if back is None else pose @ back))
+        parts.append(PosedPart(str(node), mesh, pose if back is None else pose @ back))
     return parts
 
 
 def _near_mesh(
-    geometry, name: str, textures: _Textures, near: bool
+    geometry: Any, name: str, textures: _Textures, near: bool
 ) -> tuple[Mesh, np.ndarray | None]:
     """The mesh of a geometry, and what takes its coordinates back if they were moved."""
     vertices = np.asarray(getattr(geometry, "vertices", ()), np.float64)
@@ -63,7 +66,9 @@ def _near_mesh(
     return _mesh(geometry, name, textures, moved), back
 
 
-def _mesh(geometry, name: str, textures: _Textures, positions: np.ndarray | None = None) -> Mesh:
+def _mesh(
+    geometry: Any, name: str, textures: _Textures, positions: np.ndarray | None = None
+) -> Mesh:
     """The mesh of a Trimesh, a PointCloud or a Path; its vertices may stand elsewhere."""
     if positions is None:
         positions = np.asarray(getattr(geometry, "vertices", ()), np.float64)
@@ -78,7 +83,7 @@ def _mesh(geometry, name: str, textures: _Textures, positions: np.ndarray | None
     raise InvalidArgumentError(f"geometry must be one of trimesh, not {shown(geometry)}")
 
 
-def _triangle_mesh(geometry, name: str, textures: _Textures, positions: np.ndarray) -> Mesh:
+def _triangle_mesh(geometry: Any, name: str, textures: _Textures, positions: np.ndarray) -> Mesh:
     visual = geometry.visual
     kind = getattr(visual, "kind", None)
     indexed = IndexedGeometry(positions, np.asarray(geometry.faces, np.int32))
@@ -96,7 +101,7 @@ def _triangle_mesh(geometry, name: str, textures: _Textures, positions: np.ndarr
     return mesh
 
 
-def _path_mesh(geometry, name: str, vertices: np.ndarray) -> Mesh:
+def _path_mesh(geometry: Any, name: str, vertices: np.ndarray) -> Mesh:
     # Without the scale a circle would get a point every twentieth of a unit, however large it is.
     scale = float(np.ptp(vertices, axis=0).max(initial=0.0)) if len(vertices) else 1.0
     runs = [
@@ -114,11 +119,11 @@ def _path_mesh(geometry, name: str, vertices: np.ndarray) -> Mesh:
     return Mesh(positions, lines=np.stack([first, first + 1], axis=1), name=name)
 
 
-def _bytes(colors) -> np.ndarray:
+def _bytes(colors: Any) -> np.ndarray:
     return np.array(colors, np.uint8).reshape(len(colors), -1)
 
 
-def _material(material, textures: _Textures) -> Material:
+def _material(material: Any, textures: _Textures) -> Material:
     """A `SimpleMaterial` or a `PBRMaterial`; of a `MultiMaterial` the first."""
     material = (getattr(material, "materials", None) or [material])[0]
     factor = getattr(material, "baseColorFactor", None)
@@ -143,7 +148,7 @@ def _material(material, textures: _Textures) -> Material:
     )
 
 
-def _linear(color) -> tuple[float, float, float]:
+def _linear(color: Any) -> tuple[float, ...]:
     color = np.asarray(color)
     scale = 255.0 if color.dtype.kind in "iu" else 1.0
     return tuple(float(c) / scale for c in np.nan_to_num(color[:3]).clip(min=0).tolist())
@@ -157,15 +162,15 @@ class _Textures:
         # The image is kept, too: another could get its identity.
         self._textures: dict[int, tuple[object, Texture | None]] = {}
 
-    def get(self, image) -> Texture | None:
+    def get(self, image: Any) -> Texture | None:
         if id(image) not in self._textures:
             self._textures[id(image)] = (image, self._texture(image))
         return self._textures[id(image)][1]
 
-    def _texture(self, image) -> Texture | None:
+    def _texture(self, image: Any) -> Texture | None:
         name = str(getattr(image, "name", None) or "")
         try:
-            check_image_size(*image.size, "texture")
+            check_image_size(image.width, image.height, "texture")
             return Texture(made_pixels(image, "texture"), name=name)
         # Pillow decodes an image only now, and raises what damaged ones lead it to.
         except Exception as error:
@@ -176,7 +181,7 @@ class _Textures:
             return None
 
 
-def mesh_to_trimesh(mesh: Mesh):
+def mesh_to_trimesh(mesh: Mesh) -> Any:
     """Return a trimesh geometry; see `Mesh.to_trimesh`."""
     try:
         import trimesh
@@ -196,9 +201,10 @@ def mesh_to_trimesh(mesh: Mesh):
     return scene
 
 
-def _trimesh_part(trimesh, mesh: Mesh, number: int, is_part: bool):
+def _trimesh_part(trimesh: ModuleType, mesh: Mesh, number: int, is_part: bool) -> Any:
     """The faces of one material; all vertices stay if there is no other."""
-    faces, vertices = mesh.faces, slice(None)
+    faces: np.ndarray = mesh.faces
+    vertices: np.ndarray | slice = slice(None)
     if is_part:
         vertices, faces = np.unique(faces[mesh.material_ids == number], return_inverse=True)
         faces = faces.reshape(-1, 3)
@@ -221,7 +227,7 @@ def _trimesh_part(trimesh, mesh: Mesh, number: int, is_part: bool):
     return geometry
 
 
-def _trimesh_material(trimesh, material: Material):
+def _trimesh_material(trimesh: ModuleType, material: Material) -> Any:
     image = None
     texture = textures_of(material).get("texture")
     if texture is not None:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 import re
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -326,15 +327,16 @@ class _Parser:
         return self._three(re.match(_POINT, rest), rest)
 
     def _color(self, rest: str) -> tuple[float, float, float]:
-        return tuple(max(0.0, c) for c in self._three(re.match(_COLOR, rest), rest))
+        red, green, blue = self._three(re.match(_COLOR, rest), rest)
+        return max(0.0, red), max(0.0, green), max(0.0, blue)
 
-    def _three(self, match: re.Match | None, rest: str) -> tuple[float, float, float]:
+    def _three(self, match: re.Match[str] | None, rest: str) -> tuple[float, float, float]:
         if match is None:
             self._fail(f"three numbers are missing: {shown(rest)}")
-        values = tuple(self._float(match[k]) for k in (1, 2, 3))
-        if not all(map(math.isfinite, values)):
+        x, y, z = (self._float(match[k]) for k in (1, 2, 3))
+        if not all(map(math.isfinite, (x, y, z))):
             self._fail(f"not a finite number: {shown(rest)}")
-        return values
+        return x, y, z
 
     def _field_of_view(self, word: str) -> float:
         """Vertical field of view, in radians, of a lens in millimetres."""
@@ -343,11 +345,11 @@ class _Parser:
             self._fail(f"not a lens: {shown(word)}")
         return 2 * math.atan(_FILM / 2 / lens / _ASPECT)
 
-    def _fail(self, message: str):
+    def _fail(self, message: str) -> NoReturn:
         raise FileFormatError(message, self._path, self._number)
 
 
-def _counts(parser: _Parser) -> dict:
+def _counts(parser: _Parser) -> dict[str, Any]:
     return {
         "vertices": sum(mesh.vertex_count for mesh in parser.meshes),
         "uvs": sum(mesh.vertex_count for mesh in parser.meshes if mesh.is_mapped),

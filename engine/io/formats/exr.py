@@ -9,6 +9,8 @@ from __future__ import annotations
 import contextlib
 import os
 import tempfile
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,7 +61,7 @@ def read_exr(source: Source) -> NDArray[np.float32]:
 
 
 @contextlib.contextmanager
-def _silence():
+def _silence() -> Iterator[None]:
     """The library writes to both streams of the process what it raises as well."""
     kept, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
     try:
@@ -72,7 +74,7 @@ def _silence():
         os.close(nowhere)
 
 
-def _size(header: dict) -> tuple[int, int]:
+def _size(header: dict[str, Any]) -> tuple[int, int]:
     low, high = header["dataWindow"]
     return int(high[0]) - int(low[0]) + 1, int(high[1]) - int(low[1]) + 1
 

@@ -55,7 +55,7 @@ def read_hdr(source: Source) -> NDArray[np.float32]:
     return _upright(_light(packed), size)
 
 
-def _read_header(source: Source) -> tuple[re.Match, int]:
+def _read_header(source: Source) -> tuple[re.Match[bytes], int]:
     """The line of the size, and where the pixels begin."""
     head = source.head(_MOST_HEADER)
     if not head.startswith((b"#?RADIANCE", b"#?RGBE")):
@@ -99,7 +99,7 @@ def _light(packed: NDArray[np.uint8]) -> NDArray[np.float32]:
     return packed[:, :, :3] * scale[packed[:, :, 3:]]
 
 
-def _upright(light: NDArray[np.float32], size: re.Match) -> NDArray[np.float32]:
+def _upright(light: NDArray[np.float32], size: re.Match[bytes]) -> NDArray[np.float32]:
     """Bring the top left pixel to the front; a header says first which way lines follow."""
     first, second = size[1] + size[2], size[4] + size[5]
     if first in (b"+Y", b"-X"):

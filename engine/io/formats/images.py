@@ -11,7 +11,9 @@ import contextlib
 import io
 import re
 import warnings
+from collections.abc import Callable, Iterator
 from contextvars import ContextVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +22,9 @@ from ...errors import FileFormatError
 from ...model.materials.textures import MAX_SIDE
 from ..reading.reader_registry import Reader
 from ..reading.sources import Source
+
+if TYPE_CHECKING:
+    from PIL import Image
 
 # More pixels than this are refused before anything is decoded; as RGBA they take 683 MiB. Assign
 # another value to change it (beyond this one, which is Pillow's, Image.MAX_IMAGE_PIXELS as well).
@@ -33,7 +38,7 @@ _left: ContextVar[list[int] | None] = ContextVar("pixels_left", default=None)
 
 
 @contextlib.contextmanager
-def images_of_one_model():
+def images_of_one_model() -> Iterator[None]:
     """Limit the pixels of all images that are checked within the block together."""
     token = _left.set([MAX_PIXELS])
     try:
@@ -90,7 +95,7 @@ def read_image(source: Source) -> np.ndarray:
     ------
     FileFormatError
     """
-    from PIL import Image
+    from PIL import Image, UnidentifiedImageError
 
     try:
         with quiet_pillow(), Image.open(io.BytesIO(source.data), formats=PILLOW_FORMATS) as image:
@@ -100,7 +105,7 @@ def read_image(source: Source) -> np.ndarray:
         raise
     except Image.DecompressionBombError as error:
         raise FileFormatError(f"an image is limited to {MAX_PIXELS} pixels", source.path) from error
-    except Image.UnidentifiedImageError as error:
+    except UnidentifiedImageError as error:
         raise FileFormatError("not an image of a known format", source.path) from error
     # Pillow's plugins raise whatever a damaged file leads them to: OSError, SyntaxError,
     # struct.error, IndexError, ...
@@ -109,14 +114,14 @@ def read_image(source: Source) -> np.ndarray:
 
 
 @contextlib.contextmanager
-def quiet_pillow():
+def quiet_pillow() -> Iterator[None]:
     """Silence warnings of what Pillow passes over, and of sizes that are not too large here."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         yield
 
 
-def rgba_pixels(image, path: str) -> np.ndarray:
+def rgba_pixels(image: Image.Image, path: str) -> np.ndarray:
     """Convert an image of Pillow's.
 
     Parameters
@@ -147,7 +152,7 @@ def rgba_pixels(image, path: str) -> np.ndarray:
     return frozen(pixels)  # so that a texture takes it over
 
 
-def made_pixels(image, path: str) -> np.ndarray:
+def made_pixels(image: Image.Image, path: str) -> np.ndarray:
     """Convert an image of Pillow's that a program made; otherwise as `rgba_pixels`.
 
     Integers and floats without a range of their own are of 0 to 255 where a conversion made them.
@@ -158,8 +163,9 @@ def made_pixels(image, path: str) -> np.ndarray:
         scale = 255.0 if values.max(initial=0) <= 1 else 1.0
         codes = np.clip(np.nan_to_num(values * scale), 0, 255).astype(np.uint8)
         return np.stack([codes, codes, codes, np.full_like(codes, 255)], axis=-1)
-    if image.mode == "I" and image.getextrema()[1] <= 255:
-        image = image.convert("L")
+    if image.mode == "I":
+        largest: Any = image.getextrema()[1]  # a number, as there is one channel
+        image = image.convert("L") if largest <= 255 else image
     return rgba_pixels(image, path)
 
 
@@ -167,7 +173,7 @@ def made_pixels(image, path: str) -> np.ndarray:
 _THROUGH = {"HSV": "RGB", "YCbCr": "RGB", "RGBX": "RGB", "CMYK": "RGB", "La": "LA", "PA": "RGBA"}
 
 
-def _converted(image, strip, pixels: np.ndarray, path: str) -> None:
+def _converted(image: Image.Image, strip: Image.Image, pixels: np.ndarray, path: str) -> None:
     if strip.mode == "LAB":
         strip = _of_lab(strip)
     elif strip.mode in _THROUGH:
@@ -175,15 +181,17 @@ def _converted(image, strip, pixels: np.ndarray, path: str) -> None:
     pixels[:] = np.asarray(strip.convert("RGBA"))
 
 
-def _of_lab(strip):
+def _of_lab(strip: Image.Image) -> Image.Image:
     """CIE Lab under D50 as sRGB."""
     from PIL import ImageCms
 
     profiles = ImageCms.createProfile("LAB"), ImageCms.createProfile("sRGB")
-    return ImageCms.profileToProfile(strip, *profiles, outputMode="RGB")
+    made = ImageCms.profileToProfile(strip, *profiles, outputMode="RGB")
+    assert made is not None  # it's only None where the image itself is changed
+    return made
 
 
-def _wide_grey(image, strip, pixels: np.ndarray, path: str) -> None:
+def _wide_grey(image: Image.Image, strip: Image.Image, pixels: np.ndarray, path: str) -> None:
     """16-bit grey, which Pillow's own conversion would clip at 255."""
     wide = np.asarray(strip)
     if wide.dtype.itemsize > 2 and (wide.min() < 0 or wide.max() > 0xFFFF):
@@ -193,7 +201,8 @@ def _wide_grey(image, strip, pixels: np.ndarray, path: str) -> None:
     pixels[:, :, 3] = 255 if transparent is None else np.where(wide == transparent, 0, 255)
 
 
-def _starts_with(*signatures: bytes):
+def starts_with(*signatures: bytes) -> Callable[[bytes], bool]:
+    """Return whether a head begins with one of these, as a signature of a `Reader`."""
     return lambda head: head.startswith(signatures)
 
 
@@ -206,12 +215,12 @@ def _is_ppm(head: bytes) -> bool:
 
 
 _FORMATS = (
-    ("png", "Portable Network Graphics", (".png",), "PNG", _starts_with(b"\x89PNG\r\n\x1a\n")),
-    ("jpeg", "JPEG", (".jpg", ".jpeg"), "JPEG", _starts_with(b"\xff\xd8\xff")),
+    ("png", "Portable Network Graphics", (".png",), "PNG", starts_with(b"\x89PNG\r\n\x1a\n")),
+    ("jpeg", "JPEG", (".jpg", ".jpeg"), "JPEG", starts_with(b"\xff\xd8\xff")),
     ("webp", "WebP", (".webp",), "WEBP", _is_webp),
-    ("bmp", "Windows bitmap", (".bmp",), "BMP", _starts_with(b"BM")),
-    ("gif", "GIF, first frame", (".gif",), "GIF", _starts_with(b"GIF87a", b"GIF89a")),
-    ("tiff", "TIFF", (".tif", ".tiff"), "TIFF", _starts_with(b"II*\0", b"MM\0*")),
+    ("bmp", "Windows bitmap", (".bmp",), "BMP", starts_with(b"BM")),
+    ("gif", "GIF, first frame", (".gif",), "GIF", starts_with(b"GIF87a", b"GIF89a")),
+    ("tiff", "TIFF", (".tif", ".tiff"), "TIFF", starts_with(b"II*\0", b"MM\0*")),
     ("ppm", "Portable pixmap", (".ppm", ".pgm", ".pbm"), "PPM", _is_ppm),
 )
 # What Pillow may open, whatever a file claims to be.

@@ -12,6 +12,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from itertools import islice
+from typing import NoReturn
 
 import numpy as np
 
@@ -291,18 +292,18 @@ class _OffReader:
         end = len(self._text) - 1, b""  # where rows are not lines
         return next(islice(self._filled_lines(self._body), row, None), end)
 
-    def _fail_at_face(self, reason: str, face: int):
+    def _fail_at_face(self, reason: str, face: int) -> NoReturn:
         position, line = self._row(self._vertex_count + face)
         self._fail(f"{reason}: {shown(line.strip())}", position)
 
-    def _fail(self, message: str, position: int | None = None):
+    def _fail(self, message: str, position: int | None = None) -> NoReturn:
         line = None if position is None else self._text.count(b"\n", 0, position) + 1
         raise FileFormatError(message, self._path, line)
 
 
 def _sizes_of_faces(values: np.ndarray, count: int) -> np.ndarray | None:
     """How many corners each face has where faces are all of some numbers; None if they are not."""
-    numbers, sizes = memoryview(values), []
+    numbers, sizes = values.data, []
     place, end = 0, len(values)
     for _ in range(count):
         if place >= end or not 0 <= numbers[place] < end:

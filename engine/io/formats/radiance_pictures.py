@@ -13,6 +13,7 @@ from ...errors import FileFormatError
 from ...model.materials.colors import srgb_bytes
 from ..reading.reader_registry import Reader
 from ..reading.sources import Source
+from .images import starts_with
 
 #: Of files whose pixels are light.
 LIGHT_EXTENSIONS = (".hdr", ".exr")
@@ -77,7 +78,7 @@ READERS = tuple(
         "image",
         (extension,),
         read_srgb,
-        lambda head, begins=begins: head.startswith(begins),
+        starts_with(begins),
         read_linear=read_linear,
     )
     for name, description, extension, begins in (

@@ -13,6 +13,7 @@ from ...model import primitives
 from ...model.geometry.creases import CREASE_ANGLE, SMOOTH, check_crease_angle
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.origins import FileOrigin, remember_origin
+from ...model.materials.material import Material
 from ..reading.json_values import JsonValue
 from ..reading.linked_files import LinkedFileError, LinkedFiles
 from ..reading.posed_parts import MAX_REPEATED
@@ -33,7 +34,9 @@ class SceneMeshes:
     ) -> None:
         self._source, self._looks, self._warnings = source, looks, warnings
         self.parts = PartsOfFiles(source, files)
-        self._primitives: dict[tuple[str, str], tuple[Mesh, list]] = {}  # with their materials
+        self._primitives: dict[
+            tuple[str, str], tuple[Mesh, list[Material]]
+        ] = {}  # with their materials
         self._vertices_left = MAX_REPEATED + source.size
 
     def mesh(self, entry: JsonValue) -> Mesh:
@@ -64,7 +67,13 @@ class SceneMeshes:
         chosen = None if materials is None else self._looks.chosen(materials)
         try:
             angle = _crease_angle(entry, SMOOTH)
-            mesh = Mesh(arrays.pop("positions", ()), **arrays, materials=chosen, crease_angle=angle)
+            mesh = Mesh(
+                arrays.pop("positions", ()),
+                **arrays,
+                materials=chosen,
+                crease_angle=angle,
+                name="",
+            )
             if groups is not None:
                 mesh.groups = {key: value.array() for key, value in groups.members().items()}
         except InvalidArgumentError as error:

@@ -6,7 +6,7 @@ one that shares its arrays. Parts of a file share materials only where all of th
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TypeAlias
 
 from ...errors import FileFormatError
 from ...model.geometry.mesh import Mesh
@@ -18,6 +18,10 @@ from ..reading.sources import Source
 from ..reading.text import shown
 
 _MAX_COPIES = 20_000
+# A file's name, its format, whether its parts are wanted, and the angle of creases.
+_Key: TypeAlias = tuple[str, str | None, bool, float]
+# A part's name, and how many of it stand before; None for the whole file.
+_Part: TypeAlias = tuple[str, int] | None
 
 
 class PartsOfFiles:
@@ -25,15 +29,13 @@ class PartsOfFiles:
 
     def __init__(self, source: Source, files: LinkedFiles) -> None:
         self._source, self._files = source, files
-        self._meshes: dict[tuple, dict[Any, Mesh] | Exception] = {}
-        self._given: dict[tuple, int] = {}  # how often each part was given out
+        self._meshes: dict[_Key, dict[_Part, Mesh] | Exception] = {}
+        self._given: dict[tuple[_Key, _Part], int] = {}  # how often each part was given out
         self._materials_of: dict[Mesh, list[Material]] = {}  # as they were read
         self._copies: dict[tuple[int, int], Material] = {}
         self.told: list[str] = []
 
-    def part(
-        self, name: str, format: str | None, part: tuple[str, int] | None, crease_angle: float
-    ) -> Mesh:
+    def part(self, name: str, format: str | None, part: _Part, crease_angle: float) -> Mesh:
         """Return a part of a file, or all of it; what was read or given out before is not again."""
         key = name, format, part is not None, crease_angle
         if key not in self._meshes:
@@ -46,6 +48,7 @@ class PartsOfFiles:
             raise found.with_traceback(None)
         mesh = found.get(part)
         if mesh is None:
+            assert part is not None  # the whole file is there
             raise LinkedFileError(f"it has no part {shown(part[0])} number {part[1]}")
         times = self._given[key, part] = self._given.get((key, part), -1) + 1
         return self._twin(mesh, times) if times else mesh
@@ -65,15 +68,15 @@ class PartsOfFiles:
 
     def _read(
         self, name: str, format: str | None, split: bool, crease_angle: float
-    ) -> dict[Any, Mesh]:
+    ) -> dict[_Part, Mesh]:
         with self._files.read(self._files.find(name)) as source:
             source = source._replace(crease_angle=crease_angle, root=self._source.root)
             if find_reader(source, "mesh", format).name == "e3d":
                 raise FileFormatError("a scene within a scene is not read", source.path)
             document = document_of(source, format, split=split)
             self.told += document.warnings
-            parts: dict[Any, Mesh] = (
-                dict(parts_of(document, source, format))
+            parts: dict[_Part, Mesh] = (
+                dict(parts_of(document, source, format).items())
                 if split
                 else {None: whole_mesh(document, source, format)}
             )

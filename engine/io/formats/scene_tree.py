@@ -13,8 +13,9 @@ import numpy as np
 from ...base import linalg
 from ...errors import FileFormatError
 from ...model.geometry.mesh import Mesh
-from ..reading.documents import DocumentObject, SceneRecord
+from ..reading.documents import Place, SceneRecord
 from ..reading.json_values import JsonValue
+from ..reading.posed_parts import PosedPart
 from ..reading.sources import Source
 
 # Each instance takes some kilobytes as an object of the document.
@@ -55,9 +56,9 @@ def links_of(nodes: list[JsonValue]) -> tuple[list[int], dict[int, list[int]]]:
     return parents, children
 
 
-def pose_parts(node: JsonValue) -> dict[str, list]:
-    """Return the parts of a node's pose, as `Scene.add` takes them."""
-    found: dict[str, list] = {}
+def pose_parts(node: JsonValue) -> Place:
+    """Return the parts of a node's pose."""
+    found: Place = {}
     for key, count in _PARTS.items():
         if (held := node.get(key)) is not None:
             found[key] = held.numbers(count)
@@ -71,10 +72,10 @@ def pose_parts(node: JsonValue) -> dict[str, list]:
     return found
 
 
-def shown_parts(record: SceneRecord, source: Source) -> list[DocumentObject]:
+def shown_parts(record: SceneRecord, source: Source) -> list[PosedPart]:
     """Return what shows, with poses in the world; an instance each."""
     worlds, is_shown = _standing(record)
-    parts: list[DocumentObject] = []
+    parts: list[PosedPart] = []
     for number, node in enumerate(record.nodes):
         held = node.get("object")
         if held is None or not is_shown[number]:
@@ -82,9 +83,9 @@ def shown_parts(record: SceneRecord, source: Source) -> list[DocumentObject]:
         index = held.index(len(record.objects), "objects")
         name = "" if node.get("name") is None else node.need("name").text()
         if index in record.meshes:
-            parts.append(DocumentObject(name, record.meshes[index], worlds[number]))
+            parts.append(PosedPart(name, record.meshes[index], worlds[number]))
         for mesh, pose in _instances(record, index):
-            parts.append(DocumentObject(name, mesh, linalg.multiply(worlds[number], pose)))
+            parts.append(PosedPart(name, mesh, linalg.multiply(worlds[number], pose)))
             if len(parts) > _MAX_OBJECTS:
                 raise FileFormatError(f"more than {_MAX_OBJECTS} instances", source.path)
     return parts
@@ -133,7 +134,7 @@ def _levels(record: SceneRecord) -> list[list[int]]:
     return levels
 
 
-def _poses(places: list[dict[str, list]]) -> np.ndarray:
+def _poses(places: list[Place]) -> np.ndarray:
     """The poses that parts of poses are, (N, 4, 4) float64."""
     parts = {
         key: np.array([place.get(key, default) for place in places]).reshape(-1, len(default))

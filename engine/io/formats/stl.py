@@ -8,7 +8,7 @@ told by its length: many binary files begin with the word ``solid``.
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 
 import numpy as np
 
@@ -49,8 +49,8 @@ class _Facets(NamedTuple):
 
     Attributes
     ----------
-    count : int
-        Number of facets, F.
+    facet_count : int
+        F.
     positions : (V, 3) float32
         Of all corners, each place once.
     faces : (T, 3) int32
@@ -65,7 +65,7 @@ class _Facets(NamedTuple):
         Takes the positions to where they are in the file.
     """
 
-    count: int
+    facet_count: int
     positions: np.ndarray
     faces: np.ndarray
     polygons: np.ndarray | None
@@ -101,7 +101,7 @@ def read_stl(source: Source, split: bool = False) -> Document:
         ]
     counts = {
         "vertices": facets.corner_count,
-        "faces": facets.count,
+        "faces": facets.facet_count,
         "triangles": len(facets.faces),
         "objects": [name for name, _ in facets.solids if name],
     }
@@ -202,51 +202,52 @@ class _Rows(NamedTuple):
 
 def _rows_of_any(text: bytes, path: str, warnings: WarningList) -> _Rows:
     """Read a text as it stands or, where that fails, in the usual spelling."""
-    problem = rows = None
-    try:
-        rows = _rows(text, path)
-    except FileFormatError as error:
-        problem = error
-    if rows is not None and not rows.may_lack_facets:
+    rows = _rows_or_problem(text, path)
+    if isinstance(rows, _Rows) and not rows.may_lack_facets:
         return rows
     spelling = usual_spelling(text)
-    try:
-        again = _rows(spelling.text, path)
-    except FileFormatError:
-        again = None
-    if problem is not None and again is None:
-        raise problem
-    if again is None or (rows is not None and again.polygons <= rows.polygons):
+    again = _rows_or_problem(spelling.text, path)
+    if isinstance(rows, FileFormatError):
+        if isinstance(again, FileFormatError):
+            raise rows
+    elif isinstance(again, FileFormatError) or again.polygons <= rows.polygons:
         return rows
     if spelling.left_out:
         warnings.add(f"{spelling.left_out} lines that are no part of STL are left out")
     return again
 
 
+def _rows_or_problem(text: bytes, path: str) -> _Rows | FileFormatError:
+    try:
+        return _rows(text, path)
+    except FileFormatError as problem:
+        return problem
+
+
 def _rows(text: bytes, path: str) -> _Rows:
     """Read lines: what counts are those of vertices and of loops' ends."""
     reader = native.FormReader(text, _FORMS, True)
     solids: list[tuple[str, int]] = []
-    ends = [np.zeros(1, np.int64)]
+    marks = [np.zeros(1, np.int64)]
     count, place = 0, reader.read(0)
     while place < len(text):
         end = text.index(b"\n", place)
         words = text[place:end].split(None, 1)
         if words[0].lower() != b"solid":
             _fail_at(path, text, place)
-        ends.append(reader.take_marks()["rows"])
+        marks.append(reader.take_marks()["rows"])
         name = decoded(words[1].strip()) if len(words) > 1 else ""
-        count += len(ends[-1])
+        count += len(marks[-1])
         solids.append((name, count))
         place = reader.read(end + 1)
-    ends = np.concatenate([*ends, reader.take_marks()["rows"]])
+    ends = np.concatenate([*marks, reader.take_marks()["rows"]])
     corners = reader.take_rows(0)
     if ends[-1] != len(corners):
         raise FileFormatError("the file ends within a facet", path, text.count(b"\n"))
     return _Rows(corners, ends, solids, reader.lines(_FACET_FORM))
 
 
-def _fail_at(path: str, text: bytes, place: int):
+def _fail_at(path: str, text: bytes, place: int) -> NoReturn:
     """Raise an error about the line that begins there, which has no form."""
     line = text[place : text.index(b"\n", place)]
     is_vertex = line.split()[0].lower() == b"vertex"

@@ -47,7 +47,7 @@ def usual_spelling(text: bytes) -> Spelling:
     kinds = [match.lastgroup for match in _KEYWORD.finditer(text)]
     # Where ends of loops are missing, those of facets do.
     closing = "loop" if kinds.count("loop") >= kinds.count("end") else "end"
-    words = {
+    words: dict[str | None, bytes] = {
         "facet": b"\nfacet normal ",
         "begin": b"\nsolid ",
         "outer": b"\nouter loop\n",

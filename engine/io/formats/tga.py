@@ -79,7 +79,8 @@ def read_tga(source: Source) -> np.ndarray:
     header = _read_header(source)
     attributes = _extension_attributes(source.data)
     has_alpha = _has_alpha(header, attributes)
-    color_map = _read_color_map(source, header, has_alpha) if header.kind == _MAPPED else None
+    is_mapped = header.kind == _MAPPED
+    color_map = _read_color_map(source, header, has_alpha) if is_mapped else None
     start = header.map_start + header.map_size
     _check_length(source, header, start)
     pixels = np.empty((header.height, header.width, 4), np.uint8)
@@ -87,7 +88,7 @@ def read_tga(source: Source) -> np.ndarray:
     stored = _stored_pixels(source, header, start, flat)
     for done in range(0, len(flat), _BLOCK):
         block = stored[done : done + _BLOCK]
-        if header.kind == _MAPPED:
+        if color_map is not None:
             rgba = _look_up(block, color_map, header, source.path)
         elif header.kind == _GREY:
             rgba = _rgba_from_grey(block)
@@ -221,7 +222,7 @@ def _rgba_from_grey(stored: np.ndarray) -> np.ndarray:
     return rgba
 
 
-def _look_up(stored, color_map, header: _Header, path: str) -> np.ndarray:
+def _look_up(stored: np.ndarray, color_map: np.ndarray, header: _Header, path: str) -> np.ndarray:
     index = stored[:, 0].astype(np.int64)
     if stored.shape[1] == 2:
         index |= stored[:, 1].astype(np.int64) << 8

@@ -12,6 +12,8 @@ import contextlib
 import importlib.util
 import io
 import logging
+from collections.abc import Iterator
+from typing import Any
 
 from ...errors import Engine3DError, FileFormatError, InvalidArgumentError, printable
 from ..reading.documents import Document
@@ -98,11 +100,21 @@ def read_here(source: Source, split: bool) -> Document:
     return Document(kind, objects, counts=counts_of(objects), warnings=warnings.messages())
 
 
+class _Teller(logging.Handler):
+    """Tells of what is logged."""
+
+    def __init__(self, warnings: WarningList) -> None:
+        super().__init__(logging.WARNING)
+        self._warnings = warnings
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self._warnings.add(printable(record.getMessage()[:_SAID]))
+
+
 @contextlib.contextmanager
-def _said(warnings: WarningList):
+def _said(warnings: WarningList) -> Iterator[None]:
     """Let what trimesh would print become warnings."""
-    handler = logging.Handler(logging.WARNING)
-    handler.emit = lambda record: warnings.add(printable(record.getMessage()[:_SAID]))
+    handler = _Teller(warnings)
     logger = logging.getLogger("trimesh")
     logger.addHandler(handler)
     try:
@@ -119,28 +131,28 @@ def _check_beginning(source: Source, kind: str) -> None:
         raise FileFormatError(f"not a {kind} file", source.path)
 
 
-def _resolver(trimesh, source: Source, warnings: WarningList):
+def _resolver(trimesh: Any, source: Source, warnings: WarningList) -> Any:
     """Gives trimesh the images beside the model, and nothing else."""
     files = LinkedFiles.of(source, warnings)
 
-    class FolderResolver(trimesh.resolvers.Resolver):
-        def __init__(self):
+    class FolderResolver(trimesh.resolvers.Resolver):  # type: ignore[misc]  # it has no types
+        def __init__(self) -> None:
             pass
 
-        def get(self, name):
+        def get(self, name: str) -> bytes:
             try:
                 return _image(files.read(files.find_uri(str(name))))
             except (LinkedFileError, Engine3DError) as error:
                 warnings.add(f"{name!r}: {error}")
                 raise FileNotFoundError(f"{name!r}: {error}") from None
 
-        def keys(self):
+        def keys(self) -> list[str]:
             return []
 
-        def namespaced(self, namespace):
+        def namespaced(self, namespace: str) -> FolderResolver:
             return self
 
-        def write(self, name, data):
+        def write(self, name: str, data: bytes) -> None:
             raise PermissionError("a model is only read")
 
     return FolderResolver()

@@ -23,7 +23,7 @@ _PREFERRED = (".tga", ".png", ".jpg", ".jpeg")
 
 @checks_types
 def companion_texture(
-    path: str | os.PathLike, accept: Callable[[str], bool] | None = None
+    path: str | os.PathLike[str], accept: Callable[[str], bool] | None = None
 ) -> str | None:
     """Return the path of the image beside a model that bears its name, or None.
 

@@ -7,7 +7,7 @@ combination that occurs; triangles keep their order. Positions that nothing uses
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -17,8 +17,9 @@ from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from ..formats.obj.mtl import uv_transform
 
-# All positions as they are.
-_ALL = slice(None)
+# Faces, and for each vertex its index of position, of texture coordinate and of normal; None for
+# all positions as they are, and for what no corner has.
+_Welded: TypeAlias = tuple[np.ndarray, np.ndarray | None, np.ndarray | None, np.ndarray | None]
 
 
 class Vertices(NamedTuple):
@@ -64,9 +65,8 @@ class Triangles:
 
     def part(self, chosen: slice) -> Triangles:
         """Return some triangles that stand together."""
-        arrays = (self.positions, self.uvs, self.normals, self.materials, self.polygons)
-        parts = [None if array is None else array[chosen] for array in arrays]
-        return Triangles(*parts, None if self.edge_visible is None else self.edge_visible[chosen])
+        arrays = vars(self).items()
+        return replace(self, **{name: rows[chosen] for name, rows in arrays if rows is not None})
 
 
 class Geometry(NamedTuple):
@@ -113,17 +113,20 @@ def build_mesh(geometry: Geometry, materials: list[Material], name: str) -> Mesh
     count = len(vertices.positions)
     uv_indices, uvs = _transformed_uvs(triangles, vertices.uvs, materials)
     normal_indices = None if normals is None else triangles.normals
-    faces, welded = _weld(triangles.positions, uv_indices, normal_indices, count)
-    of_position, of_uv, of_normal = welded
+    faces, of_position, of_uv, of_normal = _weld(
+        triangles.positions, uv_indices, normal_indices, count
+    )
     used = np.concatenate([lines.ravel(), points])
     vertex_of, of_position, extra = _vertices_for(used, of_position, count)
     is_split = uv_indices is not None or normal_indices is not None
     return Mesh(
-        vertices.positions if of_position is _ALL else vertices.positions[of_position],
+        _rows(vertices.positions, of_position),
         faces,
-        normals=None if normals is None else _gather(normals, of_normal, extra),
-        uvs=None if uv_indices is None else _finite(_gather(uvs, of_uv, extra)),
-        colors=None if vertices.colors is None else vertices.colors[of_position],
+        normals=(
+            None if normals is None or of_normal is None else _gather(normals, of_normal, extra)
+        ),
+        uvs=None if of_uv is None else _finite(_gather(uvs, of_uv, extra)),
+        colors=None if vertices.colors is None else _rows(vertices.colors, of_position),
         materials=materials,
         material_ids=triangles.materials,
         lines=vertex_of[: lines.size].reshape(-1, 2),
@@ -135,12 +138,14 @@ def build_mesh(geometry: Geometry, materials: list[Material], name: str) -> Mesh
     )
 
 
-def _transformed_uvs(triangles, uvs, materials):
+def _transformed_uvs(
+    triangles: Triangles, uvs: np.ndarray, materials: list[Material]
+) -> tuple[np.ndarray | None, np.ndarray]:
     """Texture coordinates as each material's ``-s`` and ``-o`` want them, and their indices.
 
     A coordinate that materials of different transforms share becomes several.
     """
-    transforms: dict[tuple, int] = {(1.0, 1.0, 0.0, 0.0): 0}
+    transforms: dict[tuple[float, ...], int] = {(1.0, 1.0, 0.0, 0.0): 0}
     kinds = [transforms.setdefault(uv_transform(m), len(transforms)) for m in materials]
     indices = triangles.uvs
     if indices is None or len(transforms) == 1:
@@ -155,36 +160,40 @@ def _transformed_uvs(triangles, uvs, materials):
     return inverse.reshape(indices.shape), moved
 
 
-def _weld(positions, uvs, normals, position_count):
-    """Number the combinations of indices that occur.
-
-    Returns the faces (T, 3), and for each vertex its index of position, of texture coordinate and
-    of normal. Vertices stand in the order of their positions.
-    """
+def _weld(
+    positions: np.ndarray, uvs: np.ndarray | None, normals: np.ndarray | None, position_count: int
+) -> _Welded:
+    """Number the combinations of indices that occur, in the order of their positions."""
     if uvs is None and normals is None:
         return _without_unused(positions, position_count)
-    lists = [
-        None if indices is None else np.ascontiguousarray(indices, np.int32).ravel()
-        for indices in (positions, uvs, normals)
-    ]
-    faces, *welded = native.weld_corners(*lists, position_count)
-    return faces.reshape(-1, 3), welded
+    faces, of_position, of_uv, of_normal = native.weld_corners(
+        _flat(positions),
+        None if uvs is None else _flat(uvs),
+        None if normals is None else _flat(normals),
+        position_count,
+    )
+    return faces.reshape(-1, 3), of_position, of_uv, of_normal
 
 
-def _without_unused(positions, position_count):
+def _flat(indices: np.ndarray) -> np.ndarray:
+    return np.ascontiguousarray(indices, np.int32).ravel()
+
+
+def _without_unused(positions: np.ndarray, position_count: int) -> _Welded:
     """Faces over the positions that they use, if only positions matter."""
-    corners = np.ascontiguousarray(positions, np.int32).ravel()
-    is_used = native.used_or_all(corners, position_count)
+    is_used = native.used_or_all(_flat(positions), position_count)
     if is_used is None:
-        return positions, (_ALL, None, None)
+        return positions, None, None, None
     number = np.cumsum(is_used, dtype=np.int32) - 1
-    return number[positions], (np.flatnonzero(is_used), None, None)
+    return number[positions], np.flatnonzero(is_used), None, None
 
 
-def _vertices_for(used, of_position, position_count):
+def _vertices_for(
+    used: np.ndarray, of_position: np.ndarray | None, position_count: int
+) -> tuple[np.ndarray, np.ndarray | None, int]:
     """A vertex for each used position: one that the faces have, or a new one at the end."""
-    if of_position is _ALL:
-        return used, _ALL, 0
+    if of_position is None:
+        return used, None, 0
     vertex = np.full(position_count, -1, np.int32)
     vertex[of_position[::-1]] = np.arange(len(of_position), dtype=np.int32)[::-1]
     is_new = np.zeros(position_count, bool)
@@ -194,7 +203,11 @@ def _vertices_for(used, of_position, position_count):
     return vertex[used], np.concatenate([of_position, new]), len(new)
 
 
-def _gather(table, indices, extra):
+def _rows(table: np.ndarray, indices: np.ndarray | None) -> np.ndarray:
+    return table if indices is None else table[indices]
+
+
+def _gather(table: np.ndarray, indices: np.ndarray, extra: int) -> np.ndarray:
     """Rows of a table; zero for index -1 and for the vertices that only lines and points use."""
     rows = np.zeros((len(indices) + extra, table.shape[1]), np.float32)
     present = slice(None) if indices.min(initial=0) >= 0 else indices >= 0
@@ -203,7 +216,7 @@ def _gather(table, indices, extra):
     return rows
 
 
-def _finite(rows):
+def _finite(rows: np.ndarray) -> np.ndarray:
     """Rows with zero for what is not finite."""
     rows[~np.isfinite(rows)] = 0
     return rows

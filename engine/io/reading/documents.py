@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -16,6 +16,12 @@ from ...model.environments.environment import Environment
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from .json_values import JsonValue
+
+if TYPE_CHECKING:
+    from ...choices import Interpolation, MotionPath
+
+#: The parts of a node's pose, as keywords of `Scene.add`.
+Place: TypeAlias = dict[str, Any]
 
 
 class DocumentObject(NamedTuple):
@@ -96,8 +102,7 @@ class SceneRecord:
     meshes : dict of int to Mesh
         Those of the objects that are meshes, by number.
     objects, nodes : list of JsonValue
-    places : list of dict
-        The parts of each node's pose, as `Scene.add` takes them.
+    places : list of Place
     parents : list of int
         Of each node; -1: none.
     children : dict of int to list of int
@@ -111,7 +116,7 @@ class SceneRecord:
     meshes: dict[int, Mesh]
     objects: list[JsonValue]
     nodes: list[JsonValue]
-    places: list[dict[str, list]]
+    places: list[Place]
     parents: list[int]
     children: dict[int, list[int]]
     environments: list[Environment | None] = field(default_factory=list)
@@ -196,8 +201,8 @@ class ChannelRecord:
     """
 
     node: int
-    path: str
-    interpolation: str
+    path: MotionPath
+    interpolation: Interpolation
     times: np.ndarray
     values: np.ndarray
 
@@ -222,7 +227,7 @@ class PropertyRecord:
     kind: str
     number: int
     path: str
-    interpolation: str
+    interpolation: Interpolation
     times: np.ndarray
     values: np.ndarray
 
@@ -388,6 +393,10 @@ class TreeRecord:
     variants: tuple[str, ...] = ()
     extras: Any = None
 
+    def parts(self, node: NodeRecord) -> tuple[MeshRecord, ...]:
+        """Return the parts of a node's mesh; none if it has no mesh."""
+        return () if node.mesh is None else self.meshes[node.mesh].parts
+
 
 @dataclass
 class Document:
@@ -423,7 +432,7 @@ class Document:
     objects: list[DocumentObject] = field(default_factory=list)
     lights: list[LightRecord] = field(default_factory=list)
     cameras: list[CameraRecord] = field(default_factory=list)
-    counts: dict = field(default_factory=dict)
+    counts: dict[str, Any] = field(default_factory=dict)
     warnings: list[str] = field(default_factory=list)
     scene: SceneRecord | None = None
     tree: TreeRecord | None = None

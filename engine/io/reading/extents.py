@@ -6,9 +6,14 @@ In: a `Document`, as any reader made it. Out: a warning if its meshes are, whose
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from .documents import Document
+
+if TYPE_CHECKING:
+    from ...model.geometry.mesh import Mesh
 
 # How far apart 32-bit floats may be, as a share of the size: half a pixel of a picture 2048 wide.
 _COARSEST = 2.0**-12
@@ -30,7 +35,7 @@ def extent_warnings(document: Document) -> list[str]:
     ]
 
 
-def _is_box(mesh) -> bool:
+def _is_box(mesh: Mesh) -> bool:
     """Whether there are two vertices, which have a distance."""
     if mesh.bounds[0].tolist() != mesh.bounds[1].tolist():
         return True

@@ -18,8 +18,7 @@ from ...model.geometry.vertex_attributes import vertex_attributes
 from .smoothing import join_seams
 from .welding import number_rows
 
-# All vertices as they are.
-_ALL = slice(None)
+_NO_CORNERS = np.zeros(0, np.intp)
 
 
 @dataclass
@@ -80,8 +79,9 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
         cloud = Mesh(
             geometry.positions,
             points=np.arange(count),
+            crease_angle=SMOOTH,
             name=name,
-            **_chosen(geometry, _ALL),
+            **_chosen(geometry, None),
         )
         cloud._scalars = geometry.scalars
         return cloud
@@ -112,22 +112,26 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
     return mesh
 
 
-def _chosen(geometry: IndexedGeometry, vertices) -> dict[str, np.ndarray]:
-    """What some vertices carry beside positions, as parameters of a mesh."""
+def _chosen(geometry: IndexedGeometry, vertices: np.ndarray | None) -> dict[str, np.ndarray]:
+    """What some vertices carry beside positions, as parameters of a mesh; None chooses all."""
     given = {name: getattr(geometry, name) for name in ("normals", *vertex_attributes(Mesh))}
     return {name: _rows(array, vertices) for name, array in given.items() if array is not None}
 
 
-def _rows(array: np.ndarray, vertices) -> np.ndarray:
-    return array if vertices is _ALL else array[vertices]
+def _rows(array: np.ndarray, vertices: np.ndarray | None) -> np.ndarray:
+    return array if vertices is None else array[vertices]
 
 
-def _position_ids(geometry: IndexedGeometry, vertices: np.ndarray, is_split: bool):
+def _position_ids(
+    geometry: IndexedGeometry, vertices: np.ndarray | None, is_split: bool
+) -> np.ndarray | None:
     """The points of the surface, numbered from 0 without gaps."""
-    ids = geometry.position_ids
-    if ids is None and not is_split:
-        return None
-    return np.unique(vertices if ids is None else ids[vertices], return_inverse=True)[1].reshape(-1)
+    given = geometry.position_ids
+    if given is None:
+        ids = vertices if is_split else None
+    else:
+        ids = _rows(given, vertices)
+    return None if ids is None else np.unique(ids, return_inverse=True)[1].reshape(-1)
 
 
 def _corner_attributes(geometry: IndexedGeometry) -> dict[str, np.ndarray]:
@@ -147,18 +151,23 @@ def _face_kinds(geometry: IndexedGeometry) -> np.ndarray | None:
     if not geometry.face_scalars:
         return None
     rows = [row.reshape(len(row), -1) for row in geometry.face_scalars.values()]
-    rows = np.concatenate([row.astype(np.float64).view(np.uint32) for row in rows], axis=1)
-    return number_rows(rows)[0].astype(np.uint32).reshape(-1, 1)
+    bits = np.concatenate([row.astype(np.float64).view(np.uint32) for row in rows], axis=1)
+    return number_rows(bits)[0].astype(np.uint32).reshape(-1, 1)
 
 
-def _split(corners: np.ndarray, splitting: list[np.ndarray], count: int):
-    """Faces, the old vertex of each new one, and a corner that each new one stands at."""
+def _split(
+    corners: np.ndarray, splitting: list[np.ndarray], count: int
+) -> tuple[np.ndarray, np.ndarray | None, np.ndarray]:
+    """Faces, the old vertex of each new one, and a corner that each new one stands at.
+
+    None for all vertices as they are; there are no corners if nothing splits them.
+    """
     if not splitting:
         is_used = native.used_or_all(np.ascontiguousarray(corners, np.int32).ravel(), count)
         if is_used is None:
-            return corners, _ALL, None
+            return corners, None, _NO_CORNERS
         number = np.cumsum(is_used, dtype=np.int32) - 1
-        return number[corners], np.flatnonzero(is_used), None
+        return number[corners], np.flatnonzero(is_used), _NO_CORNERS
     keys = corners.ravel().astype(np.int64)
     for attribute in splitting:
         number, first = number_rows(attribute)
@@ -169,10 +178,12 @@ def _split(corners: np.ndarray, splitting: list[np.ndarray], count: int):
     return faces.reshape(-1, 3), corners.ravel()[first], first
 
 
-def _vertices_for(used: np.ndarray, vertices: np.ndarray, count: int):
+def _vertices_for(
+    used: np.ndarray, vertices: np.ndarray | None, count: int
+) -> tuple[np.ndarray, np.ndarray | None, int]:
     """For each old vertex in use a new one, the list of new ones with those it lacked, how many."""
-    if vertices is _ALL:
-        return used, _ALL, 0
+    if vertices is None:
+        return used, None, 0
     vertex_of = np.full(count, -1, np.int32)
     vertex_of[vertices[::-1]] = np.arange(len(vertices), dtype=np.int32)[::-1]
     lacking = np.unique(used[vertex_of[used] < 0])

@@ -34,7 +34,7 @@ class JsonValue:
 
     __slots__ = ("_path", "_place", "value")
 
-    def __init__(self, value: Any, path: str, place: tuple = ()) -> None:
+    def __init__(self, value: Any, path: str, place: tuple[Any, ...] = ()) -> None:
         self.value = value
         self._path = path
         self._place = place  # that of what holds it, and the key or number there

@@ -13,6 +13,7 @@ import pickle
 import subprocess
 import sys
 from collections.abc import Callable
+from types import ModuleType
 from typing import TypeVar
 
 from ...errors import FileFormatError
@@ -134,7 +135,7 @@ def _limit(memory: int, seconds: int) -> None:
     _lower(resource, resource.RLIMIT_CORE, 0)
 
 
-def _lower(resource, what: int, limit: int) -> None:
+def _lower(resource: ModuleType, what: int, limit: int) -> None:
     """Set a limit, unless a lower one is set."""
     _, most = resource.getrlimit(what)
     if most == resource.RLIM_INFINITY or limit < most:

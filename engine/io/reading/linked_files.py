@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
@@ -36,7 +36,7 @@ _listeners: ContextVar[tuple[Callable[[str], object], ...]] = ContextVar("listen
 
 
 @contextmanager
-def found_files(note: Callable[[str], object]):
+def found_files(note: Callable[[str], object]) -> Iterator[None]:
     """Call ``note`` with each path that is found within the block, before it is read."""
     token = _listeners.set((*_listeners.get(), note))
     try:

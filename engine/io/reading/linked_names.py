@@ -15,8 +15,10 @@ from urllib.parse import unquote
 # Encodings of names that are no UTF-8, besides Latin-1, in which they are told: of Japanese,
 # Chinese, Korean, Western, Russian and Central European Windows, of Macs, and of archives that
 # were unpacked as if they were of DOS. A name counts only if there is such a file.
-_ENCODINGS = ("cp932", "gb18030", "big5hkscs", "cp949", "euc_jp", "cp1252", "cp1251", "cp1250")
-_ENCODINGS += ("mac_roman", "cp437", "cp850")
+_ENCODINGS = (
+    *("cp932", "gb18030", "big5hkscs", "cp949", "euc_jp", "cp1252", "cp1251", "cp1250"),
+    *("mac_roman", "cp437", "cp850"),
+)
 _FILE_URL = re.compile(r"file:(?://(?:localhost(?=/))?)?", re.IGNORECASE)
 _DRIVE = re.compile(r"[A-Za-z]:")
 # Of a long path so many of the last parts are looked for.

@@ -7,6 +7,7 @@ once.
 from __future__ import annotations
 
 import os
+from typing import TYPE_CHECKING
 
 from ...errors import Engine3DError
 from ...model.materials.material import Material
@@ -17,6 +18,9 @@ from .linked_files import LinkedFiles
 from .sources import Source
 from .text import shown
 from .warning_list import WarningList
+
+if TYPE_CHECKING:
+    from ...choices import Wrap
 
 
 class TextureCache:
@@ -33,7 +37,7 @@ class TextureCache:
         self._textures: dict[tuple[str, str, bool], Texture] = {}
 
     def get(
-        self, name: str, folder: str | None, wrap: str, is_data: bool = False
+        self, name: str, folder: str | None, wrap: Wrap, is_data: bool = False
     ) -> tuple[Texture, str]:
         """Return the texture that a name means, and what to say of it ("" for nothing).
 
@@ -77,7 +81,7 @@ def give_companion_texture(
         material.texture = texture
 
 
-def _read_texture(files: LinkedFiles, path: str, wrap: str, is_data: bool = False) -> Texture:
+def _read_texture(files: LinkedFiles, path: str, wrap: Wrap, is_data: bool = False) -> Texture:
     from .loading import texture_of
 
     with files.read(path) as source:

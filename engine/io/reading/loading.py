@@ -6,7 +6,7 @@ import contextlib
 import errno
 import os
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -153,7 +153,13 @@ def parts_of(document: Document, source: Source, format: str | None) -> dict[tup
     return parts
 
 
-def _remember(mesh: Mesh, document: Document, source: Source, format: str | None, part) -> None:
+def _remember(
+    mesh: Mesh,
+    document: Document,
+    source: Source,
+    format: str | None,
+    part: tuple[str, int] | None,
+) -> None:
     """Note which part of a file a mesh is, unless that file alone would not give it again.
 
     A scene's file has no parts to be named, and what was read from another root could only be read
@@ -196,7 +202,11 @@ def load_texture(
 
 
 def texture_of(
-    source: Source, format: str | None = None, *, is_data: bool = False, **options
+    source: Source,
+    format: str | None = None,
+    *,
+    is_data: bool = False,
+    **options: Unpack[TextureOptions],
 ) -> Texture:
     """Return the texture of an open image; as `load_texture` otherwise.
 
@@ -241,7 +251,7 @@ def document_of(source: Source, format: str | None, *, split: bool) -> Document:
 
 
 @contextlib.contextmanager
-def _memory_of(source: Source):
+def _memory_of(source: Source) -> Iterator[None]:
     """Name the file where there is no memory for it, or for the library that reads it."""
     try:
         yield
@@ -258,7 +268,7 @@ def _is_lack(error: Exception) -> bool:
 
 
 @contextlib.contextmanager
-def _faults_of(source: Source):
+def _faults_of(source: Source) -> Iterator[None]:
     """Name the file in errors of what is made of its content."""
     try:
         with _memory_of(source):

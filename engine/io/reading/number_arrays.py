@@ -25,11 +25,11 @@ class NotANumberError(ValueError):
     word : bytes
     position : int
         Its offset in the text.
-    widths : (R,) int64 or None
+    widths : (R,) int64
         Of the lines before: see `NumberRows`.
     """
 
-    def __init__(self, word: bytes, position: int, widths: np.ndarray | None) -> None:
+    def __init__(self, word: bytes, position: int, widths: np.ndarray) -> None:
         super().__init__(word, position, widths)
         self.word, self.position, self.widths = word, position, widths
 
@@ -40,18 +40,20 @@ class NumberRows(NamedTuple):
     Attributes
     ----------
     values : (N,) float64
-    widths : (R,) int64 or None
-        How many each line has, of those that hold any.
+    widths : (R,) int64
+        How many each line has, of those that hold any; empty if they were not counted.
     end : int
         The offset behind the last line read.
     """
 
     values: np.ndarray
-    widths: np.ndarray | None
+    widths: np.ndarray
     end: int
 
 
-def read_numbers(text, comments: int, rows: int | None = None, widths: bool = False) -> NumberRows:
+def read_numbers(
+    text: bytes | memoryview, comments: int, rows: int | None = None, widths: bool = False
+) -> NumberRows:
     """Read numbers between blanks.
 
     Parameters
@@ -69,16 +71,19 @@ def read_numbers(text, comments: int, rows: int | None = None, widths: bool = Fa
     ------
     NotANumberError
     """
-    values, found, end, wrong = native.read_numbers(text, comments, rows, widths)
+    values, counted, end, wrong = native.read_numbers(text, comments, rows, widths)
+    found = np.zeros(0, np.int64) if counted is None else counted
     if wrong is not None:
-        word = _WORD.match(text, wrong)[0]
+        match = _WORD.match(text, wrong)
+        assert match is not None  # what is no number is a word
+        word = match[0]
         if comments == native.HASH_COMMENTS:
             word = word.partition(b"#")[0]
         raise NotANumberError(word, wrong, found)
     return NumberRows(values, found, end)
 
 
-def ended(text):
+def ended(text: bytes | memoryview) -> bytes | memoryview:
     """Return a text with a blank or a line's end behind it: itself, or a copy."""
     return text if bytes(text[-1:]).isspace() else bytes(text) + b"\n"
 

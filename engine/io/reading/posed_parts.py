@@ -6,6 +6,8 @@ applied. Any number of nodes may repeat a mesh, so that joined they are limited.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any, NamedTuple
+
 import numpy as np
 
 from ...errors import FileFormatError
@@ -13,6 +15,9 @@ from ...model.geometry.posing import posed_mesh
 from .documents import DocumentObject
 from .sources import Source
 from .text import shown
+
+if TYPE_CHECKING:
+    from ...model.geometry.mesh import Mesh
 
 # A file's meshes may hold so many numbers, and its nodes may repeat so many vertices, and besides
 # as many as it has bytes. Assign another value to change it.
@@ -22,16 +27,23 @@ _ROUNDING = 1e-5
 _LAST_ROW = (0.0, 0.0, 0.0, 1.0)
 
 
+class PosedPart(NamedTuple):
+    """A `DocumentObject` that has a pose."""
+
+    name: str
+    mesh: Mesh
+    pose: np.ndarray
+
+
 def document_objects(
-    source: Source, parts: list[DocumentObject], most_vertices: int, split: bool
+    source: Source, parts: list[PosedPart], most_vertices: int, split: bool
 ) -> list[DocumentObject]:
     """Return one object for each part.
 
     Parameters
     ----------
     source : Source
-    parts : list of DocumentObject
-        All of them with a pose.
+    parts : list of PosedPart
     most_vertices : int
         How many vertices all parts may have if their poses are applied.
     split : bool
@@ -56,7 +68,7 @@ def document_objects(
             source.path,
         )
     if split:
-        return parts
+        return [DocumentObject(*part) for part in parts]
     return [DocumentObject(part.name, posed_mesh(part.mesh, part.pose)) for part in parts]
 
 
@@ -67,7 +79,7 @@ def without_rounding(pose: np.ndarray) -> np.ndarray:
     return np.vstack([pose[:3], _LAST_ROW])
 
 
-def counts_of(objects: list[DocumentObject]) -> dict:
+def counts_of(objects: list[DocumentObject]) -> dict[str, Any]:
     """Return the lists that the objects hold, as `Document.counts` shows them."""
     return {
         "vertices": sum(len(entry.mesh.positions) for entry in objects),

@@ -10,12 +10,16 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...base.calls import checks_types
 from ...errors import FileFormatError, InvalidArgumentError
 from ..formats import modules, named
 from .sources import Source
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 SNIFFED_BYTES = 4096
 
@@ -51,10 +55,10 @@ class Reader(NamedTuple):
     description: str
     kind: str
     extensions: tuple[str, ...]
-    read: Callable
+    read: Callable[..., Any]
     signature: Callable[[bytes], bool] | None = None
     resembles: Callable[[bytes, int], bool] | None = None
-    read_linear: Callable | None = None
+    read_linear: Callable[[Source], NDArray[np.uint8]] | None = None
     up: str = "+Y"
 
 

@@ -9,6 +9,7 @@ have the same.
 from __future__ import annotations
 
 import functools
+from typing import TypeAlias
 
 import numpy as np
 
@@ -22,6 +23,9 @@ FLAT = 0
 # Parts of a surface that meet at an angle of less than 30 degrees were smooth where they were cut.
 _SEAM_COSINE = 0.8660254
 _MAX_MASKS = 64
+
+# A table of normals (N, 3), and the row in it of every corner (T, 3).
+_Normals: TypeAlias = tuple[np.ndarray, np.ndarray]
 
 
 def fill_normals(
@@ -86,18 +90,20 @@ def fill_normals(
     return filled, np.concatenate(tables)
 
 
-def _grouped_normals(positions, corners, groups):
+def _grouped_normals(positions: np.ndarray, corners: np.ndarray, groups: np.ndarray) -> _Normals:
     """One normal for each position in each group, and the one of every corner."""
     _, group = np.unique(groups, return_inverse=True)
-    group = np.repeat(group.astype(np.int32), 3)
+    of_corner = np.repeat(group.astype(np.int32), 3)
     corners = np.ascontiguousarray(corners, np.int32)
-    shared, places, *_ = native.weld_corners(corners.ravel(), group, None, len(positions))
+    shared, places, *_ = native.weld_corners(corners.ravel(), of_corner, None, len(positions))
     shared = shared.reshape(corners.shape)
     sums = smooth_sums(positions, corners, shared, len(places))
     return unit_vectors(sums).astype(np.float32), shared
 
 
-def _creased_normals(positions, corners, groups, *, crease_angle: float):
+def _creased_normals(
+    positions: np.ndarray, corners: np.ndarray, groups: np.ndarray, *, crease_angle: float
+) -> _Normals:
     """A normal for each position and side of a crease, and the one of every corner."""
     arrays = {
         "positions": np.ascontiguousarray(positions, np.float32),
@@ -108,7 +114,7 @@ def _creased_normals(positions, corners, groups, *, crease_angle: float):
     return made.normals, made.faces
 
 
-def _masked_normals(positions, corners, masks):
+def _masked_normals(positions: np.ndarray, corners: np.ndarray, masks: np.ndarray) -> _Normals:
     """One normal for each position and mask, from all triangles there that share a group."""
     distinct, mask = np.unique(masks, return_inverse=True)
     if len(distinct) > _MAX_MASKS:
@@ -123,7 +129,7 @@ def _masked_normals(positions, corners, masks):
     return np.concatenate(tables), corners + mask.reshape(-1, 1) * count
 
 
-def _flat_normals(positions, corners, polygons):
+def _flat_normals(positions: np.ndarray, corners: np.ndarray, polygons: np.ndarray) -> _Normals:
     """One normal for each polygon, and the one of every corner."""
     # Polygons stand in their order.
     is_first = np.r_[True, polygons[1:] != polygons[:-1]]
@@ -144,11 +150,11 @@ def join_seams(mesh: Mesh) -> None:
     mesh : Mesh
         Without normals of its own; its ``position_ids`` may change.
     """
-    positions, ids = mesh.positions, mesh.position_ids
-    if ids is None and not rows_repeat(positions):
+    positions, given = mesh.positions, mesh.position_ids
+    if given is None and not rows_repeat(positions):
         return
     group, first = number_rows(positions)
-    ids = np.arange(len(positions)) if ids is None else ids
+    ids = np.arange(len(positions)) if given is None else given
     differs = ids != ids[first[group]]
     if not differs.any():
         return

@@ -11,7 +11,7 @@ import os
 import stat
 import sys
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, BinaryIO, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -87,7 +87,7 @@ class Source(NamedTuple):
     def __enter__(self) -> Source:
         return self
 
-    def __exit__(self, *_) -> None:
+    def __exit__(self, *_: object) -> None:
         if isinstance(self.content, OpenFile):
             self.content.close()
 
@@ -109,7 +109,7 @@ class Source(NamedTuple):
 
     def read_into(self, array: np.ndarray, start: int) -> None:
         """Fill an array with the bytes from ``start`` on, all of which are inside."""
-        view = memoryview(array.reshape(-1).view(np.uint8))
+        view = array.reshape(-1).view(np.uint8).data
         if isinstance(self.content, OpenFile) and not self.content.is_whole:
             self.content.read_into(view, start)
         else:
@@ -242,7 +242,8 @@ def _read_resource(file: Traversable) -> Source:
         raise FileAccessError(f"cannot read: {error}", str(file)) from error
 
 
-def _read_stream(file) -> Source:
+def _read_stream(file: Any) -> Source:
+    """Read whatever has a method ``read``."""
     name = getattr(file, "name", None)
     path = f"<{type(file).__name__}>"
     if isinstance(name, str) and (name == "<stdin>" or os.path.exists(name)):

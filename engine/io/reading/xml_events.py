@@ -60,7 +60,7 @@ def read_xml(
         depth -= 1
         end(name)
 
-    def refuse(*_) -> None:
+    def refuse(*_: object) -> None:
         raise XmlFault("a document type is not allowed")
 
     parser.StartElementHandler, parser.EndElementHandler = enter, leave

@@ -6,7 +6,7 @@ the same nodes the same way, to the bit. Numbers stand as they were given.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -21,11 +21,13 @@ MOTION_KEYS = {"spins", "tracks"}
 _SPIN_KEYS = {"axis", "period", "phase", "rotation"}
 #: What keyframes hold, and how many numbers each row has.
 _PARTS = {"translations": 3, "rotations": 4, "scales": 3}
+# Entries of spins and tracks by node; None: of nodes that have gone.
+Motions: TypeAlias = dict[Node | None, dict[str, list[dict[str, Any]]]]
 
 
-def motion_entries(animator: Animator | None) -> dict[Node, dict[str, list]]:
+def motion_entries(animator: Animator | None) -> Motions:
     """Return what the file says of each node that moves."""
-    entries: dict[Node, dict[str, list]] = {}
+    entries: Motions = {}
     spins, tracks = ((), ()) if animator is None else animator._motions
     for spin in spins:
         entries.setdefault(spin.node, {}).setdefault("spins", []).append(_spin_entry(spin))
@@ -42,10 +44,8 @@ def _spin_entry(spin: Spin) -> dict[str, Any]:
 
 
 def _track_entry(track: Track) -> dict[str, Any]:
-    entry: dict[str, Any] = {"times": track.times.tolist()}
-    for part in _PARTS:
-        if getattr(track, part) is not None:
-            entry[part] = getattr(track, part).tolist()
+    held = {part: getattr(track, part) for part in ("times", *_PARTS)}
+    entry = {part: rows.tolist() for part, rows in held.items() if rows is not None}
     return entry if track.repeat else {**entry, "repeat": False}
 
 
@@ -81,14 +81,17 @@ def _spin(node: Node, entry: JsonValue) -> Spin:
 def _track(node: Node, entry: JsonValue) -> Track:
     _check_keys(entry, {"times", "repeat", *_PARTS})
     repeat = entry.get("repeat")
-    parts = []
-    for part, count in _PARTS.items():
-        rows = entry.get(part)
-        parts.append(None if rows is None else [row.numbers(count) for row in rows])
+    parts = {
+        part: None if (rows := entry.get(part)) is None else [row.numbers(count) for row in rows]
+        for part, count in _PARTS.items()
+    }
     times = entry.need("times")
     try:
         return Track(
-            node, times.numbers(len(list(times))), *parts, True if repeat is None else repeat.flag()
+            node,
+            times.numbers(len(list(times))),
+            **parts,
+            repeat=True if repeat is None else repeat.flag(),
         )
     except (InvalidArgumentError, TypeError) as error:
         raise entry.error(str(error)) from None

@@ -26,7 +26,8 @@ KINDS: dict[str, type] = {
     "intrinsics camera": IntrinsicsCamera,
     "camera": Camera,
 }
-_HELD = {(Camera, "projection"): "matrix"}  # where a parameter is kept under another name
+# Where a parameter is kept under another name.
+_HELD: dict[tuple[type, str], str] = {(Camera, "projection"): "matrix"}
 
 
 def kind_of(obj: Any) -> str | None:
@@ -37,15 +38,16 @@ def kind_of(obj: Any) -> str | None:
 @functools.cache
 def parameters(cls: type) -> dict[str, Any]:
     """Return the parameters of a class and their defaults (`inspect.Parameter.empty`: none)."""
-    found = list(inspect.signature(cls.__init__).parameters.values())[1:]
-    return {parameter.name: parameter.default for parameter in found}
+    found = inspect.signature(cls).parameters
+    return {name: parameter.default for name, parameter in found.items()}
 
 
 def values_of(obj: Any) -> dict[str, Any]:
     """Return what an object is made of, as JSON knows it, but for what is so by default."""
     found = {}
-    for name, default in parameters(type(obj)).items():
-        value = plain(getattr(obj, _HELD.get((type(obj), name), name)))
+    kind: type = type(obj)
+    for name, default in parameters(kind).items():
+        value = plain(getattr(obj, _HELD.get((kind, name), name)))
         if value != plain(default):
             found[name] = value
     return found

@@ -114,8 +114,7 @@ def _add_light(scene: Scene, record: LightRecord, bounds: np.ndarray) -> None:
         return
     if record.kind == "directional" and record.target is not None:
         direction = np.subtract(record.target, record.position)
-        light = DirectionalLight(direction, color, record.intensity)
-        scene.add(light, name=record.name)
+        scene.add(DirectionalLight(direction, color, record.intensity), name=record.name)
         return
     if record.kind == "spot":
         scene.warnings.append(f"spot light {record.name!r} shines in all directions")
@@ -138,7 +137,7 @@ def _add_camera(scene: Scene, record: CameraRecord, bounds: np.ndarray) -> None:
     scene.add(camera, name=record.name, pose=pose)
 
 
-def _distance(position, bounds: np.ndarray) -> float:
+def _distance(position: tuple[float, float, float], bounds: np.ndarray) -> float:
     """Distance of a point from the centre of a box."""
     return float(linalg.length(np.subtract(position, (bounds[0] + bounds[1]) * 0.5)))
 

@@ -7,6 +7,7 @@ file. What is wrong is a `FileFormatError` that names its place.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import fields
 from typing import Any
 
@@ -20,15 +21,13 @@ from ...model.scene.scene import Scene
 from ...model.scene.surroundings import SCENE_VALUES
 from ...model.spatial.colliders import BoxCollider, Collider, MeshCollider, SphereCollider
 from ..formats.scene_tree import mesh_of
-from ..reading.documents import SceneRecord
+from ..reading.documents import Place, SceneRecord
 from ..reading.json_values import JsonValue
 from .motion_records import MOTION_KEYS, fill_animator
 from .object_kinds import KINDS
 
 _NODE_KEYS = {"name", "object", "translation", "rotation", "scale", "pose", "hidden", "static"}
-_SHADOW_KEYS = ("cast_shadows", "receive_shadows")
-_NODE_KEYS |= {*_SHADOW_KEYS}
-_NODE_KEYS |= {"collider", "children", *MOTION_KEYS}
+_NODE_KEYS |= {"cast_shadows", "receive_shadows", "collider", "children", *MOTION_KEYS}
 
 
 def fill_scene(scene: Scene, record: SceneRecord) -> None:
@@ -66,13 +65,15 @@ def _environment(record: SceneRecord, number: JsonValue) -> Environment | None:
     return record.environments[number.index(len(record.environments), "environments")]
 
 
-def _background(record: SceneRecord, value: JsonValue) -> Environment | Gradient | tuple:
+def _background(
+    record: SceneRecord, value: JsonValue
+) -> Environment | Gradient | tuple[int, int, int]:
     if "environment" in value.members():
         return _environment(record, value.need("environment")) or (0, 0, 0)
     return _of_fields(value, (Gradient,))
 
 
-def _of_fields(value: JsonValue, kinds: tuple) -> Any:
+def _of_fields(value: JsonValue, kinds: tuple[type, ...]) -> Any:
     """One of several kinds of value: whose parameters the entry has."""
     held = {key: one.value for key, one in value.members().items()}
     for kind in kinds:
@@ -82,7 +83,7 @@ def _of_fields(value: JsonValue, kinds: tuple) -> Any:
     raise value.wrong(f"an object of {expected}")
 
 
-def _try(place: JsonValue, do) -> Any:
+def _try(place: JsonValue, do: Callable[..., Any]) -> Any:
     """Let an error say where in the file it comes from."""
     try:
         return do()
@@ -101,7 +102,7 @@ def _object(record: SceneRecord, number: int) -> Any:
         raise kind.wrong(f"one of mesh, instances, {', '.join(KINDS)}")
     values = {key: held.value for key, held in entry.members().items() if key != "kind"}
 
-    def make():
+    def make() -> Any:
         obj = KINDS[kind.value](**values)
         if hasattr(obj, "check"):
             obj.check()
@@ -117,7 +118,7 @@ def _instances(record: SceneRecord, entry: JsonValue) -> InstancedMesh:
     return _try(entry, lambda: InstancedMesh(mesh, poses, colors=held))
 
 
-def _node(scene: Scene, objects: list, entry: JsonValue, place: dict) -> Node:
+def _node(scene: Scene, objects: list[Any], entry: JsonValue, place: Place) -> Node:
     for key in entry.value:
         if key not in _NODE_KEYS:
             raise entry.need(key).error("is no property of a node")
@@ -129,7 +130,8 @@ def _node(scene: Scene, objects: list, entry: JsonValue, place: dict) -> Node:
             obj,
             name="" if name is None else name.text(),
             static=_is(entry, "static"),
-            **{key: _is(entry, key) for key in _SHADOW_KEYS if entry.get(key) is not None},
+            cast_shadows=_is(entry, "cast_shadows", usual=True),
+            receive_shadows=_is(entry, "receive_shadows", usual=True),
             **place,
         ),
     )
@@ -138,9 +140,9 @@ def _node(scene: Scene, objects: list, entry: JsonValue, place: dict) -> Node:
     return node
 
 
-def _is(entry: JsonValue, key: str) -> bool:
+def _is(entry: JsonValue, key: str, *, usual: bool = False) -> bool:
     held = entry.get(key)
-    return held is not None and held.flag()
+    return usual if held is None else held.flag()
 
 
 def _collider(record: SceneRecord, entry: JsonValue) -> Collider:

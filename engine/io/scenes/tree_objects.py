@@ -6,11 +6,13 @@ may repeat a mesh, so that joined they are limited.
 
 from __future__ import annotations
 
+from typing import Any
+
 from ...errors import FileFormatError
 from ..reading.documents import DocumentObject, TreeRecord
-from ..reading.posed_parts import counts_of, document_objects
+from ..reading.posed_parts import PosedPart, counts_of, document_objects
 from ..reading.sources import Source
-from .tree_posing import RestPose
+from .tree_posing import RestPose, ShownNode
 
 # Each takes some kilobytes, however little the file says of it.
 _MAX_OBJECTS = 50_000
@@ -38,36 +40,35 @@ def tree_objects(
     """
     rest = RestPose(tree)
     shown = [node for node in rest.nodes if node.visible]
-    drawn = [node for node in shown if tree.nodes[node.index].mesh is not None]
-    if sum(len(tree.meshes[tree.nodes[n.index].mesh].parts) for n in drawn) > _MAX_OBJECTS:
+    drawn = [node for node in shown if tree.nodes[node.number].mesh is not None]
+    if sum(len(tree.parts(tree.nodes[node.number])) for node in drawn) > _MAX_OBJECTS:
         raise FileFormatError(f"more than {_MAX_OBJECTS} objects", source.path)
     if not split:
         _check_vertices(source, tree, drawn, most_vertices)
-    parts: list[DocumentObject] = []
+    parts: list[PosedPart] = []
     for node in drawn:
         if split:
-            record = tree.nodes[node.index]
-            meshes = [(part.mesh, node.world.copy()) for part in tree.meshes[record.mesh].parts]
+            held = tree.parts(tree.nodes[node.number])
+            meshes = [(part.mesh, node.world.copy()) for part in held]
         else:
             meshes = list(rest.posed(node))
         meshes = [(mesh, pose) for mesh, pose in meshes if len(mesh.positions)]
-        name = tree.nodes[node.index].name or str(node.index)
+        name = tree.nodes[node.number].name or str(node.number)
         names = [name] if len(meshes) == 1 else [f"{name}_{k}" for k in range(len(meshes))]
         named = zip(names, meshes, strict=True)
-        parts += [DocumentObject(name, mesh, pose) for name, (mesh, pose) in named]
+        parts += [PosedPart(name, mesh, pose) for name, (mesh, pose) in named]
     if not parts and split:
         return []
     return document_objects(source, parts, most_vertices, split)
 
 
-def _check_vertices(source: Source, tree: TreeRecord, drawn: list, most: int) -> None:
+def _check_vertices(source: Source, tree: TreeRecord, drawn: list[ShownNode], most: int) -> None:
     """Refuse too many before any are made."""
     total = 0
     for node in drawn:
-        record = tree.nodes[node.index]
+        record = tree.nodes[node.number]
         times = 1 if record.instances is None else len(record.instances)
-        parts = tree.meshes[record.mesh].parts
-        total += times * sum(len(part.mesh.positions) for part in parts)
+        total += times * sum(len(part.mesh.positions) for part in tree.parts(record))
         if times > _MAX_OBJECTS:
             raise FileFormatError(f"more than {_MAX_OBJECTS} objects", source.path)
     if total > most:
@@ -78,7 +79,7 @@ def _check_vertices(source: Source, tree: TreeRecord, drawn: list, most: int) ->
         )
 
 
-def tree_counts(tree: TreeRecord, objects: list[DocumentObject]) -> dict:
+def tree_counts(tree: TreeRecord, objects: list[DocumentObject]) -> dict[str, Any]:
     """Return the lists that a tree holds, as `Document.counts` shows them."""
     return {
         **counts_of(objects),

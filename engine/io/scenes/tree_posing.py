@@ -29,16 +29,17 @@ class ShownNode(NamedTuple):
 
     Attributes
     ----------
-    index : int
+    number : int
+        In the tree.
     parent : int
-        -1: none.
+        Its number; -1: none.
     world : (4, 4) float64
         world-from-node.
     visible : bool
         Neither it nor a node above it is hidden.
     """
 
-    index: int
+    number: int
     parent: int
     world: np.ndarray
     visible: bool
@@ -47,23 +48,24 @@ class ShownNode(NamedTuple):
 def shown_nodes(tree: TreeRecord) -> list[ShownNode]:
     """Return the nodes of the shown scene, each before those below it."""
     found = []
+    waiting: list[tuple[int, int, single.Rows, bool]]
     waiting = [(root, -1, _IDENTITY, True) for root in reversed(tree.roots)]
     unmoved = np.array(_IDENTITY)  # one array for all: files may have very many
     unmoved.setflags(write=False)
     while waiting:
-        index, parent, above, visible = waiting.pop()
-        node = tree.nodes[index]
+        number, parent, above, visible = waiting.pop()
+        node = tree.nodes[number]
         local = local_pose(node)
         is_moved = above is not _IDENTITY or local is not _IDENTITY
         world = single.multiply(above, local) if is_moved else _IDENTITY
         visible = visible and node.visible
         pose = np.array(world) if is_moved else unmoved
-        found.append(ShownNode(index, parent, pose, visible))
-        waiting += [(child, index, world, visible) for child in reversed(node.children)]
+        found.append(ShownNode(number, parent, pose, visible))
+        waiting += [(child, number, world, visible) for child in reversed(node.children)]
     return found
 
 
-def local_pose(node: NodeRecord):
+def local_pose(node: NodeRecord) -> single.Rows:
     """Return the rows of parent-from-node."""
     if node.matrix is not None:
         return node.matrix.tolist()
@@ -94,11 +96,11 @@ class RestPose:
     def __init__(self, tree: TreeRecord) -> None:
         self._tree = tree
         self.nodes = shown_nodes(tree)
-        self._worlds = {shown.index: shown.world for shown in self.nodes}
+        self._worlds = {shown.number: shown.world for shown in self.nodes}
 
     def posed(self, shown: ShownNode) -> Iterator[tuple[Mesh, np.ndarray]]:
         """Yield the meshes of a node with morph targets and skin applied, and where they stand."""
-        node = self._tree.nodes[shown.index]
+        node = self._tree.nodes[shown.number]
         if node.mesh is None:
             return
         record = self._tree.meshes[node.mesh]
@@ -106,14 +108,13 @@ class RestPose:
         matrices = None if skin is None else self._joint_matrices(skin)
         for part in record.parts:
             mesh = _morphed(part.mesh, weights) if weights.any() else part.mesh
-            is_bent = matrices is not None and part.mesh.joints is not None
-            if is_bent:
-                mesh = _bent(part.mesh, mesh, matrices)
+            bent = None if matrices is None else _bent(part.mesh, mesh, matrices)
+            shape, place = (mesh, shown.world) if bent is None else (bent, None)
             poses = [np.eye(4)] if node.instances is None else node.instances
             colors = [None] * len(poses) if node.instance_colors is None else node.instance_colors
             for pose, color in zip(poses, colors, strict=True):
-                own = mesh if color is None else _tinted(mesh, color)
-                yield own, np.eye(4) if is_bent else linalg.multiply(shown.world, pose)
+                own = shape if color is None else _tinted(shape, color)
+                yield own, np.eye(4) if place is None else linalg.multiply(place, pose)
 
     def _weights(self, node: NodeRecord, record: MeshRecord) -> np.ndarray:
         given = record.morph_weights if node.weights is None else node.weights
@@ -153,19 +154,22 @@ def _morphed(mesh: Mesh, weights: np.ndarray) -> Mesh:
     return _changed(mesh, changed)
 
 
-def _bent(moved: Mesh, mesh: Mesh, matrices: np.ndarray) -> Mesh:
-    """A mesh, whose morph targets are added already, bent by the joints of another."""
+def _bent(moved: Mesh, mesh: Mesh, matrices: np.ndarray) -> Mesh | None:
+    """A mesh, with its morph targets added, bent by the joints of another; None if it has none."""
+    joints, weights = moved.joints, moved.weights
+    if joints is None or weights is None:
+        return None
     positions = np.empty((len(mesh.positions), 3))
     normals = np.empty_like(positions) if mesh.has_normals else None
     tangents = None if mesh.tangents is None else mesh.tangents.astype(np.float64)
     for first in range(0, len(positions), _BLOCK):
         rows = slice(first, first + _BLOCK)
-        blended = _blended(moved.joints[rows], moved.weights[rows], matrices)
+        blended = _blended(joints[rows], weights[rows], matrices)
         positions[rows] = _times(blended, mesh.positions[rows]) + blended[:, :3, 3]
         if normals is not None:
             normals[rows] = _times(_cofactors(blended), mesh.normals[rows])
         if tangents is not None:
-            tangents[rows, :3] = _times(blended, mesh.tangents[rows, :3])
+            tangents[rows, :3] = _times(blended, tangents[rows, :3])
     changed = {"positions": positions}
     if normals is not None:
         changed["normals"] = unit_vectors(normals)
@@ -200,9 +204,11 @@ def _cofactors(matrices: np.ndarray) -> np.ndarray:
 
 def _changed(mesh: Mesh, arrays: dict[str, np.ndarray]) -> Mesh:
     """A mesh with other positions, normals and tangents."""
-    held = {"positions": mesh.positions, "normals": mesh.normals if mesh.has_normals else None}
+    held = {"positions": mesh.positions, **attributes_of(mesh)}
+    if mesh.has_normals:
+        held["normals"] = mesh.normals
     return type(mesh)(
-        **{**held, **attributes_of(mesh), **arrays},
+        **{**held, **arrays},
         faces=mesh.faces,
         materials=mesh.materials,
         material_ids=mesh.material_ids,

@@ -8,7 +8,8 @@ no place in a scene is warned of.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -28,7 +29,9 @@ from ..reading.documents import (
     LampRecord,
     LensRecord,
     NodeRecord,
+    Place,
     PropertyRecord,
+    SkinRecord,
     TreeRecord,
 )
 from .object_kinds import parameters
@@ -37,13 +40,16 @@ from .tree_posing import shown_nodes
 if TYPE_CHECKING:
     from ...model.motion.clips import Channel
     from ...model.motion.properties import PropertyChannel
+    from ...model.motion.skins import Skin
 
 #: What a file says of what a scene holds, for whoever writes it again: the record of each thing.
-records: WeakKeyDictionary = WeakKeyDictionary()
+records: WeakKeyDictionary[Any, Any] = WeakKeyDictionary()
 #: Pairs of properties of which the first must be less.
 _APART = (("znear", "zfar"), ("inner_cone_angle", "outer_cone_angle"))
 #: Stands there for a node that holds what the one above it could not hold besides.
 FURTHER_PART = object()
+
+_Record = TypeVar("_Record", LensRecord, LampRecord)
 
 
 class MeshWords(NamedTuple):
@@ -75,7 +81,7 @@ class InstanceWords(NamedTuple):
     """
 
     poses: Any
-    parts: tuple | None
+    parts: tuple[np.ndarray, np.ndarray, np.ndarray] | None
 
 
 def choose_variant(tree: TreeRecord | None, variant: str | int) -> None:
@@ -111,7 +117,10 @@ class _Filling:
 
     def __init__(self, scene: Scene, tree: TreeRecord) -> None:
         self._scene, self._tree = scene, tree
-        self._objects: dict[tuple, object] = {}
+        self._instances: dict[tuple[int, ...], InstancedMesh] = {}  # by the ids of their arrays
+        # Cameras, lights and skins by their numbers; None for what is left out.
+        self._things: dict[tuple[str, int], Camera | Light | None] = {}
+        self._skins: dict[int, Skin | None] = {}
         self._nodes: dict[int, Node] = {}  # by their numbers in the tree
         self._parts: dict[int, list[Node]] = {}  # the nodes that show parts of their meshes
         self._keys: dict[int, tuple[np.ndarray, np.ndarray]] = {}  # by the ids of the first
@@ -119,7 +128,7 @@ class _Filling:
     def fill(self) -> None:
         """Add everything."""
         for node in shown_nodes(self._tree):
-            self._add(node.index, self._nodes.get(node.parent))
+            self._add(node.number, self._nodes.get(node.parent))
         self._add_skins()
         for number, clip in enumerate(self._tree.clips):
             self._add_clip(clip, number)
@@ -145,42 +154,51 @@ class _Filling:
             self._set_weights(record, shows)
 
     def _meshes(self, record: NodeRecord) -> list[Mesh | InstancedMesh]:
-        if record.mesh is None:
-            return []
-        mesh_record = self._tree.meshes[record.mesh]
-        meshes = [part.mesh for part in mesh_record.parts if len(part.mesh.positions)]
-        for part in mesh_record.parts:
+        parts = self._tree.parts(record)
+        meshes = [part.mesh for part in parts if len(part.mesh.positions)]
+        for part in parts:
             said = MeshWords(part.morph_weights, part.variants, part.extras, self._tree.variants)
             records.setdefault(part.mesh, said)
-        if record.instances is None:
-            return meshes
-        return [self._instanced(mesh, record) for mesh in meshes]
+        poses = record.instances
+        if poses is None:
+            return [*meshes]
+        return [self._instanced(mesh, poses, record) for mesh in meshes]
 
-    def _instanced(self, mesh: Mesh, record: NodeRecord) -> InstancedMesh:
+    def _instanced(self, mesh: Mesh, poses: np.ndarray, record: NodeRecord) -> InstancedMesh:
         """The instances of a mesh, once for all nodes that have the same."""
-        poses, colors = record.instances, record.instance_colors
-        key = "instances", id(mesh), id(poses), id(colors)
-        if key not in self._objects:
-            made = self._objects[key] = InstancedMesh(mesh, poses, colors=colors)
+        colors = record.instance_colors
+        key = id(mesh), id(poses), id(colors)
+        if key not in self._instances:
+            made = self._instances[key] = InstancedMesh(mesh, poses, colors=colors)
             records[made] = InstanceWords(made.poses, record.instance_parts)
-        return self._objects[key]
+        return self._instances[key]
 
     def _placed(self, record: NodeRecord) -> list[Camera | Light]:
-        """The camera and the light of a node, each made once for all nodes that name it."""
-        found = []
-        for kind, number, entries, make in (
-            ("camera", record.camera, self._tree.cameras, _camera),
-            ("light", record.light, self._tree.lights, _light),
-        ):
-            if number is None:
-                continue
-            key = kind, number
-            if key not in self._objects:
-                self._objects[key] = self._made(kind, entries[number], make)
-            found += [] if self._objects[key] is None else [self._objects[key]]
-        return found
+        """The camera and the light of a node."""
+        things = (
+            self._thing("camera", record.camera, self._tree.cameras, _camera),
+            self._thing("light", record.light, self._tree.lights, _light),
+        )
+        return [thing for thing in things if thing is not None]
 
-    def _made(self, kind: str, entry: LensRecord | LampRecord, make):
+    def _thing(
+        self,
+        kind: str,
+        number: int | None,
+        entries: Sequence[_Record],
+        make: Callable[[_Record], Camera | Light],
+    ) -> Camera | Light | None:
+        """The thing that a node names, made once for all nodes that name it."""
+        if number is None:
+            return None
+        key = kind, number
+        if key not in self._things:
+            self._things[key] = self._made(kind, entries[number], make)
+        return self._things[key]
+
+    def _made(
+        self, kind: str, entry: _Record, make: Callable[[_Record], Camera | Light]
+    ) -> Camera | Light | None:
         try:
             obj = make(entry)
         except InvalidArgumentError as error:
@@ -190,38 +208,38 @@ class _Filling:
         return obj
 
     def _set_weights(self, record: NodeRecord, shows: list[Node]) -> None:
-        mesh_record = self._tree.meshes[record.mesh]
+        mesh_record = self._tree.parts(record)[0]
         count = len(mesh_record.mesh.morph_targets)
         weights = mesh_record.morph_weights if record.weights is None else record.weights
         if any(weights) and count and record.instances is None:
-            weights = [*weights[:count], *(0.0,) * (count - len(weights))]
+            weights = (*weights[:count], *(0.0,) * (count - len(weights)))
             for node in shows:
                 node.morph_weights = weights
 
     def _add_skins(self) -> None:
-        from ...model.motion.skins import Skin
-
         for index, shows in self._parts.items():
             number = self._tree.nodes[index].skin
             if number is None:
                 continue
-            key = "skin", number
-            record = self._tree.skins[number]
-            if key not in self._objects:
-                joints = [self._nodes.get(joint) for joint in record.joints]
-                if None in joints:
-                    self._scene.warnings.append(
-                        f"skin {record.name!r} is left out: a joint of it is not in the scene"
-                    )
-                    self._objects[key] = None
-                else:
-                    skin = Skin(joints, record.inverse_binds, record.name)
-                    self._objects[key] = skin
-                    records[skin] = record
-            skin = self._objects[key]
+            if number not in self._skins:
+                self._skins[number] = self._skin(self._tree.skins[number])
+            skin = self._skins[number]
             for node in shows if skin is not None else ():
                 if isinstance(node.object, Mesh) and node.object.joints is not None:
                     node.skin = skin
+
+    def _skin(self, record: SkinRecord) -> Skin | None:
+        from ...model.motion.skins import Skin
+
+        joints = [self._nodes[joint] for joint in record.joints if joint in self._nodes]
+        if len(joints) < len(record.joints):
+            self._scene.warnings.append(
+                f"skin {record.name!r} is left out: a joint of it is not in the scene"
+            )
+            return None
+        skin = Skin(joints, record.inverse_binds, record.name)
+        records[skin] = record
+        return skin
 
     def _add_clip(self, record: ClipRecord, number: int) -> None:
         from ...model.motion.clips import AnimationClip, Channel
@@ -266,12 +284,14 @@ class _Filling:
         elif record.kind == "material":
             targets = list(self._tree.made_materials.get(record.number, ()))
         else:
-            thing = self._objects.get((record.kind, record.number))
+            thing = self._things.get((record.kind, record.number))
             targets = [] if thing is None else [thing]
         made = (self._property_channel(target, record, clip) for target in targets)
         return [channel for channel in made if channel is not None]
 
-    def _property_channel(self, target, record: PropertyRecord, clip: str):
+    def _property_channel(
+        self, target: Any, record: PropertyRecord, clip: str
+    ) -> PropertyChannel | None:
         """A channel of one thing; None, which is told, if that has no such property."""
         from ...model.motion.properties import PropertyChannel
 
@@ -283,7 +303,9 @@ class _Filling:
             self._scene.warnings.append(f"animation {clip!r}: {what} stays: {error}")
             return None
 
-    def _without_crossing(self, channels: list[PropertyChannel], clip: str) -> list:
+    def _without_crossing(
+        self, channels: list[PropertyChannel], clip: str
+    ) -> list[PropertyChannel]:
         """The channels without those by which a near plane would pass the far one, and such."""
         crossing = set()
         for low, high in _APART:
@@ -307,8 +329,7 @@ def _free(name: str, scene: Scene) -> str:
     return free
 
 
-def _place(record: NodeRecord) -> dict:
-    """The parts of a node's pose, as `Scene.add` takes them."""
+def _place(record: NodeRecord) -> Place:
     if record.matrix is not None:
         return {"pose": record.matrix}
     parts = {name: getattr(record, name) for name in ("translation", "rotation", "scale")}
@@ -317,13 +338,14 @@ def _place(record: NodeRecord) -> dict:
 
 def _camera(record: LensRecord) -> Camera:
     """A camera of the picture's own shape, whatever shape the file thinks of."""
-    if record.kind == "orthographic":
+    if record.ymag is not None:
         return OrthographicCamera(record.ymag, znear=record.znear, zfar=record.zfar)
+    assert record.yfov is not None  # it is no other
     return PerspectiveCamera(record.yfov, znear=record.znear, zfar=record.zfar)
 
 
 def _light(record: LampRecord) -> Light:
-    light = DIRECT_LIGHTS.get(record.kind)
+    light: type | None = DIRECT_LIGHTS.get(record.kind)
     if light is None:
         raise InvalidArgumentError(f"no light is known of the kind {shown(record.kind)}")
     held = {name: getattr(record, name) for name in parameters(light) if hasattr(record, name)}

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...base import linalg
 from ...model.geometry.mesh import Mesh
-from ..reading.documents import TreeRecord
+from ..reading.documents import NodeRecord, TreeRecord
 from .tree_posing import RestPose
 
 # Where meshes are repeated so often that this many vertices would have to be placed, the corners of
@@ -21,10 +21,10 @@ def triangle_count(tree: TreeRecord) -> int:
     """Return how many triangles are drawn, each instance's counted."""
     total = 0
     for shown in RestPose(tree).nodes:
-        node = tree.nodes[shown.index]
-        if shown.visible and node.mesh is not None:
+        node = tree.nodes[shown.number]
+        if shown.visible:
             times = 1 if node.instances is None else len(node.instances)
-            total += times * sum(len(part.mesh.faces) for part in tree.meshes[node.mesh].parts)
+            total += times * sum(len(part.mesh.faces) for part in tree.parts(node))
     return total
 
 
@@ -35,7 +35,7 @@ def rest_bounds(tree: TreeRecord) -> list[list[float]] | None:
     """
     rest = RestPose(tree)
     drawn = [shown for shown in rest.nodes if shown.visible]
-    is_exact = sum(_vertices(tree, shown.index) for shown in drawn) <= _MOST_PLACED
+    is_exact = sum(_vertices(tree, tree.nodes[shown.number]) for shown in drawn) <= _MOST_PLACED
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for shown in drawn:
         for mesh, pose in rest.posed(shown):
@@ -47,13 +47,10 @@ def rest_bounds(tree: TreeRecord) -> list[list[float]] | None:
     return None if (low > high).any() else [low.tolist(), high.tolist()]
 
 
-def _vertices(tree: TreeRecord, index: int) -> int:
+def _vertices(tree: TreeRecord, node: NodeRecord) -> int:
     """How many vertices a node shows."""
-    node = tree.nodes[index]
-    if node.mesh is None:
-        return 0
     times = 1 if node.instances is None else len(node.instances)
-    return times * sum(len(part.mesh.positions) for part in tree.meshes[node.mesh].parts)
+    return times * sum(len(part.mesh.positions) for part in tree.parts(node))
 
 
 def _corners(mesh: Mesh) -> np.ndarray:

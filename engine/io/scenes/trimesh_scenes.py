@@ -7,6 +7,7 @@ with the camera where the other scene was given one.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -14,14 +15,14 @@ from ...model.scene.cameras import PerspectiveCamera
 from ...model.scene.scene import Scene
 
 
-def is_of_trimesh(thing) -> bool:
+def is_of_trimesh(thing: object) -> bool:
     """Return whether something is a scene or a geometry of trimesh."""
     return type(thing).__module__.partition(".")[0] == "trimesh" and (
         hasattr(thing, "graph") or hasattr(thing, "vertices")
     )
 
 
-def scene_from_trimesh(thing) -> Scene:
+def scene_from_trimesh(thing: Any) -> Scene:
     """Return a scene of what trimesh holds.
 
     Parameters
@@ -41,7 +42,7 @@ def scene_from_trimesh(thing) -> Scene:
     return scene
 
 
-def _add_camera(scene: Scene, other) -> None:
+def _add_camera(scene: Scene, other: Any) -> None:
     """Add the camera of another scene, far enough to see all of it."""
     pose = np.asarray(other.camera_transform, np.float64)
     bounds = scene.bounds

@@ -7,8 +7,9 @@ said of the scene's things is said again, where they still are what they were.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -38,10 +39,17 @@ from ..reading.documents import (
 from ..scenes.tree_posing import local_pose
 from ..scenes.tree_records import FURTHER_PART, records
 
+if TYPE_CHECKING:
+    from ...model.motion.clips import AnimationClip
+    from ...model.motion.skins import Skin
+    from ...model.scene.lights import DirectLight
+    from ...model.scene.nodes import SceneObject
+
 _LIGHTS = (DirectionalLight, PointLight, SpotLight)
 _REACH = ("range", "inner_cone_angle", "outer_cone_angle")  # of those that have it
 _IDENTITY = {"translation": (0.0, 0.0, 0.0), "rotation": (0.0, 0.0, 0.0, 1.0)}
 _IDENTITY["scale"] = (1.0, 1.0, 1.0)
+_Thing = TypeVar("_Thing")
 
 
 def tree_of_scene(scene: Scene) -> tuple[TreeRecord, list[str]]:
@@ -57,6 +65,9 @@ class _TurnedLight:
         self.light = light
 
 
+_Row: TypeAlias = Node | _TurnedLight
+
+
 class _Making:
     """The lists of a tree, each thing once."""
 
@@ -66,14 +77,18 @@ class _Making:
         self._lists: dict[str, list[Any]] = {
             name: [] for name in ("meshes", "cameras", "lights", "skins")
         }
-        self._numbers: dict[tuple, int] = {}
+        self._numbers: dict[tuple[str | int, ...], int] = {}
         self._kept: list[Any] = []  # so that no other thing gets an id meanwhile
         self._variants: tuple[str, ...] = ()
 
     def tree(self) -> TreeRecord:
         scene = self._scene
         # What hangs below a node since that could not hold it goes back into it.
-        self._folded = {node: node.parent for node in scene.nodes if _is_further_part(node)}
+        self._folded = {
+            node: parent
+            for node in scene.nodes
+            if (parent := node.parent) is not None and _is_further_part(node)
+        }
         self._turned = {
             node: _TurnedLight(node.object)
             for node in scene.nodes
@@ -103,27 +118,26 @@ class _Making:
             extras=records.get(scene),
         )
 
-    def _rows(self) -> list[Node | _TurnedLight]:
+    def _rows(self) -> list[_Row]:
         """The nodes of the file, each before those below it: in the order in which it is read.
 
         So what they hold has the same numbers when what was read is written again.
         """
-        tops = [node for node in self._scene.nodes if node.parent is None]
-        found: list[Node | _TurnedLight] = []
-        waiting: list[Node | _TurnedLight] = tops[::-1]
+        found: list[_Row] = []
+        waiting: list[_Row] = [node for node in self._scene.nodes[::-1] if node.parent is None]
         while waiting:
             found.append(waiting.pop())
             waiting += self._below(found[-1])[::-1]
         return found
 
-    def _below(self, row: Node | _TurnedLight) -> list[Node | _TurnedLight]:
+    def _below(self, row: _Row) -> list[_Row]:
         """What hangs below a node of the file, its turned light behind all others."""
         if not isinstance(row, Node):
             return []
-        below = [child for child in row.children if child not in self._folded]
+        below: list[_Row] = [child for child in row.children if child not in self._folded]
         return [*below, self._turned[row]] if row in self._turned else below
 
-    def _record(self, row: Node | _TurnedLight) -> NodeRecord:
+    def _record(self, row: _Row) -> NodeRecord:
         if isinstance(row, Node):
             return self._node(row)
         direction = row.light.direction
@@ -146,7 +160,7 @@ class _Making:
             **self._placed(node, held),
         )
 
-    def _shown(self, node: Node, held: list) -> dict[str, Any]:
+    def _shown(self, node: Node, held: list[SceneObject]) -> dict[str, Any]:
         """The mesh of a node, and how it is bent."""
         instanced = [obj for obj in held if isinstance(obj, InstancedMesh)]
         meshes = [obj.mesh for obj in instanced] or [obj for obj in held if isinstance(obj, Mesh)]
@@ -173,9 +187,9 @@ class _Making:
                 found["weights"] = given
         return found
 
-    def _placed(self, node: Node, held: list) -> dict[str, int]:
+    def _placed(self, node: Node, held: list[SceneObject]) -> dict[str, Any]:
         """The camera and the light of a node."""
-        found: dict[str, int] = {}
+        found: dict[str, Any] = {}
         for obj in held:
             if isinstance(obj, (Mesh, InstancedMesh)):
                 continue
@@ -192,7 +206,7 @@ class _Making:
                 self.told.append(f"node {shown(node.name)}: gltf files hold no {kind}")
         return found
 
-    def _is_told(self, node: Node, light) -> bool:
+    def _is_told(self, node: Node, light: DirectLight) -> bool:
         """Whether a light shines as such files say; others that are nearly so are told of."""
         if node in self._turned:
             return False  # it hangs below
@@ -203,7 +217,7 @@ class _Making:
             )
         return True
 
-    def _number(self, where: str, thing: Any, record_of) -> int:
+    def _number(self, where: str, thing: _Thing, record_of: Callable[[_Thing], object]) -> int:
         """The number of a thing in its list, to which it is added if it is new there."""
         key = where, id(thing)
         if key not in self._numbers:
@@ -213,7 +227,7 @@ class _Making:
         return self._numbers[key]
 
     def _mesh(self, meshes: list[Mesh]) -> int:
-        key = "meshes", *map(id, meshes)
+        key: tuple[str | int, ...] = ("meshes", *map(id, meshes))
         if key not in self._numbers:
             self._kept += meshes
             first, *rest = map(self._part, meshes)
@@ -233,16 +247,16 @@ class _Making:
         usual = came.morph_weights if len(came.morph_weights) == len(none) else none
         return MeshRecord(mesh.name, mesh, usual, came.variants if fits else {}, extras=came.extras)
 
-    def _skin(self, skin) -> SkinRecord:
+    def _skin(self, skin: Skin) -> SkinRecord:
         came = records.get(skin)
         joints = tuple(self._row[joint] for joint in skin.joints)
         return SkinRecord(
             skin.name, joints, skin.inverse_binds, extras=None if came is None else came.extras
         )
 
-    def _clip(self, clip) -> ClipRecord:
-        channels, seen = [], set()
-        properties = []
+    def _clip(self, clip: AnimationClip) -> ClipRecord:
+        channels, properties = [], []
+        seen = set()
         for channel in clip.channels:
             if isinstance(channel, PropertyChannel):
                 properties += self._property(channel, clip.name)
@@ -329,7 +343,7 @@ def _targets_of(node: Node) -> int:
 
 def _is_further_part(node: Node) -> bool:
     """Whether a node is as the loader made it for what the node above it could not hold."""
-    if records.get(node) is not FURTHER_PART or node.parent is None or node.children:
+    if records.get(node) is not FURTHER_PART or node.children:
         return False
     return np.array_equal(node.pose, np.eye(4)) and node.visible and node.object is not None
 
@@ -383,7 +397,7 @@ def _lens(camera: PerspectiveCamera | OrthographicCamera) -> LensRecord:
     return LensRecord("orthographic", xmag=xmag, ymag=camera.ymag, **common)
 
 
-def _lamp(light) -> LampRecord:
+def _lamp(light: DirectLight) -> LampRecord:
     came = records.get(light, LampRecord("point"))
     color = tuple(map(float, light.color))
     if not all(isinstance(part, float) for part in light.color):

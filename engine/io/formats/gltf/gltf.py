@@ -96,7 +96,7 @@ def _read_tree(file: GltfFile, buffers: GltfBuffers, scalars: bool) -> tuple[Tre
 def _draws(tree: TreeRecord) -> Iterator[bool]:
     """Whether each shown node shows vertices."""
     for shown in shown_nodes(tree):
-        mesh = tree.nodes[shown.index].mesh
+        mesh = tree.nodes[shown.number].mesh
         if shown.visible and mesh is not None:
             yield any(len(part.mesh.positions) for part in tree.meshes[mesh].parts)
 

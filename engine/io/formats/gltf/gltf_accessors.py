@@ -7,12 +7,14 @@ is made.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ...._native.loaders import large_array
 from ...reading.text import shown
 from .gltf_buffers import GltfBuffers
-from .gltf_file import DamagedError, GltfFile, once, whole_of
+from .gltf_file import DamagedError, Entry, GltfFile, once, whole_of
 
 _TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _INDEX_TYPES = (5121, 5123, 5125)
@@ -41,7 +43,7 @@ class GltfAccessors:
         """Note that so many numbers are made besides: see `GltfBuffers.count`."""
         self._buffers.count(numbers)
 
-    def raw(self, index, where: str, *widths: int) -> np.ndarray:
+    def raw(self, index: Any, where: str, *widths: int) -> np.ndarray:
         """Return an accessor as (N, width), of its own type; may be part of the file's bytes.
 
         Parameters
@@ -55,7 +57,7 @@ class GltfAccessors:
         index = self.check(index, where, *widths)
         return once(self._kept, index, lambda: self._values(index))
 
-    def check(self, index, where: str, *widths: int) -> int:
+    def check(self, index: Any, where: str, *widths: int) -> int:
         """Return the number of an accessor that has one of some numbers of columns."""
         index = self.file.number_in("accessors", index, where)
         kind = self.file.entries("accessors")[index].get("type")
@@ -73,14 +75,16 @@ class GltfAccessors:
         range_of = np.iinfo(kind)
         return np.nan_to_num(values).clip(range_of.min, range_of.max).astype(kind)
 
-    def floats(self, index, where: str, *widths: int) -> np.ndarray:
+    def floats(self, index: Any, where: str, *widths: int) -> np.ndarray:
         """Return an accessor as (N, width) float32; integers that stand for 0..1 or -1..1 as such.
 
         Parameters are those of `raw`.
         """
         return self.as_floats(self.raw(index, where, *widths), index)
 
-    def as_floats(self, values: np.ndarray, index: int, rows=slice(None)) -> np.ndarray:
+    def as_floats(
+        self, values: np.ndarray, index: int, rows: slice | np.ndarray = slice(None)
+    ) -> np.ndarray:
         """Return some rows of what an accessor describes, as `floats` does.
 
         Parameters
@@ -98,7 +102,9 @@ class GltfAccessors:
             return _copied(values) if is_all else values.astype(np.float32, copy=False)
         return np.maximum(values / np.float32(np.iinfo(values.dtype).max), np.float32(-1))
 
-    def as_numbers(self, values: np.ndarray, index: int, rows=slice(None)) -> np.ndarray:
+    def as_numbers(
+        self, values: np.ndarray, index: int, rows: slice | np.ndarray = slice(None)
+    ) -> np.ndarray:
         """As `as_floats`, but integers that stand for themselves stay what they are."""
         if self._is_normalized(index):
             return self.as_floats(values, index, rows)
@@ -106,7 +112,7 @@ class GltfAccessors:
         self._buffers.count(values.size)
         return values.copy()
 
-    def width(self, index, where: str) -> int:
+    def width(self, index: Any, where: str) -> int:
         """Return how many columns an accessor has; 0 if it is of a type that nothing here needs."""
         kind = self.file.entry("accessors", index, where).get("type")
         return _WIDTHS.get(kind, 0) if isinstance(kind, str) else 0
@@ -115,10 +121,10 @@ class GltfAccessors:
         """Whether an accessor's integers stand for 0..1 or -1..1."""
         return self._entry(index).get("normalized") is True
 
-    def _entry(self, index: int) -> dict:
+    def _entry(self, index: int) -> Entry:
         return self.file.entry("accessors", index, "accessors")
 
-    def indices(self, index, where: str) -> np.ndarray:
+    def indices(self, index: Any, where: str) -> np.ndarray:
         """Return an accessor of indices as (N,), of an unsigned type."""
         values = self.raw(index, where, 1)
         if values.dtype.kind != "u":
@@ -137,13 +143,15 @@ class GltfAccessors:
             values = self._changed(values, self.file.part(accessor, "sparse", name), name)
         return values
 
-    def _type(self, entry: dict, name: str) -> np.dtype:
+    def _type(self, entry: Entry, name: str) -> np.dtype:
         kind = whole_of(entry.get("componentType"))
         if type(kind) is not int or kind not in _TYPES:
             raise self.file.damaged(f"{name} has no component type that is known")
         return np.dtype(_TYPES[kind])
 
-    def _stored(self, entry: dict, name: str, count: int, width: int, kind) -> np.ndarray:
+    def _stored(
+        self, entry: Entry, name: str, count: int, width: int, kind: np.dtype
+    ) -> np.ndarray:
         """Rows that stand in a buffer view, or zeros."""
         if "bufferView" not in entry:
             return np.zeros((count, width), kind)
@@ -159,7 +167,7 @@ class GltfAccessors:
             raise self.file.damaged(f"{name} ends at byte {end}, its view at {len(data)}")
         return np.ndarray((count, width), kind, data, start, (stride, kind.itemsize))
 
-    def _changed(self, values: np.ndarray, sparse: dict, name: str) -> np.ndarray:
+    def _changed(self, values: np.ndarray, sparse: Entry, name: str) -> np.ndarray:
         """A copy with some rows replaced."""
         count = self.file.whole(sparse, "count", f"{name}.sparse")
         if not 0 < count <= len(values):

@@ -7,6 +7,7 @@ allocated for what the file announces before it was found to hold it.
 from __future__ import annotations
 
 import binascii
+from typing import Any
 
 from ...reading import sources
 from ...reading.linked_files import LinkedFileError, LinkedFiles
@@ -15,7 +16,7 @@ from ...reading.posed_parts import MAX_REPEATED
 from ...reading.sources import Source
 from ...reading.text import shown
 from . import gltf_meshopt
-from .gltf_file import DamagedError, GltfFile, once
+from .gltf_file import DamagedError, Entry, GltfFile, once
 
 # Several primitives may share what takes a byte a number, honestly.
 _NUMBERS_PER_BYTE = 4
@@ -77,7 +78,7 @@ class GltfBuffers:
             )
         self.limit += _NUMBERS_PER_BYTE * size
 
-    def view(self, index, where: str) -> memoryview:
+    def view(self, index: Any, where: str) -> memoryview:
         """Return the bytes of a buffer view, unpacked if they are compressed."""
         index = self._file.number_in("bufferViews", index, where)
         view = self._file.entries("bufferViews")[index]
@@ -87,12 +88,12 @@ class GltfBuffers:
             return self._range(view, name)
         return once(self._unpacked, index, lambda: self._unpack(packed, name))
 
-    def _unpack(self, packed: dict, name: str) -> memoryview:
+    def _unpack(self, packed: Entry, name: str) -> memoryview:
         """The bytes of a view that says how it is packed."""
         self.allow(gltf_meshopt.unpacked_size(self._file, packed, name), name)
         return gltf_meshopt.unpacked(self._file, self._range(packed, name), packed, name)
 
-    def _range(self, entry: dict, name: str) -> memoryview:
+    def _range(self, entry: Entry, name: str) -> memoryview:
         """The part of a buffer that an entry names."""
         start = self._file.whole(entry, "byteOffset", name, 0)
         length = self._file.whole(entry, "byteLength", name)
@@ -103,7 +104,7 @@ class GltfBuffers:
             )
         return buffer[start : start + length]
 
-    def named(self, uri, where: str) -> bytes:
+    def named(self, uri: Any, where: str) -> bytes:
         """Return what a URI stands for: data in itself, or a file in the model's folder.
 
         Raises
@@ -131,7 +132,7 @@ class GltfBuffers:
         except ValueError as error:
             raise self._file.damaged(f"{where}: {error}") from error
 
-    def _buffer(self, index, where: str) -> memoryview:
+    def _buffer(self, index: Any, where: str) -> memoryview:
         index = self._file.number_in("buffers", index, where)
         return once(self._buffers, index, lambda: self._read(index))
 

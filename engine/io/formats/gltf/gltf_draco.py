@@ -11,17 +11,20 @@ import importlib.util
 import pickle
 from contextlib import suppress
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
 from ...reading.limited_process import in_limited_process
 from ...reading.sources import Source
 from .gltf_buffers import GltfBuffers
-from .gltf_file import DamagedError, GltfFile, whole_of
+from .gltf_file import DamagedError, Entry, GltfFile, whole_of
 
 DRACO = "KHR_draco_mesh_compression"
 #: The extensions that are read here.
 READ = (DRACO,)
+# Corners or None, and arrays by their numbers; or what is wrong.
+_Found: TypeAlias = tuple[np.ndarray | None, dict[int, np.ndarray]] | str
 
 
 @dataclass
@@ -51,9 +54,9 @@ class GltfDraco:
 
     def __init__(self, file: GltfFile, buffers: GltfBuffers) -> None:
         self._file, self._buffers = file, buffers
-        self._meshes: dict[int, tuple | str] | None = None
+        self._meshes: dict[int, _Found] | None = None
 
-    def unpacked(self, entry: dict, where: str) -> Unpacked | None:
+    def unpacked(self, entry: Entry, where: str) -> Unpacked | None:
         """Return what a primitive holds; None if it is not packed, or also in the file as it is."""
         packing = self._packing(entry, where)
         if packing is None:
@@ -81,7 +84,7 @@ class GltfDraco:
             arrays[name] = by_id[number]
         return Unpacked(arrays, corners)
 
-    def _packing(self, entry: dict, where: str) -> dict | None:
+    def _packing(self, entry: Entry, where: str) -> Entry | None:
         extensions = self._file.spare_part(entry, "extensions", where)
         if DRACO not in extensions:
             return None
@@ -89,7 +92,7 @@ class GltfDraco:
         self._file.entry("bufferViews", packing.get("bufferView"), f"{where}.{DRACO}")
         return packing
 
-    def _add_view(self, primitive: dict, views: dict[int, bytes]) -> None:
+    def _add_view(self, primitive: Entry, views: dict[int, bytes]) -> None:
         packing = self._packing(primitive, "")
         if packing is not None:
             index = self._file.number_in("bufferViews", packing["bufferView"], "")
@@ -98,13 +101,13 @@ class GltfDraco:
     def _is_required(self) -> bool:
         return DRACO in self._file.tree.get("extensionsRequired", ())
 
-    def _has_plain(self, entry: dict, where: str) -> bool:
+    def _has_plain(self, entry: Entry, where: str) -> bool:
         """Whether the positions are in the file besides."""
         attributes = self._file.part(entry, "attributes", where)
         accessor = self._file.entry("accessors", attributes.get("POSITION"), where)
         return "bufferView" in accessor
 
-    def _unpack_all(self) -> dict[int, tuple | str]:
+    def _unpack_all(self) -> dict[int, _Found]:
         file: GltfFile = self._file
         views: dict[int, bytes] = {}
         for mesh in file.entries("meshes"):
@@ -123,11 +126,11 @@ class GltfDraco:
         return found
 
 
-def _unpack_here(source: Source, split: bool) -> dict[int, tuple | str]:
-    """Unpack views: corners or None, and arrays by their numbers, each; or what is wrong."""
+def _unpack_here(source: Source, split: bool) -> dict[int, _Found]:
+    """Unpack views."""
     import DracoPy
 
-    found: dict[int, tuple | str] = {}
+    found: dict[int, _Found] = {}
     for index, data in pickle.loads(source.data).items():
         try:
             mesh = DracoPy.decode(data)

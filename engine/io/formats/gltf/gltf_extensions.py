@@ -19,8 +19,10 @@ from . import (
 )
 from .gltf_file import GltfFile
 
-_MODULES = (gltf_draco, gltf_materials, gltf_meshopt, gltf_nodes, gltf_pointers, gltf_primitives)
-_MODULES += (gltf_textures, gltf_vrm)
+_MODULES = (
+    *(gltf_draco, gltf_materials, gltf_meshopt, gltf_nodes, gltf_pointers, gltf_primitives),
+    *(gltf_textures, gltf_vrm),
+)
 READ = frozenset().union(*(module.READ for module in _MODULES))
 # What changes only how surfaces look or move: the rest of the file is right without it.
 _OF_LOOKS = ("KHR_materials_", "KHR_xmp")

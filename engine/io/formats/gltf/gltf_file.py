@@ -12,7 +12,7 @@ import json
 import math
 import struct
 from collections.abc import Callable
-from typing import TypeVar
+from typing import Any, NoReturn, TypeAlias, TypeVar
 
 from ....errors import FileFormatError
 from ...reading.sources import Source
@@ -22,12 +22,18 @@ from ...reading.warning_list import WarningList
 GLB = b"glTF"
 LIGHTS = "KHR_lights_punctual"
 _HEADER, _CHUNK_HEADER = 12, 8
-_LISTS = ("accessors", "animations", "bufferViews", "buffers", "cameras", "images", "materials")
-_LISTS += ("meshes", "nodes", "samplers", "scenes", "skins", "textures")
+_LISTS = (
+    *("accessors", "animations", "bufferViews", "buffers", "cameras", "images", "materials"),
+    *("meshes", "nodes", "samplers", "scenes", "skins", "textures"),
+)
 # Of these lists, whatever is no object is left out: a picture can do without.
 _SPARE_LISTS = {"animations", "cameras", "images", "materials", "samplers", "skins", "textures"}
 _JSON, _BINARY = 0x4E4F534A, 0x004E4942
+_Key = TypeVar("_Key")
 _Value = TypeVar("_Value")
+
+#: An object of the JSON, in which anything may stand.
+Entry: TypeAlias = dict[str, Any]
 
 
 class DamagedError(FileFormatError):
@@ -70,7 +76,7 @@ class GltfFile:
             raise self.error("not a glb file")
         self.kind = "glb" if is_binary else "gltf"
         self.binary: memoryview | None = None
-        self._checked: dict[str, list[dict]] = {}
+        self._checked: dict[str, list[Entry]] = {}
         if is_binary:
             data = self._first_chunk(data)
         self.tree = self._parsed(data)
@@ -98,7 +104,7 @@ class GltfFile:
         self.lost = self.lost or error
         self.leave_out(where, error)
 
-    def sound(self, where: str, read: Callable[..., _Value], *args) -> _Value | None:
+    def sound(self, where: str, read: Callable[..., _Value], *args: Any) -> _Value | None:
         """Return what a function reads at a place; None, with a warning, if that is damaged."""
         try:
             return read(*args)
@@ -106,7 +112,7 @@ class GltfFile:
             self.leave_out(where, error)
             return None
 
-    def entries(self, name: str, parent: dict | None = None, where: str = "") -> list[dict]:
+    def entries(self, name: str, parent: Entry | None = None, where: str = "") -> list[Entry]:
         """Return a list of objects of the JSON, or of an object in it; empty if it is left out."""
         if parent is None and name in self._checked:
             return self._checked[name]
@@ -122,42 +128,42 @@ class GltfFile:
             self._checked[name] = entries
         return entries
 
-    def extension(self, name: str) -> dict:
+    def extension(self, name: str) -> Entry:
         """Return what the file says of itself by an extension; empty if it is left out."""
         return self.part(self.part(self.tree, "extensions", ""), name, "extensions")
 
-    def entry(self, name: str, index, where: str) -> dict:
+    def entry(self, name: str, index: Any, where: str) -> Entry:
         """Return the object that an index means; ``where`` is the place that names it."""
         entries = self._checked[name]
         if type(index) is int and 0 <= index < len(entries):  # most often, and very often
             return entries[index]
         return entries[self.index(index, len(entries), name, where)]
 
-    def number_in(self, name: str, value, where: str) -> int:
+    def number_in(self, name: str, value: Any, where: str) -> int:
         """Return the number of an entry of a list of the file."""
         count = len(self._checked[name])
         if type(value) is int and 0 <= value < count:
             return value
         return self.index(value, count, name, where)
 
-    def index(self, value, count: int, name: str, where: str) -> int:
+    def index(self, value: Any, count: int, name: str, where: str) -> int:
         """Return the number of one of ``count`` things."""
         value = whole_of(value)
         if type(value) is not int or not 0 <= value < count:
             raise self.damaged(f"{where} names {name}[{_short(value)}], there are {count}")
         return value
 
-    def lights(self) -> list[dict]:
+    def lights(self) -> list[Entry]:
         """Return the lights of KHR_lights_punctual."""
         return self.sound(f"extensions.{LIGHTS}", self._lights) or []
 
-    def _lights(self) -> list[dict]:
+    def _lights(self) -> list[Entry]:
         lights = self.extension(LIGHTS)
         if LIGHTS in self.part(self.tree, "extensions", "") and "lights" not in lights:
             raise self.damaged(f"extensions.{LIGHTS} has no lights")
         return self.entries("lights", lights, f"extensions.{LIGHTS}.")
 
-    def name(self, entry: dict, where: str) -> str:
+    def name(self, entry: Entry, where: str) -> str:
         """Return what something is called; empty if it has no name, or one that is no text."""
         value = entry.get("name", "")
         if isinstance(value, str):
@@ -165,14 +171,14 @@ class GltfFile:
         self.leave_out(f"{where}.name", self.damaged(f"{_short(value)} is no text"))
         return ""
 
-    def part(self, parent: dict, name: str, where: str) -> dict:
+    def part(self, parent: Entry, name: str, where: str) -> Entry:
         """Return an object in an object; empty if it is left out."""
         part = parent.get(name, {})
         if not isinstance(part, dict):
             raise self.damaged(f"{where}{'.' * bool(where)}{name} is no object")
         return part
 
-    def spare_part(self, parent: dict, name: str, where: str) -> dict:
+    def spare_part(self, parent: Entry, name: str, where: str) -> Entry:
         """Return an object in an object; empty, with a warning, if it is no object."""
         part = parent.get(name)
         if part is None or isinstance(part, dict):
@@ -180,7 +186,7 @@ class GltfFile:
         self.leave_out(f"{where}.{name}", self.damaged(f"{where}.{name} is no object"))
         return {}
 
-    def whole(self, entry: dict, name: str, where: str, default: int | None = None) -> int:
+    def whole(self, entry: Entry, name: str, where: str, default: int | None = None) -> int:
         """Return a whole number that is not negative."""
         value = entry.get(name, default)
         if type(value) is not int:
@@ -189,7 +195,9 @@ class GltfFile:
             raise self.damaged(f"{where}.{name} is {_short(value)}")
         return value
 
-    def numbers(self, entry: dict, name: str, where: str, default: tuple) -> tuple[float, ...]:
+    def numbers(
+        self, entry: Entry, name: str, where: str, default: tuple[float, ...]
+    ) -> tuple[float, ...]:
         """Return as many finite numbers as ``default`` has."""
         values = entry.get(name, default)
         is_sound = isinstance(values, (list, tuple)) and len(values) == len(default)
@@ -197,14 +205,14 @@ class GltfFile:
             raise self.damaged(f"{where}.{name} is not {len(default)} numbers")
         return tuple(float(value) for value in values)
 
-    def number(self, entry: dict, name: str, where: str, default: float) -> float:
+    def number(self, entry: Entry, name: str, where: str, default: float) -> float:
         """Return a finite number."""
         value = entry.get(name, default)
         if not _is_number(value):
             raise self.damaged(f"{where}.{name} is {_short(value)}, no finite number")
         return float(value)
 
-    def number_list(self, entry: dict, name: str, where: str) -> tuple[float, ...] | None:
+    def number_list(self, entry: Entry, name: str, where: str) -> tuple[float, ...] | None:
         """Return any number of finite numbers; None if they are left out."""
         values = entry.get(name)
         if values is None:
@@ -247,7 +255,7 @@ class GltfFile:
             place += _CHUNK_HEADER + size
         return False
 
-    def _parsed(self, text: memoryview) -> dict:
+    def _parsed(self, text: memoryview) -> Entry:
         try:
             tree = json.loads(bytes(text).decode("utf-8"), parse_constant=_no_number)
         except RecursionError:
@@ -271,7 +279,7 @@ class GltfFile:
             self.warnings.add(f"what glTF {shown(version)} has beyond 2.0 is not read")
 
 
-def once(kept: dict, key, make: Callable[[], _Value]) -> _Value:
+def once(kept: dict[_Key, _Value | DamagedError], key: _Key, make: Callable[[], _Value]) -> _Value:
     """Return what was made for a key before, or make it; of what is damaged the error is kept."""
     found = kept.get(key)
     if found is None:
@@ -293,21 +301,21 @@ def _parts_of(version: str) -> tuple[int, int]:
     return (int(parts[0]), int(parts[1])) if are_sound else (10**9, 0)
 
 
-def whole_of(value):
+def whole_of(value: Any) -> Any:
     """Return a number without a fraction as an integer, as JSON may write it: 1.0, 1e0."""
     return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
-def _no_number(name: str):
+def _no_number(name: str) -> NoReturn:
     raise ValueError(f"{name} is no number")
 
 
-def _is_number(value) -> bool:
+def _is_number(value: Any) -> bool:
     try:
         return type(value) in (int, float) and math.isfinite(value)
     except OverflowError:
         return False
 
 
-def _short(value) -> str:
+def _short(value: Any) -> str:
     return shown(repr(value))[1:-1]

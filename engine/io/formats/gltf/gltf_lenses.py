@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 from functools import partial
+from typing import Any
 
 from ...reading.documents import LampRecord, LensRecord
-from .gltf_file import LIGHTS, GltfFile
+from .gltf_file import LIGHTS, Entry, GltfFile
 from .gltf_lists import SoundList, sound_list
 
 
@@ -19,13 +20,13 @@ def read_cameras(file: GltfFile) -> SoundList:
     return sound_list(file, "cameras", file.entries("cameras"), partial(_camera, file))
 
 
-def _camera(file: GltfFile, entry: dict, where: str) -> LensRecord:
+def _camera(file: GltfFile, entry: Entry, where: str) -> LensRecord:
     kind = entry.get("type")
     if kind not in ("perspective", "orthographic"):
         raise file.damaged(f"{where} is of no type that is known")
     name = file.name(entry, where)
     where, part = f"{where}.{kind}", file.part(entry, kind, where)
-    common = {
+    common: dict[str, Any] = {
         "kind": kind,
         "name": name,
         "znear": _needed(file, part, "znear", where),
@@ -35,10 +36,10 @@ def _camera(file: GltfFile, entry: dict, where: str) -> LensRecord:
     if not common["znear"] < common["zfar"]:
         raise file.damaged(f"{where} ends before it begins")
     if kind == "orthographic":
-        size = {name: _needed(file, part, name, where) for name in ("xmag", "ymag")}
-        if 0.0 in size.values() or common["znear"] < 0 or math.isinf(common["zfar"]):
+        xmag, ymag = (_needed(file, part, name, where) for name in ("xmag", "ymag"))
+        if 0.0 in (xmag, ymag) or common["znear"] < 0 or math.isinf(common["zfar"]):
             raise file.damaged(f"{where} sees nothing")
-        return LensRecord(**common, **size)
+        return LensRecord(**common, xmag=xmag, ymag=ymag)
     yfov = _needed(file, part, "yfov", where)
     aspect = file.number(part, "aspectRatio", where, 0.0) if "aspectRatio" in part else None
     if not (yfov > 0 and common["znear"] > 0 and (aspect is None or aspect > 0)):
@@ -46,7 +47,7 @@ def _camera(file: GltfFile, entry: dict, where: str) -> LensRecord:
     return LensRecord(**common, yfov=yfov, aspect=aspect)
 
 
-def _needed(file: GltfFile, part: dict, name: str, where: str) -> float:
+def _needed(file: GltfFile, part: Entry, name: str, where: str) -> float:
     if name not in part:
         raise file.damaged(f"{where} has no {name}")
     return file.number(part, name, where, 0.0)
@@ -57,14 +58,14 @@ def read_lights(file: GltfFile) -> SoundList:
     return sound_list(file, f"{LIGHTS}.lights", file.lights(), partial(_light, file))
 
 
-def _light(file: GltfFile, entry: dict, where: str) -> LampRecord:
+def _light(file: GltfFile, entry: Entry, where: str) -> LampRecord:
     kind = entry.get("type")
     if not isinstance(kind, str):
         raise file.damaged(f"{where} is of no type")
-    color = file.numbers(entry, "color", where, (1.0, 1.0, 1.0))
+    red, green, blue = file.numbers(entry, "color", where, (1.0, 1.0, 1.0))
     intensity = file.number(entry, "intensity", where, 1.0)
     reach = file.number(entry, "range", where, 0.0) if "range" in entry else math.inf
-    if min(*color, intensity) < 0 or reach <= 0:
+    if min(red, green, blue, intensity) < 0 or reach <= 0:
         raise file.damaged(f"{where} is darker than no light, or reaches nowhere")
     inner, outer = 0.0, math.pi / 4
     if kind == "spot":
@@ -79,4 +80,5 @@ def _light(file: GltfFile, entry: dict, where: str) -> LampRecord:
             file.warnings.add(f"{where} has a cone from {inner:g} to {outer:g}: its rim is sharp")
             inner = math.nextafter(outer, 0.0)
     name = file.name(entry, where)
+    color = red, green, blue
     return LampRecord(kind, name, color, intensity, reach, inner, outer, entry.get("extras"))

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from .gltf_file import GltfFile
+from .gltf_file import Entry, GltfFile
 
 
 class SoundList(NamedTuple):
@@ -22,12 +22,12 @@ class SoundList(NamedTuple):
         From the number that the file has for an entry to that of its record.
     """
 
-    records: tuple
+    records: tuple[Any, ...]
     number_of: dict[int, int]
 
 
 def sound_list(
-    file: GltfFile, name: str, entries: list[dict], read: Callable[[dict, str], Any]
+    file: GltfFile, name: str, entries: list[Entry], read: Callable[[Entry, str], Any]
 ) -> SoundList:
     """Return what is read of a list, each entry by ``read(entry, where)``."""
     records: list[Any] = []

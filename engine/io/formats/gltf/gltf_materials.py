@@ -8,7 +8,8 @@ it: no metal, an index of refraction of 0, the specular colour.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Iterator
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from ....errors import InvalidArgumentError
 from ....model.materials.colors import certainly_linear
 from ....model.materials.material import PARAMETERS, TEXTURE_SLOTS, Material
 from ....model.materials.textures import PlacedTexture, Texture
-from .gltf_file import GltfFile, whole_of
+from .gltf_file import Entry, GltfFile, whole_of
 from .gltf_textures import GltfTextures, changed
 
 _GLOSSY, _UNLIT = "KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit"
@@ -41,6 +42,7 @@ class Map(NamedTuple):
 
 
 # What files mean that leave these out, where it is not what a `Material` is by default.
+_LEFT_OUT: dict[str, float | tuple[float, ...]]
 _LEFT_OUT = {"color": (1.0, 1.0, 1.0, 1.0), "metallic": 1.0, "roughness": 1.0}
 
 
@@ -85,7 +87,7 @@ class GltfMaterials:
     def __init__(self, file: GltfFile, textures: GltfTextures) -> None:
         self._file, self._textures = file, textures
         self._variant_names: tuple[str, ...] | None = None
-        self._made: dict[tuple, Material] = {}
+        self._made: dict[tuple[int | None, bool, tuple[int, ...]], Material] = {}
         self._sets: dict[int, set[int]] = {}
         self._textures.decode(self._named_textures())
 
@@ -143,7 +145,7 @@ class GltfMaterials:
             self._made[key]._is_implied = index is None
         return self._made[key]
 
-    def number(self, primitive: dict, where: str) -> int | None:
+    def number(self, primitive: Entry, where: str) -> int | None:
         """Return the material that a primitive names; None if it names none that there is."""
         if primitive.get("material") is None:
             return None
@@ -152,14 +154,14 @@ class GltfMaterials:
             place, self._file.number_in, "materials", primitive["material"], place
         )
 
-    def uv_sets(self, primitive: dict, where: str) -> set[int]:
+    def uv_sets(self, primitive: Entry, where: str) -> set[int]:
         """Return the sets of texture coordinates that the materials of a primitive use."""
         usual = self.number(primitive, where)
         indices = [] if usual is None else [usual]
         indices += [material for material, _ in self.variants(primitive, where)]
         return set().union(*(self._uv_sets(index, where) for index in indices))
 
-    def variants(self, primitive: dict, where: str) -> list[tuple[int, list[int]]]:
+    def variants(self, primitive: Entry, where: str) -> list[tuple[int, list[int]]]:
         """Return the other materials of a primitive, each with the variants that it is of."""
         extensions = self._file.spare_part(primitive, "extensions", where)
         if _VARIANTS not in extensions:
@@ -167,7 +169,7 @@ class GltfMaterials:
         where = f"{where}.{_VARIANTS}"
         return self._file.sound(where, self._mappings, extensions, where) or []
 
-    def _mappings(self, extensions: dict, where: str) -> list[tuple[int, list[int]]]:
+    def _mappings(self, extensions: Entry, where: str) -> list[tuple[int, list[int]]]:
         file, count = self._file, len(self.variant_names())
         found = []
         mappings = file.entries("mappings", file.part(extensions, _VARIANTS, where), f"{where}.")
@@ -215,7 +217,7 @@ class GltfMaterials:
         named = {index for index in indices if type(index) is int}
         return {index for index in named if 0 <= index < count}
 
-    def _parts(self, entry: dict, where: str):
+    def _parts(self, entry: Entry, where: str) -> Iterator[tuple[Entry, tuple[Numbers | Map, ...]]]:
         """The parts that a material has, and what may stand in them."""
         file = self._file
         extensions = file.spare_part(entry, "extensions", where)
@@ -231,7 +233,7 @@ class GltfMaterials:
         if glossy:
             yield file.spare_part(extensions, _GLOSSY, where), _GLOSSY_PARTS
 
-    def _infos(self, entry: dict, where: str) -> list[dict]:
+    def _infos(self, entry: Entry, where: str) -> list[Entry]:
         """What a material says of its textures."""
         return [
             self._file.spare_part(part, item.key, where)
@@ -240,9 +242,9 @@ class GltfMaterials:
             if isinstance(item, Map) and item.key in part
         ]
 
-    def _material(self, entry: dict, where: str, flat: bool, uv_sets: tuple[int, ...]) -> Material:
+    def _material(self, entry: Entry, where: str, flat: bool, uv_sets: tuple[int, ...]) -> Material:
         file = self._file
-        values = {"metallic": 1.0, "roughness": 1.0}
+        values: dict[str, Any] = {"metallic": 1.0, "roughness": 1.0}
         for part, items in self._parts(entry, where):
             for item in items:
                 if item.key in part:
@@ -276,32 +278,35 @@ class GltfMaterials:
                 self._file.sound(f"{where}.{field}", self._put, material, field, value)
         return material
 
-    def _put(self, material: Material, field: str, value) -> None:
+    def _put(self, material: Material, field: str, value: Any) -> None:
         try:
             setattr(material, field, value)
         except InvalidArgumentError as error:
             raise self._file.damaged(str(error)) from None
 
-    def _values(self, part: dict, item: Numbers | Map, where: str, uv_sets) -> dict:
+    def _values(
+        self, part: Entry, item: Numbers | Map, where: str, uv_sets: tuple[int, ...]
+    ) -> dict[str, Any]:
         """What one item says, as parameters of a material."""
         if isinstance(item, Numbers):
             if isinstance(item.default, tuple):
                 return {item.field: self._file.numbers(part, item.key, where, item.default)}
             return {item.field: self._file.number(part, item.key, where, item.default)}
         info = self._file.part(part, item.key, where)
+        values: dict[str, Any]
         values = {item.field: self._textures.placed(info, f"{where}.{item.key}", uv_sets)}
         if item.beside and item.beside_key in info:
             values[item.beside] = self._file.number(info, item.beside_key, where, 1.0)
         return values
 
-    def _alpha_mode(self, entry: dict, where: str) -> str:
+    def _alpha_mode(self, entry: Entry, where: str) -> str:
         mode = entry.get("alphaMode", "OPAQUE")
         if mode not in ("OPAQUE", "MASK", "BLEND"):
             self._file.warnings.add_once(f"{where} has no alpha mode that is known: drawn opaque")
             mode = "OPAQUE"
         return mode.lower()
 
-    def _extras(self, entry: dict, where: str) -> dict:
+    def _extras(self, entry: Entry, where: str) -> Entry:
         extras = entry.get("extras", {})
         if isinstance(extras, dict):
             return extras
@@ -318,9 +323,9 @@ def undrawn_kinds(material: Material) -> set[str]:
     return kinds | ({"frost"} if material.roughness else set())
 
 
-def _from_glossiness(values: dict, glossiness: float) -> dict:
+def _from_glossiness(values: dict[str, Any], glossiness: float) -> dict[str, Any]:
     """What a specular-glossiness material is as a metallic-roughness one."""
-    found = {"metallic": 0.0, "roughness": 1.0 - glossiness, "ior": 0.0}
+    found: dict[str, Any] = {"metallic": 0.0, "roughness": 1.0 - glossiness, "ior": 0.0}
     held: Texture | PlacedTexture | None = values.get("specular_color_texture")
     if held is not None:
         texture = held.texture if isinstance(held, PlacedTexture) else held
@@ -329,8 +334,8 @@ def _from_glossiness(values: dict, glossiness: float) -> dict:
         roughness[:, :, 1] = np.floor(255.0 - gloss + 0.5).clip(0, 255)
         roughness[:, :, 3] = 255
         made = changed(texture, roughness, texture.name)
+        found |= {"metallic_roughness_texture": made, "roughness": 1.0}
         if isinstance(held, PlacedTexture):
             place = {key: value for key, value in vars(held).items() if key != "texture"}
-            made = PlacedTexture(made, **place)
-        found |= {"metallic_roughness_texture": made, "roughness": 1.0}
+            found["metallic_roughness_texture"] = PlacedTexture(made, **place)
     return found

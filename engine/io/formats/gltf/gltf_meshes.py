@@ -9,10 +9,13 @@ is left out with a warning.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from ...._native.loaders import frozen
+from ....model.geometry.creases import SMOOTH
 from ....model.geometry.mesh import Mesh
 from ....model.geometry.morph_targets import MorphTarget
 from ....model.materials.material import Material
@@ -21,7 +24,7 @@ from ...reading.documents import MeshRecord
 from ...reading.smoothing import join_seams
 from ...reading.text import shown
 from .gltf_buffers import GltfBuffers
-from .gltf_file import DamagedError, GltfFile
+from .gltf_file import DamagedError, Entry, GltfFile
 from .gltf_materials import GltfMaterials
 from .gltf_primitives import GltfPrimitives, Primitive
 
@@ -29,6 +32,11 @@ from .gltf_primitives import GltfPrimitives, Primitive
 MOST_BENDING = 1 << 17
 _MORPHS = ("positions", "normals", "tangents")
 _NO_MATERIAL = Material()
+
+# A primitive, what the file says of it, and its place there.
+_Member: TypeAlias = tuple[Primitive, Entry, str]
+# The material of a primitive, and those of variants.
+_Chosen: TypeAlias = tuple[Material, dict[int, Material]]
 
 
 class GltfMeshes:
@@ -51,7 +59,7 @@ class GltfMeshes:
     ) -> None:
         self._file, self._buffers = file, buffers
         self._primitives, self._materials = primitives, materials
-        self._parts: dict[tuple, Mesh] = {}  # of primitives that are kept
+        self._parts: dict[tuple[object, ...], Mesh] = {}  # of primitives that are kept
         self._variant_materials = 0
 
     def all(self) -> tuple[MeshRecord, ...]:
@@ -67,9 +75,9 @@ class GltfMeshes:
             for index, (entry, primitives) in enumerate(entries)
         )
 
-    def _mesh(self, entry: dict, primitives: list[dict], where: str) -> MeshRecord:
+    def _mesh(self, entry: Entry, primitives: list[Entry], where: str) -> MeshRecord:
         file, name = self._file, self._file.name(entry, where)
-        groups: dict[tuple, list[tuple[Primitive, dict, str]]] = {}
+        groups: dict[tuple[object, ...], list[_Member]] = {}
         for number, primitive in enumerate(primitives):
             place = f"{where}.primitives[{number}]"
             try:
@@ -93,15 +101,13 @@ class GltfMeshes:
         weights = (0.0,) * count if weights is None else weights
         return replace(first, morph_weights=weights, rest=tuple(rest), extras=entry.get("extras"))
 
-    def _weights(self, entry: dict, count: int, where: str) -> tuple[float, ...] | None:
+    def _weights(self, entry: Entry, count: int, where: str) -> tuple[float, ...] | None:
         weights = self._file.number_list(entry, "weights", where)
         if weights is not None and len(weights) != count:
             raise self._file.damaged(f"{where} has {len(weights)} weights, {count} targets")
         return weights
 
-    def _part(
-        self, name: str, members: list[tuple[Primitive, dict, str]], target_names: list[str]
-    ) -> MeshRecord:
+    def _part(self, name: str, members: list[_Member], target_names: list[str]) -> MeshRecord:
         """Primitives that carry the same as one mesh."""
         primitives = [primitive for primitive, _, _ in members]
         kind = primitives[0].kind
@@ -145,6 +151,8 @@ class GltfMeshes:
             **{kind: self._joined(elements)},
             materials=[_NO_MATERIAL] * len(primitives),
             material_ids=ids,
+            crease_angle=SMOOTH,
+            name="",
             **arrays,
         )
         mesh._scalars = {
@@ -152,16 +160,17 @@ class GltfMeshes:
         }
         if flat:
             join_seams(mesh)
-        if primitives[0].joints is not None:
-            joints = self._joined([primitive.joints for primitive in primitives])
-            mesh.set_influences(joints, self._joined([p.weights for p in primitives]))
+        joints = [p.joints for p in primitives if p.joints is not None]
+        weights = [p.weights for p in primitives if p.weights is not None]
+        if joints:
+            mesh.set_influences(self._joined(joints), self._joined(weights))
         if target_names:
             mesh.morph_targets = self._morphs(primitives, counts, target_names)
         if kind == "faces" and "normals" in arrays and "tangents" not in arrays:
             mesh = self._with_tangents(mesh, uv_set)
         return mesh
 
-    def _variants(self, chosen: list[tuple], name: str) -> dict[int, tuple]:
+    def _variants(self, chosen: list[_Chosen], name: str) -> dict[int, tuple[Material, ...]]:
         """The materials of each variant that is named; none, with a warning, of far too many."""
         named: dict[int, dict[int, Material]] = {}  # the materials of each, by primitive
         for number, (_, others) in enumerate(chosen):
@@ -197,12 +206,11 @@ class GltfMeshes:
         self._buffers.count(4 * len(mesh.positions))
         return mesh.with_tangents(uv_set)
 
-    def _chosen(self, primitive: Primitive, entry: dict, where: str, *, flat: bool):
-        """The material of a primitive, and those of variants."""
-        common = {"flat": flat, "uv_sets": primitive.uv_sets}
-        usual = self._materials.get(primitive.material, where, **common)
+    def _chosen(self, primitive: Primitive, entry: Entry, where: str, *, flat: bool) -> _Chosen:
+        get = partial(self._materials.get, where=where, flat=flat, uv_sets=primitive.uv_sets)
+        usual = get(primitive.material)
         others = {
-            variant: self._materials.get(material, where, **common)
+            variant: get(material)
             for material, variants in self._materials.variants(entry, where)
             for variant in variants
         }
@@ -238,7 +246,7 @@ class GltfMeshes:
         return frozen(np.concatenate(parts))
 
 
-def _kind_of(primitive: Primitive) -> tuple:
+def _kind_of(primitive: Primitive) -> tuple[object, ...]:
     """What primitives of one mesh have in common."""
     joints = 0 if primitive.joints is None else primitive.joints.shape[1]
     material = None if primitive.kind == "faces" else primitive.material
@@ -256,14 +264,14 @@ def tangent_set(material: Material) -> int | None:
     return 0 if found is not None or material.anisotropy else None
 
 
-def _tangent_set_of(chosen: list[tuple]) -> int | None:
+def _tangent_set_of(chosen: list[_Chosen]) -> int | None:
     """The texture coordinates that any material of a mesh needs tangents for."""
     materials = [usual for usual, _ in chosen]
     materials += [material for _, others in chosen for material in others.values()]
     return next((found for m in materials if (found := tangent_set(m)) is not None), None)
 
 
-def _target_names(extras, count: int) -> list[str]:
+def _target_names(extras: Any, count: int) -> list[str]:
     names = extras.get("targetNames") if isinstance(extras, dict) else None
     names = [str(name) for name in names[:count]] if isinstance(names, list) else []
     return names + [""] * (count - len(names))

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from ...._native.loaders import unpack_meshopt
 from ...reading.text import shown
-from .gltf_file import GltfFile
+from .gltf_file import Entry, GltfFile
 
 #: The extensions that are read here.
 READ = ("KHR_meshopt_compression", "EXT_meshopt_compression")
 
 
-def packing_of(file: GltfFile, view: dict, where: str) -> dict | None:
+def packing_of(file: GltfFile, view: Entry, where: str) -> Entry | None:
     """Return what a view says of how it is packed; None if it is not."""
     extensions = file.part(view, "extensions", where)
     for name in READ:
@@ -22,13 +22,13 @@ def packing_of(file: GltfFile, view: dict, where: str) -> dict | None:
     return None
 
 
-def unpacked_size(file: GltfFile, packing: dict, where: str) -> int:
+def unpacked_size(file: GltfFile, packing: Entry, where: str) -> int:
     """Return how many bytes a view becomes."""
     count, stride = (file.whole(packing, name, where) for name in ("count", "byteStride"))
     return count * stride
 
 
-def unpacked(file: GltfFile, data: memoryview, packing: dict, where: str) -> memoryview:
+def unpacked(file: GltfFile, data: memoryview, packing: Entry, where: str) -> memoryview:
     """Return the bytes of a view.
 
     Parameters

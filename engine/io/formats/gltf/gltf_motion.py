@@ -9,10 +9,11 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 
+from ....choices import Interpolation, MotionPath
 from ...reading.documents import (
     ChannelRecord,
     ClipRecord,
@@ -23,17 +24,21 @@ from ...reading.documents import (
 )
 from ...reading.text import shown
 from .gltf_accessors import GltfAccessors
-from .gltf_file import DamagedError, GltfFile, once
+from .gltf_file import DamagedError, Entry, GltfFile, once
 from .gltf_lists import SoundList, sound_list
 from .gltf_pointers import POINTER, target_of
 
-_INTERPOLATIONS = ("LINEAR", "STEP", "CUBICSPLINE")
+# By their names in files.
+_INTERPOLATIONS: dict[str, Interpolation] = {name.upper(): name for name in get_args(Interpolation)}
+_PATHS: dict[str, MotionPath] = {name: name for name in get_args(MotionPath)}
 _WIDTHS = {"translation": 3, "rotation": 4, "scale": 3}
 _MOST_TOLD = 200
 # A pointer to a mesh moves all nodes that show it; a channel of each takes so many numbers' memory.
 _NUMBERS_PER_CHANNEL = 64
 # Parts of a key of a spline: the tangent towards it, its value, the tangent away from it.
 _SPLINE = 3
+# Times and values.
+_Keys: TypeAlias = tuple[np.ndarray, np.ndarray]
 
 
 def read_skins(file: GltfFile, accessors: GltfAccessors) -> SoundList:
@@ -41,7 +46,7 @@ def read_skins(file: GltfFile, accessors: GltfAccessors) -> SoundList:
     return sound_list(file, "skins", file.entries("skins"), partial(_skin, file, accessors))
 
 
-def _skin(file: GltfFile, accessors: GltfAccessors, entry: dict, where: str) -> SkinRecord:
+def _skin(file: GltfFile, accessors: GltfAccessors, entry: Entry, where: str) -> SkinRecord:
     given = entry.get("joints")
     if not isinstance(given, list) or not given:
         raise file.damaged(f"{where} has no joints")
@@ -91,7 +96,7 @@ def _named(pointer: str) -> str:
 
 
 def _later(
-    channel: ChannelRecord | PropertyRecord, seconds: float, made: dict[tuple[int, int], tuple]
+    channel: ChannelRecord | PropertyRecord, seconds: float, made: dict[tuple[int, int], _Keys]
 ) -> ChannelRecord | PropertyRecord:
     """A channel whose keys come later; of those that fall together the last one is left.
 
@@ -111,18 +116,25 @@ class _Sampled(NamedTuple):
     times: np.ndarray
     values: np.ndarray
     is_later: np.ndarray | None
-    interpolation: str
+    interpolation: Interpolation
 
 
 class _Clips:
     """Reads animations; the values that several channels name are read once."""
 
-    def __init__(self, file, accessors, nodes, meshes, lists) -> None:
+    def __init__(
+        self,
+        file: GltfFile,
+        accessors: GltfAccessors,
+        nodes: tuple[NodeRecord, ...],
+        meshes: tuple[MeshRecord, ...],
+        lists: dict[str, SoundList],
+    ) -> None:
         self._file, self._accessors = file, accessors
         self._nodes, self._meshes, self._lists = nodes, meshes, lists
         self._times: dict[int, tuple[np.ndarray, np.ndarray | None] | DamagedError] = {}
         self._values: dict[int, np.ndarray | DamagedError] = {}
-        self._keys: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}  # by ids of what is kept
+        self._keys: dict[tuple[int, int, str, int], _Keys] = {}  # by ids of what is kept
         self._flags: list[np.ndarray] = []  # whose ids are in use
         self._turns: dict[int, tuple[np.ndarray, np.ndarray]] = {}
         self._shown_by: dict[int, list[int]] = {}  # the nodes of each mesh
@@ -130,7 +142,7 @@ class _Clips:
             if node.mesh is not None and node.weights is None:
                 self._shown_by.setdefault(node.mesh, []).append(index)
 
-    def clip(self, entry: dict, where: str) -> ClipRecord | None:
+    def clip(self, entry: Entry, where: str) -> ClipRecord | None:
         """Return a clip; None if none of its channels makes sense, each of which was told."""
         file = self._file
         for name in ("channels", "samplers"):
@@ -158,7 +170,7 @@ class _Clips:
             return None
         if first < 0:
             file.warnings.add(f"{where} begins at {first:g} s: it is moved to begin at 0")
-            shifted: dict[tuple[int, int], tuple] = {}
+            shifted: dict[tuple[int, int], _Keys] = {}
             made = [_later(one, -first, shifted) for one in made]
         return ClipRecord(
             file.name(entry, where),
@@ -169,7 +181,7 @@ class _Clips:
         )
 
     def _channel(
-        self, channel: dict, samplers: list[dict], clip: str, where: str
+        self, channel: Entry, samplers: list[Entry], clip: str, where: str
     ) -> tuple[np.ndarray, list[ChannelRecord | PropertyRecord]]:
         """The times of a channel, and what it moves."""
         file = self._file
@@ -182,13 +194,14 @@ class _Clips:
         if path == "pointer":
             pointer = file.part(file.part(target, "extensions", where), POINTER, where)
             return sampled.times, self._pointed(pointer.get("pointer"), sampled, where)
-        if path not in (*_WIDTHS, "weights") or "node" not in target:
+        moved = _PATHS.get(path)
+        if moved is None or "node" not in target:
             file.warnings.add(f"{where} moves {shown(path)} of no node: left out")
             return sampled.times, []
         node = file.number_in("nodes", target["node"], where)
-        return sampled.times, [self._of_node(node, path, sampled, where)]
+        return sampled.times, [self._of_node(node, moved, sampled, where)]
 
-    def _of_node(self, node: int, path: str, sampled: _Sampled, where: str) -> ChannelRecord:
+    def _of_node(self, node: int, path: MotionPath, sampled: _Sampled, where: str) -> ChannelRecord:
         times, values = self._shaped(sampled, self._width(path, node, where), where)
         if path == "rotation":
             if id(values) not in self._turns:
@@ -197,7 +210,7 @@ class _Clips:
         return ChannelRecord(node, path, sampled.interpolation, times, values)
 
     def _pointed(
-        self, pointer, sampled: _Sampled, where: str
+        self, pointer: Any, sampled: _Sampled, where: str
     ) -> list[ChannelRecord | PropertyRecord]:
         """What moves what a pointer means."""
         file, target = self._file, target_of(self._file, pointer, where)
@@ -206,9 +219,9 @@ class _Clips:
             return []
         kind, number, path, width = target
         nodes = self._shown_by.get(number, []) if kind == "mesh" else [number]
-        if path in (*_WIDTHS, "weights"):
+        if path in _PATHS:
             self._accessors.count(_NUMBERS_PER_CHANNEL * len(nodes))
-            return [self._of_node(node, path, sampled, where) for node in nodes]
+            return [self._of_node(node, _PATHS[path], sampled, where) for node in nodes]
         if kind in ("camera", "light"):
             records = self._lists[f"{kind}s"].number_of
             if number not in records:
@@ -230,7 +243,7 @@ class _Clips:
             PropertyRecord(kind, node, path, sampled.interpolation, times, values) for node in nodes
         ]
 
-    def _shaped(self, sampled: _Sampled, width: int, where: str) -> tuple[np.ndarray, np.ndarray]:
+    def _shaped(self, sampled: _Sampled, width: int, where: str) -> _Keys:
         """Times and values, a row of so many numbers for each time; the same arrays for all."""
         key = id(sampled.times), id(sampled.values), sampled.interpolation, width
         found = self._keys.get(key)
@@ -238,7 +251,7 @@ class _Clips:
             found = self._keys[key] = self._rows(sampled, width, where)
         return found
 
-    def _rows(self, sampled: _Sampled, width: int, where: str) -> tuple[np.ndarray, np.ndarray]:
+    def _rows(self, sampled: _Sampled, width: int, where: str) -> _Keys:
         times, values, is_later, interpolation = sampled
         shape = (_SPLINE, width) if interpolation == "cubicspline" else (width,)
         if values.size != len(times) * math.prod(shape):
@@ -270,17 +283,17 @@ class _Clips:
             raise self._file.damaged(f"{where} moves weights of no morph targets")
         return count
 
-    def _sampled(self, sampler: dict, where: str) -> _Sampled:
+    def _sampled(self, sampler: Entry, where: str) -> _Sampled:
         file = self._file
         interpolation = sampler.get("interpolation", "LINEAR")
-        if interpolation not in _INTERPOLATIONS:
+        if not isinstance(interpolation, str) or interpolation not in _INTERPOLATIONS:
             file.warnings.add_once(f"{where}: no interpolation {shown(str(interpolation))}: LINEAR")
             interpolation = "LINEAR"
         key = file.number_in("accessors", sampler.get("input"), f"{where}.input")
         output = file.number_in("accessors", sampler.get("output"), f"{where}.output")
         times, is_later = once(self._times, key, lambda: self._checked_times(key, where))
         values = once(self._values, output, lambda: self._checked_values(output, where))
-        return _Sampled(times, values, is_later, interpolation.lower())
+        return _Sampled(times, values, is_later, _INTERPOLATIONS[interpolation])
 
     def _checked_values(self, index: int, where: str) -> np.ndarray:
         values = self._accessors.floats(index, where, 1, 2, 3, 4)

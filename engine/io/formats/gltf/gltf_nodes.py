@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from ...reading.documents import MeshRecord, NodeRecord, SkinRecord
 from ...reading.posed_parts import without_rounding
 from ...reading.text import shown
 from .gltf_accessors import GltfAccessors
-from .gltf_file import LIGHTS, DamagedError, GltfFile, once
+from .gltf_file import LIGHTS, DamagedError, Entry, GltfFile, once
 from .gltf_lists import SoundList
 
 INSTANCING, VISIBILITY = "EXT_mesh_gpu_instancing", "KHR_node_visibility"
@@ -25,6 +26,8 @@ INSTANCING, VISIBILITY = "EXT_mesh_gpu_instancing", "KHR_node_visibility"
 READ = (INSTANCING, VISIBILITY, LIGHTS)
 _POSE_PARTS = {"TRANSLATION": 3, "ROTATION": 4, "SCALE": 3}
 _COLORS = "_COLOR_0"
+# Translations, rotations and scales of instances.
+_Parts: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 def read_nodes(
@@ -107,7 +110,7 @@ def with_fitting(
     skins: tuple[SkinRecord, ...],
 ) -> tuple[NodeRecord, ...]:
     """Return nodes without the skins and weights that do not fit their meshes."""
-    highest: dict[int, int] = {}
+    highest: dict[int, int | DamagedError] = {}
     found = list(nodes)
     for index, node in enumerate(nodes):
         if node.mesh is None or (node.skin is None and node.weights is None):
@@ -135,7 +138,7 @@ def _highest_joint(record: MeshRecord) -> int:
     moving = [
         np.where(part.mesh.weights > 0, part.mesh.joints, 0).max(initial=0)
         for part in record.parts
-        if part.mesh.joints is not None
+        if part.mesh.joints is not None and part.mesh.weights is not None
     ]
     return max(map(int, moving), default=-1)
 
@@ -149,14 +152,14 @@ class _Nodes:
         self._file, self._accessors, self._lists = file, accessors, lists
         self._light_count = len(file.lights())
         self._drawn: set[tuple[int, str]] = set()
-        self._poses: dict[str, np.ndarray | DamagedError] = {}
-        self._instance_colors: dict[str, np.ndarray | DamagedError | None] = {}
+        self._poses: dict[str, tuple[np.ndarray, _Parts] | DamagedError] = {}
+        self._instance_colors: dict[str, np.ndarray | None | DamagedError] = {}
 
-    def node(self, node: dict, where: str) -> NodeRecord:
+    def node(self, node: Entry, where: str) -> NodeRecord:
         file = self._file
         extensions = file.spare_part(node, "extensions", where)
         is_hidden = file.spare_part(extensions, VISIBILITY, where).get("visible") is False
-        place: dict = {}
+        place: dict[str, Any] = {}
         try:
             place = _place(file, node, where)
         except DamagedError as error:
@@ -175,7 +178,7 @@ class _Nodes:
             extras=node.get("extras"),
         )
 
-    def _shown(self, node: dict, extensions: dict, where: str) -> dict:
+    def _shown(self, node: Entry, extensions: Entry, where: str) -> dict[str, Any]:
         """The mesh of a node, and its instances."""
         if "mesh" not in node:
             return {}
@@ -186,21 +189,21 @@ class _Nodes:
             self._file.lose(f"{where}.mesh", error)
             return {}
 
-    def _weights(self, node: dict, where: str) -> tuple[float, ...] | None:
+    def _weights(self, node: Entry, where: str) -> tuple[float, ...] | None:
         if "weights" not in node:
             return None
         return self._file.sound(f"{where}.weights", self._file.number_list, node, "weights", where)
 
-    def _spare(self, node: dict, name: str, list_name: str, where: str) -> int | None:
+    def _spare(self, node: Entry, name: str, list_name: str, where: str) -> int | None:
         """The record of what a node names and can do without."""
         if name not in node:
             return None
         number = self._file.sound(
             f"{where}.{name}", self._file.number_in, list_name, node[name], where
         )
-        return self._lists[list_name].number_of.get(number)
+        return None if number is None else self._lists[list_name].number_of.get(number)
 
-    def _light(self, extensions: dict, where: str) -> int | None:
+    def _light(self, extensions: Entry, where: str) -> int | None:
         if LIGHTS not in extensions:
             return None
         given = self._file.spare_part(extensions, LIGHTS, where).get("light")
@@ -208,9 +211,9 @@ class _Nodes:
         number = self._file.sound(
             place, self._file.index, given, self._light_count, "lights", place
         )
-        return self._lists["lights"].number_of.get(number)
+        return None if number is None else self._lists["lights"].number_of.get(number)
 
-    def _instances(self, extensions: dict, mesh: int, where: str) -> dict:
+    def _instances(self, extensions: Entry, mesh: int, where: str) -> dict[str, Any]:
         """The poses and colours of instances; none where the mesh is drawn once."""
         if INSTANCING not in extensions:
             return {}
@@ -221,17 +224,16 @@ class _Nodes:
                 file.warnings.add_once(f"what instances say of {shown(name)} is left out")
         # Nodes that say the same have the same arrays.
         key = repr(attributes)
-        made = once(self._poses, key, partial(self._instance_poses, attributes, where))
-        poses, parts = made
+        poses, parts = once(self._poses, key, partial(self._instance_poses, attributes, where))
         if (mesh, key) not in self._drawn:
             self._drawn.add((mesh, key))
             accessors.count(16 * len(poses))  # of a scene, which has them for each mesh
-        kept: dict = self._instance_colors
+        kept = self._instance_colors
         read = partial(_colors, accessors, attributes, where, len(poses))
         colors = file.sound(f"{where}.{_COLORS}", once, kept, key, read)
         return {"instances": poses, "instance_parts": parts, "instance_colors": colors}
 
-    def _instance_poses(self, attributes: dict, where: str) -> tuple[np.ndarray, tuple]:
+    def _instance_poses(self, attributes: Entry, where: str) -> tuple[np.ndarray, _Parts]:
         """The poses of instances, and the parts that they are made of."""
         file, accessors = self._file, self._accessors
         held = {
@@ -252,9 +254,9 @@ class _Nodes:
         return poses_of(*parts), parts
 
 
-def _place(file: GltfFile, node: dict, where: str) -> dict:
+def _place(file: GltfFile, node: Entry, where: str) -> dict[str, Any]:
     """The parts of a node's pose."""
-    found: dict = {
+    found: dict[str, Any] = {
         name: file.numbers(node, name, where, (0.0,) * count)
         for name, count in (("translation", 3), ("rotation", 4), ("scale", 3))
         if name in node
@@ -270,7 +272,7 @@ def _place(file: GltfFile, node: dict, where: str) -> dict:
     return found
 
 
-def _references(file: GltfFile, entry: dict, name: str, where: str) -> tuple[int, ...]:
+def _references(file: GltfFile, entry: Entry, name: str, where: str) -> tuple[int, ...]:
     values = entry.get(name, [])
     if not isinstance(values, list):
         raise file.damaged(f"{where}.{name} is no list")
@@ -278,7 +280,7 @@ def _references(file: GltfFile, entry: dict, name: str, where: str) -> tuple[int
 
 
 def _colors(
-    accessors: GltfAccessors, attributes: dict, where: str, count: int
+    accessors: GltfAccessors, attributes: Entry, where: str, count: int
 ) -> np.ndarray | None:
     """(N, 4) float32, linear, as three.js and others read the attribute; None if there are none."""
     if _COLORS not in attributes:

@@ -7,7 +7,7 @@ Model"; RFC 6901.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from .gltf_file import LIGHTS, GltfFile
 from .gltf_materials import PARTS, Numbers
@@ -79,7 +79,7 @@ def _material_pointers() -> dict[str, tuple[str, int]]:
 _MATERIALS = _material_pointers()
 
 
-def target_of(file: GltfFile, pointer, where: str) -> Target | None:
+def target_of(file: GltfFile, pointer: Any, where: str) -> Target | None:
     """Return what a pointer means; None if it is nothing that can change here.
 
     Raises

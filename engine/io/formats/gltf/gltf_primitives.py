@@ -8,8 +8,10 @@ targets, joints and what else moves vertices, with a warning, where they are dam
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -17,7 +19,7 @@ from ...._native import loaders as native
 from ...reading.vertex_values import finite_uvs, usable_normals
 from .gltf_accessors import GltfAccessors
 from .gltf_draco import DRACO, GltfDraco
-from .gltf_file import DamagedError, GltfFile, once
+from .gltf_file import DamagedError, Entry, GltfFile, once
 from .gltf_materials import GltfMaterials
 from .gltf_sharing import SharedArrays
 
@@ -30,6 +32,10 @@ _MAX_PRIMITIVES = 10_000
 _FEW = 4
 _INFLUENCES = 4
 _WIDTHS = (1, 2, 3, 4)  # of attributes of the file's own
+# What becomes of an array.
+_Change: TypeAlias = Callable[[np.ndarray], np.ndarray]
+# Of the vertices those in use, and elements with the numbers that these get.
+_Compact: TypeAlias = tuple[slice | np.ndarray, np.ndarray]
 _MORPHED = {"POSITION": "positions", "NORMAL": "normals", "TANGENT": "tangents"}
 
 
@@ -109,7 +115,7 @@ class GltfPrimitives:
         self.left_out: list[str] = []
         self.own: set[str] = set()
 
-    def read(self, entry: dict, where: str) -> Primitive | None:
+    def read(self, entry: Entry, where: str) -> Primitive | None:
         """Return a primitive, which ``where`` names in errors.
 
         Raises
@@ -132,7 +138,7 @@ class GltfPrimitives:
         """Whether all of some primitives are kept, since others of the file are the same."""
         return all(id(primitive.arrays) in self._kept for primitive in primitives)
 
-    def _made(self, entry: dict, uv_sets: tuple[int, ...], where: str) -> Primitive:
+    def _made(self, entry: Entry, uv_sets: tuple[int, ...], where: str) -> Primitive:
         file = self._file
         attributes = file.part(entry, "attributes", where)
         mode = file.whole(entry, "mode", where, _TRIANGLES)
@@ -159,7 +165,7 @@ class GltfPrimitives:
         primitive.morphs = self._morphs(vertices, entry, where)
         return primitive
 
-    def _uv_sets(self, entry: dict, where: str) -> tuple[int, ...]:
+    def _uv_sets(self, entry: Entry, where: str) -> tuple[int, ...]:
         """The two sets of texture coordinates that the materials of a primitive use."""
         used = self._materials.uv_sets(entry, where)
         if used <= {0, 1}:
@@ -194,16 +200,19 @@ class GltfPrimitives:
         if "COLOR_1" in named:
             self._tell("colors", f"{vertices.where} has several colours a vertex: COLOR_0 is drawn")
 
-    def _spare(self, vertices: _Vertices, name: str, *widths, changed=None) -> np.ndarray | None:
+    def _spare(
+        self, vertices: _Vertices, name: str, *widths: int, changed: _Change | None = None
+    ) -> np.ndarray | None:
         """An attribute that a primitive can do without; None if it is not there, or damaged."""
         if name not in vertices.attributes:
             return None
         read = partial(vertices.floats, name, *widths, changed=changed)
         return self._file.sound(f"{vertices.where}.{name}", read)
 
-    def _influences(self, vertices: _Vertices, where: str) -> tuple | None:
+    def _influences(self, vertices: _Vertices, where: str) -> tuple[np.ndarray, np.ndarray] | None:
         """Joints and weights of all sets side by side; None if there are none."""
-        joints, weights = [], []
+        joints: list[np.ndarray] = []
+        weights = []
         while f"JOINTS_{len(joints)}" in vertices.attributes:
             name = f"WEIGHTS_{len(joints)}"
             if name not in vertices.attributes:
@@ -219,7 +228,7 @@ class GltfPrimitives:
         # Files leave any number beside a weight of 0.
         return np.where(usable > 0, np.concatenate(joints, axis=1), 0), usable
 
-    def _morphs(self, vertices: _Vertices, entry: dict, where: str) -> list[dict]:
+    def _morphs(self, vertices: _Vertices, entry: Entry, where: str) -> list[dict[str, np.ndarray]]:
         """What each morph target adds; one that is damaged keeps its place, and adds nothing."""
         file = self._file
         targets = file.sound(f"{where}.targets", file.entries, "targets", entry, f"{where}.") or []
@@ -229,7 +238,7 @@ class GltfPrimitives:
             found.append(file.sound(place, self._morph, vertices, target, place) or {})
         return found
 
-    def _morph(self, vertices: _Vertices, target: dict, where: str) -> dict[str, np.ndarray]:
+    def _morph(self, vertices: _Vertices, target: Entry, where: str) -> dict[str, np.ndarray]:
         """Another set of attributes, which count only where the mesh itself has them."""
         for name in target:
             if name not in _MORPHED:
@@ -243,7 +252,7 @@ class GltfPrimitives:
         return deltas
 
 
-def primitive_lists(file: GltfFile) -> list[list[dict]]:
+def primitive_lists(file: GltfFile) -> list[list[Entry]]:
     """Return the primitives of each mesh; none, with a warning, of one that makes no sense.
 
     Raises
@@ -260,7 +269,7 @@ def primitive_lists(file: GltfFile) -> list[list[dict]]:
     return lists
 
 
-def _primitives_of(file: GltfFile, entry: dict, where: str) -> list[dict]:
+def _primitives_of(file: GltfFile, entry: Entry, where: str) -> list[Entry]:
     try:
         if "primitives" not in entry:
             raise file.damaged(f"{where} has no primitives")
@@ -278,8 +287,8 @@ class _Vertices:
         accessors: GltfAccessors,
         draco: GltfDraco,
         shared: SharedArrays,
-        attributes: dict,
-        entry: dict,
+        attributes: Entry,
+        entry: Entry,
         where: str,
     ) -> None:
         self.attributes, self.where = attributes, where
@@ -310,10 +319,10 @@ class _Vertices:
         made[:] = corners
         return made
 
-    def elements(self, mode: int) -> tuple[slice | np.ndarray, np.ndarray]:
+    def elements(self, mode: int) -> _Compact:
         """The rows of the vertices in use, and triangles or segments of the numbers they get."""
 
-        def make():
+        def make() -> _Compact:
             return compact(_elements(self.corners(), mode), self.total)
 
         if self._unpacked is not None:
@@ -336,7 +345,7 @@ class _Vertices:
         self._check_count(values, name)
         return values
 
-    def floats(self, name: str, *widths: int, changed=None) -> np.ndarray:
+    def floats(self, name: str, *widths: int, changed: _Change | None = None) -> np.ndarray:
         """An attribute as float32, of all vertices one array for whoever has the same.
 
         Parameters
@@ -370,7 +379,7 @@ class _Vertices:
 
         return self._once("deltas", index, make)
 
-    def _once(self, role, index, make) -> np.ndarray:
+    def _once(self, role: Hashable, index: Any, make: Callable[[], np.ndarray]) -> np.ndarray:
         if self._unpacked is not None or not isinstance(self.rows, slice):
             return make()
         return self._shared.get(role, index, make, self.total)
@@ -383,7 +392,7 @@ class _Vertices:
             )
 
 
-def _geometry_of(entry: dict) -> str:
+def _geometry_of(entry: Entry) -> str:
     """What a primitive says, but for its materials: others of the same have the same arrays."""
     extensions = entry.get("extensions")
     packing = extensions.get(DRACO) if isinstance(extensions, dict) else None
@@ -391,7 +400,7 @@ def _geometry_of(entry: dict) -> str:
     return repr([*map(entry.get, keys), packing])
 
 
-def _accessors_of(entry: dict) -> list[int]:
+def _accessors_of(entry: Entry) -> list[float]:
     """The accessors that a primitive names; what is no number is left out."""
     targets = entry.get("targets")
     parts = [entry.get("attributes"), *(targets if isinstance(targets, list) else [])]
@@ -399,7 +408,7 @@ def _accessors_of(entry: dict) -> list[int]:
     return [index for index in (*named, entry.get("indices")) if isinstance(index, (int, float))]
 
 
-def compact(elements: np.ndarray, total: int):
+def compact(elements: np.ndarray, total: int) -> _Compact:
     """The rows of the vertices in use, and the elements with the numbers that these get."""
     if elements.size * _FEW < total:
         rows, flat = np.unique(elements, return_inverse=True)

@@ -21,15 +21,15 @@ class SharedArrays:
 
     Parameters
     ----------
-    named : iterable of list of int
-        The accessors of each primitive.
+    named : iterable of list of number
+        The accessors of each primitive, as the JSON writes their numbers.
     """
 
-    def __init__(self, named: Iterable[list[int]]) -> None:
-        self._uses = Counter(index for numbers in named for index in set(numbers))
-        self._made: dict[tuple, Any] = {}
+    def __init__(self, named: Iterable[list[float]]) -> None:
+        self._uses: Counter[float] = Counter(index for numbers in named for index in set(numbers))
+        self._made: dict[tuple[Hashable, ...], Any] = {}
 
-    def get(self, role: Hashable, index, make: Callable[[], Any], *rest: Hashable) -> Any:
+    def get(self, role: Hashable, index: Any, make: Callable[[], Any], *rest: Hashable) -> Any:
         """Return what ``make()`` made before of the same accessor in the same role, or makes now.
 
         Parameters

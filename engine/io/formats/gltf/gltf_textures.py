@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import warnings as python_warnings
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,12 +22,16 @@ from ...reading.sources import Source
 from ..images import read_image
 from . import gltf_basisu
 from .gltf_buffers import GltfBuffers
-from .gltf_file import GltfFile, whole_of
+from .gltf_file import Entry, GltfFile, whole_of
+
+if TYPE_CHECKING:
+    from ....choices import Filter, Wrap
+    from ....model.materials.parameters import SlotTexture
 
 TRANSFORM, _WEBP = "KHR_texture_transform", "EXT_texture_webp"
 #: The extensions that are read here.
 READ = (TRANSFORM, _WEBP, *gltf_basisu.READ)
-_WRAPS = {33071: "clamp", 33648: "mirror", 10497: "repeat"}
+_WRAPS: dict[int, Wrap] = {33071: "clamp", 33648: "mirror", 10497: "repeat"}
 _NEAREST, _LINEAR = 9728, 9729
 _SAMPLING = {
     "magFilter": (_NEAREST, _LINEAR),
@@ -51,7 +56,7 @@ class GltfTextures:
     def __init__(self, file: GltfFile, buffers: GltfBuffers) -> None:
         self._file, self._buffers = file, buffers
         self._images: dict[int, Texture | None] = {}
-        self._textures: dict[tuple, Texture] = {}
+        self._textures: dict[tuple[int | None, tuple[Wrap, Wrap], Filter], Texture] = {}
         self._sources: dict[int, int | None] = {}
 
     def decode(self, textures: set[int]) -> None:
@@ -67,7 +72,7 @@ class GltfTextures:
                 self._file.warnings.add(f"images[{image}] is left out: {result}")
             self._images[image] = None if isinstance(result, str) else result
 
-    def get(self, info: dict, where: str) -> Texture | None:
+    def get(self, info: Entry, where: str) -> Texture | None:
         """Return the texture that a material's ``info`` names; None if its image is left out."""
         index = self._file.number_in("textures", info.get("index"), where)
         entry = self._file.entries("textures")[index]
@@ -84,7 +89,7 @@ class GltfTextures:
             self._textures[key] = texture
         return self._textures[key]
 
-    def placed(self, info: dict, where: str, uv_sets: tuple[int, ...]):
+    def placed(self, info: Entry, where: str, uv_sets: tuple[int, ...]) -> SlotTexture:
         """Return a texture with the coordinates that it is read at.
 
         Parameters
@@ -103,7 +108,7 @@ class GltfTextures:
         found = PlacedTexture(texture, **place)
         return found if found.uv_set or found.is_moved else texture
 
-    def _place(self, info: dict, where: str) -> dict:
+    def _place(self, info: Entry, where: str) -> dict[str, Any]:
         """How the coordinates are moved."""
         transform = self._transform(info, where)
         return {
@@ -112,15 +117,15 @@ class GltfTextures:
             "scale": self._file.numbers(transform, "scale", where, (1.0, 1.0)),
         }
 
-    def uv_set(self, info: dict, where: str) -> int:
+    def uv_set(self, info: Entry, where: str) -> int:
         """Return the set of texture coordinates that ``info`` names; 0 if that is no number."""
         return self._file.sound(f"{where}.texCoord", self._uv_set, info, where) or 0
 
-    def _uv_set(self, info: dict, where: str) -> int:
+    def _uv_set(self, info: Entry, where: str) -> int:
         default = self._file.whole(info, "texCoord", where, 0)
         return self._file.whole(self._transform(info, where), "texCoord", where, default)
 
-    def _transform(self, info: dict, where: str) -> dict:
+    def _transform(self, info: Entry, where: str) -> Entry:
         extensions = self._file.spare_part(info, "extensions", where)
         return self._file.spare_part(extensions, TRANSFORM, where)
 
@@ -144,9 +149,9 @@ class GltfTextures:
         self._sources[index] = image
         return image
 
-    def _sampling(self, entry: dict, where: str) -> tuple[tuple[str, str], str]:
+    def _sampling(self, entry: Entry, where: str) -> tuple[tuple[Wrap, Wrap], Filter]:
         """The wraps along both sides, and the filter."""
-        sampler = {}
+        sampler: Entry = {}
         if "sampler" in entry:
             place = f"{where}.sampler"
             found = self._file.sound(place, self._file.entry, "samplers", entry["sampler"], where)
@@ -200,10 +205,10 @@ def changed(texture: Texture, pixels: np.ndarray, name: str) -> Texture:
     return Texture(frozen(pixels), wrap=texture.wrap, filter=texture.filter, name=name)
 
 
-def _threads(images: list) -> int:
+def _threads(images: list[int]) -> int:
     return max(min(len(images), os.cpu_count() or 1, _MOST_THREADS), 1)
 
 
-def _wrap(value) -> str:
+def _wrap(value: Any) -> Wrap:
     value = whole_of(value)
     return _WRAPS.get(value, "repeat") if type(value) is int else "repeat"

@@ -10,6 +10,8 @@ library never fails as a whole unless it is no text.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ....errors import Engine3DError
 from ....model.materials.material import Material
@@ -24,6 +26,7 @@ from .mtl_physical import PHYSICAL_MAPS, physical_fields
 from .mtl_statements import (
     COLORS,
     SCALARS,
+    MapEntry,
     color_of,
     is_map,
     keyword_of,
@@ -31,6 +34,9 @@ from .mtl_statements import (
     parse_map,
     scalar_of,
 )
+
+if TYPE_CHECKING:
+    from ....choices import Wrap
 
 _UNDRAWN_NUMBERS = ("aniso", "anisor")
 # What is said of maps that are not drawn, by their keywords in lower case.
@@ -89,13 +95,22 @@ def _without_comment(rest: bytes) -> bytes:
     return b"" if rest.startswith(b"#") else rest.strip()
 
 
+class _Gathered(NamedTuple):
+    """What was read of a material: its maps, and its other statements, by keyword."""
+
+    name: str
+    line: int
+    maps: dict[str, MapEntry]
+    values: dict[str, Any]
+
+
 class _Library:
     """Takes the statements of a library, and makes materials of them."""
 
     def __init__(self, source: Source, textures: TextureCache, warnings: WarningList) -> None:
         self._source, self._textures, self._warnings = source, textures, warnings
         self._materials: dict[str, Material] = {}
-        self._current: dict | None = None
+        self._current: _Gathered | None = None
         self._unknown: set[str] = set()
         self._clear: list[int] = []  # the lines of materials that would not show
 
@@ -103,7 +118,7 @@ class _Library:
         """Take a statement."""
         if keyword == "newmtl":
             self._finish()
-            self._current = {"name": decoded(rest), "line": line, "maps": {}, "values": {}}
+            self._current = _Gathered(decoded(rest), line, {}, {})
         elif self._current is None:
             self._warn(f"{shown(keyword)} before any newmtl", line)
         elif keyword in COLORS or keyword in SCALARS:
@@ -111,13 +126,13 @@ class _Library:
             if value is None:
                 self._warn(f"{keyword} {shown(rest)} is left out", line)
             else:
-                self._current["values"][keyword] = value
+                self._current.values[keyword] = value
         elif is_map(keyword):
-            self._read_map(keyword, rest, line)
+            self._read_map(self._current.maps, keyword, rest, line)
         elif keyword in _RESERVED:
             self._warn(f"{keyword} is left out", line)
         else:
-            self._current["values"].setdefault(keyword, decoded(rest))
+            self._current.values.setdefault(keyword, decoded(rest))
             self._warn_of_unknown(keyword, line)
 
     def finished(self) -> dict[str, Material]:
@@ -129,11 +144,11 @@ class _Library:
             self._warn(f"Tr 1 of {what}, which would not show, counts as opaque", self._clear[0])
         return self._materials
 
-    def _read_map(self, keyword: str, rest: bytes, line: int) -> None:
+    def _read_map(self, maps: dict[str, MapEntry], keyword: str, rest: bytes, line: int) -> None:
         entry = parse_map(decoded(rest))
         if entry["name"]:
             entry["line"] = line
-            self._current["maps"][keyword] = entry
+            maps[keyword] = entry
             self._warn_of_unknown(keyword, line)
         else:
             self._warn(f"{keyword} without a file name", line)
@@ -149,19 +164,21 @@ class _Library:
     def _finish(self) -> None:
         """Turn what was gathered of one material into a `Material`."""
         current = self._current
-        if current is None or current["name"] in self._materials:
+        if current is None or current.name in self._materials:
             return
-        if current["values"].get("Tr", 0.0) >= 1 and "d" not in current["values"]:
-            self._clear.append(current["line"])
-        name, how = current["name"], (self._textures, self._warnings, self._source)
-        self._materials[name] = _material(name, current["values"], current["maps"], *how)
+        if current.values.get("Tr", 0.0) >= 1 and "d" not in current.values:
+            self._clear.append(current.line)
+        self._materials[current.name] = _material(current, self._load)
+
+    def _load(self, entry: MapEntry | None, is_data: bool = False) -> Texture | None:
+        return _texture(entry, self._textures, self._warnings, self._source, is_data)
 
 
-def _material(name: str, values: dict, maps: dict, textures, warnings, source) -> Material:
-    def load(entry, is_data=False):
-        return _texture(entry, textures, warnings, source, is_data)
-
-    texture = load(maps.get("map_Kd"))
+def _material(
+    gathered: _Gathered, load: Callable[[MapEntry | None, bool], Texture | None]
+) -> Material:
+    name, _, maps, values = gathered
+    texture = load(maps.get("map_Kd"), False)
     color = values.get("Kd", (1.0, 1.0, 1.0))
     if texture is not None and not any(color):
         # Exporters that know nothing but the image write Kd 0 0 0 beside it.
@@ -191,35 +208,43 @@ def _material(name: str, values: dict, maps: dict, textures, warnings, source) -
     return material
 
 
-def _opacity(values: dict) -> float:
+def _opacity(values: dict[str, Any]) -> float:
     """d, or 1 - Tr; Tr 1 alone is of programs that mean opaque by it."""
     transparency = values.get("Tr", 0.0)
     opacity = values.get("d", 1.0 if transparency >= 1 else 1.0 - transparency)
     return min(max(opacity, 0.0), 1.0)
 
 
-def _finish_alpha(material, maps, load) -> None:
+def _finish_alpha(
+    material: Material,
+    maps: dict[str, MapEntry],
+    load: Callable[[MapEntry | None, bool], Texture | None],
+) -> None:
     entries = {key.lower(): entry for key, entry in maps.items()}
-    keyword = next((key for key in OPACITY_MAPS if key in entries), None)
+    keyword = next((key for key in OPACITY_MAPS if key in entries), "")
     opacity_map = load(entries.get(keyword), True)
     if opacity_map is not None or material.texture is not None or "opacity" in material.extras:
         opacity = material.extras.get("opacity", 1.0)
         set_alpha(material, opacity, opacity_map, OPACITY_MAPS.get(keyword, False))
 
 
-def _specular(values: dict) -> tuple[float, float, float]:
+def _specular(values: dict[str, Any]) -> tuple[float, float, float]:
     """Ks, unless the illumination model has no highlight or the exponent would light all."""
     has_highlight = values.get("illum", 2.0) >= 2 and values.get("Ns", 32.0) > 0
     return values.get("Ks", (0.0, 0.0, 0.0)) if has_highlight else (0.0, 0.0, 0.0)
 
 
 def _texture(
-    entry: dict | None, textures: TextureCache, warnings, source, is_data: bool
+    entry: MapEntry | None,
+    textures: TextureCache,
+    warnings: WarningList,
+    source: Source,
+    is_data: bool,
 ) -> Texture | None:
     if entry is None:
         return None
     name, line = entry["name"], entry["line"]
-    wrap = "clamp" if entry.get("clamp", ["off"])[:1] == ["on"] else "repeat"
+    wrap: Wrap = "clamp" if entry.get("clamp", ["off"])[:1] == ["on"] else "repeat"
     try:
         texture, note = textures.get(name, source.folder, wrap, is_data)
         if note:
@@ -250,7 +275,7 @@ def uv_transform(material: Material) -> tuple[float, float, float, float]:
     return _scale_and_offset(material.extras.get("maps", {}).get("map_Kd", {}))
 
 
-def _scale_and_offset(entry: dict) -> tuple[float, float, float, float]:
+def _scale_and_offset(entry: MapEntry) -> tuple[float, float, float, float]:
     scale = _pair(entry.get("s", []), 1.0)
     offset = _pair(entry.get("o", []), 0.0)
     transform = (*scale, *offset)
@@ -258,5 +283,5 @@ def _scale_and_offset(entry: dict) -> tuple[float, float, float, float]:
 
 
 def _pair(words: list[str], default: float) -> tuple[float, float]:
-    numbers = [float(word) for word in words[:2]]
-    return tuple([*numbers, default, default][:2])
+    first, second, *_ = (*(float(word) for word in words[:2]), default, default)
+    return first, second

@@ -35,12 +35,13 @@ def set_alpha(
     inverted : bool
         Whether the map is white where nothing shows.
     """
-    texture = material.texture
+    given = material.texture
+    texture = given if isinstance(given, Texture) else None
     if opacity_map is not None:
         alpha = _map_values(opacity_map, inverted)
         material.texture = _with_alpha(texture, opacity_map, alpha)
         material.alpha_mode = "mask" if opacity == 1 and _is_mask(alpha) else "blend"
-    elif isinstance(texture, Texture) and _is_mask(texture.pixels[:, :, 3]):
+    elif texture is not None and _is_mask(texture.pixels[:, :, 3]):
         material.alpha_mode = "mask" if opacity == 1 else "blend"
     elif opacity < 1:
         material.alpha_mode = "blend"
@@ -57,7 +58,7 @@ def _map_values(texture: Texture, inverted: bool) -> np.ndarray:
 
 def _is_mask(alpha: np.ndarray) -> bool:
     out, within = np.mean(alpha <= _LOW), np.mean(alpha >= _HIGH)
-    return min(out, within) >= _LEAST_EACH and 1 - out - within <= _MOST_BETWEEN
+    return bool(min(out, within) >= _LEAST_EACH and 1 - out - within <= _MOST_BETWEEN)
 
 
 def _with_alpha(texture: Texture | None, opacity_map: Texture, alpha: np.ndarray) -> Texture:

@@ -9,12 +9,14 @@ image's side.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from ....model.materials.material import PARAMETERS, TEXTURE_SLOTS
+from ....model.materials.parameters import TextureSlot
 from ....model.materials.textures import PlacedTexture, Texture
+from .mtl_statements import MapEntry
 
 _NUMBERS = ("Pr", "Pm", "Ps", "Pc", "Pcr")
 _ROUGHNESS, _METALLIC = ("map_Pr",), ("map_Pm",)
@@ -32,10 +34,14 @@ _SLOTS = {
 #: All maps that are drawn of physically based materials.
 PHYSICAL_MAPS = (*_ROUGHNESS, *_METALLIC, *_ALL_IN_ONE, *_SLOTS)
 _DEPTH = 1 / 64
+# Gives the image of a map, None where it is left out; the flag: codes are numbers, not colours.
+_Load: TypeAlias = Callable[[MapEntry, bool], Texture | None]
+# Scale and offset, u and v of each.
+_Place: TypeAlias = tuple[float, float, float, float]
 _MOST_NEUTRAL = 32  # how far the red and green of a map of normals are from the middle, on average
 
 
-def is_physical(values: dict[str, Any], maps: dict[str, dict]) -> bool:
+def is_physical(values: dict[str, Any], maps: dict[str, MapEntry]) -> bool:
     """Whether a material says anything that only physically based ones have."""
     named = (*_ROUGHNESS, *_METALLIC, *_ALL_IN_ONE, "map_Ps", "map_Pc", "map_Pcr")
     return any(key in values for key in _NUMBERS) or any(key in maps for key in named)
@@ -43,9 +49,9 @@ def is_physical(values: dict[str, Any], maps: dict[str, dict]) -> bool:
 
 def physical_fields(
     values: dict[str, Any],
-    maps: dict[str, dict],
-    load: Callable[[dict, bool], Texture | None],
-    place: Callable[[dict], tuple[float, float, float, float]],
+    maps: dict[str, MapEntry],
+    load: _Load,
+    place: Callable[[MapEntry], _Place],
 ) -> dict[str, Any]:
     """Return what a material's statements mean, by the names of `Material`'s fields.
 
@@ -86,11 +92,13 @@ def _number_fields(values: dict[str, Any]) -> dict[str, Any]:
     return fields
 
 
-def _map_fields(values: dict[str, Any], maps: dict[str, dict], load) -> dict[str, Any]:
+def _map_fields(values: dict[str, Any], maps: dict[str, MapEntry], load: _Load) -> dict[str, Any]:
     """The maps of a physical material; the numbers beside them are their factors."""
     fields: dict[str, Any] = {}
     for key, slot in _SLOTS.items():
-        if (texture := _loaded(maps, (key,), load, not PARAMETERS[slot].is_color)) is not None:
+        row = PARAMETERS[slot]
+        is_color = isinstance(row, TextureSlot) and row.is_color
+        if (texture := _loaded(maps, (key,), load, not is_color)) is not None:
             fields[slot] = texture
     if "emissive_texture" in fields and not any(values.get("Ke", (0.0,))):
         fields["emissive"] = (1.0, 1.0, 1.0)
@@ -103,10 +111,10 @@ def _map_fields(values: dict[str, Any], maps: dict[str, dict], load) -> dict[str
     rough, metal = _loaded(maps, _ROUGHNESS, load), _loaded(maps, _METALLIC, load)
     if (both := _all_in_one(maps, load)) is not None:
         fields |= both
-    elif rough is not None or metal is not None:
+    elif (held := rough or metal) is not None:
         pixels = _joined(rough and rough[0], metal and metal[0])
         made = Texture(pixels, color_space="linear", name="roughness and metal")
-        fields["metallic_roughness_texture"] = made, (rough or metal)[1]
+        fields["metallic_roughness_texture"] = made, held[1]
     if "metallic_roughness_texture" in fields:
         fields["roughness"] = _fraction(values.get("Pr", 1.0))
         has_metal = metal is not None or both is not None
@@ -114,7 +122,7 @@ def _map_fields(values: dict[str, Any], maps: dict[str, dict], load) -> dict[str
     return fields
 
 
-def _all_in_one(maps: dict[str, dict], load) -> dict[str, Any] | None:
+def _all_in_one(maps: dict[str, MapEntry], load: _Load) -> dict[str, Any] | None:
     """Occlusion, roughness and metal in the channels of one image."""
     held = _loaded(maps, ("map_ORM",), load)
     if held is None and (other := _loaded(maps, ("map_RMA",), load)) is not None:
@@ -138,7 +146,7 @@ def _joined(rough: Texture | None, metal: Texture | None) -> np.ndarray:
     return pixels
 
 
-def _normal_fields(maps: dict[str, dict], load) -> dict[str, Any]:
+def _normal_fields(maps: dict[str, MapEntry], load: _Load) -> dict[str, Any]:
     """Of all materials: a map of normals, or of heights."""
     held = _loaded(maps, _NORMALS, load)
     if held is not None:
@@ -186,8 +194,8 @@ def _holds_normals(pixels: np.ndarray) -> bool:
 
 
 def _loaded(
-    maps: dict[str, dict], keys: tuple[str, ...], load, is_data: bool = True
-) -> tuple[Texture, dict] | None:
+    maps: dict[str, MapEntry], keys: tuple[str, ...], load: _Load, is_data: bool = True
+) -> tuple[Texture, MapEntry] | None:
     """The first of some maps that a material has: its image, and its options."""
     for key in keys:
         if key in maps and (texture := load(maps[key], is_data)) is not None:
@@ -195,7 +203,7 @@ def _loaded(
     return None
 
 
-def _strength(entry: dict) -> float:
+def _strength(entry: MapEntry) -> float:
     try:
         return float(entry["bm"][0])
     except (KeyError, IndexError, ValueError):
@@ -206,7 +214,7 @@ def _fraction(value: float) -> float:
     return min(max(value, 0.0), 1.0)
 
 
-def _placed(texture: Texture, own: tuple, base: tuple) -> Texture | PlacedTexture:
+def _placed(texture: Texture, own: _Place, base: _Place) -> Texture | PlacedTexture:
     """A texture at its own scale and offset, where coordinates are at those of the base colour."""
     if own == base or not (base[0] and base[1]):
         return texture

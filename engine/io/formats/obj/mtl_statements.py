@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+from typing import Any, TypeAlias
 
 from ...reading.text import words_of
 
@@ -47,6 +48,9 @@ _OPTIONS = {
 }
 _NUMBERED = ("-s", "-o", "-t", "-mm")
 
+#: A map, as `parse_map` returns it.
+MapEntry: TypeAlias = dict[str, Any]
+
 
 def keyword_of(word: str) -> str:
     """Return the format's spelling of a keyword, or the word where it has none."""
@@ -68,8 +72,8 @@ def color_of(rest: bytes) -> tuple[float, float, float] | None:
     numbers = _numbers(rest.split()[:3])
     if numbers is None or len(numbers) not in (1, 3):
         return None
-    numbers = numbers * 3 if len(numbers) == 1 else numbers
-    return tuple(max(0.0, number) for number in numbers)
+    red, green, blue = numbers * 3 if len(numbers) == 1 else numbers
+    return max(0.0, red), max(0.0, green), max(0.0, blue)
 
 
 def scalar_of(rest: bytes) -> float | None:
@@ -88,7 +92,7 @@ def _numbers(words: list[bytes]) -> list[float] | None:
     return numbers if all(math.isfinite(n) and abs(n) < 3e38 for n in numbers) else None
 
 
-def parse_map(text: str) -> dict:
+def parse_map(text: str) -> MapEntry:
     """Take the arguments of a map statement apart.
 
     Returns
@@ -98,13 +102,13 @@ def parse_map(text: str) -> dict:
         its dash, in lower case: a list of words. Options may stand before the name or behind it.
     """
     words = words_of(text)
-    entry: dict = {"name": ""}
+    entry: MapEntry = {"name": ""}
     position = _take_options(words, 0, entry)
     if position == len(words):
         return entry
     last = len(words)
     for start in range(position + 1, len(words)):
-        behind: dict = {}
+        behind: MapEntry = {}
         if words[start].lower() in _OPTIONS and _take_options(words, start, behind) == len(words):
             entry |= {key: values for key, values in behind.items() if values}
             last = start
@@ -114,7 +118,7 @@ def parse_map(text: str) -> dict:
     return entry
 
 
-def _take_options(words: list[str], position: int, entry: dict) -> int:
+def _take_options(words: list[str], position: int, entry: MapEntry) -> int:
     """Read options into an entry; return the place behind them."""
     while position < len(words) and words[position].lower() in _OPTIONS:
         option = words[position].lower()

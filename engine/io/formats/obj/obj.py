@@ -44,7 +44,7 @@ def read_obj(source: Source, split: bool = False) -> Document:
     return Document("obj", objects, counts=parts.counts(), warnings=warnings.messages())
 
 
-def _cut(source, file: ObjFile, warnings) -> Triangulation | None:
+def _cut(source: Source, file: ObjFile, warnings: WarningList) -> Triangulation | None:
     """Cut the faces into triangles; None if all are."""
     if file.faces.are_triangles:
         return None
@@ -56,7 +56,13 @@ def _cut(source, file: ObjFile, warnings) -> Triangulation | None:
     return cut
 
 
-def _materials(source, file: ObjFile, states: ObjStates, cut: Triangulation | None, warnings):
+def _materials(
+    source: Source,
+    file: ObjFile,
+    states: ObjStates,
+    cut: Triangulation | None,
+    warnings: WarningList,
+) -> tuple[list[Material], np.ndarray]:
     """The materials in use, and the one of each triangle.
 
     Without any there is one without a name; so there is for triangles before the first ``usemtl``.
@@ -79,16 +85,22 @@ def _materials(source, file: ObjFile, states: ObjStates, cut: Triangulation | No
 
 
 def _triangles(faces: Elements, cut: Triangulation | None, material_ids: np.ndarray) -> Triangles:
-    indices = (faces.positions, faces.uvs, faces.normals)
-    if cut is None:
-        corners = [None if array is None else array.reshape(-1, 3) for array in indices]
-        polygons = np.arange(len(faces.sizes), dtype=np.int32)
-        return Triangles(*corners, material_ids, polygons, None)
-    corners = [None if array is None else array[cut.corners] for array in indices]
-    return Triangles(*corners, material_ids, cut.polygons, cut.edge_visible)
+    def corners(indices: np.ndarray) -> np.ndarray:
+        return indices.reshape(-1, 3) if cut is None else indices[cut.corners]
+
+    return Triangles(
+        corners(faces.positions),
+        None if faces.uvs is None else corners(faces.uvs),
+        None if faces.normals is None else corners(faces.normals),
+        material_ids,
+        np.arange(len(faces.sizes), dtype=np.int32) if cut is None else cut.polygons,
+        None if cut is None else cut.edge_visible,
+    )
 
 
-def _fill_normals(file: ObjFile, triangles: Triangles, states: ObjStates, crease_angle: float):
+def _fill_normals(
+    file: ObjFile, triangles: Triangles, states: ObjStates, crease_angle: float
+) -> np.ndarray | None:
     """Give the triangles the normals that they lack; returns what their indices refer to."""
     vertices = file.vertices
     if triangles.normals is None and not states.has_smoothing:

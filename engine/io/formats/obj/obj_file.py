@@ -8,7 +8,7 @@ line.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -51,9 +51,13 @@ class Elements(NamedTuple):
     def part(self, first: int, last: int) -> Elements:
         """Return the elements first..last-1."""
         corners = slice(int(self.sizes[:first].sum()), int(self.sizes[:last].sum()))
-        indices = (self.positions, self.uvs, self.normals)
-        parts = [None if array is None else array[corners] for array in indices]
-        return Elements(self.sizes[first:last], *parts, self.are_triangles)
+        return Elements(
+            self.sizes[first:last],
+            self.positions[corners],
+            None if self.uvs is None else self.uvs[corners],
+            None if self.normals is None else self.normals[corners],
+            self.are_triangles,
+        )
 
 
 @dataclass
@@ -94,12 +98,12 @@ def read_obj_file(source: Source, warnings: WarningList) -> ObjFile:
     if problem != native.DONE:
         raise _error(problem, reader.error, source.path)
     found = reader.take()
-    elements = [
+    faces, lines, points = (
         _elements(found[kind], found, warnings, of_faces=kind == "faces")
         for kind in ("faces", "lines", "points")
-    ]
+    )
     vertices = Vertices(found["positions"], found["colors"], found["uvs"], found["normals"])
-    return ObjFile(vertices, *elements, found["setters"], found["names"])
+    return ObjFile(vertices, faces, lines, points, found["setters"], found["names"])
 
 
 def _error(problem: int, details: tuple[int, int, int, bytes], path: str) -> Exception:
@@ -120,9 +124,11 @@ def _error(problem: int, details: tuple[int, int, int, bytes], path: str) -> Exc
     return FileFormatError(message, path, line or None)
 
 
-def _elements(read: tuple, found: dict, warnings: WarningList, *, of_faces: bool) -> Elements:
+def _elements(
+    read: tuple[Any, ...], found: dict[str, Any], warnings: WarningList, *, of_faces: bool
+) -> Elements:
     """One kind of elements; warns of what was left out."""
-    sizes, indices, are_triangles, (short, line), outside = read
+    sizes, (positions, uvs, normals), are_triangles, (short, line), outside = read
     for which, (count, first, word) in enumerate(outside):
         if count:
             total = len(found["uvs" if which == 1 else "normals"])
@@ -133,4 +139,4 @@ def _elements(read: tuple, found: dict, warnings: WarningList, *, of_faces: bool
             )
     if of_faces and short:
         warnings.add(f"{short} faces of fewer than three corners are left out", line)
-    return Elements(sizes, *indices, are_triangles)
+    return Elements(sizes, positions, uvs, normals, are_triangles)

@@ -6,7 +6,7 @@ the triangles of each group; the counts of a `Document`.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -50,7 +50,7 @@ class ObjParts(NamedTuple):
     crease_angle: float
     moves: bool = False
 
-    def counts(self) -> dict:
+    def counts(self) -> dict[str, Any]:
         """Return the lists of the file, as `Document.counts` shows them."""
         file, states = self.file, self.states
         groups = [name for names in states.groups.names() for name in words_of(names)]
@@ -117,7 +117,9 @@ class ObjParts(NamedTuple):
                 found.append(self._object(name, chosen, lines, points, starts))
         return found or [self.whole(stem)]
 
-    def _object(self, name, chosen: slice, lines, points, starts) -> DocumentObject:
+    def _object(
+        self, name: str, chosen: slice, lines: Elements, points: Elements, starts: np.ndarray
+    ) -> DocumentObject:
         """Some triangles, lines and points that stand together."""
         geometry = Geometry(
             self.file.vertices,
@@ -129,7 +131,9 @@ class ObjParts(NamedTuple):
         )
         return self._built(geometry.with_own_positions(), name, starts, chosen)
 
-    def _built(self, geometry: Geometry, name: str, starts, chosen: slice) -> DocumentObject:
+    def _built(
+        self, geometry: Geometry, name: str, starts: np.ndarray, chosen: slice
+    ) -> DocumentObject:
         pose = None
         if self.moves:
             positions, pose = moved_near(geometry.vertices.positions)

@@ -7,6 +7,8 @@ colour. Elements and properties of no meaning here are skipped.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ....errors import FileFormatError
@@ -82,8 +84,8 @@ def _mesh(
     faces: PlyFaces,
     lines: np.ndarray,
     source: Source,
-    scalars: dict,
-    face_scalars: dict,
+    scalars: dict[str, np.ndarray],
+    face_scalars: dict[str, np.ndarray],
 ) -> Mesh:
     geometry = IndexedGeometry(
         vertices.positions,
@@ -105,7 +107,7 @@ def _mesh(
 
 def _counts(
     tables: dict[str, PlyTable], vertices: PlyVertices, faces: PlyFaces, lines: np.ndarray
-) -> dict:
+) -> dict[str, Any]:
     given = (("uvs", vertices.uvs), ("normals", vertices.normals), ("colors", vertices.colors))
     return {
         "vertices": len(vertices.positions),

@@ -11,7 +11,7 @@ import re
 import sys
 from contextlib import suppress
 from itertools import islice
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -95,7 +95,15 @@ class BinaryBody:
                     return self._walk(data, place, lists, tail, place, rows)
         return self._walk(self._source.data, 0, lists, tail, place, rows)
 
-    def _walk(self, data, base: int, lists: list[ListInRow], tail: int, place: int, rows: int):
+    def _walk(
+        self,
+        data: bytes | memoryview,
+        base: int,
+        lists: list[ListInRow],
+        tail: int,
+        place: int,
+        rows: int,
+    ) -> WalkedRows:
         """Go along rows in the bytes from ``base`` on."""
         sizes = [
             (before, self.size(count_type), count_type[0] == "i", self.size(item_type))
@@ -266,7 +274,10 @@ class TextBody:
         return self._first_line + feeds + returns - pairs
 
 
-def open_body(source: Source, header: PlyHeader) -> BinaryBody | TextBody:
+PlyBody: TypeAlias = BinaryBody | TextBody
+
+
+def open_body(source: Source, header: PlyHeader) -> PlyBody:
     """Return the body of a file, to get numbers from."""
     if not header.byte_order:
         return TextBody(source, header)

@@ -147,13 +147,16 @@ class _Ranges:
         self._warnings.add_once(message)
 
 
-def _joined(columns: list[_Column], fulls: list[float | None], clear) -> np.ndarray:
+def _joined(
+    columns: list[_Column], fulls: list[float | None], clear: np.ndarray | None
+) -> np.ndarray:
     """The colours of three columns, and alphas of 0 to 1."""
     count = len(columns[0].values)
-    if None not in fulls:
+    known = [full for full in fulls if full is not None]
+    if len(known) == len(fulls):
         colors = np.full((count, 4), 255, np.uint8)
-        for channel, (column, full) in enumerate(zip(columns, fulls, strict=True)):
-            colors[:, channel] = _codes(column, full)
+        for channel, (column, most) in enumerate(zip(columns, known, strict=True)):
+            colors[:, channel] = _codes(column, most)
         if clear is not None:
             colors[:, 3] = np.floor(np.clip(clear, 0, 1) * 255 + 0.5)
         return colors

@@ -58,7 +58,7 @@ def read_faces(
         An index of a vertex that does not exist.
     """
     name = _index_list(table)
-    if name is None:
+    if table is None or name is None:
         return PlyFaces(np.zeros((0, 3), np.int32))
     outlines = table.list(name)
     indices = _checked(table, outlines, len(positions))
@@ -108,7 +108,7 @@ def read_strips(table: PlyTable | None, count: int) -> np.ndarray:
     Every strip begins anew behind an index of -1, and winds its first triangle as it stands.
     """
     name = _index_list(table)
-    if name is None:
+    if table is None or name is None:
         return np.zeros((0, 3), np.int32)
     strips = table.list(name)
     indices = _checked(table, strips, count, (_RESTART,))
@@ -143,7 +143,9 @@ def _index_list(table: PlyTable | None) -> str | None:
     return None
 
 
-def _checked(table: PlyTable, found: PlyList, count: int, others: tuple = ()) -> np.ndarray:
+def _checked(
+    table: PlyTable, found: PlyList, count: int, others: tuple[int, ...] = ()
+) -> np.ndarray:
     """Vertex indices as int32; those in ``others`` are let through."""
     values = found.values
     kind, size = values.dtype.kind, values.dtype.itemsize

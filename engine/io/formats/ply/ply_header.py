@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from typing import NoReturn
 
 from ....errors import FileFormatError
 from ...reading.sources import Source
@@ -167,8 +168,10 @@ class _HeaderParser:
         words = line.split(None, 5)
         if not words or words[0] == b"obj_info":
             return
+        if words[0] == b"comment":
+            self._comment(line)
+            return
         read = {
-            b"comment": self._comment,
             b"format": self._format,
             b"element": self._element,
             b"property": self._property,
@@ -176,7 +179,7 @@ class _HeaderParser:
         if read is None:
             self._warnings.add(f"not a header line, left out: {shown(line)}", number)
             return
-        read(line if words[0] == b"comment" else words)
+        read(words)
 
     def header(self, body_start: int, body_line: int) -> PlyHeader:
         if self._byte_order is None:
@@ -211,19 +214,20 @@ class _HeaderParser:
         self._current = self._elements[name] = PlyElement(name, int(words[2]))
 
     def _property(self, words: list[bytes]) -> None:
+        count_type = None
         if self._current is None:
             self._fail("a property before any element")
         if words[1:2] == [b"list"]:
             if len(words) != 5:
                 self._fail("a list property needs two types and a name")
-            count_type, item_type, name = self._type(words[2]), self._type(words[3]), words[4]
+            count_type, item_type = self._type(words[2]), self._type(words[3])
             if count_type.startswith("f"):
                 self._fail("the length of a list must be an integer type")
         else:
             if len(words) != 3:
                 self._fail("a property needs a type and a name")
-            count_type, item_type, name = None, self._type(words[1]), words[2]
-        name = decoded(name)
+            item_type = self._type(words[1])
+        name = decoded(words[-1])
         if name in self._current.properties:
             self._fail(f"property {shown(name)} twice")
         self._current.properties[name] = PlyProperty(name, item_type, count_type)
@@ -234,5 +238,5 @@ class _HeaderParser:
             self._fail(f"unknown type {shown(word)}")
         return code
 
-    def _fail(self, message: str):
+    def _fail(self, message: str) -> NoReturn:
         raise FileFormatError(message, self._path, self._number)

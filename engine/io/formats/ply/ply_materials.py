@@ -40,7 +40,9 @@ def read_materials(
     ]
 
 
-def _texture(name: str, textures: TextureCache, source: Source, warnings) -> Texture | None:
+def _texture(
+    name: str, textures: TextureCache, source: Source, warnings: WarningList
+) -> Texture | None:
     try:
         texture, note = textures.get(name, source.folder, "repeat")
     except (LinkedFileError, Engine3DError) as error:

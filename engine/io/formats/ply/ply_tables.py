@@ -8,7 +8,7 @@ before the file was found long enough for it.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 
 import numpy as np
 
@@ -17,10 +17,9 @@ from ....errors import FileFormatError
 from ...reading.sources import Source
 from .ply_body import (
     BadListError,
-    BinaryBody,
     ListInRow,
+    PlyBody,
     ShortBodyError,
-    TextBody,
     WalkedRows,
 )
 from .ply_header import PlyElement, PlyHeader
@@ -49,8 +48,8 @@ class _Layout(NamedTuple):
 
     Attributes
     ----------
-    count : int
-        Number of rows, N.
+    row_count : int
+        N.
     stride : int or None
         The distance of rows if all have the same shape.
     rows : WalkedRows
@@ -61,7 +60,7 @@ class _Layout(NamedTuple):
         All items, where rows are nothing but one list, of the same length in each.
     """
 
-    count: int
+    row_count: int
     stride: int | None
     rows: WalkedRows
     end: int
@@ -76,7 +75,7 @@ class PlyTable:
     element : PlyElement
     """
 
-    def __init__(self, element: PlyElement, body, layout: _Layout, path: str) -> None:
+    def __init__(self, element: PlyElement, body: PlyBody, layout: _Layout, path: str) -> None:
         self.element = element
         self._body = body
         self._layout = layout
@@ -84,7 +83,7 @@ class PlyTable:
         self._places = _places_in_row(element, body)
 
     def __len__(self) -> int:
-        return self._layout.count
+        return self._layout.row_count
 
     def has(self, *names: str, lists: bool = False) -> bool:
         """Tell whether all these properties exist, as numbers or as lists."""
@@ -133,7 +132,7 @@ class PlyTable:
         ):
             return None
         shape = (len(self), len(names))
-        return self._rows(self._first_place(after, offset), shape, code)
+        return self._rows(layout.stride, self._first_place(after, offset), shape, code)
 
     def list(self, name: str) -> PlyList:
         """Return a list property."""
@@ -146,16 +145,16 @@ class PlyTable:
         values, length = layout.items, int(sizes[0])
         if values is None:
             shape = (len(self), length)
-            values = self._rows(int(layout.rows.starts[0, number]), shape, code)
+            values = self._rows(layout.stride, int(layout.rows.starts[0, number]), shape, code)
         values = native.frozen(values).reshape(-1)
         return PlyList(np.broadcast_to(sizes, len(self)), values, length)
 
-    def _rows(self, start: int, shape: tuple[int, int], code: str) -> np.ndarray:
+    def _rows(self, stride: int, start: int, shape: tuple[int, int], code: str) -> np.ndarray:
         """Neighbouring numbers of all rows, of one shape; those of the first row at ``start``."""
-        place, stride = int(self._layout.rows.places[0]), self._layout.stride
+        place = int(self._layout.rows.places[0])
         return native.frozen(self._body.rows(place, start - place, shape, stride, code))
 
-    def fail(self, row: int, message: str):
+    def fail(self, row: int, message: str) -> NoReturn:
         """Raise an error about a row."""
         layout = self._layout
         if layout.stride is None:
@@ -179,9 +178,7 @@ class PlyTable:
         return rows.starts[:, number] + rows.sizes[:, number] * size
 
 
-def read_tables(
-    source: Source, header: PlyHeader, body: BinaryBody | TextBody
-) -> dict[str, PlyTable]:
+def read_tables(source: Source, header: PlyHeader, body: PlyBody) -> dict[str, PlyTable]:
     """Find the rows of all elements.
 
     Raises
@@ -205,7 +202,7 @@ def read_tables(
     return tables
 
 
-def _places_in_row(element: PlyElement, body) -> dict[str, tuple[int, int]]:
+def _places_in_row(element: PlyElement, body: PlyBody) -> dict[str, tuple[int, int]]:
     """For each number the lists before it and its distance from the last; for lists, which one."""
     places, lists, offset = {}, 0, 0
     for name, item in element.properties.items():
@@ -217,7 +214,7 @@ def _places_in_row(element: PlyElement, body) -> dict[str, tuple[int, int]]:
     return places
 
 
-def _find_rows(source: Source, element: PlyElement, body, start: int) -> _Layout:
+def _find_rows(source: Source, element: PlyElement, body: PlyBody, start: int) -> _Layout:
     lists, tail = _lists(element, body)
     least = sum(before + body.size(count_type) for before, count_type, _ in lists) + tail
     count = element.count if least else 0
@@ -230,8 +227,8 @@ def _find_rows(source: Source, element: PlyElement, body, start: int) -> _Layout
         if count and fits:
             found = _Layout(count, stride, first, start + stride * count)
             if len(element.properties) == 1 and lists:
-                _, *types = lists[0]
-                items = body.even_lists(start, count, *types, int(first.sizes[0, 0]))
+                _, count_type, code = lists[0]
+                items = body.even_lists(start, count, count_type, code, int(first.sizes[0, 0]))
                 if items is not None:
                     return found._replace(items=items)
             elif _is_uniform(element, body, first, stride, count):
@@ -249,7 +246,7 @@ def _find_rows(source: Source, element: PlyElement, body, start: int) -> _Layout
     return _Layout(count, None, rows, rows.end)
 
 
-def _lists(element: PlyElement, body) -> tuple[list[ListInRow], int]:
+def _lists(element: PlyElement, body: PlyBody) -> tuple[list[ListInRow], int]:
     """The lists of a row, and the number of places behind the last."""
     lists, before = [], 0
     for item in element.properties.values():
@@ -261,18 +258,20 @@ def _lists(element: PlyElement, body) -> tuple[list[ListInRow], int]:
     return lists, before
 
 
-def _is_uniform(element: PlyElement, body, first: WalkedRows, stride: int, count: int) -> bool:
+def _is_uniform(
+    element: PlyElement, body: PlyBody, first: WalkedRows, stride: int, count: int
+) -> bool:
     """Whether the lists of all rows have the lengths of those in the first."""
-    lists = [p for p in element.properties.values() if p.count_type is not None]
-    for item, begin, size in zip(lists, first.starts[0], first.sizes[0], strict=True):
+    lists, _ = _lists(element, body)
+    for (_, count_type, _), begin, size in zip(lists, first.starts[0], first.sizes[0], strict=True):
         place = int(first.places[0])
-        offset = int(begin) - body.size(item.count_type) - place
-        if not body.lengths_are(place, offset, stride, count, item.count_type, int(size)):
+        offset = int(begin) - body.size(count_type) - place
+        if not body.lengths_are(place, offset, stride, count, count_type, int(size)):
             return False
     return True
 
 
-def _fail_short(source: Source, element: PlyElement, body):
+def _fail_short(source: Source, element: PlyElement, body: PlyBody) -> NoReturn:
     raise FileFormatError(
         f"the file ends before the {element.count} rows of element {element.name!r} do",
         source.path,

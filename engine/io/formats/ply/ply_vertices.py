@@ -57,10 +57,9 @@ def read_vertices(table: PlyTable, warnings: WarningList, is_own: bool = False) 
             uvs = finite_uvs(table.columns(*names))
             break
     position_ids = table.column("position_id") if table.has("position_id") else None
-    if is_splats(table):
-        colors = splat_colors(table, warnings)
-    else:
-        colors = read_colors(table, warnings, is_own)
+    colors = (
+        splat_colors(table, warnings) if is_splats(table) else read_colors(table, warnings, is_own)
+    )
     return PlyVertices(positions, normals, colors, uvs, position_ids)
 
 

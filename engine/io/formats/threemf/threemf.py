@@ -13,8 +13,8 @@ import numpy as np
 
 from ....errors import FileFormatError
 from ....model.geometry.mesh import Mesh
-from ...reading.documents import Document, DocumentObject
-from ...reading.posed_parts import MAX_REPEATED, counts_of, document_objects
+from ...reading.documents import Document
+from ...reading.posed_parts import MAX_REPEATED, PosedPart, counts_of, document_objects
 from ...reading.reader_registry import Reader
 from ...reading.sources import Source
 from ...reading.text import shown
@@ -58,7 +58,7 @@ class _Package:
         self._meshes: dict[int, tuple[Mesh, np.ndarray | None]] = {}
         self._root = self._root_path()
         self._first = self._part(self._root)[0]
-        self._placed: list[DocumentObject] = []
+        self._placed: list[PosedPart] = []
         self._steps = 0
         self.unit = UNITS[self._first.unit][1]
 
@@ -82,7 +82,8 @@ class _Package:
         path = posixpath.normpath("/" + path.lstrip("/"))
         key = path.lower()
         if key not in self._parts:
-            pieces, lists = self._archive.pieces(path), {}
+            pieces = self._archive.pieces(path)
+            lists: dict[int, np.ndarray] = {}
             if self._archive.size(path) <= _AT_ONCE + _RATIO_AT_ONCE * self._source.size:
                 text, lists = cut_lists(b"".join(pieces))
                 pieces = iter([text])
@@ -93,7 +94,7 @@ class _Package:
             self._parts[key] = part, builder
         return self._parts[key]
 
-    def placed(self) -> list[DocumentObject]:
+    def placed(self) -> list[PosedPart]:
         """Return the meshes that the build places; all of them if it places nothing."""
         items = self._first.items
         if not items:
@@ -126,13 +127,11 @@ class _Package:
         for component in record.components:
             self._place(component, pose, path, own, depth + 1)
 
-    def _posed(
-        self, record: ObjectRecord, builder: MeshBuilder, pose: np.ndarray
-    ) -> DocumentObject:
+    def _posed(self, record: ObjectRecord, builder: MeshBuilder, pose: np.ndarray) -> PosedPart:
         if id(record) not in self._meshes:
             self._meshes[id(record)] = builder.mesh(record, self._split)
         mesh, back = self._meshes[id(record)]
-        return DocumentObject(record.name, mesh, pose if back is None else pose @ back)
+        return PosedPart(record.name, mesh, pose if back is None else pose @ back)
 
 
 def _resembles(head: bytes, size: int) -> bool:

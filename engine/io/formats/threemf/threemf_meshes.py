@@ -7,10 +7,11 @@ for each base material and texture that it shows, and colours and texture coordi
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from ....errors import Engine3DError
+from ....errors import FileAccessError, FileFormatError
 from ....model.geometry.mesh import Mesh
 from ....model.materials.material import Material
 from ....model.materials.textures import Texture
@@ -60,7 +61,7 @@ class MeshBuilder:
         self._part, self._archive, self._source = part, archive, source
         self._warnings = warnings
         self._textures: dict[int, Texture | None] = {}
-        self._materials: dict[tuple, Material] = {}
+        self._materials: dict[tuple[object, ...], Material] = {}
 
     def mesh(self, record: ObjectRecord, near: bool) -> tuple[Mesh, np.ndarray | None]:
         """Return the mesh of an object, and what takes its coordinates back if they were moved.
@@ -108,8 +109,15 @@ class MeshBuilder:
                 self._give(found, triangle, said, materials, numbers)
         return found
 
-    def _give(self, found: _Corners, triangles, said, materials, numbers) -> None:
-        """Give one triangle, or all of them, a property."""
+    def _give(
+        self,
+        found: _Corners,
+        triangles: int | slice,
+        said: tuple[int, int, int, int],
+        materials: list[Material],
+        numbers: dict[int, int],
+    ) -> None:
+        """Give one triangle, or all of them, a property: a group and an entry for each corner."""
         group, *indices = said
         try:
             kind, entries, material = self._resolved(group, tuple(indices))
@@ -132,7 +140,7 @@ class MeshBuilder:
                 found.uvs = np.zeros((count, 3, 2))
             found.uvs[triangles] = entries
 
-    def _resolved(self, number: int, indices: tuple) -> tuple[str, list, Material]:
+    def _resolved(self, number: int, indices: tuple[int, ...]) -> tuple[str, list[Any], Material]:
         """Return the kind of a property, its entries at three corners, and the material."""
         group = self._group(number)
         if group.kind == "multi":
@@ -154,12 +162,14 @@ class MeshBuilder:
             raise _NoLookError(f"there is no property group {number}")
         return group
 
-    def _entries(self, group: PropertyGroup, number: int, indices: tuple) -> list:
+    def _entries(self, group: PropertyGroup, number: int, indices: tuple[int, ...]) -> list[Any]:
         if max(indices) >= len(group.entries):
             raise _NoLookError(f"a property of group {number} beyond its {len(group.entries)}")
         return [group.entries[index] for index in indices]
 
-    def _layer(self, group: PropertyGroup, corners: list[tuple]) -> tuple[int, tuple]:
+    def _layer(
+        self, group: PropertyGroup, corners: list[tuple[int, ...]]
+    ) -> tuple[int, tuple[int, ...]]:
         """The layer that shows of several, and the indices in it; the first where one says none."""
         layers = [self._part.groups.get(number) for number in group.layers]
         kinds = ["" if layer is None else layer.kind for layer in layers]
@@ -193,9 +203,14 @@ class MeshBuilder:
         """A material without a texture; each is made once."""
         key = color, name, surface, is_clear
         if key not in self._materials:
-            options = {} if surface is None else {"metallic": surface[0], "roughness": surface[1]}
-            mode = "blend" if is_clear else "opaque"
-            self._materials[key] = Material(color=color, name=name, alpha_mode=mode, **options)
+            metallic, roughness = (None, None) if surface is None else surface
+            self._materials[key] = Material(
+                color=color,
+                name=name,
+                metallic=metallic,
+                roughness=roughness,
+                alpha_mode="blend" if is_clear else "opaque",
+            )
         return self._materials[key]
 
     def _textured(self, group: PropertyGroup) -> Material:
@@ -218,7 +233,7 @@ class MeshBuilder:
         try:
             source = Source(image.path, self._archive.read(image.path))
             pixels = find_reader(source, "image").read(source)
-        except Engine3DError as error:
+        except (FileAccessError, FileFormatError) as error:
             self._warnings.add(f"texture {shown(image.path)} is left out: {error.message}")
             return None
         name = image.path.rpartition("/")[2]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from array import array
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -74,10 +75,10 @@ class ObjectRecord:
     name: str
     group: int
     index: int
-    positions: array = field(default_factory=lambda: array("d"))
-    corners: array = field(default_factory=lambda: array("i"))
+    positions: array[float] = field(default_factory=lambda: array("d"))
+    corners: array[int] = field(default_factory=lambda: array("i"))
     properties: dict[int, tuple[int, int, int, int]] = field(default_factory=dict)
-    beams: array = field(default_factory=lambda: array("i"))
+    beams: array[int] = field(default_factory=lambda: array("i"))
     components: list[Placement] = field(default_factory=list)
 
 
@@ -135,6 +136,7 @@ class ModelParser:
             "item": self._item,
         }
         known = ("resources", "mesh", "components", "build")
+        self._handlers: dict[str, Callable[[Attributes], object]]
         self._handlers = {_name(CORE, local): handler for local, handler in core.items()}
         self._handlers |= {_name(CORE, local): _nothing for local in known}
         self._handlers |= {
@@ -230,11 +232,11 @@ class ModelParser:
             self._warnings.add_once(f"{key.rpartition(SEPARATOR)[2]!r} of triangles is left out")
         group = self._property(attributes, "pid", record.group)
         first = self._property(attributes, "p1", record.index if group == record.group else 0)
-        others = (self._property(attributes, key, first) for key in ("p2", "p3"))
         if group < 0 and "p1" in attributes:
             self._warnings.add_once("properties of triangles without a group are left out")
         if "p1" in attributes or "pid" in attributes:
-            record.properties[len(record.corners) // 3] = group, first, *others
+            second, third = (self._property(attributes, key, first) for key in ("p2", "p3"))
+            record.properties[len(record.corners) // 3] = group, first, second, third
 
     def _property(self, attributes: Attributes, key: str, default: int) -> int:
         """The index or id of a property, which a model can do without."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,10 +19,13 @@ from ...reading.text import shown
 from ...reading.warning_list import WarningList
 from ...reading.xml_events import SEPARATOR, Attributes, XmlFault
 
+if TYPE_CHECKING:
+    from ....choices import Filter, Wrap
+
 _MATERIALS = "http://schemas.microsoft.com/3dmanufacturing/material/2015/02"
 Color = tuple[int, int, int, int]
 WHITE: Color = (255, 255, 255, 255)
-_TILES = {"wrap": "repeat", "mirror": "mirror", "clamp": "clamp", "none": "clamp"}
+_TILES: dict[str, Wrap] = {"wrap": "repeat", "mirror": "mirror", "clamp": "clamp", "none": "clamp"}
 
 
 @dataclass
@@ -30,8 +33,8 @@ class TextureRecord:
     """An image of the package, and how it is read."""
 
     path: str
-    wrap: tuple[str, str]
-    filter: str
+    wrap: tuple[Wrap, Wrap]
+    filter: Filter
 
 
 @dataclass
@@ -58,7 +61,7 @@ class PropertyGroup:
 
     kind: str
     names: list[str] = field(default_factory=list)
-    entries: list = field(default_factory=list)
+    entries: list[Any] = field(default_factory=list)
     texture: int = -1
     layers: tuple[int, ...] = ()
     image: TextureRecord | None = None
@@ -80,8 +83,9 @@ class PropertyParser:
         self._group = PropertyGroup("")
         self._bases: tuple[list[Color], tuple[int, ...]] = [], ()
 
-    def handlers(self, core: str) -> dict[str, Callable[[Attributes], None]]:
+    def handlers(self, core: str) -> dict[str, Callable[[Attributes], object]]:
         """Return what is to be called for which element."""
+        of_core: dict[str, Callable[[Attributes], object]]
         of_core = {"basematerials": self._base_materials, "base": self._base}
         of_materials = {
             "colorgroup": lambda attributes: self._open("color", attributes),
@@ -122,7 +126,7 @@ class PropertyParser:
             self._groups[number] = self._group
         return self._group
 
-    def _add(self, kind: str, entry, name: str = "") -> None:
+    def _add(self, kind: str, entry: Any, name: str = "") -> None:
         if self._group.kind != kind:
             self._warnings.add_once(f"a property outside of its group: {kind}; left out")
             return
@@ -152,9 +156,9 @@ class PropertyParser:
         tiles = [attributes.get(f"tilestyle{side}", "wrap") for side in "uv"]
         if "none" in tiles:
             self._warnings.add_once("a texture of tile style none goes on as its edge")
-        wrap = tuple(_TILES.get(tile, "repeat") for tile in tiles)
-        reading = "nearest" if attributes.get("filter") == "nearest" else "trilinear"
-        group.image = TextureRecord(attributes.get("path", ""), wrap, reading)
+        across, up = (_TILES.get(tile, "repeat") for tile in tiles)
+        reading: Filter = "nearest" if attributes.get("filter") == "nearest" else "trilinear"
+        group.image = TextureRecord(attributes.get("path", ""), (across, up), reading)
 
     def _texture_group(self, attributes: Attributes) -> None:
         group = self._open("texture", attributes)
@@ -193,7 +197,8 @@ class PropertyParser:
             sum(share * part[k] for share, part in zip(shares, parts, strict=False)) / total
             for k in range(4)
         ]
-        return tuple(srgb_bytes(np.array([mixed]))[0].tolist())
+        red, green, blue, alpha = srgb_bytes(np.array([mixed]))[0].tolist()
+        return red, green, blue, alpha
 
     def _multi_properties(self, attributes: Attributes) -> None:
         group = self._open("multi", attributes)
@@ -246,4 +251,4 @@ def _color(text: str) -> Color:
         red, green, blue, *alpha = bytes.fromhex(digits)
     except ValueError:
         raise XmlFault(f"no colour like #rrggbb: {shown(text)}") from None
-    return red, green, blue, *(alpha or [255])
+    return red, green, blue, alpha[0] if alpha else 255

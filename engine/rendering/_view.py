@@ -139,14 +139,14 @@ def find_camera(scene: Scene, camera: CameraChoice) -> tuple[Camera, np.ndarray]
     InvalidArgumentError
     """
     if camera is None:
-        node = scene._camera_node()
+        node = scene.data.camera_node()
         return None if node is None else (node.object, node.world_pose)
     if isinstance(camera, Node):
         if not isinstance(camera.object, Camera):
             raise InvalidArgumentError(
                 f"camera must be a node that holds a camera, not {shown(camera)}"
             )
-        if camera._scene is not scene:
+        if camera.scene is not scene:
             raise InvalidArgumentError(
                 f"{camera!r} is not a node of this scene: give (node.object, node.world_pose)"
             )

@@ -208,9 +208,9 @@ class Renderer(Closed):
             size = self._width, self._height
             plan = self._passes.plan(options, options.outputs, size)
             headlight = (*frame_options.headlight, (0.0, 0.0, 1.0))
-            listing, census = frame_options.listing(plan.listed), scene._census()
+            listing, census = frame_options.listing(plan.listed), scene.data.census()
             try:
-                self._draw_list.update(scene, listing, headlight, Placing())
+                self._draw_list.update(scene.data, listing, headlight, Placing())
             except Exception as error:
                 _blame_change(scene, census, error)
                 raise
@@ -287,7 +287,7 @@ class Renderer(Closed):
         outputs = options.outputs if out is None else self._check_out(out).outputs
         plan = self._passes.plan(options, outputs, size)
         frame = Frame(*size, self._pool.take(plan.outputs)) if out is None else out
-        census, reads_scene = scene._census(), True
+        census, reads_scene = scene.data.census(), True
         try:
             picture = self._look(scene, camera, options, plan.listed, culling_camera)
             picture.targets, picture.arrays = self._passes.arrays(plan, frame._outputs)
@@ -300,7 +300,7 @@ class Renderer(Closed):
                 _blame_change(scene, census, error)
             raise
         frame._seen = picture.view, "none" if options.cull == "auto" else options.cull
-        frame._drawn = scene._arrays.count - scene._removed, picture.drawn
+        frame._drawn = scene.data.node_count, picture.drawn
         return frame
 
     def _look(
@@ -318,7 +318,7 @@ class Renderer(Closed):
         chosen = frustum_of(scene, culling_camera, *size)
         frustum = view.clip_from_world if chosen is None else chosen
         self._draw_list.update(
-            scene,
+            scene.data,
             frame_options.listing(listed),
             (*frame_options.headlight, view.towards_viewer),
             frame_options.placing(frustum, size),
@@ -333,7 +333,7 @@ class Renderer(Closed):
 
     def _let_backs_show(self, picture: Picture) -> None:
         """Leave out backs of closed meshes only, and only where nobody looks into their holes."""
-        windows = self._draw_list.open_windows(picture.scene, picture.view, picture.size)
+        windows = self._draw_list.open_windows(picture.scene.data, picture.view, picture.size)
         picture.shadow_cull = "none" if self._draw_list.has_holes else "back"
         if windows is None:
             options = with_both_sides(picture.options)
@@ -367,9 +367,9 @@ def _check_samples(samples: Samples, antialias: Antialias) -> Samples:
 _RENDERER_KEYWORDS = ("size", "backend", "threads", "color_space", "samples", "antialias")
 
 
-def _blame_change(scene: Scene, census: tuple[int, int], error: Exception) -> None:
+def _blame_change(scene: Scene, census: tuple[Any, ...], error: Exception) -> None:
     """Raise, where nodes came or went since a census, an error that says so instead of another."""
-    if scene._census() != census:
+    if scene.data.census() != census:
         raise SceneChangedError(
             "nodes were added to the scene or removed while it was drawn: change a scene between "
             "frames, not from another thread during one"

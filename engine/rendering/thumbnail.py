@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from ..errors import Engine3DError
 from ..model.geometry.mesh import Mesh
-from ..model.motion.shown import shown_object
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.scene import Scene
+from ..model.scene.shown import shown_object
 from .renderer import render
 
 SIZE = (400, 300)

@@ -36,10 +36,8 @@ class Skeleton(NamedTuple):
     inverse_binds: np.ndarray
 
 
-def skeleton_of(skin: Skin, arrays) -> Skeleton:
-    """Return the skeleton of a skin whose joints are in a scene's arrays."""
-    parents = arrays.columns["parent"]
-    joints = [joint._slot for joint in skin.joints]
+def skeleton_of(skin: Skin, joints: list[int], parents: np.ndarray) -> Skeleton:
+    """Return the skeleton of a skin, of whose joints and all nodes' parents the slots are given."""
     anchor = _anchor(joints, parents)
     rows: dict[int, int] = {}
     above: list[int] = []

@@ -16,7 +16,7 @@ from ..._native.scene_graph import OBJECT_BOX, NativeShapes, move_boxes
 from ...base.dirty_tracking import Watch
 from ..geometry.mesh import Mesh
 from ..motion.posed_mesh import PosedMesh
-from .instances import InstancedMesh, mesh_box
+from .instances import InstancedMesh, box_in_node, mesh_box
 
 _REMEMBERED = 1024  # numbers that got other objects
 NO_BOX = np.array((np.inf,) * 3 + (-np.inf,) * 3 + (0.0,) * 3)
@@ -181,4 +181,4 @@ def _box(obj) -> np.ndarray:
         return mesh_box(obj)
     if isinstance(obj, PosedMesh):
         return obj.box()
-    return NO_BOX if obj is None else obj._box_in_node()
+    return NO_BOX if obj is None else box_in_node(obj)

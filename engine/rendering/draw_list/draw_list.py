@@ -18,8 +18,8 @@ from ...base.dirty_tracking import Watch
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from ...model.motion.posed_mesh import PosedMesh
-from ...model.scene.instances import InstancedMesh
-from ...model.scene.scene import Scene
+from ...model.scene.instances import InstancedMesh, flat_poses, shown_ids
+from ...model.scene.scene_data import SceneData
 from .._view import View
 from .closed_meshes import Holes, holes_of
 from .instance_trees import InstanceTrees
@@ -59,7 +59,7 @@ class DrawList:
     def __init__(self, color_space: str, threads: int) -> None:
         self.native = NativeDrawList()
         self._color_space, self._threads = color_space, threads
-        self._scene = lambda: None
+        self._data = lambda: None
         self._objects_version = -1
         self._listing: Listing | None = None
         self._untextured: frozenset[Material] = frozenset()
@@ -83,30 +83,30 @@ class DrawList:
         """Grows whenever `update` finds that something else is to be drawn, or elsewhere."""
         return self._placement.changes
 
-    def update(self, scene: Scene, listing: Listing, headlight, placing: Placing) -> None:
-        """Make the native list draw ``scene``.
+    def update(self, data: SceneData, listing: Listing, headlight, placing: Placing) -> None:
+        """Make the native list draw a scene.
 
         Parameters
         ----------
-        scene : Scene
+        data : SceneData
         listing : Listing
         headlight : tuple of three vectors, or None
             Colour, lux and direction towards the light, for a scene that has no light.
         placing : Placing
         """
-        scene._update(self._threads)
-        if self._listing != listing or not self._lists(scene):
-            self._renew(scene, listing)
-        self._follow_poses(scene)
+        data.update(self._threads)
+        if self._listing != listing or not self._lists(data):
+            self._renew(data, listing)
+        self._follow_poses(data)
         if self._trees.settle():
             self._placement.forget()
         has_marks = self._marks or listing.needs.edges
-        self._placement.place(scene._arrays, placing, has_marks, self._trees.made)
-        self.lights.update(scene, headlight)
+        self._placement.place(data.arrays, placing, has_marks, self._trees.made)
+        self.lights.update(data, headlight)
 
-    def _follow_poses(self, scene: Scene) -> None:
+    def _follow_poses(self, data: SceneData) -> None:
         """Draw meshes that were bent anew as they are now."""
-        posing = scene._posing
+        posing = data.posing
         posed = None if posing is None else (posing, posing.moment)
         if posed != self._posed and posing is not None:
             self.native.set_meshes(posing.numbers, posing.poses)
@@ -114,14 +114,14 @@ class DrawList:
             self.renewals += 1
         self._posed = posed
 
-    def open_windows(self, scene: Scene, view: View, size: tuple[int, int]) -> int | None:
+    def open_windows(self, data: SceneData, view: View, size: tuple[int, int]) -> int | None:
         """Let backs show where the camera may look into holes of meshes that enclose a volume.
 
         Elsewhere they may be left out, of materials that do not show both sides anyway.
 
         Parameters
         ----------
-        scene : Scene
+        data : SceneData
         view : View
         size : (int, int)
             Width and height of the picture in pixels.
@@ -134,7 +134,7 @@ class DrawList:
         """
         if not self._closed:
             return None
-        arrays = scene._arrays
+        arrays = data.arrays
         return self.native.open_windows(
             arrays.count, arrays.columns, view.clip_from_world, view.view_from_world, *size
         )
@@ -144,38 +144,38 @@ class DrawList:
         """Whether a mesh that encloses a volume has holes, which a light may look into."""
         return bool(self._with_holes)
 
-    def shows(self, scene: Scene) -> bool:
+    def shows(self, data: SceneData) -> bool:
         """Whether everything in the scene is still as and where it was at the last update."""
-        return self._placement.shows(scene._arrays) and self._lists(scene)
+        return self._placement.shows(data.arrays) and self._lists(data)
 
-    def _lists(self, scene: Scene) -> bool:
+    def _lists(self, data: SceneData) -> bool:
         """Whether the objects are those of the scene, as they are now."""
         self._changed += self._watch.changed()
         return (
-            self._scene() is scene
-            and self._objects_version == scene._objects.version
+            self._data() is data
+            and self._objects_version == data.objects.version
             and not self._changed
         )
 
-    def _renew(self, scene: Scene, listing: Listing) -> None:
+    def _renew(self, data: SceneData, listing: Listing) -> None:
         """Make the list of objects anew, or only what changed of it."""
         self.renewals += 1
         self._changed += self._watch.changed()
-        same = self._scene() is scene and self._listing == listing
-        numbers = self._numbers_that_changed(scene) if same else None
-        self._scene = lambda: None  # if anything below raises, the list is not current
+        same = self._data() is data and self._listing == listing
+        numbers = self._numbers_that_changed(data) if same else None
+        self._data = lambda: None  # if anything below raises, the list is not current
         self._listing = listing
-        self._untextured = self._materials.untextured = scene._untextured
+        self._untextured = self._materials.untextured = data.untextured
         if numbers is None:
-            self._rebuild(scene)
+            self._rebuild(data)
         else:
-            self._replace(scene, sorted(numbers))
-        self._objects_version = scene._objects.version
-        self._scene = weakref.ref(scene)
+            self._replace(data, sorted(numbers))
+        self._objects_version = data.objects.version
+        self._data = weakref.ref(data)
 
-    def _numbers_that_changed(self, scene: Scene) -> set[int] | None:
+    def _numbers_that_changed(self, data: SceneData) -> set[int] | None:
         """Numbers of objects that are others or changed; None where all are to be listed anew."""
-        objects = scene._objects
+        objects = data.objects
         numbers = objects.renewed_since(self._objects_version)
         if numbers is None:
             return None
@@ -193,17 +193,17 @@ class DrawList:
         key = id(material)
         return {number for number, (_, surfaces) in enumerate(self._listed) if key in surfaces}
 
-    def _replace(self, scene: Scene, numbers: list[int]) -> None:
+    def _replace(self, data: SceneData, numbers: list[int]) -> None:
         """Renew the materials that changed, and the objects of some numbers."""
         self._materials.renew(self._changed)
         self._changed = []
         if numbers:
             self._placement.forget()
         for number in numbers:
-            self._forget(scene, number)
-            self._set_object(number, scene._objects.objects[number])
+            self._forget(data, number)
+            self._set_object(number, data.objects.objects[number])
 
-    def _rebuild(self, scene: Scene) -> None:
+    def _rebuild(self, data: SceneData) -> None:
         self._placement.forget()
         self._closed, self._with_holes = set(), set()
         self.native.clear()
@@ -213,12 +213,12 @@ class DrawList:
         self._materials.untextured = self._untextured
         self._trees = InstanceTrees(self.native)
         self._listed, self._left, self._marks = [], 0, False
-        self._make_textures(scene)
-        for number, obj in enumerate(scene._objects.objects):
+        self._make_textures(data)
+        for number, obj in enumerate(data.objects.objects):
             self._set_object(number, obj)
 
-    def _make_textures(self, scene: Scene) -> None:
-        meshes = (getattr(obj, "mesh", obj) for obj in scene._objects.objects if obj is not None)
+    def _make_textures(self, data: SceneData) -> None:
+        meshes = (getattr(obj, "mesh", obj) for obj in data.objects.objects if obj is not None)
         materials = {material for mesh in meshes for material in mesh.materials}
         make_textures(materials - self._untextured, self._color_space, self._threads)
 
@@ -268,10 +268,10 @@ class DrawList:
         eight_bit = colors is not None and colors.dtype == np.uint8
         self.native.set_instances(
             number,
-            obj._flat_poses(),
+            flat_poses(obj),
             colors if eight_bit else None,
             None if eight_bit else colors,
-            obj._ids,
+            shown_ids(obj),
         )
 
     def _note(self, number: int, things: tuple, surfaces: tuple) -> None:
@@ -281,11 +281,11 @@ class DrawList:
         self._left += self._listed[number][1] not in ((), surfaces)
         self._listed[number] = things, surfaces
 
-    def _forget(self, scene: Scene, number: int) -> None:
+    def _forget(self, data: SceneData, number: int) -> None:
         """Look no longer at what a number's object was made of, where no other is."""
         if number < len(self._listed):
             for thing in self._listed[number][0]:
-                if not scene._objects.drawn_by(thing):
+                if not data.objects.drawn_by(thing):
                     self._watch.remove(thing)
 
 

@@ -14,21 +14,21 @@ import numpy as np
 
 from ..._native.scene_graph import SHOWN
 from ...model.scene.node_arrays import NodeArrays
-from ...model.scene.scene import Scene
+from ...model.scene.scene_data import SceneData
 
 
-def lamp_slots(scene: Scene, light: int, place) -> tuple[int, ...]:
+def lamp_slots(data: SceneData, light: int, place) -> tuple[int, ...]:
     """Return the slots of what lets a light pass.
 
     Parameters
     ----------
-    scene : Scene
+    data : SceneData
     light : int
         The slot of the light's node.
     place : (3,) sequence of float
         Of the light, in world space.
     """
-    arrays, objects = scene._arrays, scene._objects.objects
+    arrays, objects = data.arrays, data.objects.objects
     columns, count = arrays.columns, arrays.count
     low, high = columns["bounds"][:count, :3], columns["bounds"][:count, 3:6]
     holds = ((low <= place) & (high >= place)).all(axis=1)

@@ -18,7 +18,7 @@ from ...base.linalg.single import normalize
 from ...model.materials.display_colors import shading_color
 from ...model.scene.ambient_lights import AMBIENT_LIGHTS
 from ...model.scene.lights import DirectionalLight
-from ...model.scene.scene import Scene
+from ...model.scene.scene_data import SceneData
 from .ambient_terms import ambient_terms
 
 _HEADLIGHT = DirectionalLight()
@@ -54,18 +54,18 @@ class LightList:
         self._placed = np.empty(0, np.uint32)
         self._added: tuple = _NOT_KNOWN
 
-    def update(self, scene: Scene, headlight) -> None:
+    def update(self, data: SceneData, headlight) -> None:
         """Make the native lights those of a scene; ``headlight`` is for one that has none."""
-        self._find_slots(scene)
+        self._find_slots(data)
         none = None, None, None
-        self._add_around(scene)
+        self._add_around(data)
         color, lux, towards = none if self._lights or self._around else headlight or none
         listed = self._slots_of, [light.version for light in self._lights], color, lux
         same, self._listed = self._listed == listed, None  # for if anything below raises
         if self._lights:
-            changes = scene._arrays.updated
+            changes = data.arrays.updated
             if not same or self._changes != changes:
-                self._renew(scene, same)
+                self._renew(data, same)
             self._changes = changes
         elif not same:
             self._native.clear_lights()
@@ -77,9 +77,9 @@ class LightList:
             self._native.turn_light(0, towards)
         self._listed = listed
 
-    def _renew(self, scene: Scene, same: bool) -> None:
+    def _renew(self, data: SceneData, same: bool) -> None:
         """List lights that show, if they are not the same as before, and place those that moved."""
-        columns = scene._arrays.columns
+        columns = data.arrays.columns
         shown = columns["flags"][self._slots] & SHOWN != 0
         slots = self._slots[shown]
         placed = columns["world_version"][slots]
@@ -98,11 +98,11 @@ class LightList:
                 self._place(number, self._lights[light], pose)
         self._shown, self._placed = shown, placed
 
-    def _add_around(self, scene: Scene) -> None:
+    def _add_around(self, data: SceneData) -> None:
         """Sum up the light from all around, where anything of it changed."""
         added: tuple = ()
         if self._around:
-            columns = scene._arrays.columns
+            columns = data.arrays.columns
             shown = (columns["flags"][self._around_slots] & SHOWN != 0).tolist()
             placed = columns["world_version"][self._around_slots].tolist()
             versions = [light.version for light in self._around]
@@ -119,17 +119,17 @@ class LightList:
         self._native.set_ambient_light(terms)
         self._added = added
 
-    def _find_slots(self, scene: Scene) -> None:
+    def _find_slots(self, data: SceneData) -> None:
         """Find the lights' rows in the scene's arrays, once for as long as these are the same."""
-        slots_of = scene._arrays, scene._removals, len(scene._lights)
+        slots_of = data.lights_state()
         if self._slots_of != slots_of:
-            nodes = list(scene._lights.values())
-            around = [node for node in nodes if isinstance(node.object, AMBIENT_LIGHTS)]
-            others = [node for node in nodes if not isinstance(node.object, AMBIENT_LIGHTS)]
-            self._lights = [node.object for node in others]
-            self._slots = np.array([node._slot for node in others], np.int32)
-            self._around = [node.object for node in around]
-            self._around_slots = np.array([node._slot for node in around], np.int32)
+            placed = data.placed_lights()
+            around = [at for at in placed if isinstance(at[0], AMBIENT_LIGHTS)]
+            others = [at for at in placed if not isinstance(at[0], AMBIENT_LIGHTS)]
+            self._lights = [light for light, _ in others]
+            self._slots = np.array([slot for _, slot in others], np.int32)
+            self._around = [light for light, _ in around]
+            self._around_slots = np.array([slot for _, slot in around], np.int32)
             self._slots_of = slots_of
 
     def _add(self, light) -> None:

@@ -48,14 +48,14 @@ class ExactShadows(Pass):
             draw_list.native.set_exact_shadow(number)
         if lights:
             spared = [self._spared(scene, number, place) for number, _, (_, place) in lights]
-            self._list_casters(scene._arrays, spared)
+            self._list_casters(scene.data.arrays, spared)
             self.tools.memory.add_exact(len(lights), draw_list.native.hiding_faces())
 
     def _spared(self, scene: Scene, number: int, place) -> tuple[int, ...]:
         """The slots of what does not hide a light."""
         if place is None:
             return ()
-        return lamp_slots(scene, self.tools.draw_list.lights.slot_of(number), place)
+        return lamp_slots(scene.data, self.tools.draw_list.lights.slot_of(number), place)
 
     def _list_casters(self, arrays: NodeArrays, spared: list[tuple[int, ...]]) -> None:
         """List the casters, unless they are listed; a version is theirs until one is another.

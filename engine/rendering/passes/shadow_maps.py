@@ -93,7 +93,8 @@ class ShadowMaps(Pass):
                 del known[number]
         bounds = scene.bounds
         cull = CULLS[picture.shadow_cull]
-        moment = scene._arrays, scene._arrays.updated, draw_list.renewals, cull
+        arrays = scene.data.arrays
+        moment = arrays, arrays.updated, draw_list.renewals, cull
         seen = [
             (number, light, pose, self._views_of(number, light, pose, bounds, picture.view))
             for number, light, pose in lights
@@ -105,7 +106,7 @@ class ShadowMaps(Pass):
         )
         for number, light, (_, place), views in seen:
             slot = draw_list.lights.slot_of(number)
-            spared = () if place is None else lamp_slots(scene, slot, place)
+            spared = () if place is None else lamp_slots(scene.data, slot, place)
             self._update_light(number, light, views, (*moment, spared))
         picture.shadow_maps = self._count, self._drawn
 

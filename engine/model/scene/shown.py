@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .posed_mesh import PosedMesh
+from ..motion.posed_mesh import PosedMesh
 
 if TYPE_CHECKING:
-    from ..scene.nodes import Node
+    from .nodes import Node
 
 
 def shown_object(node: Node) -> Any:
@@ -25,11 +25,6 @@ def shown_object(node: Node) -> Any:
 def as_shown(drawn: Any) -> Any:
     """Return what is drawn as an object of a node."""
     return drawn.now() if isinstance(drawn, PosedMesh) else drawn
-
-
-def source_of(drawn: Any) -> Any:
-    """Return the object that was given to a node, of what is drawn of it."""
-    return drawn.mesh if isinstance(drawn, PosedMesh) else drawn
 
 
 def placing_poses(arrays, slots: np.ndarray) -> NDArray[np.float64]:

@@ -16,13 +16,13 @@ from ...base.dirty_tracking import Watch
 from ...errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..materials.colors import float32_of
-from .posed_mesh import PosedMesh
-from .skeletons import WORLD, skeleton_of
-from .skins import Skin
+from ..motion.posed_mesh import PosedMesh
+from ..motion.skeletons import WORLD, skeleton_of
+from ..motion.skins import Skin
 
 if TYPE_CHECKING:
-    from ..scene.nodes import Node
-    from ..scene.scene import Scene
+    from .nodes import Node
+    from .scene_data import SceneData
 
 
 class Posing:
@@ -59,18 +59,18 @@ class Posing:
         if self._nodes.pop(node.id, None) is not None:
             self._linked = None
 
-    def update(self, scene: Scene, threads: int) -> None:
+    def update(self, data: SceneData, threads: int) -> None:
         """Pose what moved since the last time."""
-        arrays = scene._arrays
+        arrays = data.arrays
         is_other_tree = self._linked != (arrays, arrays.links)
         if is_other_tree:
-            self._find_nodes(scene)
+            self._find_nodes()
         changed = self._watch.found()
         if is_other_tree or changed:
             # First the meshes: what is linked is what they are now.
-            are_others = self._follow_meshes(scene)
+            are_others = self._follow_meshes(data)
             if is_other_tree or are_others:
-                self._link(scene)
+                self._link(data)
             for mesh, version in changed:
                 self._watch.saw(mesh, version)
         if arrays.changes == self._changes:
@@ -78,40 +78,41 @@ class Posing:
         moved = pose_meshes(self.poses, arrays.columns["pose"], threads)
         if moved:
             boxes = np.array([self._posed[number].box() for number in moved])
-            arrays.renew_boxes(scene._objects, self.numbers[moved], boxes)
-            scene._objects.forget_shapes()
+            arrays.renew_boxes(data.objects, self.numbers[moved], boxes)
+            data.objects.forget_shapes()
             arrays.changes += 1
             self.moment += 1
         self._changes = arrays.changes
 
-    def _find_nodes(self, scene: Scene) -> None:
+    def _find_nodes(self) -> None:
         """Find the nodes that are in the scene, and look at their meshes."""
-        self._here = [node for _, node in sorted(self._nodes.items()) if node._scene is scene]
+        self._here = [node for _, node in sorted(self._nodes.items()) if node._scene is not None]
         self._watch = Watch(node._object for node in self._here)
 
-    def _follow_meshes(self, scene: Scene) -> bool:
+    def _follow_meshes(self, data: SceneData) -> bool:
         """Let nodes show their meshes as these are now; return whether any shows another."""
         are_others = False
         for node in self._here:
-            if _is_bent(node) != (node._posed is not None):
-                scene._show(node)
+            is_posed = isinstance(node._drawn, PosedMesh)
+            if _is_bent(node) != is_posed:
+                data.show(node)
                 are_others = True
-            elif node._posed is not None and node._posed.renew():
+            elif is_posed and node._drawn.renew():
                 are_others = True
         return are_others
 
-    def _link(self, scene: Scene) -> None:
+    def _link(self, data: SceneData) -> None:
         """Find the joints of all skins in the tree as it is now."""
-        arrays = scene._arrays
-        nodes = [node for node in self._here if node._posed is not None]
-        self._posed = [node._posed for node in nodes]
+        arrays = data.arrays
+        nodes = [node for node in self._here if isinstance(node._drawn, PosedMesh)]
+        self._posed = [node._drawn for node in nodes]
         self.poses = [posed.native for posed in self._posed]
-        numbers = [scene._objects.number_of(posed) for posed in self._posed]
+        numbers = [data.objects.number_of(posed) for posed in self._posed]
         self.numbers = np.array(numbers, np.int32)
         slots, anchors = [], []
         for node in nodes:
-            set_weights(node._posed, node._morph_weights)
-            anchor = self._find_joints(node, scene)
+            set_weights(node._drawn, node._morph_weights)
+            anchor = self._find_joints(node, data)
             if anchor is not None:
                 slots.append(node._slot)
                 anchors.append(node._slot if anchor == WORLD else anchor)
@@ -120,14 +121,14 @@ class Posing:
         self._changes = -1
         self.moment += 1
 
-    def _find_joints(self, node: Node, scene: Scene) -> int | None:
+    def _find_joints(self, node: Node, data: SceneData) -> int | None:
         """Tell a node's pose its joints; return the anchor's slot, or None without a skin."""
-        skin, native = node._skin, node._posed.native
-        fits = skin is not None and 0 < native.rest.joints <= len(skin.joints)
-        if not fits or any(joint._scene is not scene for joint in skin.joints):
+        skin, native = node._skin, node._drawn.native
+        joints = [] if skin is None else data.slots_of(skin.joints).tolist()
+        if -1 in joints or not 0 < native.rest.joints <= len(joints):
             native.forget_skeleton()  # the mesh became another, or joints were removed
             return None
-        skeleton = skeleton_of(skin, scene._arrays)
+        skeleton = skeleton_of(skin, joints, data.arrays.columns["parent"])
         native.set_skeleton(*skeleton[1:])
         return -1 if skeleton.anchor == node._slot else skeleton.anchor
 
@@ -184,8 +185,8 @@ def posed_for(node: Node) -> PosedMesh | None:
     """Return what a node shows instead of its mesh, or None for the mesh itself."""
     if not _is_bent(node):
         return None
-    posed = node._posed
-    if posed is None or posed.mesh is not node._object:
+    posed = node._drawn
+    if not isinstance(posed, PosedMesh) or posed.mesh is not node._object:
         posed = PosedMesh(node._object)
     set_weights(posed, node._morph_weights)
     return posed

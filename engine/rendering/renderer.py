@@ -10,17 +10,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .._native import rasterizer as _native
-from ..base.calls import refuse_unknown
-from ..base.image_size import check_side, check_size
+from ..base.image_size import check_side
 from ..base.validation import Closed, choose, is_one_of
 from ..choices import Antialias, Backend, ColorSpace, Samples
 from ..errors import InvalidArgumentError, SceneChangedError
-from ..model.geometry.mesh import Mesh
 from ..model.materials.colors import COLOR_SPACES
-from ..model.scene.instances import InstancedMesh
-from ..model.scene.nodes import Node
 from ..model.scene.scene import Scene
-from ..model.scene.scenes_of_things import scene_of
 from ..model.scene.staged_scene import StagedScene
 from ._frame_memory import FrameMemory
 from ._frame_options import OptionsCache
@@ -34,7 +29,6 @@ from .draw_list.placement import Placing
 from .frame import Frame
 from .options import (
     OptionKeywords,
-    RenderKeywords,
     RenderOptions,
     shows_options,
     with_both_sides,
@@ -363,10 +357,6 @@ def _check_samples(samples: Samples, antialias: Antialias) -> Samples:
     return choose(samples, _SAMPLES[antialias], "samples")
 
 
-#: What `render` takes for the renderer that it makes.
-_RENDERER_KEYWORDS = ("size", "backend", "threads", "color_space", "samples", "antialias")
-
-
 def _blame_change(scene: Scene, census: tuple[Any, ...], error: Exception) -> None:
     """Raise, where nodes came or went since a census, an error that says so instead of another."""
     if scene.data.census() != census:
@@ -374,57 +364,3 @@ def _blame_change(scene: Scene, census: tuple[Any, ...], error: Exception) -> No
             "nodes were added to the scene or removed while it was drawn: change a scene between "
             "frames, not from another thread during one"
         ) from error
-
-
-def render(
-    scene: Scene | Node | Mesh | InstancedMesh | Any,
-    camera: CameraChoice = None,
-    *,
-    size: tuple[int, int] = (1280, 720),
-    backend: Backend = "auto",
-    threads: int = 0,
-    color_space: ColorSpace = "srgb",
-    samples: Samples = 1,
-    antialias: Antialias = "ssaa",
-    **options: Unpack[RenderKeywords],
-) -> Frame:
-    """Draw one frame of a scene, of a part of one, or of a mesh alone.
-
-    Parameters
-    ----------
-    scene : Scene, Node, Mesh, InstancedMesh, or a scene or geometry of trimesh
-        What is no scene is drawn before black. Of a node, all below it is drawn, where it is in the
-        world, in the light of those lights that are among it.
-    camera : None, Node or (Camera, pose)
-    size : (int, int)
-        Width and height in pixels.
-    backend, threads, color_space, samples, antialias
-        As for `Renderer`.
-    **options
-        As for `Renderer.render`: ``mode``, ``wireframe``, ``outputs`` and so on.
-
-    Returns
-    -------
-    frame : Frame
-
-    Raises
-    ------
-    InvalidArgumentError, BackendError, OutOfMemoryError
-    """
-    refuse_unknown("render", options, (*RenderKeywords.__annotations__, *_RENDERER_KEYWORDS))
-    width, height = check_size(size)
-    drawn = scene_of(scene)
-    if drawn is None:
-        raise InvalidArgumentError(
-            f"a scene, a node or a mesh can be drawn, not {type(scene).__name__}"
-        )
-    with Renderer(
-        width,
-        height,
-        backend=backend,
-        threads=threads,
-        color_space=color_space,
-        samples=samples,
-        antialias=antialias,
-    ) as renderer:
-        return renderer.render(drawn, camera, **options)

@@ -11,7 +11,7 @@ from ..model.geometry.mesh import Mesh
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.scene import Scene
 from ..model.scene.shown import shown_object
-from .renderer import render
+from .renderer import Renderer
 
 SIZE = (400, 300)
 #: Faces, lines and points together: half a second on one processor.
@@ -28,7 +28,8 @@ def thumbnail(thing: Scene | Mesh) -> bytes | None:
     if not 0 < sum(map(_parts, shown)) <= MOST_PARTS:
         return None
     try:
-        frame = render(scene, size=SIZE, samples=4, antialias="msaa", cull="auto")
+        with Renderer(*SIZE, samples=4, antialias="msaa") as renderer:
+            frame = renderer.render(scene, cull="auto")
     except Engine3DError:  # such as of coordinates that no camera can be placed for
         return None
     return frame.encode()

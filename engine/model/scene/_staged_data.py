@@ -40,8 +40,6 @@ class StagedData:
     ----------
     own, added : SceneData
         Of the scene, and of what is beside it.
-    trees : (SceneData, SceneData)
-        Both.
     keeps_lights, shows_textures : bool
         Whether the scene's own lights shine, and its materials have their textures.
     hidden : frozenset of Node
@@ -52,12 +50,17 @@ class StagedData:
     """
 
     def __init__(self, own: SceneData, added: SceneData) -> None:
-        self.own, self.added = self.trees = own, added
+        self.own, self.added = own, added
         self.keeps_lights = self.shows_textures = True
         self.hidden: frozenset[Node] = frozenset()
         self.part_of: Callable[[Any], Any] | None = None
         self.arrays = _JoinedRows(self)
         self.objects = _JoinedObjects()
+
+    @property
+    def trees(self) -> tuple[SceneData, SceneData]:
+        """Both."""
+        return self.own, self.added
 
     def hide(self, nodes: Iterable[Node], part_of: Callable[[Any], Any] | None) -> None:
         """See `StagedScene.hide`."""

@@ -50,6 +50,11 @@ class StagedScene(Surroundings):
             raise AttributeError(f"a StagedScene has no {name}")
         return getattr(self.scene, name)
 
+    def clear(self) -> None:
+        """Take away all that is beside the scene."""
+        self.beside = Scene()
+        self.data.added = self.beside.data
+
     def keep_lights(self, kept: bool) -> None:
         """Let the lights of the scene shine, or not."""
         self.data.keeps_lights = kept

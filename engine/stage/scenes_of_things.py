@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...io.scenes.trimesh_scenes import is_of_trimesh, scene_from_trimesh
-from ..geometry.mesh import Mesh
-from .instances import InstancedMesh
-from .nodes import Node
-from .scene import Scene
-from .shown import placing_pose, shown_object
+from ..io.scenes.trimesh_scenes import is_of_trimesh, scene_from_trimesh
+from ..model.geometry.mesh import Mesh
+from ..model.scene.instances import InstancedMesh
+from ..model.scene.nodes import Node
+from ..model.scene.scene import Scene
+from ..model.scene.shown import placing_pose, shown_object
 
 
 def scene_of(thing: Any) -> Scene | None:

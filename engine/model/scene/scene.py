@@ -80,6 +80,8 @@ class Scene(Surroundings, SceneQueries):
     """
 
     warnings: list[str]
+    if TYPE_CHECKING:  # for the engine's own parts; as it isn't declared, programs can't assign it
+        data: SceneData
 
     def __init__(
         self,
@@ -89,15 +91,10 @@ class Scene(Surroundings, SceneQueries):
         exposure: float = 0.0,
     ) -> None:
         super().__init__(background, ambient, light_clamp, exposure)
-        self._data = SceneData()
+        object.__setattr__(self, "data", SceneData())
         self.animations = {}
         self._animator: Animator | None = None
         self.warnings = []
-
-    @property
-    def data(self) -> SceneData:
-        """What the engine's own parts know of the nodes: not for programs, and may change."""
-        return self._data
 
     @property
     def animations(self) -> dict[str, AnimationClip]:

@@ -130,7 +130,10 @@ class SceneData:
 
     def camera_node(self) -> Node | None:
         """Return the first visible node that holds a camera: what is drawn through by default."""
-        return next((node for node in self.cameras.values() if node.shown), None)
+        for node in self.cameras.values():
+            if node.shown:
+                return node
+        return None
 
     def placed_lights(self) -> list[tuple[Light, int]]:
         """Return the lights, each with the slot of its node."""

@@ -56,7 +56,10 @@ class LightList:
 
     def update(self, data: SceneData, headlight) -> None:
         """Make the native lights those of a scene; ``headlight`` is for one that has none."""
-        self._find_slots(data)
+        state = data.lights_state()
+        if self._slots_of != state:
+            self._find_slots(data)
+            self._slots_of = state
         none = None, None, None
         self._add_around(data)
         color, lux, towards = none if self._lights or self._around else headlight or none
@@ -120,17 +123,14 @@ class LightList:
         self._added = added
 
     def _find_slots(self, data: SceneData) -> None:
-        """Find the lights' rows in the scene's arrays, once for as long as these are the same."""
-        slots_of = data.lights_state()
-        if self._slots_of != slots_of:
-            placed = data.placed_lights()
-            around = [at for at in placed if isinstance(at[0], AMBIENT_LIGHTS)]
-            others = [at for at in placed if not isinstance(at[0], AMBIENT_LIGHTS)]
-            self._lights = [light for light, _ in others]
-            self._slots = np.array([slot for _, slot in others], np.int32)
-            self._around = [light for light, _ in around]
-            self._around_slots = np.array([slot for _, slot in around], np.int32)
-            self._slots_of = slots_of
+        """Find the lights, and their rows in the scene's arrays."""
+        placed = data.placed_lights()
+        around = [at for at in placed if isinstance(at[0], AMBIENT_LIGHTS)]
+        others = [at for at in placed if not isinstance(at[0], AMBIENT_LIGHTS)]
+        self._lights = [light for light, _ in others]
+        self._slots = np.array([slot for _, slot in others], np.int32)
+        self._around = [light for light, _ in around]
+        self._around_slots = np.array([slot for _, slot in around], np.int32)
 
     def _add(self, light) -> None:
         color = shading_color(light.color, self._color_space)

@@ -6,10 +6,11 @@ instead of the meshes at rest, and their boxes. What did not move is not posed a
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 from weakref import WeakValueDictionary
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..._native.rasterizer import NativePose, pose_meshes
 from ...base.dirty_tracking import Watch
@@ -46,7 +47,8 @@ class Posing:
         self._here: list[Node] = []  # those of them that are in the scene, by their ids
         self._watch = Watch()  # of their meshes
         self._posed: list[PosedMesh] = []
-        self._linked: tuple | None = None  # the arrays and the links that skeletons are of
+        # The arrays and the links that skeletons are of.
+        self._linked: tuple[Any, ...] | None = None
         self._changes = -1
 
     def take(self, node: Node) -> None:
@@ -93,26 +95,27 @@ class Posing:
         """Let nodes show their meshes as these are now; return whether any shows another."""
         are_others = False
         for node in self._here:
-            is_posed = isinstance(node._drawn, PosedMesh)
-            if _is_bent(node) != is_posed:
+            drawn = node._drawn
+            if _is_bent(node) != isinstance(drawn, PosedMesh):
                 data.show(node)
                 are_others = True
-            elif is_posed and node._drawn.renew():
+            elif isinstance(drawn, PosedMesh) and drawn.renew():
                 are_others = True
         return are_others
 
     def _link(self, data: SceneData) -> None:
         """Find the joints of all skins in the tree as it is now."""
         arrays = data.arrays
-        nodes = [node for node in self._here if isinstance(node._drawn, PosedMesh)]
-        self._posed = [node._drawn for node in nodes]
+        drawn = [(node, node._drawn) for node in self._here]
+        placed = [(node, posed) for node, posed in drawn if isinstance(posed, PosedMesh)]
+        self._posed = [posed for _, posed in placed]
         self.poses = [posed.native for posed in self._posed]
         numbers = [data.objects.number_of(posed) for posed in self._posed]
         self.numbers = np.array(numbers, np.int32)
         slots, anchors = [], []
-        for node in nodes:
-            set_weights(node._drawn, node._morph_weights)
-            anchor = self._find_joints(node, data)
+        for node, posed in placed:
+            set_weights(posed, node._morph_weights)
+            anchor = self._find_joints(node, posed.native, data)
             if anchor is not None:
                 slots.append(node._slot)
                 anchors.append(node._slot if anchor == WORLD else anchor)
@@ -121,11 +124,11 @@ class Posing:
         self._changes = -1
         self.moment += 1
 
-    def _find_joints(self, node: Node, data: SceneData) -> int | None:
+    def _find_joints(self, node: Node, native: NativePose, data: SceneData) -> int | None:
         """Tell a node's pose its joints; return the anchor's slot, or None without a skin."""
-        skin, native = node._skin, node._drawn.native
-        joints = [] if skin is None else data.slots_of(skin.joints).tolist()
-        if -1 in joints or not 0 < native.rest.joints <= len(joints):
+        skin = node._skin
+        joints: list[int] = [] if skin is None else data.slots_of(skin.joints).tolist()
+        if skin is None or -1 in joints or not 0 < native.rest.joints <= len(joints):
             native.forget_skeleton()  # the mesh became another, or joints were removed
             return None
         skeleton = skeleton_of(skin, joints, data.arrays.columns["parent"])
@@ -145,7 +148,7 @@ def check_skin(value: Skin | None, node: Node) -> Skin | None:
     return value
 
 
-def check_fit(obj, skin: Skin) -> None:
+def check_fit(obj: Any, skin: Skin) -> None:
     """Check that a skin has the joints that an object refers to."""
     if not isinstance(obj, Mesh) or obj.joints is None:
         raise InvalidArgumentError("a skin needs a Mesh with joints and weights")
@@ -156,7 +159,7 @@ def check_fit(obj, skin: Skin) -> None:
         )
 
 
-def check_morph_weights(value, obj) -> np.ndarray | None:
+def check_morph_weights(value: ArrayLike | None, obj: Any) -> NDArray[np.float64] | None:
     """Check weights of an object's morph targets: a read-only (T,) float64 array."""
     if value is None:
         return None
@@ -174,26 +177,27 @@ def may_bend(node: Node) -> bool:
 
 def _is_bent(node: Node) -> bool:
     """Whether a node shows its mesh bent."""
-    if not may_bend(node):
-        return False
     mesh = node._object
+    if not isinstance(mesh, Mesh):
+        return False
     bends = node._skin is not None and mesh.joints is not None
     return bends or (node._morph_weights is not None and len(mesh.morph_targets) > 0)
 
 
 def posed_for(node: Node) -> PosedMesh | None:
     """Return what a node shows instead of its mesh, or None for the mesh itself."""
-    if not _is_bent(node):
+    posed, mesh = node._drawn, node._object
+    if not isinstance(mesh, Mesh) or not _is_bent(node):
         return None
-    posed = node._drawn
-    if not isinstance(posed, PosedMesh) or posed.mesh is not node._object:
-        posed = PosedMesh(node._object)
+    if not isinstance(posed, PosedMesh) or posed.mesh is not mesh:
+        posed = PosedMesh(mesh)
     set_weights(posed, node._morph_weights)
     return posed
 
 
-def set_weights(posed: PosedMesh, weights: np.ndarray | None) -> None:
+def set_weights(posed: PosedMesh, weights: NDArray[np.float64] | None) -> None:
     """Give a posed mesh its weights: zeros without any, or if its targets are others by now."""
     targets = posed.native.rest.targets
-    fit = weights is not None and len(weights) == targets
-    posed.native.set_weights(float32_of(weights) if fit else np.zeros(targets, np.float32))
+    if weights is None or len(weights) != targets:
+        weights = np.zeros(targets)
+    posed.native.set_weights(float32_of(weights))

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import weakref
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +17,8 @@ from numpy.typing import NDArray
 from ..._native.scene_graph import BOX, SHOWN
 from ..materials.material import Material
 from ._objects import NO_BOX
-from .lights import Light
 from .nodes import Node
-from .scene_data import SceneData
+from .scene_data import SceneData, box_around
 from .shown import as_shown
 
 if TYPE_CHECKING:
@@ -75,7 +74,9 @@ class StagedData:
 
     # What follows is as of `SceneData`.
 
-    bounds = SceneData.bounds
+    def bounds(self) -> NDArray[np.float64]:
+        self.update()
+        return box_around(self.arrays)
 
     def update(self, threads: int = 1) -> None:
         """Make both trees true, and then what is joined of them."""
@@ -106,7 +107,7 @@ class StagedData:
     def camera_node(self) -> Node | None:
         return self.own.camera_node()
 
-    def placed_lights(self) -> list[tuple[Light, int]]:
+    def placed_lights(self) -> list[tuple[Any, int]]:
         own = self.own.placed_lights() if self.keeps_lights else []
         first = self.own.arrays.count
         return own + [(light, first + slot) for light, slot in self.added.placed_lights()]
@@ -114,6 +115,10 @@ class StagedData:
     def lights_state(self) -> tuple[Any, ...]:
         trees = (tree.lights_state() for tree in self.trees)
         return self.keeps_lights, self.own.arrays.count, *trees
+
+
+#: What rows are made of.
+State: TypeAlias = tuple[Any, ...]
 
 
 class _JoinedRows:
@@ -130,11 +135,11 @@ class _JoinedRows:
     def __init__(self, staged: StagedData) -> None:
         self.columns: dict[str, NDArray[Any]] = {}
         self.count = 0
-        self.updated: tuple[tuple, tuple] = ((), ())
-        self._made_of = weakref.ref(staged)
+        self.updated: tuple[State, State] = ((), ())
+        self._made_of: Callable[[], Any] = weakref.ref(staged)
 
     @property
-    def changes(self) -> tuple[tuple, tuple]:
+    def changes(self) -> tuple[State, State]:
         staged = self._made_of()
         return _state_of(staged, *(tree.arrays.changes for tree in staged.trees))
 
@@ -178,7 +183,9 @@ class _JoinedRows:
             added = self.columns[name][first:]
             added[added >= 0] += offset
 
-    def select(self, frustum, widen: float, flat: bool, bits: NDArray[np.uint64]) -> int:
+    def select(
+        self, frustum: NDArray[np.float64], widen: float, flat: bool, bits: NDArray[np.uint64]
+    ) -> int:
         """As of `NodeArrays`; what was added is always taken."""
         arrays = self._made_of().own.arrays
         own = bits[: (arrays.count + 63) // 64]
@@ -189,7 +196,7 @@ class _JoinedRows:
         return tested
 
 
-def _state_of(staged: StagedData, own: int, added: int) -> tuple[tuple, tuple]:
+def _state_of(staged: StagedData, own: int, added: int) -> tuple[State, State]:
     """What the rows of a scene, and those of what was added, are made of, at some changes."""
     scene, beside, objects = staged.own.arrays, staged.added.arrays, staged.objects
     return (
@@ -216,14 +223,14 @@ class _JoinedObjects:
     """
 
     def __init__(self) -> None:
-        self.objects: list = []
-        self.version: tuple = ()
+        self.objects: list[Any] = []
+        self.version: State = ()
         self.parts: dict[int, int] = {}
         self.first_added = self._room = _LEAST_ROOM
         self.renewals = 0
         self._own: Any = None
         self._added: Any = None
-        self._made: dict[int, tuple[tuple, Any]] = {}  # by number what a part is made of, and it
+        self._made: dict[int, tuple[State, Any]] = {}  # by number what a part is made of, and it
 
     def forget_parts(self) -> None:
         """Make all parts anew."""
@@ -265,7 +272,7 @@ class _JoinedObjects:
             cut = [n for n, (of, part) in self._made.items() if part is not as_shown(of[0])]
             self.parts = {number: self._room + place for place, number in enumerate(cut)}
 
-    def renewed_since(self, version: tuple) -> set[int] | None:
+    def renewed_since(self, version: State) -> set[int] | None:
         """As of `ObjectTable`."""
         own = self._own.renewed_since(version[0])
         added = self._added.renewed_since(version[1]) if version[2:] == self.version[2:] else None

@@ -58,8 +58,11 @@ class InstancedMesh(Closed):
 
     mesh: CheckedAttribute[Mesh, Mesh] = CheckedAttribute(_check_mesh)
     version: int
-    _box_of: tuple | None = None  # poses and positions, and the box that follows from them
-    _tree_of: tuple | None = None  # likewise
+    _poses: NDArray[np.float32]
+    _colors: NDArray[Any] | None
+    # Poses and positions, and what follows from them.
+    _box_of: tuple[Any, ...] | None = None
+    _tree_of: tuple[Any, ...] | None = None
     _FORGOTTEN = ("_box_of", "_tree_of")
 
     def __init__(self, mesh: Mesh, poses: ArrayLike, *, colors: ArrayLike | None = None) -> None:
@@ -185,7 +188,7 @@ def mesh_box(mesh: Mesh) -> np.ndarray:
     return np.concatenate([low, high, np.maximum(np.abs(low), np.abs(high))])
 
 
-def _check_poses(value) -> np.ndarray:
+def _check_poses(value: ArrayLike) -> NDArray[np.float32]:
     poses = float32_of(floats(value, "poses"))
     if poses.shape == (0,):
         poses = poses.reshape(0, 4)
@@ -196,7 +199,7 @@ def _check_poses(value) -> np.ndarray:
     return frozen(poses)
 
 
-def _check_colors(value, count: int) -> np.ndarray | None:
+def _check_colors(value: ArrayLike | None, count: int) -> NDArray[Any] | None:
     if value is None:
         return None
     colors = as_array(value, "colors")

@@ -6,6 +6,8 @@ rows are packed into new arrays: those of the nodes, and of the removed ones tha
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ..._native.scene_graph import ALIVE, BOX, NativeGraph
@@ -53,11 +55,11 @@ class NodeArrays(NativeGraph):
     """
 
     def __init__(self) -> None:
-        self.nodes: list = []
+        self.nodes: list[Any] = []
         self.columns: dict[str, np.ndarray] = {}
         self._make_room(_ROOM)
 
-    def append(self, node, parent: int, number: int, identity: int) -> int:
+    def append(self, node: Any, parent: int, number: int, identity: int) -> int:
         """Make a node at the identity; return its slot."""
         if self.count == self.room:
             self._make_room(2 * self.room)

@@ -29,6 +29,7 @@ from .node_arrays import CASTS_NONE, RECEIVES_NONE
 
 if TYPE_CHECKING:
     from ..geometry.mesh import Mesh
+    from ..motion.posed_mesh import PosedMesh
     from ..motion.skins import Skin
     from ..spatial.colliders import Collider
     from .cameras import Camera
@@ -74,12 +75,14 @@ class Node:
     def __init__(self, scene: Scene, obj: SceneObject | None, name: str, number: int) -> None:
         self._scene = scene
         self._arrays, self._slot = scene.data.arrays, -1  # its row, once it has one
-        self._object = self._drawn = obj  # drawn: the object, or a PosedMesh of it
-        self._skin = self._morph_weights = None
+        self._object = obj
+        self._drawn: SceneObject | PosedMesh | None = obj  # what is shown of it
+        self._skin: Skin | None = None
+        self._morph_weights: NDArray[np.float64] | None = None
         self._name = name
         self._collider = None
-        self._taken = ()  # the nodes below that were removed with this one
-        self._taken_with = None  # the node above that this one was removed with
+        self._taken: tuple[Node, ...] = ()  # the nodes below that were removed with this one
+        self._taken_with: Node | None = None  # the node above that this one was removed with
         self._pose_version = self._world_version = -1
         self._read_pose = self._translation = None  # as they were when they were last read
         self._id = number

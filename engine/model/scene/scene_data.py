@@ -31,7 +31,7 @@ from ._posing import (
 )
 from .cameras import Camera
 from .instances import InstancedMesh
-from .lights import LIGHTS, Light
+from .lights import LIGHTS
 from .node_arrays import NodeArrays
 from .nodes import Node
 
@@ -135,7 +135,7 @@ class SceneData:
                 return node
         return None
 
-    def placed_lights(self) -> list[tuple[Light, int]]:
+    def placed_lights(self) -> list[tuple[Any, int]]:
         """Return the lights, each with the slot of its node."""
         return [(node._object, node._slot) for node in list(self.lights.values())]
 
@@ -157,9 +157,7 @@ class SceneData:
     def bounds(self) -> NDArray[np.float64]:
         """Return the box around all visible meshes, (2, 3) in world space; zeros if none."""
         self.update()
-        box = np.empty(OBJECT_BOX)
-        around = union(self.arrays.columns["bounds"][: self.arrays.count], box)
-        return box[:6].reshape(2, 3) if around else np.zeros((2, 3))
+        return box_around(self.arrays)
 
     def add(self, scene: Scene, obj: SceneObject | None, name: str, parent: Node | None) -> Node:
         """Make a node of the scene, which has its parent's pose."""
@@ -292,6 +290,13 @@ class SceneData:
             self.arrays.changes += 1
         else:
             self.show(node)
+
+
+def box_around(arrays: Any) -> NDArray[np.float64]:
+    """Return the box around what rows of nodes show, as of their last update."""
+    box = np.empty(OBJECT_BOX)
+    around = union(arrays.columns["bounds"][: arrays.count], box)
+    return box[:6].reshape(2, 3) if around else np.zeros((2, 3))
 
 
 def check_object(obj: Any) -> None:

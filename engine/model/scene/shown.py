@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ..motion.posed_mesh import PosedMesh
 
 if TYPE_CHECKING:
+    from .node_arrays import NodeArrays
     from .nodes import Node
 
 
@@ -27,7 +28,7 @@ def as_shown(drawn: Any) -> Any:
     return drawn.now() if isinstance(drawn, PosedMesh) else drawn
 
 
-def placing_poses(arrays, slots: np.ndarray) -> NDArray[np.float64]:
+def placing_poses(arrays: NodeArrays, slots: NDArray[np.int32]) -> NDArray[np.float64]:
     """Return the world poses (N, 4, 4) that place what nodes draw, as of the last update."""
     anchors = arrays.columns["anchor"][slots]
     poses = arrays.world_poses(np.where(anchors < 0, slots, anchors))

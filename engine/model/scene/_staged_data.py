@@ -8,7 +8,7 @@ there.
 from __future__ import annotations
 
 import weakref
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -60,11 +60,6 @@ class StagedData:
     def trees(self) -> tuple[SceneData, SceneData]:
         """Both."""
         return self.own, self.added
-
-    def hide(self, nodes: Iterable[Node], part_of: Callable[[Any], Any] | None) -> None:
-        """See `StagedScene.hide`."""
-        self.hidden, self.part_of = frozenset(nodes), part_of
-        self.objects.forget_parts()
 
     @property
     def first_added_id(self) -> int:

@@ -72,7 +72,8 @@ class StagedScene(Surroundings):
         part_of : callable, optional
             Called with a `Mesh` or `InstancedMesh`; returns what is drawn of it.
         """
-        self.data.hide(nodes, part_of)
+        self.data.hidden, self.data.part_of = frozenset(nodes), part_of
+        self.data.objects.forget_parts()
 
     def own_pixels(self, object_id: NDArray[np.int32]) -> NDArray[np.bool_]:
         """Return which pixels of a frame's ``object_id`` show something of the scene itself."""

@@ -157,15 +157,15 @@ class Hierarchy:
 
     def _found(self, names: tuple[int, int]) -> Rows:
         arrays = self._scene.data.arrays
-        count, nodes = arrays.count, arrays.nodes
+        count = arrays.count
         links = (arrays.columns[name][:count] for name in ("parent", "first_child", "next"))
         parent, first, following = (link.tolist() for link in links)
         tops = np.flatnonzero((arrays.columns["parent"][:count] < 0) & self._links[0]).tolist()
-        matches = self._matches(names, nodes)
+        matches = self._matches(names)
         shown = bytearray(b"\1" * count) if matches is None else _with_above(matches, parent)
         is_open = shown if matches is not None else self._open_slots(count)
         slots, depths = _walk(tops, parent, first, following, shown, is_open)
-        return Rows(list(nodes), first, is_open, matches or bytes(count), slots, depths)
+        return Rows(list(arrays.nodes), first, is_open, matches or bytes(count), slots, depths)
 
     def _open_slots(self, count: int) -> bytearray:
         is_open = bytearray(count)
@@ -174,13 +174,13 @@ class Hierarchy:
             is_open[slot] = 1
         return is_open
 
-    def _matches(self, key: tuple[int, int], nodes: list) -> bytes | None:
+    def _matches(self, key: tuple[int, int]) -> bytes | None:
         """Which slots the search finds; None without a search."""
         text = self._search
         if not text:
             return None
         if self._names is None or self._names[0] != key:
-            self._names = key, ["" if node is None else node.name.casefold() for node in nodes]
+            self._names = key, [name.casefold() for name in self._scene.data.names()]
         return bytes([text in name for name in self._names[1]])
 
 

@@ -128,6 +128,10 @@ class SceneData:
         ]
         return np.array(slots, np.int32)
 
+    def names(self) -> list[str]:
+        """Return the name of each row of ``arrays``, empty where a node was removed."""
+        return ["" if node is None else node._name for node in self.arrays.nodes]
+
     def camera_node(self) -> Node | None:
         """Return the first visible node that holds a camera: what is drawn through by default."""
         for node in self.cameras.values():

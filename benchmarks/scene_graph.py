@@ -50,7 +50,7 @@ def measure(side, rounds):
     random = np.random.default_rng(1)
     camera = e3d.PerspectiveCamera(0.9, zfar=4.0 * side)
     middle = np.full(3, 0.5 * side)
-    bits = np.empty((scene._arrays.count + 63) // 64, np.uint64)
+    bits = np.empty((scene.data.arrays.count + 63) // 64, np.uint64)
 
     def look(eye, target):
         view = linalg.inverse(e3d.look_at(eye, target))
@@ -61,22 +61,22 @@ def measure(side, rounds):
 
     def move_all(number):
         root.translation = (0.001 * number, 0, 0)
-        scene._update()
+        scene.data.update()
 
     def wander(number):
         boxes.translations += random.normal(0, 0.05, (len(boxes), 3))
-        scene._update()
+        scene.data.update()
 
     def move_one(number):
         boxes.nodes[0].translation = (0.001 * number, 0, 0)
-        scene._update()
+        scene.data.update()
 
     def cast(number):
         origins = random.uniform(0, side, (RAYS, 3))
         scene.raycast_many(origins, middle + 0.01 - origins)
 
     def select(view):
-        return lambda number: scene._arrays.select(view, 1.0, False, bits)
+        return lambda number: scene.data.arrays.select(view, 1.0, False, bits)
 
     renderer = e3d.Renderer(64, 36)
 
@@ -99,7 +99,7 @@ def measure(side, rounds):
         "draw, camera inside, a draw a node": draw(middle, False),
         f"{RAYS} rays": cast,
     }
-    scene._update()
+    scene.data.update()
     for name, work in works.items():
         work(0)
         yield {"work": name, "milliseconds": milliseconds(work, rounds)}

@@ -134,20 +134,20 @@ def measure_nodes(scene, nodes, spheres, threads, count):
         places += random.normal(0, 0.05 * SPACING, places.shape)
         start = time.process_time(), time.perf_counter()
         selection.translations = places
-        scene._update(threads)
+        scene.data.update(threads)
         times.append((time.process_time() - start[0], time.perf_counter() - start[1]))
     rows = {"median": np.median(times, axis=0), "worst": np.max(times, axis=0)}
     for name, (cpu, wall) in rows.items():
         row = {"cpu_milliseconds": 1e3 * cpu, "milliseconds": 1e3 * wall}
         aim = {"aim": "under 10 ms", "reached": f"{1e3 * wall:.1f} ms"}
         yield f"{count}: transforms, bounds and tree, {name}", {**row, **aim}
-    bits = np.empty((scene._arrays.count + 63) // 64, np.uint64)
+    bits = np.empty((scene.data.arrays.count + 63) // 64, np.uint64)
     for name, look in {"inside": spheres.inside, "all in view": spheres.all_in_view}.items():
         camera, pose = look(0)
         view = linalg.multiply(camera.projection(1920, 1080), linalg.inverse(pose))
         start = time.perf_counter()
         for _ in range(UPDATES):
-            scene._arrays.select(view, 1.0, False, bits)
+            scene.data.arrays.select(view, 1.0, False, bits)
         taken = 1e3 * (time.perf_counter() - start) / UPDATES
         row = {"cpu_milliseconds": taken, "milliseconds": taken}
         aim = {"aim": "under 1 ms", "reached": f"{taken:.2f} ms"}

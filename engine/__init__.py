@@ -94,7 +94,7 @@ _PUBLIC = {
     "Frame": "rendering.frame",
     "RenderOptions": "rendering.options",
     "Renderer": "rendering.renderer",
-    "render": "rendering.renderer",
+    "render": "stage.render",
     "Canvas": "rendering.canvas",
     "Sheet": "apps.sheet.sheet",
     "contact_sheet": "apps.sheet.sheet",

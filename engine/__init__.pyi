@@ -96,5 +96,5 @@ from .rendering.options import RenderOptions as RenderOptions
 from .rendering.rasterization import RasterizeResult as RasterizeResult
 from .rendering.rasterization import rasterize as rasterize
 from .rendering.renderer import Renderer as Renderer
-from .rendering.renderer import render as render
+from .stage.render import render as render
 from .version import __version__ as __version__

@@ -150,14 +150,14 @@ def find_camera(scene: AnyScene, camera: CameraChoice) -> tuple[Camera, np.ndarr
     InvalidArgumentError
     """
     if camera is None:
-        node = scene._camera_node()
-        return None if node is None else (cast(Camera, node.object), node.world_pose)
+        node = scene.data.camera_node()
+        return None if node is None else (cast("Camera", node.object), node.world_pose)
     if isinstance(camera, Node):
         if not isinstance(camera.object, Camera):
             raise InvalidArgumentError(
                 f"camera must be a node that holds a camera, not {shown(camera)}"
             )
-        if camera._scene is not scene:
+        if camera.scene is not scene:
             raise InvalidArgumentError(
                 f"{camera!r} is not a node of this scene: give (node.object, node.world_pose)"
             )

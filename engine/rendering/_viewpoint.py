@@ -41,7 +41,7 @@ class Viewpoint:
     def _frame_scene(self, scene: AnyScene, width: int, height: int) -> tuple[Camera, np.ndarray]:
         """A camera that shows the whole scene, kept until something in it changes or moves."""
         state = self._draw_list.changes, width, height
-        if self._framing is None or self._framed != state or not self._draw_list.shows(scene):
+        if self._framing is None or self._framed != state or not self._draw_list.shows(scene.data):
             aspect = width / height
             # It refuses staged scenes, which are looked at through cameras.
             self._framing = frame_scene(scene, aspect=aspect)  # type: ignore[arg-type]

@@ -6,7 +6,7 @@ import numpy as np
 
 from .._native.scene_graph import SHOWN
 from ..model.scene.node_arrays import CASTS_NONE
-from ..model.scene.staged_scene import NodeRows
+from ..model.scene.staged_data import NodeRows
 
 
 def placed_casters(arrays: NodeRows, selection: np.ndarray | None = None) -> tuple[bytes, ...]:

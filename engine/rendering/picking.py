@@ -15,9 +15,9 @@ import numpy as np
 from ..base import linalg
 from ..base.numbers import shown
 from ..errors import InvalidArgumentError
-from ..model.motion.shown import placing_pose, shown_object
-from ..model.scene.instances import InstancedMesh
+from ..model.scene.instances import InstancedMesh, instance_matrices
 from ..model.scene.nodes import Node
+from ..model.scene.shown import placing_pose, shown_object
 from ..model.spatial.rays import RayHit, raycast
 from .frame import Frame
 
@@ -42,7 +42,7 @@ def pick(scene: Any, frame: Any, x: int, y: int) -> RayHit | None:
     if not {"object_id", "instance_id", "triangle_id"} <= set(frame.outputs):
         return _from(eye, _drawn_hit(scene, near, direction, length, frame._seen[1]))
     number, face = int(frame.object_id[y, x]), int(frame.triangle_id[y, x])
-    node = None if number < 0 else scene._node_of(number)
+    node = None if number < 0 else scene.data.node_of(number)
     if node is None:
         return None
     instance = int(frame.instance_id[y, x])
@@ -120,7 +120,7 @@ def _hit_of_face(node: Node, instance: int, face: int, origin: Any, direction: A
     mesh: Any = shown_object(node)
     pose = placing_pose(node)
     if isinstance(mesh, InstancedMesh):
-        pose = linalg.multiply(pose, mesh._pose_of(instance))
+        pose = linalg.multiply(pose, instance_matrices(mesh.poses[instance : instance + 1])[0])
         mesh = mesh.mesh
     a, b, c = linalg.transform_points(pose, mesh.positions[mesh.faces[face]])
     across = linalg.cross(b - a, c - a)

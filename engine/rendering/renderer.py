@@ -10,17 +10,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NoReturn, SupportsIndex
 
 from .._native import rasterizer as _native
-from ..base.calls import refuse_unknown
-from ..base.image_size import check_side, check_size
+from ..base.image_size import check_side
 from ..base.validation import Closed, choose, is_one_of
 from ..choices import Antialias, Backend, ColorSpace, Samples
 from ..errors import InvalidArgumentError, SceneChangedError
-from ..model.geometry.mesh import Mesh
 from ..model.materials.colors import COLOR_SPACES
-from ..model.scene.instances import InstancedMesh
-from ..model.scene.nodes import Node
 from ..model.scene.scene import Scene
-from ..model.scene.scenes_of_things import scene_of
 from ..model.scene.staged_scene import AnyScene, StagedScene
 from ._frame_memory import FrameMemory
 from ._frame_options import OptionsCache
@@ -34,7 +29,6 @@ from .draw_list.placement import Placing
 from .frame import Frame
 from .options import (
     OptionKeywords,
-    RenderKeywords,
     RenderOptions,
     shows_options,
     with_both_sides,
@@ -210,9 +204,9 @@ class Renderer(Closed):
             size = self._width, self._height
             plan = self._passes.plan(options, tuple(options.outputs), size)
             headlight = (*frame_options.headlight, (0.0, 0.0, 1.0))
-            listing, census = frame_options.listing(plan.listed), scene._census()
+            listing, census = frame_options.listing(plan.listed), scene.data.census()
             try:
-                self._draw_list.update(scene, listing, headlight, Placing())
+                self._draw_list.update(scene.data, listing, headlight, Placing())
             except Exception as error:
                 _blame_change(scene, census, error)
                 raise
@@ -289,7 +283,7 @@ class Renderer(Closed):
         outputs = tuple(options.outputs if out is None else self._check_out(out).outputs)
         plan = self._passes.plan(options, outputs, size)
         frame = Frame(*size, self._pool.take(plan.outputs)) if out is None else out
-        census, reads_scene = scene._census(), True
+        census, reads_scene = scene.data.census(), True
         try:
             picture = self._look(scene, camera, options, plan.listed, culling_camera)
             picture.targets, picture.arrays = self._passes.arrays(plan, frame._outputs)
@@ -302,7 +296,7 @@ class Renderer(Closed):
                 _blame_change(scene, census, error)
             raise
         frame._seen = picture.view, "none" if options.cull == "auto" else options.cull
-        frame._drawn = scene._arrays.count - scene._removed, picture.drawn
+        frame._drawn = scene.data.node_count, picture.drawn
         return frame
 
     def _look(
@@ -320,7 +314,7 @@ class Renderer(Closed):
         chosen = frustum_of(scene, culling_camera, *size)
         frustum = view.clip_from_world if chosen is None else chosen
         self._draw_list.update(
-            scene,
+            scene.data,
             frame_options.listing(listed),
             (*frame_options.headlight, view.towards_viewer),
             frame_options.placing(frustum, size),
@@ -335,7 +329,7 @@ class Renderer(Closed):
 
     def _let_backs_show(self, picture: Picture) -> None:
         """Leave out backs of closed meshes only, and only where nobody looks into their holes."""
-        windows = self._draw_list.open_windows(picture.scene, picture.view, picture.size)
+        windows = self._draw_list.open_windows(picture.scene.data, picture.view, picture.size)
         picture.shadow_cull = "none" if self._draw_list.has_holes else "back"
         if windows is None:
             options = with_both_sides(picture.options)
@@ -365,68 +359,10 @@ def _check_samples(samples: Samples, antialias: Antialias) -> Samples:
     return choose(samples, _SAMPLES[antialias], "samples")
 
 
-#: What `render` takes for the renderer that it makes.
-_RENDERER_KEYWORDS = ("size", "backend", "threads", "color_space", "samples", "antialias")
-
-
-def _blame_change(scene: AnyScene, census: tuple[object, ...], error: Exception) -> None:
+def _blame_change(scene: AnyScene, census: tuple[Any, ...], error: Exception) -> None:
     """Raise, where nodes came or went since a census, an error that says so instead of another."""
-    if scene._census() != census:
+    if scene.data.census() != census:
         raise SceneChangedError(
             "nodes were added to the scene or removed while it was drawn: change a scene between "
             "frames, not from another thread during one"
         ) from error
-
-
-def render(
-    scene: Scene | Node | Mesh | InstancedMesh | Any,
-    camera: CameraChoice = None,
-    *,
-    size: tuple[int, int] = (1280, 720),
-    backend: Backend = "auto",
-    threads: int = 0,
-    color_space: ColorSpace = "srgb",
-    samples: Samples = 1,
-    antialias: Antialias = "ssaa",
-    **options: Unpack[RenderKeywords],
-) -> Frame:
-    """Draw one frame of a scene, of a part of one, or of a mesh alone.
-
-    Parameters
-    ----------
-    scene : Scene, Node, Mesh, InstancedMesh, or a scene or geometry of trimesh
-        What is no scene is drawn before black. Of a node, all below it is drawn, where it is in the
-        world, in the light of those lights that are among it.
-    camera : None, Node or (Camera, pose)
-    size : (int, int)
-        Width and height in pixels.
-    backend, threads, color_space, samples, antialias
-        As for `Renderer`.
-    **options
-        As for `Renderer.render`: ``mode``, ``wireframe``, ``outputs`` and so on.
-
-    Returns
-    -------
-    frame : Frame
-
-    Raises
-    ------
-    InvalidArgumentError, BackendError, OutOfMemoryError
-    """
-    refuse_unknown("render", options, (*RenderKeywords.__annotations__, *_RENDERER_KEYWORDS))
-    width, height = check_size(size)
-    drawn = scene_of(scene)
-    if drawn is None:
-        raise InvalidArgumentError(
-            f"a scene, a node or a mesh can be drawn, not {type(scene).__name__}"
-        )
-    with Renderer(
-        width,
-        height,
-        backend=backend,
-        threads=threads,
-        color_space=color_space,
-        samples=samples,
-        antialias=antialias,
-    ) as renderer:
-        return renderer.render(drawn, camera, **options)

@@ -16,9 +16,9 @@ from numpy.typing import ArrayLike
 from .._native.scene_graph import SHOWN
 from ..base import linalg
 from ..model.geometry.mesh import Mesh
-from ..model.motion.shown import as_shown, placing_poses
-from ..model.scene.instances import InstancedMesh
+from ..model.scene.instances import InstancedMesh, instance_matrices
 from ..model.scene.scene import Scene
+from ..model.scene.shown import as_shown, placing_poses
 
 SupportFunction = Callable[[np.ndarray], np.ndarray]
 
@@ -47,12 +47,12 @@ def support_of_scene(scene: Scene) -> SupportFunction | None:
     for some of them: nothing ever reaches farther than is said.
     """
     placed = _Placed()
-    scene._update()
-    arrays = scene._arrays
+    scene.data.update()
+    arrays = scene.data.arrays
     shown = arrays.columns["flags"][: arrays.count] & SHOWN != 0
     numbers = arrays.columns["object"][: arrays.count]
-    for number, obj in enumerate(scene._objects.objects):
-        slots = np.flatnonzero(shown & (numbers == number))
+    for number, obj in enumerate(scene.data.objects.objects):
+        slots = np.flatnonzero(shown & (numbers == number)).astype(np.int32)
         if obj is not None and len(slots):
             placed.add(as_shown(obj), placing_poses(arrays, slots))
     return placed.support if placed.count else None
@@ -77,7 +77,8 @@ class _Placed:
         if box is not None and len(obj) > _MAX_INSTANCES:
             self._add(None, poses, box)
         elif box is not None:
-            instances = _instance_poses(obj)
+            instances = instance_matrices(obj.poses)
+            instances = instances[np.isfinite(instances).all(axis=(1, 2))]
             for pose in poses:
                 self._add(obj.mesh, linalg.multiply(pose, instances), obj.mesh.bounds)
 
@@ -117,20 +118,6 @@ def _in_their_own_space(poses: np.ndarray, directions: np.ndarray) -> tuple[np.n
     columns = (poses[:, np.newaxis, :3, k] for k in range(4))
     *local, offset = (linalg.dot(column, directions) for column in columns)
     return np.stack(local, axis=-1), offset
-
-
-def _instance_poses(instances: InstancedMesh) -> np.ndarray:
-    """The finite node-from-instance matrices, (N, 4, 4) float64."""
-    given = instances.poses.astype(np.float64)
-    given = given[np.isfinite(given.reshape(len(given), -1)).all(axis=1)]
-    if given.ndim == 3:
-        return given
-    poses = np.zeros((len(given), 4, 4))
-    for axis in range(3):
-        poses[:, axis, axis] = given[:, 3]
-        poses[:, axis, 3] = given[:, axis]
-    poses[:, 3, 3] = 1.0
-    return poses
 
 
 def _farthest(points: np.ndarray, directions: np.ndarray) -> np.ndarray:

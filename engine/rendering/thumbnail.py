@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from ..errors import Engine3DError
 from ..model.geometry.mesh import Mesh
-from ..model.motion.shown import shown_object
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.scene import Scene
-from .renderer import render
+from ..model.scene.shown import shown_object
+from .renderer import Renderer
 
 SIZE = (400, 300)
 #: Faces, lines and points together: half a second on one processor.
@@ -27,7 +27,8 @@ def thumbnail(thing: Scene | Mesh) -> bytes | None:
     if not 0 < sum(map(_parts, shown)) <= MOST_PARTS:
         return None
     try:
-        frame = render(scene, size=SIZE, samples=4, antialias="msaa", cull="auto")
+        with Renderer(*SIZE, samples=4, antialias="msaa") as renderer:
+            frame = renderer.render(scene, cull="auto")
     except Engine3DError:  # such as of coordinates that no camera can be placed for
         return None
     return frame.encode()

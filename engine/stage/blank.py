@@ -17,11 +17,11 @@ import numpy as np
 from ..base import linalg
 from ..model.geometry.mesh import Mesh
 from ..model.materials.material import Material
-from ..model.motion.shown import placing_pose, shown_object
 from ..model.scene.cameras import Camera
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.nodes import Node
 from ..model.scene.scene import Scene
+from ..model.scene.shown import placing_pose, shown_object
 from ..rendering.frame import Frame
 from ..rendering.renderer import Renderer
 from .visibility import DRAWABLE, mesh_of

@@ -113,11 +113,11 @@ class GroundShadow:
 
     def _state(self) -> tuple[object, ...]:
         """What is the same while all that casts a shadow is, and stays as and where it is."""
-        scene = self._scene
-        scene._update()
-        posing = None if scene._posing is None else scene._posing.moment
+        data = self._scene.data
+        data.update()
+        posing = None if data.posing is None else data.posing.moment
         versions: dict[object, int] = {}
-        for shape in scene._objects.objects:
+        for shape in data.objects.objects:
             if shape is None or shape is self._ground:
                 continue
             if isinstance(shape, InstancedMesh):
@@ -128,7 +128,7 @@ class GroundShadow:
                 versions[material] = material.version
                 if material.alpha_mode != "opaque":  # its textures have holes
                     versions.update((t, t.version) for t in textures_of(material).values())
-        return versions, scene._shows_textures, posing, placed_casters(scene._arrays)
+        return versions, data.shows_textures, posing, placed_casters(data.arrays)
 
     def _heights(
         self, slant: tuple[float, float], lowest: float, sphere: Sphere, cull: FrameCull

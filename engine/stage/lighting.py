@@ -77,7 +77,7 @@ class Lighting:
         """Light the scene with one set-up and no other."""
         self.name = name
         self._turn: np.ndarray | None = None
-        self._staged.keeps_lights = name == OWN_LIGHTS
+        self._staged.keep_lights(name == OWN_LIGHTS)
         for setup in self._nodes.keys() - {OWN_LIGHTS}:
             for node in self._nodes[setup]:
                 node.visible = setup == name
@@ -135,7 +135,7 @@ class OnlyLight:
     ) -> None:
         self.name = "placed light" if isinstance(light, PointLight) else "directed light"
         self.names = (self.name,)
-        staged.keeps_lights = False
+        staged.keep_lights(False)
         self._node = staged.beside.add(light, translation=position)
 
     def groups(self) -> list[list[Light]]:

@@ -17,11 +17,11 @@ from ..errors import Engine3DWarning
 from ..io.reading.documents import Document
 from ..io.reading.sources import File
 from ..model.geometry.mesh import Mesh
-from ..model.motion.shown import placing_pose, shown_object
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.lights import LIGHTS
 from ..model.scene.orbiting import home_axes
 from ..model.scene.scene import Scene
+from ..model.scene.shown import placing_pose, shown_object
 from .near_origin import moved_near
 from .open_model import color_by, read_model
 from .scalars import ScalarColoring
@@ -122,7 +122,7 @@ def _brightest(viewed_scenes: list[ViewedScene]) -> tuple[float, ...]:
 def _add(scene: Scene, viewed: ViewedScene, pose: np.ndarray) -> None:
     """Add what another scene shows, as children of a node that bears its name."""
     group = scene.add(name=viewed.title, pose=pose)
-    viewed.scene._update()
+    viewed.scene.data.update()
     for node in viewed.scene.nodes:
         if isinstance(node.object, _SHOWN) and node.shown:
             thing, pose = shown_object(node), placing_pose(node)

@@ -14,11 +14,11 @@ from numpy.typing import ArrayLike
 
 from ..base import linalg
 from ..model.geometry.mesh import Mesh
-from ..model.motion.shown import placing_pose, shown_object
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.nodes import Node
 from ..model.scene.orbiting import cosine, home_axes, sine
 from ..model.scene.scene import Scene
+from ..model.scene.shown import placing_pose, shown_object
 from .views.viewpoint import Sphere
 
 #: How finely `turning_outline` follows a scene.
@@ -97,7 +97,7 @@ def _ends(widest: np.ndarray) -> list[tuple[float, float]]:
 
 def _world_points(scene: Scene) -> Iterator[np.ndarray]:
     """Yield the finite vertices of each visible mesh, (N, 3) in world space; instances as boxes."""
-    scene._update()
+    scene.data.update()
     for node in scene.nodes:
         points = _outline(node) if node.shown else None
         if points is not None:

@@ -14,7 +14,6 @@ import numpy as np
 from ..base import linalg
 from ..model.scene.lights import DirectionalLight
 from ..model.scene.nodes import Node
-from ..model.scene.scene import Scene
 from ..model.scene.staged_scene import StagedScene
 from .appearance import Appearance
 from .chosen_surroundings import fog_color
@@ -96,7 +95,7 @@ class Staging:
             The set-up of lights, if there is one of that name; the first one by default.
         """
         self.up = up
-        self.scene.beside = Scene()
+        self.scene.clear()
         self.box = BoxGrid(self.viewed, self.scene)
         self._grid: Node | None = None
         self.lighting = self._light()

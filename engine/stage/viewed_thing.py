@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 from ..base.numbers import real, shown
 from ..errors import InvalidArgumentError
-from ..model.scene.scenes_of_things import scene_of
 from .overlays.theme import DARK
 from .played_clips import play_clips
+from .scenes_of_things import scene_of
 from .viewed_scene import ViewedScene
 from .views.viewpoint import UP_DIRECTIONS
 

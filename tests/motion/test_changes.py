@@ -10,12 +10,12 @@ from motion.test_shown import stage, view, wriggle
 
 import engine3d as e3d
 from engine3d.linalg import transform_points
-from engine3d.model.motion.shown import placing_pose, shown_object
+from engine3d.model.scene.shown import placing_pose, shown_object
 
 
 def world_points(scene, node):
-    scene._update()
-    return transform_points(placing_pose(node), node._posed.now().positions)
+    scene.data.update()
+    return transform_points(placing_pose(node), node._drawn.now().positions)
 
 
 def test_nodes_that_go_and_come_back_are_bent_again():
@@ -55,26 +55,26 @@ def test_slots_that_are_packed_keep_their_joints():
 def test_nothing_is_kept_of_nodes_that_are_gone():
     rng = np.random.default_rng(3)
     scene, joints, _ = stage(3, count=4)
-    scene._update()
-    count = len(scene._posing.poses)
+    scene.data.update()
+    count = len(scene.data.posing.poses)
     for node in [node for node in scene.nodes if node.skin][:3]:
         scene.remove(node)
     del node
     gc.collect()
-    scene._update()
-    assert (count, len(scene._posing.poses)) == (4, 1)
-    assert len(scene._posing._nodes) == 1
+    scene.data.update()
+    assert (count, len(scene.data.posing.poses)) == (4, 1)
+    assert len(scene.data.posing._nodes) == 1
     assert rng is not None
 
 
 def test_a_mesh_without_joints_any_longer_is_drawn_at_rest():
     rng = np.random.default_rng(4)
     scene, node = skinned_scene(bent_tube(rng), rng)
-    scene._update()
+    scene.data.update()
     node.object.set_influences(None, None)
-    scene._update()
+    scene.data.update()
     assert shown_object(node) is node.object
-    assert scene._arrays.columns["anchor"][node._slot] == -1
+    assert scene.data.arrays.columns["anchor"][node._slot] == -1
 
 
 def test_what_a_thread_draws_stays_as_it_is_while_another_moves_it():
@@ -101,7 +101,7 @@ def test_what_a_thread_draws_stays_as_it_is_while_another_moves_it():
         thread.start()
     for turn in range(400):
         joints.poses = poses[turn % 4]
-        scene._update()
+        scene.data.update()
     stop.set()
     for thread in threads:
         thread.join()

@@ -8,7 +8,8 @@ from shared_corpus import SHARED
 
 import engine3d as e3d
 from engine3d import linalg
-from engine3d.model.motion.shown import placing_pose, shown_object
+from engine3d.model.scene.instances import instance_matrices
+from engine3d.model.scene.shown import placing_pose, shown_object
 
 MOVING = ("animation_list", "skin_list", "morph_targets")
 GLTF = SHARED / "gltf"
@@ -32,13 +33,13 @@ def animated():
 
 def box_of(scene):
     """The box of all vertices that faces, lines or points use, in the world."""
-    scene._update()
+    scene.data.update()
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for node in scene.nodes:
         obj = shown_object(node)
         if isinstance(obj, e3d.InstancedMesh):
             mesh = obj.mesh
-            poses = [linalg.multiply(node.world_pose, obj._pose_of(k)) for k in range(len(obj))]
+            poses = linalg.multiply(node.world_pose, instance_matrices(obj.poses))
         elif isinstance(obj, e3d.Mesh):
             mesh, poses = obj, [placing_pose(node)]
         else:

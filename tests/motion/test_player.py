@@ -98,8 +98,8 @@ def test_weights_move_morph_targets():
     player = player_of(channel(node, "weights", values), scene=scene)
     player.seek(0.75)
     assert node.morph_weights.tolist() == [0.5, 1.0]
-    scene._update()
-    assert np.allclose(node._posed.now().positions, np.eye(3) + [0, 0, 1.5])
+    scene.data.update()
+    assert np.allclose(node._drawn.now().positions, np.eye(3) + [0, 0, 1.5])
 
 
 @pytest.mark.parametrize(

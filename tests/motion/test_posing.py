@@ -60,8 +60,8 @@ def skinned_scene(mesh, rng, joints=5):
 
 
 def posed(scene, node):
-    scene._update()
-    return node._posed.now()
+    scene.data.update()
+    return node._drawn.now()
 
 
 def by_matrices(mesh, node):
@@ -80,7 +80,8 @@ def test_skinned_vertices_stand_where_their_joints_put_them(influences):
     scene, node = skinned_scene(mesh, rng)
     now = posed(scene, node)
     world = e3d.linalg.transform_points(
-        scene._arrays.world_poses(scene._arrays.columns["anchor"][[node._slot]])[0], now.positions
+        scene.data.arrays.world_poses(scene.data.arrays.columns["anchor"][[node._slot]])[0],
+        now.positions,
     )
     assert np.abs(world - by_matrices(mesh, node)).max() < 2e-6 * np.abs(world).max()
 
@@ -101,7 +102,7 @@ def test_posed_vertices_are_those_of_the_reference(case):
     matrices = None
     if node.skin is not None:
         matrices = np.empty((len(node.skin.joints), 16), np.float32)
-        node._posed.native.copy_matrices(matrices)
+        node._drawn.native.copy_matrices(matrices)
     arrays = mesh._arrays
     skinned = matrices is not None
     positions, normals = (np.empty_like(mesh.positions) for _ in range(2))
@@ -131,9 +132,9 @@ def test_posed_vertices_are_those_of_the_reference(case):
 def test_the_way_of_a_matrix_is_that_of_linear_algebra():
     rng = np.random.default_rng(5)
     scene, node = skinned_scene(bent_tube(rng), rng)
-    scene._update()
+    scene.data.update()
     matrices = np.empty((5, 16), np.float32)
-    node._posed.native.copy_matrices(matrices)
+    node._drawn.native.copy_matrices(matrices)
     way = np.eye(4)
     for number, joint in enumerate(node.skin.joints):
         way = joint.pose if number == 0 else e3d.linalg.multiply(way, joint.pose)
@@ -147,12 +148,14 @@ def test_large_meshes_are_shared_out_and_the_same_on_any_number_of_threads(threa
     mesh = bent_tube(rng, rings=900, sides=40, targets=2)
     scene, node = skinned_scene(mesh, rng)
     node.morph_weights = (1.0, 0.3)
-    scene._update(threads)
-    now = node._posed.now()
-    alone, other = PosedMesh(mesh), node._posed
+    scene.data.update(threads)
+    now = node._drawn.now()
+    alone, other = PosedMesh(mesh), node._drawn
     alone.native.set_weights(np.float32((1.0, 0.3)))
-    alone.native.set_skeleton(*skeleton_of(node.skin, scene._arrays)[1:])
-    pose_meshes([alone.native], scene._arrays.columns["pose"], 1)
+    arrays = scene.data.arrays
+    joints = scene.data.slots_of(node.skin.joints).tolist()
+    alone.native.set_skeleton(*skeleton_of(node.skin, joints, arrays.columns["parent"])[1:])
+    pose_meshes([alone.native], arrays.columns["pose"], 1)
     assert alone.now().positions.tobytes() == now.positions.tobytes()
     assert np.array_equal(alone.box(), other.box())
 
@@ -161,7 +164,7 @@ def test_boxes_hold_what_was_posed():
     rng = np.random.default_rng(11)
     scene, node = skinned_scene(bent_tube(rng), rng)
     now = posed(scene, node)
-    box = node._posed.box()
+    box = node._drawn.box()
     assert np.array_equal(box[:6].reshape(2, 3), now.bounds)
     world = by_matrices(node.object, node)
     assert (node.bounds[0] <= world.min(axis=0) + 1e-5).all()
@@ -177,21 +180,21 @@ def test_vertices_that_are_not_finite_are_left_out_of_the_box():
     scene, node = skinned_scene(broken, rng)
     now = posed(scene, node)
     assert np.isnan(now.positions[5]).all() and np.isfinite(node.bounds).all()
-    assert np.array_equal(node._posed.box()[:6].reshape(2, 3), now.bounds)
+    assert np.array_equal(node._drawn.box()[:6].reshape(2, 3), now.bounds)
 
 
 def test_a_still_scene_poses_nothing_again():
     rng = np.random.default_rng(13)
     scene, node = skinned_scene(bent_tube(rng), rng)
-    scene._update()
-    moment, handle = scene._posing.moment, node._posed.native.current
+    scene.data.update()
+    moment, handle = scene.data.posing.moment, node._drawn.native.current
     scene.nodes[0].translation = (1, 2, 3)  # the anchor moves all alike
-    scene._update()
-    assert node._posed.native.current is handle and scene._posing.moment == moment
+    scene.data.update()
+    assert node._drawn.native.current is handle and scene.data.posing.moment == moment
     assert node.bounds is not None
     scene.nodes[2].translation = (1, 2, 3)
-    scene._update()
-    assert node._posed.native.current is not handle and scene._posing.moment > moment
+    scene.data.update()
+    assert node._drawn.native.current is not handle and scene.data.posing.moment > moment
 
 
 def test_a_node_follows_its_anchor():
@@ -212,11 +215,11 @@ def test_joints_that_hang_elsewhere_or_go_are_followed():
     last = node.skin.joints[-1]
     last.reparent(other)
     world = by_matrices(node.object, node)
-    scene._update()
-    assert scene._arrays.columns["anchor"][node._slot] == node._slot  # the world
+    scene.data.update()
+    assert scene.data.arrays.columns["anchor"][node._slot] == node._slot  # the world
     assert np.abs(posed(scene, node).positions - world).max() < 1e-4
     scene.remove(other)
-    scene._update()
+    scene.data.update()
     assert np.array_equal(posed(scene, node).positions, node.object.positions)
     scene.restore(other)
     assert np.abs(posed(scene, node).positions - world).max() < 1e-4

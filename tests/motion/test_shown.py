@@ -6,7 +6,7 @@ from motion.test_posing import bent_tube, by_matrices, posed, skinned_scene
 
 import engine3d as e3d
 from engine3d import linalg
-from engine3d.model.motion.shown import placing_pose
+from engine3d.model.scene.shown import placing_pose
 
 
 def stage(seed, count=6, targets=0):
@@ -81,7 +81,7 @@ def test_a_posed_mesh_is_drawn_as_one_with_those_vertices(options):
         plain.add(e3d.DirectionalLight((0.3, -1, -0.5)))
         for node in scene.nodes:
             if node.skin:
-                plain.add(node._posed.now(), pose=placing_pose(node))
+                plain.add(node._drawn.now(), pose=placing_pose(node))
         other = e3d.Renderer(160, 120).render(plain, view(), **options)
         assert np.array_equal(frame.color, other.color)
 
@@ -148,9 +148,9 @@ def test_one_mesh_many_poses_and_one_at_rest():
     mesh = next(node for node in scene.nodes if node.skin).object
     plain = scene.add(mesh, translation=(0, 5, 0))
     wriggle(joints, rng)
-    scene._update()
-    assert plain.bounds is not None and plain._posed is None
-    rests = {node._posed.native.rest for node in scene.nodes if node.skin}
+    scene.data.update()
+    assert plain.bounds is not None and plain._drawn is plain.object
+    rests = {node._drawn.native.rest for node in scene.nodes if node.skin}
     assert len(rests) == 1  # what does not move is there once
     assert [number for _, number in e3d_uses(scene, mesh)] == [4]
 
@@ -177,8 +177,8 @@ def test_a_mesh_that_changes_is_bent_anew():
     same = one.add(mesh)
     same.skin = e3d.Skin(chain[1:], node.skin.inverse_binds)
     same.morph_weights = [0.5]
-    one._update()
-    assert same._posed.now().positions.tobytes() == posed(scene, node).positions.tobytes()
+    one.data.update()
+    assert same._drawn.now().positions.tobytes() == posed(scene, node).positions.tobytes()
 
 
 def test_what_a_node_holds_may_change():
@@ -196,7 +196,7 @@ def test_what_a_node_holds_may_change():
     assert np.array_equal(node.bounds, before)
     node.skin = None
     renderer.render(scene)
-    assert scene._arrays.columns["anchor"][node._slot] == -1
+    assert scene.data.arrays.columns["anchor"][node._slot] == -1
     node.object = e3d.box()
     renderer.render(scene)
     assert np.allclose(node.bounds, [[99.5, -0.5, -0.5], [100.5, 0.5, 0.5]])

@@ -60,8 +60,8 @@ def selected(arrays, clip_from_world, flat):
 
 def check(scene, random, count=12):
     """Everything that shows is selected, and nothing that is farther out than rounding can be."""
-    scene._update()
-    arrays = scene._arrays
+    scene.data.update()
+    arrays = scene.data.arrays
     boxes = arrays.columns["bounds"][: arrays.count]
     some = 0
     for clip_from_world in cameras(random, count):
@@ -89,7 +89,7 @@ def test_a_hundred_thousand_boxes_against_brute_force():
     scene = e3d.Scene()
     mesh = e3d.box()
     nodes = [scene.add(mesh) for _ in range(BOXES)]
-    arrays = scene._arrays
+    arrays = scene.data.arrays
     arrays.columns["pose"][:BOXES] = random_poses(random, BOXES)
     check(scene, random, 60)
     scatter(scene, nodes, random, 0.01)  # the boxes above what moved are renewed
@@ -110,9 +110,9 @@ def test_a_scene_that_changes_all_the_time_against_brute_force():
         nodes += [scene.add(wide if k % 9 == 0 else mesh, parent=parent) for k in range(30)]
         scatter(scene, nodes, random, random.choice([0.01, 0.2, 1.0]))
         for node in random.choice(nodes, 5, replace=False):
-            if node._scene is scene:
+            if node.scene is scene:
                 scene.remove(node)
-        nodes = [node for node in nodes if node._scene is scene]
+        nodes = [node for node in nodes if node.scene is scene]
         nodes[random.integers(len(nodes))].visible ^= True
         if step % 7 == 3:
             wide.poses = random.normal(size=(3, 4, 4)) * [[1], [1], [1], [0]] + np.diag(

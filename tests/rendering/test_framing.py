@@ -5,6 +5,7 @@ import pytest
 
 import engine3d as e3d
 from engine3d import linalg
+from engine3d.model.scene.instances import instance_matrices
 from engine3d.rendering import support_functions as support
 
 ASPECTS = (0.25, 1.0, 3.0)
@@ -26,7 +27,7 @@ def vertices(scene):
         thing = node.object
         mesh = getattr(thing, "mesh", thing)
         poses = (
-            support._instance_poses(thing) if isinstance(thing, e3d.InstancedMesh) else [np.eye(4)]
+            instance_matrices(thing.poses) if isinstance(thing, e3d.InstancedMesh) else [np.eye(4)]
         )
         if node.shown and len(mesh.positions):
             points = np.c_[mesh.positions, np.ones(len(mesh.positions))]

@@ -61,10 +61,10 @@ def test_nodes_that_come_later_have_ids_below_those_beside():
             ball = scene.add(e3d.icosphere(0.2, 1), translation=(-1, 0.6, 0))
             frame = renderer.render(drawn, CAMERA, outputs=("object_id",))
         shown = set(np.unique(frame.object_id).tolist()) - {-1}
-    assert max(shown) == drawn.first_added_id + nodes["ground"].id
+    assert max(shown) == drawn.data.first_added_id + nodes["ground"].id
     own = drawn.own_pixels(frame.object_id)
     assert set(np.unique(frame.object_id[own]).tolist()) <= {node.id for node in scene.nodes}
-    assert drawn.first_added_id == ball.id + 1
+    assert drawn.data.first_added_id == ball.id + 1
 
 
 def test_nodes_are_hidden_but_not_those_below_them():
@@ -84,9 +84,10 @@ def test_the_lights_of_the_scene_are_left_out():
     scene, drawn, nodes = build(True)
     with e3d.Renderer(*SIZE) as renderer:
         both = renderer.render(drawn, CAMERA).color.copy()
-        drawn.keeps_lights = False
+        drawn.keep_lights(False)
         one = renderer.render(drawn, CAMERA).color.copy()
-        nodes["lamp"].visible, drawn.keeps_lights = False, True
+        nodes["lamp"].visible = False
+        drawn.keep_lights(True)
         assert (both != one).any()
         assert np.array_equal(renderer.render(drawn, CAMERA).color, one)
 

@@ -8,6 +8,7 @@ import pytest
 
 import engine3d as e3d
 from engine3d import linalg
+from engine3d.model.scene.animation import motions_of
 
 
 @pytest.fixture
@@ -178,4 +179,4 @@ def test_what_moved_nodes_that_nobody_has_is_forgotten(scene):
     del node
     gc.collect()
     animator.seek(1.0)
-    assert animator._motions == ((), ())
+    assert motions_of(animator) == ((), ())

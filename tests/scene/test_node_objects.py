@@ -61,7 +61,7 @@ def test_cameras_and_lights_stand_in_the_order_of_their_nodes():
         other.add(node.object, pose=node.pose)
     assert np.array_equal(e3d.render(scene, size=SIZE).color, e3d.render(other, size=SIZE).color)
     first.object = lamp.object = None
-    assert scene._camera_node() is scene.nodes[3]
+    assert scene.data.camera_node() is scene.nodes[3]
     assert not np.array_equal(
         e3d.render(scene, size=SIZE).color, e3d.render(other, size=SIZE).color
     )

@@ -60,7 +60,7 @@ def test_all_is_as_it_was_when_what_was_removed_is_back(seed):
             scene.remove(node)
             if random.random() < 0.5:
                 gc.collect()
-                scene._pack()
+                scene.data._pack()
             states.append(seen(scene, renderer))
         assert len({state[0] for state in states}) > 3
         while gone:

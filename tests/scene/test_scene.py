@@ -276,3 +276,22 @@ def test_parent_of_another_scene(scene):
 def test_scene_arguments(options, message):
     with pytest.raises(e3d.InvalidArgumentError, match=message):
         e3d.Scene(**options)
+
+
+def test_a_node_tells_its_scene_as_long_as_it_is_there():
+    scene = e3d.Scene()
+    above = scene.add()
+    node = scene.add(e3d.box(), parent=above)
+    assert node.scene is scene
+    scene.remove(above)
+    assert node.scene is None and above.scene is None
+    scene.restore(above)
+    assert node.scene is scene
+
+
+def test_what_a_scene_keeps_is_not_replaced():
+    scene, node = e3d.Scene(), e3d.Scene().add()
+    with pytest.raises(AttributeError, match="data"):
+        scene.data = e3d.Scene().data
+    with pytest.raises(AttributeError, match="scene"):
+        node.scene = scene

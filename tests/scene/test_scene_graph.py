@@ -187,7 +187,7 @@ def test_only_what_moved_is_found_anew():
     below, beside = scene.add(parent=moved), scene.add(parent=other)
     kept = [node.world_pose for node in (moved, other, below, beside)]
     moved.translation = (1, 2, 3)
-    scene._update()
+    scene.data.update()
     now = [node.world_pose for node in (moved, other, below, beside)]
     assert [a is b for a, b in zip(kept, now, strict=True)] == [False, True, False, True]
 
@@ -200,12 +200,12 @@ def test_slots_of_removed_nodes_are_given_up():
     for parent in parents[:1999]:
         scene.remove(parent)
     last = parents[1999], children[1999]
-    assert scene._arrays.count == 4000  # whoever holds a node may put it back
+    assert scene.data.arrays.count == 4000  # whoever holds a node may put it back
     del parent, parents, children
     gc.collect()  # a node and those below it hold each other
     for _ in range(1100):
         scene.remove(scene.add())
-    assert scene._arrays.count < 2000
+    assert scene.data.arrays.count < 2000
     assert scene.nodes == last
     assert [node.id for node in last] == [1999, 3999]
     assert last[1].world_pose[:3, 3].tolist() == [1999, 1, 0]
@@ -225,7 +225,7 @@ def test_removed_objects_are_let_go():
     mesh = e3d.box()
     node = scene.add(mesh)
     scene.remove(node)
-    assert scene._objects.objects == [None]
+    assert scene.data.objects.objects == [None]
     assert scene.add(e3d.box())._arrays.columns["object"][1] == 0
 
 
@@ -359,8 +359,8 @@ def test_threads_change_nothing(threads):
             if step % 10 == 7:
                 for place in places[:20]:
                     scene.add(MESHES[0], translation=place)
-            scene._update(number)
-            arrays = scene._arrays
+            scene.data.update(number)
+            arrays = scene.data.arrays
             bits = np.empty((arrays.count + 63) // 64, np.uint64)
             arrays.select(clip_from_world, 1.0, False, bits)
             names = ("world", "bounds", "flags", "world_version")

@@ -188,7 +188,7 @@ def test_many_colliders_against_each_alone():
     def alone(question, *arguments):
         """The answers of scenes that hold one of the colliders each."""
         for node in nodes:
-            if node.visible and node._scene is not None:
+            if node.visible and node.scene is not None:
                 other = e3d.Scene()
                 one = other.add(mesh, pose=node.world_pose)
                 one.collider = node.collider

@@ -7,6 +7,7 @@ import pytest
 
 import engine3d as e3d
 from engine3d import linalg
+from engine3d.model.scene.instances import instance_matrices
 
 
 def brute_force(scene, origin, direction):
@@ -17,7 +18,7 @@ def brute_force(scene, origin, direction):
         if not node.shown or not isinstance(obj, e3d.Mesh | e3d.InstancedMesh):
             continue
         mesh = obj.mesh if isinstance(obj, e3d.InstancedMesh) else obj
-        poses = [np.eye(4)] if mesh is obj else [obj._pose_of(i) for i in range(len(obj))]
+        poses = [np.eye(4)] if mesh is obj else instance_matrices(obj.poses)
         for instance, pose in enumerate(poses):
             world = linalg.multiply(node.world_pose, pose)
             corners = linalg.transform_points(world, mesh.positions)[mesh.faces]

@@ -58,7 +58,6 @@ FACADES = {
     "model.scene._queries -> rendering.picking",
     "model.scene.scene -> io.writing.scene_saving",
     "model.scene.scene -> rendering.thumbnail",
-    "model.scene.scenes_of_things -> io.scenes.trimesh_scenes",
 }
 #: Of programs, those that use another.
 ARROWS = {

@@ -62,9 +62,9 @@ def test_python_does_not_look_at_every_mesh():
             row.append(calls_of(renderer.render, scene, VIEW))
             meshes[2].materials[0].texture.pixels = np.zeros((2, 2, 3), np.uint8)
             row.append(calls_of(renderer.render, scene, VIEW))
-            row.append(calls_of(scene._update))
+            row.append(calls_of(scene.data.update))
             meshes[0].positions = meshes[0].positions * 2
-            row.append(calls_of(scene._update))
+            row.append(calls_of(scene.data.update))
             row.append(calls_of(renderer.render, scene, VIEW))
             node = scene.add(e3d.uv_sphere(0.7, (8, 5)))
             row.append(calls_of(renderer.render, scene, VIEW))

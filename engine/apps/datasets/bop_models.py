@@ -30,7 +30,7 @@ from ...base.files.stamps import FileStamp, file_stamp
 from ...errors import FileAccessError, FileFormatError, warn
 from ...io.writing.rows import write_float_rows, write_integers
 from ...model.geometry.mesh import Mesh
-from ...model.scene.instances import InstancedMesh
+from ...model.scene.instances import InstancedMesh, instance_matrices
 from ...model.scene.nodes import Node
 from .samples import Thing
 from .writer import Shared
@@ -208,8 +208,8 @@ def _placed(part: Node, top: Node) -> Iterator[tuple[Mesh, NDArray[np.float64]]]
         pose = linalg.multiply(node.pose, pose)
         node = node.parent
     if isinstance(part.object, InstancedMesh):
-        for instance in range(len(part.object)):
-            yield part.object.mesh, linalg.multiply(pose, part.object._pose_of(instance))
+        for instance in instance_matrices(part.object.poses):
+            yield part.object.mesh, linalg.multiply(pose, instance)
     else:
         yield part.object, pose
 

@@ -19,7 +19,7 @@ from ...io.reading.loading import document_of
 from ...io.reading.sources import Source
 from ...io.scenes.scene_loading import scene_from_document
 from ...io.writing.scene_saving import save_scene
-from ...model.scene.animation import Animator
+from ...model.scene.animation import Animator, motions_of
 from ...model.scene.scene import Scene
 from .console import Console
 from .history import Command, History
@@ -174,7 +174,7 @@ class SceneDocument:
     def moves(self) -> bool:
         """Whether some nodes move by themselves."""
         animator = self.scene.animator
-        return animator is not None and any(animator._motions)
+        return animator is not None and any(motions_of(animator))
 
     @property
     def title(self) -> str:
@@ -257,7 +257,7 @@ class SceneDocument:
         if command is None:
             return False
         self.console.write("action", f"{what}: {command.label}")
-        self.selection.set([node for node in command.nodes if node._scene is self.scene])
+        self.selection.set([node for node in command.nodes if node.scene is self.scene])
         return True
 
     def _names(self) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base import linalg
 from ...base.validation import positive, vector3
+from ...model.scene.nodes import with_below
 from ...model.scene.scene import Scene
 from ...model.scene.selection import NodeSelection
 from .selection import topmost
@@ -74,8 +75,7 @@ def _shift(node, offset: NDArray[np.float64]) -> None:
 
 def _box(scene: Scene, node) -> NDArray[np.float64] | None:
     """The box around a node and all below it, (2, 3) float64."""
-    nodes = [node._arrays.nodes[slot] for slot in node._arrays.below(node._slot)]
-    boxes = scene.select(nodes).bounds
+    boxes = scene.select(with_below(node)).bounds
     boxes = boxes[~np.isnan(boxes[:, 0, 0])]
     return np.stack([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)]) if len(boxes) else None
 

@@ -14,7 +14,7 @@ from weakref import WeakSet
 import numpy as np
 
 from ..._native.scene_graph import ALIVE
-from ...model.scene.nodes import Node
+from ...model.scene.nodes import Node, with_below
 from ...model.scene.scene import Scene
 
 
@@ -122,7 +122,7 @@ class Hierarchy:
 
     def set_open(self, node: Node, is_open: bool, *, below: bool = False) -> None:
         """Show or hide a node's children; with ``below``, those of all that is below it, too."""
-        self._set_open(_below(node) if below else [node], is_open)
+        self._set_open(with_below(node) if below else [node], is_open)
 
     def reveal(self, node: Node) -> None:
         """Open all that is above a node."""
@@ -134,7 +134,7 @@ class Hierarchy:
 
     def rows(self) -> Rows:
         """Return the rows as the tree is now: the same object until something of them changes."""
-        names = self._tree(), self._scene._renames
+        names = self._tree(), self._scene.data.renames
         key = names if self._search else names[:1], self._openings, self._search
         if key != self._made_of:
             self._rows, self._made_of = self._found(names), key
@@ -142,7 +142,7 @@ class Hierarchy:
 
     def _tree(self) -> int:
         """A number that grows with every change of the tree."""
-        arrays = self._scene._arrays
+        arrays = self._scene.data.arrays
         looked = arrays, arrays.changes
         if self._looked[:2] != looked:
             count = arrays.count
@@ -156,31 +156,31 @@ class Hierarchy:
         return self._looked[2]
 
     def _found(self, names: tuple[int, int]) -> Rows:
-        arrays = self._scene._arrays
-        count, nodes = arrays.count, arrays.nodes
+        arrays = self._scene.data.arrays
+        count = arrays.count
         links = (arrays.columns[name][:count] for name in ("parent", "first_child", "next"))
         parent, first, following = (link.tolist() for link in links)
         tops = np.flatnonzero((arrays.columns["parent"][:count] < 0) & self._links[0]).tolist()
-        matches = self._matches(names, nodes)
+        matches = self._matches(names)
         shown = bytearray(b"\1" * count) if matches is None else _with_above(matches, parent)
         is_open = shown if matches is not None else self._open_slots(count)
         slots, depths = _walk(tops, parent, first, following, shown, is_open)
-        return Rows(list(nodes), first, is_open, matches or bytes(count), slots, depths)
+        return Rows(list(arrays.nodes), first, is_open, matches or bytes(count), slots, depths)
 
     def _open_slots(self, count: int) -> bytearray:
         is_open = bytearray(count)
-        for node in self._open:
-            if node._scene is self._scene:
-                is_open[node._slot] = 1
+        slots = self._scene.data.slots_of(self._open)
+        for slot in slots[slots >= 0].tolist():
+            is_open[slot] = 1
         return is_open
 
-    def _matches(self, key: tuple[int, int], nodes: list) -> bytes | None:
+    def _matches(self, key: tuple[int, int]) -> bytes | None:
         """Which slots the search finds; None without a search."""
         text = self._search
         if not text:
             return None
         if self._names is None or self._names[0] != key:
-            self._names = key, ["" if node is None else node._name.casefold() for node in nodes]
+            self._names = key, [name.casefold() for name in self._scene.data.names()]
         return bytes([text in name for name in self._names[1]])
 
 
@@ -215,10 +215,6 @@ def _walk(tops, parent, first, following, shown, is_open) -> tuple[list[int], li
                 break
             at = following[at]
     return slots, depths
-
-
-def _below(node: Node) -> list[Node]:
-    return [node._arrays.nodes[slot] for slot in node._arrays.below(node._slot)]
 
 
 def _above(node: Node) -> Iterator[Node]:

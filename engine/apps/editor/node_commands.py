@@ -13,7 +13,7 @@ from ...errors import InvalidArgumentError
 from ...model.geometry.mesh import Mesh
 from ...model.motion.skins import Skin
 from ...model.scene.instances import InstancedMesh
-from ...model.scene.nodes import Node
+from ...model.scene.nodes import Node, next_sibling, with_below
 from ...model.scene.placements import Placements
 from ...model.scene.scene import Scene
 from ...model.scene.selection import NodeSelection
@@ -278,20 +278,12 @@ def in_world(matrix) -> Callable[[NodeSelection], None]:
     return move
 
 
-def next_sibling(node: Node) -> Node | None:
-    """Return the child of the node's parent that stands after it."""
-    if node.parent is None:
-        return None
-    slot = int(node._arrays.columns["next"][node._slot])
-    return None if slot < 0 else node._arrays.nodes[slot]
-
-
 def copy_below(scene: Scene, node: Node, parent: Node | None) -> Node:
     """Add a copy of a node of any scene, and of all below it; return the copy.
 
     The copies are drawn in the order of the originals.
     """
-    nodes = [node._arrays.nodes[slot] for slot in node._arrays.below(node._slot)]
+    nodes = with_below(node)
     made = {
         original: _copied(scene, original)
         for original in sorted(nodes, key=lambda original: original.id)
@@ -318,7 +310,7 @@ def _bend_alike(made: dict[Node, Node]) -> None:
 def _skin_of_copies(skin: Skin, made: dict[Node, Node], twin: Node) -> Skin | None:
     """None where a joint is in another scene, and has no copy."""
     joints = [made.get(joint, joint) for joint in skin.joints]
-    if any(joint._scene is not twin._scene for joint in joints):
+    if any(joint.scene is not twin.scene for joint in joints):
         return None
     return Skin(joints, skin.inverse_binds, skin.name)
 

@@ -85,13 +85,13 @@ def enclosed(scene: Scene, frame: Frame, first, last) -> tuple[Node, ...]:
         & (places <= (right + 1, bottom + 1)).all(axis=1)
     )
     numbers.update(nodes[k].id for k in np.flatnonzero(inside).tolist())
-    found = (scene._node_of(number) for number in sorted(numbers))
+    found = (scene.data.node_of(number) for number in sorted(numbers))
     return tuple(node for node in found if node is not None)
 
 
 def _origins(scene: Scene, frame: Frame) -> tuple[list[Node], np.ndarray, np.ndarray]:
     """The lights and cameras that are shown, and where they stand: (N, 2) pixels, (N,) depths."""
-    held = (*scene._lights.values(), *scene._cameras.values())
+    held = (*scene.data.lights.values(), *scene.data.cameras.values())
     nodes = [node for node in held if node.shown]
     places = np.array([node.world_pose[:3, 3] for node in nodes]).reshape(-1, 3)
     return (nodes, *frame.project(places))

@@ -72,7 +72,7 @@ class ResourceList:
 
     def entries(self) -> tuple[Entry, ...]:
         """Return all, sorted by kind and name: the same object until something of them changes."""
-        arrays = self._scene._arrays
+        arrays = self._scene.data.arrays
         objects = arrays.columns["object"][: arrays.count]
         same = self._objects is not None and np.array_equal(objects, self._objects)
         versions = self._found_versions()
@@ -98,8 +98,8 @@ class ResourceList:
         names = tuple((id(thing), thing.version, thing.name) for thing in things)
         return (
             names,
-            self._scene._objects.version,
-            self._scene._removals,
+            self._scene.data.objects.version,
+            self._scene.data.removals,
             tuple(map(id, self._kept)),
         )
 

@@ -16,6 +16,7 @@ from ..._native.scene_graph import STATIC, VISIBLE
 from ...base.held_values import kept, same
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import textures_of
+from ...model.scene.animation import Motions, motions_of, set_motions
 from ...model.scene.instances import InstancedMesh
 from ...model.scene.node_arrays import CASTS_NONE, RECEIVES_NONE
 from ...model.scene.placements import Placements
@@ -46,16 +47,16 @@ class SceneState:
         self._values = {name: kept(getattr(scene, name)) for name in _SCENE_VALUES}
         animator = scene.animator
         # One that moves nothing is as good as none.
-        self._animator = animator if animator is not None and any(animator._motions) else None
-        self._motions = None if self._animator is None else self._animator._motions
+        self._motions: Motions = ((), ()) if animator is None else motions_of(animator)
+        self._animator = animator if any(self._motions) else None
         self._placements = Placements(scene, self.nodes)
-        slots = np.array([node._slot for node in self.nodes], np.int64)
-        columns = scene._arrays.columns
+        slots = scene.data.slots_of(self.nodes)
+        columns = scene.data.arrays.columns
         self._flags = columns["flags"][slots] & (VISIBLE | STATIC)
         self._unshadowed = columns["unshadowed"][slots]
         ids = np.append(columns["id"], -1)  # the last one is that of "none", -1
         self._links = [ids[columns[name][slots]].tolist() for name in ("parent", "next")]
-        self._held = [(node.name, node._object, node._collider) for node in self.nodes]
+        self._held = [(node.name, node.object, node.collider) for node in self.nodes]
         self._bent = [(node.skin, kept(node.morph_weights)) for node in self.nodes]
         self._things = {thing: contents(thing) for thing in _reachable(self._held)}
 
@@ -112,14 +113,13 @@ class SceneState:
         scene = self._scene
         if self._animator is not None:
             scene.animator = self._animator
-            self._animator._motions = self._motions
-        elif scene.animator is not None:
-            scene.animator._motions = (), ()
+        if scene.animator is not None:
+            set_motions(scene.animator, self._motions)
 
     def _restore_nodes(self) -> None:
         for node in self.nodes:
-            if node._scene is None:
-                self._scene.restore(node if node._taken_with is None else node._taken_with)
+            if node.scene is None:
+                self._scene.restore(self._scene.data.removed_with(node))
 
     def _link_nodes(self) -> None:
         by_id = {node.id: node for node in self.nodes}
@@ -151,12 +151,12 @@ def _in_order(ids: list[int], next_of: dict[int, int]) -> list[int]:
 
 
 def _hold(node, name: str, obj: Any, collider: Any) -> None:
-    if node._name != name:
+    if node.name != name:
         node.name = name
-    if node._object is not obj:
+    if node.object is not obj:
         node.collider = None
         node.object = obj
-    if node._collider is not collider:
+    if node.collider is not collider:
         node.collider = collider
 
 

@@ -27,7 +27,7 @@ class Selection:
     @property
     def nodes(self) -> tuple[Node, ...]:
         """The selected nodes, the active one last."""
-        gone = [node for node in self._nodes if node._scene is None]
+        gone = [node for node in self._nodes if node.scene is None]
         for node in gone:
             del self._nodes[node]
         self.version += bool(gone)

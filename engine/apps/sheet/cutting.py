@@ -17,9 +17,9 @@ import numpy as np
 
 from ...base import linalg
 from ...model.geometry.mesh import Mesh
-from ...model.motion.shown import placing_pose, shown_object
-from ...model.scene.instances import InstancedMesh
+from ...model.scene.instances import InstancedMesh, instance_matrices
 from ...model.scene.nodes import Node
+from ...model.scene.shown import placing_pose, shown_object
 
 #: More instances than these are not cut one by one.
 MOST_INSTANCES = 4096
@@ -82,17 +82,9 @@ def _placed(node: Node, plane: Plane) -> Iterator[tuple[np.ndarray, Mesh]]:
     if isinstance(thing, Mesh):
         yield linalg.transform_points(pose, thing.positions), thing
     elif isinstance(thing, InstancedMesh) and len(thing.poses) <= MOST_INSTANCES:
-        for own in thing.poses.astype(np.float64):
-            placed = own if own.shape == (4, 4) else _pose_of(own)
-            product = linalg.multiply(pose, placed)
+        for own in instance_matrices(thing.poses):
+            product = linalg.multiply(pose, own)
             yield linalg.transform_points(product, thing.mesh.positions), thing.mesh
-
-
-def _pose_of(row: np.ndarray) -> np.ndarray:
-    """The matrix of an instance that is given by its place and its size."""
-    pose = np.diag([row[3], row[3], row[3], 1.0])
-    pose[:3, 3] = row[:3]
-    return pose
 
 
 @np.errstate(all="ignore")

@@ -11,10 +11,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from ...base import linalg
-from ...model.motion.shown import placing_pose, shown_object
 from ...model.scene.cameras import Camera
 from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
+from ...model.scene.shown import placing_pose, shown_object
 from ...rendering.renderer import Renderer
 from ...stage.visibility import DRAWABLE
 from .layout import Rectangle
@@ -34,7 +34,7 @@ class AloneScene:
     """
 
     def __init__(self, scene: Scene) -> None:
-        scene._update()
+        scene.data.update()
         nodes = [node for node in scene.nodes if node.shown and isinstance(node.object, DRAWABLE)]
         self.ids = [node.id for node in nodes]
         self._scene = Scene(background=None)

@@ -11,7 +11,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ...model.geometry.mesh import Mesh
-from ...model.motion.shown import source_of
 from ...model.scene.instances import InstancedMesh
 from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
@@ -105,7 +104,7 @@ def joined(shown: list[Shown], key: int) -> Shown | None:
 
 def mesh_of_node(node: Node) -> Mesh | None:
     """Return the mesh that a node draws, of which frames show IDs."""
-    thing = source_of(node._drawn)
+    thing = node.object
     if isinstance(thing, InstancedMesh):
         thing = thing.mesh
     return thing if isinstance(thing, Mesh) else None

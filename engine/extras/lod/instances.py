@@ -19,7 +19,7 @@ from ...base.validation import Closed
 from ...errors import InvalidArgumentError
 from ...model.geometry.mesh import Mesh
 from ...model.scene.cameras import Camera
-from ...model.scene.instances import InstancedMesh
+from ...model.scene.instances import InstancedMesh, replace_by_rows
 from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from ._choosing import check_errors, check_limits, checked_view, choose_levels, pixels_a_unit
@@ -116,7 +116,7 @@ class DetailedInstances(Closed):
         group = scene.add(name=name, parent=parent)
         self._nodes.append(group)
         for instances in self.instances:
-            scene.add(instances, parent=group)._show_as(group)
+            scene.data.show_as(scene.add(instances, parent=group), group)
         return group
 
     def update(self, camera: Camera, pose: ArrayLike, size: tuple[int, int]) -> bool:
@@ -146,7 +146,7 @@ class DetailedInstances(Closed):
         self.level, self._drawn = level, drawn
         for number in touched:
             rows = np.flatnonzero(drawn == number)
-            self.instances[number]._replace_by_rows(rows, self._poses, self._colors)
+            replace_by_rows(self.instances[number], rows, self._poses, self._colors)
         return bool(touched)
 
     def _with_cards(

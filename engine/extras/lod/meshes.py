@@ -90,7 +90,7 @@ class DetailedMeshes(Closed):
             place = scene.add(name=mesh.name, parent=self._group)
             nodes = [scene.add(meshes[number], parent=place) for meshes, _ in self.levels]
             for level, node in enumerate(nodes):
-                node._show_as(place)
+                scene.data.show_as(node, place)
                 node.visible = level == self.level[number]
             self._nodes.append(nodes)
         return self._group

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..._native.loaders import frozen
 from ...errors import InvalidArgumentError
-from ...model.scene.animation import Animator, Spin, Track
+from ...model.scene.animation import Animator, Spin, Track, motions_of, set_motions
 from ...model.scene.nodes import Node, check_rotation
 from ...model.scene.scene import Scene
 from ..reading.json_values import JsonValue
@@ -28,7 +28,7 @@ Motions: TypeAlias = dict[Node | None, dict[str, list[dict[str, Any]]]]
 def motion_entries(animator: Animator | None) -> Motions:
     """Return what the file says of each node that moves."""
     entries: Motions = {}
-    spins, tracks = ((), ()) if animator is None else animator._motions
+    spins, tracks = ((), ()) if animator is None else motions_of(animator)
     for spin in spins:
         entries.setdefault(spin.node, {}).setdefault("spins", []).append(_spin_entry(spin))
     for track in tracks:
@@ -57,7 +57,7 @@ def fill_animator(scene: Scene, nodes: list[Node], entries: list[JsonValue], rat
         tracks += [_track(node, each) for each in entry.entries("tracks")]
     animator = Animator(scene, full_rate_distance=rate)
     if spins or tracks:
-        animator._motions = spins, tracks
+        set_motions(animator, (tuple(spins), tuple(tracks)))
         scene.animator = animator
 
 

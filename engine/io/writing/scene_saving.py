@@ -30,6 +30,7 @@ from ...model.geometry.movers import VERTEX_AXES
 from ...model.geometry.origins import FileOrigin, PrimitiveOrigin, has_own_materials, origin_of
 from ...model.materials.material import TEXTURE_SLOTS, Material
 from ...model.materials.textures import PlacedTexture, Texture
+from ...model.scene.animation import motions_of
 from ...model.scene.fog import ExponentialFog, Fog
 from ...model.scene.gradients import Gradient
 from ...model.scene.instances import InstancedMesh
@@ -94,7 +95,7 @@ def scene_text(scene: Scene, folder: str) -> tuple[bytes, list[str]]:
     writing.told += _lost_motion(scene)
     values = writing.values(scene)
     animator = scene.animator
-    if animator is not None and any(animator._motions):
+    if animator is not None and any(motions_of(animator)):
         if math.isfinite(animator._full_rate_distance):
             values["full_rate_distance"] = animator._full_rate_distance
     if not writing.lists["environments"]:  # few scenes have any

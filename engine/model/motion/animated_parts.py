@@ -57,7 +57,7 @@ class AnimatedParts:
 
     def write(self, scene: Scene, values: Values, masks: dict[str, np.ndarray]) -> None:
         """Give the nodes of the rows that are masked their values."""
-        arrays = scene._arrays
+        arrays = scene.data.arrays
         slots = self._slots_in(scene)
         for path in ("translation", "rotation", "scale"):
             rows = np.flatnonzero(masks[path] & (slots[path] >= 0))
@@ -77,7 +77,7 @@ class AnimatedParts:
                     node.morph_weights = weights
 
         for number, held in enumerate(self.rows[PROPERTIES]):
-            is_gone = isinstance(held.target, Node) and held.target._scene is not scene
+            is_gone = isinstance(held.target, Node) and held.target.scene is not scene
             if not masks[PROPERTIES][number] or is_gone:
                 continue
             numbers = values[PROPERTIES][number]
@@ -88,12 +88,11 @@ class AnimatedParts:
 
     def _slots_in(self, scene: Scene) -> dict[str, np.ndarray]:
         """The slots of all rows, -1 for nodes that were removed."""
-        state = scene._arrays, scene._removals
+        data = scene.data
+        state = data.arrays, data.removals
         if self._slots is None or self._slots[0] != state:
             slots = {
-                path: np.array([n._slot if n._scene is scene else -1 for n in rows], np.int32)
-                for path, rows in self.rows.items()
-                if path != PROPERTIES
+                path: data.slots_of(rows) for path, rows in self.rows.items() if path != PROPERTIES
             }
             self._slots = state, slots
         return self._slots[1]

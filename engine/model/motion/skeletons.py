@@ -10,7 +10,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..scene.node_arrays import NodeArrays
 from .skins import Skin
 
 WORLD = -2  # the joints have no node above them all
@@ -37,10 +36,8 @@ class Skeleton(NamedTuple):
     inverse_binds: np.ndarray
 
 
-def skeleton_of(skin: Skin, arrays: NodeArrays) -> Skeleton:
-    """Return the skeleton of a skin whose joints are in a scene's arrays."""
-    parents = arrays.columns["parent"]
-    joints = [joint._slot for joint in skin.joints]
+def skeleton_of(skin: Skin, joints: list[int], parents: np.ndarray) -> Skeleton:
+    """Return the skeleton of a skin, of whose joints and all nodes' parents the slots are given."""
     anchor = _anchor(joints, parents)
     rows: dict[int, int] = {}
     above: list[int] = []

@@ -77,9 +77,9 @@ def _check_joints(value: Iterable[Node]) -> tuple[Node, ...]:
     if not joints:
         raise InvalidArgumentError("a skin needs a joint")
     for number, joint in enumerate(joints):
-        if not isinstance(joint, Node) or joint._scene is None:
+        if not isinstance(joint, Node) or joint.scene is None:
             raise InvalidArgumentError(f"joint {number} is no node of a scene: {joint!r}")
-        if joint._scene is not joints[0]._scene:
+        if joint.scene is not joints[0].scene:
             raise InvalidArgumentError(f"joint {number} is a node of another scene: {joint!r}")
     return joints
 

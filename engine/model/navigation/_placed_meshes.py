@@ -14,9 +14,9 @@ import numpy as np
 from ...base import linalg
 from ...errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
-from ..motion.shown import placing_pose, shown_object
-from ..scene.instances import InstancedMesh
+from ..scene.instances import InstancedMesh, instance_matrices
 from ..scene.scene import Scene
+from ..scene.shown import placing_pose, shown_object
 
 _IDENTITY = np.eye(4)
 
@@ -24,7 +24,7 @@ _IDENTITY = np.eye(4)
 def placed_meshes(thing: Any) -> list[tuple[Mesh, np.ndarray]]:
     """Return the meshes that have faces and the (4, 4) float64 matrices that place them."""
     if isinstance(thing, Scene):
-        thing._update()
+        thing.data.update()
         nodes = [node for node in thing.nodes if node.shown]
         shown = [(shown_object(node), placing_pose(node)) for node in nodes]
         placed = [part for obj, pose in shown for part in _placed(obj, pose)]
@@ -47,16 +47,8 @@ def _placed(thing: Any, pose: np.ndarray) -> Iterator[tuple[Mesh, np.ndarray]]:
     if isinstance(thing, Mesh):
         yield thing, pose
     elif isinstance(thing, InstancedMesh):
-        for instance in thing.poses.astype(np.float64):
-            yield thing.mesh, linalg.multiply(pose, _matrix(instance))
-
-
-def _matrix(instance: np.ndarray) -> np.ndarray:
-    """A pose as a matrix: it is one already, or an offset and a scale."""
-    if instance.shape == (4, 4):
-        return instance
-    x, y, z, scale = instance.tolist()
-    return np.array([[scale, 0, 0, x], [0, scale, 0, y], [0, 0, scale, z], [0, 0, 0, 1.0]])
+        for instance in instance_matrices(thing.poses):
+            yield thing.mesh, linalg.multiply(pose, instance)
 
 
 def bounds_of(placed: list[tuple[Mesh, np.ndarray]]) -> np.ndarray:

@@ -18,11 +18,11 @@ from ..._native.scene_graph import OBJECT_BOX, NativeShapes, move_boxes
 from ...base.dirty_tracking import Watch
 from ..geometry.mesh import Mesh
 from ..motion.posed_mesh import PosedMesh
-from .instances import InstancedMesh, mesh_box
+from .instances import InstancedMesh, box_in_node, mesh_box
 
 if TYPE_CHECKING:
-    from ..motion.shown import Drawn
     from .node_arrays import NodeArrays
+    from .shown import Drawn
 
 Part: TypeAlias = Mesh | InstancedMesh
 _REMEMBERED = 1024  # numbers that got other objects
@@ -189,4 +189,4 @@ def _box(obj: Drawn | None) -> np.ndarray:
         return mesh_box(obj)
     if isinstance(obj, PosedMesh):
         return obj.box()
-    return NO_BOX if obj is None else obj._box_in_node()
+    return NO_BOX if obj is None else box_in_node(obj)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, TypeAlias, cast
 from weakref import ref
 
 import numpy as np
@@ -136,27 +136,15 @@ class Animator(Clock):
             self._updates += 1
             self._move(None if eye is None else vector3(eye, "eye"))
 
-    @property
-    def _motions(self) -> tuple[tuple[Spin, ...], tuple[Track, ...]]:
-        """All spins and keyframes, also those of nodes that are not in the scene just now."""
-        return tuple(self._spins), tuple(self._tracks)
-
-    @_motions.setter
-    def _motions(self, value: tuple[Iterable[Spin], Iterable[Track]]) -> None:
-        spins, tracks = value
-        self._spins, self._tracks = list(spins), list(tracks)
-        self._moving = None
-
     def _move(self, eye: np.ndarray | None = None) -> None:
-        if self._moving is None or self._moving.removals != self._scene._removals:
+        if self._moving is None or self._moving.removals != self._scene.data.removals:
             # What only an animator remembers is gone for good.
             self._spins = [spin for spin in self._spins if spin.node is not None]
             self._tracks = [track for track in self._tracks if track.node is not None]
             self._moving = _Moving(self._scene, self._spins, self._tracks)
         moving = self._moving
         moving.spins.move(self.time, self._due(moving.spins.rows, eye))
-        # The scene holds the nodes of what moves.
-        rows = np.array([track.node._slot for track in moving.tracks], np.int32)  # type: ignore[union-attr]
+        rows = self._scene.data.slots_of(map(_node_of, moving.tracks))
         for number in self._due(rows, eye).tolist():
             moving.tracks[number].move(self.time)
 
@@ -164,13 +152,28 @@ class Animator(Clock):
         """Which of the nodes in some slots move this time, by number."""
         if eye is None or math.isinf(self._full_rate_distance):
             return np.arange(len(rows))
-        self._scene._update()
-        offsets = self._scene._arrays.world_poses(rows)[:, :3, 3] - eye
+        self._scene.data.update()
+        offsets = self._scene.data.arrays.world_poses(rows)[:, :3, 3] - eye
         distances = linalg.length(offsets)
         steps = np.ones(len(rows), np.int64)
         for power in range(_SLOWEST):
             steps[distances > self._full_rate_distance * 2.0**power] *= 2
         return np.flatnonzero((self._updates + rows) % steps == 0)
+
+
+Motions: TypeAlias = "tuple[tuple[Spin, ...], tuple[Track, ...]]"
+
+
+def motions_of(animator: Animator) -> Motions:
+    """Return all spins and keyframes, also those of nodes that are not in the scene just now."""
+    return tuple(animator._spins), tuple(animator._tracks)
+
+
+def set_motions(animator: Animator, motions: Motions) -> None:
+    """Let an animator move what is described, and nothing else."""
+    spins, tracks = motions
+    animator._spins, animator._tracks = list(spins), list(tracks)
+    animator._moving = None
 
 
 class _Described:
@@ -186,6 +189,11 @@ class _Described:
     @property
     def node(self) -> Node | None:
         return self._node()
+
+
+def _node_of(described: _Described) -> Node:
+    """Return the node of what moves, which the scene holds."""
+    return cast("Node", described.node)
 
 
 class Spin(_Described):
@@ -214,23 +222,22 @@ class _Moving:
     """What of all that is described moves nodes which are in the scene."""
 
     def __init__(self, scene: Scene, spins: list[Spin], tracks: list[Track]) -> None:
-        self.removals = scene._removals  # grows also where a node comes back
+        self.removals = scene.data.removals  # grows also where a node comes back
         self.spins = _Spins(scene, [spin for spin in spins if _is_in(scene, spin)])
         self.tracks = [track for track in tracks if _is_in(scene, track)]
 
 
 def _is_in(scene: Scene, described: _Described) -> bool:
     node = described.node
-    return node is not None and node._scene is scene
+    return node is not None and node.scene is scene
 
 
 class _Spins:
     """All spins of an animator as arrays."""
 
     def __init__(self, scene: Scene, spins: list[Spin]) -> None:
-        # The scene holds the nodes of what moves.
-        self.rows = np.array([spin.node._slot for spin in spins], np.int32)  # type: ignore[union-attr]
-        self._arrays = scene._arrays
+        self.rows = scene.data.slots_of(map(_node_of, spins))
+        self._arrays = scene.data.arrays
         self._axes = np.array([spin.direction for spin in spins]).reshape(-1, 3)
         self._rates = np.array([spin.rate for spin in spins])
         self._phases = np.array([spin.phase for spin in spins])

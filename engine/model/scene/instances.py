@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import operator
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -58,10 +59,10 @@ class InstancedMesh(Closed):
     mesh: CheckedAttribute[Mesh, Mesh] = CheckedAttribute(_check_mesh)
     version: int
     _poses: NDArray[np.float32]
-    _colors: NDArray[np.uint8] | NDArray[np.float32] | None
-    # Poses and positions, and the box or the tree that follows from them.
-    _box_of: tuple[tuple[object, ...], np.ndarray] | None = None
-    _tree_of: tuple[tuple[object, ...], tuple[NativeTree, np.ndarray]] | None = None
+    _colors: NDArray[Any] | None
+    # Poses and positions, and what follows from them.
+    _box_of: tuple[Any, ...] | None = None
+    _tree_of: tuple[Any, ...] | None = None
     _FORGOTTEN = ("_box_of", "_tree_of")
 
     def __init__(self, mesh: Mesh, poses: ArrayLike, *, colors: ArrayLike | None = None) -> None:
@@ -102,56 +103,10 @@ class InstancedMesh(Closed):
         self._poses = checked
         renew(self)
 
-    def _replace_by_rows(
-        self, rows: np.ndarray, poses: np.ndarray, colors: np.ndarray | None
-    ) -> None:
-        """Draw some rows of others' poses and colours, under the numbers that they have there."""
-        self.replace(poses[rows], None if colors is None else colors[rows])
-        self._ids = rows.astype(np.int32)
-
     def bounds_in_node(self) -> NDArray[np.float64] | None:
         """Return the box around all instances in the node's space, (2, 3) float64, or None."""
-        box = self._box_in_node()
+        box = box_in_node(self)
         return box[:6].reshape(2, 3).copy() if box[0] <= box[3] else None
-
-    def _boxes(self, poses: np.ndarray) -> np.ndarray:
-        """The boxes of the instances in the node's space, (N, BOX); poses as C reads them."""
-        boxes = np.empty((len(poses), BOX))
-        instance_boxes(poses, mesh_box(self.mesh), boxes)
-        return boxes
-
-    def _flat_poses(self) -> np.ndarray:
-        """The poses as C reads them, (N, 16) or (N, 4)."""
-        poses = self._poses
-        return poses.reshape(len(poses), math.prod(poses.shape[1:]))
-
-    def _pose_of(self, instance: int) -> np.ndarray:
-        """node-from-instance, (4, 4) float64."""
-        pose = self._poses[instance].astype(np.float64)
-        if pose.ndim == 2:
-            return pose
-        matrix = np.diag((pose[3], pose[3], pose[3], 1.0))
-        matrix[:3, 3] = pose[:3]
-        return matrix
-
-    def _tree(self) -> tuple[NativeTree, np.ndarray]:
-        """The tree of the instances' boxes, and the poses that it is of, as C reads them."""
-        state = self._poses, self.mesh.positions
-        known = self._tree_of
-        if known is None or not _same(known[0], state):
-            poses = self._flat_poses()
-            known = self._tree_of = state, (NativeTree(self._boxes(poses)), poses)
-        return known[1]
-
-    def _box_in_node(self) -> np.ndarray:
-        """The box around all instances, (OBJECT_BOX,); kept until something in it changes."""
-        state = self._poses, self.mesh.positions
-        known = self._box_of
-        if known is None or not _same(known[0], state):
-            box = np.empty(OBJECT_BOX)
-            union(self._boxes(self._flat_poses()), box)
-            known = self._box_of = state, box
-        return known[1]
 
     def __len__(self) -> int:
         return len(self._poses)
@@ -160,9 +115,71 @@ class InstancedMesh(Closed):
         return f"InstancedMesh({self.mesh!r}, {len(self)} instances)"
 
 
-def _same(some: tuple[object, ...], others: tuple[object, ...]) -> bool:
-    """Whether these are the very same arrays."""
-    return all(map(operator.is_, some, others))
+def flat_poses(instances: InstancedMesh) -> NDArray[np.float32]:
+    """Return the poses as C reads them, (N, 16) or (N, 4)."""
+    poses = instances._poses
+    return poses.reshape(len(poses), math.prod(poses.shape[1:]))
+
+
+def shown_ids(instances: InstancedMesh) -> NDArray[np.int32] | None:
+    """Return what ``instance_id`` shows, (N,); None: the rows' numbers."""
+    return instances._ids
+
+
+def replace_by_rows(
+    instances: InstancedMesh,
+    rows: NDArray[np.intp],
+    poses: NDArray[np.float32],
+    colors: NDArray[Any] | None,
+) -> None:
+    """Draw some rows of others' poses and colours, under the numbers that they have there."""
+    instances.replace(poses[rows], None if colors is None else colors[rows])
+    instances._ids = rows.astype(np.int32)
+
+
+def instance_matrices(poses: NDArray[np.float32]) -> NDArray[np.float64]:
+    """Return poses of instances, (N, 4, 4) or (N, 4), as matrices, (N, 4, 4)."""
+    given = poses.astype(np.float64)
+    if given.ndim == 3:
+        return given
+    matrices = np.zeros((len(given), 4, 4))
+    matrices[:, range(3), range(3)] = given[:, 3:]
+    matrices[:, :3, 3] = given[:, :3]
+    matrices[:, 3, 3] = 1.0
+    return matrices
+
+
+def instance_tree(instances: InstancedMesh) -> tuple[NativeTree, NDArray[np.float32]]:
+    """Return the tree of the instances' boxes, and the poses that it is of, as C reads them."""
+    state = instances._poses, instances.mesh.positions
+    known = instances._tree_of
+    if known is None or not _same(known[0], state):
+        poses = flat_poses(instances)
+        known = instances._tree_of = state, (NativeTree(_boxes(instances, poses)), poses)
+    return known[1]
+
+
+def box_in_node(instances: InstancedMesh) -> NDArray[np.float64]:
+    """Return the box around all instances, (OBJECT_BOX,); kept until something in it changes."""
+    state = instances._poses, instances.mesh.positions
+    known = instances._box_of
+    if known is None or not _same(known[0], state):
+        box = np.empty(OBJECT_BOX)
+        union(_boxes(instances, flat_poses(instances)), box)
+        known = instances._box_of = state, box
+    return known[1]
+
+
+def _boxes(instances: InstancedMesh, poses: NDArray[np.float32]) -> NDArray[np.float64]:
+    """The boxes of the instances in the node's space, (N, BOX); poses as C reads them."""
+    boxes = np.empty((len(poses), BOX))
+    instance_boxes(poses, mesh_box(instances.mesh), boxes)
+    return boxes
+
+
+def _same(known: tuple[Any, ...], state: tuple[Any, ...]) -> bool:
+    """Whether what is known follows from these very arrays."""
+    return all(map(operator.is_, known, state))
 
 
 def mesh_box(mesh: Mesh) -> np.ndarray:
@@ -171,7 +188,7 @@ def mesh_box(mesh: Mesh) -> np.ndarray:
     return np.concatenate([low, high, np.maximum(np.abs(low), np.abs(high))])
 
 
-def _check_poses(value: ArrayLike) -> np.ndarray:
+def _check_poses(value: ArrayLike) -> NDArray[np.float32]:
     poses = float32_of(floats(value, "poses"))
     if poses.shape == (0,):
         poses = poses.reshape(0, 4)
@@ -182,7 +199,7 @@ def _check_poses(value: ArrayLike) -> np.ndarray:
     return frozen(poses)
 
 
-def _check_colors(value: ArrayLike | None, count: int) -> np.ndarray | None:
+def _check_colors(value: ArrayLike | None, count: int) -> NDArray[Any] | None:
     if value is None:
         return None
     colors = as_array(value, "colors")

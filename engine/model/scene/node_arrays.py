@@ -6,14 +6,11 @@ rows are packed into new arrays: those of the nodes, and of the removed ones tha
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..._native.scene_graph import ALIVE, BOX, NativeGraph
-
-if TYPE_CHECKING:
-    from .nodes import Node
 
 #: Name of the array -> type and length of a row.
 _COLUMNS = {
@@ -62,7 +59,7 @@ class NodeArrays(NativeGraph):
         self.columns: dict[str, np.ndarray] = {}
         self._make_room(_ROOM)
 
-    def append(self, node: Node, parent: int, number: int, identity: int) -> int:
+    def append(self, node: Any, parent: int, number: int, identity: int) -> int:
         """Make a node at the identity; return its slot."""
         if self.count == self.room:
             self._make_room(2 * self.room)

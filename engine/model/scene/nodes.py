@@ -61,7 +61,6 @@ class Node:
         "_object",
         "_pose",
         "_pose_version",
-        "_posed",
         "_read_pose",
         "_scene",
         "_skin",
@@ -91,12 +90,15 @@ class Node:
 
     def __init__(self, scene: Scene, obj: SceneObject | None, name: str, number: int) -> None:
         self._scene = scene
-        self._object = self._drawn = obj  # drawn: what is shown of it
-        self._skin = self._morph_weights = self._posed = None
+        self._arrays, self._slot = scene.data.arrays, -1  # its row, once it has one
+        self._object = obj
+        self._drawn: SceneObject | PosedMesh | None = obj  # what is shown of it
+        self._skin: Skin | None = None
+        self._morph_weights: NDArray[np.float64] | None = None
         self._name = name
         self._collider = None
-        self._taken = ()  # the nodes below that were removed with this one
-        self._taken_with = None  # the node above that this one was removed with
+        self._taken: tuple[Node, ...] = ()  # the nodes below that were removed with this one
+        self._taken_with: Node | None = None  # the node above that this one was removed with
         self._pose_version = self._world_version = -1
         self._read_pose = None  # as it was when the translation was last read
         self._id = number
@@ -105,6 +107,11 @@ class Node:
     def id(self) -> int:
         """What frames show as ``object_id``; counts up from 0 in the order of adding."""
         return self._id
+
+    @property
+    def scene(self) -> Scene | None:
+        """The scene that the node is in; None once it was removed."""
+        return self._scene
 
     @property
     def object(self) -> SceneObject | None:
@@ -120,7 +127,7 @@ class Node:
         scene = self._in_scene()
         if self._collider is not None:
             check_collider(value, self._collider)
-        scene._put(self, value)
+        scene.data.hold(self, value)
 
     @property
     def skin(self) -> Skin | None:
@@ -134,7 +141,7 @@ class Node:
 
     @skin.setter
     def skin(self, value: Skin | None) -> None:
-        self._in_scene()._set_skin(self, value)
+        self._in_scene().data.set_skin(self, value)
 
     @property
     def morph_weights(self) -> NDArray[np.float64] | None:
@@ -143,7 +150,7 @@ class Node:
 
     @morph_weights.setter
     def morph_weights(self, value: ArrayLike | None) -> None:
-        self._in_scene()._set_morph_weights(self, value)
+        self._in_scene().data.set_morph_weights(self, value)
 
     @property
     def name(self) -> str:
@@ -153,8 +160,7 @@ class Node:
     def name(self, value: str) -> None:
         self._name = text(value, "name")
         if self._scene is not None:
-            self._scene._names = None
-            self._scene._renames += 1
+            self._scene.data.forget_names()
 
     @property
     def parent(self) -> Node | None:
@@ -333,7 +339,7 @@ class Node:
         check_collider(self._object, value)
         self._collider = value
         if self._scene is not None:
-            self._scene._set_collider(self)
+            self._scene.data.list_collider(self)
 
     @property
     def world_pose(self) -> NDArray[np.float64]:
@@ -353,7 +359,7 @@ class Node:
         """
         if self._scene is None:
             return None
-        self._scene._update()
+        self._scene.data.update()
         bounds = frozen(self._arrays.columns["bounds"][self._slot, :6].reshape(2, 3).copy())
         return bounds if bounds[0, 0] <= bounds[1, 0] else None
 
@@ -367,11 +373,6 @@ class Node:
             raise InvalidArgumentError("the node was removed from its scene")
         return self._scene
 
-    def _show_as(self, other: Node) -> None:
-        """Let frames show another node's id for this one."""
-        self._arrays.columns["object_id"][self._slot] = other.id
-        self._arrays.changes += 1
-
     def _takes_part(self, bit: int) -> bool:
         return not self._arrays.columns["unshadowed"][self._slot] & bit
 
@@ -384,6 +385,20 @@ class Node:
 
 def _hangs_under(node: Node | None, parent: Node | None) -> bool:
     return parent is not None and isinstance(node, Node) and node.parent is parent
+
+
+def with_below(node: Node) -> list[Node]:
+    """Return a node and all below it: those above first, siblings in their order."""
+    nodes = node._arrays.nodes
+    return [nodes[slot] for slot in node._arrays.below(node._slot)]
+
+
+def next_sibling(node: Node) -> Node | None:
+    """Return the child of the node's parent that stands after it."""
+    if node.parent is None:
+        return None
+    slot = int(node._arrays.columns["next"][node._slot])
+    return None if slot < 0 else node._arrays.nodes[slot]
 
 
 def check_pose(value: ArrayLike) -> NDArray[np.float64]:

@@ -7,16 +7,13 @@ bounds of what changed; the scene counts its changes, so that a renderer renews 
 
 from __future__ import annotations
 
-import itertools
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NoReturn, SupportsIndex
-from weakref import WeakSet
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..._native.scene_graph import OBJECT_BOX, union
 from ...base.calls import checks_types, hinted
 from ...base.checked_containers import CheckedDict
 from ...base.linalg.quaternions import quaternion_of_turns
@@ -25,36 +22,17 @@ from ...base.validation import flag, text, vector3
 from ...choices import ColorLike
 from ...errors import InvalidArgumentError
 from ..environments.environment import Environment
-from ..geometry.mesh import Mesh
-from ..motion.posing import (
-    Posing,
-    check_morph_weights,
-    check_skin,
-    may_bend,
-    posed_for,
-    set_weights,
-)
-from ._objects import ObjectTable
 from ._queries import SceneQueries
-from .cameras import Camera
 from .gradients import Gradient
-from .instances import InstancedMesh
-from .lights import LIGHTS
-from .node_arrays import NodeArrays
 from .nodes import Node, check_euler, check_pose, check_rotation, check_scale
+from .scene_data import SceneData, check_object
 from .selection import NodeSelection
 from .surroundings import Surroundings
 
 if TYPE_CHECKING:
-    from ..materials.material import Material
     from ..motion.clips import AnimationClip
-    from ..motion.skins import Skin
     from .animation import Animator
     from .nodes import SceneObject
-    from .staged_scene import AnyScene
-
-_LEAST_REMOVED = 1024  # slots of removed nodes that are not worth packing
-_OBJECT_TYPES = (Mesh, InstancedMesh, Camera, *LIGHTS)
 
 
 class Scene(Surroundings, SceneQueries):
@@ -102,7 +80,8 @@ class Scene(Surroundings, SceneQueries):
     """
 
     warnings: list[str]
-    _untextured: frozenset[Material] = frozenset()  # what is drawn without its textures
+    if TYPE_CHECKING:  # for the engine's own parts; as it isn't declared, programs can't assign it
+        data: SceneData
 
     def __init__(
         self,
@@ -112,21 +91,7 @@ class Scene(Surroundings, SceneQueries):
         exposure: float = 0.0,
     ) -> None:
         super().__init__(background, ambient, light_clamp, exposure)
-        self._arrays = NodeArrays()
-        self._objects = ObjectTable()
-        self._ids = itertools.count()
-        self._removed = 0  # slots of removed nodes
-        self._removed_lately = 0  # of these, since slots were last given up
-        self._gone: WeakSet[Node] = WeakSet()  # nodes that were removed, but for those below them
-        self._removals = 0  # how often a node, or what it held, went
-        self._cameras: dict[int, Node] = {}
-        self._lights: dict[int, Node] = {}
-        self._colliders: dict[int, Node] = {}
-        self._placed_colliders = None  # made when asked for
-        self._nodes: tuple[Node, ...] | None = ()  # these two are made when asked for
-        self._names: dict[str, Node] | None = None
-        self._renames = 0  # how often a node got another name
-        self._posing: Posing | None = None  # made when a mesh is first bent
+        object.__setattr__(self, "data", SceneData())
         self.animations = {}
         self._animator: Animator | None = None
         self.warnings = []
@@ -148,7 +113,7 @@ class Scene(Surroundings, SceneQueries):
     @animator.setter
     def animator(self, value: Animator | None) -> None:
         # Only an Animator has motions; its module builds on this one.
-        fits = value is None or (hasattr(value, "_motions") and value._scene is self)
+        fits = value is None or (hasattr(value, "_spins") and value._scene is self)
         if not fits:
             raise InvalidArgumentError("animator must be an Animator of this scene, or None")
         self._animator = value
@@ -203,7 +168,7 @@ class Scene(Surroundings, SceneQueries):
         ------
         InvalidArgumentError
         """
-        _check_object(obj)
+        check_object(obj)
         if parent is not None and not (isinstance(parent, Node) and parent._scene is self):
             raise InvalidArgumentError(f"parent must be a node of this scene, not {shown(parent)}")
         if name is None:
@@ -219,74 +184,18 @@ class Scene(Surroundings, SceneQueries):
         translation = None if translation is None else vector3(translation, "translation")
         rotation = None if rotation is None else check_rotation(rotation)
         scale = None if scale is None else check_scale(scale)
-        node = Node(self, obj, text(name, "name"), next(self._ids))
-        above = -1 if parent is None else parent._slot
-        node._arrays = self._arrays
-        slot = node._slot = self._arrays.append(node, above, self._objects.take(obj), node.id)
+        node = self.data.add(self, obj, text(name, "name"), parent)
+        arrays, slot = self.data.arrays, node._slot
         if pose is not None:
-            self._arrays.set_pose(slot, pose)
+            arrays.set_pose(slot, pose)
         if translation is not None:
-            self._arrays.set_translation(slot, translation)
+            arrays.set_translation(slot, translation)
         if rotation is not None or scale is not None:
-            self._arrays.set_parts(slot, rotation, scale)
+            arrays.set_parts(slot, rotation, scale)
         if flag(static, "static"):
             node.static = True
         node.cast_shadows, node.receive_shadows = cast_shadows, receive_shadows
-        self._list(node)
-        self._nodes = None
-        if self._names is not None:
-            self._names.setdefault(node._name, node)
         return node
-
-    def _list(self, node: Node) -> None:
-        """Keep the nodes of cameras and of lights, in the order in which the nodes were added."""
-        listed = self._cameras if isinstance(node.object, Camera) else self._lights
-        if isinstance(node.object, (Camera, *LIGHTS)):
-            last = max(listed, default=-1)
-            listed[node.id] = node
-            if node.id < last:
-                ordered = dict(sorted(listed.items()))
-                listed.clear()
-                listed.update(ordered)
-
-    def _put(self, node: Node, obj: SceneObject | None) -> None:
-        """Let a node hold another object."""
-        _check_object(obj)
-        node._object = obj
-        self._show(node)
-        self._cameras.pop(node.id, None)
-        self._lights.pop(node.id, None)
-        self._list(node)
-        self._removals += 1
-
-    def _show(self, node: Node) -> None:
-        """Let a node draw what it holds, as its skin and its morph weights bend it."""
-        posed, before = posed_for(node), node._drawn
-        looks = may_bend(node)
-        if looks and self._posing is None:
-            self._posing = Posing()
-        drawn = node._object if posed is None else posed
-        number = self._objects.take(drawn)
-        self._objects.release(before)
-        node._posed, node._drawn = posed, drawn
-        self._arrays.set_object(node._slot, number)
-        if self._posing is not None:
-            (self._posing.take if looks else self._posing.leave)(node)
-        self._placed_colliders = None
-
-    def _set_skin(self, node: Node, skin: Skin | None) -> None:
-        """Let joints bend what a node holds."""
-        node._skin = check_skin(skin, node)
-        self._show(node)
-
-    def _set_morph_weights(self, node: Node, weights: ArrayLike | None) -> None:
-        """Let a node add morph targets to its mesh."""
-        node._morph_weights = check_morph_weights(weights, node._object)
-        if node._posed is not None and node._morph_weights is not None:
-            set_weights(node._posed, node._morph_weights)
-            self._arrays.changes += 1
-        else:
-            self._show(node)
 
     def remove(self, node: Node) -> None:
         """Take a node and everything below it out of the scene; see `restore`.
@@ -298,25 +207,7 @@ class Scene(Surroundings, SceneQueries):
         """
         if not isinstance(node, Node) or node._scene is not self:
             raise InvalidArgumentError(f"node must be one of this scene, not {_unfound(node)}")
-        arrays, taken = self._arrays, []
-        for slot in arrays.remove(node._slot):
-            gone, arrays.nodes[slot] = arrays.nodes[slot], None
-            taken.append(gone)
-            gone._scene = None
-            self._objects.release(gone._drawn)
-            self._cameras.pop(gone.id, None)
-            self._lights.pop(gone.id, None)
-            self._colliders.pop(gone.id, None)
-        node._taken = tuple(taken[1:])
-        for below in node._taken:
-            below._taken_with = node
-        self._gone.add(node)
-        self._removed += len(taken)
-        self._removed_lately += len(taken)
-        self._removals += 1
-        self._nodes = self._names = None
-        if self._removed_lately > max(_LEAST_REMOVED, arrays.count // 2):
-            self._pack()
+        self.data.remove(node)
 
     def restore(
         self, node: Node, *, parent: Node | None = None, before: Node | None = None
@@ -341,59 +232,26 @@ class Scene(Surroundings, SceneQueries):
             The node was not removed from this scene, or only together with one above it; or the
             parent does not fit.
         """
-        if not isinstance(node, Node) or node not in self._gone:
+        if not (isinstance(node, Node) and self.data.may_restore(node)):
             raise InvalidArgumentError(
                 f"node must be one that was removed from this scene, not {_unfound(node)}"
             )
-        taken, arrays = (node, *node._taken), self._arrays
-        for slot, back in zip(arrays.restore(node._slot), taken, strict=True):
-            arrays.nodes[slot] = back
-            back._scene, back._taken_with = self, None
-            arrays.set_object(slot, self._objects.take(back._drawn))
-            self._list(back)
-            self._set_collider(back)
-        self._gone.discard(node)
-        node._taken = ()
-        self._removed -= len(taken)
-        self._removals += 1
-        self._nodes = self._names = None
+        self.data.restore(self, node)
         try:
             node.reparent(parent, before=before)
         except InvalidArgumentError:
             self.remove(node)
             raise
 
-    def _pack(self) -> None:
-        """Give up the slots of removed nodes that nobody holds any more."""
-        gone = [node for top in self._gone for node in (top, *top._taken)]
-        self._arrays, slots = self._arrays.packed([node._slot for node in gone])
-        self._removed, self._removed_lately = len(gone), 0
-        for node in (*filter(None, self._arrays.nodes), *gone):
-            node._arrays, node._slot = self._arrays, int(slots[node._slot])
-
     @property
     def nodes(self) -> tuple[Node, ...]:
         """All nodes, in the order they were added."""
-        nodes = self._nodes
-        if nodes is None:
-            nodes = tuple(node for node in self._arrays.nodes if node is not None)
-            self._nodes = nodes
-        return nodes
-
-    def _camera_node(self) -> Node | None:
-        """The first visible node that holds a camera: what is drawn through by default."""
-        return next((node for node in self._cameras.values() if node.shown), None)
+        return self.data.nodes
 
     @checks_types
     def find(self, name: str) -> Node | None:
         """Return the first node of that name, or None where there is none."""
-        names = self._names
-        if names is None:
-            names = {}
-            for node in self.nodes:
-                names.setdefault(node.name, node)
-            self._names = names  # whole: another thread may ask meanwhile
-        return names.get(name)
+        return self.data.find(name)
 
     def select(self, nodes: Iterable[Node] | None = None) -> NodeSelection:
         """Return a selection of nodes, to read or to move them together as arrays.
@@ -416,39 +274,10 @@ class Scene(Surroundings, SceneQueries):
             raise InvalidArgumentError(f"nodes must be an iterable of Node, not {nodes!r}")
         return NodeSelection(self, self.nodes if nodes is None else nodes)
 
-    def _set_collider(self, node: Node) -> None:
-        """Keep the nodes that have colliders, in the order of adding."""
-        self._placed_colliders = None
-        if node.collider is None:
-            self._colliders.pop(node.id, None)
-        elif node.id not in self._colliders:
-            self._colliders[node.id] = node
-            self._colliders = dict(sorted(self._colliders.items()))
-
-    def _census(self: AnyScene) -> tuple[object, ...]:
-        """What is another once a node has come or gone."""
-        return self._arrays.count, self._removals
-
-    def _node_of(self, number: int) -> Node | None:
-        """The node of an id, if it is in the scene."""
-        ids = self._arrays.columns["id"][: self._arrays.count]
-        slot = int(np.searchsorted(ids, number))
-        return self._arrays.nodes[slot] if slot < len(ids) and ids[slot] == number else None
-
-    def _update(self, threads: int = 1) -> None:
-        """Make world poses, visibility and bounds of all nodes true; threads: 0 is all."""
-        if self._posing is not None:
-            self._posing.update(self, threads)
-        self._objects.refresh(self._arrays)
-        self._arrays.update(self._objects.boxes, threads)
-
     @property
-    def bounds(self: AnyScene) -> NDArray[np.float64]:
+    def bounds(self) -> NDArray[np.float64]:
         """The box around all visible meshes, (2, 3) float64 in world space; zeros if none."""
-        self._update()
-        box = np.empty(OBJECT_BOX)
-        around = union(self._arrays.columns["bounds"][: self._arrays.count], box)
-        return box[:6].reshape(2, 3) if around else np.zeros((2, 3))
+        return self.data.bounds()
 
     @checks_types
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -467,7 +296,7 @@ class Scene(Surroundings, SceneQueries):
         return thumbnail(self)
 
     def __repr__(self) -> str:
-        return f"Scene({self._arrays.count - self._removed} nodes)"
+        return f"Scene({self.data.node_count} nodes)"
 
 
 def _take_animations(
@@ -482,9 +311,3 @@ def _take_animations(
 def _unfound(node: object) -> str:
     """What a caller gave for a node: mostly what `Scene.find` returns of an unknown name."""
     return "None, which find() returns of an unknown name" if node is None else shown(node)
-
-
-def _check_object(obj: object) -> None:
-    if obj is not None and not isinstance(obj, _OBJECT_TYPES):
-        allowed = ", ".join(kind.__name__ for kind in _OBJECT_TYPES)
-        raise InvalidArgumentError(f"obj must be {allowed} or None (a group), not {shown(obj)}")

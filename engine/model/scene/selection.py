@@ -46,14 +46,14 @@ class NodeSelection(Closed):
     def _rows(self) -> np.ndarray:
         """The nodes' slots, as they are now."""
         scene = self._scene
-        if self._removals != scene._removals:
+        if self._removals != scene.data.removals:
             for node in self.nodes:
                 if not isinstance(node, Node) or node._scene is not scene:
                     raise InvalidArgumentError(
                         f"nodes: {shown(node)} is not a node of this scene, or not now"
                     )
-            self._slots = np.array([node._slot for node in self.nodes], np.int32)
-            self._removals = scene._removals
+            self._slots = scene.data.slots_of(self.nodes)
+            self._removals = scene.data.removals
         return self._slots
 
     def __len__(self) -> int:
@@ -62,24 +62,24 @@ class NodeSelection(Closed):
     @property
     def poses(self) -> NDArray[np.float64]:
         """parent-from-node, (N, 4, 4) float64."""
-        return matrices_of(self._scene._arrays.columns["pose"][self._rows])
+        return matrices_of(self._scene.data.arrays.columns["pose"][self._rows])
 
     @poses.setter
     def poses(self, value: ArrayLike) -> None:
         poses = self._checked(value, "poses", (4, 4))
         if not (poses[:, 3] == (0.0, 0.0, 0.0, 1.0)).all():
             raise InvalidArgumentError("poses must be affine: the last row of each is 0 0 0 1")
-        self._scene._arrays.set_poses(self._rows, poses)
+        self._scene.data.arrays.set_poses(self._rows, poses)
 
     @property
     def translations(self) -> NDArray[np.float64]:
         """(N, 3) float64."""
-        return self._scene._arrays.columns["pose"][self._rows].reshape(-1, 3, 4)[:, :, 3].copy()
+        return self._scene.data.arrays.columns["pose"][self._rows].reshape(-1, 3, 4)[:, :, 3].copy()
 
     @translations.setter
     def translations(self, value: ArrayLike) -> None:
         translations = self._checked(value, "translations", (3,))
-        self._scene._arrays.set_translations(self._rows, translations)
+        self._scene.data.arrays.set_translations(self._rows, translations)
 
     @property
     def rotations(self) -> NDArray[np.float64]:
@@ -93,7 +93,7 @@ class NodeSelection(Closed):
             squares = (rotations * rotations).sum(axis=1)
         if not ((squares > 0.0) & (squares < np.inf)).all():
             raise InvalidArgumentError("rotations must not be zero quaternions, nor overflow")
-        self._scene._arrays.set_many_parts(self._rows, rotations, None)
+        self._scene.data.arrays.set_many_parts(self._rows, rotations, None)
 
     @property
     def scales(self) -> NDArray[np.float64]:
@@ -102,12 +102,13 @@ class NodeSelection(Closed):
 
     @scales.setter
     def scales(self, value: ArrayLike) -> None:
-        self._scene._arrays.set_many_parts(self._rows, None, self._checked(value, "scales", (3,)))
+        scales = self._checked(value, "scales", (3,))
+        self._scene.data.arrays.set_many_parts(self._rows, None, scales)
 
     @property
     def visible(self) -> NDArray[np.bool_]:
         """(N,) bool: the nodes' own switches."""
-        return self._scene._arrays.columns["flags"][self._rows] & VISIBLE != 0
+        return self._scene.data.arrays.columns["flags"][self._rows] & VISIBLE != 0
 
     @visible.setter
     def visible(self, value: ArrayLike) -> None:
@@ -118,19 +119,19 @@ class NodeSelection(Closed):
                 f"visible must be one bool or {len(self)}, not {shown(value)}"
             )
         on = np.ascontiguousarray(np.broadcast_to(given.astype(bool), len(self)))
-        self._scene._arrays.set_flags(self._rows, VISIBLE, on.view(np.uint8))
+        self._scene.data.arrays.set_flags(self._rows, VISIBLE, on.view(np.uint8))
 
     @property
     def world_poses(self) -> NDArray[np.float64]:
         """world-from-node, (N, 4, 4) float64."""
-        self._scene._update()
-        return self._scene._arrays.world_poses(self._rows)
+        self._scene.data.update()
+        return self._scene.data.arrays.world_poses(self._rows)
 
     @property
     def bounds(self) -> NDArray[np.float64]:
         """The boxes of `Node.bounds`, (N, 2, 3) float64; NaN where a node has none."""
-        self._scene._update()
-        bounds = self._scene._arrays.columns["bounds"][self._rows, :6]
+        self._scene.data.update()
+        bounds = self._scene.data.arrays.columns["bounds"][self._rows, :6]
         bounds[bounds[:, 0] > bounds[:, 3]] = np.nan
         return bounds.reshape(-1, 2, 3)
 
@@ -141,8 +142,8 @@ class NodeSelection(Closed):
         return f"NodeSelection({len(self)} nodes)"
 
     def _part(self, name: str) -> np.ndarray:
-        self._scene._arrays.find_parts(self._rows)
-        return self._scene._arrays.columns[name][self._rows]
+        self._scene.data.arrays.find_parts(self._rows)
+        return self._scene.data.arrays.columns[name][self._rows]
 
     def _checked(self, value: ArrayLike, what: str, row: tuple[int, ...]) -> np.ndarray:
         shape = (len(self), *row)

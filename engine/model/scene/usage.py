@@ -24,11 +24,11 @@ def uses_in(scenes: Iterable[Scene]) -> dict[Any, int]:
     """Return how many nodes use each mesh, material and texture, in the order of their numbers."""
     uses: dict[Any, int] = {}
     for scene in scenes:
-        arrays = scene._arrays
+        arrays = scene.data.arrays
         columns = {name: arrays.columns[name][: arrays.count] for name in ("object", "flags")}
         drawn = columns["object"][(columns["flags"] & ALIVE != 0) & (columns["object"] >= 0)]
-        counts = np.bincount(drawn, minlength=len(scene._objects.objects)).tolist()
-        for obj, count in zip(scene._objects.objects, counts, strict=False):
+        counts = np.bincount(drawn, minlength=len(scene.data.objects.objects)).tolist()
+        for obj, count in zip(scene.data.objects.objects, counts, strict=False):
             for thing in made_of(obj):
                 uses[thing] = uses.get(thing, 0) + count
     return uses
@@ -36,8 +36,8 @@ def uses_in(scenes: Iterable[Scene]) -> dict[Any, int]:
 
 def users_of(scene: Scene, thing: Any) -> tuple[Node, ...]:
     """Return the nodes that use a mesh, material or texture, in the order of the scene."""
-    numbers = {n for n, obj in enumerate(scene._objects.objects) if thing in made_of(obj)}
-    arrays = scene._arrays
+    numbers = {n for n, obj in enumerate(scene.data.objects.objects) if thing in made_of(obj)}
+    arrays = scene.data.arrays
     rows = np.flatnonzero(np.isin(arrays.columns["object"][: arrays.count], list(numbers)))
     nodes = (arrays.nodes[row] for row in rows.tolist())
     return tuple(node for node in nodes if node is not None)

@@ -13,8 +13,8 @@ import numpy as np
 
 from ..._native.scene_graph import BOX, NativeShapes, NativeTree, triangle_boxes
 from ..geometry.mesh import Mesh
-from ..motion.shown import as_shown
-from ..scene.instances import InstancedMesh
+from ..scene.instances import InstancedMesh, instance_tree
+from ..scene.shown import as_shown
 
 _triangles: WeakKeyDictionary[Mesh, tuple[tuple[Any, ...], NativeTree]] = WeakKeyDictionary()
 
@@ -54,7 +54,7 @@ def tell(shapes: NativeShapes, number: int, obj: Any) -> None:
     """Tell the shape of a scene's object, as it is at one moment."""
     mesh, poses, tree = as_shown(obj), None, None
     if isinstance(obj, InstancedMesh):
-        mesh, (tree, poses) = obj.mesh, obj._tree()
+        mesh, (tree, poses) = obj.mesh, instance_tree(obj)
     arrays = dict(mesh._arrays)
     triangles = triangle_tree(mesh, arrays)
     shapes.set(number, arrays["positions"], arrays["faces"], triangles, poses, tree)

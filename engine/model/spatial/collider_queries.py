@@ -18,8 +18,10 @@ from ...base.dirty_tracking import Watch
 from ...base.validation import how_far, positive, vector3
 from ...errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
-from ..motion.shown import placing_poses
+from ..scene.node_arrays import NodeArrays
 from ..scene.nodes import Node
+from ..scene.scene_data import SceneData
+from ..scene.shown import placing_poses, shown_object
 from ._shapes import faces_in_box, way_to_face
 from ._triangles import sphere_meets_triangles, triangles_meet_box
 from .colliders import BoxCollider, ColliderHit, MeshCollider, SphereCollider
@@ -30,10 +32,10 @@ _quiet = np.errstate(over="ignore", invalid="ignore")  # what overflows is infin
 class _Placed:
     """The colliders of a scene where they are now: world boxes and spheres, and a tree of them."""
 
-    def __init__(self, scene: Any) -> None:
-        self.nodes = list(scene._colliders.values())
-        self._selection = scene.select(self.nodes)
-        self._removals = scene._removals
+    def __init__(self, data: SceneData) -> None:
+        self.nodes = list(data.colliders.values())
+        self._slots = data.slots_of(self.nodes)
+        self._removals = data.removals
         self._state: tuple[Any, ...] | None = None
         count = len(self.nodes)
         self._middles, self._halves = np.zeros((count, 3)), np.zeros((count, 3))
@@ -43,7 +45,7 @@ class _Placed:
         self._bent: list[int] = []  # rows of what stands where joints and morph targets put it
         for row, node in enumerate(self.nodes):
             self._describe(row, node)
-        self._moment = _moment(scene) if self._bent else 0
+        self._moment = _moment(data) if self._bent else 0
 
     def _describe(self, row: int, node: Node) -> None:
         """Keep what a collider is in its node's space."""
@@ -52,9 +54,9 @@ class _Placed:
             self._middles[row], self._radii[row] = collider.center, collider.radius
             return
         mesh = _mesh_of(node)
-        if mesh is not None and mesh is node.object and node._posed is not None:
+        if mesh is not None and mesh is node.object and shown_object(node) is not mesh:
             self._bent.append(row)
-            mesh = node._posed.now()
+            mesh = shown_object(node)
         if isinstance(collider, MeshCollider):
             self.meshes[row] = mesh
         if mesh is not None:
@@ -62,21 +64,20 @@ class _Placed:
         low, high = collider.box if mesh is None else mesh.bounds
         self._middles[row], self._halves[row] = (low + high) * 0.5, (high - low) * 0.5
 
-    def is_of(self, scene: Any) -> bool:
+    def is_of(self, data: SceneData) -> bool:
         """Whether these are the scene's colliders still."""
-        posed = not self._bent or self._moment == _moment(scene)
-        return posed and self._removals == scene._removals and not self._watch.found()
+        posed = not self._bent or self._moment == _moment(data)
+        return posed and self._removals == data.removals and not self._watch.found()
 
-    def follow(self, scene: Any) -> None:
+    def follow(self, arrays: NodeArrays) -> None:
         """Find where the colliders are, if anything moved."""
-        state = scene._arrays, scene._arrays.updated
+        state = arrays, arrays.updated
         if self._state == state:
             return
-        self.poses = poses = self._selection.world_poses.copy()
+        self.poses = poses = arrays.world_poses(self._slots)
         if self._bent:
-            rows = self._selection._rows[self._bent]
-            poses[self._bent] = placing_poses(scene._arrays, rows)
-        shown = scene._arrays.columns["flags"][self._selection._rows] & SHOWN != 0
+            poses[self._bent] = placing_poses(arrays, self._slots[self._bent])
+        shown = arrays.columns["flags"][self._slots] & SHOWN != 0
         self.centers = linalg.dot(poses[:, :3, :3], self._middles[:, np.newaxis]) + poses[:, :3, 3]
         around = linalg.dot(np.abs(poses[:, :3, :3]), self._halves[:, np.newaxis])
         scales = linalg.length(poses[:, :3, :3].transpose(0, 2, 1)).max(axis=1, initial=0.0)
@@ -110,18 +111,18 @@ class _Placed:
         return np.flatnonzero(np.unpackbits(bits.view(np.uint8), bitorder="little"))
 
 
-def _moment(scene: Any) -> int:
+def _moment(data: SceneData) -> int:
     """What grows when meshes were bent anew."""
-    return 0 if scene._posing is None else scene._posing.moment
+    return 0 if data.posing is None else data.posing.moment
 
 
-def _placed(scene: Any) -> _Placed:
+def _placed(data: SceneData) -> _Placed:
     """The colliders, found anew when something moved or a mesh changed."""
-    scene._update()
-    placed = scene._placed_colliders
-    if placed is None or not placed.is_of(scene):
-        placed = scene._placed_colliders = _Placed(scene)
-    placed.follow(scene)
+    data.update()
+    placed: _Placed | None = data.placed_colliders
+    if placed is None or not placed.is_of(data):
+        placed = data.placed_colliders = _Placed(data)
+    placed.follow(data.arrays)
     return placed
 
 
@@ -139,7 +140,7 @@ def overlap_box(scene: Any, low: Any, high: Any) -> tuple[Node, ...]:
     low, high = vector3(low, "low"), vector3(high, "high")
     if (low > high).any():
         raise InvalidArgumentError("low must not be above high")
-    placed = _placed(scene)
+    placed = _placed(scene.data)
     rows = placed.in_box(low, high)
     boxes, centers, radii = placed.boxes[rows], placed.centers[rows], placed.radii[rows]
     meets = ((boxes[:, 0] <= high) & (boxes[:, 1] >= low)).all(axis=1)
@@ -152,7 +153,7 @@ def overlap_box(scene: Any, low: Any, high: Any) -> tuple[Node, ...]:
 def overlap_sphere(scene: Any, center: Any, radius: Any) -> tuple[Node, ...]:
     """See `Scene.overlap_sphere`."""
     center, radius = vector3(center, "center"), positive(radius, "radius")
-    placed = _placed(scene)
+    placed = _placed(scene.data)
     rows = placed.in_box(center - radius, center + radius)
     boxes, centers, radii = placed.boxes[rows], placed.centers[rows], placed.radii[rows]
     nearest = np.minimum(np.maximum(center, boxes[:, 0]), boxes[:, 1]) - center
@@ -205,7 +206,7 @@ def raycast_colliders(
     if not direction.any():
         raise InvalidArgumentError("direction must not be the zero vector")
     direction = linalg.normalize(direction)
-    placed = _placed(scene)
+    placed = _placed(scene.data)
     rows = placed.on_ray(origin, direction, max_distance)
     distances = _into_boxes(placed.boxes[rows], origin, direction)
     radii = placed.radii[rows]

@@ -79,7 +79,7 @@ def raycast(scene: Any, origin: Any, direction: Any, max_distance: Any, cull: An
     if slot < 0:
         return None
     position, normal, barycentric = values[0, 1:].reshape(3, 3)
-    node = scene._arrays.nodes[slot]
+    node = scene.data.arrays.nodes[slot]
     return RayHit(node, instance, face, float(values[0, 0]), position, normal, barycentric)
 
 
@@ -96,7 +96,7 @@ def raycast_many(
     met = ids[:, 0] >= 0
     values[~met] = 0.0
     values[~met, 0] = np.inf
-    ids[met, 0] = scene._arrays.columns["id"][ids[met, 0]]
+    ids[met, 0] = scene.data.arrays.columns["id"][ids[met, 0]]
     parts = values[:, 1:4], values[:, 4:7], values[:, 7:]
     object_id, instance, face = ids.T.copy()
     position, normal, barycentric = (part.copy() for part in parts)
@@ -111,15 +111,15 @@ def _cast(
         raise InvalidArgumentError("direction must not be the zero vector")
     max_distance = how_far(max_distance, "max_distance")
     number = CULLS[choose(cull, CULLS, "cull")]
-    scene._update()
-    objects = scene._objects
+    scene.data.update()
+    objects = scene.data.objects
     origins = np.ascontiguousarray(origins)
     directions = np.ascontiguousarray(linalg.normalize(directions))
     ids = np.empty((len(origins), 3), np.int32)
     values = np.empty((len(origins), 10))
     done, missing = 0, 0
     while missing >= 0:
-        done, missing = scene._arrays.cast(
+        done, missing = scene.data.arrays.cast(
             objects.shapes, origins, directions, max_distance, number, ids, values, done
         )
         if missing >= 0:

@@ -20,8 +20,8 @@ from ...choices import ColorSpace, Normals
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from ...model.motion.posed_mesh import PosedMesh
-from ...model.scene.instances import InstancedMesh
-from ...model.scene.staged_scene import AnyScene
+from ...model.scene.instances import InstancedMesh, flat_poses, shown_ids
+from ...model.scene.staged_data import AnyData
 from .._view import View
 from .closed_meshes import Holes, holes_of
 from .instance_trees import InstanceTrees
@@ -32,8 +32,8 @@ from .native_materials import make_textures
 from .placement import Placement, Placing
 
 if TYPE_CHECKING:
-    from ...model.motion.posing import Posing
-    from ...model.motion.shown import Drawn
+    from ...model.scene._posing import Posing
+    from ...model.scene.shown import Drawn
 
 #: What a listed object is made of: a mesh, and the instances that it is drawn at.
 Things: TypeAlias = tuple[()] | tuple[Mesh] | tuple[Mesh, InstancedMesh]
@@ -68,7 +68,7 @@ class DrawList:
     def __init__(self, color_space: ColorSpace, threads: int) -> None:
         self.native = NativeDrawList()
         self._color_space, self._threads = color_space, threads
-        self._scene: Callable[[], AnyScene | None] = lambda: None
+        self._data: Callable[[], AnyData | None] = lambda: None
         self._objects_version: Any = -1  # of the objects, which may be of either kind of scene
         self._listing = Listing(MeshNeeds(), "auto", by_mesh=False)
         self._untextured: frozenset[Material] = frozenset()
@@ -95,31 +95,31 @@ class DrawList:
         return self._placement.changes
 
     def update(
-        self, scene: AnyScene, listing: Listing, headlight: Headlight, placing: Placing
+        self, data: AnyData, listing: Listing, headlight: Headlight | None, placing: Placing
     ) -> None:
-        """Make the native list draw ``scene``.
+        """Make the native list draw a scene.
 
         Parameters
         ----------
-        scene : Scene
+        data : AnyData
         listing : Listing
         headlight : tuple of three vectors, or None
             Colour, lux and direction towards the light, for a scene that has no light.
         placing : Placing
         """
-        scene._update(self._threads)
-        if self._listing != listing or not self._lists(scene):
-            self._renew(scene, listing)
-        self._follow_poses(scene)
+        data.update(self._threads)
+        if self._listing != listing or not self._lists(data):
+            self._renew(data, listing)
+        self._follow_poses(data)
         if self._trees.settle():
             self._placement.forget()
         has_marks = self._marks or listing.needs.edges
-        self._placement.place(scene._arrays, placing, has_marks, self._trees.made)
-        self.lights.update(scene, headlight)
+        self._placement.place(data.arrays, placing, has_marks, self._trees.made)
+        self.lights.update(data, headlight)
 
-    def _follow_poses(self, scene: AnyScene) -> None:
+    def _follow_poses(self, data: AnyData) -> None:
         """Draw meshes that were bent anew as they are now."""
-        posing = scene._posing
+        posing = data.posing
         posed = None if posing is None else (posing, posing.moment)
         if posed != self._posed and posing is not None:
             self.native.set_meshes(posing.numbers, posing.poses)
@@ -127,14 +127,14 @@ class DrawList:
             self.renewals += 1
         self._posed = posed
 
-    def open_windows(self, scene: AnyScene, view: View, size: tuple[int, int]) -> int | None:
+    def open_windows(self, data: AnyData, view: View, size: tuple[int, int]) -> int | None:
         """Let backs show where the camera may look into holes of meshes that enclose a volume.
 
         Elsewhere they may be left out, of materials that do not show both sides anyway.
 
         Parameters
         ----------
-        scene : Scene
+        data : AnyData
         view : View
         size : (int, int)
             Width and height of the picture in pixels.
@@ -147,7 +147,7 @@ class DrawList:
         """
         if not self._closed:
             return None
-        arrays = scene._arrays
+        arrays = data.arrays
         return self.native.open_windows(
             arrays.count, arrays.columns, view.clip_from_world, view.view_from_world, *size
         )
@@ -157,38 +157,38 @@ class DrawList:
         """Whether a mesh that encloses a volume has holes, which a light may look into."""
         return bool(self._with_holes)
 
-    def shows(self, scene: AnyScene) -> bool:
+    def shows(self, data: AnyData) -> bool:
         """Whether everything in the scene is still as and where it was at the last update."""
-        return self._placement.shows(scene._arrays) and self._lists(scene)
+        return self._placement.shows(data.arrays) and self._lists(data)
 
-    def _lists(self, scene: AnyScene) -> bool:
+    def _lists(self, data: AnyData) -> bool:
         """Whether the objects are those of the scene, as they are now."""
         self._changed += self._watch.changed()
         return (
-            self._scene() is scene
-            and self._objects_version == scene._objects.version
+            self._data() is data
+            and self._objects_version == data.objects.version
             and not self._changed
         )
 
-    def _renew(self, scene: AnyScene, listing: Listing) -> None:
+    def _renew(self, data: AnyData, listing: Listing) -> None:
         """Make the list of objects anew, or only what changed of it."""
         self.renewals += 1
         self._changed += self._watch.changed()
-        same = self._scene() is scene and self._listing == listing
-        numbers = self._numbers_that_changed(scene) if same else None
-        self._scene = lambda: None  # if anything below raises, the list is not current
+        same = self._data() is data and self._listing == listing
+        numbers = self._numbers_that_changed(data) if same else None
+        self._data = lambda: None  # if anything below raises, the list is not current
         self._listing = listing
-        self._untextured = self._materials.untextured = scene._untextured
+        self._untextured = self._materials.untextured = data.untextured
         if numbers is None:
-            self._rebuild(scene)
+            self._rebuild(data)
         else:
-            self._replace(scene, sorted(numbers))
-        self._objects_version = scene._objects.version
-        self._scene = weakref.ref(scene)
+            self._replace(data, sorted(numbers))
+        self._objects_version = data.objects.version
+        self._data = weakref.ref(data)
 
-    def _numbers_that_changed(self, scene: AnyScene) -> set[int] | None:
+    def _numbers_that_changed(self, data: AnyData) -> set[int] | None:
         """Numbers of objects that are others or changed; None where all are to be listed anew."""
-        objects = scene._objects
+        objects = data.objects
         numbers = objects.renewed_since(self._objects_version)
         if numbers is None:
             return None
@@ -206,17 +206,17 @@ class DrawList:
         key = id(material)
         return {number for number, (_, surfaces) in enumerate(self._listed) if key in surfaces}
 
-    def _replace(self, scene: AnyScene, numbers: list[int]) -> None:
+    def _replace(self, data: AnyData, numbers: list[int]) -> None:
         """Renew the materials that changed, and the objects of some numbers."""
         self._materials.renew(self._changed)
         self._changed = []
         if numbers:
             self._placement.forget()
         for number in numbers:
-            self._forget(scene, number)
-            self._set_object(number, scene._objects.objects[number])
+            self._forget(data, number)
+            self._set_object(number, data.objects.objects[number])
 
-    def _rebuild(self, scene: AnyScene) -> None:
+    def _rebuild(self, data: AnyData) -> None:
         self._placement.forget()
         self._closed, self._with_holes = set(), set()
         self.native.clear()
@@ -226,12 +226,12 @@ class DrawList:
         self._materials.untextured = self._untextured
         self._trees = InstanceTrees(self.native)
         self._listed, self._left, self._marks = [], 0, False
-        self._make_textures(scene)
-        for number, obj in enumerate(scene._objects.objects):
+        self._make_textures(data)
+        for number, obj in enumerate(data.objects.objects):
             self._set_object(number, obj)
 
-    def _make_textures(self, scene: AnyScene) -> None:
-        meshes = (_mesh_of(obj) for obj in scene._objects.objects if obj is not None)
+    def _make_textures(self, data: AnyData) -> None:
+        meshes = (_mesh_of(obj) for obj in data.objects.objects if obj is not None)
         materials = {material for mesh in meshes for material in mesh.materials}
         make_textures(materials - self._untextured, self._color_space, self._threads)
 
@@ -281,10 +281,10 @@ class DrawList:
         eight_bit = colors is not None and colors.dtype == np.uint8
         self.native.set_instances(
             number,
-            obj._flat_poses(),
+            flat_poses(obj),
             colors if eight_bit else None,
             None if eight_bit else colors,
-            obj._ids,
+            shown_ids(obj),
         )
 
     def _note(self, number: int, things: Things, surfaces: tuple[int, ...]) -> None:
@@ -294,11 +294,11 @@ class DrawList:
         self._left += self._listed[number][1] not in ((), surfaces)
         self._listed[number] = things, surfaces
 
-    def _forget(self, scene: AnyScene, number: int) -> None:
+    def _forget(self, data: AnyData, number: int) -> None:
         """Look no longer at what a number's object was made of, where no other is."""
         if number < len(self._listed):
             for thing in self._listed[number][0]:
-                if not scene._objects.drawn_by(thing):
+                if not data.objects.drawn_by(thing):
                     self._watch.remove(thing)
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..._native.rasterizer import NativeDrawList
-from ...model.scene.instances import MANY, InstancedMesh
+from ...model.scene.instances import MANY, InstancedMesh, instance_tree
 
 if TYPE_CHECKING:
-    from ...model.motion.shown import Drawn
+    from ...model.scene.shown import Drawn
 
 _SETTLED = 3  # frames in which they did not change
 
@@ -44,7 +44,7 @@ class InstanceTrees:
         self._frames += 1
         if self._frames == _SETTLED:
             for number, instances in self._many.items():
-                self._native.set_instance_tree(number, instances._tree()[0])
+                self._native.set_instance_tree(number, instance_tree(instances)[0])
             self.made = True
         return self.made
 

@@ -16,21 +16,21 @@ import numpy as np
 
 from ..._native.scene_graph import SHOWN
 from ...model.materials.material import Material
-from ...model.scene.staged_scene import AnyScene, NodeRows
+from ...model.scene.staged_data import AnyData, NodeRows
 
 
-def lamp_slots(scene: AnyScene, light: int, place: Sequence[float]) -> tuple[int, ...]:
+def lamp_slots(data: AnyData, light: int, place: Sequence[float]) -> tuple[int, ...]:
     """Return the slots of what lets a light pass.
 
     Parameters
     ----------
-    scene : Scene
+    data : SceneData or StagedData
     light : int
         The slot of the light's node.
     place : (3,) sequence of float
         Of the light, in world space.
     """
-    arrays, objects = scene._arrays, scene._objects.objects
+    arrays, objects = data.arrays, data.objects.objects
     columns, count = arrays.columns, arrays.count
     low, high = columns["bounds"][:count, :3], columns["bounds"][:count, 3:6]
     holds = ((low <= place) & (high >= place)).all(axis=1)

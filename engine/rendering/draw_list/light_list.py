@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TypeAlias, cast
+from typing import TypeAlias
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from ...choices import ColorSpace
 from ...model.materials.display_colors import shading_color
 from ...model.scene.ambient_lights import AMBIENT_LIGHTS, AmbientLight
 from ...model.scene.lights import DirectionalLight, DirectLight
-from ...model.scene.staged_scene import AnyScene, LightNode
+from ...model.scene.staged_data import AnyData
 from .ambient_terms import ambient_terms
 
 #: Unit direction towards a light that is turned, and the place of one that has a position.
@@ -63,19 +63,22 @@ class LightList:
         self._placed = np.empty(0, np.uint32)
         self._added: tuple[object, ...] = _NOT_KNOWN
 
-    def update(self, scene: AnyScene, headlight: Headlight | None) -> None:
+    def update(self, data: AnyData, headlight: Headlight | None) -> None:
         """Make the native lights those of a scene; ``headlight`` is for one that has none."""
-        self._find_slots(scene)
-        self._add_around(scene)
+        state = data.lights_state()
+        if self._slots_of != state:
+            self._find_slots(data)
+            self._slots_of = state
+        self._add_around(data)
         if self._lights or self._around:
             headlight = None
-        versions = [light.version for light in self._lights]
-        listed = self._slots_of, versions, headlight and headlight[:2]
+        shines = None if headlight is None else headlight[:2]
+        listed = self._slots_of, [light.version for light in self._lights], shines
         same, self._listed = self._listed == listed, None  # for if anything below raises
         if self._lights:
-            changes = scene._arrays.updated
+            changes = data.arrays.updated
             if not same or self._changes != changes:
-                self._renew(scene, same)
+                self._renew(data, same)
             self._changes = changes
         elif not same:
             self._native.clear_lights()
@@ -87,9 +90,9 @@ class LightList:
             self._native.turn_light(0, headlight[2])
         self._listed = listed
 
-    def _renew(self, scene: AnyScene, same: bool) -> None:
+    def _renew(self, data: AnyData, same: bool) -> None:
         """List lights that show, if they are not the same as before, and place those that moved."""
-        columns = scene._arrays.columns
+        columns = data.arrays.columns
         shown = columns["flags"][self._slots] & SHOWN != 0
         slots = self._slots[shown]
         placed = columns["world_version"][slots]
@@ -108,11 +111,11 @@ class LightList:
                 self._place(number, self._lights[light], pose)
         self._shown, self._placed = shown, placed
 
-    def _add_around(self, scene: AnyScene) -> None:
+    def _add_around(self, data: AnyData) -> None:
         """Sum up the light from all around, where anything of it changed."""
         added: tuple[object, ...] = ()
         if self._around:
-            columns = scene._arrays.columns
+            columns = data.arrays.columns
             shown = (columns["flags"][self._around_slots] & SHOWN != 0).tolist()
             placed = columns["world_version"][self._around_slots].tolist()
             versions = [light.version for light in self._around]
@@ -129,18 +132,15 @@ class LightList:
         self._native.set_ambient_light(terms)
         self._added = added
 
-    def _find_slots(self, scene: AnyScene) -> None:
-        """Find the lights' rows in the scene's arrays, once for as long as these are the same."""
-        slots_of = scene._arrays, scene._removals, len(scene._lights)
-        if self._slots_of != slots_of:
-            nodes: list[LightNode] = list(scene._lights.values())
-            around = [node for node in nodes if isinstance(node.object, AMBIENT_LIGHTS)]
-            others = [node for node in nodes if not isinstance(node.object, AMBIENT_LIGHTS)]
-            self._lights = [cast(DirectLight, node.object) for node in others]
-            self._slots = np.array([node._slot for node in others], np.int32)
-            self._around = [cast(AmbientLight, node.object) for node in around]
-            self._around_slots = np.array([node._slot for node in around], np.int32)
-            self._slots_of = slots_of
+    def _find_slots(self, data: AnyData) -> None:
+        """Find the lights, and their rows in the scene's arrays."""
+        placed = data.placed_lights()
+        around = [at for at in placed if isinstance(at[0], AMBIENT_LIGHTS)]
+        others = [at for at in placed if not isinstance(at[0], AMBIENT_LIGHTS)]
+        self._lights = [light for light, _ in others]
+        self._slots = np.array([slot for _, slot in others], np.int32)
+        self._around = [light for light, _ in around]
+        self._around_slots = np.array([slot for _, slot in around], np.int32)
 
     def _add(self, light: DirectLight) -> None:
         shading = shading_color(light.color, self._color_space)

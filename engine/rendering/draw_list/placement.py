@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..._native.rasterizer import NativeDrawList
-from ...model.scene.staged_scene import NodeRows
+from ...model.scene.staged_data import NodeRows
 from .._memo import Memo
 
 

@@ -13,7 +13,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...model.scene.staged_scene import AnyScene, NodeRows
+from ...model.scene.staged_data import NodeRows
+from ...model.scene.staged_scene import AnyScene
 from .._memo import Memo
 from ..casters import placed_casters
 from ..draw_list.lamps import lamp_slots
@@ -48,7 +49,7 @@ class ExactShadows(Pass):
             draw_list.native.set_exact_shadow(number)
         if lights:
             spared = [self._spared(scene, number, place) for number, _, (_, place) in lights]
-            self._list_casters(scene._arrays, spared)
+            self._list_casters(scene.data.arrays, spared)
             self.tools.memory.add_exact(len(lights), draw_list.native.hiding_faces())
 
     def _spared(
@@ -57,7 +58,7 @@ class ExactShadows(Pass):
         """The slots of what does not hide a light."""
         if place is None:
             return ()
-        return lamp_slots(scene, self.tools.draw_list.lights.slot_of(number), place)
+        return lamp_slots(scene.data, self.tools.draw_list.lights.slot_of(number), place)
 
     def _list_casters(self, arrays: NodeRows, spared: list[tuple[int, ...]]) -> None:
         """List the casters, unless they are listed; a version is theirs until one is another.

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..._native.rasterizer import CULLS, LIGHT_TRAITS, find_shadow_ranges, shadow_ranges_side
 from ...model.scene.lights import DirectLight
-from ...model.scene.staged_scene import NodeRows
+from ...model.scene.staged_data import NodeRows
 from .._memo import Memo
 from .._view import View
 from ..casters import placed_casters
@@ -101,7 +101,8 @@ class ShadowMaps(Pass):
                 del known[number]
         bounds = scene.bounds
         cull = CULLS[picture.shadow_cull]
-        moment = scene._arrays, scene._arrays.updated, draw_list.renewals, cull
+        arrays = scene.data.arrays
+        moment = arrays, arrays.updated, draw_list.renewals, cull
         seen = [
             (number, light, pose, views)
             for number, light, pose in lights
@@ -113,7 +114,7 @@ class ShadowMaps(Pass):
         )
         for number, light, (_, place), views in seen:
             slot = draw_list.lights.slot_of(number)
-            spared = () if place is None else lamp_slots(scene, slot, place)
+            spared = () if place is None else lamp_slots(scene.data, slot, place)
             self._update_light(number, light, views, (*moment, spared))
         picture.shadow_maps = self._count, self._drawn
 

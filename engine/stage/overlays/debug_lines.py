@@ -11,7 +11,7 @@ import numpy as np
 
 from ...base import linalg
 from ...model.scene.cameras import Camera
-from ...model.scene.instances import MANY, InstancedMesh
+from ...model.scene.instances import MANY, InstancedMesh, instance_tree
 from ...model.scene.scene import Scene
 from ...rendering.frame import Frame
 
@@ -47,11 +47,11 @@ def tree_lines(scene: Scene) -> list[Lines]:
     There is a tree of the scene's nodes, and one of the instances of each node that has many. Of
     more boxes than would show, those of the lowest levels are left out.
     """
-    scene._update()
-    trees = [([_corners(level) for level in scene._arrays.boxes_by_level()], np.eye(4))]
+    scene.data.update()
+    trees = [([_corners(level) for level in scene.data.arrays.boxes_by_level()], np.eye(4))]
     for node in scene.nodes:
         if isinstance(node.object, InstancedMesh) and len(node.object) >= MANY and node.shown:
-            levels = node.object._tree()[0].boxes_by_level()
+            levels = instance_tree(node.object)[0].boxes_by_level()
             trees.append(([_corners(level) for level in levels], node.world_pose))
     lines, room = [], MOST_IN_TREES
     for levels, pose in trees:

@@ -95,7 +95,7 @@ def _camera_node(view_renderer: ViewRenderer, index: int) -> Node:
 
 def view_of_scene(view_renderer: ViewRenderer) -> Viewpoint | None:
     """Return the view of the scene's first visible camera; None without one that has an eye."""
-    node = view_renderer.viewed.scene._camera_node()
+    node = view_renderer.viewed.scene.data.camera_node()
     if node is None:
         return None
     view = view_renderer.view()

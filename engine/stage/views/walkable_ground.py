@@ -12,10 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...base import linalg
-from ...model.motion.shown import placing_pose, shown_object
 from ...model.navigation import NavigationGrid, Walker
 from ...model.scene.orbiting import home_axes
 from ...model.scene.scene import Scene
+from ...model.scene.shown import placing_pose, shown_object
 from ..visibility import DRAWABLE
 from .viewpoint import Sphere, Viewpoint
 
@@ -95,7 +95,7 @@ def _turned(scene: Scene, axes: np.ndarray) -> Scene:
     turned, pose = Scene(), np.eye(4)
     pose[:3, :3] = axes
     group = turned.add(pose=pose)
-    scene._update()
+    scene.data.update()
     for node in scene.nodes:
         if isinstance(node.object, DRAWABLE) and node.shown:
             turned.add(shown_object(node), parent=group, pose=placing_pose(node))

@@ -212,7 +212,7 @@ class HierarchyPanel:
         payload = imgui.accept_drag_drop_payload_py_id(_PAYLOAD)
         if payload is not None:
             scene, selection = self._workspace.scene, self._workspace.document.selection
-            node = scene._node_of(payload.data_id)
+            node = scene.data.node_of(payload.data_id)
             if node is not None and node is not parent:
                 nodes = selection.topmost() if node in selection else (node,)
                 self._workspace.do(Reparent(scene, nodes, parent))

@@ -73,8 +73,8 @@ class Overlays:
         lines.pop_clip_rect()
 
     def _draw_marks(self, lines, frame: Frame, corner) -> None:
-        scene = self._workspace.scene
-        held = [*scene._lights.values(), *scene._cameras.values()]
+        data = self._workspace.scene.data
+        held = [*data.lights.values(), *data.cameras.values()]
         nodes = [node for node in held if node.shown]
         if not nodes:
             return

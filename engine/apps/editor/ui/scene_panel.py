@@ -12,7 +12,7 @@ import numpy as np
 from imgui_bundle import imgui
 
 from ....model.scene.cameras import PerspectiveCamera
-from ....model.scene.nodes import Node
+from ....model.scene.nodes import Node, with_below
 from ....rendering.frame import Frame
 from ....rendering.renderer import Renderer
 from ....stage.overlays.selection_outline import CLICK_OUTPUTS, outline_pixels
@@ -115,7 +115,7 @@ class ScenePanel:
             *(size, workspace.mode, workspace.wireframe, workspace.changes),
             *(workspace.view.pose().tobytes(), workspace.view.orthographic),
             *(workspace.view.distance, workspace.document.selection.version),
-            *(workspace.scene, workspace.scene._arrays.changes),
+            *(workspace.scene, workspace.scene.data.arrays.changes),
         )
         if key == self._drawn:
             return
@@ -158,8 +158,7 @@ class ScenePanel:
         """The numbers of the selected nodes and of all below them."""
         ids = []
         for node in self._workspace.document.selection.topmost():
-            arrays = node._arrays
-            ids += [arrays.nodes[slot].id for slot in arrays.below(node._slot)]
+            ids += [below.id for below in with_below(node)]
         return ids
 
     # The mouse

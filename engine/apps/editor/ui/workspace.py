@@ -281,7 +281,7 @@ class Workspace:
 
         The smallest sphere would take seconds of thousands of nodes, at every step of a drag.
         """
-        key = self.changes, self.scene._arrays.changes
+        key = self.changes, self.scene.data.arrays.changes
         if self._bounds is None or self._bounds[0] != key:
             low, high = self.scene.bounds
             radius = float(linalg.length((high - low) * 0.5)) or 1.0

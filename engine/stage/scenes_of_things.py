@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...io.scenes.trimesh_scenes import is_of_trimesh, scene_from_trimesh
-from ..geometry.mesh import Mesh
-from ..motion.shown import placing_pose, shown_object
-from .instances import InstancedMesh
-from .nodes import Node
-from .scene import Scene
+from ..io.scenes.trimesh_scenes import is_of_trimesh, scene_from_trimesh
+from ..model.geometry.mesh import Mesh
+from ..model.scene.instances import InstancedMesh
+from ..model.scene.nodes import Node
+from ..model.scene.scene import Scene
+from ..model.scene.shown import placing_pose, shown_object
 
 
 def scene_of(thing: Any) -> Scene | None:
@@ -32,8 +32,8 @@ def scene_of(thing: Any) -> Scene | None:
     if isinstance(thing, Mesh | InstancedMesh):
         scene.add(thing, name=getattr(thing, "name", "") or "mesh")
     elif isinstance(thing, Node):
-        if thing._scene is not None:
-            thing._scene._update()
+        if thing.scene is not None:
+            thing.scene.data.update()
         _add_branch(scene, thing)
     else:
         return None

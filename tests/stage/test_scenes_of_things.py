@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.model.scene.scenes_of_things import scene_of
+from engine3d.stage.scenes_of_things import scene_of
 
 POINTS = np.array([(0, 0, 0, 1), (3, 0, 0, 1)], np.float32)
 

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from .posed_mesh import PosedMesh
+from ..motion.posed_mesh import PosedMesh
 
 if TYPE_CHECKING:
     from ..geometry.mesh import Mesh
-    from ..scene.instances import InstancedMesh
-    from ..scene.node_arrays import NodeArrays
-    from ..scene.nodes import Node, SceneObject
+    from .instances import InstancedMesh
+    from .node_arrays import NodeArrays
+    from .nodes import Node, SceneObject
 
     #: What of a node is drawn.
     Drawn: TypeAlias = Mesh | InstancedMesh | PosedMesh
@@ -35,12 +35,7 @@ def as_shown(drawn: Held | PosedMesh) -> Held | Mesh:
     return drawn.now() if isinstance(drawn, PosedMesh) else drawn
 
 
-def source_of(drawn: Held | PosedMesh) -> Held | Mesh:
-    """Return the object that was given to a node, of what is drawn of it."""
-    return drawn.mesh if isinstance(drawn, PosedMesh) else drawn
-
-
-def placing_poses(arrays: NodeArrays, slots: np.ndarray) -> NDArray[np.float64]:
+def placing_poses(arrays: NodeArrays, slots: NDArray[np.int32]) -> NDArray[np.float64]:
     """Return the world poses (N, 4, 4) that place what nodes draw, as of the last update."""
     anchors = arrays.columns["anchor"][slots]
     poses = arrays.world_poses(np.where(anchors < 0, slots, anchors))

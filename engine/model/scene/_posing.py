@@ -6,25 +6,24 @@ instead of the meshes at rest, and their boxes. What did not move is not posed a
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 from weakref import WeakValueDictionary
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ..._native.rasterizer import NativePose, pose_meshes
 from ...base.dirty_tracking import Watch
 from ...errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..materials.colors import float32_of
-from .posed_mesh import PosedMesh
-from .skeletons import WORLD, skeleton_of
-from .skins import Skin
+from ..motion.posed_mesh import PosedMesh
+from ..motion.skeletons import WORLD, skeleton_of
+from ..motion.skins import Skin
 
 if TYPE_CHECKING:
-    from ..scene.node_arrays import NodeArrays
-    from ..scene.nodes import Node, SceneObject
-    from ..scene.scene import Scene
+    from .nodes import Node
+    from .scene_data import SceneData
 
 
 class Posing:
@@ -48,7 +47,8 @@ class Posing:
         self._here: list[Node] = []  # those of them that are in the scene, by their ids
         self._watch = Watch()  # of their meshes
         self._posed: list[PosedMesh] = []
-        self._linked: tuple[NodeArrays, int] | None = None  # what skeletons are of
+        # The arrays and the links that skeletons are of.
+        self._linked: tuple[Any, ...] | None = None
         self._changes = -1
 
     def take(self, node: Node) -> None:
@@ -61,18 +61,18 @@ class Posing:
         if self._nodes.pop(node.id, None) is not None:
             self._linked = None
 
-    def update(self, scene: Scene, threads: int) -> None:
+    def update(self, data: SceneData, threads: int) -> None:
         """Pose what moved since the last time."""
-        arrays = scene._arrays
+        arrays = data.arrays
         is_other_tree = self._linked != (arrays, arrays.links)
         if is_other_tree:
-            self._find_nodes(scene)
+            self._find_nodes()
         changed = self._watch.found()
         if is_other_tree or changed:
             # First the meshes: what is linked is what they are now.
-            are_others = self._follow_meshes(scene)
+            are_others = self._follow_meshes(data)
             if is_other_tree or are_others:
-                self._link(scene)
+                self._link(data)
             for mesh, version in changed:
                 self._watch.saw(mesh, version)
         if arrays.changes == self._changes:
@@ -80,40 +80,42 @@ class Posing:
         moved = pose_meshes(self.poses, arrays.columns["pose"], threads)
         if moved:
             boxes = np.array([self._posed[number].box() for number in moved])
-            arrays.renew_boxes(scene._objects, self.numbers[moved], boxes)
-            scene._objects.forget_shapes()
+            arrays.renew_boxes(data.objects, self.numbers[moved], boxes)
+            data.objects.forget_shapes()
             arrays.changes += 1
             self.moment += 1
         self._changes = arrays.changes
 
-    def _find_nodes(self, scene: Scene) -> None:
+    def _find_nodes(self) -> None:
         """Find the nodes that are in the scene, and look at their meshes."""
-        self._here = [node for _, node in sorted(self._nodes.items()) if node._scene is scene]
+        self._here = [node for _, node in sorted(self._nodes.items()) if node._scene is not None]
         self._watch = Watch(node._object for node in self._here)
 
-    def _follow_meshes(self, scene: Scene) -> bool:
+    def _follow_meshes(self, data: SceneData) -> bool:
         """Let nodes show their meshes as these are now; return whether any shows another."""
         are_others = False
         for node in self._here:
-            if _is_bent(node) != (node._posed is not None):
-                scene._show(node)
+            drawn = node._drawn
+            if _is_bent(node) != isinstance(drawn, PosedMesh):
+                data.show(node)
                 are_others = True
-            elif node._posed is not None and node._posed.renew():
+            elif isinstance(drawn, PosedMesh) and drawn.renew():
                 are_others = True
         return are_others
 
-    def _link(self, scene: Scene) -> None:
+    def _link(self, data: SceneData) -> None:
         """Find the joints of all skins in the tree as it is now."""
-        arrays = scene._arrays
-        nodes = [node for node in self._here if node._posed is not None]
-        self._posed = [posed for node in nodes if (posed := node._posed) is not None]
+        arrays = data.arrays
+        drawn = [(node, node._drawn) for node in self._here]
+        placed = [(node, posed) for node, posed in drawn if isinstance(posed, PosedMesh)]
+        self._posed = [posed for _, posed in placed]
         self.poses = [posed.native for posed in self._posed]
-        numbers = [scene._objects.number_of(posed) for posed in self._posed]
+        numbers = [data.objects.number_of(posed) for posed in self._posed]
         self.numbers = np.array(numbers, np.int32)
         slots, anchors = [], []
-        for node, posed in zip(nodes, self._posed, strict=True):
+        for node, posed in placed:
             set_weights(posed, node._morph_weights)
-            anchor = self._find_joints(node, posed.native, scene)
+            anchor = self._find_joints(node, posed.native, data)
             if anchor is not None:
                 slots.append(node._slot)
                 anchors.append(node._slot if anchor == WORLD else anchor)
@@ -122,14 +124,14 @@ class Posing:
         self._changes = -1
         self.moment += 1
 
-    def _find_joints(self, node: Node, native: NativePose, scene: Scene) -> int | None:
+    def _find_joints(self, node: Node, native: NativePose, data: SceneData) -> int | None:
         """Tell a node's pose its joints; return the anchor's slot, or None without a skin."""
         skin = node._skin
-        fits = skin is not None and 0 < native.rest.joints <= len(skin.joints)
-        if skin is None or not fits or any(joint._scene is not scene for joint in skin.joints):
+        joints: list[int] = [] if skin is None else data.slots_of(skin.joints).tolist()
+        if skin is None or -1 in joints or not 0 < native.rest.joints <= len(joints):
             native.forget_skeleton()  # the mesh became another, or joints were removed
             return None
-        skeleton = skeleton_of(skin, scene._arrays)
+        skeleton = skeleton_of(skin, joints, data.arrays.columns["parent"])
         native.set_skeleton(*skeleton[1:])
         return -1 if skeleton.anchor == node._slot else skeleton.anchor
 
@@ -146,7 +148,7 @@ def check_skin(value: Skin | None, node: Node) -> Skin | None:
     return value
 
 
-def check_fit(obj: SceneObject | None, skin: Skin) -> None:
+def check_fit(obj: Any, skin: Skin) -> None:
     """Check that a skin has the joints that an object refers to."""
     if not isinstance(obj, Mesh) or obj.joints is None:
         raise InvalidArgumentError("a skin needs a Mesh with joints and weights")
@@ -157,7 +159,7 @@ def check_fit(obj: SceneObject | None, skin: Skin) -> None:
         )
 
 
-def check_morph_weights(value: ArrayLike | None, obj: SceneObject | None) -> np.ndarray | None:
+def check_morph_weights(value: ArrayLike | None, obj: Any) -> NDArray[np.float64] | None:
     """Check weights of an object's morph targets: a read-only (T,) float64 array."""
     if value is None:
         return None
@@ -176,7 +178,7 @@ def may_bend(node: Node) -> bool:
 def _is_bent(node: Node) -> bool:
     """Whether a node shows its mesh bent."""
     mesh = node._object
-    if not may_bend(node) or not isinstance(mesh, Mesh):
+    if not isinstance(mesh, Mesh):
         return False
     bends = node._skin is not None and mesh.joints is not None
     return bends or (node._morph_weights is not None and len(mesh.morph_targets) > 0)
@@ -184,19 +186,18 @@ def _is_bent(node: Node) -> bool:
 
 def posed_for(node: Node) -> PosedMesh | None:
     """Return what a node shows instead of its mesh, or None for the mesh itself."""
-    mesh = node._object
-    if not _is_bent(node) or not isinstance(mesh, Mesh):
+    posed, mesh = node._drawn, node._object
+    if not isinstance(mesh, Mesh) or not _is_bent(node):
         return None
-    posed = node._posed
-    if posed is None or posed.mesh is not mesh:
+    if not isinstance(posed, PosedMesh) or posed.mesh is not mesh:
         posed = PosedMesh(mesh)
     set_weights(posed, node._morph_weights)
     return posed
 
 
-def set_weights(posed: PosedMesh, weights: np.ndarray | None) -> None:
+def set_weights(posed: PosedMesh, weights: NDArray[np.float64] | None) -> None:
     """Give a posed mesh its weights: zeros without any, or if its targets are others by now."""
     targets = posed.native.rest.targets
     if weights is None or len(weights) != targets:
-        weights = np.zeros(targets, np.float32)
+        weights = np.zeros(targets)
     posed.native.set_weights(float32_of(weights))

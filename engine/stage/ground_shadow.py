@@ -119,7 +119,7 @@ class GroundShadow:
                 versions[material] = material.version
                 if material.alpha_mode != "opaque":  # its textures have holes
                     versions.update((t, t.version) for t in textures_of(material).values())
-        return versions, scene._shows_textures, posing, placed_casters(scene._arrays)
+        return versions, scene.shows_textures, posing, placed_casters(scene._arrays)
 
     def _heights(self, slant, lowest: float, sphere: Sphere, cull: str):
         """Where along rays the model begins and ends: two of (SIDE, SIDE) float32, in radii.

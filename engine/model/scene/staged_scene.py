@@ -45,6 +45,8 @@ class StagedScene(Surroundings):
         Its nodes are drawn after those of the scene, with ids above theirs.
     keeps_lights : bool
         Whether the lights of the scene shine.
+    shows_textures : bool
+        Whether its materials are drawn with their textures; `show_textures` says so.
     background, ambient, light_clamp, exposure, …
         As of `Scene`: those of the scene, until they are assigned.
     """
@@ -52,11 +54,12 @@ class StagedScene(Surroundings):
     scene: Scene
     beside: Scene
     keeps_lights: bool
+    shows_textures: bool
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         self.beside = Scene()
-        self.keeps_lights = self._shows_textures = True
+        self.keeps_lights = self.shows_textures = True
         self._hidden: frozenset[Node] = frozenset()
         self._part_of: Callable[[Any], Any] | None = None
         self._arrays = _JoinedRows(self)
@@ -70,7 +73,7 @@ class StagedScene(Surroundings):
 
     def show_textures(self, shown: bool) -> None:
         """Draw the materials of the scene with their textures, or without."""
-        self._shows_textures = shown
+        self.shows_textures = shown
 
     def hide(self, nodes: Iterable[Node], part_of: Callable[[Any], Any] | None = None) -> None:
         """Leave nodes of the scene out of pictures, but not those below them; all others show.
@@ -112,7 +115,7 @@ class StagedScene(Surroundings):
 
     @property
     def _untextured(self) -> frozenset[Material]:
-        if self._shows_textures:
+        if self.shows_textures:
             return frozenset()
         meshes = (
             getattr(obj, "mesh", obj) for obj in self._objects.objects[: self._objects.first_added]
@@ -274,7 +277,7 @@ class _JoinedObjects:
             self._room *= 2
         if staged._part_of is not None:
             self._make_parts(staged._part_of, staged.scene._posing)
-        looks = self._added, self._room, self.renewals, staged._shows_textures
+        looks = self._added, self._room, self.renewals, staged.shows_textures
         version = self._own.version, self._added.version, *looks
         if version != self.version:
             free = [None] * (self._room - len(self._own.objects))

@@ -1,10 +1,14 @@
-"""What follows from the arrays of a mesh, computed when asked for: normals, edges, bounds."""
+"""The arrays of a mesh at one moment, and what follows from them: normals, edges, bounds.
+
+For all that make something of meshes and keep it: arrays may be assigned meanwhile, but those that
+were there are never changed.
+"""
 
 from __future__ import annotations
 
 import operator
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,17 +17,26 @@ from ..._native.rasterizer import bound_points
 from . import normals as _normals
 from . import topology as _topology
 
+if TYPE_CHECKING:
+    from .mesh import Mesh
 
-def derive(kept: dict[str, tuple[list[Any], np.ndarray]], what: str, arrays: dict[str, Any]) -> Any:
-    """What follows from arrays, as they were at one moment: computed once for these."""
+
+def arrays_of(mesh: Mesh) -> dict[str, Any]:
+    """Return the arrays of a mesh by name, None for those that it lacks, all of one moment."""
+    return dict(mesh._arrays)
+
+
+def derived(mesh: Mesh, what: str, arrays: dict[str, Any] | None = None) -> Any:
+    """Return what follows from arrays that a mesh had, or has now: computed once for these."""
+    arrays = arrays_of(mesh) if arrays is None else arrays
     if what == "normals" and arrays["_given_normals"] is not None:
         return arrays["_given_normals"]
     compute, names = _DERIVED[what]
     sources = [arrays[name] for name in names]
-    made_of, array = kept.get(what, (None, None))
+    made_of, array = mesh._derived.get(what, (None, None))
     if made_of is None or not all(map(operator.is_, made_of, sources)):
         array = frozen(compute(*sources))
-        kept[what] = sources, array
+        mesh._derived[what] = sources, array
     return array
 
 

@@ -65,16 +65,17 @@ class CastsShadows(Closed):
 
     def _check_shadow(self) -> None:
         """Raise unless the comparisons around a sample fit into the map."""
-        if 4 * self._shadow_margin() > self.shadow_map_size:
+        if 4 * shadow_margin(self) > self.shadow_map_size:
             raise InvalidArgumentError(
                 f"shadow_radius {self.shadow_radius:g} is too wide for a shadow_map_size of "
                 f"{self.shadow_map_size}"
             )
 
-    def _shadow_margin(self) -> int:
-        """How many texels at the sides of a map are there for comparisons alone.
 
-        Beside half of these, samples of directional lights move along their normals: R91.
-        """
-        reach = self.shadow_radius * (self.shadow_taps - 1) / 2 + 1
-        return math.ceil(2.8 * reach)
+def shadow_margin(light: CastsShadows) -> int:
+    """Return how many texels at the sides of a light's map are there for comparisons alone.
+
+    Beside half of these, samples of directional lights move along their normals: R91.
+    """
+    reach = light.shadow_radius * (light.shadow_taps - 1) / 2 + 1
+    return math.ceil(2.8 * reach)

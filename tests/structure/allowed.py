@@ -2,7 +2,7 @@
 
 LONG_SIGNATURES = (
     "apps.batch.running.run",
-    "apps.sheet.sheet.contact_sheet",
+    "apps.sheet.contact_sheet.contact_sheet",
     "compat.pyrender.material.__init__",
     "compat.pyrender.node.__init__",
     "compat.pyrender.primitive.__init__",
@@ -27,22 +27,8 @@ FULL_FOLDERS = (
     "csrc/kernels/generic",
     "csrc/reference",
     "engine/_native",
-    "engine/apps/cli",
 )
-REPEATED_NAMES = (
-    "apps: actions.py",
-    "apps: cameras.py",
-    "apps: city.py",
-    "apps: file_dialog.py",
-    "apps: folders.py",
-    "apps: layout.py",
-    "apps: panels.py",
-    "apps: pixels.py",
-    "apps: report.py",
-    "apps: sheet.py",
-    "apps: window.py",
-    "model: posing.py",
-)
+REPEATED_NAMES = ("model: posing.py",)
 PRIVATE_READS = (
     "apps.datasets.bop_models: _pose_of",
     "apps.editor.gizmo: _arrays",

@@ -20,7 +20,7 @@ from ...base.system import usable_processors
 from ...errors import DisplayError, Engine3DError
 from ...rendering.backend_selection import backends, resolve_backend, resolve_threads
 from ...version import __version__
-from ..bench.report import machine
+from ..bench.figures import machine
 from ..viewer.sdl import find_screen, load_sdl
 
 #: Older ones write beyond their buffers when they read some damaged images.

@@ -20,7 +20,7 @@ from importlib.resources import files
 
 from engine3d.apps.editor.ui import fog_fields
 from engine3d.apps.editor.ui.editor_window import SETTLING, EditorWindow
-from engine3d.apps.editor.ui.layout import layout_path, load_layout, save_layout
+from engine3d.apps.editor.ui.panel_layout import layout_path, load_layout, save_layout
 from engine3d.apps.editor.ui.properties_panel import _COLLIDERS, _KINDS
 from engine3d.apps.editor.ui.workspace import Workspace
 from engine3d.apps.editor.value_commands import SetValues

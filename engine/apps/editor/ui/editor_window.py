@@ -22,8 +22,8 @@ from .files import Files
 from .hierarchy_panel import HierarchyPanel
 from .imgui_input import ImguiInput, of_one_picture
 from .interrupts import Interrupts
-from .layout import load_layout, place_panels, save_layout
 from .menus import draw_menus, entries, press_keys
+from .panel_layout import load_layout, place_panels, save_layout
 from .properties_panel import PropertiesPanel
 from .resources_panel import ResourcesPanel
 from .scene_panel import ScenePanel

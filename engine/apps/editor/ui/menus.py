@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from imgui_bundle import imgui
 
-from . import actions
+from . import selection_actions as actions
 from .files import Files
 from .hierarchy_panel import HierarchyPanel, draw_add_menu
 from .workspace import PANELS, Workspace

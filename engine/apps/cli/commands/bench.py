@@ -7,13 +7,13 @@ import json
 import time
 from collections.abc import Iterator
 
-from ...base.files.atomic_write import atomic_write
-from ...base.files.making_folders import make_folder_of
-from ...base.system import usable_processors
-from ...rendering.backend_selection import backends, resolve_backend
-from ..bench import measuring, report
-from ..scenes import workloads
-from .outputs import STANDARD_OUTPUT, check_folder
+from ....base.files.atomic_write import atomic_write
+from ....base.files.making_folders import make_folder_of
+from ....base.system import usable_processors
+from ....rendering.backend_selection import backends, resolve_backend
+from ...bench import figures, measuring
+from ...scenes import workloads
+from ..outputs import STANDARD_OUTPUT, check_folder
 
 #: Seconds that a row takes at most: more would tell nothing new.
 LONGEST = 2.0
@@ -26,13 +26,13 @@ def bench(args: argparse.Namespace) -> int:
     cases = [(name, backend) for name in args.workloads for backend in _backends(args.backends)]
     quiet = args.json == STANDARD_OUTPUT
     if not quiet:
-        print("\n".join(report.heading(args.resolution)), end="\n\n")
-        print(report.columns(), flush=True)
+        print("\n".join(figures.heading(args.resolution)), end="\n\n")
+        print(figures.columns(), flush=True)
     rows = []
     for row in _measure(args, cases):
         rows.append(row)
         if not quiet:
-            print(report.line(row), flush=True)
+            print(figures.line(row), flush=True)
     if args.json:
         _write_json(args, rows)
     return 0
@@ -67,7 +67,7 @@ def _measure(args, cases) -> Iterator[dict]:
 
 def _write_json(args, rows) -> None:
     result = {
-        **report.machine(),
+        **figures.machine(),
         "resolution": list(args.resolution),
         "picture": "default",
         "rows": rows,

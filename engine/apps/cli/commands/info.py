@@ -10,16 +10,16 @@ import json
 import sys
 import warnings
 
-from ...base.linalg import transform_points
-from ...errors import Engine3DError, Engine3DWarning, printable
-from ...io.loaders import load_document
-from ...io.reading.documents import Document, TreeRecord
-from ...io.scenes.tree_totals import rest_bounds, triangle_count
-from ...model.geometry.mesh import Mesh
-from ...model.materials.material import Material, textures_of
-from .inputs import model_files
-from .loading_bar import LoadingBar
-from .usage import UsageError
+from ....base.linalg import transform_points
+from ....errors import Engine3DError, Engine3DWarning, printable
+from ....io.loaders import load_document
+from ....io.reading.documents import Document, TreeRecord
+from ....io.scenes.tree_totals import rest_bounds, triangle_count
+from ....model.geometry.mesh import Mesh
+from ....model.materials.material import Material, textures_of
+from ..inputs import model_files
+from ..loading_bar import LoadingBar
+from ..usage import UsageError
 
 
 def info(args: argparse.Namespace) -> int:
@@ -49,7 +49,7 @@ def info(args: argparse.Namespace) -> int:
 
 
 def _info_of_system(as_json: bool) -> int:
-    from .system_report import describe_system, system_lines
+    from ..system_report import describe_system, system_lines
 
     report = describe_system()
     print(json.dumps(report, indent=2) if as_json else "\n".join(system_lines(report)))

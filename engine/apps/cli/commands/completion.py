@@ -37,7 +37,7 @@ class Command:
 
 def completion(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
-    from .parser import make_parser
+    from ..parser import make_parser
 
     print("\n".join(SCRIPTS[args.shell](command_list(make_parser()))))
     return 0

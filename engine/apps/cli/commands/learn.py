@@ -21,12 +21,12 @@ from types import ModuleType
 
 import numpy as np
 
-from ...errors import DisplayError
-from ..viewer.lesson_window import Lesson, LessonWindow
-from ..viewer.window import Window
+from ....errors import DisplayError
+from ...viewer.lesson_window import Lesson, LessonWindow
+from ...viewer.window import Window
+from ..suggestions import meant
+from ..usage import UsageError
 from . import french_lessons
-from .suggestions import meant
-from .usage import UsageError
 
 SIZE = (1200, 720)
 

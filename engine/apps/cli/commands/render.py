@@ -6,20 +6,20 @@ import argparse
 import shlex
 import time
 
-from ...base.files.making_folders import make_folder_of
-from ...base.files.watch import CHECK_SECONDS, FileWatch
-from ...errors import printable
-from ...io.output.animation_files import ANIMATION_SUFFIXES, PICTURE_SUFFIXES, save_animation
-from ...stage import headless
-from ...stage.view_renderer import ViewRenderer
-from ...stage.viewed_scene import NotInModelError
-from .inputs import STANDARD_INPUT
-from .one_by_one import draw_each, tried
-from .options import scene_options
-from .options import shared_options as options
-from .options.input_options import jobs
-from .options.picture_options import PICTURES
-from .outputs import (
+from ....base.files.making_folders import make_folder_of
+from ....base.files.watch import CHECK_SECONDS, FileWatch
+from ....errors import printable
+from ....io.output.animation_files import ANIMATION_SUFFIXES, PICTURE_SUFFIXES, save_animation
+from ....stage import headless
+from ....stage.view_renderer import ViewRenderer
+from ....stage.viewed_scene import NotInModelError
+from ..inputs import STANDARD_INPUT
+from ..one_by_one import draw_each, tried
+from ..options import scene_options
+from ..options import shared_options as options
+from ..options.input_options import jobs
+from ..options.picture_options import PICTURES
+from ..outputs import (
     STANDARD_OUTPUT,
     TERMINAL,
     check_animation,
@@ -29,10 +29,10 @@ from .outputs import (
     with_progress,
     write_standard_output,
 )
-from .quietness import remark
-from .report import Report, warn_of_nothing
-from .said import say
-from .usage import UsageError
+from ..quietness import remark
+from ..said import say
+from ..usage import UsageError
+from ..verbose_report import Report, warn_of_nothing
 
 DEFAULT_SIZE = (1280, 720)
 
@@ -146,7 +146,7 @@ def _write_pictures(args: argparse.Namespace, view_renderer: ViewRenderer, view)
 
 def _print_picture(view_renderer: ViewRenderer, view) -> None:
     """Show a picture in the terminal, at the size that it has room for."""
-    from ..terminal.printing import print_picture
+    from ...terminal.printing import print_picture
 
     def draw(size):
         view_renderer.resize(*size)
@@ -167,8 +167,8 @@ def _compare(args: argparse.Namespace, pixels) -> int:
     """Compare with the reference if one was given; return the exit status."""
     if args.reference is None:
         return 0
-    from ...io.loaders import load_texture
-    from ..golden.comparison import compare, root_mean_square
+    from ....io.loaders import load_texture
+    from ...golden.comparison import compare, root_mean_square
 
     reference = load_texture(args.reference).pixels
     apart = root_mean_square(pixels, reference)

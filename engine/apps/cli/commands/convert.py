@@ -7,15 +7,15 @@ import io
 import os
 import shlex
 
-from ...base.files.making_folders import make_folder_of
-from ...errors import printable
-from ...io.formats.gltf.gltf_writer import save_scene_as
-from ...io.loaders import load_mesh
-from ...io.scenes.scene_loading import load_scene
-from ...io.writers import formats, save_mesh
-from .inputs import model_file
-from .loading_bar import LoadingBar
-from .outputs import (
+from ....base.files.making_folders import make_folder_of
+from ....errors import printable
+from ....io.formats.gltf.gltf_writer import save_scene_as
+from ....io.loaders import load_mesh
+from ....io.scenes.scene_loading import load_scene
+from ....io.writers import formats, save_mesh
+from ..inputs import model_file
+from ..loading_bar import LoadingBar
+from ..outputs import (
     STANDARD_OUTPUT,
     check_folder,
     check_output,
@@ -23,7 +23,7 @@ from .outputs import (
     is_same_file,
     write_standard_output,
 )
-from .usage import UsageError
+from ..usage import UsageError
 
 BINARY_FORMATS = (".ply", ".stl")
 SCENE_FORMATS = (".glb", ".gltf")

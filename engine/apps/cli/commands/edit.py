@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import argparse
 
-from ...errors import Engine3DError
+from ....errors import Engine3DError
 
 
 def edit(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
-    from ..viewer.sdl import find_screen
+    from ...viewer.sdl import find_screen
 
     find_screen()
     try:
-        from ..editor.ui.editor_window import EditorWindow
+        from ...editor.ui.editor_window import EditorWindow
     except ImportError as error:
         if (error.name or "").partition(".")[0] != "imgui_bundle":
             raise

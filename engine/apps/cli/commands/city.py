@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from ...base.files.making_folders import make_folder_of
-from ...extras.worlds import city as make_city
-from ...io.writers import formats, save_mesh
-from .outputs import check_output
+from ....base.files.making_folders import make_folder_of
+from ....extras.worlds import city as make_city
+from ....io.writers import formats, save_mesh
+from ..outputs import check_output
 
 
 def city(args: argparse.Namespace) -> int:

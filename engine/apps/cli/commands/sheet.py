@@ -5,13 +5,13 @@ from __future__ import annotations
 import argparse
 import os
 
-from ...base.files.atomic_write import atomic_write
-from ...base.files.making_folders import make_folder_of
-from ...errors import InvalidArgumentError
-from ..sheet.sheet import Sheet, contact_sheet
-from ..sheet.views import DEFAULT_VIEWS, check_views
-from .inputs import model_files
-from .outputs import (
+from ....base.files.atomic_write import atomic_write
+from ....base.files.making_folders import make_folder_of
+from ....errors import InvalidArgumentError
+from ...sheet.contact_sheet import Sheet, contact_sheet
+from ...sheet.views import DEFAULT_VIEWS, check_views
+from ..inputs import model_files
+from ..outputs import (
     STANDARD_OUTPUT,
     check_folder,
     check_output,
@@ -19,7 +19,7 @@ from .outputs import (
     is_same_file,
     write_standard_output,
 )
-from .usage import UsageError
+from ..usage import UsageError
 
 
 def sheet(args: argparse.Namespace) -> int:

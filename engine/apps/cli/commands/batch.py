@@ -6,10 +6,10 @@ import argparse
 import contextlib
 import sys
 
-from ..batch import Summary, Task, read_manifest, run
-from ..batch.drawing import Outcome
-from . import quietness
-from .said import say
+from ...batch import Summary, Task, read_manifest, run
+from ...batch.drawing import Outcome
+from .. import quietness
+from ..said import say
 
 _SHOWN = 20  # failures that are listed
 

@@ -32,7 +32,7 @@ class Command(NamedTuple):
 
 
 def _add_edit(command: argparse.ArgumentParser) -> None:
-    from . import values
+    from .. import values
 
     command.add_argument("model", metavar="FILE", nargs="?", help="the file to edit, of any format")
     command.add_argument(
@@ -44,7 +44,7 @@ def _add_edit(command: argparse.ArgumentParser) -> None:
 
 
 def _add_info(command: argparse.ArgumentParser) -> None:
-    from .options import input_options
+    from ..options import input_options
 
     command.add_argument(
         "models", metavar="MODEL", nargs="*", help="the files; - for standard input"
@@ -70,7 +70,7 @@ def _of_modules(*names: str) -> Callable[[argparse.ArgumentParser], None]:
 
     def add(command: argparse.ArgumentParser) -> None:
         for name in names:
-            importlib.import_module(f".options.{name}", __package__).add(command)
+            importlib.import_module(f"..options.{name}", __package__).add(command)
 
     return add
 

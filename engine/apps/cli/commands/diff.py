@@ -7,14 +7,14 @@ import os
 import sys
 from collections import Counter
 
-from ...base.files.making_folders import make_folder_of
-from ...errors import printable
-from ..golden import folders
-from ..golden.report import Report
-from ..golden.result_files import read_json, write_json, write_junit
-from ..golden.results import CHANGED, DELETED, FAILED, NEW, PASSED, Result
-from .outputs import STANDARD_OUTPUT, with_progress
-from .usage import UsageError
+from ....base.files.making_folders import make_folder_of
+from ....errors import printable
+from ...golden import compared_folders
+from ...golden.html_report import Report
+from ...golden.result_files import read_json, write_json, write_junit
+from ...golden.results import CHANGED, DELETED, FAILED, NEW, PASSED, Result
+from ..outputs import STANDARD_OUTPUT, with_progress
+from ..usage import UsageError
 
 _SIGNS = {PASSED: "=", CHANGED: "!", NEW: "+", DELETED: "-", FAILED: "?"}
 _ORDER = (PASSED, NEW, DELETED, CHANGED, FAILED)
@@ -44,7 +44,7 @@ def diff(args: argparse.Namespace) -> int:
 
 
 def _update(args: argparse.Namespace, results: list[Result]) -> int:
-    left = folders.update(results, *args.pictures[:2])
+    left = compared_folders.update(results, *args.pictures[:2])
     if left:
         print(f"what was expected is now what was drawn, but for {len(left)} that cannot be read")
         return 1
@@ -53,19 +53,19 @@ def _update(args: argparse.Namespace, results: list[Result]) -> int:
 
 
 def _compare(args: argparse.Namespace) -> list[Result]:
-    rules = folders.Rules(
+    rules = compared_folders.Rules(
         matching=args.matchingThreshold,
         count_antialiasing=args.enableAntialias,
         rate=args.thresholdRate,
         pixels=args.thresholdPixel,
         flip=args.flip,
     )
-    found = folders.pairs(*args.pictures)
+    found = compared_folders.pairs(*args.pictures)
     for path in filter(None, (args.report, args.json, args.junit)):
         make_folder_of(path)  # before the work: it may be impossible
     threads = args.concurrency or os.cpu_count() or 1
     are_folders = os.path.isdir(args.pictures[0])
-    compared = folders.compare_all(found, rules, threads, keep_going=are_folders)
+    compared = compared_folders.compare_all(found, rules, threads, keep_going=are_folders)
     return list(with_progress(compared, len(found), "comparing"))
 
 

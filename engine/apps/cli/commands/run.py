@@ -7,24 +7,24 @@ import math
 import os
 from pathlib import Path
 
-from ...base.files.making_folders import make_folder_of
-from ...errors import DisplayError
-from ...io.output.animation_files import numbered_path, save_animation
-from ...io.output.frame_names import literal_name
-from ...stage import headless
-from ...stage.view_renderer import ViewRenderer
-from ...stage.views.walking import GroundController, controller, walk
-from .inputs import STANDARD_INPUT
-from .one_by_one import draw_each
-from .options import scene_options
-from .options import shared_options as options
-from .options.input_options import jobs
-from .options.picture_options import WINDOW
-from .options.shared_options import Viewing
-from .outputs import check_animation, check_picture, remark_on_size, with_progress
-from .quietness import remark
-from .report import Report, warn_of_nothing
-from .usage import UsageError
+from ....base.files.making_folders import make_folder_of
+from ....errors import DisplayError
+from ....io.output.animation_files import numbered_path, save_animation
+from ....io.output.frame_names import literal_name
+from ....stage import headless
+from ....stage.view_renderer import ViewRenderer
+from ....stage.views.walking import GroundController, controller, walk
+from ..inputs import STANDARD_INPUT
+from ..one_by_one import draw_each
+from ..options import scene_options
+from ..options import shared_options as options
+from ..options.input_options import jobs
+from ..options.picture_options import WINDOW
+from ..options.shared_options import Viewing
+from ..outputs import check_animation, check_picture, remark_on_size, with_progress
+from ..quietness import remark
+from ..usage import UsageError
+from ..verbose_report import Report, warn_of_nothing
 
 WINDOW_SIZE = (1280, 720)
 #: What a turntable gets that nobody asked for: small, so that it is there soon.
@@ -84,7 +84,7 @@ def _check(args: argparse.Namespace) -> None:
 
 def _missing_screen() -> str | None:
     """Return why no window can open, as far as that shows without loading SDL, or None."""
-    from ..viewer.sdl import find_screen
+    from ...viewer.sdl import find_screen
 
     try:
         find_screen()
@@ -107,11 +107,11 @@ def _show(
     args: argparse.Namespace, found: list[argparse.Namespace], viewed, report: Report
 ) -> None:
     """Open a window and stay until it closes."""
-    from ...stage.views.walkable_ground import told
-    from ..desktop.recent_files import RecentFiles
-    from ..viewer.model_files import ModelFiles
-    from ..viewer.sampling import AT_REST, Sampling
-    from ..viewer.viewer import Viewer
+    from ....stage.views.walkable_ground import told
+    from ...desktop.recent_files import RecentFiles
+    from ...viewer.model_files import ModelFiles
+    from ...viewer.sampling import AT_REST, Sampling
+    from ...viewer.viewer import Viewer
 
     how = _viewing(args)
     with (
@@ -161,10 +161,10 @@ def _run_viewer(viewer, args: argparse.Namespace) -> None:
 def _window(args: argparse.Namespace, viewed):
     """Return a window, or the terminal in its place."""
     if args.terminal:
-        from ..terminal.window import TerminalWindow
+        from ...terminal.terminal_window import TerminalWindow
 
         return TerminalWindow()
-    from ..viewer.window import Window
+    from ...viewer.window import Window
 
     size = args.resolution or WINDOW_SIZE
     return Window(*size, f"{viewed.title} - engine3d", vsync=args.vsync)

@@ -19,15 +19,7 @@ LARGE_CLASSES = (
     "compat.pyrender.viewer.Viewer",
     "model.geometry.mesh.Mesh",
 )
-FULL_FOLDERS = (
-    "csrc/check/driver",
-    "csrc/data",
-    "csrc/include",
-    "csrc/io/loaders",
-    "csrc/kernels/generic",
-    "csrc/reference",
-    "engine/_native",
-)
+FULL_FOLDERS = ("csrc/include",)
 REPEATED_NAMES = ("model: posing.py",)
 PRIVATE_READS = (
     "apps.datasets.bop_models: _pose_of",
@@ -56,7 +48,6 @@ PRIVATE_READS = (
     "apps.editor.ui.scene_panel: _arrays",
     "apps.editor.ui.scene_panel: _slot",
     "apps.editor.ui.workspace: _arrays",
-    "apps.golden.png_files: _mode",
     "apps.sheet.hidden: _update",
     "apps.sheet.visible: _drawn",
     "extras.lod.instances: _replace_by_rows",

@@ -13,7 +13,6 @@ from ..errors import Engine3DWarning, InvalidArgumentError, printable
 from ..io.loaders import load_document, load_texture
 from ..io.reading.documents import Document
 from ..io.scenes.scene_loading import scene_from_document
-from ..model.geometry.creases import CREASE_ANGLE
 from ..model.materials.material import Material, says_something, textures_of
 from ..model.scene.scene import Scene
 from .overlays.theme import DARK
@@ -79,13 +78,9 @@ def read_model(
     *,
     texture=None,
     color=None,
-    progress=None,
-    companion=None,
     variant=None,
-    crease_angle=CREASE_ANGLE,
-    format=None,
     scalars=None,
-    root=None,
+    **options,
 ) -> tuple[ViewedScene, Document]:
     """Load a file to look at, which may be coloured by other numbers later.
 
@@ -97,17 +92,13 @@ def read_model(
         The base colour texture of the meshes without materials.
     color : (3,) sequence, optional
         The base colour of the meshes without materials. If there are none, that is warned of.
-    progress : callable, optional
-        As in `engine3d.load_mesh`.
-    companion : callable, optional
-        As in `engine3d.loaders.load_document`; with a texture or a colour, no image is taken.
-
-    crease_angle, format, root
-        As in `engine3d.load_mesh`.
-    scalars : ScalarColoring, optional
-        Colours the meshes by a number of their vertices or faces, whatever the file says.
     variant : str or int, optional
         As in `engine3d.load_scene`.
+    scalars : ScalarColoring, optional
+        Colours the meshes by a number of their vertices or faces, whatever the file says.
+    **options
+        Others of `engine3d.loaders.load_document`; with a texture or a colour, no image of its
+        ``companion`` is taken.
 
     Returns
     -------
@@ -123,16 +114,8 @@ def read_model(
     image = None if texture is None else load_texture(texture)
     is_dressed = image is not None or color is not None
     if is_dressed:
-        companion = _no_image
-    document = load_document(
-        path,
-        format=format,
-        progress=progress,
-        companion=companion,
-        crease_angle=crease_angle,
-        scalars=None if scalars is None else scalars.kind,
-        root=root,
-    )
+        options["companion"] = _no_image
+    document = load_document(path, scalars=None if scalars is None else scalars.kind, **options)
     path = None if hasattr(path, "read") else os.fsdecode(path)
     if is_dressed:
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)

@@ -56,12 +56,14 @@ class ViewRenderer:
         What the user asked for.
     size : (int, int)
         Width and height in pixels.
-    backend, threads, samples, antialias
-        As in `Renderer`.
+    samples : int
+        As in `Renderer`; may change.
     transparent : bool
         Whether pixels that show no surface get alpha 0.
     report : callable, optional
         Called with each frame.
+    **options
+        Others of `Renderer`.
 
     Attributes
     ----------
@@ -89,16 +91,14 @@ class ViewRenderer:
         settings: Settings,
         size: tuple[int, int],
         *,
-        backend: str = "auto",
-        threads: int = 0,
         samples: int = 1,
-        antialias: str = "ssaa",
         transparent: bool = False,
         report=None,
+        **options,
     ):
         self._transparent = transparent
         self._report = report
-        self._options = {"backend": backend, "threads": threads, "antialias": antialias}
+        self._options = options
         self.samples = samples
         self.size = size
         self.stats: dict = {}
@@ -292,7 +292,7 @@ class ViewRenderer:
         """What a frame looks at."""
         look = self._appearance()
         look = {name: look[name] for name in ("cull", "point_size", "size_unit") if name in look}
-        drawing = {name: self._options[name] for name in ("backend", "threads")}
+        drawing = {name: self._options[name] for name in self._options if name != "antialias"}
         return Sight(self.viewed.scene, camera, pose, self.size, look, drawing)
 
     def why_blank(self) -> Reason | None:

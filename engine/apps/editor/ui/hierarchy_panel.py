@@ -38,7 +38,7 @@ class HierarchyPanel:
         """Let the user type a new name."""
         self._renamed, self._name, self._focuses = node, node.name, True
         self._workspace.hold_keys()
-        self._workspace.closed.discard("Hierarchy")
+        self._workspace.panels.closed.discard("Hierarchy")
         self._workspace.hierarchy.reveal(node)
 
     def draw(self) -> None:

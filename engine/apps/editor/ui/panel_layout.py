@@ -48,8 +48,8 @@ def load_layout(workspace: Workspace) -> bool:
 def save_layout(workspace: Workspace) -> None:
     """Keep the layout; if that fails, it is the usual one next time."""
     path = layout_path()
-    lines = [_HEAD, f"closed={','.join(sorted(workspace.closed))}"]
-    lines += [f"{tool}={step!r}" for tool, step in workspace.steps.items()]
+    lines = [_HEAD, f"closed={','.join(sorted(workspace.panels.closed))}"]
+    lines += [f"{tool}={step!r}" for tool, step in workspace.tools.steps.items()]
     text = "\n".join(lines) + "\n\n" + imgui.save_ini_settings_to_memory()
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -67,12 +67,12 @@ def _read_settings(workspace: Workspace, text: str) -> None:
     if not parser.has_section("settings"):
         return
     settings = parser["settings"]
-    workspace.closed = set(settings.get("closed", "").split(",")) & set(PANELS)
-    for tool in workspace.steps:
+    workspace.panels.closed = set(settings.get("closed", "").split(",")) & set(PANELS)
+    for tool in workspace.tools.steps:
         with contextlib.suppress(ValueError):
             step = settings.getfloat(tool, 0.0)
             if 0.0 < step < math.inf:
-                workspace.steps[tool] = step
+                workspace.tools.steps[tool] = step
 
 
 def place_panels(space: int, size: tuple[int, int]) -> None:
@@ -104,5 +104,5 @@ def begin_panel(workspace: Workspace, name: str) -> bool:
     """Begin a panel, which the user may close; return whether what it holds is to be laid out."""
     shown, is_open = imgui.begin(name, True)
     if not is_open:
-        workspace.closed.add(name)
+        workspace.panels.closed.add(name)
     return shown

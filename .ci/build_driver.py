@@ -50,7 +50,7 @@ def compile_all(compiler, rules, fuzz, folder, more=(), told=lambda made, total:
 
     more: flags for all of them. told: what goes through that which is made, to say how far it is.
     """
-    driver = [str(path) for path in Path("csrc/check/driver").glob("*.c")]
+    driver = [str(path) for path in Path("csrc/check/driver").rglob("*.c")]
     if fuzz:
         driver.remove("csrc/check/driver/driver.c")
         driver += [str(path) for path in Path("csrc/check/fuzz").glob("*.c")]

@@ -17,7 +17,7 @@ import llvmpipe
 import numpy as np
 
 import engine3d as e3d
-from engine3d.apps.bench import measuring, report
+from engine3d.apps.bench import figures, measuring
 from engine3d.apps.scenes import WORKLOAD_NAMES, workloads
 from engine3d.model.materials.colors import linear_color
 
@@ -145,7 +145,7 @@ def main():
         raise SystemExit(str(error)) from None
     rows = []
     if not arguments.json:
-        print("\n".join(report.heading(arguments.resolution, "plain")), end="\n\n")
+        print("\n".join(figures.heading(arguments.resolution, "plain")), end="\n\n")
         print(columns())
     for row in measure(arguments):
         rows.append(row)
@@ -153,7 +153,7 @@ def main():
             print(line(row), flush=True)
     if arguments.json:
         settings = {"resolution": arguments.resolution, "picture": "plain"}
-        json.dump({**report.machine(), **settings, "rows": rows}, sys.stdout)
+        json.dump({**figures.machine(), **settings, "rows": rows}, sys.stdout)
         print()
 
 

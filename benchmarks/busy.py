@@ -14,7 +14,7 @@ import statistics
 import subprocess
 import sys
 
-from engine3d.apps.bench import measuring, report
+from engine3d.apps.bench import figures, measuring
 from engine3d.apps.scenes import WORKLOAD_NAMES, workloads
 
 SIZE = (1280, 720)
@@ -86,7 +86,7 @@ def main():
             if not arguments.json:
                 print(line(rows[-1]), flush=True)
     if arguments.json:
-        json.dump({**report.machine(), "busy": arguments.busy, "rows": rows}, sys.stdout)
+        json.dump({**figures.machine(), "busy": arguments.busy, "rows": rows}, sys.stdout)
         print()
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from ratios import RATIOS, measure, peer_is_there, possible
 
 import engine3d as e3d
-from engine3d.apps.bench import report
+from engine3d.apps.bench import figures
 from engine3d.base.files.atomic_write import atomic_write
 
 BASELINE = Path(__file__).with_name("baseline.json")
@@ -77,7 +77,7 @@ def updated(baseline, measured):
     ratios = {**baseline.get("ratios", {}), **{k: entry(v) for k, v in measured.items()}}
     known = [ratio.name for ratio in RATIOS]
     kept = {name: ratios[name] for name in known if name in ratios}
-    return {"measured on": report.machine(), "ratios": kept}
+    return {"measured on": figures.machine(), "ratios": kept}
 
 
 def run(ratios, stored, seconds, show, measure=measure):
@@ -120,7 +120,9 @@ def main():
 
     if not arguments.json:
         about = baseline.get("measured on", {})
-        print(f"stored: {about.get('processor', 'nothing')}; here: {report.machine()['processor']}")
+        print(
+            f"stored: {about.get('processor', 'nothing')}; here: {figures.machine()['processor']}"
+        )
         print(f"{'times as fast':<46} {'stored':>8} {'margin':>6} {'now':>8} {'change':>7}")
     rows = run(
         chosen, stored, arguments.seconds or (QUICK_SECONDS if arguments.quick else SECONDS), show
@@ -132,7 +134,7 @@ def main():
             file.write(text.encode() + b"\n")
     lost = [row["name"] for row in rows if row["verdict"] == LOST]
     if arguments.json:
-        print(json.dumps({**report.machine(), "rows": rows, "slower": lost}))
+        print(json.dumps({**figures.machine(), "rows": rows, "slower": lost}))
     elif lost:
         print(f"{len(lost)} slower than stored", file=sys.stderr)
     raise SystemExit(1 if lost else 0)

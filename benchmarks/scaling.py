@@ -16,7 +16,7 @@ import time
 
 import line_chart
 
-from engine3d.apps.bench import measuring, report
+from engine3d.apps.bench import figures, measuring
 from engine3d.apps.scenes import workloads
 
 SIZE = (1280, 720)
@@ -133,7 +133,7 @@ def main():
     if arguments.plot:
         plot(arguments.plot, rows)
     if arguments.json:
-        json.dump({**report.machine(), "rows": rows}, sys.stdout)
+        json.dump({**figures.machine(), "rows": rows}, sys.stdout)
         print()
 
 

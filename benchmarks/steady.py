@@ -18,7 +18,7 @@ import sys
 import time
 from pathlib import Path
 
-from engine3d.apps.bench import measuring, report
+from engine3d.apps.bench import figures, measuring
 from engine3d.apps.scenes import workloads
 
 SIZE = (1280, 720)
@@ -104,7 +104,7 @@ def main():
         if not arguments.json:
             print(line(rows[-1]), flush=True)
     if arguments.json:
-        json.dump({**report.machine(), "rows": rows}, sys.stdout)
+        json.dump({**figures.machine(), "rows": rows}, sys.stdout)
         print()
 
 

@@ -115,7 +115,7 @@ def static_libraries():
     sources = {
         "e3d_core": [
             "csrc/base/*.c",
-            "csrc/data/*.c",
+            "csrc/data/**/*.c",
             "csrc/frame/*/*.c",
             "csrc/kernels/dispatch.c",
             "csrc/post/ui/*.c",
@@ -123,14 +123,14 @@ def static_libraries():
             "csrc/post/*.c",
         ],
         "e3d_portable": ["csrc/kernels/isa_portable.c"],
-        "e3d_reference": ["csrc/reference/*.c"],
+        "e3d_reference": ["csrc/reference/**/*.c"],
         "e3d_canvas": ["csrc/extras/canvas/*.c"],
         "e3d_environment": ["csrc/light/*.c"],
         "e3d_images": ["csrc/io/images/*.c"],
         "e3d_navigation": ["csrc/scene/navigation/*.c"],
         "e3d_pyrender": ["csrc/extras/pyrender/*.c"],
         "e3d_scene": ["csrc/scene/*.c"],
-        "e3d_loaders": ["csrc/io/loaders/*.c"],
+        "e3d_loaders": ["csrc/io/loaders/**/*.c"],
         "e3d_writers": ["csrc/io/writers/*.c"],
     }
     kernel_flags = {"e3d_portable": []}

@@ -11,8 +11,8 @@ from . import linalg as linalg
 from . import loaders as loaders
 from . import notebook as notebook
 from . import primitives as primitives
-from .apps.sheet.sheet import Sheet as Sheet
-from .apps.sheet.sheet import contact_sheet as contact_sheet
+from .apps.sheet.contact_sheet import Sheet as Sheet
+from .apps.sheet.contact_sheet import contact_sheet as contact_sheet
 from .apps.viewer.show import show as show
 from .apps.viewer.window import Window as Window
 from .base.linalg import look_at as look_at

@@ -1,6 +1,6 @@
 """Names the tests of source files: the few to run after a change, in less than a minute.
 
-    python tests/for.py csrc/kernels/generic/light.inl          prints a command of pytest
+    python tests/for.py csrc/kernels/generic/shade/light.inl    prints a command of pytest
     eval "$(python tests/for.py engine/model/scene/nodes.py)"         runs it
 
 In: paths of engine/ and csrc/; of tests, which are their own. Out: the tests that have the file's

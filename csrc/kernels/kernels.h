@@ -8,7 +8,7 @@
 
 #include "base/limits.h"
 #include "base/machine.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "data/sample_patterns.h"
 #include "e3d.h"
 #include "e3d_canvas.h"

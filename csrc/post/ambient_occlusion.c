@@ -18,7 +18,7 @@
 #include "e3d_frame.h"
 #include "kernels/kernels.h"
 #include "kernels/types/ambient_occlusion.h"
-#include "reference/ambient_occlusion.h"
+#include "reference/post/ambient_occlusion.h"
 
 enum { BAND = 64, /* rows that a thread takes at a time */
        SPAN = E3D_OCCLUSION_SPAN };

@@ -8,7 +8,7 @@
 #include <math.h>
 
 #include "base/fpenv.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "e3d_scene.h"
 #include "e3d_windows.h"
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/fpenv.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "e3d_scene.h"
 #include "scene/pose.h"
 

@@ -18,7 +18,9 @@ from ..base.calls import checks_types, shows_annotations
 from ..base.files.stamps import FileState
 from ..base.numbers import shown
 from ..errors import Engine3DError, Engine3DWarning, InvalidArgumentError
+from ..model.geometry.derived import arrays_of
 from ..model.geometry.mesh import Mesh
+from ..model.geometry.twins import take_over
 from ..model.materials.material import (
     TEXTURE_SLOTS,
     Material,
@@ -26,7 +28,7 @@ from ..model.materials.material import (
     put_texture,
     textures_of,
 )
-from ..model.materials.textures import Texture
+from ..model.materials.textures import Texture, image_file_of, remember_image_file
 from ..model.scene.usage import uses_in
 from .loaders import load_mesh, load_texture
 from .reading.linked_files import found_files
@@ -151,7 +153,7 @@ class Resources:
                 continue
             with self._lock:
                 self._forget_content(thing)
-                _become(thing, fresh)
+                become(thing, fresh)
                 loaded.states, loaded.versions = states, versions_of(thing)
             done.append(path)
         return tuple(done)
@@ -298,7 +300,7 @@ def size_of(thing: Mesh | Texture) -> int:
     """Return the bytes of a thing's arrays, as Python holds them."""
     if isinstance(thing, Texture):
         return thing.pixels.nbytes
-    return sum(array.nbytes for array in thing._arrays.values() if array is not None)
+    return sum(array.nbytes for array in arrays_of(thing).values() if array is not None)
 
 
 def _content(thing: Any) -> tuple[Any, ...]:
@@ -309,7 +311,7 @@ def _content(thing: Any) -> tuple[Any, ...]:
         kind = thing.color_space, thing.filter, thing.wrap, thing.anisotropy, thing.lod_bias
         return ("texture", digest.digest(), thing.pixels.shape, *kind)
     shapes = []
-    for name, array in sorted(thing._arrays.items()):
+    for name, array in sorted(arrays_of(thing).items()):
         shapes.append((name, None if array is None else (array.shape, array.dtype.str)))
         if array is not None:
             digest.update(array)
@@ -329,10 +331,10 @@ def _material_content(material: Material) -> tuple[Any, ...]:
     return (*map(repr, look), textures)
 
 
-def _become(thing: Any, fresh: Any) -> None:
+def become(thing: Mesh | Texture, fresh: Any) -> None:
     """Put the content of one object into another of its kind."""
     if isinstance(thing, Texture):
         thing.pixels = fresh.pixels
-        thing._path, thing._is_missing = fresh._path, fresh._is_missing
+        remember_image_file(thing, image_file_of(fresh))
     else:
-        thing._become(fresh)
+        take_over(thing, fresh)

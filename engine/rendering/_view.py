@@ -18,7 +18,7 @@ from ..base.linalg.vectors import as_vectors
 from ..base.numbers import shown
 from ..base.validation import matrix4
 from ..errors import InvalidArgumentError
-from ..model.scene.cameras import Camera
+from ..model.scene.cameras import Camera, far_depth
 from ..model.scene.nodes import Node
 from ..model.scene.staged_scene import AnyScene
 
@@ -73,7 +73,7 @@ class View:
         else:
             world_from_view = linalg.inverse(self.view_from_world)[:3, :3]
             right, up, _, far = view_from_clip[:3].T
-            middle = view_from_clip[:3, 2] * self.camera._far_depth + far  # on the far plane
+            middle = view_from_clip[:3, 2] * far_depth(self.camera) + far  # on the far plane
             corner, across, down = middle - right + up, right * 2.0, up * -2.0
             _, _, width, height = self._lens
             scaled = np.stack([corner, across / width, down / height])

@@ -15,6 +15,7 @@ import numpy as np
 from ..base import linalg
 from ..base.numbers import shown
 from ..errors import InvalidArgumentError
+from ..model.scene.cameras import far_depth
 from ..model.scene.instances import InstancedMesh, instance_matrices
 from ..model.scene.nodes import Node
 from ..model.scene.shown import placing_pose, shown_object
@@ -66,7 +67,7 @@ def _pixel_ray(frame: Any, x: int, y: int) -> Any:
     world_from_clip = linalg.inverse(view.clip_from_world)
     across = 2.0 * (x + 0.5) / frame.width - 1.0
     upward = 1.0 - 2.0 * (y + 0.5) / frame.height
-    end = view.camera._far_depth
+    end = far_depth(view.camera)
     depths = -1.0, (end - 1.0) * 0.5, end
     near, within, far = (_unproject(world_from_clip, across, upward, z) for z in depths)
     direction = linalg.normalize(within - near)

@@ -15,10 +15,8 @@ from ..choices import ColorLike
 from ..errors import Engine3DWarning, InvalidArgumentError, printable
 from ..io.loaders import load_document, load_texture
 from ..io.reading.documents import Document
-from ..io.reading.loading import Progress
 from ..io.reading.sources import File
 from ..io.scenes.scene_loading import scene_from_document
-from ..model.geometry.creases import CREASE_ANGLE
 from ..model.geometry.mesh import Mesh
 from ..model.materials.material import Material, says_something, textures_of
 from ..model.materials.textures import Texture
@@ -88,13 +86,9 @@ def read_model(
     *,
     texture: File | None = None,
     color: ColorLike | None = None,
-    progress: Progress | None = None,
-    companion: Callable[[str], bool] | None = None,
     variant: str | int | None = None,
-    crease_angle: float = CREASE_ANGLE,
-    format: str | None = None,
     scalars: ScalarColoring | None = None,
-    root: str | os.PathLike[str] | None = None,
+    **options: Any,
 ) -> tuple[ViewedScene, Document]:
     """Load a file to look at, which may be coloured by other numbers later.
 
@@ -106,17 +100,13 @@ def read_model(
         The base colour texture of the meshes without materials.
     color : (3,) sequence, optional
         The base colour of the meshes without materials. If there are none, that is warned of.
-    progress : callable, optional
-        As in `engine3d.load_mesh`.
-    companion : callable, optional
-        As in `engine3d.loaders.load_document`; with a texture or a colour, no image is taken.
-
-    crease_angle, format, root
-        As in `engine3d.load_mesh`.
-    scalars : ScalarColoring, optional
-        Colours the meshes by a number of their vertices or faces, whatever the file says.
     variant : str or int, optional
         As in `engine3d.load_scene`.
+    scalars : ScalarColoring, optional
+        Colours the meshes by a number of their vertices or faces, whatever the file says.
+    **options
+        Others of `engine3d.loaders.load_document`; with a texture or a colour, no image of its
+        ``companion`` is taken.
 
     Returns
     -------
@@ -132,16 +122,8 @@ def read_model(
     image = None if texture is None else load_texture(texture)
     is_dressed = image is not None or color is not None
     if is_dressed:
-        companion = _no_image
-    document = load_document(
-        path,
-        format=format,
-        progress=progress,
-        companion=companion,
-        crease_angle=crease_angle,
-        scalars=None if scalars is None else scalars.kind,
-        root=root,
-    )
+        options["companion"] = _no_image
+    document = load_document(path, scalars=None if scalars is None else scalars.kind, **options)
     is_named = not hasattr(path, "read")
     name = os.fsdecode(cast("str | os.PathLike[str]", path)) if is_named else None
     if is_dressed:

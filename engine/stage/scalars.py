@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..base.linalg import inverse, normalize, transform_directions, transform_points
 from ..errors import InvalidArgumentError
 from ..io.reading.documents import Document, DocumentObject
-from ..model.geometry.mesh import Mesh
+from ..model.geometry.mesh import Mesh, scalars_of
 from ..model.materials.material import Material
 from ..model.materials.textures import Texture
 from .overlays.colormaps import MISSING
@@ -174,8 +174,8 @@ def _show_colors(mesh: Mesh, array: NDArray[Any]) -> None:
 def _array(entry: DocumentObject, name: str) -> NDArray[Any]:
     """The numbers of an object's vertices, (V, N); NaN where it has none of that name."""
     mesh, pose = entry.mesh, entry.pose
-    if name in mesh._scalars:
-        return mesh._scalars[name].reshape(len(mesh.positions), -1)
+    if name in scalars_of(mesh):
+        return scalars_of(mesh)[name].reshape(len(mesh.positions), -1)
     if name == _NORMALS:
         normals = mesh.normals.astype(np.float64)
         if pose is None:

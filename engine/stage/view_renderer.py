@@ -7,7 +7,7 @@ drawn on it.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any, TypedDict
+from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 
@@ -43,6 +43,9 @@ from .views.free_region import NOTHING, Taken
 from .views.viewpoint import DEFAULT_YFOV, UP_DIRECTIONS, Sphere, Viewpoint, with_clip_planes
 from .visibility import Visibility
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
 #: What the look "studio" draws with unless the scene or the user says otherwise.
 STUDIO = {"tone_mapping": "neutral", "ambient_occlusion": True}
 #: How far ambient occlusion reaches, in radii of what is shown.
@@ -51,7 +54,7 @@ _OCCLUSION_REACH = 0.2
 _LABEL_ROOM = 1.12
 
 
-class _Options(TypedDict):
+class _Options(TypedDict, total=False):
     """What all renderers of a view are made with."""
 
     backend: Backend
@@ -70,12 +73,14 @@ class ViewRenderer:
         What the user asked for.
     size : (int, int)
         Width and height in pixels.
-    backend, threads, samples, antialias
-        As in `Renderer`.
+    samples : int
+        As in `Renderer`; may change.
     transparent : bool
         Whether pixels that show no surface get alpha 0.
     report : callable, optional
         Called with each frame.
+    **options
+        Others of `Renderer`.
 
     Attributes
     ----------
@@ -103,20 +108,14 @@ class ViewRenderer:
         settings: Settings,
         size: tuple[int, int],
         *,
-        backend: Backend = "auto",
-        threads: int = 0,
         samples: Samples = 1,
-        antialias: Antialias = "ssaa",
         transparent: bool = False,
         report: Callable[[Frame], object] | None = None,
+        **options: Unpack[_Options],
     ) -> None:
         self._transparent = transparent
         self._report = report
-        self._options: _Options = {
-            "backend": backend,
-            "threads": threads,
-            "antialias": antialias,
-        }
+        self._options: _Options = options
         self.samples = samples
         self.size = size
         self.stats: dict[str, Any] = {}
@@ -203,7 +202,8 @@ class ViewRenderer:
         width, height = self.size
         scale = max(width, height) / 240
         size = max(1, round(width / scale)), max(1, round(height / scale))
-        options: _Options = {**self._options, "antialias": "ssaa"}
+        options = self._options.copy()
+        options["antialias"] = "ssaa"
         with Renderer(*size, **options) as renderer:
             try:
                 look = self._appearance()

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from engine3d.apps.bench import measuring, report
+from engine3d.apps.bench import figures, measuring
 from engine3d.apps.cli import main
 from engine3d.apps.scenes import WORKLOAD_NAMES, workloads
 
@@ -94,8 +94,8 @@ def test_layers_hide_each_other_in_both_orders():
 
 
 def test_table():
-    assert len(report.line(row())) == len(report.columns())
-    assert report.line(row()).split() == [
+    assert len(figures.line(row())) == len(figures.columns())
+    assert figures.line(row()).split() == [
         "mesh",
         "avx2",
         "1",

@@ -109,9 +109,9 @@ def test_wrong_usage_is_status_2_and_writes_nothing(tmp_path, capsys, arguments)
             ["run", "--scene", "cube", "--headless", "-o", "no/a.gif"],
             "options.scene_options.viewed_scene",
         ),
-        (["convert", "square.obj", "no/a.ply"], "convert.load_mesh"),
-        (["city", "no/a.obj"], "city.make_city"),
-        (["bench", "--json", "no/a.json"], "bench.workloads.make"),
+        (["convert", "square.obj", "no/a.ply"], "commands.convert.load_mesh"),
+        (["city", "no/a.obj"], "commands.city.make_city"),
+        (["bench", "--json", "no/a.json"], "commands.bench.workloads.make"),
     ],
 )
 def test_a_folder_that_cannot_be_made_is_found_before_any_work(

@@ -6,7 +6,7 @@ import subprocess
 import pytest
 
 from engine3d.apps.cli import main
-from engine3d.apps.cli.completion import command_list
+from engine3d.apps.cli.commands.completion import command_list
 from engine3d.apps.cli.parser import make_parser
 
 

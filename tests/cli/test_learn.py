@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from engine3d.apps.cli import french_lessons, learn, main
+from engine3d.apps.cli import main
+from engine3d.apps.cli.commands import french_lessons, learn
 from engine3d.apps.viewer.lesson_window import LessonWindow
 
 pytestmark = pytest.mark.usefixtures("no_screen")

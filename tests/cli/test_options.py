@@ -16,7 +16,6 @@ from engine3d.apps.cli.usage import UsageError
 from engine3d.apps.scenes import DEMO_NAMES, SCENES, function_of
 from engine3d.extras.worlds.city import LEAST, MOST
 from engine3d.stage.appearance import CHOICES, MODES
-from engine3d.stage.views.viewpoint import UP_DIRECTIONS
 
 
 def parse(*arguments):
@@ -143,7 +142,6 @@ def test_values_may_start_with_a_minus_sign():
 
 def test_choices_are_those_of_the_display_package():
     assert appearance_options.MODES == MODES
-    assert tuple(UP_DIRECTIONS) == values.UPS
     parser = argparse.ArgumentParser()
     appearance_options.add_appearance(parser)
     choices = {action.dest: action.choices for action in parser._actions}

@@ -6,7 +6,8 @@ import time
 import pytest
 from cli.conftest import OBJ, SMALL, pixels
 
-from engine3d.apps.cli import main, render
+from engine3d.apps.cli import main
+from engine3d.apps.cli.commands import render
 from engine3d.apps.cli.output_templates import fill
 from engine3d.apps.cli.parser import make_parser
 from engine3d.apps.cli.usage import UsageError

@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.apps.datasets.cameras import intrinsics_of
+from engine3d.apps.datasets.opencv_cameras import intrinsics_of
 from engine3d.datasets import (
     BopWriter,
     CocoWriter,

@@ -39,7 +39,7 @@ from engine3d.apps.editor.autosave import Autosave, left_behind
 from engine3d.apps.editor.document import SceneDocument
 from engine3d.apps.editor.recovery import content_of
 from engine3d.apps.golden import golden_files, png_files
-from engine3d.apps.golden.report import Report
+from engine3d.apps.golden.html_report import Report
 from engine3d.apps.golden.result_files import read_json, write_json
 from engine3d.apps.golden.results import Result
 from engine3d.base.files.json_records import sealed

@@ -148,10 +148,11 @@ def test_folders_are_synced(tmp_path, monkeypatch):
 
 #: Modules whose files somebody else names, one by one: what they give is followed where it leads.
 NAMED_BY_OTHERS = {
-    "apps/cli/bench.py", "apps/cli/sheet.py", "compat/pyrender/viewer.py",
-    "apps/desktop/recent_files.py", "apps/editor/ui/layout.py", "io/output/animation_files.py",
-    "io/output/video_files.py", "apps/golden/report.py", "apps/golden/result_files.py",
-    "rendering/frame.py", "apps/sheet/sheet.py", "io/formats/gltf/gltf_writer.py",
+    "apps/cli/commands/bench.py", "apps/cli/commands/sheet.py", "compat/pyrender/viewer.py",
+    "apps/desktop/recent_files.py", "apps/editor/ui/panel_layout.py",
+    "io/output/animation_files.py",
+    "io/output/video_files.py", "apps/golden/html_report.py", "apps/golden/result_files.py",
+    "rendering/frame.py", "apps/sheet/contact_sheet.py", "io/formats/gltf/gltf_writer.py",
     "io/formats/obj/obj_writer.py", "io/formats/ply/ply_writer.py", "io/writing/scene_saving.py",
     "io/formats/stl_writer.py",
 }  # fmt: skip

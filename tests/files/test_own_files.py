@@ -22,8 +22,8 @@ ENGINE = Path(e3d.__file__).parent
 WRITERS = {
     "apps/batch/bytes_of.py": "what scripts want beside their pictures",
     "apps/batch/task.py": "for a hash",
-    "apps/cli/bench.py": "for people and programs",
-    "apps/cli/info.py": "for people and programs",
+    "apps/cli/commands/bench.py": "for people and programs",
+    "apps/cli/commands/info.py": "for people and programs",
     "apps/datasets/bop_models.py": "bop-shapes",
     "apps/datasets/folders.py": "the data set itself",
     "apps/datasets/writer.py": "the data set itself",

@@ -10,9 +10,9 @@ from PIL import Image
 
 import engine3d as e3d
 from engine3d.apps.golden import png_files
+from engine3d.apps.golden.given_pixels import as_pixels
 from engine3d.apps.golden.golden_files import encode_golden, exact_pixels, read_golden, write_golden
 from engine3d.apps.golden.pixel_hash import describe, pixel_hash
-from engine3d.apps.golden.pixels import as_pixels
 from engine3d.apps.golden.reading import read_picture
 from engine3d.base.files.png import encode_pixels
 

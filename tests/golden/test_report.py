@@ -11,8 +11,8 @@ from golden.samples import changed, colors, write_png
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.apps.golden.folders import Rules, compare_files, pairs
-from engine3d.apps.golden.report import Report
+from engine3d.apps.golden.compared_folders import Rules, compare_files, pairs
+from engine3d.apps.golden.html_report import Report
 from engine3d.apps.golden.result_files import read_json, write_json, write_junit
 from engine3d.apps.golden.results import CHANGED, NEW, PASSED, UNUSED, Result
 

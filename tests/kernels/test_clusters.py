@@ -1,4 +1,4 @@
-"""Clusters (csrc/data/clusters.c) against what they promise of any mesh; boxes of points."""
+"""Clusters (csrc/data/mesh/clusters.c) against what they promise of any mesh; boxes of points."""
 
 import numpy as np
 import pytest

@@ -13,7 +13,7 @@ import pytest
 from PIL import Image
 
 import engine3d as e3d
-from engine3d.apps.cli.info import describe
+from engine3d.apps.cli.commands.info import describe
 from engine3d.errors import Engine3DWarning, FileFormatError
 from engine3d.io.formats.gltf import gltf_buffers
 from engine3d.io.loaders import load_document, load_mesh

@@ -11,7 +11,7 @@ import pytest
 from shared_corpus import SHARED
 
 import engine3d as e3d
-from engine3d.apps.cli.info import describe
+from engine3d.apps.cli.commands.info import describe
 from engine3d.errors import Engine3DError
 from engine3d.loaders import load_document, load_mesh
 

@@ -14,7 +14,7 @@ from loaders.seeds import FILES
 from loaders.test_gltf import add_attribute, add_buffer, as_glb, png, triangle_tree
 
 import engine3d as e3d
-from engine3d.apps.cli.info import describe
+from engine3d.apps.cli.commands.info import describe
 from engine3d.errors import Engine3DWarning, FileFormatError
 from engine3d.io.formats.gltf import gltf_basisu
 from engine3d.io.loaders import load_document, load_mesh

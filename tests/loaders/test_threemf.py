@@ -10,7 +10,7 @@ import pytest
 from loaders.seeds import THREEMF, THREEMF_MODEL, THREEMF_RELATIONS, threemf_package
 
 import engine3d as e3d
-from engine3d.apps.cli.info import describe
+from engine3d.apps.cli.commands.info import describe
 from engine3d.errors import FileFormatError
 from engine3d.io.formats.threemf import threemf
 from engine3d.io.formats.threemf.threemf_blocks import cut_lists

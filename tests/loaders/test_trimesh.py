@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import engine3d as e3d
-from engine3d.apps.cli.info import describe
+from engine3d.apps.cli.commands.info import describe
 from engine3d.errors import FileFormatError, InvalidArgumentError
 from engine3d.io.formats.trimesh_formats import read_here
 from engine3d.io.reading.sources import read_source

@@ -43,5 +43,5 @@ def test_a_command_is_printed(capsys):
 def test_busy_tests_come_first_within_the_time():
     tests = [(0.5, "far/test_a", 30.0), (0.4, "near/test_b", 20.0), (0.1, "near/test_c", 5.0)]
     assert RECORD["chosen"](tests) == ["far/test_a", "near/test_c"]
-    assert RECORD["is_near"]("kernels/test_light", "csrc/kernels/generic/light.inl")
-    assert not RECORD["is_near"]("viewer/test_panels", "csrc/kernels/generic/light.inl")
+    assert RECORD["is_near"]("kernels/test_light", "csrc/kernels/generic/shade/light.inl")
+    assert not RECORD["is_near"]("viewer/test_panels", "csrc/kernels/generic/shade/light.inl")

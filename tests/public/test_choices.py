@@ -17,7 +17,7 @@ from engine3d.model.geometry.vertex_attributes import vertex_attributes
 from engine3d.model.materials import colors, textures
 from engine3d.model.materials.material import TEXTURE_SLOTS
 from engine3d.model.motion import clips, player
-from engine3d.model.scene import _shadow_casting, lights
+from engine3d.model.scene import lights, shadow_casting
 from engine3d.rendering import frame
 from engine3d.rendering import options as render_options
 from engine3d.rendering.renderer import _SAMPLES
@@ -46,8 +46,8 @@ ACCEPTED = {
     "Falloff": native.FALLOFFS,
     "AlphaMode": native.ALPHA_MODES,
     "LightUnit": lights.UNITS,
-    "LightShadow": _shadow_casting.SHADOWS,
-    "ShadowTaps": _shadow_casting.TAPS,
+    "LightShadow": shadow_casting.SHADOWS,
+    "ShadowTaps": shadow_casting.TAPS,
     "MotionPath": clips.PATHS,
     "Interpolation": clips.INTERPOLATIONS,
     "Loop": player.LOOPS,

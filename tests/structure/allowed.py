@@ -1,8 +1,12 @@
-"""What breaks a rule of test_shape.py today. These lists only shrink."""
+"""What breaks a rule of test_shape.py today. These lists only shrink.
 
+Where a breach is to stay, a comment says why.
+"""
+
+# Keywords are what users write. Those of compat.pyrender are pyrender's own.
 LONG_SIGNATURES = (
     "apps.batch.running.run",
-    "apps.sheet.sheet.contact_sheet",
+    "apps.sheet.contact_sheet.contact_sheet",
     "compat.pyrender.material.__init__",
     "compat.pyrender.node.__init__",
     "compat.pyrender.primitive.__init__",
@@ -10,72 +14,35 @@ LONG_SIGNATURES = (
     "model.navigation.grid.__init__",
     "model.scene.lights.__init__",
     "model.scene.scene.add",
-    "stage.open_model.read_model",
-    "stage.view_renderer.__init__",
 )
+# The attributes are those that users know; in compat.pyrender, pyrender's own.
 LARGE_CLASSES = (
-    "apps.editor.ui.workspace.Workspace",
     "compat.pyrender.viewer.Viewer",
     "model.geometry.mesh.Mesh",
 )
-FULL_FOLDERS = (
-    "csrc/check/driver",
-    "csrc/data",
-    "csrc/include",
-    "csrc/io/loaders",
-    "csrc/kernels/generic",
-    "csrc/reference",
-    "engine/_native",
-    "engine/apps/cli",
-)
-REPEATED_NAMES = (
-    "apps: actions.py",
-    "apps: cameras.py",
-    "apps: city.py",
-    "apps: file_dialog.py",
-    "apps: folders.py",
-    "apps: layout.py",
-    "apps: panels.py",
-    "apps: pixels.py",
-    "apps: report.py",
-    "apps: sheet.py",
-    "apps: window.py",
-)
-PRIVATE_READS = (
-    "apps.editor.contents: _own_containers",
-    "apps.editor.reloading: _become",
-    "apps.editor.reloading: _origin",
-    "apps.editor.ui.overlays: _far_depth",
-    "apps.golden.png_files: _mode",
-    "io.formats.asc_meshes: _take_groups",
-    "io.formats.gltf.gltf_materials: _is_implied",
-    "io.formats.gltf.gltf_meshes: _tangent_uv_set",
-    "io.formats.gltf.gltf_meshes: _twin",
-    "io.formats.gltf.written_materials: _is_implied",
-    "io.formats.gltf.written_materials: _is_missing",
-    "io.formats.gltf.written_materials: _path",
-    "io.formats.obj.obj_parts: _take_groups",
-    "io.formats.scene_looks: _is_missing",
-    "io.formats.scene_meshes: _arrays",
-    "io.formats.scene_parts: _origin",
-    "io.formats.stl: _take_groups",
-    "io.reading.documents: _scalars",
-    "io.reading.indexed_mesh: _scalars",
-    "io.resources: _arrays",
-    "io.resources: _is_missing",
-    "io.resources: _path",
-    "io.writing.scene_saving: _full_rate_distance",
-    "io.writing.scene_saving: _is_missing",
-    "io.writing.scene_saving: _path",
-    "model.motion.posed_mesh: _arrays",
-    "model.motion.posed_mesh: _derive",
-    "model.spatial._shapes: _arrays",
-    "rendering._view: _far_depth",
-    "rendering.draw_list.closed_meshes: _arrays",
-    "rendering.draw_list.native_handles: _arrays",
-    "rendering.draw_list.native_handles: _derive",
-    "rendering.passes.shadow_views: _shadow_margin",
-    "rendering.picking: _far_depth",
-    "stage.overlays.debug_lines: _far_depth",
-    "stage.scalars: _scalars",
-)
+# The core's public headers: Cython reads them as one list.
+FULL_FOLDERS = ("csrc/include",)
+REPEATED_NAMES = ()
+PRIVATE_READS = ()
+REPEATED_LISTS = {
+    "a row for each of a list that stands in a layer that knows nothing of the rows": (
+        "apps.editor.console, apps.editor.ui.console_panel: action to warning",
+        "apps.editor.ui.editor_window, apps.editor.ui.panel_layout, apps.editor.ui.workspace: "
+        "Console to Scene",
+        "apps.viewer.actions, choices: all to tree",
+        "apps.viewer.window, choices: arrow to working",
+        "choices, rendering.frame: jpeg to webp",
+    ),
+    "what is written, and the shape that is demanded of what is read": (
+        "apps.batch.records: files to said",
+        "apps.datasets.bop: bbox_obj to visib_fract",
+        "apps.datasets.bop: cam_K to depth_scale",
+        "apps.datasets.folders: camera to things",
+        "apps.golden.golden_files: dtype to shape",
+        "io.formats.gltf.gltf_textures, io.formats.gltf.written_materials: magFilter to wrapT",
+    ),
+    "the same record of two kinds of things, each value found in another way": (
+        "apps.cli.commands.info: animations to variants",
+        "io.formats.stl, io.reading.posed_parts: faces to vertices",
+    ),
+}

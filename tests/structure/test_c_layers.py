@@ -90,7 +90,8 @@ CODE = {name: without_comments(text) for name, text in SOURCES.items()}
 def folder_of(name):
     """The folder of a file, as far as what may include what depends on it."""
     folders = PurePosixPath(name).parts[:-1]
-    return "/".join(folders[:1] if folders[0] in ("kernels", "include") else folders[:2])
+    whole = ("data", "include", "kernels", "reference")
+    return "/".join(folders[:1] if folders[0] in whole else folders[:2])
 
 
 def included_by(name):

@@ -1,9 +1,11 @@
-"""Lists of choices stand once, as types in engine/choices.py."""
+"""Lists of names stand once; those of choices, as types in engine/choices.py."""
 
 import ast
+from collections import defaultdict
 from typing import Literal, get_args, get_origin
 
-from structure.python_sources import MODULES, ROOT
+from structure.allowed import REPEATED_LISTS
+from structure.python_sources import MODULES, ROOT, tree_of
 
 from engine3d import choices
 
@@ -31,3 +33,36 @@ def test_choices_are_listed_once():
         if values in known
     }
     assert found == COPIED_CHOICES
+
+
+FEWEST_NAMES = 4
+
+
+def list_of_names(node):
+    """The names that a literal is a list of, or has a row for each of; None of any other node."""
+    match node:
+        case ast.Tuple(elts=found) | ast.List(elts=found) | ast.Set(elts=found):
+            pass
+        case ast.Dict(keys=found):
+            pass
+        case _:
+            return None
+    names = {getattr(element, "value", None) for element in found}
+    is_list = len(names) >= FEWEST_NAMES and all(isinstance(name, str) for name in names)
+    return tuple(sorted(names)) if is_list else None
+
+
+def repeated_lists():
+    """The lists of names that stand twice: where, and their first and last."""
+    places = defaultdict(list)
+    for module in MODULES:
+        for node in ast.walk(tree_of(module)):
+            if (names := list_of_names(node)) is not None:
+                places[names].append(module)
+    for names, found in places.items():
+        if len(found) > 1:
+            yield f"{', '.join(sorted(set(found)))}: {names[0]} to {names[-1]}"
+
+
+def test_lists_of_names_stand_once():
+    assert sorted(repeated_lists()) == sorted(sum(REPEATED_LISTS.values(), ()))

@@ -54,14 +54,17 @@ def large_classes():
                 yield f"{name}.{node.name}"
 
 
+def is_by_hand(path):
+    """Whether a path is a file that no build wrote."""
+    is_made = path.suffix in (".c", ".pyi") and path.with_suffix(".pyx").exists()
+    return path.is_file() and path.suffix not in (".so", ".pyc") and not is_made
+
+
 def full_folders():
     for top in ("engine", "csrc"):
         for folder in (ROOT / top).rglob("*"):
             if folder.is_dir() and folder.name not in ("__pycache__", "seeds"):
-                names = [
-                    p for p in folder.iterdir() if p.is_file() and p.suffix not in (".so", ".pyc")
-                ]
-                if len(names) > MOST_FILES:
+                if sum(map(is_by_hand, folder.iterdir())) > MOST_FILES:
                     yield folder.relative_to(ROOT).as_posix()
 
 
@@ -77,7 +80,8 @@ def package_of(name):
 
 
 def is_private(name):
-    return name.startswith("_") and not name.startswith("__") and name != "_replace"  # of tuples
+    is_foreign = name in ("_mode", "_replace")  # of Pillow's images, and of tuples
+    return name.startswith("_") and not name.startswith("__") and not is_foreign
 
 
 def private_names():

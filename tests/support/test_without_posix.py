@@ -20,7 +20,7 @@ KNOWN = {
     "apps/editor/ui/interrupts.py": {"setitimer", "ITIMER_REAL", "SIGALRM"},  # has_alarm()
     "base/files/atomic_write.py": {"set_blocking"},  # where AT_ONCE is a flag
     "apps/terminal/device.py": {"O_NOCTTY"},  # once termios is imported
-    "apps/terminal/window.py": {"SIGWINCH"},  # once a Device is open
+    "apps/terminal/terminal_window.py": {"SIGWINCH"},  # once a Device is open
 }
 
 # What Windows lacks is taken away once the standard library is loaded, then all of the package

@@ -24,7 +24,7 @@ from terminal import hostile_answers
 
 from engine3d.apps.terminal.device import LARGEST_CELL, MOST_CELLS, Answers, Device
 from engine3d.apps.terminal.keys import Decoder
-from engine3d.apps.terminal.window import TerminalWindow, picture_size
+from engine3d.apps.terminal.terminal_window import TerminalWindow, picture_size
 
 COMMAND = (
     "import sys; from importlib.resources import files;"

@@ -7,7 +7,7 @@ from viewer.scripted_window import ScriptedWindow
 
 import engine3d as e3d
 from engine3d import events
-from engine3d.apps.viewer.panels import Row, _fitted
+from engine3d.apps.viewer.list_panels import Row, _fitted
 from engine3d.apps.viewer.recording import FRAMES
 from engine3d.apps.viewer.viewer import Viewer
 from engine3d.stage.overlays.theme import DARK, LIGHT

@@ -10,17 +10,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "check/driver/bloom_scene.h"
-#include "check/driver/canvas_scene.h"
+#include "check/driver/scenes/bloom_scene.h"
+#include "check/driver/scenes/canvas_scene.h"
 #include "check/driver/compare.h"
-#include "check/driver/graph_scene.h"
-#include "check/driver/occlusion_scene.h"
+#include "check/driver/scenes/graph_scene.h"
+#include "check/driver/scenes/occlusion_scene.h"
 #include "check/driver/outputs.h"
 #include "check/driver/passes.h"
 #include "check/driver/poison.h"
-#include "check/driver/pyrender_scene.h"
+#include "check/driver/scenes/pyrender_scene.h"
 #include "check/driver/renderers.h"
-#include "check/driver/ui_scene.h"
+#include "check/driver/scenes/ui_scene.h"
 
 typedef struct options {
     long scenes, first;

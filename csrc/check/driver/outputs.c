@@ -11,7 +11,7 @@
 #include "check/driver/picture.h"
 #include "check/driver/renderers.h"
 #include "check/driver/scenes.h"
-#include "check/driver/shadow_scene.h"
+#include "check/driver/scenes/shadow_scene.h"
 
 enum { ALL = (1 << E3D_OUTPUTS) - 1,
        MOST_SIDE = 66, /* more than a tile */

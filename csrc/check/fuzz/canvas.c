@@ -1,5 +1,5 @@
 /* Fuzzes 2-D drawing: both algorithms give the same pixels, and touch nothing beside them. */
-#include "check/driver/canvas_scene.h"
+#include "check/driver/scenes/canvas_scene.h"
 #include "check/fuzz/input.h"
 
 /* Small pictures of few shapes: more of them. */

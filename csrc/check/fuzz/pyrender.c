@@ -1,5 +1,5 @@
 /* Fuzzes pictures in pyrender's manner: the same bytes for any number of threads, and nothing beside them is touched. */
-#include "check/driver/pyrender_scene.h"
+#include "check/driver/scenes/pyrender_scene.h"
 #include "check/fuzz/input.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)

@@ -1,5 +1,5 @@
 /* Fuzzes the triangles of user interfaces: every backend gives the same pixels, and touches nothing beside them. */
-#include "check/driver/ui_scene.h"
+#include "check/driver/scenes/ui_scene.h"
 #include "check/fuzz/input.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)

@@ -2,7 +2,7 @@
 #include "frame/cast/faces.h"
 
 #include "base/grow.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "base/pool.h"
 #include "e3d.h"
 #include "frame/pass/matrices.h"

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/limits.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "e3d.h"
 #include "kernels/types/casters.h"
 #include "kernels/types/shading.h"

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/grow.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "base/pool.h"
 #include "e3d.h"
 #include "kernels/coverage.h"

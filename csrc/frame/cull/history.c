@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/grow.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "e3d.h"
 #include "frame/cull/history.h"
 #include "frame/pass/draws.h"

@@ -3,7 +3,7 @@
 #define E3D_HISTORY_H
 
 #include "base/grow.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "e3d.h"
 #include "frame/pass/draws.h"
 

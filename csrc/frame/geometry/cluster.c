@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/limits.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "e3d.h"
 #include "kernels/coverage.h"
 #include "kernels/kernels.h"

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "frame/geometry/records.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/prepared.h"

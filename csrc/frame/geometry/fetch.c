@@ -3,7 +3,7 @@
 
 #include "base/always_inline.h"
 #include "base/limits.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "e3d.h"
 #include "frame/cull/cull.h"
 #include "frame/geometry/fetch.h"

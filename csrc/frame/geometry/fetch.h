@@ -2,7 +2,7 @@
 #ifndef E3D_GEOMETRY_FETCH_H
 #define E3D_GEOMETRY_FETCH_H
 
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "e3d.h"
 #include "frame/cull/cull.h"
 #include "frame/geometry/round.h"

@@ -5,7 +5,7 @@
  */
 #include <stdatomic.h>
 
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "base/pool.h"
 #include "frame/cull/cull.h"
 #include "frame/cull/history.h"

@@ -3,7 +3,7 @@
  * Clusters that may reach into a window are open there: their backs aren't culled (R9).
  */
 #include "base/limits.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "e3d.h"
 #include "kernels/coverage.h"
 #include "kernels/kernels.h"

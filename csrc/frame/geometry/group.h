@@ -2,7 +2,7 @@
 #ifndef E3D_GEOMETRY_GROUP_H
 #define E3D_GEOMETRY_GROUP_H
 
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "frame/cull/cull.h"
 #include "frame/geometry/fetch.h"
 #include "frame/geometry/round.h"

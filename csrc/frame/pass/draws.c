@@ -1,7 +1,7 @@
 /* prepare: a frame's draws, instances and units of work, which are counted draw after draw, and their places in the order (R16). */
 #include "base/always_inline.h"
 #include "base/grow.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "e3d.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/transmits.h"

@@ -3,7 +3,7 @@
 #define E3D_DRAWS_H
 
 #include "base/grow.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "e3d.h"
 
 /* One instance, but for what depends on the eye (e3d_view_instance). */

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/limits.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "data/shadows.h"
 #include "e3d.h"
 #include "kernels/types/shading.h"

@@ -5,7 +5,7 @@
 
 #include "base/grow.h"
 #include "base/limits.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "base/pool.h"
 #include "data/shadows.h"
 #include "data/sample_patterns.h"

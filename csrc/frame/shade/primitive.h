@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "base/always_inline.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "kernels/types/visible.h"
 #include "frame/pass/draws.h"
 

@@ -14,7 +14,7 @@
 #include <stddef.h>
 
 #include "base/limits.h"
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "kernels/kernels.h"
 #include "kernels/types/vertices.h"
 #include "kernels/generic/setup.inl"

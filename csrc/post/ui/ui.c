@@ -11,7 +11,7 @@
 
 #include "base/fpenv.h"
 #include "kernels/kernels.h"
-#include "reference/ui.h"
+#include "reference/post/ui.h"
 #include "post/ui/covers.h"
 #include "post/ui/setup.h"
 #include "post/ui/spans.h"

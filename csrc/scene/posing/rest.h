@@ -2,7 +2,7 @@
 #ifndef E3D_REST_H
 #define E3D_REST_H
 
-#include "data/mesh.h"
+#include "data/mesh/mesh.h"
 #include "e3d_posing.h"
 
 /* A joint that moves a vertex. */

@@ -109,7 +109,7 @@ def _missing_command():
 
 
 def _load(command: str):
-    return getattr(importlib.import_module(f".{command}", __package__), command)
+    return getattr(importlib.import_module(f".commands.{command}", __package__), command)
 
 
 class _ListReaders(argparse.Action):

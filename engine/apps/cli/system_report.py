@@ -20,7 +20,7 @@ from ...base.system import usable_processors
 from ...errors import DisplayError, Engine3DError
 from ...rendering.backend_selection import backends, resolve_backend, resolve_threads
 from ...version import __version__
-from ..bench.report import machine
+from ..bench.figures import machine
 from ..viewer.sdl import find_screen, load_sdl
 
 #: Older ones write beyond their buffers when they read some damaged images.
@@ -186,11 +186,10 @@ def system_lines(report: dict) -> list[str]:
     """Return the report as lines of text."""
     build, system, processor = report["build"], report["system"], report["processor"]
     drawn, window, texts = report["backends"], report["window"], report["locale"]
-    names = [system[key] for key in ("name", "release", "machine", "distribution", "libc")]
     extras = [f"{extra} ({_listed(found)})" for extra, found in report["extras"].items()]
     rows = [
         ("engine3d", f"{report['engine3d']}, {build['kind']} build, compiler {build['compiler']}"),
-        ("system", ", ".join(filter(None, names))),
+        ("system", ", ".join(filter(None, system.values()))),
         ("python", report["python"]),
         ("processor", f"{processor['name']}, {processor['usable']} of {processor['processors']}"),
         ("features", " ".join(processor["features"]) or "unknown"),

@@ -11,7 +11,6 @@ import math
 import re
 from collections.abc import Callable, Sequence
 
-UPS = ("+X", "-X", "+Y", "-Y", "+Z", "-Z")
 MAX_SIDE = 16384
 MAX_THREADS = 256
 MAX_WIDTH = 256  # of lines and points
@@ -178,10 +177,12 @@ def crease_angle(text: str) -> float:
 
 def up_direction(text: str) -> str:
     """Parse ``+Y``, ``-z``, ``X`` and the like."""
+    from ...stage.views.viewpoint import UP_DIRECTIONS
+
     name = text.upper()
     name = name if name[:1] in ("+", "-") else "+" + name
-    if name not in UPS:
-        raise argparse.ArgumentTypeError(f"{text!r} is not one of {', '.join(UPS)}")
+    if name not in UP_DIRECTIONS:
+        raise argparse.ArgumentTypeError(f"{text!r} is not one of {', '.join(UP_DIRECTIONS)}")
     return name
 
 

@@ -29,7 +29,7 @@ from ...base.numbers import shown
 from ...base.validation import positive
 from ...errors import InvalidArgumentError
 from .bop_models import has_shapes, shape_name, shape_of, write_models
-from .cameras import cv_from_camera, intrinsics_of, rigid_parts
+from .opencv_cameras import cv_from_camera, intrinsics_of, rigid_parts
 from .samples import Sample, Thing, box_of
 from .silhouettes import Silhouette, silhouette_of
 from .writer import (

@@ -11,7 +11,7 @@ from typing import Any
 from ...base.dirty_tracking import renew
 from ...base.held_values import kept, same
 from ...base.validation import Closed
-from ...model.geometry.mesh import Mesh
+from ...model.geometry.mesh import Mesh, own_containers
 
 _DERIVED = {"version", "_derived", "_box_of", "_tree_of"}
 
@@ -27,6 +27,6 @@ def put_contents(thing: Closed, held: dict[str, Any]) -> None:
         return
     thing.__dict__.update({key: kept(value) for key, value in held.items()})
     if isinstance(thing, Mesh):
-        thing._own_containers()
+        own_containers(thing)
     vars(thing).get("_derived", {}).clear()
     renew(thing)

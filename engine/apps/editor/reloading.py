@@ -10,9 +10,10 @@ import os
 
 from ...errors import FileFormatError, InvalidArgumentError
 from ...io.loaders import load_document, load_mesh, load_texture
+from ...io.resources import become
 from ...model.geometry.mesh import Mesh
-from ...model.geometry.origins import FileOrigin
-from ...model.materials.textures import Texture
+from ...model.geometry.origins import FileOrigin, noted_origin
+from ...model.materials.textures import Texture, image_file_of
 from .contents import contents, put_contents
 from .history import Command
 
@@ -47,11 +48,7 @@ class Reload(Command):
             return
         fresh = self._loaded()
         self._old = contents(self._thing)
-        if isinstance(self._thing, Texture):
-            self._thing.pixels = fresh.pixels
-            self._thing._path = fresh._path
-        else:
-            self._thing._become(fresh)
+        become(self._thing, fresh)
         self._new = contents(self._thing)
 
     def undo(self) -> None:
@@ -60,7 +57,7 @@ class Reload(Command):
     def _loaded(self) -> Mesh | Texture:
         if isinstance(self._thing, Texture):
             return load_texture(self._path)
-        came = self._thing._origin
+        came = noted_origin(self._thing)
         is_of_file = came is not None and isinstance(came.origin, FileOrigin)
         origin = came.origin if is_of_file else FileOrigin(self._path, None, None)
         part = origin.part
@@ -68,7 +65,7 @@ class Reload(Command):
         if part is None:
             return load_mesh(self._path, **how)
         for _, mesh, _ in load_document(self._path, **how).objects:
-            if mesh._origin is not None and mesh._origin.origin.part == part:
+            if (came := noted_origin(mesh)) is not None and came.origin.part == part:
                 return mesh
         raise FileFormatError(f"it has no part {part[0]!r} number {part[1]}", self._path)
 
@@ -76,6 +73,6 @@ class Reload(Command):
 def path_of(thing: Mesh | Texture) -> str | None:
     """Return the file that a mesh or a texture is of."""
     if isinstance(thing, Texture):
-        return thing._path
-    came = thing._origin
+        return image_file_of(thing).path
+    came = noted_origin(thing)
     return came.origin.path if came is not None and isinstance(came.origin, FileOrigin) else None

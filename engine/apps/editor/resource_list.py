@@ -14,7 +14,7 @@ from ...io.resources import size_of
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.origins import FileOrigin, origin_of
 from ...model.materials.material import Material, textures_of
-from ...model.materials.textures import Texture
+from ...model.materials.textures import Texture, image_file_of
 from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from ...model.scene.usage import users_of, uses_in
@@ -125,7 +125,7 @@ def _entry(thing: Thing, users: int) -> Entry:
     if isinstance(thing, Material):
         return Entry(name, "material", thing, 0, None, users)
     if isinstance(thing, Texture):
-        return Entry(name, "texture", thing, size_of(thing), thing._path, users)
+        return Entry(name, "texture", thing, size_of(thing), image_file_of(thing).path, users)
     came = origin_of(thing)
     is_of_file = came is not None and isinstance(came.origin, FileOrigin)
     return Entry(

@@ -19,9 +19,9 @@ from . import names
 from .comparison import Difference, compare
 from .display import displayed
 from .failure_files import write_failure
+from .given_pixels import as_pixels
 from .golden_files import read_golden, write_golden
 from .pixel_hash import describe, pixel_hash
-from .pixels import as_pixels
 from .results import CHANGED, NEW, PASSED, TWO_PICTURES, UPDATED, Result
 
 

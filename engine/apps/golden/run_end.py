@@ -142,7 +142,7 @@ def _write_files(results: list[Result], run: Run, config: pytest.Config) -> None
     for path in filter(None, (html, json)):
         make_folder_of(path)
     if html:
-        from .report import Report
+        from .html_report import Report
 
         Report("Golden pictures", "golden", "drawn now").write(html, results)
         run.lines.append(f"report: {html}")

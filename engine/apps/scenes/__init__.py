@@ -49,7 +49,7 @@ SCENES = {
     ),
     "textured": Named("a textured model of 6,000 triangles", "models.textured", "textured"),
     "asc": Named("a train of several objects", "models.asc"),
-    "city": Named("a city by day or at dusk", "city.city", options=("triangles", "dusk")),
+    "city": Named("a city by day or at dusk", "city_scene.city", options=("triangles", "dusk")),
     "solar": Named("Sun, Earth and Moon", "solar.solar"),
     "mesh": Named("one mesh of 70,200 triangles", measured="mesh"),
     "grid": Named("144 instances of it: 10 million triangles", measured="grid"),

@@ -7,6 +7,8 @@ sight. Where there are few lamps, the cars carry more lights.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ...base import linalg
@@ -16,19 +18,25 @@ from ...extras.worlds.plan import PITCH
 from ...model.scene.lights import PointLight
 from ...model.scene.scene import Scene
 
+
+def _shining(color: tuple[float, float, float], intensity: float, reach: float) -> dict[str, Any]:
+    """The keyword arguments of a `PointLight` whose light ends at some distance."""
+    return {"color": color, "intensity": intensity, "range": reach, "falloff": "window"}
+
+
 #: Lights that there are at least: one for each of so many cars, the others for lamps.
 LIGHTS = 256
 CARS_AT_LEAST = 40
 #: Lamps that shine at a time, at most.
 MOST_LAMPS = 472
-LAMP = {"color": (1.0, 0.74, 0.42), "intensity": 1.5, "range": 17.0, "falloff": "window"}
+LAMP = _shining((1.0, 0.74, 0.42), 1.5, 17.0)
 #: How far lamps shine round one who walks, and how much farther for each metre above the ground.
 REACH, REACH_OF_HEIGHT = 205.0, 4.0
 #: The share of that way on which lamps grow dim.
 FADE = 0.25
-_HEADLIGHT = {"color": (0.95, 0.95, 1.0), "intensity": 1.2, "range": 14.0, "falloff": "window"}
-_TAIL_LIGHT = {"color": (1.0, 0.08, 0.05), "intensity": 0.5, "range": 5.0, "falloff": "window"}
-_TAXI_SIGN = {"color": (1.0, 0.82, 0.35), "intensity": 0.4, "range": 5.0, "falloff": "window"}
+_HEADLIGHT = _shining((0.95, 0.95, 1.0), 1.2, 14.0)
+_TAIL_LIGHT = _shining((1.0, 0.08, 0.05), 0.5, 5.0)
+_TAXI_SIGN = _shining((1.0, 0.82, 0.35), 0.4, 5.0)
 #: A car's lights, in the order in which they are added, and where they are on it.
 _CAR_LIGHTS = (
     (_HEADLIGHT, (0.0, 1.0, 3.4)),

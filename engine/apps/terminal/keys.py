@@ -2,8 +2,8 @@
 
 In: bytes, which whoever is at the other end of the line chooses: sequences that are unknown, or
 longer than any that is known, are passed over. Out: values of `engine3d.events`. Terminals say when
-a key goes down, not when it comes up: who needs that waits a moment (window.py). The codes are
-xterm's, of its "Control Sequences".
+a key goes down, not when it comes up: who needs that waits a moment (terminal_window.py). The codes
+are xterm's, of its "Control Sequences".
 """
 
 from __future__ import annotations

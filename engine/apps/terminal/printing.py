@@ -10,7 +10,7 @@ from collections.abc import Callable
 import numpy as np
 
 from .device import Device
-from .window import encoded, picture_size
+from .terminal_window import encoded, picture_size
 
 #: Lines that stay free: the prompt, and one above.
 SPARED = 2

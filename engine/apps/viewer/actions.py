@@ -16,7 +16,7 @@ from ...stage.overlays.theme import THEMES
 from ...stage.played_clips import play_clips
 from ...stage.views.viewpoint import QUARTER_TURN, UP_DIRECTIONS
 from .file_dialog import FolderPanel, RecentPanel
-from .panels import MaterialPanel, ObjectPanel
+from .list_panels import MaterialPanel, ObjectPanel
 from .recording import record
 from .sampling import AT_REST, MOTION_FPS
 

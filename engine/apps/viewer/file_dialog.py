@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 from ...base.files.folder_listing import Item, list_folder
 from ...errors import printable
 from ..desktop.recent_files import RecentFiles
+from .list_panels import Panel, Row
 from .model_files import MODEL_EXTENSIONS
-from .panels import Panel, Row
 
 if TYPE_CHECKING:
     from .opened_files import Opening

@@ -7,6 +7,7 @@ import re
 import numpy as np
 
 from ..._native import loaders as native
+from ...model.geometry.groups import put_groups
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.topology import polygon_ids
 from ...model.materials.material import Material
@@ -108,7 +109,7 @@ def _mesh(
     )
     chosen = [materials[k] if k >= 0 else Material() for k in found[order].tolist()]
     mesh = build_mesh(geometry, chosen, record.name)
-    mesh._take_groups({record.name: np.arange(len(corners), dtype=np.int32)})
+    put_groups(mesh, {record.name: np.arange(len(corners), dtype=np.int32)})
     return mesh
 
 

@@ -22,7 +22,13 @@ from ...model.environments.environment import (
 )
 from ...model.materials.colors import certainly_linear
 from ...model.materials.material import TEXTURE_SLOTS, Material
-from ...model.materials.textures import PlacedTexture, Texture
+from ...model.materials.textures import (
+    ImageFile,
+    PlacedTexture,
+    Texture,
+    image_file_of,
+    remember_image_file,
+)
 from ..reading.json_values import JsonValue
 from ..reading.linked_files import LinkedFileError, LinkedFiles
 from ..reading.loading import texture_of
@@ -108,7 +114,7 @@ class SceneLooks:
             self._images[name] = self._image(name, file)
         image = self._images[name]
         texture = Texture(image.pixels, **options)
-        texture._path, texture._is_missing = image._path, image._is_missing
+        remember_image_file(texture, image_file_of(image))
         return texture
 
     def _image(self, name: str, file: JsonValue) -> Texture:
@@ -119,7 +125,7 @@ class SceneLooks:
         except (LinkedFileError, FileFormatError, OSError) as error:
             self._warnings.add(f"{file.where}: texture {shown(name)} is left out: {error}")
         image = Texture(np.full((1, 1, 3), 255, np.uint8))
-        image._path, image._is_missing = place_of(self._source, name), True
+        remember_image_file(image, ImageFile(place_of(self._source, name), is_missing=True))
         return image
 
     def _material(self, entry: JsonValue) -> Material:

@@ -11,9 +11,11 @@ from typing import Any
 from ...errors import FileFormatError, InvalidArgumentError
 from ...model import primitives
 from ...model.geometry.creases import CREASE_ANGLE, SMOOTH, check_crease_angle
+from ...model.geometry.derived import arrays_of
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.origins import FileOrigin, remember_origin
-from ...model.materials.material import Material
+from ...model.geometry.twins import twin_of
+from ...model.materials.material import Material, copy_of
 from ..reading.json_values import JsonValue
 from ..reading.linked_files import LinkedFileError, LinkedFiles
 from ..reading.posed_parts import MAX_REPEATED
@@ -23,7 +25,7 @@ from ..reading.warning_list import WarningList
 from .scene_looks import SceneLooks, place_of
 from .scene_parts import PartsOfFiles, name_in_file
 
-_ARRAYS = {name.removeprefix("_given_") for name in Mesh([])._arrays}
+_ARRAYS = {name.removeprefix("_given_") for name in arrays_of(Mesh([]))}
 
 
 class SceneMeshes:
@@ -93,7 +95,7 @@ class SceneMeshes:
         key = name.value, repr(arguments)
         if key in self._primitives:  # made once: scenes hold thousands that are alike
             made, materials = self._primitives[key]
-            return made._twin([one._twin() for one in materials], name_in_file(made))
+            return twin_of(made, [copy_of(one) for one in materials], name_in_file(made))
         try:
             mesh = getattr(primitives, name.value)(**arguments)
         except (InvalidArgumentError, TypeError) as error:

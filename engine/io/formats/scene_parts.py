@@ -10,7 +10,9 @@ from typing import TypeAlias
 
 from ...errors import FileFormatError
 from ...model.geometry.mesh import Mesh
-from ...model.materials.material import Material
+from ...model.geometry.origins import noted_origin
+from ...model.geometry.twins import twin_of
+from ...model.materials.material import Material, copy_of
 from ..reading.linked_files import LinkedFileError, LinkedFiles
 from ..reading.loading import document_of, parts_of, whole_mesh
 from ..reading.reader_registry import find_reader
@@ -56,14 +58,14 @@ class PartsOfFiles:
     def _twin(self, mesh: Mesh, times: int) -> Mesh:
         """A mesh that is used once more: parts of a file share materials only if all are new."""
         materials = [self._material_copy(m, times) for m in self._materials_of[mesh]]
-        return mesh._twin(materials, name_in_file(mesh))
+        return twin_of(mesh, materials, name_in_file(mesh))
 
     def _material_copy(self, material: Material, times: int) -> Material:
         key = id(material), times
         if key not in self._copies:
             if len(self._copies) >= _MAX_COPIES:
                 raise FileFormatError(f"more than {_MAX_COPIES} materials of repeated files")
-            self._copies[key] = material._twin()
+            self._copies[key] = copy_of(material)
         return self._copies[key]
 
     def _read(
@@ -86,4 +88,5 @@ class PartsOfFiles:
 
 def name_in_file(mesh: Mesh) -> str:
     """Return the name that a mesh came with, whatever it is called by now."""
-    return mesh.name if mesh._origin is None else mesh._origin.name
+    came = noted_origin(mesh)
+    return mesh.name if came is None else came.name

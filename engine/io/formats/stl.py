@@ -14,6 +14,7 @@ import numpy as np
 
 from ..._native import loaders as native
 from ...errors import FileFormatError
+from ...model.geometry.groups import put_groups
 from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from ..reading.documents import Document, DocumentObject
@@ -91,7 +92,7 @@ def read_stl(source: Source, split: bool = False) -> Document:
         name=source.stem,
     )
     groups = [] if facets.polygons is None else _groups(facets.solids, facets.polygons)
-    whole._take_groups({name: indices for name, indices in groups if name})
+    put_groups(whole, {name: indices for name, indices in groups if name})
     objects = [DocumentObject(source.stem, whole, facets.pose)]
     if split and 1 < len(groups) <= _MAX_OBJECTS:
         named = [(name or source.stem, indices) for name, indices in groups]

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from ...model.environments.environment import Environment
-from ...model.geometry.mesh import Mesh
+from ...model.geometry.mesh import Mesh, scalars_of
 from ...model.materials.material import Material
 from .json_values import JsonValue
 
@@ -448,4 +448,4 @@ class Document:
         files, attributes of glTF files whose names begin with ``_``. Of faces, each vertex has the
         numbers of the faces around it.
         """
-        return [entry.mesh._scalars for entry in self.objects]
+        return [scalars_of(entry.mesh) for entry in self.objects]

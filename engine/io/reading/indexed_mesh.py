@@ -13,7 +13,7 @@ import numpy as np
 
 from ..._native import loaders as native
 from ...model.geometry.creases import CREASE_ANGLE, SMOOTH
-from ...model.geometry.mesh import Mesh
+from ...model.geometry.mesh import Mesh, scalars_of
 from ...model.geometry.vertex_attributes import vertex_attributes
 from .smoothing import join_seams
 from .welding import number_rows
@@ -83,7 +83,7 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
             name=name,
             **_chosen(geometry, None),
         )
-        cloud._scalars = geometry.scalars
+        scalars_of(cloud).update(geometry.scalars)
         return cloud
     of_corner, kinds = _corner_attributes(geometry), _face_kinds(geometry)
     splitting = [*of_corner.values(), *([] if kinds is None else [np.repeat(kinds, 3, axis=0)])]
@@ -103,10 +103,11 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
         name=name,
         **attributes,
     )
-    mesh._scalars = {name: _rows(row, vertices) for name, row in geometry.scalars.items()}
+    scalars = scalars_of(mesh)
+    scalars.update((name, _rows(row, vertices)) for name, row in geometry.scalars.items())
     for name, row in geometry.face_scalars.items():
         filler = np.full((added, *row.shape[1:]), np.nan)
-        mesh._scalars[name] = np.concatenate([row[first_corner // 3], *([filler] * bool(added))])
+        scalars[name] = np.concatenate([row[first_corner // 3], *([filler] * bool(added))])
     if not mesh.has_normals and geometry.position_ids is None:
         join_seams(mesh)
     return mesh

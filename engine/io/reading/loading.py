@@ -16,7 +16,7 @@ from ...errors import Engine3DWarning, FileFormatError, InvalidArgumentError
 from ...model.geometry.creases import CREASE_ANGLE, check_crease_angle
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.origins import FileOrigin, remember_origin
-from ...model.materials.textures import Texture
+from ...model.materials.textures import ImageFile, Texture, remember_image_file
 from ..formats.images import images_of_one_model
 from .documents import Document
 from .extents import extent_warnings
@@ -221,7 +221,7 @@ def texture_of(
     options.setdefault("name", os.path.basename(source.path) if source.has_name else "")
     texture = Texture(pixels, **options)
     if source.has_name:
-        texture._path = os.path.abspath(source.path)
+        remember_image_file(texture, ImageFile(os.path.abspath(source.path)))
     return texture
 
 

@@ -29,7 +29,7 @@ from ...model.geometry.mesh import Mesh
 from ...model.geometry.movers import VERTEX_AXES
 from ...model.geometry.origins import FileOrigin, PrimitiveOrigin, has_own_materials, origin_of
 from ...model.materials.material import TEXTURE_SLOTS, Material
-from ...model.materials.textures import PlacedTexture, Texture
+from ...model.materials.textures import PlacedTexture, Texture, image_file_of
 from ...model.scene.animation import motions_of
 from ...model.scene.fog import ExponentialFog, Fog
 from ...model.scene.gradients import Gradient
@@ -96,8 +96,8 @@ def scene_text(scene: Scene, folder: str) -> tuple[bytes, list[str]]:
     values = writing.values(scene)
     animator = scene.animator
     if animator is not None and any(motions_of(animator)):
-        if math.isfinite(animator._full_rate_distance):
-            values["full_rate_distance"] = animator._full_rate_distance
+        if math.isfinite(animator.full_rate_distance):
+            values["full_rate_distance"] = animator.full_rate_distance
     if not writing.lists["environments"]:  # few scenes have any
         del writing.lists["environments"]
     tree = {"format": FORMAT, "version": VERSION, "scene": values, **writing.lists}
@@ -321,8 +321,8 @@ class _Writing:
         return True
 
     def _texture(self, texture: Texture) -> dict[str, Any]:
-        path = texture._path
-        file = None if path is None else self._relative(path, texture._is_missing)
+        path, _, is_missing = image_file_of(texture)
+        file = None if path is None else self._relative(path, is_missing)
         if file is None:
             content = base64.b64encode(bytes(encode_png(texture.pixels))).decode("ascii")
             entry = {"png": content}

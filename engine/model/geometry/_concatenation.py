@@ -17,6 +17,7 @@ from ...errors import InvalidArgumentError
 from ..materials.colors import srgb_to_linear_table
 from ..materials.material import Material
 from .creases import mesh_with_creases
+from .groups import put_groups
 from .posing import posed_mesh
 from .vertex_attributes import VertexAttribute, attributes_of, vertex_attributes
 
@@ -72,7 +73,7 @@ def concatenate(mesh_type: type, meshes: list[Any], name: str) -> Any:
         name=name,
         **_joined_attributes(meshes),
     )
-    joined._take_groups(_joined_groups(meshes))
+    put_groups(joined, _joined_groups(meshes))
     joined.warnings = [warning for mesh in meshes for warning in mesh.warnings]
     return joined
 

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..._native.loaders import exchange, frozen
 from ...base.calls import checks_types
-from ...base.checked_containers import CheckedDict, CheckedList
+from ...base.checked_containers import CheckedList
 from ...base.dirty_tracking import renew
 from ...base.numbers import shown
 from ...base.validation import Closed, own, text
@@ -39,9 +39,10 @@ from ._arrays import (
     check_vectors4,
     require_range,
 )
-from ._derived import derive
 from ._fitting import check_fit
 from .creases import SMOOTH, check_crease_angle, mesh_with_creases
+from .derived import derived
+from .groups import put_groups
 from .morph_targets import MorphTarget
 from .vertex_attributes import VertexAttribute
 
@@ -147,6 +148,7 @@ class Mesh(Closed):
     _crease_angle: float = SMOOTH
     _origin: Any = None  # see origins.py
     _morph_targets: tuple[MorphTarget, ...] = ()
+    _groups: dict[str, NDArray[np.int32]]
     _FORGOTTEN = ("_derived", "_origin")
     # The set of coordinates by which tangents are found when it is drawn without any, or None.
     _tangent_uv_set: int | None = None
@@ -174,9 +176,7 @@ class Mesh(Closed):
         name: str = "",
     ) -> None:
         self.name = text(name, "name")
-        self._take_groups({})
-        # Loaders put numbers of the vertices here, (V,) or (V, N) by name: `viewer/scalars.py`
-        # colours by them.
+        put_groups(self, {})
         self._scalars: dict[str, NDArray[np.number]] = {}
         self.warnings = []
         self._arrays: dict[str, np.ndarray | None] = dict.fromkeys(_movers.VERTEX_AXES)
@@ -248,7 +248,7 @@ class Mesh(Closed):
 
         Computed ones are smooth over all creases: `with_creases` has those that are drawn.
         """
-        return self._derive("normals", dict(self._arrays))
+        return derived(self, "normals")
 
     @normals.setter
     def normals(self, value: ArrayLike | None) -> None:
@@ -272,7 +272,7 @@ class Mesh(Closed):
     @property
     def face_normals(self) -> NDArray[np.float32]:
         """One unit normal per face, (F, 3) float32, the same for all triangles of a polygon."""
-        return self._derive("face_normals", dict(self._arrays))
+        return derived(self, "face_normals")
 
     @property
     def polygons(self) -> NDArray[np.int32]:
@@ -280,7 +280,7 @@ class Mesh(Closed):
 
         Triangles that stand one after the other and share an edge hidden in both are one polygon.
         """
-        return self._derive("polygons", dict(self._arrays))
+        return derived(self, "polygons")
 
     def edges(self) -> NDArray[np.int32]:
         """Return the visible edges of the faces, each once: (E, 2) int32 vertex indices.
@@ -288,12 +288,12 @@ class Mesh(Closed):
         An edge counts as visible if it is visible in any face. They stand in the order of their
         first appearance; vertices with the same position id count as one.
         """
-        return self._derive("edges", dict(self._arrays))
+        return derived(self, "edges")
 
     @property
     def bounds(self) -> NDArray[np.float64]:
         """Smallest and largest finite coordinates, (2, 3) float64; zeros if there are none."""
-        return self._derive("bounds", dict(self._arrays))
+        return derived(self, "bounds")
 
     @property
     def materials(self) -> list[Material]:
@@ -318,12 +318,7 @@ class Mesh(Closed):
 
     @groups.setter
     def groups(self, value: Mapping[str, ArrayLike]) -> None:
-        self._take_groups(check_groups(value, len(self.faces)))
-
-    def _take_groups(self, groups: dict[str, NDArray[np.int32]]) -> None:
-        """Have groups that are checked, such as those of loaders."""
-        frozen_groups = {name: frozen(faces) for name, faces in groups.items()}
-        self._groups = CheckedDict(self, _take_changed_groups, frozen_groups)
+        put_groups(self, check_groups(value, len(self.faces)))
 
     @classmethod
     @checks_types
@@ -467,12 +462,7 @@ class Mesh(Closed):
         super().__setstate__({**state, "_derived": {}})
         for arrays in (self._arrays, self._scalars):
             arrays.update({name: own(array) for name, array in arrays.items()})
-        self._own_containers()
-
-    def _own_containers(self) -> None:
-        """Make plain lists and dicts, which were put in their places, the mesh's own."""
-        self._materials = CheckedList(self, _take_materials, self._materials)
-        self._take_groups(self._groups)
+        own_containers(self)
 
     def _repr_png_(self) -> bytes | None:
         """A picture for notebooks; see `thumbnail`."""
@@ -485,9 +475,6 @@ class Mesh(Closed):
         parts += [f"{len(self.lines)} lines"] if len(self.lines) else []
         parts += [f"{len(self.points)} points"] if len(self.points) else []
         return f"Mesh({', '.join(parts)}, name={self.name!r})"
-
-    def _derive(self, what: str, arrays: dict[str, Any]) -> Any:
-        return derive(self._derived, what, arrays)
 
     def _replace(self, what: str, array: Any) -> None:
         """Check an array against those that are there, and put it in its place."""
@@ -503,7 +490,7 @@ class Mesh(Closed):
             if exchange(self._arrays, others, fresh):
                 break
         if anew:
-            self._take_groups({})
+            put_groups(self, {})
         self._changed()
 
     def _put(self, fresh: dict[str, Any]) -> None:
@@ -520,39 +507,24 @@ class Mesh(Closed):
                 break
         self._changed()
 
-    def _twin(self, materials: Iterable[Material], name: str) -> Mesh:
-        """Return another mesh of the same arrays and what follows from them, as loaders make many.
-
-        A copy takes ten times as long.
-        """
-        twin = type(self).__new__(type(self))
-        own = {key: type(held)(held) for key, held in vars(self).items() if type(held) is dict}
-        own["_derived"] = self._derived
-        vars(twin).update(
-            vars(self), **own, name=name, warnings=list(self.warnings), _materials=list(materials)
-        )
-        twin._own_containers()
-        return twin
-
     def _changed(self) -> None:
         self._origin = None
         self._derived = {}  # that of twins stays
         renew(self)
 
-    def _become(self, other: Mesh) -> None:
-        """Take over everything of another mesh but its name."""
-        gone = dict.fromkeys(_movers.VERTEX_AXES)
-        self._arrays.update({**gone, **other._arrays})  # one step: they fit at every moment
-        self._morph_targets = other._morph_targets
-        self._crease_angle = other._crease_angle
-        self._derived = {}
-        self._materials, self._groups = other._materials, other._groups
-        self._own_containers()
-        self.warnings = list(other.warnings)
-        self._origin = other._origin
-        if self._tangent_uv_set != other._tangent_uv_set:
-            self._tangent_uv_set = other._tangent_uv_set
-        renew(self)
+
+def own_containers(mesh: Mesh) -> None:
+    """Make plain lists and dicts, which copies and the editor put in, a mesh's own."""
+    mesh._materials = CheckedList(mesh, _take_materials, mesh._materials)
+    put_groups(mesh, mesh._groups)
+
+
+def scalars_of(mesh: Mesh) -> dict[str, NDArray[np.number]]:
+    """Return what loaders put in: numbers of the vertices, (V,) or (V, N) by name.
+
+    Viewers colour by them.
+    """
+    return mesh._scalars
 
 
 def _take_materials(mesh: Mesh, materials: list[Any], put: Callable[[list[Any]], None]) -> None:
@@ -572,13 +544,6 @@ def _require_used(mesh: Mesh, count: int) -> None:
     if count < len(mesh._materials):
         what = f"material_ids of {mesh!r}"
         require_range(mesh.material_ids, count, what, "materials")
-
-
-def _take_changed_groups(
-    mesh: Mesh, groups: dict[str, Any], put: Callable[[dict[str, Any]], None]
-) -> None:
-    """Let a mesh's own dict hold other groups."""
-    put(check_groups(groups, len(mesh.faces)))
 
 
 def _check_materials(materials: Iterable[Material] | None) -> list[Material]:

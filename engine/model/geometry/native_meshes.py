@@ -11,8 +11,14 @@ import numpy as np
 
 from ..._native.rasterizer import VERTEX_ATTRIBUTES, NativeMesh
 from ._tangents import mesh_with_tangents
+from .derived import arrays_of
 from .mesh import Mesh
 from .vertex_attributes import vertex_attributes
+
+
+def find_tangents_when_drawn(mesh: Mesh, uv_set: int) -> None:
+    """Let a mesh have the tangents that its file leaves out, by a set of its coordinates."""
+    mesh._tangent_uv_set = uv_set
 
 
 def drawn_arrays(mesh: Mesh, arrays: dict[str, Any]) -> dict[str, Any]:
@@ -25,7 +31,7 @@ def drawn_arrays(mesh: Mesh, arrays: dict[str, Any]) -> dict[str, Any]:
         return arrays
     if arrays["_given_normals"] is None or arrays["uvs1" if uv_set else "uvs"] is None:
         return arrays
-    return mesh_with_tangents(mesh, uv_set)._arrays
+    return arrays_of(mesh_with_tangents(mesh, uv_set))
 
 
 def make_native_mesh(

@@ -81,6 +81,11 @@ def remember_origin(mesh: Mesh, origin: FileOrigin | PrimitiveOrigin) -> None:
         mesh._origin = Came(origin, mesh.name, materials, dict(mesh.groups))
 
 
+def noted_origin(mesh: Mesh) -> Came | None:
+    """Return where the arrays of a mesh come from, whatever its groups are by now."""
+    return mesh._origin
+
+
 def origin_of(mesh: Mesh) -> Came | None:
     """Return where a mesh comes from; None if it is another by now."""
     came = mesh._origin

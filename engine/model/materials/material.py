@@ -78,7 +78,7 @@ class Material(Versioned):
     whatever it says.
     """
 
-    _is_implied = False  # whether a file names no material where this one is
+    _is_implied = False  # see `imply`
     color: Parameter[ColorLike, SurfaceColor] = Parameter(
         SURFACE_COLOR,
         default=(1, 1, 1),
@@ -318,12 +318,6 @@ class Material(Versioned):
         """The alpha of the base colour, from 0 to 1."""
         return split_alpha(self.color)[1]
 
-    def _twin(self) -> Material:
-        """Return a copy in a fraction of the time: files may ask for very many."""
-        twin = type(self).__new__(type(self))
-        vars(twin).update(vars(self), extras=dict(self.extras))
-        return twin
-
     def __repr__(self) -> str:
         texture = "" if self.texture is None else f", texture={self.texture!r}"
         return f"Material(name={self.name!r}, color={self.color}{texture})"
@@ -356,6 +350,23 @@ def put_texture(material: Material, slot: str, texture: Texture) -> None:
     held = getattr(material, slot)
     is_placed = isinstance(held, PlacedTexture)
     setattr(material, slot, replace(held, texture=texture) if is_placed else texture)
+
+
+def copy_of(material: Material) -> Material:
+    """Return a copy in a fraction of the time of `copy`: files may ask for very many."""
+    copy = type(material).__new__(type(material))
+    vars(copy).update(vars(material), extras=dict(material.extras))
+    return copy
+
+
+def imply(material: Material) -> None:
+    """Note that a file names no material where this one is: a file that is written needs none."""
+    material._is_implied = True
+
+
+def is_implied(material: Material) -> bool:
+    """Whether the file that a material comes from does not name it."""
+    return material._is_implied
 
 
 def says_something(material: Material) -> bool:

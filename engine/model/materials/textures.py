@@ -12,7 +12,7 @@ import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias, TypedDict, get_args
+from typing import NamedTuple, TypeAlias, TypedDict, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -75,6 +75,24 @@ class TextureOptions(TypedDict, total=False):
     lod_bias: float
 
 
+class ImageFile(NamedTuple):
+    """Where the pixels of a texture come from, so that it can be saved by naming it.
+
+    Attributes
+    ----------
+    path : str or None
+        Absolute.
+    content : bytes or None
+        Of what is part of another file.
+    is_missing : bool
+        Whether the file is not there, and other pixels take its place.
+    """
+
+    path: str | None = None
+    content: bytes | None = None
+    is_missing: bool = False
+
+
 class Texture(Closed):
     """An image and the way to sample it.
 
@@ -112,9 +130,7 @@ class Texture(Closed):
 
     name: str
     version: int
-    _path: str | None = None  # of the file that holds these pixels
-    _file: bytes | None = None  # of an image file that holds these pixels
-    _is_missing = False  # whether that file is not there, and these pixels take its place
+    _file: ImageFile  # that holds these pixels
     color_space: CheckedAttribute[ColorSpace, ColorSpace] = CheckedAttribute(one_of(COLOR_SPACES))
     filter: CheckedAttribute[Filter, Filter] = CheckedAttribute(one_of(FILTERS))
     wrap: CheckedAttribute[SideWraps, SideWraps] = CheckedAttribute(_check_wrap)
@@ -147,7 +163,7 @@ class Texture(Closed):
     @pixels.setter
     def pixels(self, value: ArrayLike) -> None:
         self._pixels = as_rgba(value)
-        self._path, self._file, self._is_missing = None, None, False
+        self._file = ImageFile()
         renew(self)
 
     @property
@@ -165,6 +181,16 @@ class Texture(Closed):
 
     def __repr__(self) -> str:
         return f"Texture({self.width}x{self.height}, name={self.name!r})"
+
+
+def image_file_of(texture: Texture) -> ImageFile:
+    """Return where the pixels of a texture come from; of no file once they were replaced."""
+    return texture._file
+
+
+def remember_image_file(texture: Texture, file: ImageFile) -> None:
+    """Note where the pixels of a texture come from."""
+    texture._file = file
 
 
 UV_SETS = 2  # of a mesh: `uvs` and `uvs1`

@@ -15,9 +15,11 @@ import numpy as np
 from ..._native import loaders as native_loaders
 from ..._native.rasterizer import NativeMesh, NativePose, NativeRest, pose_meshes
 from ..._native.scene_graph import OBJECT_BOX
+from ..geometry.derived import arrays_of, derived
 from ..geometry.mesh import Mesh
 from ..geometry.movers import VERTEX_AXES
 from ..geometry.native_meshes import make_native_mesh
+from ..geometry.twins import put_arrays
 
 _MOST_COLUMNS = 8  # that C numbers at once
 _rests: WeakKeyDictionary[Mesh, tuple[dict[str, Any], NativeRest]] = WeakKeyDictionary()
@@ -45,7 +47,7 @@ class PosedMesh:
         version = self.mesh.version
         if version == self._version:
             return False
-        arrays = dict(self.mesh._arrays)
+        arrays = arrays_of(self.mesh)
         self._version = version
         if _same(arrays, self._made_of):
             return False
@@ -53,7 +55,7 @@ class PosedMesh:
         before = getattr(self, "native", None)
         self.native = NativePose(_rest_of(self.mesh, arrays), bool(before and before.face_normals))
         if before and before.has_edges:  # whoever drew them may not ask again
-            self.native.want_edges(self.mesh._derive("edges", arrays))
+            self.native.want_edges(derived(self.mesh, "edges", arrays))
         return True
 
     @property
@@ -69,7 +71,7 @@ class PosedMesh:
         if native.current is None:
             pose_meshes([native], None, threads)
         if edges:
-            native.want_edges(self.mesh._derive("edges", self._made_of))
+            native.want_edges(derived(self.mesh, "edges", self._made_of))
         return native.current
 
     def box(self) -> np.ndarray:
@@ -96,8 +98,7 @@ class PosedMesh:
         self.native.copy_vertices(positions, normals, tangents)
         copy = Mesh(positions, name=self.mesh.name)
         gone = dict.fromkeys(VERTEX_AXES)
-        kept = {**self._made_of, **gone, "positions": copy.positions}
-        copy._arrays.update(kept)
+        put_arrays(copy, {**self._made_of, **gone, "positions": copy.positions})
         copy.normals, copy.tangents = normals, tangents
         copy.materials = self.mesh.materials
         return copy
@@ -114,7 +115,7 @@ def _rest_of(mesh: Mesh, arrays: dict[str, Any]) -> NativeRest:
         native = make_native_mesh(arrays, 0, _movers_of(arrays))
         rest = NativeRest(
             native,
-            mesh._derive("normals", arrays),
+            derived(mesh, "normals", arrays),
             arrays.get("tangents"),
             arrays.get("joints"),
             arrays.get("weights"),

@@ -58,6 +58,11 @@ class Animator(Clock):
         self._tracks: list[Track] = []
         self._moving: _Moving | None = None
 
+    @property
+    def full_rate_distance(self) -> float:
+        """How far from the eye nodes move at every update, as it was given."""
+        return self._full_rate_distance
+
     def spin(
         self,
         nodes: Node | Iterable[Node],

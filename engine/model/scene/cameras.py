@@ -36,6 +36,11 @@ _SMALL = 2.0**-18
 _MOST = 100  # a power that floats take
 
 
+def far_depth(camera: Camera) -> float:
+    """Return the depth of the far plane in clip space, divided by w; the near plane's is -1."""
+    return 0.0 if isinstance(camera, PerspectiveCamera) and camera.reversed_depth else 1.0
+
+
 def _far(value: float | None, what: str) -> float:
     """A far plane: a positive number, or infinity or None for none."""
     if value is None:
@@ -158,10 +163,6 @@ class PerspectiveCamera(Camera):
     zfar: CheckedAttribute[float | None, float] = CheckedAttribute(_far)
     aspect: OptionalNumberAttribute = CheckedAttribute(optional_positive)
     reversed_depth: CheckedAttribute[bool, bool] = CheckedAttribute(flag)
-
-    @property
-    def _far_depth(self) -> float:
-        return 0.0 if self.reversed_depth else 1.0
 
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         _check_range(self)

@@ -29,8 +29,8 @@ from ...base.validation import (
 from ...choices import ColorLike, Falloff, LightShadow, LightUnit, ShadowTaps
 from ...errors import InvalidArgumentError
 from ..materials.colors import check_color
-from ._shadow_casting import CastsShadows, CountAttribute, count_of
 from .ambient_lights import AMBIENT_LIGHTS, HemisphereLight, LightProbe
+from .shadow_casting import CastsShadows, CountAttribute, count_of
 
 FALLOFFS: tuple[Falloff, ...] = get_args(Falloff)
 UNITS: tuple[LightUnit, ...] = get_args(LightUnit)

@@ -12,6 +12,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from ..._native.scene_graph import BOX, NativeShapes, NativeTree, triangle_boxes
+from ..geometry.derived import arrays_of
 from ..geometry.mesh import Mesh
 from ..scene.instances import InstancedMesh, instance_tree
 from ..scene.shown import as_shown
@@ -21,7 +22,7 @@ _triangles: WeakKeyDictionary[Mesh, tuple[tuple[Any, ...], NativeTree]] = WeakKe
 
 def triangle_tree(mesh: Mesh, arrays: dict[str, Any] | None = None) -> NativeTree:
     """Return the tree of a mesh's faces as they are now, or as they were in some arrays."""
-    arrays = dict(mesh._arrays) if arrays is None else arrays
+    arrays = arrays_of(mesh) if arrays is None else arrays
     positions, faces = arrays["positions"], arrays["faces"]
     made_of, tree = _triangles.get(mesh, ((None, None), None))
     if tree is None or made_of[0] is not positions or made_of[1] is not faces:
@@ -43,7 +44,7 @@ def way_to_face(
     mesh: Mesh, pose: np.ndarray, origin: np.ndarray, direction: np.ndarray, farthest: float
 ) -> float:
     """Return how far a ray of unit length goes to a face of a mesh; infinite if farther."""
-    arrays: dict[str, Any] = dict(mesh._arrays)
+    arrays = arrays_of(mesh)
     tree = triangle_tree(mesh, arrays)
     return tree.nearest_triangle(
         arrays["positions"], arrays["faces"], pose, origin, direction, farthest
@@ -55,6 +56,6 @@ def tell(shapes: NativeShapes, number: int, obj: Any) -> None:
     mesh, poses, tree = as_shown(obj), None, None
     if isinstance(obj, InstancedMesh):
         mesh, (tree, poses) = obj.mesh, instance_tree(obj)
-    arrays = dict(mesh._arrays)
+    arrays = arrays_of(mesh)
     triangles = triangle_tree(mesh, arrays)
     shapes.set(number, arrays["positions"], arrays["faces"], triangles, poses, tree)

@@ -14,6 +14,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from ..._native import loaders as native
+from ...model.geometry.derived import arrays_of
 from ...model.geometry.mesh import Mesh
 
 _READ = ("positions", "faces", "joints", "morph_positions")
@@ -49,7 +50,7 @@ def holes_of(mesh: Mesh) -> Holes | None:
     """
     if any(material.alpha_mode != "opaque" for material in mesh.materials):
         return None
-    arrays: dict[str, Any] = dict(mesh._arrays)
+    arrays: dict[str, Any] = arrays_of(mesh)
     read = [arrays[name] for name in _READ]
     made_of, holes = _known.get(mesh, ([None], None))
     if not all(map(operator.is_, read, made_of)):

@@ -21,6 +21,7 @@ from ..._native.rasterizer import (
 from ...choices import ColorSpace
 from ...model.environments.environment import Environment
 from ...model.geometry.creases import creased_arrays, has_creases
+from ...model.geometry.derived import arrays_of, derived
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.native_meshes import drawn_arrays, make_native_mesh
 from ...model.geometry.vertex_attributes import vertex_attributes
@@ -49,7 +50,7 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
 
     Threads that ask at once for the first time may each make one: these are alike.
     """
-    arrays: dict[str, Any] = dict(mesh._arrays)  # at one moment: another may be assigned meanwhile
+    arrays: dict[str, Any] = arrays_of(mesh)  # at one moment: another may be assigned meanwhile
     angle = mesh.crease_angle
     state = {**arrays, "crease_angle": angle}
     known = _meshes.get(mesh)
@@ -65,11 +66,11 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
                 _meshes[mesh] = state, drawn, native
             native.set_attribute("normals", creased["_given_normals"])
         else:
-            native.set_attribute("normals", mesh._derive("normals", drawn))
+            native.set_attribute("normals", derived(mesh, "normals", drawn))
     if needs.face_normals and not native.has_face_normals:
-        native.set_face_normals(mesh._derive("face_normals", arrays))
+        native.set_face_normals(derived(mesh, "face_normals", arrays))
     if needs.edges and not native.has_edges:
-        native.set_edges(mesh._derive("edges", arrays))
+        native.set_edges(derived(mesh, "edges", arrays))
     return native
 
 

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from ...base import linalg
 from ...base.linalg.single import cross, length, normalize
 from ...model.scene.lights import DirectionalLight, PointLight, SpotLight
+from ...model.scene.shadow_casting import shadow_margin
 from .._view import View
 
 _RATIO = 4.0  # each map of a directional light shows so many times as far as the one before
@@ -199,7 +200,7 @@ def _cascades(
     stay where they are. Along the light it reaches from the first thing of the scene to the last.
     """
     axes = _axes_along(tuple(-part for part in pose[0]))
-    size, margin = light.shadow_map_size, light._shadow_margin()
+    size, margin = light.shadow_map_size, shadow_margin(light)
     sides, downs, depths = (_extent(axis, bounds) for axis in axes)
     step = _rounded_up(depths[1] - depths[0], 1) / 32.0
     first, last = (

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...base import linalg
-from ...model.scene.cameras import Camera
+from ...model.scene.cameras import Camera, far_depth
 from ...model.scene.instances import MANY, InstancedMesh, instance_tree
 from ...model.scene.scene import Scene
 from ...rendering.frame import Frame
@@ -74,7 +74,7 @@ def frustum_lines(camera: Camera, pose: np.ndarray, size: tuple[int, int]) -> li
     """Return the frustum of a camera at a pose."""
     view_from_clip = linalg.inverse(np.asarray(camera.projection(*size), np.float64))
     signs = np.array([[(k >> axis & 1) * 2.0 - 1.0 for axis in range(3)] for k in range(8)])
-    signs[signs[:, 2] > 0.0, 2] = camera._far_depth
+    signs[signs[:, 2] > 0.0, 2] = far_depth(camera)
     corners = view_from_clip[:, 3] + sum(
         signs[:, axis, np.newaxis] * view_from_clip[:, axis] for axis in range(3)
     )

@@ -20,7 +20,7 @@ from importlib.resources import files
 
 from engine3d.apps.editor.ui import fog_fields
 from engine3d.apps.editor.ui.editor_window import SETTLING, EditorWindow
-from engine3d.apps.editor.ui.layout import layout_path, load_layout, save_layout
+from engine3d.apps.editor.ui.panel_layout import layout_path, load_layout, save_layout
 from engine3d.apps.editor.ui.properties_panel import _COLLIDERS, _KINDS
 from engine3d.apps.editor.ui.workspace import Workspace
 from engine3d.apps.editor.value_commands import SetValues
@@ -191,7 +191,7 @@ def test_the_right_button_looks_around_and_keys_fly(editor):
     do(editor, events.KeyUp("W", "W"), events.MouseButton("right", False, x=x + 90, y=y + 90))
     moved = view.position() - position
     assert np.allclose(moved / np.linalg.norm(moved), ahead)
-    assert editor.workspace.tool == "select"
+    assert editor.workspace.tools.chosen == "select"
 
 
 def test_keys_duplicate_delete_and_undo(editor):
@@ -239,11 +239,11 @@ def test_f2_renames(editor):
 
 def test_letters_choose_tools_unless_somebody_types(editor):
     press(editor, "W")
-    assert editor.workspace.tool == "move"
+    assert editor.workspace.tools.chosen == "move"
     editor.workspace.document.selection.set([find(editor, "Cab")])
     press(editor, "F2")
     press(editor, "E")
-    assert editor.workspace.tool == "move"
+    assert editor.workspace.tools.chosen == "move"
 
 
 def test_a_drag_of_the_gizmo_is_one_step(editor):
@@ -264,10 +264,10 @@ def test_a_drag_of_the_gizmo_is_one_step(editor):
 
 def scene_corner_of_gizmo(editor):
     """The scene's corner, found before the gizmo was drawn over it."""
-    tool, editor.workspace.tool = editor.workspace.tool, "select"
+    tool, editor.workspace.tools.chosen = editor.workspace.tools.chosen, "select"
     settle(editor)
     corner = scene_corner(editor)
-    editor.workspace.tool = tool
+    editor.workspace.tools.chosen = tool
     settle(editor)
     return corner
 
@@ -503,23 +503,26 @@ def test_a_file_is_opened_by_two_clicks(editor, tmp_path):
 
 def test_panels_can_be_closed_and_come_back(editor):
     everything = settle(editor)
-    editor.workspace.closed.add("Console")
+    editor.workspace.panels.closed.add("Console")
     assert (settle(editor) != everything).any()
-    editor.workspace.wants_usual_places = True
-    assert (settle(editor) == everything).all() and not editor.workspace.closed
+    editor.workspace.panels.wants_usual_places = True
+    assert (settle(editor) == everything).all() and not editor.workspace.panels.closed
 
 
 def test_closed_panels_and_steps_are_kept(editor):
-    editor.workspace.closed.add("Resources")
-    editor.workspace.steps["turn"] = 22.5
+    editor.workspace.panels.closed.add("Resources")
+    editor.workspace.tools.steps["turn"] = 22.5
     save_layout(editor.workspace)
     again = Workspace()
     assert load_layout(again)
-    assert (again.closed, again.steps) == (editor.workspace.closed, editor.workspace.steps)
+    assert (again.panels.closed, again.tools.steps) == (
+        editor.workspace.panels.closed,
+        editor.workspace.tools.steps,
+    )
     layout_path().write_text("[engine3d][Editor]\nmove=-1\nturn=x\nscale\nclosed=Console,Cat\n")
     damaged = Workspace()
     assert load_layout(damaged)
-    assert damaged.steps == Workspace().steps and damaged.closed <= {"Console"}
+    assert damaged.tools.steps == Workspace().tools.steps and damaged.panels.closed <= {"Console"}
 
 
 def test_time_goes_on_until_space_is_pressed_again(editor):

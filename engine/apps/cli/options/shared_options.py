@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ....stage.view_renderer import ViewRenderer
     from ....stage.viewed_scene import ViewedScene
     from ....stage.views.first_view import FirstView
-    from ..report import Report
+    from ..verbose_report import Report
 
 
 def add(command) -> None:

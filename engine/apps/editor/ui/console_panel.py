@@ -8,7 +8,7 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from ..console import LEVELS
-from .layout import begin_panel
+from .panel_layout import begin_panel
 from .workspace import Workspace
 
 _COLORS = {

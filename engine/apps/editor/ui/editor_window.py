@@ -22,8 +22,8 @@ from .files import Files
 from .hierarchy_panel import HierarchyPanel
 from .imgui_input import ImguiInput, of_one_picture
 from .interrupts import Interrupts
-from .layout import load_layout, place_panels, save_layout
 from .menus import draw_menus, entries, press_keys
+from .panel_layout import load_layout, place_panels, save_layout
 from .properties_panel import PropertiesPanel
 from .resources_panel import ResourcesPanel
 from .scene_panel import ScenePanel
@@ -98,7 +98,7 @@ class EditorWindow:
         self._told: set[str] = set()
         self._late: list = []  # events that wait for the next picture, or came while Python ran
         self._last = time.monotonic()
-        self.workspace.wants_usual_places = not load_layout(self.workspace)
+        self.workspace.panels.wants_usual_places = not load_layout(self.workspace)
         self._pictures_due = SETTLING
 
     def run(self) -> int:
@@ -129,7 +129,7 @@ class EditorWindow:
         waiting, self._late = self._late, []
         waiting += self.window.events(0.0 if waiting else patience)
         queue = self._context.input_events_queue
-        holds = self.workspace.pictures_to_focus > 0 or not queue.empty()
+        holds = self.workspace.panels.pictures_to_focus > 0 or not queue.empty()
         happened, self._late = of_one_picture(waiting, holds)
         for event in happened:
             self._take_safely(event)
@@ -188,7 +188,9 @@ class EditorWindow:
         io.display_size = imgui.ImVec2(*size)
         io.delta_time, self._last = max(now - self._last, 1e-4), now
         self.workspace.animate(io.delta_time)
-        self.workspace.pictures_to_focus = max(self.workspace.pictures_to_focus - 1, 0)
+        self.workspace.panels.pictures_to_focus = max(
+            self.workspace.panels.pictures_to_focus - 1, 0
+        )
         imgui.new_frame()
         begun = _recovery_state()
         try:
@@ -216,7 +218,7 @@ class EditorWindow:
             time.sleep(WAITING_SECONDS)
         waits = self._resources.is_waiting or self._files.is_waiting
         moves = self._scene.is_flying or self.workspace.is_moving
-        return waits or moves or bool(self._late) or self.workspace.pictures_to_focus > 0
+        return waits or moves or bool(self._late) or self.workspace.panels.pictures_to_focus > 0
 
     def _title(self) -> str:
         return f"{self.workspace.document.title} - engine3d"
@@ -226,12 +228,12 @@ class EditorWindow:
         self._guarded(lambda: draw_menus(workspace, self._entries))
         flags = imgui.DockNodeFlags_.passthru_central_node
         space = imgui.dock_space_over_viewport(flags=flags)
-        if workspace.wants_usual_places:
+        if workspace.panels.wants_usual_places:
             place_panels(space, self.window.size)
-            workspace.wants_usual_places = False
-            workspace.closed.clear()
+            workspace.panels.wants_usual_places = False
+            workspace.panels.closed.clear()
         for name, panel in self._panels.items():
-            if name not in workspace.closed:
+            if name not in workspace.panels.closed:
                 self._guarded(panel.draw)
         self._guarded(self._files.draw)
         self._guarded(lambda: press_keys(self._entries))

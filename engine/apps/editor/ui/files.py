@@ -19,7 +19,7 @@ from ...imgui_painter.imgui_painter import ImguiPainter
 from ..autosave import forget, left_behind
 from ..document import SCENE_EXTENSION
 from ..recovery import Recovery
-from .file_dialog import FileDialog
+from .file_chooser import FileDialog
 from .workspace import Workspace
 
 _SCENES = (SCENE_EXTENSION,)

@@ -35,7 +35,7 @@ class GizmoHandles:
         """Draw what moves the selection; return whether the mouse is on it."""
         workspace = self._workspace
         nodes = workspace.document.selection.topmost()
-        if workspace.tool == "select" or not nodes:
+        if workspace.tools.chosen == "select" or not nodes:
             self._drag = None
             return False
         gizmo = imguizmo.im_guizmo
@@ -54,9 +54,9 @@ class GizmoHandles:
 
     def _move(self, nodes, old: np.ndarray, made: np.ndarray) -> None:
         workspace = self._workspace
-        tool = workspace.tool
-        step = workspace.steps[tool] if self._snaps() else None
-        new = dragged_pose(tool, self._start, made, step, is_local=workspace.is_local)
+        tool = workspace.tools.chosen
+        step = workspace.tools.steps[tool] if self._snaps() else None
+        new = dragged_pose(tool, self._start, made, step, is_local=workspace.tools.is_local)
         if new.tobytes() == old.tobytes():
             return
         change = linalg.multiply(new, linalg.inverse(old))
@@ -66,7 +66,7 @@ class GizmoHandles:
         workspace.do(MoveNodes(workspace.scene, nodes, in_world(change), label), drag=self._drag)
 
     def _snaps(self) -> bool:
-        return self._workspace.snaps != imgui.get_io().key_ctrl
+        return self._workspace.tools.snaps != imgui.get_io().key_ctrl
 
     def _manipulated(self, gizmo, pose: np.ndarray, size: tuple[int, int]) -> np.ndarray | None:
         """Where the gizmo takes a pose, in single precision; None if it leaves it."""
@@ -83,11 +83,11 @@ class GizmoHandles:
             "move": gizmo.OPERATION.translate,
             "turn": gizmo.OPERATION.rotate,
             "scale": gizmo.OPERATION.scale,
-        }[workspace.tool]
-        is_local = workspace.is_local or workspace.tool == "scale"
+        }[workspace.tools.chosen]
+        is_local = workspace.tools.is_local or workspace.tools.chosen == "scale"
         mode = gizmo.MODE.local if is_local else gizmo.MODE.world
-        step = workspace.steps[workspace.tool]
-        step = step / _PER_CENT if workspace.tool == "scale" else step
+        step = workspace.tools.steps[workspace.tools.chosen]
+        step = step / _PER_CENT if workspace.tools.chosen == "scale" else step
         snap = gizmo.Matrix3([step] * 3) if self._snaps() else None
         if not gizmo.manipulate(*matrices[:2], operation, mode, matrices[2], None, snap):
             return None

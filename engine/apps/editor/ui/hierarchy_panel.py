@@ -11,8 +11,8 @@ from ....model.scene.nodes import Node
 from ..hierarchy import Row
 from ..node_commands import Reparent
 from ..value_commands import SetValues
-from .actions import ADDED, add, delete, duplicate, group
-from .layout import begin_panel
+from .panel_layout import begin_panel
+from .selection_actions import ADDED, add, delete, duplicate, group
 from .workspace import Workspace
 
 _PAYLOAD = "node"
@@ -38,7 +38,7 @@ class HierarchyPanel:
         """Let the user type a new name."""
         self._renamed, self._name, self._focuses = node, node.name, True
         self._workspace.hold_keys()
-        self._workspace.closed.discard("Hierarchy")
+        self._workspace.panels.closed.discard("Hierarchy")
         self._workspace.hierarchy.reveal(node)
 
     def draw(self) -> None:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from imgui_bundle import imgui
 
-from . import actions
+from . import selection_actions as actions
 from .files import Files
 from .hierarchy_panel import HierarchyPanel, draw_add_menu
 from .workspace import PANELS, Workspace
@@ -43,7 +43,7 @@ def entries(workspace: Workspace, files: Files, hierarchy: HierarchyPanel) -> li
         workspace.frame(workspace.document.selection.nodes)
 
     def choose(tool):
-        return lambda: setattr(workspace, "tool", tool)
+        return lambda: setattr(workspace.tools, "chosen", tool)
 
     return [
         Entry("File", "New", "Ctrl+N", files.new),
@@ -93,12 +93,12 @@ def draw_menus(workspace: Workspace, listed: list[Entry]) -> None:
 def _draw_window_menu(workspace: Workspace) -> None:
     """Lay out which panels are open."""
     for name in PANELS:
-        changed, is_open = imgui.menu_item(name, "", name not in workspace.closed)
+        changed, is_open = imgui.menu_item(name, "", name not in workspace.panels.closed)
         if changed:
-            (workspace.closed.discard if is_open else workspace.closed.add)(name)
+            (workspace.panels.closed.discard if is_open else workspace.panels.closed.add)(name)
     imgui.separator()
     if imgui.menu_item_simple("Usual places"):
-        workspace.wants_usual_places = True
+        workspace.panels.wants_usual_places = True
 
 
 def press_keys(listed: list[Entry]) -> None:

@@ -10,7 +10,7 @@ from imgui_bundle import imgui
 
 from ....base import linalg
 from ....model.geometry.mesh import Mesh
-from ....model.scene.cameras import Camera
+from ....model.scene.cameras import Camera, far_depth
 from ....model.scene.instances import InstancedMesh
 from ....model.scene.nodes import Node
 from ....rendering.frame import Frame
@@ -91,7 +91,7 @@ class Overlays:
         projection = node.object.projection(frame.width, frame.height)
         unprojected = linalg.inverse(projection)
         corners = 2.0 * _CORNERS - 1.0
-        corners[1::2, 2] = node.object._far_depth
+        corners[1::2, 2] = far_depth(node.object)
         points = linalg.transform_points(unprojected, corners)
         reach = LONGEST * self._workspace.bounds.radius
         near, far = points[::2], points[1::2]  # the last index is that of depth

@@ -28,7 +28,7 @@ from ....model.spatial.colliders import BoxCollider, MeshCollider, SphereCollide
 from ..value_commands import SetValues
 from .files import Files
 from .fog_fields import draw_fog
-from .layout import begin_panel
+from .panel_layout import begin_panel
 from .workspace import Workspace
 
 _COLLIDERS = {

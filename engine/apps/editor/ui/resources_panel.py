@@ -13,7 +13,7 @@ from imgui_bundle import imgui
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..resource_list import Entry
 from ..thumbnails import Thumbnails
-from .layout import begin_panel
+from .panel_layout import begin_panel
 from .workspace import Workspace
 
 PICTURE = 48

@@ -19,8 +19,8 @@ from ....stage.overlays.selection_outline import CLICK_OUTPUTS, outline_pixels
 from ...imgui_painter.imgui_painter import ImguiPainter
 from ..picking import enclosed, pick
 from .gizmo_handles import GizmoHandles
-from .layout import begin_panel
 from .overlays import Overlays
+from .panel_layout import begin_panel
 from .scene_tools import draw_tools
 from .workspace import Workspace
 

@@ -26,12 +26,12 @@ def draw_tools(workspace: Workspace, overlays: Overlays) -> None:
     for name, key in TOOLS.items():
         label = f"{name.capitalize()} ({key})"
         _beside(label, boxes=1)
-        if imgui.radio_button(label, workspace.tool == name):
-            workspace.tool = name
+        if imgui.radio_button(label, workspace.tools.chosen == name):
+            workspace.tools.chosen = name
     _beside("Local", boxes=1)
-    _, workspace.is_local = imgui.checkbox("Local", workspace.is_local)
+    _, workspace.tools.is_local = imgui.checkbox("Local", workspace.tools.is_local)
     _beside("Snap", boxes=1)
-    _, workspace.snaps = imgui.checkbox("Snap", workspace.snaps)
+    _, workspace.tools.snaps = imgui.checkbox("Snap", workspace.tools.snaps)
     _beside("Steps")
     _draw_steps(workspace)
     _draw_time(workspace)
@@ -69,10 +69,10 @@ def _draw_steps(workspace: Workspace) -> None:
         label = f"{tool.capitalize()}, {unit}"
         clamp = imgui.SliderFlags_.always_clamp
         changed, step = imgui.drag_float(
-            label, workspace.steps[tool], speed, _LEAST, _MOST, "%.4g", clamp
+            label, workspace.tools.steps[tool], speed, _LEAST, _MOST, "%.4g", clamp
         )
         if changed:
-            workspace.steps[tool] = float(f"{step:.4g}")  # as it is shown
+            workspace.tools.steps[tool] = float(f"{step:.4g}")  # as it is shown
     imgui.end_popup()
 
 

@@ -9,6 +9,7 @@ import contextlib
 import os
 from collections.abc import Callable, Hashable
 from contextlib import AbstractContextManager
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -41,6 +42,48 @@ FOCUSING = 6
 LONGEST_STEP = 0.1
 
 
+@dataclass
+class Tools:
+    """What the mouse does to what is selected.
+
+    Attributes
+    ----------
+    chosen : str
+        ``"select"``, ``"move"``, ``"turn"`` or ``"scale"``.
+    is_local : bool
+        Whether tools work along the axes of the node.
+    snaps : bool
+    steps : dict of str to float
+        What tools snap to: units, degrees, per cent.
+    """
+
+    chosen: str = "select"
+    is_local: bool = False
+    snaps: bool = False
+    steps: dict[str, float] = field(
+        default_factory=lambda: {"move": 0.25, "turn": 15.0, "scale": 10.0}
+    )
+
+
+@dataclass
+class Panels:
+    """How the panels are.
+
+    Attributes
+    ----------
+    closed : set of str
+        Those that the user closed.
+    wants_usual_places : bool
+        Whether they are to go where they are at first.
+    pictures_to_focus : int
+        As long as it is not 0, what is typed waits for a field to appear.
+    """
+
+    closed: set[str] = field(default_factory=set)
+    wants_usual_places: bool = False
+    pictures_to_focus: int = 0
+
+
 class Workspace:
     """A document being edited, and how it is looked at.
 
@@ -52,25 +95,14 @@ class Workspace:
     orbit : OrbitController
     mode : Mode
     wireframe : bool
-    tool : str
-        ``"select"``, ``"move"``, ``"turn"`` or ``"scale"``.
-    is_local : bool
-        Whether tools work along the axes of the node.
-    snaps : bool
-    steps : dict of str to float
-        What tools snap to: units, degrees, per cent.
+    tools : Tools
+    panels : Panels
     plays : bool
         Whether time goes on.
     moments : int
         How many pictures moved time on since the document was opened.
-    closed : set of str
-        Panels that the user closed.
-    wants_usual_places : bool
-        Whether panels are to go where they are at first.
     lines_to_run : list of str
         Of Python, that were entered and did not run yet.
-    pictures_to_focus : int
-        As long as it is not 0, what is typed waits for a field to appear.
     guard : callable
         As in `Prompt`.
     aspect : float
@@ -86,15 +118,10 @@ class Workspace:
     def __init__(self) -> None:
         self.mode: Mode = "lit"
         self.wireframe = False
-        self.tool = "select"
-        self.is_local = False
-        self.snaps = False
-        self.steps = {"move": 0.25, "turn": 15.0, "scale": 10.0}
+        self.tools = Tools()
+        self.panels = Panels()
         self.plays = False
-        self.closed: set[str] = set()
-        self.wants_usual_places = False
         self.lines_to_run: list[str] = []
-        self.pictures_to_focus = 0
         self.guard: Callable[[], AbstractContextManager[Any]] = contextlib.nullcontext
         self.aspect = 16 / 9
         self.changes = 0
@@ -268,7 +295,7 @@ class Workspace:
 
     def hold_keys(self) -> None:
         """Let what is typed wait until a field has the focus."""
-        self.pictures_to_focus = FOCUSING
+        self.panels.pictures_to_focus = FOCUSING
 
     def next_drag(self) -> int:
         """Return what the commands of one movement of the mouse have in common."""

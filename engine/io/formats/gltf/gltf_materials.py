@@ -15,7 +15,7 @@ import numpy as np
 
 from ....errors import InvalidArgumentError
 from ....model.materials.colors import certainly_linear
-from ....model.materials.material import PARAMETERS, TEXTURE_SLOTS, Material
+from ....model.materials.material import PARAMETERS, TEXTURE_SLOTS, Material, imply
 from ....model.materials.textures import PlacedTexture, Texture
 from .gltf_file import Entry, GltfFile, whole_of
 from .gltf_textures import GltfTextures, changed
@@ -142,7 +142,8 @@ class GltfMaterials:
         key = index, flat, uv_sets
         if key not in self._made:
             self._made[key] = self._material(entry, f"materials[{index}]", flat, uv_sets)
-            self._made[key]._is_implied = index is None
+            if index is None:
+                imply(self._made[key])
         return self._made[key]
 
     def number(self, primitive: Entry, where: str) -> int | None:

@@ -16,8 +16,10 @@ import numpy as np
 
 from ...._native.loaders import frozen
 from ....model.geometry.creases import SMOOTH
-from ....model.geometry.mesh import Mesh
+from ....model.geometry.mesh import Mesh, scalars_of
 from ....model.geometry.morph_targets import MorphTarget
+from ....model.geometry.native_meshes import find_tangents_when_drawn
+from ....model.geometry.twins import twin_of
 from ....model.materials.material import Material
 from ....model.materials.textures import PlacedTexture
 from ...reading.documents import MeshRecord
@@ -123,7 +125,7 @@ class GltfMeshes:
         else:
             mesh = self._made(primitives, target_names, uv_set)
         materials = [usual for usual, _ in (chosen if kind == "faces" else chosen[:1])]
-        mesh = mesh._twin(materials, name)
+        mesh = twin_of(mesh, materials, name)
         return MeshRecord(name, mesh, variants=self._variants(chosen, name))
 
     def _made(
@@ -155,9 +157,8 @@ class GltfMeshes:
             name="",
             **arrays,
         )
-        mesh._scalars = {
-            key: self._joined([p.scalars[key] for p in primitives]) for key in primitives[0].scalars
-        }
+        for key in primitives[0].scalars:
+            scalars_of(mesh)[key] = self._joined([p.scalars[key] for p in primitives])
         if flat:
             join_seams(mesh)
         joints = [p.joints for p in primitives if p.joints is not None]
@@ -196,10 +197,10 @@ class GltfMeshes:
         """A mesh whose tangents will be found when it is drawn; of one that bends, they are."""
         if uv_set is None or (mesh.uvs1 if uv_set else mesh.uvs) is None:
             return mesh
-        if mesh._scalars:
+        if scalars_of(mesh):
             return mesh  # it will be coloured by them, without maps
         if mesh.joints is None and not mesh.morph_targets:
-            mesh._tangent_uv_set = uv_set
+            find_tangents_when_drawn(mesh, uv_set)
             return mesh
         if len(mesh.faces) > MOST_BENDING:
             return mesh

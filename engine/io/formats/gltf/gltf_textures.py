@@ -16,7 +16,13 @@ import numpy as np
 from ...._native.loaders import frozen
 from ....base.side_by_side import side_by_side
 from ....errors import Engine3DError
-from ....model.materials.textures import PlacedTexture, Texture
+from ....model.materials.textures import (
+    ImageFile,
+    PlacedTexture,
+    Texture,
+    image_file_of,
+    remember_image_file,
+)
 from ...reading.reader_registry import find_reader
 from ...reading.sources import Source
 from ..images import read_image
@@ -85,7 +91,7 @@ class GltfTextures:
         key = image, wrap, filter
         if key not in self._textures:
             texture = Texture(held.pixels, wrap=wrap, filter=filter, name=held.name)
-            texture._file = held._file
+            remember_image_file(texture, image_file_of(held))
             self._textures[key] = texture
         return self._textures[key]
 
@@ -189,7 +195,7 @@ class GltfTextures:
             reason = getattr(error, "message", None) or str(error)
             return reason.removeprefix(f"{where}: ")
         texture = Texture(pixels, name=str(entry.get("name") or (uri if is_file else "")))
-        texture._file = data
+        remember_image_file(texture, ImageFile(content=data))
         return texture
 
 

@@ -13,8 +13,8 @@ from typing import Any
 
 from ...._native.images import encode_png
 from ....model.materials.colors import linear_color
-from ....model.materials.material import Material
-from ....model.materials.textures import PlacedTexture, Texture
+from ....model.materials.material import Material, is_implied
+from ....model.materials.textures import PlacedTexture, Texture, image_file_of
 from ...writing.losses import lost_of_reading
 from .gltf_materials import PARTS, Map, Numbers
 from .written_arrays import GltfArrays
@@ -82,7 +82,7 @@ class GltfMaterialList:
 
     def _add(self, material: Material) -> int:
         entry = self._entry(material)
-        if not entry and material._is_implied:
+        if not entry and is_implied(material):
             return -1
         # Of a flat and a smooth one that are else the same, a file's meshes tell which is which.
         words, flat = repr(entry), material.flat_shading
@@ -193,9 +193,9 @@ def _number_of(entries: list[dict[str, Any]], entry: dict[str, Any]) -> int:
 
 def _content(texture: Texture) -> tuple[bytes, str, str | None]:
     """The bytes of a texture's image, their media type, and the extension that they need."""
-    content = texture._file
-    if content is None and texture._path is not None and not texture._is_missing:
-        content = _read(texture._path)
+    path, content, is_missing = image_file_of(texture)
+    if content is None and path is not None and not is_missing:
+        content = _read(path)
     if content is not None:
         for signature, media, extension in _IMAGES:
             if content.startswith(signature):

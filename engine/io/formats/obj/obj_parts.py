@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ....model.geometry.groups import put_groups
 from ....model.materials.material import Material
 from ...reading.corner_mesh import Geometry, Triangles, build_mesh
 from ...reading.documents import DocumentObject
@@ -141,7 +142,7 @@ class ObjParts(NamedTuple):
         mesh = build_mesh(geometry, self.materials, name)
         if not mesh.has_normals:
             join_seams(mesh)
-        mesh._take_groups(self._groups(starts, chosen))
+        put_groups(mesh, self._groups(starts, chosen))
         return DocumentObject(name, mesh, pose)
 
     def _starts(self) -> np.ndarray:

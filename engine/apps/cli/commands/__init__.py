@@ -1,0 +1,156 @@
+"""The commands, a row each: parser, help and completion follow.
+
+A command is a function of its own name in the module of that name, which is imported only when it
+runs, so that ``--help`` is quick; what adds its options, only when it is asked for.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+from collections.abc import Callable
+from typing import NamedTuple
+
+
+class Command(NamedTuple):
+    """A row of the list.
+
+    Attributes
+    ----------
+    help, description : str
+        What the list of commands says, and what the command's own help begins with.
+    add : callable
+        Adds the options to the command's parser.
+    is_quiet : bool
+        Whether there are warnings that may be left out.
+    """
+
+    help: str
+    description: str
+    add: Callable[[argparse.ArgumentParser], None]
+    is_quiet: bool = True
+
+
+def _add_edit(command: argparse.ArgumentParser) -> None:
+    from .. import values
+
+    command.add_argument("model", metavar="FILE", nargs="?", help="the file to edit, of any format")
+    command.add_argument(
+        "--resolution",
+        type=values.resolution,
+        metavar="WxH",
+        help="size of the window in pixels; 1600x900 by default",
+    )
+
+
+def _add_info(command: argparse.ArgumentParser) -> None:
+    from ..options import input_options
+
+    command.add_argument(
+        "models", metavar="MODEL", nargs="*", help="the files; - for standard input"
+    )
+    command.add_argument(
+        "--system",
+        action="store_true",
+        help="print the processor, backends, versions of packages, SDL and the locale instead; "
+        "names of users and machines, and paths, are not in it",
+    )
+    command.add_argument(
+        "--json", action="store_true", help="print JSON: a list where there are several files"
+    )
+    input_options.add_root(command)
+
+
+def _add_completion(command: argparse.ArgumentParser) -> None:
+    command.add_argument("shell", choices=("bash", "zsh", "fish"), help="which shell")
+
+
+def _of_modules(*names: str) -> Callable[[argparse.ArgumentParser], None]:
+    """Return what imports modules of options, and lets each add its own."""
+
+    def add(command: argparse.ArgumentParser) -> None:
+        for name in names:
+            importlib.import_module(f"..options.{name}", __package__).add(command)
+
+    return add
+
+
+COMMANDS = {
+    "run": Command(
+        "show a model or a scene in a window",
+        "Show a model or a scene in a window. H in the window lists the keys.",
+        _of_modules("scene_options", "run_options", "shared_options"),
+    ),
+    "edit": Command(
+        "put a scene together in a window with panels",
+        "Open the editor: a window with panels for the tree of nodes, the scene, what nodes are "
+        "made of, and a console. It needs pip install 'engine3d[editor]'.",
+        _add_edit,
+    ),
+    "render": Command(
+        "draw a model or a scene to a file",
+        "Draw a model or a scene to a picture (PNG, JPEG, TGA, WebP) or, with --turntable, to an "
+        "animation (GIF, WebP, APNG).",
+        _of_modules("scene_options", "render_options", "shared_options"),
+    ),
+    "info": Command(
+        "print what model files hold, or what a report of a bug should say",
+        "Print the lists that model files hold, their bounds and their warnings; or, with "
+        "--system, what a report of a bug should say of the machine and the installation.",
+        _add_info,
+    ),
+    "diff": Command(
+        "compare pictures, or folders of them",
+        "Compare two pictures, or the pictures of two folders: what was drawn with what it should "
+        "be. Exit status 1 if one changed. Options are those of reg-cli.",
+        _of_modules("diff_options"),
+    ),
+    "sheet": Command(
+        "draw a model from several sides, with dimensions and a report",
+        "Draw models from several sides on one sheet (PNG), with dimensions, axes and a scale, and "
+        "report as JSON what shows where and how pixels and the world are related.",
+        _of_modules("sheet_options"),
+    ),
+    "convert": Command(
+        "write a model in another format",
+        "Write a model in the format that the extension of OUT names. A warning names what that "
+        "format cannot hold. Coordinates do not change, whichever axis is up.",
+        _of_modules("convert_options"),
+    ),
+    "batch": Command(
+        "draw many pictures, or a data set, with many processes",
+        "Draw the pictures that a manifest lists (docs/batches.md tells its format), with many "
+        "processes. A picture is there whole or not at all. Ends with status 1 if some could not "
+        "be drawn; they are listed at the end.",
+        _of_modules("batch_options"),
+    ),
+    "city": Command(
+        "generate a city and write it as a model",
+        "Generate a city and write it in the format that the extension of OUT names. "
+        "The same options give the same bytes on every machine.",
+        _of_modules("city_options"),
+    ),
+    "learn": Command(
+        "show how a 3D engine works, lesson by lesson",
+        "Show the lessons of the course in a window, step by step. Each is a short program that "
+        "draws as a student would. Right and left arrow go from step to step, N and P from lesson "
+        "to lesson, Q leaves.",
+        _of_modules("learn_options"),
+        is_quiet=False,
+    ),
+    "bench": Command(
+        "measure how fast this machine draws",
+        "Measure how fast this machine draws, stage by stage. The scenes are\n"
+        "generated; nothing is downloaded. Scripts of the source distribution, in\n"
+        "benchmarks/, draw charts of the results and compare with Mesa's llvmpipe.",
+        _of_modules("bench_options"),
+        is_quiet=False,
+    ),
+    "completion": Command(
+        "print what lets a shell complete commands and options",
+        "Print a script for a shell. To try it: source <(engine3d completion bash), the same with "
+        "zsh, or engine3d completion fish | source.",
+        _add_completion,
+        is_quiet=False,
+    ),
+}

@@ -1,0 +1,89 @@
+"""``engine3d convert``: a model file written in another format."""
+
+from __future__ import annotations
+
+import argparse
+import io
+import os
+import shlex
+
+from ....base.files.making_folders import make_folder_of
+from ....errors import printable
+from ....io.formats.gltf.gltf_writer import save_scene_as
+from ....io.loaders import load_mesh
+from ....io.scenes.scene_loading import load_scene
+from ....io.writers import formats, save_mesh
+from ..inputs import model_file
+from ..loading_bar import LoadingBar
+from ..outputs import (
+    STANDARD_OUTPUT,
+    check_folder,
+    check_output,
+    check_standard_output,
+    is_same_file,
+    write_standard_output,
+)
+from ..usage import UsageError
+
+BINARY_FORMATS = (".ply", ".stl")
+SCENE_FORMATS = (".glb", ".gltf")
+
+
+def convert(args: argparse.Namespace) -> int:
+    """Run the command; return the exit status."""
+    output = _output(args)
+    extension = _checked_extension(output, args.format)
+    options = {"ascii": True} if args.ascii else {}
+    if options and extension not in BINARY_FORMATS:
+        raise UsageError(f"--ascii is for {' and '.join(BINARY_FORMATS)} files")
+    if is_same_file(args.model, output):
+        raise UsageError(f"{printable(output)} is the model itself")
+    convert = _scene if extension in SCENE_FORMATS else _mesh
+    with LoadingBar() as progress:
+        how = {"progress": progress, "root": args.root}
+        save = convert(model_file(args.model), how, args.format, extension, options)
+    if output == STANDARD_OUTPUT:
+        stream = io.BytesIO()
+        save(stream)
+        write_standard_output(stream.getbuffer())
+    else:
+        make_folder_of(output)
+        save(output)
+    return 0
+
+
+def _mesh(model, how: dict, format: str | None, extension: str, options: dict):
+    """What saves the one mesh that a model is."""
+    mesh = load_mesh(model, **how)
+    return lambda output: save_mesh(mesh, output, format=format, **options)
+
+
+def _scene(model, how: dict, format: str | None, extension: str, options: dict):
+    """What saves all that a model holds: its nodes, cameras, lights, skins and animations."""
+    scene = load_scene(model, **how)
+    return lambda output: save_scene_as(scene, output, extension)
+
+
+def _output(args: argparse.Namespace) -> str:
+    """Where to write: OUT and ``-o`` are two ways to say it."""
+    named = [name for name in (args.output, args.output_option) if name is not None]
+    if not named:
+        example = shlex.join([args.model, os.path.splitext(args.model)[0] + ".ply"])
+        raise UsageError(f"say where to write, such as: engine3d convert {printable(example)}")
+    if len(named) != 1:
+        raise UsageError("say once where to write: OUT, or -o OUT")
+    return named[0]
+
+
+def _checked_extension(output: str, format: str | None) -> str:
+    """The extension of the format, in lower case; refuses, before any work, what has none."""
+    known = {extension: item.name for item in formats() for extension in item.extensions}
+    if output == STANDARD_OUTPUT:
+        if format is None:
+            raise UsageError(f"- needs --format: one of {', '.join(known.values())}")
+        check_standard_output()
+    elif format is None:
+        return check_output(output, known, "a model").lower()
+    else:
+        check_folder(output)
+    return next(extension for extension, name in known.items() if name == format)

@@ -1,0 +1,26 @@
+"""``engine3d edit``: a window with panels in which a scene is put together."""
+
+from __future__ import annotations
+
+import argparse
+
+from ....errors import Engine3DError
+
+
+def edit(args: argparse.Namespace) -> int:
+    """Run the command; return the exit status."""
+    from ...viewer.sdl import find_screen
+
+    find_screen()
+    try:
+        from ...editor.ui.editor_window import EditorWindow
+    except ImportError as error:
+        if (error.name or "").partition(".")[0] != "imgui_bundle":
+            raise
+        # Another error than this one: the package is there, but a library of the system is not.
+        is_there = not isinstance(error, ModuleNotFoundError)
+        lacks = f"it does not load: {error}" if is_there else "pip install 'engine3d[editor]'"
+        raise Engine3DError(f"the editor needs Dear ImGui: {lacks}") from None
+    size = {"size": args.resolution} if args.resolution else {}
+    with EditorWindow(args.model or "", **size) as editor:
+        return editor.run()

@@ -1,0 +1,148 @@
+"""``engine3d learn``: the lessons of the course, step by step in a window.
+
+The lessons are programs of `engine3d.lessons`, which is installed as data. They are run as scripts,
+and import each other as such, so their folder is a place to import from.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import functools
+import importlib
+import os
+import runpy
+import subprocess
+import sys
+from collections.abc import Iterator, Mapping
+from importlib.resources import files
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+
+from ....errors import DisplayError
+from ...viewer.lesson_window import Lesson, LessonWindow
+from ...viewer.window import Window
+from ..suggestions import meant
+from ..usage import UsageError
+from . import french_lessons
+
+SIZE = (1200, 720)
+
+
+#: What the window and the command say, by language.
+KEYS = {
+    "en": "Arrows: steps. N and P: lessons. Q: leave. The program: {}",
+    "fr": french_lessons.KEYS,
+}
+STEP = {"en": "step {} - arrows: steps, N P: lessons", "fr": french_lessons.STEP}
+
+
+def learn(args: argparse.Namespace) -> int:
+    """Run the command; return the exit status."""
+    programs = find_programs()
+    language = args.language or usual_language(os.environ)
+    if args.list:
+        for number in range(len(programs)):
+            say(title_of(programs, number, language))
+        return 0
+    number = choose(args.lesson, programs)
+    if args.path:
+        print(programs[number])
+        return 0
+    if args.output is not None:
+        return write(programs[number], args.output, language)
+    show(programs, number, language)
+    return 0
+
+
+def say(text: str) -> None:
+    """Print a line; letters that the terminal's encoding lacks become question marks."""
+    encoding = sys.stdout.encoding or "utf-8"
+    print(text.encode(encoding, "replace").decode(encoding))
+
+
+def usual_language(environment: Mapping[str, str]) -> str:
+    """Return the language of the user's locale, if there are lessons in it; else English."""
+    names = (environment.get(name, "") for name in ("LC_ALL", "LC_MESSAGES", "LANG"))
+    locale = next(filter(None, names), "")
+    # The list of LANGUAGE counts before the locale, unless that is C.
+    chosen = (environment.get("LANGUAGE") or locale) if locale else ""
+    return "fr" if chosen.split(":")[0].lower().startswith("fr") else "en"
+
+
+def find_programs() -> list[Path]:
+    """Return the programs of the lessons, in their order."""
+    folder = Path(str(files("engine3d.lessons")))
+    return sorted(folder.glob("[0-9][0-9]_*.py"))
+
+
+def title_of(programs: list[Path], number: int, language: str = "en") -> str:
+    """Return the number of a lesson and the first sentence of its program, or its French title."""
+    if language == "fr":
+        return french_lessons.title_in_french(number)
+    program = programs[number]
+    docstring = ast.get_docstring(ast.parse(program.read_text(encoding="utf-8"))) or ""
+    return f"{number + 1:2}. {docstring.splitlines()[0].rstrip('.')}"
+
+
+def choose(wanted: str, programs: list[Path]) -> int:
+    """Return the index of a lesson that is given by number or name, such as 3 or lines."""
+    names = [program.stem for program in programs]
+    for number, name in enumerate(names):
+        if wanted in (name, name[3:], name[:2], str(number + 1)):
+            return number
+    hint = meant(wanted, [name[3:] for name in names])
+    raise UsageError(f"no lesson {wanted}{hint} (engine3d learn --list has them all)")
+
+
+def write(program: Path, folder: str, language: str) -> int:
+    """Write the pictures of a lesson to a folder; return the exit status."""
+    if language == "en":
+        command = [sys.executable, str(program), "-o", folder]
+        return subprocess.run(command).returncode
+    steps = ((french_lessons.caption_in_french(step[0]), *step[1:]) for step in steps_of(program))
+    shared_by_lessons(program).save(Path(folder) / f"{program.stem}.png", steps)
+    return 0
+
+
+def show(programs: list[Path], number: int, language: str) -> None:
+    """Show lessons in a window, one of them first.
+
+    Raises
+    ------
+    DisplayError
+        There is no screen.
+    """
+    lessons = [
+        Lesson(title_of(programs, k, language).strip(), functools.partial(draw, program, language))
+        for k, program in enumerate(programs)
+    ]
+    try:
+        with Window(*SIZE, lessons[number].title, wait=True) as window:
+            say(KEYS[language].format(programs[number]))
+            LessonWindow(window, lessons, number, STEP[language]).run()
+    except DisplayError as error:
+        raise DisplayError(f"{error}; -o FOLDER writes the pictures of a lesson") from error
+
+
+def shared_by_lessons(program: Path) -> ModuleType:
+    """Return the module that a lesson shares with the others, from the lessons' own folder."""
+    if str(program.parent) not in sys.path:
+        sys.path.insert(0, str(program.parent))
+    return importlib.import_module("lesson")
+
+
+def steps_of(program: Path) -> Iterator[tuple]:
+    """Yield the steps of a lesson as its program does: a caption, then pictures."""
+    shared_by_lessons(program)
+    yield from runpy.run_path(str(program))["steps"]()
+
+
+def draw(program: Path, language: str) -> Iterator[np.ndarray]:
+    """Yield the steps of a lesson, each with what lies beside it and its caption."""
+    for caption, *pictures in steps_of(program):
+        if language == "fr":
+            caption = french_lessons.caption_in_french(caption)
+        yield shared_by_lessons(program).block(caption, *pictures)

@@ -1,0 +1,205 @@
+"""``engine3d run``: a window, or without a screen an animation in a file."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import os
+from pathlib import Path
+
+from ....base.files.making_folders import make_folder_of
+from ....errors import DisplayError
+from ....io.output.animation_files import numbered_path, save_animation
+from ....io.output.frame_names import literal_name
+from ....stage import headless
+from ....stage.view_renderer import ViewRenderer
+from ....stage.views.walking import GroundController, controller, walk
+from ..inputs import STANDARD_INPUT
+from ..one_by_one import draw_each
+from ..options import scene_options
+from ..options import shared_options as options
+from ..options.input_options import jobs
+from ..options.picture_options import WINDOW
+from ..options.shared_options import Viewing
+from ..outputs import check_animation, check_picture, remark_on_size, with_progress
+from ..quietness import remark
+from ..usage import UsageError
+from ..verbose_report import Report, warn_of_nothing
+
+WINDOW_SIZE = (1280, 720)
+#: What a turntable gets that nobody asked for: small, so that it is there soon.
+FILE_SIZE = (640, 360)
+FILE_FRAMES = 48
+FILE_SAMPLES = 4
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command; return the exit status."""
+    found = jobs(args)
+    for job in found:
+        _check(job)
+    reason = None if args.headless or args.terminal else _missing_screen()
+    if args.headless and len(found) > 1:
+        return draw_each(lambda job: _run(job, found, reason), found)
+    return _run(found[0], found, reason)
+
+
+def _run(args: argparse.Namespace, found: list[argparse.Namespace], reason: str | None) -> int:
+    """Show the first of several, or write one of them."""
+    report = Report(args.verbose)
+    viewed = scene_options.viewed_scene(args, default_scene="default")
+    report.loaded(viewed)
+    if not args.headless and reason is None:
+        try:
+            _show(args, found, viewed, report)
+            return 0
+        except DisplayError as error:
+            if args.terminal:
+                raise
+            reason = str(error)
+    return _write(args, viewed, reason, report)
+
+
+def _check(args: argparse.Namespace) -> None:
+    if args.terminal and (args.headless or args.resolution is not None):
+        other = "--headless" if args.headless else "--resolution"
+        raise UsageError(
+            f"--terminal shows what the terminal has room for: {other} goes without it"
+        )
+    if args.output is not None:
+        if not args.headless:
+            raise UsageError("-o goes with --headless")
+        if args.frames == 1:
+            check_picture(args.output, series="--frames 2 or more")
+        else:
+            check_animation(args.output)
+    for option, given in (("--watch", args.watch), ("--fps", args.fps)):
+        if given and args.headless:
+            raise UsageError(f"{option} needs a window: it does not go with --headless")
+    if args.scene == "city" and (args.walkable is not None or args.slope is not None):
+        raise UsageError("--walkable and --slope need a MODEL: the city knows its own ground")
+    if args.watch and (not args.models or STANDARD_INPUT in args.models):
+        raise UsageError("--watch needs a MODEL that is a file")
+
+
+def _missing_screen() -> str | None:
+    """Return why no window can open, as far as that shows without loading SDL, or None."""
+    from ...viewer.sdl import find_screen
+
+    try:
+        find_screen()
+    except DisplayError as error:
+        return str(error)
+    return None
+
+
+def _viewing(args: argparse.Namespace) -> Viewing:
+    """Return how the options say that a model is drawn and walked on."""
+    return options.viewing(
+        args,
+        walks=args.camera == "fps" or args.walkable is not None or args.slope is not None,
+        walkable=args.walkable,
+        slope=None if args.slope is None else math.radians(args.slope),
+    )
+
+
+def _show(
+    args: argparse.Namespace, found: list[argparse.Namespace], viewed, report: Report
+) -> None:
+    """Open a window and stay until it closes."""
+    from ....stage.views.walkable_ground import told
+    from ...desktop.recent_files import RecentFiles
+    from ...viewer.model_files import ModelFiles
+    from ...viewer.sampling import AT_REST, Sampling
+    from ...viewer.viewer import Viewer
+
+    how = _viewing(args)
+    with (
+        _window(args, viewed) as window,
+        how.renderer(viewed, window.size, (WINDOW, AT_REST), report) as view_renderer,
+    ):
+        viewer = Viewer(
+            view_renderer,
+            window,
+            view=how.first_view.place(view_renderer),
+            walking=args.camera == "fps",
+            playing=args.animate,
+            statistics=args.fps,
+            files=ModelFiles(
+                args.models,
+                listed=[job.models[0] for job in found if len(found) > 1],
+                watch=args.watch,
+                remembered=True,
+                **scene_options.opening(args),
+            ),
+            sampling=Sampling(1 if args.antialiasing == "none" else args.samples),
+        )
+        viewer.time = (args.animation_time or 0.0) % viewed.period
+        if STANDARD_INPUT not in args.models:
+            RecentFiles().add(*args.models)
+        still = viewed.update is not None and not viewer.playing
+        if viewer.walker is None:
+            viewer.say("H: help" + ("; Space: play" if still else ""))
+        elif isinstance(viewer.walker, GroundController):
+            report.line(told(viewer.walker.grid))
+        _run_viewer(viewer, args)
+
+
+def _run_viewer(viewer, args: argparse.Namespace) -> None:
+    """Show frames; say why the first one shows nothing, if it does not."""
+    if args.frames == 0:
+        return
+    viewer.run(1)
+    # A terminal takes no other lines meanwhile.
+    ask = ViewRenderer.why_blank if args.terminal else warn_of_nothing
+    reason = ask(viewer.view_renderer)
+    if reason is not None:
+        viewer.say(f"nothing shows: {reason.sentence}")
+    viewer.run(None if args.frames is None else args.frames - 1)
+
+
+def _window(args: argparse.Namespace, viewed):
+    """Return a window, or the terminal in its place."""
+    if args.terminal:
+        from ...terminal.terminal_window import TerminalWindow
+
+        return TerminalWindow()
+    from ...viewer.window import Window
+
+    size = args.resolution or WINDOW_SIZE
+    return Window(*size, f"{viewed.title} - engine3d", vsync=args.vsync)
+
+
+def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report) -> int:
+    """Write an animation instead, and say where; ``reason`` tells why no window opened."""
+    count = args.frames or FILE_FRAMES
+    path = args.output or literal_name(_new_path(viewed, count))
+    if reason is not None:
+        remark(f"{reason}: rendering a turntable to {path} instead")
+    how = _viewing(args)
+    with how.renderer(viewed, FILE_SIZE, ("msaa", FILE_SAMPLES), report) as view_renderer:
+        view = how.first_view.place(view_renderer)
+        walks = args.camera == "fps"
+        if count == 1:
+            if walks:
+                controller(view_renderer, view).place(view)
+            make_folder_of(path)
+            view_renderer.draw(view).save(path)
+        else:
+            start = () if walks else (args.animation_time or 0.0,)
+            draw = walk if walks else headless.animation
+            pictures = draw(view_renderer, view, count, *start)
+            pictures = with_progress(pictures, count, "rendering")
+            make_folder_of(path)
+            save_animation(pictures, path, headless.seconds_a_frame(view_renderer, count))
+            remark_on_size(os.fspath(path))
+        warn_of_nothing(view_renderer)
+    if reason is None and args.output is None:
+        remark(f"wrote {path}")
+    return 0
+
+
+def _new_path(viewed, count: int) -> Path:
+    """Return the name of a file that is not there yet, in the current folder."""
+    stem = f"{Path(viewed.title).stem}-turntable"
+    return numbered_path(Path(), stem, ".png" if count == 1 else ".gif")

@@ -1,0 +1,89 @@
+"""``engine3d sheet``: models from several sides on one sheet, and a report of what shows."""
+
+from __future__ import annotations
+
+import argparse
+import os
+
+from ....base.files.atomic_write import atomic_write
+from ....base.files.making_folders import make_folder_of
+from ....errors import InvalidArgumentError
+from ...sheet.contact_sheet import Sheet, contact_sheet
+from ...sheet.views import DEFAULT_VIEWS, check_views
+from ..inputs import model_files
+from ..outputs import (
+    STANDARD_OUTPUT,
+    check_folder,
+    check_output,
+    check_standard_output,
+    is_same_file,
+    write_standard_output,
+)
+from ..usage import UsageError
+
+
+def sheet(args: argparse.Namespace) -> int:
+    """Run the command; return the exit status."""
+    report = _check(args)
+    drawn = contact_sheet(
+        model_files(args.models),
+        views=_views(args),
+        sections=args.section or (),
+        size=args.size,
+        up=args.up,
+        unit=args.unit,
+        root=args.root,
+        backend=args.backend,
+        threads=args.threads,
+    )
+    _write(args.output, report, drawn)
+    return 0
+
+
+def _views(args: argparse.Namespace) -> str:
+    return DEFAULT_VIEWS if args.views is None else args.views
+
+
+def _check(args: argparse.Namespace) -> str | None:
+    """Refuse, before any work, what cannot be done; return where the report goes."""
+    try:
+        check_views(_views(args), args.section or ())
+    except InvalidArgumentError as error:
+        raise UsageError(f"--{error}") from None
+    if args.output is None and args.report is None:
+        raise UsageError("say where to write with -o FILE or --report FILE")
+    report = args.report
+    if args.json:
+        if args.report is not None:
+            raise UsageError("--json does not go with --report")
+        if args.output in (None, STANDARD_OUTPUT):
+            raise UsageError("--json goes with -o FILE; --report - writes to standard output")
+        report = os.path.splitext(args.output)[0] + ".json"
+    if args.output == STANDARD_OUTPUT == report:
+        raise UsageError("standard output takes the picture or the report, not both")
+    if args.output == STANDARD_OUTPUT:
+        check_standard_output()
+    elif args.output is not None:
+        check_output(args.output, (".png",), "a sheet")
+    if report not in (None, STANDARD_OUTPUT):
+        check_folder(report)
+    for path in args.models:
+        for output in filter(None, (args.output, report)):
+            if is_same_file(path, output):
+                raise UsageError(f"{output!r} is the model: write to another file")
+    return report
+
+
+def _write(output: str | None, report: str | None, drawn: Sheet) -> None:
+    for path in (output, report):
+        if path not in (None, STANDARD_OUTPUT):
+            make_folder_of(path)
+    if output not in (None, STANDARD_OUTPUT):
+        drawn.save(output, None if report == STANDARD_OUTPUT else report)
+    elif output == STANDARD_OUTPUT:
+        write_standard_output(drawn.encode())
+    if report == STANDARD_OUTPUT:
+        write_standard_output(drawn.json().encode("ascii"))
+    elif report is not None and output in (None, STANDARD_OUTPUT):
+        with atomic_write(report) as file:
+            file.write(drawn.json().encode("ascii"))

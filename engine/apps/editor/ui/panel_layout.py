@@ -1,0 +1,108 @@
+"""Where panels are, which of them are closed, by which steps tools snap: kept from time to time.
+
+In: the workspace, Dear ImGui's windows. Out: one file in ImGui's own format, in which the editor's
+settings are a section that ImGui passes over.
+"""
+
+from __future__ import annotations
+
+import configparser
+import contextlib
+import math
+import os
+from pathlib import Path
+
+from imgui_bundle import imgui
+
+from ....base.files.atomic_write import atomic_write
+from ....base.files.json_records import read_small
+from ....errors import FileAccessError, FileFormatError, warn
+from ...desktop.user_folders import user_path
+from .workspace import PANELS, Workspace
+
+_HEAD = "[engine3d][Editor]"
+_LARGEST = 1 << 20  # bytes
+
+
+def layout_path() -> Path:
+    """Return where the layout is kept."""
+    return user_path("state", "editor.ini")
+
+
+def load_layout(workspace: Workspace) -> bool:
+    """Take over what was kept; return whether there was something."""
+    try:
+        text = read_small(layout_path(), _LARGEST).decode("utf-8")
+    except UnicodeError:
+        warn(f"{layout_path()}: not in UTF-8: panels have their usual places")
+        return False
+    except (FileAccessError, FileFormatError) as error:
+        if os.path.lexists(layout_path()):
+            warn(f"{error}: panels have their usual places")
+        return False
+    imgui.load_ini_settings_from_memory(text)
+    _read_settings(workspace, text.partition(_HEAD)[2].partition("\n[")[0])
+    return True
+
+
+def save_layout(workspace: Workspace) -> None:
+    """Keep the layout; if that fails, it is the usual one next time."""
+    path = layout_path()
+    lines = [_HEAD, f"closed={','.join(sorted(workspace.panels.closed))}"]
+    lines += [f"{tool}={step!r}" for tool, step in workspace.tools.steps.items()]
+    text = "\n".join(lines) + "\n\n" + imgui.save_ini_settings_to_memory()
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with atomic_write(path) as file:
+            file.write(text.encode())
+    except (OSError, FileAccessError):
+        return
+
+
+def _read_settings(workspace: Workspace, text: str) -> None:
+    """Take over what can be understood of the editor's own section."""
+    parser = configparser.ConfigParser(interpolation=None, strict=False)
+    with contextlib.suppress(configparser.Error):
+        parser.read_string(f"[settings]\n{text}")
+    if not parser.has_section("settings"):
+        return
+    settings = parser["settings"]
+    workspace.panels.closed = set(settings.get("closed", "").split(",")) & set(PANELS)
+    for tool in workspace.tools.steps:
+        with contextlib.suppress(ValueError):
+            step = settings.getfloat(tool, 0.0)
+            if 0.0 < step < math.inf:
+                workspace.tools.steps[tool] = step
+
+
+def place_panels(space: int, size: tuple[int, int]) -> None:
+    """Give the panels their usual places."""
+    builder = imgui.internal
+    builder.dock_builder_remove_node(space)
+    # Numbers, as they are of two enumerations, whose sum Python before 3.11.4 cannot name.
+    is_space = int(builder.DockNodeFlagsPrivate_.dock_space)
+    is_seen_through = int(imgui.DockNodeFlags_.passthru_central_node)
+    builder.dock_builder_add_node(space, is_space | is_seen_through)
+    builder.dock_builder_set_node_size(space, size)
+    split = builder.dock_builder_split_node_py
+    *_, left, rest = split(space, imgui.Dir.left, 0.2)
+    *_, right, rest = split(rest, imgui.Dir.right, 0.26)
+    *_, below, middle = split(rest, imgui.Dir.down, 0.28)
+    places = {
+        "Hierarchy": left,
+        "Scene": middle,
+        "Properties": right,
+        "Console": below,
+        "Resources": below,
+    }
+    for name, place in places.items():
+        builder.dock_builder_dock_window(name, place)
+    builder.dock_builder_finish(space)
+
+
+def begin_panel(workspace: Workspace, name: str) -> bool:
+    """Begin a panel, which the user may close; return whether what it holds is to be laid out."""
+    shown, is_open = imgui.begin(name, True)
+    if not is_open:
+        workspace.panels.closed.add(name)
+    return shown

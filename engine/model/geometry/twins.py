@@ -1,0 +1,51 @@
+"""Meshes that hold what another holds: twins, of which loaders make many, and meshes loaded again.
+
+In: a mesh, and materials or arrays that fit. Out: another of the same arrays, or the given one with
+other content. Nothing is checked again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from ...base.dirty_tracking import renew
+from ..materials.material import Material
+from .mesh import Mesh, own_containers
+from .movers import VERTEX_AXES
+
+
+def twin_of(mesh: Mesh, materials: Iterable[Material], name: str) -> Mesh:
+    """Return another mesh of the same arrays and what follows from them.
+
+    A copy takes ten times as long.
+    """
+    twin = type(mesh).__new__(type(mesh))
+    own = {key: type(held)(held) for key, held in vars(mesh).items() if type(held) is dict}
+    own["_derived"] = mesh._derived
+    vars(twin).update(
+        vars(mesh), **own, name=name, warnings=list(mesh.warnings), _materials=list(materials)
+    )
+    own_containers(twin)
+    return twin
+
+
+def put_arrays(mesh: Mesh, arrays: dict[str, Any]) -> None:
+    """Let a mesh that nobody else knows yet have arrays that another had."""
+    mesh._arrays.update(arrays)
+
+
+def take_over(mesh: Mesh, other: Mesh) -> None:
+    """Let a mesh hold everything of another but its name."""
+    gone = dict.fromkeys(VERTEX_AXES)
+    mesh._arrays.update({**gone, **other._arrays})  # one step: they fit at every moment
+    mesh._morph_targets = other._morph_targets
+    mesh._crease_angle = other._crease_angle
+    mesh._derived = {}
+    mesh._materials, mesh._groups = other._materials, other._groups
+    own_containers(mesh)
+    mesh.warnings = list(other.warnings)
+    mesh._origin = other._origin
+    if mesh._tangent_uv_set != other._tangent_uv_set:
+        mesh._tangent_uv_set = other._tangent_uv_set
+    renew(mesh)

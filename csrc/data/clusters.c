@@ -197,7 +197,7 @@ static int keep_data(building *work, builder *b, int32_t chunk)
     if (posix_memalign(&block, 64, b->used * sizeof(float)))
         return 0;
     memcpy(block, b->data, b->used * sizeof(float));
-    work->mesh->blocks[chunk] = block;
+    work->mesh->slabs[chunk] = block;
     for (e3d_cluster *c = work->clusters + (size_t)chunk * (size_t)work->bound; c < b->now; c++)
         c->positions = (float *)block + (c->positions - b->data);
     return 1;
@@ -280,11 +280,11 @@ static int build_all(e3d_mesh *mesh, int threads)
     int32_t count = mesh->desc.faces_count;
     building work = {.mesh = mesh, .chunks = (count + CHUNK_FACES - 1) / CHUNK_FACES};
     work.bound = (count < CHUNK_FACES ? count : CHUNK_FACES) / LEAST_FACES + 1;
-    mesh->block_count = work.chunks;
-    mesh->blocks = calloc((size_t)work.chunks, sizeof *mesh->blocks);
+    mesh->slab_count = work.chunks;
+    mesh->slabs = calloc((size_t)work.chunks, sizeof *mesh->slabs);
     work.counts = calloc((size_t)work.chunks, sizeof *work.counts);
     work.clusters = malloc((size_t)work.chunks * (size_t)work.bound * sizeof *work.clusters);
-    int done = mesh->blocks && work.counts && work.clusters;
+    int done = mesh->slabs && work.counts && work.clusters;
     if (done)
         e3d_pool_run(threads < work.chunks ? threads : work.chunks, build_chunks, &work);
     done = done && !work.failed && join_chunks(&work) && group_clusters(mesh);

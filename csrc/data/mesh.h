@@ -39,8 +39,8 @@ struct e3d_mesh {
     e3d_cluster *clusters;
     int32_t cluster_count, group_count;
     e3d_group_box *groups;
-    float **blocks;    /* one for each chunk of faces: positions and indices of its clusters */
-    int32_t block_count;
+    float **slabs;     /* one for each chunk of faces: positions and indices of its clusters */
+    int32_t slab_count;
     int32_t *faces;    /* the faces of the clusters' triangles, cluster after cluster */
     const e3d_mesh *like; /* itself, or of a posed mesh the one at rest: what has the same clusters, wherever they are */
     int32_t borrows_faces; /* a posed mesh: they are those of the mesh at rest, which outlives it */

@@ -16,7 +16,7 @@ E3D_KERNEL(void, take_clip, (const float *positions, int stride, int count, cons
 E3D_KERNEL(int, setup, (const e3d_vertices *vertices, const uint8_t *indices, int triangles, int cull, int fragments, const e3d_viewport
            *viewport, e3d_survivors *out))
 /* Makes records, and finds their tiles; returns how many. There is room for those of a whole cluster. */
-E3D_KERNEL(int, record, (const e3d_record_request *request, e3d_record *out, e3d_tile_span *spans))
+E3D_KERNEL(int, record, (const e3d_record_request *request, e3d_record *out, e3d_tile_rect *spans))
 /* Adds micro-triangles of a cluster, a bit each, for which there is room; triangle t has the ID first + (t << bits). */
 E3D_KERNEL(void, add_small, (const e3d_vertices *vertices, const uint8_t *indices, uint64_t triangles, int32_t first, int bits,
            e3d_small_triangles *to))

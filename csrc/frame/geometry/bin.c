@@ -38,7 +38,7 @@ static void free_chains(e3d_chains *chains)
     e3d_array_free(&chains->earlier);
 }
 
-void e3d_geometry_free(e3d_geometry_state *state)
+void e3d_geometry_free(e3d_geometry_memory *state)
 {
     for (e3d_record_set *set = state->sets; set < state->sets + E3D_SETS; set++) {
         e3d_array_free(&set->records);
@@ -74,7 +74,7 @@ static int keep(e3d_chains *chains, int32_t tiles)
     return empty(&chains->bins, tiles);
 }
 
-static int reset(e3d_geometry_state *state, int32_t tiles, int alpha)
+static int reset(e3d_geometry_memory *state, int32_t tiles, int alpha)
 {
     memset(&state->counters, 0, sizeof state->counters);
     state->failed = 0;
@@ -177,8 +177,8 @@ static void find_tile_edges(const e3d_record *record, int32_t x, int32_t y, int3
 
 /* Lists a record in the tiles of a span that it does not miss; it meets each tile of a single row or column. This is a function of
  * its own because its registers would spill those of the common case. */
-static int __attribute__((noinline)) bin_wide(const e3d_view *view, e3d_geometry_state *state, const e3d_record *record, e3d_chains *to,
-                                              e3d_tile_span span, uint32_t id)
+static int __attribute__((noinline)) bin_wide(const e3d_view *view, e3d_geometry_memory *state, const e3d_record *record, e3d_chains *to,
+                                              e3d_tile_rect span, uint32_t id)
 {
     e3d_bin *bins = to->bins.data;
     int32_t x0 = (int32_t)(span.first & 0xFFFF), y0 = (int32_t)(span.first >> 16);
@@ -210,8 +210,8 @@ static inline e3d_bin *bin_at(const e3d_view *view, e3d_chains *chains, uint32_t
 }
 
 /* Most are in one tile, or in two side by side. */
-int e3d_bin_records(const e3d_view *view, e3d_geometry_state *state, const e3d_record_set *set, e3d_chains *to, uint32_t first,
-                    const e3d_tile_span *spans, int count)
+int e3d_bin_records(const e3d_view *view, e3d_geometry_memory *state, const e3d_record_set *set, e3d_chains *to, uint32_t first,
+                    const e3d_tile_rect *spans, int count)
 {
     int bits = state->id_bits, entries = 0;
     for (int i = 0; i < count; i++) {

@@ -13,7 +13,7 @@
 typedef struct e3d_bins {
     int32_t threads, tiles;
     int alpha; /* whether there may be records with alpha */
-    e3d_geometry_state *of[E3D_MAX_THREADS];
+    e3d_geometry_memory *of[E3D_MAX_THREADS];
     const e3d_record *records[E3D_SETS][E3D_MAX_THREADS];
     const e3d_drawn_cluster *drawn[E3D_MAX_THREADS];
     const float *corners[E3D_MAX_THREADS]; /* c[k][j] of the cut records of the scene */
@@ -22,7 +22,7 @@ typedef struct e3d_bins {
 
 /* The bins of so many threads, whose memory is theirs already. */
 void e3d_bins_init(e3d_bins *bins, int32_t threads);
-void e3d_geometry_free(e3d_geometry_state *state);
+void e3d_geometry_free(e3d_geometry_memory *state);
 /* Begins a pass with nothing in the bins, which has records with alpha or not; 0 when memory is out. */
 int e3d_bins_reset(e3d_bins *bins, int64_t tiles, int alpha);
 /* Empties the bins of the scene. */
@@ -33,11 +33,11 @@ int e3d_bins_keep(e3d_bins *bins);
 void e3d_bins_index(e3d_bins *bins);
 
 /* Lists `count` records of a set from `first` on in the bins `to` of the tiles that they may touch; 0 when memory is out. */
-int e3d_bin_records(const e3d_view *view, e3d_geometry_state *state, const e3d_record_set *set, e3d_chains *to, uint32_t first,
-                    const e3d_tile_span *spans, int count);
-static inline e3d_tile_span e3d_span_of(const e3d_box *box)
+int e3d_bin_records(const e3d_view *view, e3d_geometry_memory *state, const e3d_record_set *set, e3d_chains *to, uint32_t first,
+                    const e3d_tile_rect *spans, int count);
+static inline e3d_tile_rect e3d_tile_rect_of(const e3d_box *box)
 {
-    return (e3d_tile_span){(uint32_t)(box->y0 >> E3D_TILE_SHIFT << 16 | box->x0 >> E3D_TILE_SHIFT),
+    return (e3d_tile_rect){(uint32_t)(box->y0 >> E3D_TILE_SHIFT << 16 | box->x0 >> E3D_TILE_SHIFT),
                            (uint32_t)(box->y1 >> E3D_TILE_SHIFT << 16 | box->x1 >> E3D_TILE_SHIFT)};
 }
 

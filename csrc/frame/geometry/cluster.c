@@ -102,7 +102,7 @@ static void draw_clipped(const e3d_cluster_job *j, int triangle)
 static void draw_records(const e3d_cluster_job *j, const e3d_record_request *request, int alpha)
 {
     e3d_record_set *set = &j->state->sets[E3D_SET_SCENE];
-    e3d_tile_span spans[E3D_CLUSTER_TRIANGLES];
+    e3d_tile_rect spans[E3D_CLUSTER_TRIANGLES];
     if (!e3d_records_fit(set, j->state->id_bits, E3D_CLUSTER_TRIANGLES)) {
         j->state->failed = 1;
         return;
@@ -228,7 +228,7 @@ void e3d_draw_cluster(const e3d_cluster_job *j)
     const e3d_mesh *mesh = j->draw->mesh;
     const e3d_kernels *kernels = j->pass->kernels;
     const e3d_viewport *viewport = &j->pass->view->viewport;
-    e3d_geometry_state *state = j->state;
+    e3d_geometry_memory *state = j->state;
     int fragments = e3d_plans(j->pass, E3D_PLAN_FRAGMENTS) && mesh->desc.components == 3 && e3d_fragments_fit(state);
     e3d_survivors *s = &state->survivors;
     int count = kernels->setup(&state->vertices, j->indices, j->cluster->triangles, e3d_drop_sign(j), fragments, viewport, s);

@@ -13,7 +13,7 @@
 /* A cluster of one instance of a draw, and the memory of the thread that draws it. */
 typedef struct e3d_cluster_job {
     const e3d_prepared *pass;
-    e3d_geometry_state *state;
+    e3d_geometry_memory *state;
     const e3d_draw_state *draw;
     const e3d_view_instance *instance;
     uint32_t number, order; /* of the instance; of its first primitive */

@@ -12,7 +12,7 @@
 #include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
 
-int e3d_fragments_fit(const e3d_geometry_state *state)
+int e3d_fragments_fit(const e3d_geometry_memory *state)
 {
     return state->fragments.drawn.count < (size_t)E3D_FRAGMENT_ID / E3D_CLUSTER_TRIANGLES >> state->id_bits;
 }
@@ -25,13 +25,13 @@ e3d_drawn_cluster *e3d_fragments_cluster(e3d_fragment_set *set)
 }
 
 /* The IDs of triangle t of the last cluster are first + (t << bits). */
-static int32_t first_id(const e3d_geometry_state *state)
+static int32_t first_id(const e3d_geometry_memory *state)
 {
     int32_t number = (int32_t)(state->fragments.drawn.count - 1) * E3D_CLUSTER_TRIANGLES;
     return E3D_FRAGMENT_ID | number << state->id_bits | (int32_t)state->number;
 }
 
-void e3d_fragments_add(const e3d_prepared *pass, e3d_geometry_state *state, const uint8_t *indices, uint64_t triangles)
+void e3d_fragments_add(const e3d_prepared *pass, e3d_geometry_memory *state, const uint8_t *indices, uint64_t triangles)
 {
     e3d_small_triangles *small = &state->fragments.triangles;
     if (small->count > E3D_SMALLS - E3D_CLUSTER_TRIANGLES)
@@ -39,7 +39,7 @@ void e3d_fragments_add(const e3d_prepared *pass, e3d_geometry_state *state, cons
     pass->kernels->add_small(&state->vertices, indices, triangles, first_id(state), state->id_bits, small);
 }
 
-void e3d_fragments_flush(const e3d_prepared *pass, e3d_geometry_state *state)
+void e3d_fragments_flush(const e3d_prepared *pass, e3d_geometry_memory *state)
 {
     e3d_fragment_set *set = &state->fragments;
     size_t most = e3d_fragment_blocks_most((size_t)e3d_tile_count(pass->view));

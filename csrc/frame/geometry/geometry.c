@@ -66,7 +66,7 @@ static void visit(const e3d_visit *v)
         set_seen(v->out, candidate, trusted | e3d_draw_group(v, all & ~trusted, all & ~seen));
 }
 
-static void visit_candidate(const geometry_job *job, e3d_geometry_state *state, const e3d_candidate *candidate, e3d_next_clusters *next)
+static void visit_candidate(const geometry_job *job, e3d_geometry_memory *state, const e3d_candidate *candidate, e3d_next_clusters *next)
 {
     const e3d_prepared *pass = job->in->pass;
     const e3d_draw_state *draw = &pass->draws->states[candidate->draw];
@@ -90,7 +90,7 @@ static int64_t candidates_a_task(const e3d_geometry_in *in)
     return candidates > 1 ? candidates : 1;
 }
 
-static void walk_candidates(geometry_job *job, e3d_geometry_state *state)
+static void walk_candidates(geometry_job *job, e3d_geometry_memory *state)
 {
     enum { AHEAD = 6 };
     const e3d_geometry_in *in = job->in;
@@ -113,7 +113,7 @@ static void walk_candidates(geometry_job *job, e3d_geometry_state *state)
     }
 }
 
-static void walk_units(const e3d_prepared *pass, e3d_geometry_state *state, atomic_llong *next)
+static void walk_units(const e3d_prepared *pass, e3d_geometry_memory *state, atomic_llong *next)
 {
     while (!state->failed) {
         int64_t first = atomic_fetch_add(next, UNITS_A_TASK);
@@ -130,7 +130,7 @@ static void walk_units(const e3d_prepared *pass, e3d_geometry_state *state, atom
 static void geometry_work(void *argument, int number)
 {
     geometry_job *job = argument;
-    e3d_geometry_state *state = job->out->bins->of[number];
+    e3d_geometry_memory *state = job->out->bins->of[number];
     walk_candidates(job, state);
     e3d_fragments_flush(job->in->pass, state);
     if (job->in->round.last)

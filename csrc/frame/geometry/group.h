@@ -16,7 +16,7 @@ typedef struct e3d_visit {
     const e3d_geometry_in *in;
     const e3d_geometry_out *out;
     const e3d_prepared *pass;
-    e3d_geometry_state *state;
+    e3d_geometry_memory *state;
     e3d_next_clusters *next;
     const e3d_candidate *candidate;
     const e3d_draw_state *draw;

@@ -17,7 +17,7 @@
 /* Where a thread stands: one instance of one draw. */
 typedef struct unit_walk {
     const e3d_prepared *pass;
-    e3d_geometry_state *state;
+    e3d_geometry_memory *state;
     e3d_line_style lines;
     const e3d_draw_state *draw;
     const e3d_view_instance *instance;
@@ -206,7 +206,7 @@ static void run_edges(unit_walk *w, int32_t unit)
         draw_line(w, d->edges + 2 * (size_t)i, 0, E3D_SET_EDGES);
 }
 
-void e3d_draw_unit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_draw_state *draw, int32_t instance, int32_t unit)
+void e3d_draw_unit(const e3d_prepared *pass, e3d_geometry_memory *state, const e3d_draw_state *draw, int32_t instance, int32_t unit)
 {
     int64_t number = draw->instance_base + instance;
     unit_walk w = {pass, state, e3d_line_style_of(pass->frame), draw, &pass->view->instances[number],

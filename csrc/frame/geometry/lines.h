@@ -18,7 +18,7 @@ typedef struct e3d_line_style {
 } e3d_line_style;
 
 /* Units of E3D_LINES_A_UNIT lines, then of points, then of edges of an instance. */
-void e3d_draw_unit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_draw_state *draw, int32_t instance, int32_t unit);
+void e3d_draw_unit(const e3d_prepared *pass, e3d_geometry_memory *state, const e3d_draw_state *draw, int32_t instance, int32_t unit);
 
 e3d_line_style e3d_line_style_of(const e3d_frame *frame);
 

@@ -104,7 +104,7 @@ static int bin_sorted(const e3d_prepared *pass, e3d_bins *bins, size_t count)
     for (size_t r = 0; r < count; r++) {
         const e3d_record *record = (const e3d_record *)set->records.data + r;
         e3d_box box = e3d_sample_box(record->x, record->y, &pass->view->viewport);
-        const e3d_tile_span span = e3d_span_of(&box);
+        const e3d_tile_rect span = e3d_tile_rect_of(&box);
         if (!e3d_bin_records(pass->view, bins->of[0], set, e3d_chains_of(set, alpha_of(pass, record)), (uint32_t)r, &span, 1))
             return 0;
     }

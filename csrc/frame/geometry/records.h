@@ -60,7 +60,7 @@ typedef struct e3d_geometry_counters {
 } e3d_geometry_counters;
 
 /* A thread's memory. */
-typedef struct e3d_geometry_state {
+typedef struct e3d_geometry_memory {
     e3d_record_set sets[E3D_SETS];
     e3d_fragment_set fragments;
     _Alignas(64) e3d_vertices vertices; /* of the cluster that is drawn */
@@ -69,7 +69,7 @@ typedef struct e3d_geometry_state {
     int id_bits;     /* of an ID: they tell the thread */
     int failed;      /* out of memory */
     e3d_geometry_counters counters;
-} e3d_geometry_state;
+} e3d_geometry_memory;
 
 /* The first block of a tile's chain; `earlier`: of the round that finished the tile. */
 static inline uint32_t e3d_first_block(const e3d_chains *chains, int earlier, int64_t tile)

@@ -89,7 +89,7 @@ static int is_culled(const e3d_view *view, const e3d_primitive *primitive, int f
 
 e3d_chains *e3d_chains_of(e3d_record_set *set, int alpha) { return alpha < E3D_ALPHA_KINDS ? &set->alpha[alpha] : &set->chains; }
 
-void e3d_emit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_corner corner[3], const e3d_primitive *primitive)
+void e3d_emit(const e3d_prepared *pass, e3d_geometry_memory *state, const e3d_corner corner[3], const e3d_primitive *primitive)
 {
     const int32_t x[3] = {corner[0].x, corner[1].x, corner[2].x};
     const int32_t y[3] = {corner[0].y, corner[1].y, corner[2].y};
@@ -121,7 +121,7 @@ void e3d_emit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_cor
         state->failed = 1;
         return;
     }
-    const e3d_tile_span span = e3d_span_of(&box);
+    const e3d_tile_rect span = e3d_tile_rect_of(&box);
     uint32_t number = (uint32_t)set->records.count++;
     state->counters.records++;
     if (!sorted && !e3d_bin_records(pass->view, state, set, e3d_chains_of(set, primitive->alpha), number, &span, 1)) /* or after sorting */

@@ -23,7 +23,7 @@ typedef struct e3d_primitive {
 } e3d_primitive;
 int e3d_project(const float v[4], int clipped, const e3d_viewport *viewport, e3d_corner *out);
 /* Makes a record of a piece that shows, and bins it where records aren't sorted first. */
-void e3d_emit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_corner corner[3], const e3d_primitive *primitive);
+void e3d_emit(const e3d_prepared *pass, e3d_geometry_memory *state, const e3d_corner corner[3], const e3d_primitive *primitive);
 /* The bins of a set where records of such an alpha are listed. */
 e3d_chains *e3d_chains_of(e3d_record_set *set, int alpha);
 

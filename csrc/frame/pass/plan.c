@@ -1,4 +1,4 @@
-/* plan: which ways a frame's tiles take, by a table of rules over what is asked for. */
+/* plan: which ways a frame's tiles take, by a table of conditions over what is asked for. */
 #include <math.h>
 
 #include "base/limits.h"
@@ -105,7 +105,7 @@ static asked_items asked_for(const e3d_frame *f, const e3d_targets *targets)
 
 /* ---- what is done about it ---- */
 
-const e3d_plan_rule E3D_PLAN_RULES[] = {
+const e3d_plan_condition E3D_PLAN_CONDITIONS[] = {
     {E3D_PLAN_COLORS, .asked = ASKED(COLOR), .unless_asked = ASKED(OVERDRAW_MODE)},
     {E3D_PLAN_COLORS, .asked = ASKED(RADIANCE), .unless_asked = ASKED(OVERDRAW_MODE)},
     {E3D_PLAN_OUTPUTS, .asked = ASKED(POSITIONS)},
@@ -183,21 +183,21 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_ENCODES_SRGB, .asked = ASKED(SRGB) | ASKED(LIT), .planned = PLAN(COLORS)},
     {E3D_PLAN_ENCODES_SRGB, .asked = ASKED(SRGB) | ASKED(UNLIT), .planned = PLAN(COLORS)},
 };
-const int E3D_PLAN_RULE_COUNT = (int)(sizeof E3D_PLAN_RULES / sizeof *E3D_PLAN_RULES);
+const int E3D_PLAN_CONDITION_COUNT = (int)(sizeof E3D_PLAN_CONDITIONS / sizeof *E3D_PLAN_CONDITIONS);
 
-static int holds(const e3d_plan_rule *rule, asked_items asked, e3d_plan plan)
+static int holds(const e3d_plan_condition *condition, asked_items asked, e3d_plan plan)
 {
-    return (asked & rule->asked) == rule->asked && (plan & rule->planned) == rule->planned && !(asked & rule->unless_asked) &&
-           !(plan & rule->unless_planned);
+    return (asked & condition->asked) == condition->asked && (plan & condition->planned) == condition->planned && !(asked & condition->unless_asked) &&
+           !(plan & condition->unless_planned);
 }
 
 e3d_plan e3d_plan_of(const e3d_frame *frame, const e3d_targets *targets)
 {
     asked_items asked = asked_for(frame, targets);
     e3d_plan plan = 0;
-    for (int r = 0; r < E3D_PLAN_RULE_COUNT; r++)
-        if (holds(&E3D_PLAN_RULES[r], asked, plan))
-            plan |= UINT64_C(1) << E3D_PLAN_RULES[r].item;
+    for (int r = 0; r < E3D_PLAN_CONDITION_COUNT; r++)
+        if (holds(&E3D_PLAN_CONDITIONS[r], asked, plan))
+            plan |= UINT64_C(1) << E3D_PLAN_CONDITIONS[r].item;
     return plan;
 }
 

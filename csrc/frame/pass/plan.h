@@ -95,15 +95,15 @@ typedef uint64_t e3d_plan;
 
 static inline int e3d_plan_has(e3d_plan plan, e3d_plan_item item) { return (int)(plan >> item & 1); }
 
-/* An item is planned where a frame asks for all of some things and none of some others, and likewise has planned them. Rules hold in their
+/* An item is planned where a frame asks for all of some things and none of some others, and likewise has planned them. Conditions hold in their
  * order; an item may have several. */
-typedef struct e3d_plan_rule {
+typedef struct e3d_plan_condition {
     e3d_plan_item item;
     uint64_t asked, planned, unless_asked, unless_planned;
-} e3d_plan_rule;
+} e3d_plan_condition;
 
-extern const e3d_plan_rule E3D_PLAN_RULES[];
-extern const int E3D_PLAN_RULE_COUNT;
+extern const e3d_plan_condition E3D_PLAN_CONDITIONS[];
+extern const int E3D_PLAN_CONDITION_COUNT;
 
 /* An item's name, and what it says. */
 typedef struct e3d_plan_word {

@@ -20,7 +20,7 @@
 /* A thread. Each stage finds its own part of all threads. */
 typedef struct e3d_worker {
     e3d_cull_state cull;
-    e3d_geometry_state geometry;
+    e3d_geometry_memory geometry;
     e3d_queue_state queue;
     e3d_tile_memory tile;
 } e3d_worker;

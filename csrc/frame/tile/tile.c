@@ -107,7 +107,7 @@ static int draw_pieces(const e3d_tile_job *job)
 static int is_from_last_round(const e3d_bins *bins, uint32_t id)
 {
     int bits = bins->tables[E3D_SET_SCENE].bits;
-    const e3d_geometry_state *state = bins->of[id & ((1u << bits) - 1)];
+    const e3d_geometry_memory *state = bins->of[id & ((1u << bits) - 1)];
     uint32_t number = (id & (E3D_FRAGMENT_ID - 1)) >> bits;
     return id & E3D_FRAGMENT_ID ? number / E3D_CLUSTER_TRIANGLES >= state->fragments.earlier_drawn
                                 : number >= state->sets[E3D_SET_SCENE].earlier_records;

@@ -203,17 +203,17 @@ static inline vi32 record_meta(vi32 cover, vmask back, vmask swapped)
 }
 
 /* The tiles of the boxes: row << 16 | column of the first and of the last. */
-static inline void record_spans(setup_span across, setup_span down, e3d_tile_span *out)
+static inline void record_spans(setup_span across, setup_span down, e3d_tile_rect *out)
 {
     int32_t first[V_LANES], last[V_LANES];
     v_storei(first, v_ori(v_sra(across.first, E3D_TILE_SHIFT), v_shl(v_sra(down.first, E3D_TILE_SHIFT), 16)));
     v_storei(last, v_ori(v_sra(across.last, E3D_TILE_SHIFT), v_shl(v_sra(down.last, E3D_TILE_SHIFT), 16)));
     for (int lane = 0; lane < V_LANES; lane++)
-        out[lane] = (e3d_tile_span){(uint32_t)first[lane], (uint32_t)last[lane]};
+        out[lane] = (e3d_tile_rect){(uint32_t)first[lane], (uint32_t)last[lane]};
 }
 
 /* Moves the records to keep to the front, in place; mostly these are all. Returns how many. */
-static inline int record_keep(uint32_t keep, e3d_record *records, e3d_tile_span *spans)
+static inline int record_keep(uint32_t keep, e3d_record *records, e3d_tile_rect *spans)
 {
     int made = 0, all = v_count(keep);
     for (uint32_t left = keep >> all ? keep : 0; left; left &= left - 1, made++) {
@@ -226,7 +226,7 @@ static inline int record_keep(uint32_t keep, e3d_record *records, e3d_tile_span 
 
 /* The records of one vector of triangles; how many. */
 static inline int record_vector(const e3d_record_request *q, const record_list *list, int first, e3d_record *out,
-                                e3d_tile_span *spans)
+                                e3d_tile_rect *spans)
 {
     const uint8_t *triangles = list->triangles + first;
     int count = list->count - first;
@@ -259,7 +259,7 @@ static inline int record_vector(const e3d_record_request *q, const record_list *
     return record_keep(keep, out, spans);
 }
 
-static int kernel_record(const e3d_record_request *q, e3d_record *out, e3d_tile_span *spans)
+static int kernel_record(const e3d_record_request *q, e3d_record *out, e3d_tile_rect *spans)
 {
 #ifdef E3D_NARROW_TABLE
     if (q->count <= V_LANES / 2)

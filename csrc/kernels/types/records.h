@@ -53,8 +53,8 @@ typedef struct e3d_record_request {
 } e3d_record_request;
 
 /* The rectangle of tiles that a record's box touches: row << 16 | column of the first and of the last. */
-typedef struct e3d_tile_span {
+typedef struct e3d_tile_rect {
     uint32_t first, last;
-} e3d_tile_span;
+} e3d_tile_rect;
 
 #endif

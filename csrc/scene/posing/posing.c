@@ -18,7 +18,7 @@ typedef struct sharing {
 
 static float *own(const e3d_mesh *posed, const float *array)
 {
-    return array ? posed->blocks[1] + (array - posed->blocks[1]) : NULL;
+    return array ? posed->slabs[1] + (array - posed->slabs[1]) : NULL;
 }
 
 static int is_small(const e3d_pose_job *job) { return job->rest->mesh->desc.vertices <= SMALL; }

@@ -59,7 +59,7 @@ void e3d_refit_clusters(const e3d_rest *rest, e3d_mesh *posed, int32_t first, in
 {
     for (int32_t i = first; i < first + count; i++) {
         e3d_cluster *c = &posed->clusters[i];
-        float *out = posed->blocks[0] + (c->positions - posed->blocks[0]);
+        float *out = posed->slabs[0] + (c->positions - posed->slabs[0]);
         refit_cluster(rest->members + rest->member_starts[i], posed->desc.positions, c, out);
     }
 }
@@ -103,7 +103,7 @@ void e3d_refit_mesh(e3d_mesh *posed, double box[E3D_POSED_BOX])
     refit_groups(posed);
     e3d_mesh_bound(posed);
     for (int32_t f = 0; posed->desc.face_normals && f < posed->desc.faces_count; f++) {
-        float *own = posed->blocks[1] + (posed->desc.face_normals - posed->blocks[1]);
+        float *own = posed->slabs[1] + (posed->desc.face_normals - posed->slabs[1]);
         face_normal(posed->desc.positions, posed->desc.faces + 3 * (size_t)f, own + 3 * (size_t)f);
     }
     for (int k = 0; k < 3; k++) {

@@ -140,16 +140,16 @@ e3d_status e3d_posed_create(const e3d_rest *rest, int face_normals, e3d_mesh **o
     posed->borrows_faces = 1;
     posed->clusters = malloc(((size_t)mesh->cluster_count + 1) * sizeof *posed->clusters);
     posed->groups = malloc(((size_t)mesh->group_count + 1) * sizeof *posed->groups);
-    posed->blocks = calloc(2, sizeof *posed->blocks);
-    posed->block_count = 2;
+    posed->slabs = calloc(2, sizeof *posed->slabs);
+    posed->slab_count = 2;
     float *clusters = new_floats(rest->cluster_floats);
     float *own = new_floats(3 * vertices + PAD + normals + tangents + (face_normals ? 3 * faces : 0));
-    if (posed->blocks) {
-        posed->blocks[0] = clusters;
-        posed->blocks[1] = own;
+    if (posed->slabs) {
+        posed->slabs[0] = clusters;
+        posed->slabs[1] = own;
     }
-    if (!posed->clusters || !posed->groups || !posed->blocks || !clusters || !own) {
-        if (!posed->blocks) {
+    if (!posed->clusters || !posed->groups || !posed->slabs || !clusters || !own) {
+        if (!posed->slabs) {
             free(clusters);
             free(own);
         }

@@ -64,7 +64,7 @@ _Static_assert(E3D_MAX_LINE_SAMPLES < 2 * E3D_MAX_POINT_SAMPLES &&
 #define E3D_OVER_2PI 0x1.45f306p-3f /* 1 / (2 pi) */
 #define E3D_OVER_21 0x1.861862p-5f  /* 1 / 21 */
 #define E3D_THIRD 0x1.555556p-2f    /* 1 / 3 */
-#define E3D_MOST_FILM_F0 0.9999f    /* R140: what reflects all light has no finite index of refraction */
-#define E3D_LEAST_FILM_PRODUCT 1e-5f
+#define E3D_MOST_IRIDESCENCE_F0 0.9999f    /* R140: what reflects all light has no finite index of refraction */
+#define E3D_LEAST_IRIDESCENCE_PRODUCT 1e-5f
 
 #endif

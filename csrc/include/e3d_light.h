@@ -17,7 +17,7 @@ typedef enum e3d_emission { E3D_EMITS_EVENLY = 0, E3D_EMITS_CONE } e3d_emission;
 /* How the maps of a light's shadow lie: one or several side by side, the finest first; six, the faces of a cube around the light, of which
  * all have the place of the first; or one, ahead of the light. */
 #define E3D_EACH_MAP_LAYOUT(X) X(E3D_MAPS_CASCADES, cascades) X(E3D_MAPS_CUBE, cube) X(E3D_MAPS_AHEAD, ahead)
-typedef enum e3d_map_layout { E3D_EACH_MAP_LAYOUT(E3D_ENUMERATOR) } e3d_map_layout;
+typedef enum e3d_texture_layout { E3D_EACH_MAP_LAYOUT(E3D_ENUMERATOR) } e3d_texture_layout;
 
 /* The kinds of lights, and what is true of each: X(kind, name, whether it has a place, emission, layout of its maps). Those without a place
  * are infinitely far away. */
@@ -30,7 +30,7 @@ typedef enum e3d_light_kind { E3D_EACH_LIGHT_KIND(E3D_ENUMERATOR) } e3d_light_ki
 typedef struct e3d_light_traits {
     int32_t has_position;
     e3d_emission emission;
-    e3d_map_layout maps;
+    e3d_texture_layout maps;
 } e3d_light_traits;
 
 static inline e3d_light_traits e3d_light_traits_of(e3d_light_kind kind)

@@ -95,13 +95,15 @@ E3D_KERNEL(void, interpolate, (e3d_batch *batch, const e3d_surfaces *surfaces, i
 E3D_KERNEL(void, texture, (e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_texture_view *texture, const float base[3]))
 /* color *= vertex colour, color *= instance colour */
 E3D_KERNEL(void, tint, (e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance))
-/* Finds what maps need of surfaces that `surface` has worked on (R25, R47). */
-E3D_KERNEL(void, map_surfaces, (const e3d_surfaces *surfaces, const e3d_maps *maps, e3d_map_surfaces *out))
+/* Finds what textures need of surfaces that `surface` has worked on (R25, R47). */
+E3D_KERNEL(void, texture_surfaces, (const e3d_surfaces *surfaces, const e3d_read_textures *textures, e3d_texture_surfaces *out))
 /* Finds coordinates, tangents and texels of a batch, whose weights are there, and its normals where there are tangents. */
-E3D_KERNEL(void, maps, (e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_maps *maps, const e3d_map_surfaces *map_surfaces,
-           e3d_map_batch *out))
+E3D_KERNEL(void, read_textures, (e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_read_textures *textures,
+           const e3d_texture_surfaces *texture_surfaces,
+           e3d_texture_batch *out))
 /* Keeps the normals of a batch, and maps them: those of the surface in place, the coat's to their own. */
-E3D_KERNEL(void, map_normals, (e3d_batch *batch, const e3d_normal_map *surface, const e3d_normal_map *coat, e3d_map_batch *maps))
+E3D_KERNEL(void, map_normals, (e3d_batch *batch, const e3d_normal_texture *surface, const e3d_normal_texture *coat,
+           e3d_texture_batch *textures))
 /* Finds the numbers of a batch that a texture multiplies. */
 E3D_KERNEL(void, varying, (const e3d_varying *varying, int count, float *out))
 /* alpha (R80): base, times the texture's (NULL: base has it already), the vertices' and the instance's. */
@@ -112,14 +114,15 @@ E3D_KERNEL(void, alpha, (e3d_batch *batch, const e3d_surfaces *surfaces, const e
 
 /* Finds the planes of surfaces in the world. */
 E3D_KERNEL(void, receivers, (const e3d_surfaces *surfaces, e3d_receivers *out))
-/* hidden_lights: which lights with exact shadows something hides from samples that they would light. */
-E3D_KERNEL(void, hide, (e3d_batch *batch, const e3d_lighting *lighting, const e3d_caster_index *casters, const e3d_receivers *receivers))
+/* shadowed_lights: which lights with exact shadows something hides from samples that they would light. */
+E3D_KERNEL(void, exact_shadows, (e3d_batch *batch, const e3d_lighting *lighting, const e3d_caster_index *casters,
+           const e3d_receivers *receivers))
 /* energy, and shine where shininess > 0 */
 E3D_KERNEL(void, light, (e3d_batch *batch, const e3d_lighting *lighting, float shininess))
 /* color = ((color * energy + specular * shine) + emissive) * exposure; specular may be NULL */
 E3D_KERNEL(void, combine, (e3d_batch *batch, const float specular[3], const float emissive[3], float exposure))
 /* color: what a physically based material shows, whose base colour it is. */
-E3D_KERNEL(void, physical, (e3d_batch *batch, const e3d_surface_model *model, const e3d_lighting *lighting, e3d_map_batch *maps))
+E3D_KERNEL(void, physical, (e3d_batch *batch, const e3d_brdf *brdf, const e3d_lighting *lighting, e3d_texture_batch *textures))
 /* Finds the light of an environment along directions, at a level each. */
 E3D_KERNEL(void, environment, (const e3d_environment_light *light, const float *const direction[3], const float *level, int count, float
            *const color[3]))
@@ -140,8 +143,8 @@ E3D_KERNEL(void, fog, (const e3d_fog_view *fog, const float *const position[3], 
 E3D_KERNEL(void, tone, (e3d_tone_mapping mapping, float *const color[3], int count))
 /* Lays the colours of a batch over the samples, each of which it has once (R84). */
 E3D_KERNEL(void, lay, (const e3d_batch *batch, e3d_samples *samples))
-/* Likewise of what light passes through, as the maps say (R135). */
-E3D_KERNEL(void, lay_through, (const e3d_batch *batch, const e3d_map_batch *maps, e3d_samples *samples))
+/* Likewise of what light passes through, as the textures say (R135). */
+E3D_KERNEL(void, lay_through, (const e3d_batch *batch, const e3d_texture_batch *textures, e3d_samples *samples))
 /* Sorts what each sample has, and lays it over the sample (R83, R84), but for samples that have much, or equal depths: these are
  * listed. Returns how many they are. */
 E3D_KERNEL(int, blend, (const e3d_alpha_layers *layers, e3d_samples *samples, uint16_t *left))

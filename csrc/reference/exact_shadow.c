@@ -205,7 +205,7 @@ static int is_above(const eye *e, const plane *plane, const float p[3], const re
 }
 
 /* R102 */
-int ref_is_hidden(const e3d_light *light, const ref_surface *surface)
+int ref_is_in_exact_shadow(const e3d_light *light, const ref_surface *surface)
 {
     const ref_casters *casters = surface->casters;
     const float *p = surface->lit_position;

@@ -67,13 +67,13 @@ static float fifth_power(float w)
 }
 
 /* R141 */
-static void find_film(const ref_surface *s, sample *out)
+static void find_iridescence(const ref_surface *s, sample *out)
 {
     const ref_physical *p = &s->physical;
     const e3d_physical *m = &s->piece->primitive.material->physical;
     float other[3], metal[3], cosine = ref_min(out->base.nv, 1.0f);
-    ref_film(cosine, m->iridescence_ior, p->film, p->reflectance, other);
-    ref_film(cosine, m->iridescence_ior, p->film, s->albedo, metal);
+    ref_iridescence(cosine, m->iridescence_ior, p->film_thickness, p->reflectance, other);
+    ref_iridescence(cosine, m->iridescence_ior, p->film_thickness, s->albedo, metal);
     for (int c = 0; c < 3; c++)
         out->film[c] = other[c] + (metal[c] - other[c]) * p->metallic;
     out->film_top = ref_max(ref_max(other[0], other[1]), other[2]);
@@ -99,7 +99,7 @@ static sample find_sample(const e3d_frame *frame, const ref_surface *s)
     float rough = ref_clamp(p->sheen_roughness, E3D_LEAST_SHEEN_ROUGHNESS, 1.0f);
     out.sheen_power = 1.0f / (rough * rough);
     if (is_iridescent(s))
-        find_film(s, &out);
+        find_iridescence(s, &out);
     return out;
 }
 
@@ -185,12 +185,12 @@ static void find_f0(const ref_surface *s, float nv, float other[3], float metal[
     }
     if (!is_iridescent(s))
         return;
-    ref_film(cosine, m->iridescence_ior, p->film, p->reflectance, film);
-    ref_film_f0(cosine, film, f0);
+    ref_iridescence(cosine, m->iridescence_ior, p->film_thickness, p->reflectance, film);
+    ref_iridescence_f0(cosine, film, f0);
     for (int c = 0; c < 3; c++)
         other[c] = other[c] + (f0[c] - other[c]) * p->iridescence;
-    ref_film(cosine, m->iridescence_ior, p->film, s->albedo, film);
-    ref_film_f0(cosine, film, f0);
+    ref_iridescence(cosine, m->iridescence_ior, p->film_thickness, s->albedo, film);
+    ref_iridescence_f0(cosine, film, f0);
     for (int c = 0; c < 3; c++)
         metal[c] = metal[c] + (f0[c] - metal[c]) * p->iridescence;
 }

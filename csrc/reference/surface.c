@@ -192,7 +192,7 @@ void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_pl
     find_normal(scene, out);
     find_uv(out);
     find_albedo(scene, out);
-    ref_find_maps(scene, out);
+    ref_find_textures(scene, out);
     out->alpha = ref_clamp(out->alpha, 0.0f, 1.0f);
     out->visibility = 1.0f; /* resolve.c knows of what isn't blended */
 }

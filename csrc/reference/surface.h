@@ -23,7 +23,7 @@ typedef struct ref_physical {
     float sheen[3], sheen_roughness;
     float transmission, depth; /* depth: world units of what absorbs (R134) */
     ref_stretch stretch;       /* where the material has anisotropy */
-    float iridescence, film;   /* film: its thickness */
+    float iridescence, film_thickness;
 } ref_physical;
 
 /* What is seen at one sample. */
@@ -66,7 +66,7 @@ float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *sur
 int ref_slot_counts(const e3d_texture_use *use, const ref_surface *surface);
 void ref_slot_coordinates(const e3d_texture_use *use, const ref_surface *surface, ref_coordinates *out);
 float ref_slot_sample(const e3d_texture_use *use, const ref_surface *surface, float out[4]);
-void ref_find_maps(const ref_scene *scene, ref_surface *surface);
+void ref_find_textures(const ref_scene *scene, ref_surface *surface);
 
 /* environment.c */
 void ref_environment(const e3d_environment_light *light, const float direction[3], float level, float out[3]);
@@ -90,7 +90,7 @@ float ref_light_reached(const e3d_frame *frame, int32_t n, const ref_surface *su
 
 /* exact_shadow.c */
 /* R98-R101: whether a caster is between a surface and a light. */
-int ref_is_hidden(const e3d_light *light, const ref_surface *surface);
+int ref_is_in_exact_shadow(const e3d_light *light, const ref_surface *surface);
 
 /* texture.c, R29 and R30 of the fourth channel at level 0; returns the unit. */
 float ref_texture_alpha(const e3d_texture_view *texture, const float uv[2], float *out);
@@ -102,8 +102,8 @@ void ref_light_behind(const ref_surface *surface, const float view[3], float out
 
 /* iridescence.c */
 /* R140, of F0 of what is below; R141: what F0 would give it by Schlick's term. */
-void ref_film(float cosine, float ior, float thickness, const float f0[3], float out[3]);
-void ref_film_f0(float cosine, const float film[3], float out[3]);
+void ref_iridescence(float cosine, float ior, float thickness, const float f0[3], float out[3]);
+void ref_iridescence_f0(float cosine, const float film[3], float out[3]);
 
 /* anisotropy.c */
 /* R136; texel: NULL where there is no texture. */

@@ -156,14 +156,14 @@ static void map_normal(const e3d_texture_use *use, float scale, const ref_surfac
 /* ---- all of it ---- */
 
 /* R141 */
-static void find_film(const e3d_material *m, const ref_surface *s, ref_physical *out)
+static void find_iridescence(const e3d_material *m, const ref_surface *s, ref_physical *out)
 {
     const float *range = m->physical.iridescence_thickness;
-    out->film = range[1];
+    out->film_thickness = range[1];
     if (ref_slot_counts(&m->iridescence_thickness_texture, s))
-        out->film = range[0] + multiplied(&m->iridescence_thickness_texture, s, 1, range[1] - range[0]);
+        out->film_thickness = range[0] + multiplied(&m->iridescence_thickness_texture, s, 1, range[1] - range[0]);
     out->iridescence = multiplied(&m->iridescence_texture, s, 0, m->physical.iridescence);
-    out->iridescence = out->film > 0.0f ? out->iridescence : 0.0f;
+    out->iridescence = out->film_thickness > 0.0f ? out->iridescence : 0.0f;
 }
 
 static void find_stretch(const e3d_material *m, const ref_surface *s, ref_physical *out)
@@ -204,13 +204,13 @@ static void find_physical(const e3d_material *m, ref_surface *s)
     multiply_three(&m->sheen_color_texture, s, physical->sheen_color, out->sheen);
     out->sheen_roughness = multiplied(&m->sheen_roughness_texture, s, 3, physical->sheen_roughness);
     out->transmission = multiplied(&m->transmission_texture, s, 0, physical->transmission);
-    find_film(m, s, out);
+    find_iridescence(m, s, out);
     if (physical->anisotropy != 0.0f)
         find_stretch(m, s, out);
     out->depth = depth_below(s, multiplied(&m->thickness_texture, s, 1, physical->thickness));
 }
 
-void ref_find_maps(const ref_scene *scene, ref_surface *surface)
+void ref_find_textures(const ref_scene *scene, ref_surface *surface)
 {
     const ref_primitive *primitive = &surface->piece->primitive;
     const e3d_material *m = primitive->material;

@@ -63,9 +63,9 @@ def fog_view(kind, row, color, depths, density):
     return record("fog_view", **given, density=density)
 
 
-def surface_model(values):
+def brdf_record(values):
     """A physically based material without textures: arrays of float32 by name."""
-    made, varying = record("surface_model"), layout("e3d_varying")
+    made, varying = record("brdf"), layout("e3d_varying")
     for name in values.keys() & set(made.dtype.names):
         kind = made.dtype[name]
         (made[name]["factor"] if kind.base == varying else made[name])[0] = (
@@ -201,10 +201,10 @@ class Kernels:
     def combine(self, batch, specular, emissive, exposure=1.0):
         self._call("combine", batch, specular, emissive, exposure)
 
-    def physical(self, batch, model, lights, reach, ambient, eye, maps):
-        """`model`: as for `surface_model`; the coat's normals are in `maps`."""
+    def physical(self, batch, brdf, lights, reach, ambient, eye, textures):
+        """`brdf`: as for `brdf_record`; the coat's normals are in `textures`."""
         lighting = lighting_of(lights, reach, ambient, (0, np.inf), eye)
-        self._call("physical", batch, surface_model(model), lighting, maps)
+        self._call("physical", batch, brdf_record(brdf), lighting, textures)
 
     def environment(self, pixels, turn, intensity, *others):
         """Of an environment made of pixels."""

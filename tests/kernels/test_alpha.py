@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from kernels.arithmetic import ONE, clamp
 from kernels.harness import all_backends, bits, check_lanes, check_poisoned, hostile
-from kernels.layouts import MAP_BATCH, PAD, RECORD, SHOWN, SHOWN_ROOM, TILE
+from kernels.layouts import TEXTURE_BATCH, PAD, RECORD, SHOWN, SHOWN_ROOM, TILE
 from kernels.pieces import Triangle, piece_of
 from kernels.surfaces import LANES, at, bytes_of, fill, planes, random_batches, random_surfaces
 from kernels.test_interpolate import dot
@@ -89,7 +89,7 @@ def through_rounds():
     )
     rounds = []
     for one in fields:
-        count, before, maps = int(one["count"]), random_planes(rng), np.zeros(1, MAP_BATCH)
+        count, before, maps = int(one["count"]), random_planes(rng), np.zeros(1, TEXTURE_BATCH)
         maps["through"] = rng.random(maps["through"].shape, np.float32)
         maps["through"][0, :, ::5], maps["through"][0, :, 1::7] = 1, 0
         before[:, ::9] = 0

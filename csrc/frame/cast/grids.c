@@ -173,7 +173,7 @@ static void bound_some(void *argument, int task)
 
 /* ---- cells ---- */
 
-/* As kernel_hide finds them. */
+/* As kernel_exact_shadows finds them. */
 static int32_t cell_of(const e3d_caster_grid *grid, float x, int axis)
 {
     float at = (x - grid->low[axis]) * grid->scale[axis], last = (float)((1 << (grid->levels - 1)) - 1);

@@ -82,12 +82,12 @@ static void keep_run(const e3d_batch *batch, int first, int end, float sign, flo
 }
 
 /* Likewise what passes through them. */
-static void keep_through(const e3d_map_batch *maps, int first, int end, float (*through)[4])
+static void keep_through(const e3d_texture_batch *textures, int first, int end, float (*through)[4])
 {
     for (int i = first; i < end; i++, through++) {
         for (int k = 0; k < 3; k++)
-            (*through)[k] = maps ? maps->through[k][i] : 0.0f;
-        (*through)[3] = maps ? 1.0f : 0.0f;
+            (*through)[k] = textures ? textures->through[k][i] : 0.0f;
+        (*through)[3] = textures ? 1.0f : 0.0f;
     }
 }
 
@@ -125,7 +125,7 @@ static void keep(e3d_shade_memory *memory, int transmits, float sign, e3d_shaded
         end = end_of_run(memory, i, place, list);
         keep_run(batch, i, end, sign, list->color + place);
         if (list->through)
-            keep_through(transmits ? &memory->maps.batch : NULL, i, end, list->through + place);
+            keep_through(transmits ? &memory->textures.batch : NULL, i, end, list->through + place);
         if (list->light)
             keep_light(memory->light, batch->alpha, i, end, list->light + place);
         list->at = place + (end - i);
@@ -144,7 +144,7 @@ void e3d_find_alphas(const e3d_steps *s)
     const e3d_bucket *bucket = s->bucket;
     const e3d_material *m = bucket->material;
     e3d_shade_memory *memory = s->out->memory;
-    const e3d_varying base = bucket->mapped ? e3d_mapped_alpha(bucket, &memory->maps) : (e3d_varying){NULL, m->alpha};
+    const e3d_varying base = bucket->mapped ? e3d_mapped_alpha(bucket, &memory->textures) : (e3d_varying){NULL, m->alpha};
     const e3d_texture_view *texture = bucket->textured && !bucket->mapped ? e3d_texture_get_view(m->texture.texture) : NULL;
     s->pass->kernels->alpha(&memory->batch, &memory->surfaces, texture, &base, bucket->by_vertex, bucket->by_instance);
     if (bucket->transmits)
@@ -165,7 +165,7 @@ void e3d_lay_batch(const e3d_steps *s)
 {
     e3d_shade_memory *memory = s->out->memory;
     if (s->bucket->transmits)
-        s->pass->kernels->lay_through(&memory->batch, &memory->maps.batch, &s->out->pixels->samples);
+        s->pass->kernels->lay_through(&memory->batch, &memory->textures.batch, &s->out->pixels->samples);
     else
         s->pass->kernels->lay(&memory->batch, &s->out->pixels->samples);
 }

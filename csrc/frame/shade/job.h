@@ -29,11 +29,11 @@ typedef struct e3d_shade_in {
 } e3d_shade_in;
 
 /* Of materials of more than a base colour. */
-typedef struct e3d_map_memory {
-    e3d_maps maps; /* of the bucket */
-    _Alignas(64) e3d_map_surfaces surfaces;
-    _Alignas(64) e3d_map_batch batch;
-} e3d_map_memory;
+typedef struct e3d_texture_memory {
+    e3d_read_textures read; /* of the bucket */
+    _Alignas(64) e3d_texture_surfaces surfaces;
+    _Alignas(64) e3d_texture_batch batch;
+} e3d_texture_memory;
 
 /* A thread's memory, of one tile. */
 typedef struct e3d_shade_memory {
@@ -42,7 +42,7 @@ typedef struct e3d_shade_memory {
     _Alignas(64) e3d_batch batch;
     e3d_lane_array light[3]; /* its radiance, where blended samples are kept with theirs */
     _Alignas(64) e3d_surfaces surfaces; /* of the batch and its neighbours */
-    e3d_map_memory maps;
+    e3d_texture_memory textures;
     e3d_array pieces;                   /* e3d_visible_primitive */
     e3d_array buckets;                  /* e3d_bucket */
     _Alignas(64) e3d_receivers receivers; /* the planes of the surfaces, where lights have exact shadows */

@@ -93,12 +93,12 @@ static void shade_bucket(const e3d_shade_in *in, const e3d_tile *tile, const e3d
 {
     const e3d_steps s = e3d_choose_steps(in, bucket, out);
     e3d_shade_memory *memory = out->memory;
-    memory->batch.unmapped_normal = bucket->mapped ? memory->maps.batch.shading_normal : NULL;
+    memory->batch.unmapped_normal = bucket->mapped ? memory->textures.batch.shading_normal : NULL;
     for (int32_t first = bucket->first, end; first >= 0; first = end) {
         end = e3d_add_surfaces(in, bucket, first, s.wanted, memory);
         if (s.wanted & E3D_WANT_SURFACE)
             e3d_find_surfaces(in->pass, tile, bucket, s.wanted, memory);
-        if (e3d_hides_lights(in->pass, bucket) && s.wanted & E3D_WANT_POSITION)
+        if (e3d_casts_exact_shadows(in->pass, bucket) && s.wanted & E3D_WANT_POSITION)
             in->pass->kernels->receivers(&memory->surfaces, &memory->receivers);
         shade_pieces(&s, first, end);
     }

@@ -35,7 +35,7 @@ static void count_samples(const e3d_steps *s) { s->out->memory->shaded += batch_
 
 static void interpolate(const e3d_steps *s) { s->pass->kernels->interpolate(batch_of(s), &s->out->memory->surfaces, s->wanted); }
 
-static void find_textures(const e3d_steps *s) { e3d_find_map_batch(s->pass, s->bucket, s->wanted, s->out->memory); }
+static void find_textures(const e3d_steps *s) { e3d_find_texture_batch(s->pass, s->bucket, s->wanted, s->out->memory); }
 
 static void find_albedo(const e3d_steps *s)
 {
@@ -60,7 +60,7 @@ static void find_visibility(const e3d_steps *s) { e3d_find_visibility(s->pass, s
 
 static void hide_lights(const e3d_steps *s)
 {
-    s->pass->kernels->hide(batch_of(s), &s->pass->view->lighting, s->pass->casters, &s->out->memory->receivers);
+    s->pass->kernels->exact_shadows(batch_of(s), &s->pass->view->lighting, s->pass->casters, &s->out->memory->receivers);
 }
 
 static void light(const e3d_steps *s)
@@ -145,9 +145,9 @@ static void add(e3d_steps *s, int is_taken, e3d_shade_step step)
         s->step[s->count++] = step;
 }
 
-int e3d_hides_lights(const e3d_prepared *pass, const e3d_bucket *bucket)
+int e3d_casts_exact_shadows(const e3d_prepared *pass, const e3d_bucket *bucket)
 {
-    return e3d_plans(pass, E3D_PLAN_HIDES) && bucket->lit && !bucket->unshadowed;
+    return e3d_plans(pass, E3D_PLAN_EXACT_SHADOWS) && bucket->lit && !bucket->unshadowed;
 }
 
 static int finds_alphas(e3d_sink sink) { return sink == E3D_SINK_ALPHA_TEST || sink == E3D_SINK_A_BUFFER || sink == E3D_SINK_SAMPLES; }
@@ -173,7 +173,7 @@ static void add_radiance_steps(e3d_steps *s)
 {
     const e3d_bucket *bucket = s->bucket;
     add(s, bucket->lit, find_visibility);
-    add(s, e3d_hides_lights(s->pass, bucket), hide_lights);
+    add(s, e3d_casts_exact_shadows(s->pass, bucket), hide_lights);
     add(s, bucket->lit, bucket->material->is_physical ? light_physical : light);
     add(s, !e3d_has_light_or_color(s->pass->frame), show_mode);
     add(s, fog_of(s->pass, bucket) != NULL, add_fog);
@@ -210,7 +210,7 @@ static int wanted_to_show(const e3d_prepared *pass, const e3d_bucket *bucket)
 {
     int wanted = e3d_plan_inputs(pass->plan), colored = e3d_plans(pass, E3D_PLAN_BASE_COLOR);
     if (bucket->mapped)
-        wanted |= E3D_WANT_WEIGHTS | E3D_WANT_MAPS;
+        wanted |= E3D_WANT_WEIGHTS | E3D_WANT_TEXTURES;
     else if (bucket->textured && colored)
         wanted |= e3d_texture_wanted(e3d_texture_get_view(bucket->material->texture.texture));
     if (pass->targets->barycentric || (colored && bucket->by_vertex))

@@ -70,7 +70,7 @@ static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *stat
     g.first = g.last = -1;
     g.face = id >= 0;
     g.flat = g.face && e3d_is_flat(frame->normals, g.material->flat) && mesh->face_normals;
-    g.mapped = g.face && e3d_needs_maps(g.material, pass->targets);
+    g.mapped = g.face && e3d_needs_textures(g.material, pass->targets);
     g.textured = g.face && g.material->texture.texture && mesh->uvs;
     g.has_uvs = g.mapped && mesh->uvs;
     g.has_uvs1 = g.mapped && mesh->uvs1;
@@ -340,8 +340,8 @@ static ALWAYS_INLINE void fetch_vertices(const e3d_visible_primitive *piece, con
     if (piece->draw != draw)
         return;
     const int32_t *vertex = piece->vertex;
-    const float *normals = wanted & E3D_WANT_NORMAL ? mesh->normals : NULL, *tangents = wanted & E3D_WANT_MAPS ? mesh->tangents : NULL;
-    const float *uvs = wanted & (E3D_WANT_UV | E3D_WANT_MAPS) ? mesh->uvs : NULL;
+    const float *normals = wanted & E3D_WANT_NORMAL ? mesh->normals : NULL, *tangents = wanted & E3D_WANT_TEXTURES ? mesh->tangents : NULL;
+    const float *uvs = wanted & (E3D_WANT_UV | E3D_WANT_TEXTURES) ? mesh->uvs : NULL;
     for (int v = 0; v < 3; v++)
         __builtin_prefetch(mesh->positions + 3 * (size_t)vertex[v]);
     for (int v = 0; v < 3 && normals; v++)
@@ -379,7 +379,7 @@ int32_t e3d_add_surfaces(const e3d_shade_in *in, const e3d_bucket *bucket, int32
     if (wanted & E3D_WANT_LEVEL)
         set_texels(bucket, s);
     if (bucket->mapped)
-        e3d_find_maps(in->pass, bucket, wanted, &memory->maps.maps);
+        e3d_find_textures(in->pass, bucket, wanted, &memory->textures.read);
     for (; p >= 0 && s->count < E3D_BATCH_SURFACES; p = pieces[p].next) {
         s->piece[s->count] = p;
         if (!(wanted & E3D_WANT_SURFACE)) {
@@ -389,7 +389,7 @@ int32_t e3d_add_surfaces(const e3d_shade_in *in, const e3d_bucket *bucket, int32
         if (p <= last)
             fetch_vertices(&pieces[p + AHEAD], pieces[p].draw, wanted);
         if (bucket->mapped)
-            e3d_add_map_surface(in->pass, &pieces[p], &memory->maps.maps, &memory->maps.surfaces, s->count);
+            e3d_add_texture_surface(in->pass, &pieces[p], &memory->textures.read, &memory->textures.surfaces, s->count);
         add_surface(in, &pieces[p], bucket, wanted, s);
     }
     return p;
@@ -471,5 +471,5 @@ void e3d_find_surfaces(const e3d_prepared *pass, const e3d_tile *tile, const e3d
             clear_positions(s, n, corners_count(piece));
     }
     if (bucket->mapped)
-        pass->kernels->map_surfaces(s, &memory->maps.maps, &memory->maps.surfaces);
+        pass->kernels->texture_surfaces(s, &memory->textures.read, &memory->textures.surfaces);
 }

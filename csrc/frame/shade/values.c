@@ -106,8 +106,8 @@ static void fill(float value, int count, float *out)
         out[i] = value;
 }
 
-/* R58 of what has no maps. */
-static void fill_listed(const e3d_material *material, int count, e3d_map_batch *out)
+/* R58 of a material that isn't mapped. */
+static void fill_listed(const e3d_material *material, int count, e3d_texture_batch *out)
 {
     fill(0.0f, count, out->metallic_roughness[0]);
     fill(1.0f, count, out->metallic_roughness[1]);
@@ -118,20 +118,20 @@ static void fill_listed(const e3d_material *material, int count, e3d_map_batch *
 }
 
 /* R58 */
-static void put_maps(const batch_place *place, const e3d_bucket *bucket, e3d_map_batch *maps)
+static void put_textures(const batch_place *place, const e3d_bucket *bucket, e3d_texture_batch *textures)
 {
     const e3d_targets *t = place->store->pass->targets;
     int count = place->batch->count;
     if (!t->metallic_roughness && !t->emissive && !t->tangent)
         return;
     if (!bucket->mapped)
-        fill_listed(bucket->material, count, maps);
-    put(place, E3D_OUTPUT_METALLIC_ROUGHNESS, maps->metallic_roughness);
-    put(place, E3D_OUTPUT_EMISSIVE, maps->emissive);
+        fill_listed(bucket->material, count, textures);
+    put(place, E3D_OUTPUT_METALLIC_ROUGHNESS, textures->metallic_roughness);
+    put(place, E3D_OUTPUT_EMISSIVE, textures->emissive);
     if (t->tangent) {
         e3d_lane_array v[4];
-        to_view(place->store->pass->view, place->batch, maps->tangent, 0, v);
-        memcpy(v[3], maps->tangent[3], sizeof v[3]);
+        to_view(place->store->pass->view, place->batch, textures->tangent, 0, v);
+        memcpy(v[3], textures->tangent[3], sizeof v[3]);
         put(place, E3D_OUTPUT_TANGENT, v);
     }
 }
@@ -196,7 +196,7 @@ void e3d_outputs_batch(const e3d_store *store, const e3d_bucket *bucket, e3d_sha
     put(&place, E3D_OUTPUT_WORLD_POSITION, e3d_batch_places(batch));
     put(&place, E3D_OUTPUT_UV, batch->uv);
     put_barycentric(&place);
-    put_maps(&place, bucket, &memory->maps.batch);
+    put_textures(&place, bucket, &memory->textures.batch);
 }
 
 void e3d_outputs_radiance(const e3d_store *store, const e3d_batch *batch, e3d_store_memory *out)

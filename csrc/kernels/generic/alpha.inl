@@ -262,7 +262,7 @@ static ALWAYS_INLINE void alpha_lay_batch(const e3d_batch *batch, const e3d_lane
 
 static void kernel_lay(const e3d_batch *batch, e3d_samples *samples) { alpha_lay_batch(batch, NULL, samples); }
 
-static void kernel_lay_through(const e3d_batch *batch, const e3d_map_batch *maps, e3d_samples *samples)
+static void kernel_lay_through(const e3d_batch *batch, const e3d_texture_batch *maps, e3d_samples *samples)
 {
     alpha_lay_batch(batch, maps->through, samples);
 }

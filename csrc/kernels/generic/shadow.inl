@@ -538,7 +538,7 @@ static ALWAYS_INLINE vf32 light_reached(const e3d_lighting *lighting, int n, con
 {
     const e3d_light_shadow *shadow = &lighting->lights[n].shadow;
     if (shadow->kind == E3D_SHADOW_EXACT) {
-        vi32 hidden = v_andi(v_loadi(batch->hidden_lights + i), v_seti((int32_t)(UINT32_C(1) << shadow->exact)));
+        vi32 hidden = v_andi(v_loadi(batch->shadowed_lights + i), v_seti((int32_t)(UINT32_C(1) << shadow->exact)));
         return v_self(v_eqi(hidden, v_seti(0)), v_setf(1.0f), v_setf(0.0f));
     }
     const float *found = shadow_found(batch, n);

@@ -73,7 +73,7 @@ typedef struct e3d_batch {
     e3d_lane_array place[3]; /* where `facets`: where the samples are, and `position` is where light is found */
     int32_t lod[E3D_BATCH + E3D_PAD];
     e3d_lane_array energy[3], shine[3], alpha;
-    uint32_t hidden_lights[E3D_BATCH + E3D_PAD]; /* where lights have exact shadows: a bit for each of them, set where it is hidden */
+    uint32_t shadowed_lights[E3D_BATCH + E3D_PAD]; /* where lights have exact shadows: a bit for each of them, set where it is hidden */
     e3d_lane_array visibility; /* R129, where the frame has it */
     e3d_lane_array reached[E3D_SUNS]; /* `reached` of R93 of the lights whose numbers are in `sun`, found by the kernels that light the batch */
     int32_t sun[E3D_SUNS];
@@ -98,7 +98,7 @@ enum {
     E3D_WANT_WEIGHTS = 64, /* weight and r */
     E3D_WANT_ALPHA = 128,  /* the alphas of vertices and instances, if these have colours */
     E3D_WANT_FACET = 512,  /* with E3D_WANT_POSITION: light is found in the middle of the face (R153) */
-    E3D_WANT_MAPS = 256    /* all textures that count, of materials of more than a base colour; else of these only what alpha needs */
+    E3D_WANT_TEXTURES = 256    /* all textures that count, of materials of more than a base colour; else of these only what alpha needs */
 };
 
 /* `reach` has five rows of a number a light, and E3D_PAD more: x, y and z of its position, the square of its range (a NaN for

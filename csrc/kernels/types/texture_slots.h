@@ -1,6 +1,6 @@
 /* What shading works on where a material has more than a base colour: its textures, what they say of a batch, light on it. */
-#ifndef E3D_KERNELS_MAPS_H
-#define E3D_KERNELS_MAPS_H
+#ifndef E3D_KERNELS_TEXTURE_SLOTS_H
+#define E3D_KERNELS_TEXTURE_SLOTS_H
 
 #include <stdint.h>
 
@@ -12,43 +12,43 @@
 enum { E3D_MOST_PLACES = E3D_TEXTURE_SLOTS + 1 };
 
 /* Where textures are read (R45). Those at the same coordinates, of the same size, share a place. */
-typedef struct e3d_map_place {
+typedef struct e3d_texture_place {
     int32_t uv_set, is_moved;
     float matrix[6];
     float texels[2]; /* the counted size of the textures, for their levels */
     int32_t has_level;
-} e3d_map_place;
+} e3d_texture_place;
 
 /* A texture that is read; slots with the same one at the same place share it. */
-typedef struct e3d_map {
+typedef struct e3d_read_texture {
     const e3d_texture_view *view;
     int32_t place, has_alpha; /* the number of its place; whether its fourth channel is read */
-} e3d_map;
+} e3d_read_texture;
 
 /* The textures of a material that count on some mesh. */
-typedef struct e3d_maps {
-    e3d_map_place places[E3D_MOST_PLACES];
-    e3d_map maps[E3D_TEXTURE_SLOTS];
+typedef struct e3d_read_textures {
+    e3d_texture_place places[E3D_MOST_PLACES];
+    e3d_read_texture read[E3D_TEXTURE_SLOTS];
     int32_t place_count, count;
-    int32_t of_slot[E3D_TEXTURE_SLOTS]; /* the number of its map, or -1 */
+    int32_t of_slot[E3D_TEXTURE_SLOTS]; /* the number of its texture, or -1 */
     int32_t tangent_place;              /* the place that tangents are found by (R47), or -1: none are */
     int32_t vertex_tangents;            /* not 0: the mesh's own */
-} e3d_maps;
+} e3d_read_textures;
 
-/* What surfaces bring to maps, beside e3d_surfaces and in the same order. */
-typedef struct e3d_map_surfaces {
+/* What surfaces bring to textures, beside e3d_surfaces and in the same order. */
+typedef struct e3d_texture_surfaces {
     e3d_surface_floats uv[E3D_MOST_PLACES][2][3];    /* by place: [coordinate][vertex] */
     e3d_surface_floats slope[E3D_MOST_PLACES][2][3]; /* [coordinate]: along, down and turn of R25 */
     e3d_surface_floats tangent[3][3];                /* [component][vertex], in object space, then in world space */
     e3d_surface_floats sign;                         /* of the bitangent */
     e3d_surface_words turned_round;                  /* not 0: the determinant of the instance is negative */
-} e3d_map_surfaces;
+} e3d_texture_surfaces;
 
-/* What maps say of a batch, in its order. */
-typedef struct e3d_map_batch {
+/* What textures say of a batch, in its order. */
+typedef struct e3d_texture_batch {
     e3d_lane_array uv[E3D_MOST_PLACES][2];
     int32_t lod[E3D_MOST_PLACES][E3D_BATCH + E3D_PAD];
-    e3d_lane_array texel[E3D_TEXTURE_SLOTS][4]; /* by map: channels, before they are multiplied by the unit */
+    e3d_lane_array texel[E3D_TEXTURE_SLOTS][4]; /* by texture: channels, before they are multiplied by the unit */
     e3d_lane_array tangent[4];                  /* and the sign of the bitangent */
     e3d_lane_array shading_normal[3];           /* before it is mapped: then it is the batch's normal */
     e3d_lane_array coat_normal[3];
@@ -56,7 +56,7 @@ typedef struct e3d_map_batch {
     e3d_lane_array direct[3], coat[3], fuzz[3];      /* sums over lights so far, where they are many */
     e3d_lane_array depth;                            /* world units that a thickness of 1 is */
     e3d_lane_array through[3];                       /* which share of the light behind is seen (R134) */
-} e3d_map_batch;
+} e3d_texture_batch;
 
 /* A number of a material: a constant, or a texture's channel times a factor. */
 typedef struct e3d_varying {
@@ -64,17 +64,17 @@ typedef struct e3d_varying {
     float factor;
 } e3d_varying;
 
-/* A map of normals: the texture's unit, and how much of it counts along the surface. */
-typedef struct e3d_normal_map {
+/* A texture of normals: the texture's unit, and how much of it counts along the surface. */
+typedef struct e3d_normal_texture {
     const e3d_lane_array *texels; /* or NULL */
     float unit, scale;
-} e3d_normal_map;
+} e3d_normal_texture;
 
 /* Anisotropy: where its texture says nothing, the direction is the tangent turned. */
-typedef struct e3d_stretch_map {
+typedef struct e3d_anisotropy_texture {
     const e3d_lane_array *texels; /* or NULL */
     float unit, strength, turn[2]; /* turn: cosine and sine */
-} e3d_stretch_map;
+} e3d_anisotropy_texture;
 
 /* What of a physically based material a texture varies: X(slot, channel, name, factor), with the factors of an e3d_material m. */
 #define E3D_EACH_VARYING(X) \
@@ -94,8 +94,8 @@ typedef struct e3d_stretch_map {
     X(E3D_SLOT_EMISSIVE, emissive, m->emissive) \
     X(E3D_SLOT_SHEEN_COLOR, sheen, m->physical.sheen_color)
 
-/* A physically based material on a batch (R46, R49). */
-typedef struct e3d_surface_model {
+/* The numbers of a physically based material's BRDF on a batch (R46, R49). */
+typedef struct e3d_brdf {
 #define E3D_VARYING(slot, channel, name, factor) e3d_varying name;
     E3D_EACH_VARYING(E3D_VARYING)
 #define E3D_VARYING_COLOR(slot, name, factors) e3d_varying name[3];
@@ -108,10 +108,10 @@ typedef struct e3d_surface_model {
     int transmits;       /* `through` is found */
     int absorbs;         /* by `depth` */
     int anisotropic, iridescent;
-    e3d_stretch_map stretch;
-    e3d_varying film; /* the thickness in nanometres is film_least + film */
-    float film_least, film_ior;
+    e3d_anisotropy_texture stretch;
+    e3d_varying iridescence_thickness; /* of the film, in nanometres, above the least */
+    float iridescence_thickness_least, iridescence_ior;
     int is_rare;      /* it transmits, or is anisotropic or iridescent */
-} e3d_surface_model;
+} e3d_brdf;
 
 #endif

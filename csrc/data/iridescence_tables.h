@@ -3,8 +3,8 @@
  * Source: Belcour and Barla 2017, section 4, whose sensitivities are sums of Gaussians over the wave number: the numbers here are theirs,
  * for a path in nanometres. The fourth adds to the first. tests/kernels/test_rare_materials.py finds them again.
  */
-#ifndef E3D_FILM_TABLES_H
-#define E3D_FILM_TABLES_H
+#ifndef E3D_IRIDESCENCE_TABLES_H
+#define E3D_IRIDESCENCE_TABLES_H
 
 enum { E3D_FILM_WAVES = 4,
        E3D_FILM_COSINE = 7 };

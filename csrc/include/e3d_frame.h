@@ -73,12 +73,12 @@ typedef enum e3d_line_shape { E3D_EACH_LINE_SHAPE(E3D_ENUMERATOR) } e3d_line_sha
 typedef enum e3d_point_shape { E3D_EACH_POINT_SHAPE(E3D_ENUMERATOR) } e3d_point_shape;
 
 enum { E3D_MAX_SIZE = 16384,
-       E3D_MAX_WINDOWS = 16 };
+       E3D_MAX_APERTURES = 16 };
 
 /* Pixels of a picture, inclusive. */
-typedef struct e3d_window {
+typedef struct e3d_aperture {
     int32_t x0, y0, x1, y1;
-} e3d_window;
+} e3d_aperture;
 
 typedef struct e3d_frame {
     int32_t width, height;       /* 1 .. E3D_MAX_SIZE output pixels */
@@ -89,8 +89,8 @@ typedef struct e3d_frame {
                                   * towards the viewer (orthographic) */
     e3d_mode mode;
     e3d_cull cull;
-    const e3d_window *windows;   /* E3D_CULL_BACK leaves backs that reach into one (R9) */
-    int32_t window_count;        /* at most E3D_MAX_WINDOWS */
+    const e3d_aperture *apertures;   /* E3D_CULL_BACK leaves backs that reach into one (R9) */
+    int32_t aperture_count;        /* at most E3D_MAX_APERTURES */
     e3d_wireframe wireframe;
     e3d_hidden hidden;
     e3d_shading shading;

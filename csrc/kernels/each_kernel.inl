@@ -32,20 +32,20 @@ E3D_KERNEL(void, raster_count, (const e3d_piece *piece, const e3d_tile_buffers *
 E3D_KERNEL(void, raster_mark, (const e3d_piece *piece, const e3d_tile_buffers *tile))
 /* Draw records, or a block of fragments, into the tile: the nearest shows (R16). */
 E3D_KERNEL(void, raster_visible, (e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count))
-E3D_KERNEL(void, raster_fragments, (e3d_visible_tile *tile, const e3d_record_table *table, const e3d_fragment_block *block))
+E3D_KERNEL(void, raster_fragments, (e3d_visible_tile *tile, const e3d_record_table *table, const e3d_fragment_link *link))
 /* Writes the samples of all noted blocks: with depths, else the IDs alone, and the blocks stay noted. */
 E3D_KERNEL(void, raster_settle, (e3d_visible_tile *tile, const e3d_record_table *table, int depths))
 /* Measures each block that isn't noted: its zmax, and the farthest depth of each column. */
 E3D_KERNEL(void, raster_measure, (e3d_visible_tile *tile, float columns[E3D_TILE_BLOCKS][E3D_BLOCK]))
 /* Multisampling: a plane of a tile for each sample of its pixels, in which `noted`, `stale`, `zmin` and `zmax` of the first one stand for
  * all. Draws records; writes all noted blocks; measures the others for all planes (see raster_measure). */
-E3D_KERNEL(void, raster_planes, (e3d_visible_tile *planes, const e3d_sample_pattern *pattern, const e3d_record_table *table, const
+E3D_KERNEL(void, raster_msaa, (e3d_visible_tile *planes, const e3d_sample_pattern *pattern, const e3d_record_table *table, const
            uint32_t *ids, int count))
-E3D_KERNEL(void, planes_settle, (e3d_visible_tile *planes, const e3d_sample_pattern *pattern, const e3d_record_table *table))
-E3D_KERNEL(void, planes_measure, (e3d_visible_tile *planes, int count, float columns[E3D_TILE_BLOCKS][E3D_BLOCK]))
+E3D_KERNEL(void, msaa_settle, (e3d_visible_tile *planes, const e3d_sample_pattern *pattern, const e3d_record_table *table))
+E3D_KERNEL(void, msaa_measure, (e3d_visible_tile *planes, int count, float columns[E3D_TILE_BLOCKS][E3D_BLOCK]))
 /* Finds the pixels whose samples don't all show the same, a bit each, row by row. `shared` gets the IDs of the others, and
  * E3D_NO_SLOT for these. Returns whether some of the others, of the first width x height, show nothing. */
-E3D_KERNEL(int, planes_split, (const e3d_visible_tile *planes, int count, int width, int height, uint64_t mixed[E3D_TILE],
+E3D_KERNEL(int, msaa_split, (const e3d_visible_tile *planes, int count, int width, int height, uint64_t mixed[E3D_TILE],
            e3d_visible_tile *shared))
 /* Lists the colours that are to be shaded of the list's pixels from `first` on, as far as there is room; returns the pixel that comes next. */
 E3D_KERNEL(int, list_mixed, (const e3d_visible_tile *planes, int samples, int first, e3d_run *runs, e3d_mixed_list *list))
@@ -54,8 +54,8 @@ E3D_KERNEL(int, list_mixed, (const e3d_visible_tile *planes, int samples, int fi
 E3D_KERNEL(int32_t, raster_alpha, (const e3d_piece *piece, const e3d_record_table *table, e3d_alpha_list *out))
 /* Adds the pixels of rows y to last that pieces of one record, one in each plane that is `live` (a bit each), cover in front of what
  * shows there. Returns the row that comes next. */
-E3D_KERNEL(int32_t, cover_planes, (const e3d_piece *pieces, uint32_t live, int32_t y, int32_t last, const e3d_record_table *table,
-           e3d_planes_list *out))
+E3D_KERNEL(int32_t, cover_msaa, (const e3d_piece *pieces, uint32_t live, int32_t y, int32_t last, const e3d_record_table *table,
+           e3d_msaa_list *out))
 
 /* ---- What shows in a tile ---- */
 
@@ -66,7 +66,7 @@ E3D_KERNEL(int, find_runs, (e3d_visible_tile *tile, int width, int height, e3d_r
 E3D_KERNEL(void, show_records, (const e3d_visible_tile *tile, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown
            *out))
 /* Likewise for fragments: a piece for those of one triangle, which follow each other. */
-E3D_KERNEL(void, show_fragments, (const e3d_visible_tile *tile, const e3d_fragment_block *block, e3d_shown *out))
+E3D_KERNEL(void, show_fragments, (const e3d_visible_tile *tile, const e3d_fragment_link *link, e3d_shown *out))
 /* Adds what records cover, row by row, to the tile's cover, and their runs to the list, a piece for each record. 0 if one is
  * too large or may reach beyond the far plane, or if there are too many. */
 E3D_KERNEL(int, cover_records, (e3d_cover *cover, const e3d_record_table *table, const uint32_t *ids, int count, e3d_shown *out))

@@ -1,6 +1,6 @@
 /* The scalar reference of ambient occlusion: e3d_find_occlusion without its checks. */
-#ifndef E3D_REFERENCE_OCCLUSION_H
-#define E3D_REFERENCE_OCCLUSION_H
+#ifndef E3D_REFERENCE_AMBIENT_OCCLUSION_H
+#define E3D_REFERENCE_AMBIENT_OCCLUSION_H
 
 #include "e3d_occlusion.h"
 

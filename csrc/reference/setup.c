@@ -49,11 +49,11 @@ static int64_t double_area(const screen_corner v[3])
     return ax * cy - cx * ay;
 }
 
-/* Whether the box of a piece reaches into a window of the frame. */
-static int meets_window(const e3d_frame *frame, const ref_piece *piece)
+/* Whether the box of a piece reaches into an aperture of the frame. */
+static int meets_aperture(const e3d_frame *frame, const ref_piece *piece)
 {
-    for (int32_t i = 0; i < frame->window_count; i++) {
-        const e3d_window *w = &frame->windows[i];
+    for (int32_t i = 0; i < frame->aperture_count; i++) {
+        const e3d_aperture *w = &frame->apertures[i];
         int32_t axis = frame->samples_axis;
         if (piece->left < axis * (w->x1 + 1) && piece->right >= axis * w->x0 && piece->top < axis * (w->y1 + 1) &&
             piece->bottom >= axis * w->y0)
@@ -70,7 +70,7 @@ static int is_culled(const ref_scene *scene, const ref_piece *piece)
         return 0;
     if (piece->front)
         return frame->cull == E3D_CULL_FRONT;
-    return frame->cull == E3D_CULL_BACK && !meets_window(frame, piece);
+    return frame->cull == E3D_CULL_BACK && !meets_aperture(frame, piece);
 }
 
 static int32_t min3(const int32_t v[3])

@@ -1,8 +1,8 @@
-/* windows: where a picture may show backs of objects that enclose a volume, because one looks into their holes (R9).
+/* apertures: where a picture may show backs of objects that enclose a volume, because one looks into their holes (R9).
  *
  * A ray from outside goes into such a volume before it comes out: it meets a front first, unless it goes in through a hole. So a
- * back may show only where the fan of triangles that would close a hole faces the viewer; a window is the box of these on the screen.
- * In: what is drawn, and from where. Out: windows, in pixels.
+ * back may show only where the fan of triangles that would close a hole faces the viewer; an aperture is the box of these on the screen.
+ * In: what is drawn, and from where. Out: apertures, in pixels.
  * Always: f64; what rounding or snapping might turn faces the viewer.
  */
 #include <math.h>
@@ -10,7 +10,7 @@
 #include "base/fpenv.h"
 #include "data/mesh.h"
 #include "e3d_scene.h"
-#include "e3d_windows.h"
+#include "e3d_apertures.h"
 
 /* Points that are nearer to a plane than this share of their coordinates are not surely before it. */
 #define LEAST 1e-6
@@ -156,46 +156,46 @@ static double within(double v, double low, double high) { return v < low ? low :
                                                                                           : high; }
 
 /* The pixels of an extent, and one more on each side; 0 if none is in the picture. */
-static int window_of(const extent *e, const e3d_looking *looking, e3d_window *window)
+static int aperture_of(const extent *e, const e3d_looking *looking, e3d_aperture *aperture)
 {
     const double right = looking->width - 1, bottom = looking->height - 1;
     if (!(e->low_x <= right + 1) || !(e->low_y <= bottom + 1) || !(e->high_x >= -1) || !(e->high_y >= -1))
         return 0;
-    *window = (e3d_window){(int32_t)within(floor(e->low_x) - 1, 0, right), (int32_t)within(floor(e->low_y) - 1, 0, bottom),
-                           (int32_t)within(ceil(e->high_x) + 1, 0, right), (int32_t)within(ceil(e->high_y) + 1, 0, bottom)};
+    *aperture = (e3d_aperture){(int32_t)within(floor(e->low_x) - 1, 0, right), (int32_t)within(floor(e->low_y) - 1, 0, bottom),
+                               (int32_t)within(ceil(e->high_x) + 1, 0, right), (int32_t)within(ceil(e->high_y) + 1, 0, bottom)};
     return 1;
 }
 
-/* Adds a window; the last one takes in what there is no room for. */
-static int32_t add_window(e3d_window windows[E3D_MAX_WINDOWS], int32_t count, e3d_window window)
+/* Adds an aperture; the last one takes in what there is no room for. */
+static int32_t add_aperture(e3d_aperture apertures[E3D_MAX_APERTURES], int32_t count, e3d_aperture aperture)
 {
-    if (count < E3D_MAX_WINDOWS) {
-        windows[count] = window;
+    if (count < E3D_MAX_APERTURES) {
+        apertures[count] = aperture;
         return count + 1;
     }
-    e3d_window *last = &windows[count - 1];
-    last->x0 = window.x0 < last->x0 ? window.x0 : last->x0;
-    last->y0 = window.y0 < last->y0 ? window.y0 : last->y0;
-    last->x1 = window.x1 > last->x1 ? window.x1 : last->x1;
-    last->y1 = window.y1 > last->y1 ? window.y1 : last->y1;
+    e3d_aperture *last = &apertures[count - 1];
+    last->x0 = aperture.x0 < last->x0 ? aperture.x0 : last->x0;
+    last->y0 = aperture.y0 < last->y0 ? aperture.y0 : last->y0;
+    last->x1 = aperture.x1 > last->x1 ? aperture.x1 : last->x1;
+    last->y1 = aperture.y1 > last->y1 ? aperture.y1 : last->y1;
     return count;
 }
 
 static int32_t add_holes(const e3d_placed *object, const e3d_looking *looking, const double world[12],
-                         e3d_window windows[E3D_MAX_WINDOWS], int32_t count)
+                         e3d_aperture apertures[E3D_MAX_APERTURES], int32_t count)
 {
     const projection p = projection_of(looking, world);
     for (int32_t hole = 0, first = 0; hole < object->holes; first = object->rim_ends[hole++]) {
         const extent open = open_extent(&p, object->rims + 3 * (size_t)first, object->rim_ends[hole] - first);
-        e3d_window window;
-        if (window_of(&open, looking, &window))
-            count = add_window(windows, count, window);
+        e3d_aperture aperture;
+        if (aperture_of(&open, looking, &aperture))
+            count = add_aperture(apertures, count, aperture);
     }
     return count;
 }
 
-int32_t e3d_find_windows(const e3d_draw_list *list, const e3d_node_rows *rows, const double *bounds, const e3d_placed *objects,
-                         const e3d_looking *looking, e3d_window windows[E3D_MAX_WINDOWS])
+int32_t e3d_find_apertures(const e3d_draw_list *list, const e3d_node_rows *rows, const double *bounds, const e3d_placed *objects,
+                           const e3d_looking *looking, e3d_aperture apertures[E3D_MAX_APERTURES])
 {
     const e3d_fpenv saved = e3d_fpenv_enter();
     int32_t count = 0;
@@ -206,7 +206,7 @@ int32_t e3d_find_windows(const e3d_draw_list *list, const e3d_node_rows *rows, c
             continue;
         const double *world = e3d_placing_pose(rows->world, rows->anchor, slot);
         if (node_is_before(looking->clip_from_world, bounds + E3D_BOX * (size_t)slot, &object->draw, world))
-            count = add_holes(object, looking, world, windows, count);
+            count = add_holes(object, looking, world, apertures, count);
         else
             count = -1;
     }

@@ -43,12 +43,12 @@ def test_show_records(kernels, parts):
         rng, some = np.random.default_rng(seed), scene(seed)
         tile = settled_tile(kernels, some, rng)
         before = tile.bytes.copy()
-        fields["count"], fields["pieces"], fields["runs"] = 0, 0, 7
+        fields["count"], fields["primitives"], fields["runs"] = 0, 0, 7
         for part in np.array_split(some.arrivals[1], parts):
             kernels.show_records(tile.bytes, some.table, some.ids[part], row)
         assert np.array_equal(tile.bytes, before)
-        count, pieces = int(fields["count"]), int(fields["pieces"])
-        named = fields["piece"][:pieces]
+        count, pieces = int(fields["count"]), int(fields["primitives"])
+        named = fields["primitive"][:pieces]
         ends = np.append(named["first"], count)
         for number, (record_id, first) in enumerate(named):
             assert np.array_equal(
@@ -60,7 +60,7 @@ def test_show_records(kernels, parts):
         assert count == sum(len(samples_of(tile, number)) for number in showing)
         for name in ("sample", "of"):
             check_poisoned({name: fields[name][count + 2 * PAD :]}, [name])
-        check_poisoned({"piece": fields["piece"][pieces + 1 :]}, ["piece"])
+        check_poisoned({"primitive": fields["primitive"][pieces + 1 :]}, ["primitive"])
         assert fields["runs"] == 7
         hidden += RECORDS - pieces
     assert hidden > TILES  # or nothing was left out
@@ -91,7 +91,7 @@ def test_show_fragments(kernels):
         rng, tile = np.random.default_rng(seed), Tile(0, 0)
         blocks = fragment_blocks(rng, tile)
         before = tile.bytes.copy()
-        fields["count"], fields["pieces"] = 0, 0
+        fields["count"], fields["primitives"] = 0, 0
         ids, samples = [], []
         for block in blocks:
             kernels.show_fragments(tile.bytes, block.reshape(1).view(np.uint8), row)
@@ -100,16 +100,16 @@ def test_show_fragments(kernels):
             ids, samples = np.append(ids, all_ids[shows]), np.append(samples, at[shows])
         assert np.array_equal(tile.bytes, before)
         fresh = np.flatnonzero(np.diff(ids, prepend=-1))
-        assert fields["count"] == len(ids) and fields["pieces"] == len(fresh)
+        assert fields["count"] == len(ids) and fields["primitives"] == len(fresh)
         assert np.array_equal(fields["sample"][: len(ids)], samples)
         assert np.array_equal(
             fields["of"][: len(ids)], np.cumsum(np.diff(ids, prepend=-1) != 0) - 1
         )
-        assert np.array_equal(fields["piece"]["id"][: len(fresh)], ids[fresh])
-        assert np.array_equal(fields["piece"]["first"][: len(fresh)], fresh)
+        assert np.array_equal(fields["primitive"]["id"][: len(fresh)], ids[fresh])
+        assert np.array_equal(fields["primitive"]["first"][: len(fresh)], fresh)
         for name in ("sample", "of"):
             check_poisoned({name: fields[name][len(ids) + PAD :]}, [name])
-        check_poisoned({"piece": fields["piece"][len(fresh) + 1 :]}, ["piece"])
+        check_poisoned({"primitive": fields["primitive"][len(fresh) + 1 :]}, ["primitive"])
         pieces += len(fresh)
     assert pieces > 5000
     lists.check_gaps()
@@ -122,9 +122,9 @@ def test_neighbours_stay_neighbours(kernels):
     for seed in range(2 * TILES):  # few records are as large
         some = scene(seed)
         tile, row = settled_tile(kernels, some, np.random.default_rng(seed)), Records(SHOWN, 1)
-        row.fields["count"] = row.fields["pieces"] = 0
+        row.fields["count"] = row.fields["primitives"] = 0
         kernels.show_records(tile.bytes, some.table, some.ids, row.rows[0])
-        named = row.fields["piece"][0, : row.fields["pieces"][0]]
+        named = row.fields["primitive"][0, : row.fields["primitives"][0]]
         for record_id, first in named:
             own = samples_of(tile, record_id)
             columns, rows = np.ptp(own % TILE) + 1, np.ptp(own // TILE) + 1

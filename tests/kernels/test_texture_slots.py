@@ -11,9 +11,9 @@ from kernels.layouts import (
     BATCH,
     BATCH_RECORD,
     BATCH_SURFACES,
-    TEXTURE_BATCH,
     PAD,
     SURFACES,
+    TEXTURE_BATCH,
     WANT_LEVEL,
     WANT_NORMAL,
     WANT_UV,
@@ -75,7 +75,9 @@ def test_texture_surfaces(kernels, vertex_tangents):
             surfaces[name] = rng.uniform(-2, 2, surfaces[name].shape)
         surfaces = surfaces.reshape(1)
         given = texture_surfaces_of(rng, surfaces[0], 2)
-        textures = record("read_textures", place_count=2, tangent_place=1, vertex_tangents=vertex_tangents)
+        textures = record(
+            "read_textures", place_count=2, tangent_place=1, vertex_tangents=vertex_tangents
+        )
         textures["places"]["has_level"][0, 1], textures["places"]["texels"][0, 1] = 1, (64, 32)
         got, expected = given.copy(), given.copy()
         for some in (kernels, plain):
@@ -93,7 +95,7 @@ def test_texture_surfaces(kernels, vertex_tangents):
             assert np.array_equal(tangents, np.repeat(rule[0][:, None, :count], 3, axis=1))
 
 
-def textures(rng):
+def random_textures(rng):
     """Two views: of a texture that is blended, and of one with levels."""
     for filter, sides in (("bilinear", [16]), ("trilinear", [32, 16, 8])):
         sizes = np.array([(side, side) for side in sides], np.int32)
@@ -114,7 +116,7 @@ def shaded(kernels, surfaces, batch, textures, of_surfaces):
 def test_read_textures(kernels):
     """Coordinates are interpolated, texels as a base colour's; the bytes are those of one lane."""
     rng, plain = np.random.default_rng(2), kernels_of("portable")
-    given = list(textures(rng))
+    given = list(random_textures(rng))
     views = [texture_view(*one) for one in given]
     for count in (1, 3, 16, 100, BATCH):
         surfaces = np.zeros(1, SURFACES)

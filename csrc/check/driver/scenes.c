@@ -419,14 +419,14 @@ static void choose_look(e3d_frame *frame, random_stream *r)
     frame->alpha_to_coverage = random_below(r, 2);
 }
 
-/* Up to two windows, in and beside the picture. */
-static void add_windows(scene *s, random_stream *r)
+/* Up to two apertures, in and beside the picture. */
+static void add_apertures(scene *s, random_stream *r)
 {
     const int32_t width = s->frame.width, height = s->frame.height;
-    s->frame.windows = s->windows;
-    s->frame.window_count = random_once_in(r, 2) ? random_below(r, 3) : 0;
+    s->frame.apertures = s->apertures;
+    s->frame.aperture_count = random_once_in(r, 2) ? random_below(r, 3) : 0;
     for (int k = 0; k < 2; k++) {
-        e3d_window *w = &s->windows[k];
+        e3d_aperture *w = &s->apertures[k];
         w->x0 = random_below(r, width);
         w->y0 = random_below(r, height);
         w->x1 = w->x0 + random_below(r, width);
@@ -480,7 +480,7 @@ e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
         status = add_draws(s, r);
     choose_tone(&s->frame, r);
     add_ambient(s, r);
-    add_windows(s, r);
+    add_apertures(s, r);
     return status;
 }
 

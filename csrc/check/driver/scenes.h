@@ -25,7 +25,7 @@ typedef struct scene {
     e3d_texture *textures[SCENE_MAX_TEXTURES];
     e3d_material materials[SCENE_MAX_MATERIALS];
     e3d_light lights[SCENE_MAX_LIGHTS];
-    e3d_window windows[2];
+    e3d_aperture apertures[2];
     e3d_environment *environment; /* or NULL */
     void *arrays[SCENE_MAX_ARRAYS]; /* freed with the scene: what the meshes and draws borrow */
     int32_t array_count;

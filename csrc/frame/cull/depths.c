@@ -31,7 +31,7 @@ static float farthest(const e3d_visible_tile *visible)
 void e3d_note_depths(const e3d_kernels *kernels, int planes, e3d_visible_tile *visible, e3d_tile_depths *out)
 {
     if (planes > 1)
-        kernels->planes_measure(visible, planes, out->columns);
+        kernels->msaa_measure(visible, planes, out->columns);
     else
         kernels->raster_measure(visible, out->columns);
     memcpy(out->zmax, visible->zmax, sizeof out->zmax);

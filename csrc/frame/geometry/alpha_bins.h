@@ -1,6 +1,6 @@
 /* Which records have alpha: those of materials that are masked or blended, or that light passes through. */
-#ifndef E3D_ALPHA_H
-#define E3D_ALPHA_H
+#ifndef E3D_ALPHA_BINS_H
+#define E3D_ALPHA_BINS_H
 
 #include <stdint.h>
 

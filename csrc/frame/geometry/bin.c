@@ -33,7 +33,7 @@ void e3d_bins_init(e3d_bins *bins, int32_t threads)
 
 static void free_chains(e3d_chains *chains)
 {
-    e3d_array_free(&chains->blocks);
+    e3d_array_free(&chains->links);
     e3d_array_free(&chains->bins);
     e3d_array_free(&chains->earlier);
 }
@@ -58,13 +58,13 @@ static int empty(e3d_array *bins, int32_t tiles)
     if (!e3d_array_reserve(bins, (size_t)tiles, sizeof(e3d_bin)))
         return 0;
     for (int32_t t = 0; t < tiles; t++)
-        ((e3d_bin *)bins->data)[t] = (e3d_bin){E3D_NO_BLOCK, E3D_NO_BLOCK};
+        ((e3d_bin *)bins->data)[t] = (e3d_bin){E3D_NO_LINK, E3D_NO_LINK};
     return 1;
 }
 
 static int clear(e3d_chains *chains, int32_t tiles)
 {
-    chains->blocks.count = 0;
+    chains->links.count = 0;
     return empty(&chains->bins, tiles);
 }
 
@@ -133,27 +133,27 @@ void e3d_bins_index(e3d_bins *bins)
 
 /* ---- records to bins ---- */
 
-/* An empty block at a chain's end; 0 when memory is out. */
-static int __attribute__((noinline)) add_block(e3d_array *array, e3d_bin *bin)
+/* An empty link at a chain's end; 0 when memory is out. */
+static int __attribute__((noinline)) add_link(e3d_array *array, e3d_bin *bin)
 {
-    if (!e3d_array_reserve(array, array->count + 1, sizeof(e3d_bin_block)))
+    if (!e3d_array_reserve(array, array->count + 1, sizeof(e3d_bin_link)))
         return 0;
-    e3d_bin_block *blocks = array->data;
+    e3d_bin_link *links = array->data;
     uint32_t fresh = (uint32_t)array->count++;
-    blocks[fresh].next = E3D_NO_BLOCK;
-    blocks[fresh].count = 0;
-    *(bin->last == E3D_NO_BLOCK ? &bin->first : &blocks[bin->last].next) = fresh;
+    links[fresh].next = E3D_NO_LINK;
+    links[fresh].count = 0;
+    *(bin->last == E3D_NO_LINK ? &bin->first : &links[bin->last].next) = fresh;
     bin->last = fresh;
     return 1;
 }
 
 static inline int push(e3d_chains *chains, e3d_bin *bin, uint32_t id)
 {
-    const e3d_bin_block *blocks = chains->blocks.data;
-    if ((bin->last == E3D_NO_BLOCK || blocks[bin->last].count == 30) && !add_block(&chains->blocks, bin))
+    const e3d_bin_link *links = chains->links.data;
+    if ((bin->last == E3D_NO_LINK || links[bin->last].count == 30) && !add_link(&chains->links, bin))
         return 0;
-    e3d_bin_block *block = (e3d_bin_block *)chains->blocks.data + bin->last;
-    block->id[block->count++] = id;
+    e3d_bin_link *link = (e3d_bin_link *)chains->links.data + bin->last;
+    link->id[link->count++] = id;
     return 1;
 }
 
@@ -234,8 +234,8 @@ int e3d_bin_records(const e3d_view *view, e3d_geometry_memory *state, const e3d_
 int e3d_has_bin(const e3d_bins *bins, int which, int64_t tile)
 {
     for (int32_t t = 0; t < bins->threads; t++)
-        if (e3d_first_block(&bins->of[t]->sets[which].chains, 0, tile) != E3D_NO_BLOCK ||
-            (which == E3D_SET_SCENE && e3d_first_block(&bins->of[t]->fragments.chains, 0, tile) != E3D_NO_BLOCK))
+        if (e3d_first_link(&bins->of[t]->sets[which].chains, 0, tile) != E3D_NO_LINK ||
+            (which == E3D_SET_SCENE && e3d_first_link(&bins->of[t]->fragments.chains, 0, tile) != E3D_NO_LINK))
             return 1;
     return 0;
 }
@@ -257,16 +257,16 @@ int e3d_has_bins(const e3d_bins *bins, int64_t tile)
 static uint32_t count_records(const e3d_record_set *set, int64_t tile)
 {
     uint32_t count = 0;
-    for (const e3d_bin_block *block = e3d_first_records(set, 0, tile); block; block = e3d_bin_block_at(set, block->next))
-        count += block->count;
+    for (const e3d_bin_link *link = e3d_first_records(set, 0, tile); link; link = e3d_bin_link_at(set, link->next))
+        count += link->count;
     return count;
 }
 
 static uint32_t count_fragments(const e3d_fragment_set *set, int64_t tile)
 {
     uint32_t count = 0;
-    for (const e3d_fragment_block *block = e3d_first_fragments(set, 0, tile); block; block = e3d_fragment_block_at(set, block->next))
-        count += block->count;
+    for (const e3d_fragment_link *link = e3d_first_fragments(set, 0, tile); link; link = e3d_fragment_link_at(set, link->next))
+        count += link->count;
     return count;
 }
 

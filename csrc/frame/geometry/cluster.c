@@ -154,7 +154,7 @@ static int is_culled(const e3d_cluster_job *j, int triangle)
     if ((e3d_doubled_area(x, y) < 0 ? -1 : 1) != culled_sign(j))
         return 0;
     const e3d_box box = e3d_sample_box(x, y, &j->pass->view->viewport);
-    return !(j->open && e3d_meets_window(j->pass->view, &box)) &&
+    return !(j->open && e3d_meets_aperture(j->pass->view, &box)) &&
            cull_of(j, j->draw->mesh->faces[j->cluster->first + triangle]) != E3D_CULL_NONE;
 }
 

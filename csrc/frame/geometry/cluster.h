@@ -19,7 +19,7 @@ typedef struct e3d_cluster_job {
     uint32_t number, order; /* of the instance; of its first primitive */
     const e3d_cluster *cluster;
     const uint8_t *indices;
-    int open; /* it may reach into a window, where backs are not culled */
+    int open; /* it may reach into an aperture, where backs are not culled */
 } e3d_cluster_job;
 
 /* The sign of the area (screen, Y down) of what setup may drop, whatever the material, or 0. */

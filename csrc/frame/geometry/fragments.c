@@ -42,17 +42,17 @@ void e3d_fragments_add(const e3d_prepared *pass, e3d_geometry_memory *state, con
 void e3d_fragments_flush(const e3d_prepared *pass, e3d_geometry_memory *state)
 {
     e3d_fragment_set *set = &state->fragments;
-    size_t most = e3d_fragment_blocks_most((size_t)e3d_tile_count(pass->view));
+    size_t most = e3d_fragment_links_most((size_t)e3d_tile_count(pass->view));
     if (!set->triangles.count)
         return;
-    if (!e3d_array_reserve(&set->chains.blocks, set->chains.blocks.count + most, sizeof(e3d_fragment_block))) {
+    if (!e3d_array_reserve(&set->chains.links, set->chains.links.count + most, sizeof(e3d_fragment_link))) {
         set->triangles.count = 0;
         state->failed = 1;
         return;
     }
-    e3d_fragment_bins out = {.blocks = set->chains.blocks.data, .bins = set->chains.bins.data, .count = (uint32_t)set->chains.blocks.count};
+    e3d_fragment_bins out = {.links = set->chains.links.data, .bins = set->chains.bins.data, .count = (uint32_t)set->chains.links.count};
     pass->kernels->fragments(&set->triangles, &pass->view->viewport, pass->view->tiles_x, &out);
-    set->chains.blocks.count = out.count;
+    set->chains.links.count = out.count;
     state->counters.records += out.triangles;
     state->counters.triangles_drawn += out.triangles;
     state->counters.bin_entries += out.fragments;

@@ -1,6 +1,6 @@
 /* geometry: which clusters of a group are drawn, and why not the others: they are outside, face away, or are hidden.
  *
- * Clusters that may reach into a window are open there: their backs aren't culled (R9).
+ * Clusters that may reach into an aperture are open there: their backs aren't culled (R9).
  */
 #include "base/limits.h"
 #include "data/mesh.h"
@@ -19,30 +19,31 @@
 #include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
 
-/* Whether what is in a box may reach into a window. */
-static int reaches_window(const e3d_visit *v, const float lo[3], const float hi[3])
+/* Whether what is in a box may reach into an aperture. */
+static int reaches_aperture(const e3d_visit *v, const float lo[3], const float hi[3])
 {
     e3d_box_view box;
     e3d_view_box(&v->pass->view->viewport, v->instance->clip, lo, hi, &box);
-    return box.state != E3D_BOX_OUTSIDE && e3d_meets_window(v->pass->view, &box.samples);
+    return box.state != E3D_BOX_OUTSIDE && e3d_meets_aperture(v->pass->view, &box.samples);
 }
 
 /* Whether what the cluster's vertices enclose may: less than its box does. */
-static int vertices_reach_window(const e3d_visit *v)
+static int vertices_reach_aperture(const e3d_visit *v)
 {
     e3d_box_view view;
-    return !e3d_view_vertices(&v->pass->view->viewport, &v->state->vertices, &view) || e3d_meets_window(v->pass->view, &view.samples);
+    return !e3d_view_vertices(&v->pass->view->viewport, &v->state->vertices, &view) || e3d_meets_aperture(v->pass->view,
+                                                                                                          &view.samples);
 }
 
-/* The group's clusters that may reach into a window: a bit each. */
+/* The group's clusters that may reach into an aperture: a bit each. */
 static unsigned find_open(const e3d_visit *v)
 {
     const e3d_cluster *clusters = &v->draw->mesh->clusters[v->group->first_cluster];
     unsigned open = 0;
-    if (!v->pass->view->window_count || v->draw->all_two_sided || !reaches_window(v, v->group->lo, v->group->hi))
+    if (!v->pass->view->aperture_count || v->draw->all_two_sided || !reaches_aperture(v, v->group->lo, v->group->hi))
         return 0;
     for (int k = 0; k < v->group->clusters; k++)
-        open |= (unsigned)reaches_window(v, clusters[k].lo, clusters[k].hi) << k;
+        open |= (unsigned)reaches_aperture(v, clusters[k].lo, clusters[k].hi) << k;
     return open;
 }
 
@@ -188,7 +189,7 @@ unsigned e3d_draw_group(const e3d_visit *v, unsigned asked, unsigned wanted)
         job.cluster = &clusters[k];
         job.indices = e3d_cluster_indices(job.cluster, mesh->desc.components);
         e3d_transform_cluster(&job, inside);
-        job.open = open >> k & 1 && vertices_reach_window(v);
+        job.open = open >> k & 1 && vertices_reach_aperture(v);
         if (closely && vertices_are_hidden(v)) {
             results[k] = E3D_RESULT_OCCLUDED;
             shown &= ~(1u << k);

@@ -10,15 +10,15 @@
 #include "kernels/types/vertices.h"
 #include "frame/cull/cull.h"
 
-/* Bins are chains of blocks of record IDs, in order of arrival. */
-typedef struct e3d_bin_block {
+/* Bins are chains of links of record IDs, in order of arrival. */
+typedef struct e3d_bin_link {
     uint32_t next, count;
     uint32_t id[30];
-} e3d_bin_block;
+} e3d_bin_link;
 
 /* The bins of all tiles. */
 typedef struct e3d_chains {
-    e3d_array blocks;  /* e3d_bin_block or e3d_fragment_block */
+    e3d_array links;  /* e3d_bin_link or e3d_fragment_link */
     e3d_array bins;    /* e3d_bin, one a tile */
     e3d_array earlier; /* the same, of the round that finished the tiles */
 } e3d_chains;
@@ -71,36 +71,36 @@ typedef struct e3d_geometry_memory {
     e3d_geometry_counters counters;
 } e3d_geometry_memory;
 
-/* The first block of a tile's chain; `earlier`: of the round that finished the tile. */
-static inline uint32_t e3d_first_block(const e3d_chains *chains, int earlier, int64_t tile)
+/* The first link of a tile's chain; `earlier`: of the round that finished the tile. */
+static inline uint32_t e3d_first_link(const e3d_chains *chains, int earlier, int64_t tile)
 {
     return ((const e3d_bin *)(earlier ? &chains->earlier : &chains->bins)->data)[tile].first;
 }
-/* The blocks of a chain, one after the other; NULL behind the last. */
-static inline const e3d_bin_block *e3d_bin_block_at(const e3d_record_set *set, uint32_t number)
+/* The links of a chain, one after the other; NULL behind the last. */
+static inline const e3d_bin_link *e3d_bin_link_at(const e3d_record_set *set, uint32_t number)
 {
-    return number == E3D_NO_BLOCK ? NULL : (const e3d_bin_block *)set->chains.blocks.data + number;
+    return number == E3D_NO_LINK ? NULL : (const e3d_bin_link *)set->chains.links.data + number;
 }
-static inline const e3d_bin_block *e3d_first_alpha(const e3d_record_set *set, int kind, int64_t tile)
+static inline const e3d_bin_link *e3d_first_alpha(const e3d_record_set *set, int kind, int64_t tile)
 {
     uint32_t number = ((const e3d_bin *)set->alpha[kind].bins.data)[tile].first;
-    return number == E3D_NO_BLOCK ? NULL : (const e3d_bin_block *)set->alpha[kind].blocks.data + number;
+    return number == E3D_NO_LINK ? NULL : (const e3d_bin_link *)set->alpha[kind].links.data + number;
 }
-static inline const e3d_bin_block *e3d_next_alpha(const e3d_record_set *set, int kind, const e3d_bin_block *block)
+static inline const e3d_bin_link *e3d_next_alpha(const e3d_record_set *set, int kind, const e3d_bin_link *link)
 {
-    return block->next == E3D_NO_BLOCK ? NULL : (const e3d_bin_block *)set->alpha[kind].blocks.data + block->next;
+    return link->next == E3D_NO_LINK ? NULL : (const e3d_bin_link *)set->alpha[kind].links.data + link->next;
 }
-static inline const e3d_bin_block *e3d_first_records(const e3d_record_set *set, int earlier, int64_t tile)
+static inline const e3d_bin_link *e3d_first_records(const e3d_record_set *set, int earlier, int64_t tile)
 {
-    return e3d_bin_block_at(set, e3d_first_block(&set->chains, earlier, tile));
+    return e3d_bin_link_at(set, e3d_first_link(&set->chains, earlier, tile));
 }
-static inline const e3d_fragment_block *e3d_fragment_block_at(const e3d_fragment_set *set, uint32_t number)
+static inline const e3d_fragment_link *e3d_fragment_link_at(const e3d_fragment_set *set, uint32_t number)
 {
-    return number == E3D_NO_BLOCK ? NULL : (const e3d_fragment_block *)set->chains.blocks.data + number;
+    return number == E3D_NO_LINK ? NULL : (const e3d_fragment_link *)set->chains.links.data + number;
 }
-static inline const e3d_fragment_block *e3d_first_fragments(const e3d_fragment_set *set, int earlier, int64_t tile)
+static inline const e3d_fragment_link *e3d_first_fragments(const e3d_fragment_set *set, int earlier, int64_t tile)
 {
-    return e3d_fragment_block_at(set, e3d_first_block(&set->chains, earlier, tile));
+    return e3d_fragment_link_at(set, e3d_first_link(&set->chains, earlier, tile));
 }
 
 #endif

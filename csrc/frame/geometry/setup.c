@@ -84,7 +84,8 @@ int e3d_records_fit(e3d_record_set *set, int id_bits, size_t more)
 /* R9 */
 static int is_culled(const e3d_view *view, const e3d_primitive *primitive, int front, const e3d_box *box)
 {
-    return (primitive->cull == E3D_CULL_BACK && !front && !e3d_meets_window(view, box)) || (primitive->cull == E3D_CULL_FRONT && front);
+    return (primitive->cull == E3D_CULL_BACK && !front && !e3d_meets_aperture(view, box)) ||
+           (primitive->cull == E3D_CULL_FRONT && front);
 }
 
 e3d_chains *e3d_chains_of(e3d_record_set *set, int alpha) { return alpha < E3D_ALPHA_KINDS ? &set->alpha[alpha] : &set->chains; }

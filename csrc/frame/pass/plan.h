@@ -64,9 +64,9 @@
     X(FACES, "faces are drawn, not only counted")                                        \
     X(SORTS, "records are sorted before they are binned, and the last one shows")        \
     X(ALPHA_BINS, "records with alpha go to bins of their own")                          \
-    X(BLENDS, "blended fragments are laid over what is behind them")                     \
+    X(BLENDS, "blended layers are laid over what is behind them")                        \
     X(SOLID, "blended faces show wherever their alpha isn't 0, as masked ones do")         \
-    X(FRONT, "outputs are those of the nearest fragment, where there is one")            \
+    X(FRONT, "outputs are those of the nearest blended layer, where there is one")    \
     X(AT_ONCE, "each record is shaded at once, where it is the nearest so far")          \
     X(SLOTS, "a tile draws record after record; its samples keep slots instead of IDs")  \
     X(DEPTHS, "the depth of every sample is needed, not only the ID")                    \

@@ -44,13 +44,13 @@ static void find_viewport(e3d_view *view, const e3d_frame *frame)
     view->tiles_y = (v->height + E3D_TILE - 1) / E3D_TILE;
 }
 
-static void find_windows(e3d_view *view, const e3d_frame *frame)
+static void find_apertures(e3d_view *view, const e3d_frame *frame)
 {
     const int32_t axis = frame->samples_axis;
-    view->window_count = frame->cull == E3D_CULL_BACK ? frame->window_count : 0;
-    for (int32_t i = 0; i < view->window_count; i++) {
-        const e3d_window *w = &frame->windows[i];
-        view->windows[i] = (e3d_box){axis * w->x0, axis * w->y0, axis * w->x1 + axis - 1, axis * w->y1 + axis - 1};
+    view->aperture_count = frame->cull == E3D_CULL_BACK ? frame->aperture_count : 0;
+    for (int32_t i = 0; i < view->aperture_count; i++) {
+        const e3d_aperture *w = &frame->apertures[i];
+        view->apertures[i] = (e3d_box){axis * w->x0, axis * w->y0, axis * w->x1 + axis - 1, axis * w->y1 + axis - 1};
     }
 }
 
@@ -187,7 +187,7 @@ int e3d_view_prepare(e3d_view *view, const e3d_view *frustum, const double clip_
 {
     instances_job job = {.view = view, .frustum = frustum, .clip_from_world = clip_from_world, .draws = draws, .frame = frame};
     find_viewport(view, frame);
-    find_windows(view, frame);
+    find_apertures(view, frame);
     for (int k = 0; k < 12; k++)
         view->rows[k] = (float)frame->view_from_world[k];
     view->mirrors = e3d_mirrors(frame->view_from_world);

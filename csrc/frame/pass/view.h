@@ -31,8 +31,8 @@ typedef struct e3d_tile {
 typedef struct e3d_view {
     e3d_viewport viewport;
     int32_t tiles_x, tiles_y; /* the grid of tiles */
-    e3d_box windows[E3D_MAX_WINDOWS]; /* in samples: backs that reach into one are not culled (R9) */
-    int32_t window_count;
+    e3d_box apertures[E3D_MAX_APERTURES]; /* in samples: backs that reach into one are not culled (R9) */
+    int32_t aperture_count;
     float rows[12];           /* of view_from_world, f32 */
     int mirrors;              /* the camera does: R2 */
     e3d_lighting lighting, unshadowed; /* unshadowed: of what no shadow falls on */
@@ -55,12 +55,12 @@ static inline const e3d_lighting *e3d_lighting_of(const e3d_view *view, int unsh
     return unshadowed ? &view->unshadowed : &view->lighting;
 }
 
-/* Whether a box of samples reaches into a window. */
-static inline int e3d_meets_window(const e3d_view *view, const e3d_box *box)
+/* Whether a box of samples reaches into an aperture. */
+static inline int e3d_meets_aperture(const e3d_view *view, const e3d_box *box)
 {
-    for (int32_t i = 0; i < view->window_count; i++) {
-        const e3d_box *window = &view->windows[i];
-        if (box->x0 <= window->x1 && box->x1 >= window->x0 && box->y0 <= window->y1 && box->y1 >= window->y0)
+    for (int32_t i = 0; i < view->aperture_count; i++) {
+        const e3d_box *aperture = &view->apertures[i];
+        if (box->x0 <= aperture->x1 && box->x1 >= aperture->x0 && box->y0 <= aperture->y1 && box->y1 >= aperture->y0)
             return 1;
     }
     return 0;

@@ -34,12 +34,12 @@ int e3d_alpha_wanted(const e3d_bucket *bucket)
     return wanted;
 }
 
-/* The place in the list of the batch's next sample, which is of that piece: those of a piece follow each other. */
-static int32_t next_place(const e3d_visible_primitive *pieces, int32_t piece, e3d_shaded_list *list)
+/* The place in the list of the batch's next sample, which is of that primitive: those of a primitive follow each other. */
+static int32_t next_place(const e3d_visible_primitive *primitives, int32_t primitive, e3d_shaded_list *list)
 {
-    if (piece != list->piece) {
-        list->piece = piece;
-        list->at = pieces[piece].first;
+    if (primitive != list->primitive) {
+        list->primitive = primitive;
+        list->at = primitives[primitive].first;
     }
     return list->at++;
 }
@@ -50,7 +50,7 @@ void e3d_keep_alphas(const e3d_steps *s)
     const e3d_batch *batch = &memory->batch;
     e3d_shaded_list *list = s->out->list;
     for (int i = 0; i < batch->count; i++)
-        list->alpha[next_place(memory->pieces.data, memory->surfaces.piece[batch->surface[i]], list)] = batch->alpha[i];
+        list->alpha[next_place(memory->primitives.data, memory->surfaces.primitive[batch->surface[i]], list)] = batch->alpha[i];
 }
 
 /* The colours of four samples, channel by channel, clamped, as rows. */
@@ -102,17 +102,17 @@ static void keep_light(const e3d_lane_array *radiance, const float *alpha, int f
 }
 
 /* Where the samples end that stand side by side in the batch and in the list, from sample i and that place on. Mostly all of them do, of
- * one piece or of several that follow each other in the list. */
+ * one primitive or of several that follow each other in the list. */
 static int end_of_run(const e3d_shade_memory *memory, int i, int32_t place, e3d_shaded_list *list)
 {
     const e3d_batch *batch = &memory->batch;
-    const e3d_visible_primitive *pieces = memory->pieces.data;
+    const e3d_visible_primitive *primitives = memory->primitives.data;
     int end = i + 1;
     for (; end < batch->count; end++) {
-        int32_t piece = memory->surfaces.piece[batch->surface[end]];
-        if (piece != list->piece && pieces[piece].first != place + (end - i))
+        int32_t primitive = memory->surfaces.primitive[batch->surface[end]];
+        if (primitive != list->primitive && primitives[primitive].first != place + (end - i))
             break;
-        list->piece = piece;
+        list->primitive = primitive;
     }
     return end;
 }
@@ -121,7 +121,7 @@ static void keep(e3d_shade_memory *memory, int transmits, float sign, e3d_shaded
 {
     const e3d_batch *batch = &memory->batch;
     for (int i = 0, end; i < batch->count; i = end) {
-        int32_t place = next_place(memory->pieces.data, memory->surfaces.piece[batch->surface[i]], list);
+        int32_t place = next_place(memory->primitives.data, memory->surfaces.primitive[batch->surface[i]], list);
         end = end_of_run(memory, i, place, list);
         keep_run(batch, i, end, sign, list->color + place);
         if (list->through)
@@ -151,7 +151,10 @@ void e3d_find_alphas(const e3d_steps *s)
         round_alphas(m, &memory->batch);
 }
 
-void e3d_keep_fragments(const e3d_steps *s) { keep(s->out->memory, s->bucket->transmits, s->bucket->hidden ? -1.0f : 1.0f, s->out->list); }
+void e3d_keep_layers(const e3d_steps *s)
+{
+    keep(s->out->memory, s->bucket->transmits, s->bucket->hidden ? -1.0f : 1.0f, s->out->list);
+}
 
 void e3d_keep_solid(const e3d_steps *s)
 {

@@ -1,6 +1,6 @@
 /* The alphas of a batch, and the sinks of samples that do not simply show. */
-#ifndef E3D_SHADE_ALPHA_H
-#define E3D_SHADE_ALPHA_H
+#ifndef E3D_ALPHA_BATCH_H
+#define E3D_ALPHA_BATCH_H
 
 #include "e3d.h"
 #include "frame/shade/job.h"
@@ -16,7 +16,7 @@ void e3d_find_alphas(const e3d_steps *s);
 /* they go to their places in the list, */
 void e3d_keep_alphas(const e3d_steps *s);
 /* or with the colours, which are clamped, */
-void e3d_keep_fragments(const e3d_steps *s);
+void e3d_keep_layers(const e3d_steps *s);
 /* or alphas of 1 do; */
 void e3d_keep_solid(const e3d_steps *s);
 /* or the batch is laid over the tile's samples. */

@@ -22,7 +22,7 @@
 /* ---- what owners are ---- */
 
 enum { SOME = 256 };
-_Static_assert(SOME >= (int)E3D_MOST_COVERING, "all pieces of spans are looked up at once");
+_Static_assert(SOME >= (int)E3D_MOST_COVERING, "all primitives of spans are looked up at once");
 
 /* Some owners of runs: their IDs, and the primitives that these stand for. */
 typedef struct owners {
@@ -189,9 +189,9 @@ void e3d_identify_shown(const e3d_shade_in *in, const e3d_shade_out *out)
     const e3d_shown *shown = &out->memory->shown;
     e3d_instance_finder finder = {0};
     int32_t axis = in->pass->frame->samples_axis, values[SOME];
-    owners of = {.count = shown->pieces};
+    owners of = {.count = shown->primitives};
     for (int32_t n = 0; n < of.count; n++)
-        of.id[n] = shown->piece[n].id;
+        of.id[n] = shown->primitive[n].id;
     find_primitives(in, &finder, &of);
     for (int k = 0; k < KINDS; k++) {
         int32_t *pixels = e3d_outputs_gathered(in->store, out->pixels, IDENTITIES[k]);

@@ -43,7 +43,7 @@ typedef struct e3d_shade_memory {
     e3d_lane_array light[3]; /* its radiance, where blended samples are kept with theirs */
     _Alignas(64) e3d_surfaces surfaces; /* of the batch and its neighbours */
     e3d_texture_memory textures;
-    e3d_array pieces;                   /* e3d_visible_primitive */
+    e3d_array primitives;                   /* e3d_visible_primitive */
     e3d_array buckets;                  /* e3d_bucket */
     _Alignas(64) e3d_receivers receivers; /* the planes of the surfaces, where lights have exact shadows */
     int64_t shaded;                     /* samples, of all tiles */
@@ -65,7 +65,7 @@ typedef struct e3d_shaded_list {
     float (*color)[4];   /* E3D_SINK_A_BUFFER: clamped colours, with alpha; -alpha of a face that a wireframe doesn't show */
     float (*through)[4]; /* E3D_SINK_A_BUFFER: NULL, or the shares of light that pass (e3d_alpha_layers) */
     float (*light)[4];   /* E3D_SINK_A_BUFFER: NULL, or radiances, with alpha */
-    int32_t piece, at;   /* the piece of the last sample, and the place behind it */
+    int32_t primitive, at;   /* the primitive of the last sample, and the place behind it */
 } e3d_shaded_list;
 
 /* Its own memory, a tile's pixels, and the tiles that are cleared meanwhile. */
@@ -85,13 +85,13 @@ typedef struct e3d_bucket {
     int8_t has_uvs, has_uvs1, has_tangents; /* of mapped ones */
     int8_t transmits;                       /* R133 */
     int8_t lit, hidden;                     /* light falls on it; faces that a wireframe leaves out */
-    int32_t first, last; /* of its visible pieces */
+    int32_t first, last; /* of its visible primitives */
 } e3d_bucket;
 
-/* A piece that shows in a tile, and its samples, or its runs (e3d_shown). */
+/* A primitive that shows in a tile, and its samples, or its runs (e3d_shown). */
 typedef struct e3d_visible_primitive {
     const e3d_record *record;       /* or NULL: */
-    const e3d_drawn_cluster *drawn; /* the piece is of fragments */
+    const e3d_drawn_cluster *drawn; /* the primitive is of fragments */
     const float *corners;           /* c[k][j] of a cut record, or NULL */
     const e3d_draw_state *draw;
     int32_t instance, local; /* in its draw, in its instance */

@@ -33,11 +33,11 @@ static uint32_t number_bytes(int32_t id) { return ((uint32_t)id + 1) * 0x9E3779B
 
 static void show_numbers(e3d_mode mode, e3d_shade_memory *memory)
 {
-    const e3d_visible_primitive *pieces = memory->pieces.data;
+    const e3d_visible_primitive *primitives = memory->primitives.data;
     e3d_batch *batch = &memory->batch;
     for (int i = 0; i < batch->count; i++) {
-        const e3d_visible_primitive *piece = &pieces[memory->surfaces.piece[batch->surface[i]]];
-        int32_t id = mode == E3D_MODE_OBJECT_ID ? e3d_object_id(piece->draw->draw, piece->instance) : piece->local;
+        const e3d_visible_primitive *primitive = &primitives[memory->surfaces.primitive[batch->surface[i]]];
+        int32_t id = mode == E3D_MODE_OBJECT_ID ? e3d_object_id(primitive->draw->draw, primitive->instance) : primitive->local;
         set_bytes(batch, i, mode == E3D_MODE_RANDOM ? random_bytes((uint32_t)id) : number_bytes(id));
     }
 }

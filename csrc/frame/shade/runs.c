@@ -1,4 +1,4 @@
-/* shade: runs sorted by what they are of, so that each piece is met once, and pieces of a cluster one after the other. */
+/* shade: runs sorted by what they are of, so that each primitive is met once, and primitives of a cluster one after the other. */
 #include <string.h>
 
 #include "kernels/types/shown.h"
@@ -96,17 +96,17 @@ e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count)
 /* Runs of one owner are side by side. (Where one begins could not be foreseen: nothing is asked.) */
 void e3d_show_runs(const e3d_run *runs, int32_t count, e3d_shown *out)
 {
-    int32_t pieces = 0, before = E3D_NO_SLOT;
+    int32_t primitives = 0, before = E3D_NO_SLOT;
     for (int32_t i = 0; i < count; i++) {
         int32_t owner = runs[i].owner;
-        out->piece[pieces] = (e3d_shown_piece){(uint32_t)owner, i};
-        pieces += owner != before;
+        out->primitive[primitives] = (e3d_shown_primitive){(uint32_t)owner, i};
+        primitives += owner != before;
         before = owner;
         out->sample[i] = runs[i].sample | runs[i].length << E3D_RUN_LENGTH;
-        out->of[i] = pieces - 1;
+        out->of[i] = primitives - 1;
     }
     out->runs = 1;
     out->pattern = NULL;
     out->count = count;
-    out->pieces = pieces;
+    out->primitives = primitives;
 }

@@ -15,7 +15,7 @@ typedef struct e3d_runs_memory {
 
 /* Sorts runs by owner; where they are afterwards. */
 e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count);
-/* Makes the list of what shows of sorted runs, as pieces. */
+/* Makes the list of what shows of sorted runs, as primitives. */
 void e3d_show_runs(const e3d_run *runs, int32_t count, e3d_shown *out);
 
 #endif

@@ -23,41 +23,41 @@ void e3d_shade_prepare(e3d_shade_in *in)
 
 void e3d_shade_free(e3d_shade_memory *memory)
 {
-    e3d_array_free(&memory->pieces);
+    e3d_array_free(&memory->primitives);
     e3d_array_free(&memory->buckets);
 }
 
 /* Pieces of a chain that stand side by side, and so do their samples or runs, as in a tile of one material all do. */
 typedef struct stretch {
-    int32_t first, end; /* pieces */
+    int32_t first, end; /* primitives */
     int32_t at, behind;
 } stretch;
 
-/* The one that begins with piece `first`; the piece behind it in the chain. A single bucket has all pieces of the tile. */
+/* The one that begins with primitive `first`; the primitive behind it in the chain. A single bucket has all primitives of the tile. */
 static int32_t find_stretch(const e3d_shade_memory *memory, int32_t first, int32_t end, stretch *out)
 {
-    const e3d_visible_primitive *pieces = memory->pieces.data;
+    const e3d_visible_primitive *primitives = memory->primitives.data;
     int32_t p = first;
     if (memory->buckets.count == 1) {
-        int32_t behind = end < 0 ? (int32_t)memory->pieces.count : end;
-        *out = (stretch){first, behind, pieces[first].first, pieces[behind - 1].end};
+        int32_t behind = end < 0 ? (int32_t)memory->primitives.count : end;
+        *out = (stretch){first, behind, primitives[first].first, primitives[behind - 1].end};
         return end;
     }
-    *out = (stretch){first, first, pieces[first].first, pieces[first].first};
-    for (; p != end && p == out->end; p = pieces[p].next) {
-        out->behind = pieces[p].end;
+    *out = (stretch){first, first, primitives[first].first, primitives[first].first};
+    for (; p != end && p == out->end; p = primitives[p].next) {
+        out->behind = primitives[p].end;
         out->end++;
     }
     return p;
 }
 
 /* Adds as much of a stretch as the batch has room for. */
-static void take(const e3d_kernels *kernels, e3d_shade_memory *memory, int32_t piece, stretch *s)
+static void take(const e3d_kernels *kernels, e3d_shade_memory *memory, int32_t primitive, stretch *s)
 {
     const e3d_shown *shown = &memory->shown;
     s->at += (shown->runs      ? kernels->take_runs
               : shown->pattern ? kernels->take_placed
-                               : kernels->take_shown)(shown, s->at, s->behind - s->at, piece, &memory->batch);
+                               : kernels->take_shown)(shown, s->at, s->behind - s->at, primitive, &memory->batch);
 }
 
 static void shade_batch(const e3d_steps *s)
@@ -66,8 +66,8 @@ static void shade_batch(const e3d_steps *s)
         s->step[k](s);
 }
 
-/* The samples of pieces whose surfaces, 0 and so on, are known. */
-static void shade_pieces(const e3d_steps *steps, int32_t first, int32_t end)
+/* The samples of primitives whose surfaces, 0 and so on, are known. */
+static void shade_primitives(const e3d_steps *steps, int32_t first, int32_t end)
 {
     e3d_shade_memory *memory = steps->out->memory;
     e3d_batch *batch = &memory->batch;
@@ -100,13 +100,13 @@ static void shade_bucket(const e3d_shade_in *in, const e3d_tile *tile, const e3d
             e3d_find_surfaces(in->pass, tile, bucket, s.wanted, memory);
         if (e3d_casts_exact_shadows(in->pass, bucket) && s.wanted & E3D_WANT_POSITION)
             in->pass->kernels->receivers(&memory->surfaces, &memory->receivers);
-        shade_pieces(&s, first, end);
+        shade_primitives(&s, first, end);
     }
 }
 
 int e3d_shade_shown(const e3d_shade_in *in, const e3d_tile *tile, const e3d_shade_out *out)
 {
-    if (!e3d_find_pieces(in, out->memory))
+    if (!e3d_find_visible(in, out->memory))
         return 0;
     const e3d_bucket *buckets = out->memory->buckets.data;
     for (size_t g = 0; g < out->memory->buckets.count; g++)

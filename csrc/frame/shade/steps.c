@@ -1,7 +1,7 @@
 /* shade: the steps of a batch, which depend on its bucket and on its sink (R20-R32, R80-R84).
  *
  * In:  a batch of samples whose surfaces are known.
- * Out: pixels and outputs, or samples, or fragments, or alphas.
+ * Out: pixels and outputs, or samples, or layers, or alphas.
  */
 #include <string.h>
 
@@ -200,7 +200,7 @@ static void add_alpha_steps(e3d_steps *s)
     }
     add(s, finds_alphas(sink), e3d_find_alphas);
     add(s, sink == E3D_SINK_ALPHA_TEST, e3d_keep_alphas);
-    add(s, sink == E3D_SINK_A_BUFFER, e3d_keep_fragments);
+    add(s, sink == E3D_SINK_A_BUFFER, e3d_keep_layers);
     add(s, sink == E3D_SINK_SAMPLES && !s->bucket->hidden, e3d_lay_batch);
     add(s, sink == E3D_SINK_SOLID, e3d_keep_solid);
 }

@@ -138,7 +138,7 @@ void e3d_find_textures(const e3d_prepared *pass, const e3d_bucket *bucket, int w
         find_tangent_place(bucket, out);
 }
 
-/* ---- what a piece brings ---- */
+/* ---- what a primitive brings ---- */
 
 static void add_place(const e3d_texture_place *place, const e3d_mesh_desc *mesh, const int32_t vertex[3],
                       e3d_surface_floats uv[2][3], int32_t n)
@@ -151,22 +151,22 @@ static void add_place(const e3d_texture_place *place, const e3d_mesh_desc *mesh,
     }
 }
 
-void e3d_add_texture_surface(const e3d_prepared *pass, const e3d_visible_primitive *piece, const e3d_read_textures *textures,
+void e3d_add_texture_surface(const e3d_prepared *pass, const e3d_visible_primitive *primitive, const e3d_read_textures *textures,
                              e3d_texture_surfaces *out, int32_t n)
 {
-    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
+    const e3d_mesh_desc *mesh = &primitive->draw->mesh->desc;
     for (int p = 0; p < textures->place_count; p++)
-        add_place(&textures->places[p], mesh, piece->vertex, out->uv[p], n);
+        add_place(&textures->places[p], mesh, primitive->vertex, out->uv[p], n);
     if (textures->tangent_place < 0)
         return;
-    int32_t instance = (int32_t)piece->draw->instance_base + piece->instance;
+    int32_t instance = (int32_t)primitive->draw->instance_base + primitive->instance;
     out->turned_round[n] = pass->view->instances[instance].mirrored != pass->view->mirrors;
     if (!textures->vertex_tangents)
         return;
     for (int k = 0; k < 3; k++)
         for (int c = 0; c < 3; c++)
-            out->tangent[c][k][n] = mesh->tangents[4 * (size_t)piece->vertex[k] + c];
-    out->sign[n] = mesh->tangents[4 * (size_t)piece->vertex[0] + 3];
+            out->tangent[c][k][n] = mesh->tangents[4 * (size_t)primitive->vertex[k] + c];
+    out->sign[n] = mesh->tangents[4 * (size_t)primitive->vertex[0] + 3];
 }
 
 /* ---- what textures say of a batch ---- */
@@ -244,9 +244,9 @@ void e3d_find_texture_batch(const e3d_prepared *pass, const e3d_bucket *bucket, 
 /* ---- light ---- */
 
 /* The root of the mean square of how long the axes become in world space. */
-static float scale_of(const e3d_prepared *pass, const e3d_visible_primitive *piece)
+static float scale_of(const e3d_prepared *pass, const e3d_visible_primitive *primitive)
 {
-    const float *w = pass->draws->instances[piece->draw->instance_base + piece->instance].world;
+    const float *w = pass->draws->instances[primitive->draw->instance_base + primitive->instance].world;
     float square[3];
     for (int r = 0; r < 3; r++)
         square[r] = (w[4 * r] * w[4 * r] + w[4 * r + 1] * w[4 * r + 1]) + w[4 * r + 2] * w[4 * r + 2];
@@ -256,13 +256,13 @@ static float scale_of(const e3d_prepared *pass, const e3d_visible_primitive *pie
 /* R134: how many world units a thickness of 1 is below each sample. */
 static void find_depths(const e3d_prepared *pass, const e3d_shade_memory *memory, float *out)
 {
-    const e3d_visible_primitive *pieces = memory->pieces.data;
+    const e3d_visible_primitive *primitives = memory->primitives.data;
     const e3d_batch *batch = &memory->batch;
     float depth = 0.0f;
     for (int i = 0; i < batch->count; i++) {
         int32_t n = batch->surface[i];
         if (!i || n != batch->surface[i - 1])
-            depth = memory->surfaces.back[n] ? 0.0f : scale_of(pass, &pieces[memory->surfaces.piece[n]]);
+            depth = memory->surfaces.back[n] ? 0.0f : scale_of(pass, &primitives[memory->surfaces.primitive[n]]);
         out[i] = depth;
     }
 }
@@ -270,8 +270,7 @@ static void find_depths(const e3d_prepared *pass, const e3d_shade_memory *memory
 static e3d_anisotropy_texture stretch_of(const e3d_texture_memory *memory, const e3d_physical *p)
 {
     e3d_normal_texture directions = normals_of(memory, E3D_SLOT_ANISOTROPY, 1.0f);
-    return (e3d_anisotropy_texture){directions.texels, directions.unit, p->anisotropy, {p->anisotropy_turn[0],
-                                                                                        p->anisotropy_turn[1]}};
+    return (e3d_anisotropy_texture){directions.texels, directions.unit, p->anisotropy, {p->anisotropy_turn[0], p->anisotropy_turn[1]}};
 }
 
 /* Of few materials, which are shaded by code of their own. */

@@ -14,8 +14,8 @@ int e3d_needs_textures(const e3d_material *material, const e3d_targets *targets)
 int e3d_texture_counts(const e3d_bucket *bucket, const e3d_texture_use *use);
 /* Finds the textures that are read for what is wanted: E3D_WANT_TEXTURES. */
 void e3d_find_textures(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, e3d_read_textures *out);
-/* What a piece brings, as surface n. */
-void e3d_add_texture_surface(const e3d_prepared *pass, const e3d_visible_primitive *piece, const e3d_read_textures *textures,
+/* What a primitive brings, as surface n. */
+void e3d_add_texture_surface(const e3d_prepared *pass, const e3d_visible_primitive *primitive, const e3d_read_textures *textures,
                              e3d_texture_surfaces *out,
                              int32_t n);
 /* Of a batch that is interpolated: texels, and with E3D_WANT_TEXTURES tangents, mapped normals, the base colour, and what outputs ask for. */

@@ -160,7 +160,7 @@ static void put_ids(const batch_place *place, const e3d_shade_memory *memory)
 {
     const e3d_batch *batch = place->batch;
     const int32_t *at = place->at;
-    const e3d_visible_primitive *pieces = memory->pieces.data;
+    const e3d_visible_primitive *primitives = memory->primitives.data;
     const e3d_bucket *buckets = memory->buckets.data;
     int32_t *triangles = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_TRIANGLE_ID);
     int32_t *objects = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_OBJECT_ID);
@@ -171,16 +171,16 @@ static void put_ids(const batch_place *place, const e3d_shade_memory *memory)
     for (int i = 0, end = 0; i < batch->count; i = end) {
         while (end < batch->count && batch->surface[end] == batch->surface[i])
             end++;
-        const e3d_visible_primitive *piece = &pieces[memory->surfaces.piece[batch->surface[i]]];
-        const e3d_draw *draw = piece->draw->draw;
+        const e3d_visible_primitive *primitive = &primitives[memory->surfaces.primitive[batch->surface[i]]];
+        const e3d_draw *draw = primitive->draw->draw;
         if (triangles)
-            put_id(triangles, at + i, end - i, e3d_face_of(piece->draw, piece->local));
+            put_id(triangles, at + i, end - i, e3d_face_of(primitive->draw, primitive->local));
         if (objects)
-            put_id(objects, at + i, end - i, e3d_object_id(draw, piece->instance));
+            put_id(objects, at + i, end - i, e3d_object_id(draw, primitive->instance));
         if (instances)
-            put_id(instances, at + i, end - i, e3d_instance_id(draw, piece->instance));
+            put_id(instances, at + i, end - i, e3d_instance_id(draw, primitive->instance));
         if (materials)
-            put_id(materials, at + i, end - i, buckets[piece->bucket].material->id);
+            put_id(materials, at + i, end - i, buckets[primitive->bucket].material->id);
     }
 }
 

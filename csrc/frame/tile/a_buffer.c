@@ -1,4 +1,4 @@
-/* raster and shade, blended records: fragments are kept, sorted sample by sample, and laid over the colours there (R83, R84). */
+/* raster and shade, blended records: layers are kept, sorted sample by sample, and laid over the colours there (R83, R84). */
 #include <string.h>
 
 #include "base/always_inline.h"
@@ -41,10 +41,10 @@ void *e3d_radiance_of(const e3d_tile_job *job)
 
 /* ---- what is kept ---- */
 
-/* Room for so many fragments of so many IDs, and where what shading finds of those from `first` on goes; 0 when memory is out. */
+/* Room for so many layers of so many IDs, and where what shading finds of those from `first` on goes; 0 when memory is out. */
 static int reserve(const e3d_tile_job *job, size_t first, size_t count, size_t ids, e3d_shaded_list *to)
 {
-    e3d_a_buffer *f = &job->memory->alpha.fragments;
+    e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     int transmits = job->in->pass->draws->any_transmits, lights = e3d_radiance_of(job) != NULL;
     if (!e3d_array_reserve(&f->z, count, sizeof(float)) || !e3d_array_reserve(&f->sample, count, sizeof(int32_t)) ||
         !e3d_array_reserve(&f->of, count, sizeof(int32_t)) || !e3d_array_reserve(&f->ids, ids, sizeof(int32_t)) ||
@@ -62,12 +62,12 @@ static int reserve(const e3d_tile_job *job, size_t first, size_t count, size_t i
 int e3d_a_buffer_keep(const e3d_tile_job *job)
 {
     const e3d_shown *shown = &job->memory->shade.shown;
-    e3d_a_buffer *f = &job->memory->alpha.fragments;
+    e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     size_t first = f->z.count, count = (size_t)shown->count, ids = f->ids.count;
     e3d_shaded_list to = {0};
     if (!count)
         return 1;
-    if (!reserve(job, first, first + count, ids + (size_t)shown->pieces, &to) || !e3d_alpha_shade(job, E3D_SINK_A_BUFFER, to))
+    if (!reserve(job, first, first + count, ids + (size_t)shown->primitives, &to) || !e3d_alpha_shade(job, E3D_SINK_A_BUFFER, to))
         return 0;
     if (job->in->pass->pattern)
         memcpy((uint32_t *)f->cover.data + first, job->memory->multisample->alpha.cover, count * sizeof(uint32_t));
@@ -77,10 +77,10 @@ int e3d_a_buffer_keep(const e3d_tile_job *job)
         ((int32_t *)f->sample.data)[first + n] = shown->sample[n] & (E3D_TILE_SAMPLES - 1);
         ((int32_t *)f->of.data)[first + n] = shown->of[n] + (int32_t)ids;
     }
-    for (int32_t p = 0; p < shown->pieces; p++)
-        ((int32_t *)f->ids.data)[ids + (size_t)p] = (int32_t)shown->piece[p].id;
+    for (int32_t p = 0; p < shown->primitives; p++)
+        ((int32_t *)f->ids.data)[ids + (size_t)p] = (int32_t)shown->primitive[p].id;
     f->z.count = first + count;
-    f->ids.count = ids + (size_t)shown->pieces;
+    f->ids.count = ids + (size_t)shown->primitives;
     return 1;
 }
 
@@ -95,7 +95,7 @@ static int32_t depth_key(float z)
     return bits < 0 ? bits ^ 0x7FFFFFFF : bits;
 }
 
-/* Lists the fragments by sample: the last ones first, since they come roughly from near to far. `cover`: only those that cover `plane`, or NULL. */
+/* Lists the layers by sample: the last ones first, since they come roughly from near to far. `cover`: only those that cover `plane`, or NULL. */
 static ALWAYS_INLINE void list_covering(e3d_a_buffer *f, const uint32_t *cover, int plane)
 {
     size_t count = f->z.count;
@@ -132,7 +132,7 @@ static int list_by_sample(e3d_a_buffer *f, const uint32_t *cover, int plane)
     return 1;
 }
 
-/* Whether fragment a is laid before b: it is farther, or later in order (R83). */
+/* Whether layer a is laid before b: it is farther, or later in order (R83). */
 static int is_before(const e3d_record_table *table, const e3d_a_buffer *f, uint32_t a, uint32_t b)
 {
     const float *z = f->z.data;
@@ -156,7 +156,7 @@ static void sink(const e3d_record_table *table, const e3d_a_buffer *f, uint32_t 
     heap[at] = sinking;
 }
 
-/* Sorts the fragments of a sample in the order in which they are laid: a heap, since a sample may have any number of them. */
+/* Sorts the layers of a sample in the order in which they are laid: a heap, since a sample may have any number of them. */
 static void sort_sample(const e3d_record_table *table, const e3d_a_buffer *f, uint32_t *which, uint32_t count)
 {
     for (uint32_t at = count / 2; at-- > 0;)
@@ -169,7 +169,7 @@ static void sort_sample(const e3d_record_table *table, const e3d_a_buffer *f, ui
     }
 }
 
-/* Lays the fragments of one sample, which are sorted, over its colour (R84). */
+/* Lays the layers of one sample, which are sorted, over its colour (R84). */
 static void blend_sample(const e3d_alpha_layers *layers, int32_t sample, const uint32_t *which, uint32_t count, e3d_samples *samples)
 {
     float over[4] = {samples->color[0][sample], samples->color[1][sample], samples->color[2][sample], samples->counts[sample]};
@@ -182,7 +182,7 @@ static void blend_sample(const e3d_alpha_layers *layers, int32_t sample, const u
         e3d_lay_light(layers, which, (int)count, sample);
 }
 
-/* The nearest fragment of a sample that shows (a face that a wireframe leaves out does), of those that are sorted. */
+/* The nearest layer of a sample that shows (a face that a wireframe leaves out does), of those that are sorted. */
 static void find_front(e3d_a_buffer *f, int32_t sample, const uint32_t *which, uint32_t count)
 {
     const float (*colors)[4] = (const float (*)[4])f->color.data;
@@ -196,10 +196,10 @@ static void find_front(e3d_a_buffer *f, int32_t sample, const uint32_t *which, u
     }
 }
 
-/* Blends samples one by one: those that the kernel leaves, or, where the nearest fragments are asked for, all. */
+/* Blends samples one by one: those that the kernel leaves, or, where the nearest layers are asked for, all. */
 static void blend_slowly(const e3d_tile_job *job, const e3d_alpha_layers *layers, int32_t sample, e3d_samples *samples)
 {
-    e3d_a_buffer *f = &job->memory->alpha.fragments;
+    e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     uint32_t *which = (uint32_t *)f->which.data + f->first[sample], count = f->first[sample + 1] - f->first[sample];
     if (!count)
         return;
@@ -211,7 +211,7 @@ static void blend_slowly(const e3d_tile_job *job, const e3d_alpha_layers *layers
 
 static e3d_alpha_layers layers_of(const e3d_tile_job *job)
 {
-    const e3d_a_buffer *f = &job->memory->alpha.fragments;
+    const e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     float (*lit)[3] = e3d_radiance_of(job);
     return (e3d_alpha_layers){.first = f->first,
                               .depth = f->depth.data,
@@ -223,10 +223,10 @@ static e3d_alpha_layers layers_of(const e3d_tile_job *job)
                               .axis = job->in->pass->frame->samples_axis};
 }
 
-/* Blends the fragments that cover a plane (list_covering) into its samples. */
+/* Blends the layers that cover a plane (list_covering) into its samples. */
 static int blend_plane(const e3d_tile_job *job, const uint32_t *cover, int plane, e3d_samples *samples)
 {
-    e3d_a_buffer *f = &job->memory->alpha.fragments;
+    e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     if (!list_by_sample(f, cover, plane))
         return 0;
     const e3d_alpha_layers layers = layers_of(job);
@@ -241,10 +241,10 @@ static int blend_plane(const e3d_tile_job *job, const uint32_t *cover, int plane
     return 1;
 }
 
-/* The depths of the fragments that cover a plane, in it. */
+/* The depths of the layers that cover a plane, in it. */
 static void find_depths(const e3d_tile_job *job, int plane)
 {
-    e3d_a_buffer *f = &job->memory->alpha.fragments;
+    e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     const uint32_t *cover = f->cover.data;
     const int32_t *sample = f->sample.data, *of = f->of.data, *ids = f->ids.data;
     int32_t last = -1;
@@ -262,7 +262,7 @@ static void find_depths(const e3d_tile_job *job, int plane)
 
 int e3d_a_buffer_blend(const e3d_tile_job *job)
 {
-    const e3d_a_buffer *f = &job->memory->alpha.fragments;
+    const e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     const e3d_sample_pattern *pattern = job->in->pass->pattern;
     if (!f->z.count)
         return 1;
@@ -278,7 +278,7 @@ int e3d_a_buffer_blend(const e3d_tile_job *job)
 
 void e3d_a_buffer_lay(const e3d_tile_job *job)
 {
-    const e3d_a_buffer *f = &job->memory->alpha.fragments;
+    const e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     const e3d_alpha_layers layers = layers_of(job);
     for (uint32_t n = 0; n < f->z.count; n++)
         for (uint32_t left = ((const uint32_t *)f->cover.data)[n]; left; left &= left - 1)

@@ -1,4 +1,4 @@
-/* The A-buffer of a tile (Carpenter 1984): fragments of blended records, which are sorted and laid over what the samples show. */
+/* The A-buffer of a tile (Carpenter 1984): layers of blended records, which are sorted and laid over what the samples show. */
 #ifndef E3D_TILE_A_BUFFER_H
 #define E3D_TILE_A_BUFFER_H
 
@@ -7,13 +7,13 @@
 
 void e3d_a_buffer_free(e3d_a_buffer *buffer);
 void e3d_a_buffer_clear(e3d_a_buffer *buffer);
-/* Where the radiance of the tile's pixels is gathered, over which that of fragments is laid; NULL where it isn't asked for. */
+/* Where the radiance of the tile's pixels is gathered, over which that of layers is laid; NULL where it isn't asked for. */
 void *e3d_radiance_of(const e3d_tile_job *job);
-/* Shades what is listed, and keeps it as fragments; 0 when memory is out. */
+/* Shades what is listed, and keeps it as layers; 0 when memory is out. */
 int e3d_a_buffer_keep(const e3d_tile_job *job);
-/* Sorts the fragments, and lays them over the tile's samples; 0 when memory is out. */
+/* Sorts the layers, and lays them over the tile's samples; 0 when memory is out. */
 int e3d_a_buffer_blend(const e3d_tile_job *job);
-/* With multisampling, of fragments of which no two are in one sample: lays them over the samples. */
+/* With multisampling, of layers of which no two are in one sample: lays them over the samples. */
 void e3d_a_buffer_lay(const e3d_tile_job *job);
 
 #endif

@@ -42,7 +42,7 @@ static int begin_planes(const e3d_tile_job *job, int depths)
     e3d_multisample_memory *memory = job->memory->multisample;
     if (!e3d_array_reserve(&memory->covers, E3D_SHOWN_ROOM + 2 * E3D_PAD, sizeof(int32_t)))
         return 0;
-    memory->alpha = (e3d_planes_list){.shown = &job->memory->shade.shown, .cover = memory->covers.data, .pattern = pattern};
+    memory->alpha = (e3d_msaa_list){.shown = &job->memory->shade.shown, .cover = memory->covers.data, .pattern = pattern};
     for (int s = 0; s < pattern->count; s++) {
         memory->alpha.limit[s] = depths ? job->visible[s].z : job->memory->marks.bound;
         memory->alpha.kept[s] = job->visible[s].id;
@@ -103,7 +103,8 @@ int e3d_alpha_add(const e3d_tile_job *job, const e3d_piece *piece, e3d_alpha_act
     if (pass->pattern && !planes.live)
         return 1;
     for (;;) {
-        rest.y0 = pass->pattern ? pass->kernels->cover_planes(planes.of, planes.live, rest.y0, rest.y1, table, &job->memory->multisample->alpha)
+        rest.y0 = pass->pattern ? pass->kernels->cover_msaa(planes.of, planes.live, rest.y0, rest.y1, table,
+                                                            &job->memory->multisample->alpha)
                                 : pass->kernels->raster_alpha(&rest, table, &job->memory->alpha.list);
         if (rest.y0 > rest.y1)
             return 1;
@@ -117,7 +118,7 @@ int e3d_alpha_shade(const e3d_tile_job *job, e3d_sink sink, e3d_shaded_list to)
 {
     e3d_shade_out out = job->shades;
     to.alpha = job->memory->alpha.alpha;
-    to.piece = -1;
+    to.primitive = -1;
     out.sink = sink;
     out.list = &to;
     return e3d_shade_shown(job->in->shade, &job->tile, &out);
@@ -175,13 +176,13 @@ static int act_on(const e3d_tile_job *job, sample_action act)
     const e3d_shade_memory *shade = &job->memory->shade;
     if (!e3d_alpha_shade(job, E3D_SINK_ALPHA_TEST, (e3d_shaded_list){0}))
         return 0;
-    const e3d_visible_primitive *pieces = shade->pieces.data;
-    for (int32_t p = 0; p < shade->shown.pieces; p++) {
-        const e3d_material *material = ((const e3d_bucket *)shade->buckets.data)[pieces[p].bucket].material;
+    const e3d_visible_primitive *primitives = shade->primitives.data;
+    for (int32_t p = 0; p < shade->shown.primitives; p++) {
+        const e3d_material *material = ((const e3d_bucket *)shade->buckets.data)[primitives[p].bucket].material;
         if (job->in->pass->pattern)
-            act_on_planes(job, &pieces[p], shade->shown.piece[p].id, material, act);
+            act_on_planes(job, &primitives[p], shade->shown.primitive[p].id, material, act);
         else
-            act_on_samples(job, &pieces[p], shade->shown.piece[p].id, e3d_alpha_cutoff(material), act);
+            act_on_samples(job, &primitives[p], shade->shown.primitive[p].id, e3d_alpha_cutoff(material), act);
     }
     return 1;
 }
@@ -212,11 +213,11 @@ static int count_list(const e3d_tile_job *job) { return act_on(job, count); }
 
 /* ---- masked records ---- */
 
-static int add_block(const e3d_tile_job *job, const e3d_bin_block *block, e3d_alpha_action action)
+static int add_link(const e3d_tile_job *job, const e3d_bin_link *link, e3d_alpha_action action)
 {
     e3d_piece piece;
-    for (uint32_t i = 0; i < block->count; i++)
-        if (e3d_alpha_piece(job, block->id[i], &piece) && !e3d_alpha_add(job, &piece, action))
+    for (uint32_t i = 0; i < link->count; i++)
+        if (e3d_alpha_piece(job, link->id[i], &piece) && !e3d_alpha_add(job, &piece, action))
             return 0;
     return 1;
 }
@@ -228,9 +229,9 @@ static int visit_masked(const e3d_tile_job *job, int all, e3d_alpha_action actio
         return 0;
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
-        const e3d_bin_block *block = e3d_first_alpha(set, E3D_ALPHA_MASKED, job->number);
-        for (; block; block = e3d_next_alpha(set, E3D_ALPHA_MASKED, block))
-            if (!add_block(job, block, action))
+        const e3d_bin_link *link = e3d_first_alpha(set, E3D_ALPHA_MASKED, job->number);
+        for (; link; link = e3d_next_alpha(set, E3D_ALPHA_MASKED, link))
+            if (!add_link(job, link, action))
                 return 0;
     }
     return !job->memory->shade.shown.count || action(job);

@@ -1,6 +1,6 @@
 /* Records with alpha in a tile: which of their samples show, and what is laid over those behind. */
-#ifndef E3D_TILE_ALPHA_H
-#define E3D_TILE_ALPHA_H
+#ifndef E3D_ALPHA_TEST_H
+#define E3D_ALPHA_TEST_H
 
 #include "kernels/types/visible.h"
 #include "frame/shade/job.h"

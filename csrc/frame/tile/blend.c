@@ -1,8 +1,9 @@
-/* raster and shade, blended records: a tile's records by groups that share no depth (R83, R84).
+/* raster and shade, blended records: a tile's records overlap by overlap (R83, R84). An overlap is a set of
+ * records whose depths may interleave; no two overlaps share a depth.
  *
  * In:  the tile's visible surface and its colours; the records of the blended bins.
- * Out: the colours with these records laid over them, and the nearest fragment of each sample, if that is asked for.
- * Always: groups come from far to near, so that only the fragments of one are sorted, and only where a sample has several.
+ * Out: the colours with these records laid over them, and the nearest layer of each sample, if that is asked for.
+ * Always: overlaps come from far to near, so that only the layers of one are sorted, and only where a sample has several.
  */
 #include <float.h>
 #include <math.h>
@@ -28,15 +29,15 @@
 #include "frame/tile/memory.h"
 #include "frame/tile/piece.h"
 
-enum { MOST_FRAGMENTS = 1 << 17 }; /* of rows that are done together, as far as can be foreseen */
+enum { MOST_LAYERS = 1 << 17 }; /* of rows that are done together, as far as can be foreseen */
 
 void e3d_alpha_free(e3d_alpha_memory *memory)
 {
     e3d_array_free(&memory->pieces);
     e3d_array_free(&memory->sorted);
     e3d_array_free(&memory->ranges);
-    e3d_array_free(&memory->groups);
-    e3d_a_buffer_free(&memory->fragments);
+    e3d_array_free(&memory->overlaps);
+    e3d_a_buffer_free(&memory->a_buffer);
 }
 
 /* ---- the records of a tile ---- */
@@ -63,24 +64,24 @@ static void add_piece(const e3d_tile_job *job, uint32_t id, e3d_alpha_memory *me
     e3d_piece *piece = (e3d_piece *)memory->pieces.data + memory->pieces.count;
     if (!e3d_alpha_piece(job, id, piece))
         return;
-    depth_range range = job->in->pass->pattern ? (depth_range){0.0f, 0.0f} : range_of(piece); /* with multisampling, all are one group */
+    depth_range range = job->in->pass->pattern ? (depth_range){0.0f, 0.0f} : range_of(piece); /* with multisampling, all are one overlap */
     if (range.near > 1.0f)
         return;
     range.far = range.far < 1.0f ? range.far : 1.0f; /* R15 */
     ((depth_range *)memory->ranges.data)[memory->pieces.count++] = range;
 }
 
-/* The records of a block; 0 when memory is out. */
-static int add_block(const e3d_tile_job *job, const e3d_bin_block *block, e3d_alpha_memory *memory)
+/* The records of a link; 0 when memory is out. */
+static int add_link(const e3d_tile_job *job, const e3d_bin_link *link, e3d_alpha_memory *memory)
 {
     const e3d_record_table *table = &job->in->bins->tables[E3D_SET_SCENE];
-    size_t room = memory->pieces.count + block->count;
+    size_t room = memory->pieces.count + link->count;
     if (!e3d_array_reserve(&memory->pieces, room, sizeof(e3d_piece)) || !e3d_array_reserve(&memory->ranges, room, sizeof(depth_range)))
         return 0;
-    for (uint32_t i = 0; i < block->count; i++)
-        __builtin_prefetch(e3d_record_at(table, block->id[i]));
-    for (uint32_t i = 0; i < block->count; i++)
-        add_piece(job, block->id[i], memory);
+    for (uint32_t i = 0; i < link->count; i++)
+        __builtin_prefetch(e3d_record_at(table, link->id[i]));
+    for (uint32_t i = 0; i < link->count; i++)
+        add_piece(job, link->id[i], memory);
     return 1;
 }
 
@@ -91,15 +92,15 @@ static int find_pieces(const e3d_tile_job *job)
     memory->pieces.count = 0;
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
-        const e3d_bin_block *block = e3d_first_alpha(set, E3D_ALPHA_BLENDED, job->number);
-        for (; block; block = e3d_next_alpha(set, E3D_ALPHA_BLENDED, block))
-            if (!add_block(job, block, memory))
+        const e3d_bin_link *link = e3d_first_alpha(set, E3D_ALPHA_BLENDED, job->number);
+        for (; link; link = e3d_next_alpha(set, E3D_ALPHA_BLENDED, link))
+            if (!add_link(job, link, memory))
                 return 0;
     }
     return 1;
 }
 
-/* ---- groups ---- */
+/* ---- overlaps ---- */
 
 /* The slices that the depths of a tile's records are cut into. */
 typedef struct slicing {
@@ -122,61 +123,61 @@ static slicing slicing_of(const depth_range *ranges, size_t count)
     return (slicing){near, far - near > 0x1p-60f ? (float)E3D_ALPHA_SLICES / (far - near) : 0.0f};
 }
 
-/* Numbers groups from near to far: a slice begins one where no record reaches over from the slice before. Returns how many there are;
- * of each record its group, of each group how many records it has. */
-static int32_t find_groups(const depth_range *ranges, size_t count, int32_t *group, int32_t records[E3D_ALPHA_SLICES])
+/* Numbers overlaps from near to far: a slice begins one where no record reaches over from the slice before. Returns how many there are;
+ * of each record its overlap, of each overlap how many records it has. */
+static int32_t find_overlaps(const depth_range *ranges, size_t count, int32_t *overlap, int32_t records[E3D_ALPHA_SLICES])
 {
     const slicing s = slicing_of(ranges, count);
-    int32_t begun[E3D_ALPHA_SLICES] = {0}, done[E3D_ALPHA_SLICES] = {0}, of[E3D_ALPHA_SLICES], groups = 0, open = 0;
+    int32_t begun[E3D_ALPHA_SLICES] = {0}, done[E3D_ALPHA_SLICES] = {0}, of[E3D_ALPHA_SLICES], overlaps = 0, open = 0;
     for (size_t i = 0; i < count; i++) {
-        group[i] = slice_of(&s, ranges[i].near);
-        begun[group[i]]++;
+        overlap[i] = slice_of(&s, ranges[i].near);
+        begun[overlap[i]]++;
         done[slice_of(&s, ranges[i].far)]++;
     }
     for (int32_t k = 0; k < E3D_ALPHA_SLICES; k++) {
         if (!open && begun[k])
-            records[groups++] = 0;
-        of[k] = groups - 1;
+            records[overlaps++] = 0;
+        of[k] = overlaps - 1;
         open += begun[k] - done[k];
     }
     for (size_t i = 0; i < count; i++) {
-        group[i] = of[group[i]];
-        records[group[i]]++;
+        overlap[i] = of[overlap[i]];
+        records[overlap[i]]++;
     }
-    return groups;
+    return overlaps;
 }
 
-/* Sorts the records by their groups, the farthest first; returns how many groups there are, or -1 when memory is out. */
+/* Sorts the records by their overlaps, the farthest first; returns how many overlaps there are, or -1 when memory is out. */
 static int32_t sort_pieces(e3d_alpha_memory *memory, int32_t records[E3D_ALPHA_SLICES])
 {
     size_t count = memory->pieces.count;
     int32_t next[E3D_ALPHA_SLICES];
-    if (!e3d_array_reserve(&memory->sorted, count, sizeof(e3d_piece)) || !e3d_array_reserve(&memory->groups, count, sizeof(int32_t)))
+    if (!e3d_array_reserve(&memory->sorted, count, sizeof(e3d_piece)) || !e3d_array_reserve(&memory->overlaps, count, sizeof(int32_t)))
         return -1;
     const e3d_piece *pieces = memory->pieces.data;
-    int32_t *group = memory->groups.data, groups = find_groups(memory->ranges.data, count, group, records), at = 0;
-    for (int32_t g = groups - 1; g >= 0; g--) {
+    int32_t *overlap = memory->overlaps.data, overlaps = find_overlaps(memory->ranges.data, count, overlap, records), at = 0;
+    for (int32_t g = overlaps - 1; g >= 0; g--) {
         next[g] = at;
         at += records[g];
     }
-    for (size_t i = 0; i < count && groups > 1; i++)
-        ((e3d_piece *)memory->sorted.data)[next[group[i]]++] = pieces[i];
-    return groups;
+    for (size_t i = 0; i < count && overlaps > 1; i++)
+        ((e3d_piece *)memory->sorted.data)[next[overlap[i]]++] = pieces[i];
+    return overlaps;
 }
 
-/* ---- a group ---- */
+/* ---- an overlap ---- */
 
-/* How many rows are done together, so that their fragments are not too many. */
+/* How many rows are done together, so that their layers are not too many. */
 static int32_t rows_of(const e3d_piece *pieces, int32_t count)
 {
     int64_t most = 0;
     for (int32_t i = 0; i < count; i++)
         most += (int64_t)(pieces[i].x1 - pieces[i].x0 + 1) * (pieces[i].y1 - pieces[i].y0 + 1);
-    int64_t rows = most <= MOST_FRAGMENTS ? E3D_TILE : (int64_t)E3D_TILE * MOST_FRAGMENTS / most;
+    int64_t rows = most <= MOST_LAYERS ? E3D_TILE : (int64_t)E3D_TILE * MOST_LAYERS / most;
     return rows < 1 ? 1 : (int32_t)rows;
 }
 
-/* Whether fragments must be kept even where each sample has one. */
+/* Whether layers must be kept even where each sample has one. */
 static int keeps_all(const e3d_tile_job *job)
 {
     return job->in->pass->pattern || e3d_plans(job->in->pass, E3D_PLAN_FRONT) || e3d_radiance_of(job);
@@ -186,7 +187,7 @@ static int keeps_all(const e3d_tile_job *job)
 static int blend_rows(const e3d_tile_job *job, const e3d_piece *pieces, int32_t count, int32_t y, int32_t end)
 {
     e3d_alpha_memory *memory = &job->memory->alpha;
-    e3d_a_buffer_clear(&memory->fragments);
+    e3d_a_buffer_clear(&memory->a_buffer);
     if (!e3d_alpha_begin(job, 0))
         return 0;
     for (int32_t i = 0; i < count; i++) {
@@ -196,12 +197,12 @@ static int blend_rows(const e3d_tile_job *job, const e3d_piece *pieces, int32_t 
         if (rows.y0 <= rows.y1 && !e3d_alpha_add(job, &rows, e3d_a_buffer_keep))
             return 0;
     }
-    if (!memory->fragments.z.count && !memory->list.met && !keeps_all(job))
+    if (!memory->a_buffer.z.count && !memory->list.met && !keeps_all(job))
         return !job->memory->shade.shown.count || e3d_alpha_shade(job, E3D_SINK_SAMPLES, (e3d_shaded_list){0});
     return e3d_a_buffer_keep(job) && e3d_a_buffer_blend(job);
 }
 
-static int blend_group(const e3d_tile_job *job, const e3d_piece *pieces, int32_t count)
+static int blend_overlap(const e3d_tile_job *job, const e3d_piece *pieces, int32_t count)
 {
     int32_t rows = rows_of(pieces, count);
     for (int32_t y = 0; y < E3D_TILE; y += rows)
@@ -211,15 +212,15 @@ static int blend_group(const e3d_tile_job *job, const e3d_piece *pieces, int32_t
 }
 
 /* From far to near. */
-static int blend_groups(const e3d_tile_job *job)
+static int blend_overlaps(const e3d_tile_job *job)
 {
     e3d_alpha_memory *memory = &job->memory->alpha;
-    int32_t records[E3D_ALPHA_SLICES], groups = sort_pieces(memory, records);
-    const e3d_piece *pieces = groups > 1 ? memory->sorted.data : memory->pieces.data;
-    if (groups < 0)
+    int32_t records[E3D_ALPHA_SLICES], overlaps = sort_pieces(memory, records);
+    const e3d_piece *pieces = overlaps > 1 ? memory->sorted.data : memory->pieces.data;
+    if (overlaps < 0)
         return 0;
-    for (int32_t g = groups - 1; g >= 0; g--) {
-        if (!blend_group(job, pieces, records[g]))
+    for (int32_t g = overlaps - 1; g >= 0; g--) {
+        if (!blend_overlap(job, pieces, records[g]))
             return 0;
         pieces += records[g];
     }
@@ -233,7 +234,7 @@ static int32_t leave_later(const e3d_tile_job *job)
 {
     float *z = job->memory->alpha.z;
     e3d_shown *shown = &job->memory->shade.shown;
-    int32_t left = 0, id = (int32_t)shown->piece[0].id;
+    int32_t left = 0, id = (int32_t)shown->primitive[0].id;
     for (int32_t n = 0; n < shown->count; n++) {
         int32_t sample = shown->sample[n];
         shown->sample[left] = sample;
@@ -248,7 +249,7 @@ static int32_t leave_later_in_planes(const e3d_tile_job *job)
 {
     int32_t *covers = job->memory->multisample->alpha.cover;
     e3d_shown *shown = &job->memory->shade.shown;
-    int32_t left = 0, id = (int32_t)shown->piece[0].id;
+    int32_t left = 0, id = (int32_t)shown->primitive[0].id;
     for (int32_t n = 0; n < shown->count; n++) {
         int32_t pixel = shown->sample[n] & (E3D_TILE_SAMPLES - 1);
         uint32_t cover = 0;
@@ -270,7 +271,7 @@ static int lay_later(const e3d_tile_job *job)
         return 1;
     if (!keeps_all(job))
         return e3d_alpha_shade(job, E3D_SINK_SAMPLES, (e3d_shaded_list){0});
-    e3d_a_buffer_clear(&job->memory->alpha.fragments);
+    e3d_a_buffer_clear(&job->memory->alpha.a_buffer);
     if (!e3d_a_buffer_keep(job))
         return 0;
     if (!pattern)
@@ -289,12 +290,12 @@ static int blend_sequence(const e3d_tile_job *job)
     return 1;
 }
 
-/* ---- the nearest fragments ---- */
+/* ---- the nearest layers ---- */
 
-/* Shades the outputs of the samples that a fragment is in front of. */
+/* Shades the outputs of the samples that a layer is in front of. */
 static int shade_front(const e3d_tile_job *job)
 {
-    const int32_t *front = job->memory->alpha.fragments.front_id;
+    const int32_t *front = job->memory->alpha.a_buffer.front_id;
     e3d_runs_memory *runs = &job->memory->shade.runs;
     int32_t count = 0;
     if (!e3d_plans(job->in->pass, E3D_PLAN_OUTPUTS))
@@ -313,7 +314,7 @@ static int shade_front(const e3d_tile_job *job)
 
 void e3d_alpha_front(const e3d_tile_job *job)
 {
-    const e3d_a_buffer *buffer = &job->memory->alpha.fragments;
+    const e3d_a_buffer *buffer = &job->memory->alpha.a_buffer;
     if (!job->blended || !e3d_plans(job->in->pass, E3D_PLAN_FRONT))
         return;
     for (int32_t s = 0; s < E3D_TILE_SAMPLES; s++)
@@ -334,14 +335,14 @@ static void leave_finite(const e3d_tile_job *job, float *radiance)
 
 int e3d_alpha_blend(const e3d_tile_job *job)
 {
-    e3d_a_buffer *buffer = &job->memory->alpha.fragments;
+    e3d_a_buffer *buffer = &job->memory->alpha.a_buffer;
     if (!job->blended)
         return 1;
     if (e3d_plans(job->in->pass, E3D_PLAN_FRONT))
         memset(buffer->front_id, 0xFF, sizeof buffer->front_id); /* E3D_NO_SLOT */
     if (!find_pieces(job))
         return 0;
-    int done = e3d_plans(job->in->pass, E3D_PLAN_SORTS) ? blend_sequence(job) : blend_groups(job);
+    int done = e3d_plans(job->in->pass, E3D_PLAN_SORTS) ? blend_sequence(job) : blend_overlaps(job);
     if (e3d_radiance_of(job))
         leave_finite(job, e3d_radiance_of(job));
     return done && (!e3d_plans(job->in->pass, E3D_PLAN_FRONT) || shade_front(job));

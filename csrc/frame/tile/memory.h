@@ -40,10 +40,10 @@ typedef struct e3d_a_buffer {
     e3d_array color;   /* float[4]: clamped, with alpha (e3d_shaded_list.color) */
     e3d_array through; /* float[4], where light passes through some material */
     e3d_array light;   /* float[4], where radiance is asked for */
-    e3d_array depth, which;               /* sorted by sample: int32_t, greater is farther; uint32_t, the number of the fragment */
+    e3d_array depth, which;               /* sorted by sample: int32_t, greater is farther; uint32_t, the number of the layer */
     uint32_t first[E3D_TILE_SAMPLES + 1]; /* in these, of each sample */
     uint16_t left[E3D_TILE_SAMPLES];      /* samples that are not sorted yet */
-    float front_z[E3D_TILE_SAMPLES];      /* of the nearest fragment, */
+    float front_z[E3D_TILE_SAMPLES];      /* of the nearest layer, */
     int32_t front_id[E3D_TILE_SAMPLES];   /* or E3D_NO_SLOT */
 } e3d_a_buffer;
 
@@ -52,9 +52,9 @@ typedef struct e3d_alpha_memory {
     float z[E3D_SHOWN_ROOM + 2 * E3D_PAD]; /* of each entry of the list (e3d_shade_memory.shown) */
     float alpha[E3D_SHOWN_ROOM];
     e3d_alpha_list list;
-    e3d_array pieces, sorted;              /* e3d_piece of the blended records: as they are listed; by group, the farthest first */
-    e3d_array ranges, groups;              /* of each piece its depths (float[2]), and its group (int32_t) */
-    e3d_a_buffer fragments;
+    e3d_array pieces, sorted;              /* e3d_piece of the blended records: as they are listed; by overlap, the farthest first */
+    e3d_array ranges, overlaps;            /* of each piece its depths (float[2]), and the number of its overlap (int32_t) */
+    e3d_a_buffer a_buffer;
 } e3d_alpha_memory;
 
 /* Pixels that are averaged, and where they go. */
@@ -74,7 +74,7 @@ typedef struct e3d_multisample_memory {
     uint64_t mixed[E3D_TILE];
     e3d_mixed_list list;
     e3d_average average;
-    e3d_planes_list alpha; /* of records with alpha, */
+    e3d_msaa_list alpha; /* of records with alpha, */
     e3d_array covers;      /* and what it holds: int32_t */
 } e3d_multisample_memory;
 

@@ -1,6 +1,6 @@
 /* Pixels whose samples show different surfaces. */
-#ifndef E3D_TILE_MIXED_H
-#define E3D_TILE_MIXED_H
+#ifndef E3D_TILE_MSAA_MIXED_H
+#define E3D_TILE_MSAA_MIXED_H
 
 #include "frame/tile/job.h"
 

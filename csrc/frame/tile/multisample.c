@@ -67,15 +67,15 @@ int e3d_multisample_reserve(e3d_multisample_memory **memory, int32_t samples)
 /* ---- the planes ---- */
 
 /* Where the last record in order shows, record after record; each keeps its ID. */
-static void overwrite_block(const e3d_tile_job *job, const e3d_bin_block *block)
+static void overwrite_link(const e3d_tile_job *job, const e3d_bin_link *link)
 {
     const e3d_prepared *pass = job->in->pass;
-    for (uint32_t i = 0; i < block->count; i++) {
-        const e3d_record *record = e3d_record_at(&job->in->bins->tables[E3D_SET_SCENE], block->id[i]);
+    for (uint32_t i = 0; i < link->count; i++) {
+        const e3d_record *record = e3d_record_at(&job->in->bins->tables[E3D_SET_SCENE], link->id[i]);
         for (int s = 0; s < pass->pattern->count; s++) {
             e3d_tile_buffers buffers = {job->visible[s].z, job->visible[s].id, NULL};
             e3d_piece piece;
-            if (e3d_piece_in_plane(pass, s, record, &job->tile, block->id[i], &piece))
+            if (e3d_piece_in_plane(pass, s, record, &job->tile, link->id[i], &piece))
                 pass->kernels->raster_overwrite(&piece, &buffers);
         }
     }
@@ -88,9 +88,9 @@ static void overwrite_planes(const e3d_tile_job *job)
         e3d_visible_empty(&job->visible[s]);
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
-        const e3d_bin_block *block = e3d_first_records(set, 0, job->number);
-        for (; block; block = e3d_bin_block_at(set, block->next))
-            overwrite_block(job, block);
+        const e3d_bin_link *link = e3d_first_records(set, 0, job->number);
+        for (; link; link = e3d_bin_link_at(set, link->next))
+            overwrite_link(job, link);
     }
 }
 
@@ -107,7 +107,7 @@ static void draw_planes(const e3d_tile_job *job, int settle)
     if (job->in->finishes)
         e3d_note_depths(pass->kernels, pass->pattern->count, job->visible, &job->out->depths[job->number]);
     if (settle)
-        pass->kernels->planes_settle(job->visible, pass->pattern, &job->in->bins->tables[E3D_SET_SCENE]);
+        pass->kernels->msaa_settle(job->visible, pass->pattern, &job->in->bins->tables[E3D_SET_SCENE]);
 }
 
 /* ---- pixels ---- */
@@ -119,7 +119,8 @@ static int split(const e3d_tile_job *job)
 {
     uint64_t *mixed = job->memory->multisample->mixed;
     const e3d_prepared *pass = job->in->pass;
-    int gaps = pass->kernels->planes_split(job->visible, pass->pattern->count, job->tile.width, job->tile.height, mixed, &job->memory->visible);
+    int gaps = pass->kernels->msaa_split(job->visible, pass->pattern->count, job->tile.width, job->tile.height, mixed,
+                                         &job->memory->visible);
     for (int y = 0; y < E3D_TILE; y++)
         mixed[y] = y < job->tile.height ? mixed[y] & columns_inside(&job->tile) : 0;
     return gaps;

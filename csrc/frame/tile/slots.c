@@ -66,15 +66,15 @@ static int find_piece(const e3d_tile_job *job, const e3d_record *record, uint32_
                          : e3d_piece_in_tile(&pass->view->viewport, record, &job->tile, slot, piece);
 }
 
-static int visit_block(const e3d_tile_job *job, int which, const e3d_bin_block *block, piece_action action)
+static int visit_link(const e3d_tile_job *job, int which, const e3d_bin_link *link, piece_action action)
 {
     e3d_slots_state *slots = &job->memory->slots;
-    for (uint32_t i = 0; i < block->count; i++) {
-        const e3d_record *record = e3d_record_at(&job->in->bins->tables[which], block->id[i]);
+    for (uint32_t i = 0; i < link->count; i++) {
+        const e3d_record *record = e3d_record_at(&job->in->bins->tables[which], link->id[i]);
         e3d_piece piece;
         if (!find_piece(job, record, (uint32_t)slots->ids.count, &piece))
             continue;
-        if (!add_slot(slots, block->id[i], record->order) || !action(job, &piece))
+        if (!add_slot(slots, link->id[i], record->order) || !action(job, &piece))
             return 0;
     }
     return 1;
@@ -86,9 +86,9 @@ static int visit_bins(const e3d_tile_job *job, int which, piece_action action)
     job->memory->slots.ids.count = 0;
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[which];
-        const e3d_bin_block *block = e3d_first_records(set, 0, job->number);
-        for (; block; block = e3d_bin_block_at(set, block->next))
-            if (!visit_block(job, which, block, action))
+        const e3d_bin_link *link = e3d_first_records(set, 0, job->number);
+        for (; link; link = e3d_bin_link_at(set, link->next))
+            if (!visit_link(job, which, link, action))
                 return 0;
     }
     return 1;

@@ -21,10 +21,10 @@ static int are_few(const e3d_bins *bins, int64_t tile)
     uint32_t count = 0;
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
-        if (e3d_first_block(&bins->of[t]->fragments.chains, 0, tile) != E3D_NO_BLOCK)
+        if (e3d_first_link(&bins->of[t]->fragments.chains, 0, tile) != E3D_NO_LINK)
             return 0;
-        for (const e3d_bin_block *block = e3d_first_records(set, 0, tile); block; block = e3d_bin_block_at(set, block->next))
-            if ((count += block->count) > E3D_MOST_COVERING)
+        for (const e3d_bin_link *link = e3d_first_records(set, 0, tile); link; link = e3d_bin_link_at(set, link->next))
+            if ((count += link->count) > E3D_MOST_COVERING)
                 return 0;
     }
     return 1;
@@ -35,8 +35,8 @@ static int cover_records(const e3d_kernels *kernels, const e3d_bins *bins, int64
 {
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
-        for (const e3d_bin_block *block = e3d_first_records(set, 0, tile); block; block = e3d_bin_block_at(set, block->next))
-            if (!kernels->cover_records(&memory->spans.cover, &bins->tables[E3D_SET_SCENE], block->id, (int)block->count,
+        for (const e3d_bin_link *link = e3d_first_records(set, 0, tile); link; link = e3d_bin_link_at(set, link->next))
+            if (!kernels->cover_records(&memory->spans.cover, &bins->tables[E3D_SET_SCENE], link->id, (int)link->count,
                                         &memory->shade.shown))
                 return 0;
     }

@@ -130,9 +130,9 @@ static int32_t kernel_raster_alpha(const e3d_piece *piece, const e3d_record_tabl
     }
     int32_t count = (int32_t)(end.sample - shown->sample);
     for (int32_t i = first; i < count; i += V_LANES)
-        v_storei(shown->of + i, v_seti(shown->pieces));
-    shown->piece[shown->pieces] = (e3d_shown_piece){p->slot, first};
-    shown->pieces += count > first;
+        v_storei(shown->of + i, v_seti(shown->primitives));
+    shown->primitive[shown->primitives] = (e3d_shown_primitive){p->slot, first};
+    shown->primitives += count > first;
     shown->count = count;
     return y;
 }

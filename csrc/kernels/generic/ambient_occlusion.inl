@@ -1,6 +1,6 @@
 /* occlusion: how much of the light from all around something near is in the way of, pixel by pixel (R125-R128). */
-#ifndef E3D_KERNELS_OCCLUSION_INL
-#define E3D_KERNELS_OCCLUSION_INL
+#ifndef E3D_KERNELS_AMBIENT_OCCLUSION_INL
+#define E3D_KERNELS_AMBIENT_OCCLUSION_INL
 
 #include "base/always_inline.h"
 #include "base/limits.h"

@@ -260,43 +260,43 @@ static inline void fragment_make(const fragment_vector *v, vi32 place, int count
 
 /* ---- to their tiles ---- */
 
-/* The tile's last block, or a new one, with room for a vector. */
-static inline e3d_fragment_block *fragment_block(e3d_fragment_bins *out, int32_t tile)
+/* The tile's last link, or a new one, with room for a vector. */
+static inline e3d_fragment_link *fragment_link(e3d_fragment_bins *out, int32_t tile)
 {
     e3d_bin *bin = &out->bins[tile];
-    if (bin->last != E3D_NO_BLOCK && out->blocks[bin->last].count <= E3D_BLOCK_FRAGMENTS - V_LANES)
-        return &out->blocks[bin->last];
-    e3d_fragment_block *block = &out->blocks[out->count];
-    for (size_t at = 0; at < sizeof *block; at += 64) /* it is in no cache yet, and would be fetched line by line as it fills */
-        __builtin_prefetch((const char *)block + at, 1);
-    block->next = E3D_NO_BLOCK;
-    block->count = 0;
-    *(bin->last == E3D_NO_BLOCK ? &bin->first : &out->blocks[bin->last].next) = out->count;
+    if (bin->last != E3D_NO_LINK && out->links[bin->last].count <= E3D_BLOCK_FRAGMENTS - V_LANES)
+        return &out->links[bin->last];
+    e3d_fragment_link *link = &out->links[out->count];
+    for (size_t at = 0; at < sizeof *link; at += 64) /* it is in no cache yet, and would be fetched line by line as it fills */
+        __builtin_prefetch((const char *)link + at, 1);
+    link->next = E3D_NO_LINK;
+    link->count = 0;
+    *(bin->last == E3D_NO_LINK ? &bin->first : &out->links[bin->last].next) = out->count;
     bin->last = out->count++;
-    return block;
+    return link;
 }
 
 /* Moves the fragments of one tile, in the vectors from `first` on, to its list, and takes them out of `left`. */
 static inline void fragment_bin(const fragment_buffer *from, int first, int32_t tile, uint32_t *left, e3d_fragment_bins *out)
 {
-    e3d_fragment_block *block = fragment_block(out, tile);
-    uint32_t count = block->count;
+    e3d_fragment_link *link = fragment_link(out, tile);
+    uint32_t count = link->count;
     for (int i = first; i * V_LANES < from->count; i++) {
         vi32 at = v_loadi(from->at + i * V_LANES);
         uint32_t here = left[i] & v_bits(v_eqi(v_shr(at, 2 * E3D_TILE_SHIFT), v_seti(tile)));
         if (!here)
             continue;
         if (count > E3D_BLOCK_FRAGMENTS - V_LANES) {
-            block->count = count;
-            block = fragment_block(out, tile);
+            link->count = count;
+            link = fragment_link(out, tile);
             count = 0;
         }
-        v_pack(block->z + count, v_asi(v_loadf(from->z + i * V_LANES)), here);
-        v_pack(block->id + count, v_loadi(from->id + i * V_LANES), here);
-        count += (uint32_t)v_pack16(block->sample + count, v_andi(at, v_seti(E3D_TILE_SAMPLES - 1)), here);
+        v_pack(link->z + count, v_asi(v_loadf(from->z + i * V_LANES)), here);
+        v_pack(link->id + count, v_loadi(from->id + i * V_LANES), here);
+        count += (uint32_t)v_pack16(link->sample + count, v_andi(at, v_seti(E3D_TILE_SAMPLES - 1)), here);
         left[i] &= ~here;
     }
-    block->count = count;
+    link->count = count;
 }
 
 static inline void fragment_bin_all(fragment_buffer *from, e3d_fragment_bins *out)

@@ -1,6 +1,6 @@
 /* film: what a thin film on a surface reflects of each colour (R139, R140). */
-#ifndef E3D_KERNELS_FILM_INL
-#define E3D_KERNELS_FILM_INL
+#ifndef E3D_KERNELS_IRIDESCENCE_INL
+#define E3D_KERNELS_IRIDESCENCE_INL
 
 #include "base/always_inline.h"
 #include "data/iridescence_tables.h"

@@ -80,7 +80,7 @@ static inline void layers_contest(e3d_layers *layers, const e3d_covering *c, con
     }
 }
 
-/* Adds the samples of a row, as runs of the piece that comes next. */
+/* Adds the samples of a row, as runs of the primitive that comes next. */
 static inline void layers_add_row(uint64_t left, int32_t y, e3d_shown *out)
 {
     while (left) {
@@ -88,7 +88,7 @@ static inline void layers_add_row(uint64_t left, int32_t y, e3d_shown *out)
         uint64_t gap = ~(left >> x);
         int32_t length = gap ? __builtin_ctzll(gap) : E3D_TILE;
         out->sample[out->count] = (y * E3D_TILE + x) | length << E3D_RUN_LENGTH;
-        out->of[out->count++] = out->pieces;
+        out->of[out->count++] = out->primitives;
         left &= left + ((uint64_t)1 << x);
     }
 }
@@ -158,7 +158,7 @@ static inline void layers_begin(e3d_layers *layers)
 static int kernel_show_layers(const e3d_cover *cover, const e3d_record_table *table, const uint16_t *numbers, int count,
                               e3d_layers *layers, e3d_shown *out)
 {
-    int32_t runs = out->count, pieces = out->pieces;
+    int32_t runs = out->count, primitives = out->primitives;
     float near = 0.0f;
     layers_begin(layers);
     for (int i = 0; i < count; i++) {
@@ -171,7 +171,7 @@ static int kernel_show_layers(const e3d_cover *cover, const e3d_record_table *ta
     if (!layers->taken)
         return 1;
     out->count = runs; /* a later record took samples of one that was listed already: list all anew */
-    out->pieces = pieces;
+    out->primitives = primitives;
     for (int i = 0; i < count; i++)
         layers_show(layers, &cover->record[numbers[i]], out);
     return 1;

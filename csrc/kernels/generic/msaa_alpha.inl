@@ -1,6 +1,6 @@
 /* alpha with multisampling: what a record with alpha covers of the samples of a tile's pixels, in front of what shows there (R83, R104). */
-#ifndef E3D_KERNELS_ALPHA_PLANES_INL
-#define E3D_KERNELS_ALPHA_PLANES_INL
+#ifndef E3D_KERNELS_MSAA_ALPHA_INL
+#define E3D_KERNELS_MSAA_ALPHA_INL
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -29,7 +29,7 @@ static ALWAYS_INLINE uint32_t cover_plane(const e3d_piece *p, const float *limit
 
 /* Lists the pixels of one vector. */
 static ALWAYS_INLINE int32_t cover_vector(const e3d_piece *pieces, uint32_t live, int32_t x, int32_t y, const e3d_record_table *table,
-                                          int32_t count, e3d_planes_list *out)
+                                          int32_t count, e3d_msaa_list *out)
 {
     uint32_t any = 0;
     vi32 cover = v_seti(0), number = v_seti(0);
@@ -45,8 +45,8 @@ static ALWAYS_INLINE int32_t cover_vector(const e3d_piece *pieces, uint32_t live
     return count + v_pack(out->shown->sample + count, v_ori(pixel, v_shl(number, E3D_SHOWN_NUMBER)), any);
 }
 
-static int32_t kernel_cover_planes(const e3d_piece *pieces, uint32_t live, int32_t y, int32_t last, const e3d_record_table *table,
-                                   e3d_planes_list *out)
+static int32_t kernel_cover_msaa(const e3d_piece *pieces, uint32_t live, int32_t y, int32_t last, const e3d_record_table *table,
+                                 e3d_msaa_list *out)
 {
     e3d_shown *shown = out->shown;
     const int32_t first = shown->count, x0 = pieces->x0, x1 = pieces->x1;
@@ -55,9 +55,9 @@ static int32_t kernel_cover_planes(const e3d_piece *pieces, uint32_t live, int32
         for (int32_t x = x0; x <= x1; x += V_LANES)
             count = cover_vector(pieces, live, x, y, table, count, out);
     for (int32_t i = first; i < count; i += V_LANES)
-        v_storei(shown->of + i, v_seti(shown->pieces));
-    shown->piece[shown->pieces] = (e3d_shown_piece){pieces->slot, first};
-    shown->pieces += count > first;
+        v_storei(shown->of + i, v_seti(shown->primitives));
+    shown->primitive[shown->primitives] = (e3d_shown_primitive){pieces->slot, first};
+    shown->primitives += count > first;
     shown->count = count;
     return y;
 }

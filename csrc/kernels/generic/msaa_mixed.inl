@@ -1,6 +1,6 @@
 /* raster with multisampling: which surfaces show in pixels whose samples don't all show the same (R105), a vector of pixels at a time. */
-#ifndef E3D_KERNELS_MIXED_INL
-#define E3D_KERNELS_MIXED_INL
+#ifndef E3D_KERNELS_MSAA_MIXED_INL
+#define E3D_KERNELS_MSAA_MIXED_INL
 
 #include "base/always_inline.h"
 #include "base/limits.h"

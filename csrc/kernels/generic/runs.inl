@@ -102,14 +102,14 @@ static inline void batch_pad(e3d_batch *batch, int count)
 }
 
 /* Spreads long runs, each by itself in whole vectors, which may go past its end. */
-static inline int runs_take_long(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
+static inline int runs_take_long(const e3d_shown *shown, int first, int count, int32_t primitive, e3d_batch *batch)
 {
     int n = batch->count, r = first;
     for (; r < first + count; r++) {
         int32_t run = shown->sample[r], length = run >> E3D_RUN_LENGTH;
         if (n + length > E3D_BATCH)
             break;
-        vi32 at = v_addi(v_seti(run & (E3D_TILE_SAMPLES - 1)), v_iota()), surface = v_seti(shown->of[r] - piece);
+        vi32 at = v_addi(v_seti(run & (E3D_TILE_SAMPLES - 1)), v_iota()), surface = v_seti(shown->of[r] - primitive);
         for (int i = n; i < n + length; i += V_LANES, at = v_addi(at, v_seti(V_LANES))) {
             v_storei(batch->sample + i, at);
             v_storei(batch->surface + i, surface);
@@ -141,7 +141,7 @@ static inline void runs_add_up(int first, int count, e3d_batch *batch)
 
 /* Spreads short runs: where one begins, its word minus the one before is noted; then every vector is written once. Overlapping
  * stores would take longer: 2 % of the head with AVX2, 4 % with AVX-512. */
-static inline int runs_take_short(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
+static inline int runs_take_short(const e3d_shown *shown, int first, int count, int32_t primitive, e3d_batch *batch)
 {
     int room = E3D_BATCH - batch->count, n = 0, r = first;
     int32_t before = 0;
@@ -149,7 +149,7 @@ static inline int runs_take_short(const e3d_shown *shown, int first, int count, 
         int32_t run = shown->sample[r], length = run >> E3D_RUN_LENGTH;
         if (n + length > room)
             break;
-        int32_t word = (shown->of[r] - piece) * (1 << RUN_SURFACE) + (run & (E3D_TILE_SAMPLES - 1)) - n + RUN_BEFORE;
+        int32_t word = (shown->of[r] - primitive) * (1 << RUN_SURFACE) + (run & (E3D_TILE_SAMPLES - 1)) - n + RUN_BEFORE;
         batch->steps[n] = word - before;
         before = word;
         n += length;
@@ -162,10 +162,10 @@ static inline int runs_take_short(const e3d_shown *shown, int first, int count, 
 
 enum { RUNS_LONG = 2 * E3D_TILE }; /* if a tile has at most so many runs, they are long */
 
-static int kernel_take_runs(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
+static int kernel_take_runs(const e3d_shown *shown, int first, int count, int32_t primitive, e3d_batch *batch)
 {
-    return shown->count <= RUNS_LONG ? runs_take_long(shown, first, count, piece, batch)
-                                     : runs_take_short(shown, first, count, piece, batch);
+    return shown->count <= RUNS_LONG ? runs_take_long(shown, first, count, primitive, batch)
+                                     : runs_take_short(shown, first, count, primitive, batch);
 }
 
 #endif

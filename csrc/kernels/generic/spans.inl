@@ -112,18 +112,18 @@ static inline vi32 spans_marked(vi32 spans, const uint64_t *rows)
     return v_ori(low, v_andi(v_loadi(words + V_LANES), v_span(spans_first(spans), spans_length(spans), 1)));
 }
 
-/* Appends the spans that aren't empty, as runs of the piece that comes next. */
+/* Appends the spans that aren't empty, as runs of the primitive that comes next. */
 static inline void spans_add(vi32 spans, e3d_shown *out)
 {
-    v_storei(out->of + out->count, v_seti(out->pieces));
+    v_storei(out->of + out->count, v_seti(out->primitives));
     out->count += v_pack(out->sample + out->count, spans, v_bits(v_gti(spans_length(spans), v_seti(0))));
 }
 
-/* Makes a piece of the runs from `first` on, if there are any. */
+/* Makes a primitive of the runs from `first` on, if there are any. */
 static inline void spans_name(uint32_t id, int32_t first, e3d_shown *out)
 {
-    out->piece[out->pieces] = (e3d_shown_piece){id, first};
-    out->pieces += out->count > first;
+    out->primitive[out->primitives] = (e3d_shown_primitive){id, first};
+    out->primitives += out->count > first;
 }
 
 /* Adds a record: its spans, the samples that it covers, and its runs. */

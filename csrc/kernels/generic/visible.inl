@@ -372,7 +372,7 @@ static int __attribute__((noinline, cold)) fragment_comes_first(int32_t id, int3
 }
 
 /* Keeps the nearer of each two depths without a branch, since which one it is is unpredictable. */
-static void kernel_raster_fragments(e3d_visible_tile *tile, const e3d_record_table *table, const e3d_fragment_block *b)
+static void kernel_raster_fragments(e3d_visible_tile *tile, const e3d_record_table *table, const e3d_fragment_link *b)
 {
     uint64_t met = 0;
     float near = E3D_BEYOND_FAR;

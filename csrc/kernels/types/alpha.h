@@ -19,13 +19,13 @@ typedef struct e3d_alpha_list {
 } e3d_alpha_list;
 
 /* The same with multisampling: an entry is a pixel (e3d_shown.pattern), and what it covers of its samples: a bit each. */
-typedef struct e3d_planes_list {
+typedef struct e3d_msaa_list {
     const e3d_sample_pattern *pattern;
     const float *limit[E3D_MOST_MSAA_SAMPLES]; /* as above, of each plane */
     const int32_t *kept[E3D_MOST_MSAA_SAMPLES];
     e3d_shown *shown;
     int32_t *cover; /* of each entry; E3D_PAD more are written */
-} e3d_planes_list;
+} e3d_msaa_list;
 
 /* What blended records add to the samples of a tile, sample after sample: to sample s those from first[s] to first[s + 1] - 1. */
 typedef struct e3d_alpha_layers {

@@ -1,6 +1,6 @@
 /* What the kernels of ambient occlusion work on: rows of pixels. */
-#ifndef E3D_KERNELS_OCCLUSION_H
-#define E3D_KERNELS_OCCLUSION_H
+#ifndef E3D_KERNELS_AMBIENT_OCCLUSION_H
+#define E3D_KERNELS_AMBIENT_OCCLUSION_H
 
 #include <stdint.h>
 

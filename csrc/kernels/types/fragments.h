@@ -19,35 +19,35 @@ typedef struct e3d_small_triangles {
     int32_t count;
 } e3d_small_triangles;
 
-/* A chain of blocks: the numbers of the first and the last, or E3D_NO_BLOCK twice. */
-enum { E3D_NO_BLOCK = 0xFFFFFFFFu };
+/* A chain of links: the numbers of the first and the last, or E3D_NO_LINK twice. */
+enum { E3D_NO_LINK = 0xFFFFFFFFu };
 typedef struct e3d_bin {
     uint32_t first, last;
 } e3d_bin;
 
-/* Fragments of one tile, in the order in which they were made. Kernels store whole vectors, so a block is full once it has less
+/* Fragments of one tile, in the order in which they were made. Kernels store whole vectors, so a link is full once it has less
  * room than one. */
 enum { E3D_BLOCK_FRAGMENTS = 127 };
-typedef struct e3d_fragment_block {
+typedef struct e3d_fragment_link {
     uint32_t next, count;
     float z[E3D_BLOCK_FRAGMENTS];
     int32_t id[E3D_BLOCK_FRAGMENTS];
     uint16_t sample[E3D_BLOCK_FRAGMENTS];
-} e3d_fragment_block;
+} e3d_fragment_link;
 
-_Static_assert(sizeof(e3d_fragment_block) % 64 == 0, "blocks are whole cache lines");
+_Static_assert(sizeof(e3d_fragment_link) % 64 == 0, "links are whole cache lines");
 
-/* The blocks in use, and a bin for each tile. The caller has made room for the blocks that E3D_SMALLS triangles may need
- * (e3d_fragment_blocks_most). */
+/* The links in use, and a bin for each tile. The caller has made room for the links that E3D_SMALLS triangles may need
+ * (e3d_fragment_links_most). */
 typedef struct e3d_fragment_bins {
-    e3d_fragment_block *blocks;
+    e3d_fragment_link *links;
     e3d_bin *bins;
     uint32_t count;
     int32_t fragments, triangles; /* how many were made, and of how many triangles */
 } e3d_fragment_bins;
 
-/* The most new blocks for the fragments of E3D_SMALLS triangles: one begun in each tile that they can reach, and full ones. */
-static inline size_t e3d_fragment_blocks_most(size_t tiles)
+/* The most new links for the fragments of E3D_SMALLS triangles: one begun in each tile that they can reach, and full ones. */
+static inline size_t e3d_fragment_links_most(size_t tiles)
 {
     return (tiles < E3D_MOST_FRAGMENTS ? tiles : E3D_MOST_FRAGMENTS) + E3D_MOST_FRAGMENTS / (E3D_BLOCK_FRAGMENTS - E3D_PAD);
 }

@@ -1,6 +1,6 @@
 /* Pixels with multisampling whose samples don't all show the same. */
-#ifndef E3D_KERNELS_MIXED_H
-#define E3D_KERNELS_MIXED_H
+#ifndef E3D_KERNELS_MSAA_MIXED_H
+#define E3D_KERNELS_MSAA_MIXED_H
 
 #include <stdint.h>
 

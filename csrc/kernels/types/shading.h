@@ -36,7 +36,7 @@ typedef struct e3d_surfaces {
     e3d_surface_floats p[3], px[3], py[3]; /* barycentric planes, R18 */
     e3d_surface_floats base_x, base_y;     /* relative to the tile's first sample */
     e3d_surface_floats slope[2][3]; /* [coordinate]: along, down and turn of R25 */
-    e3d_surface_words piece, instance; /* which piece and which instance it is of; the kernels don't read these */
+    e3d_surface_words primitive, instance; /* which primitive and which instance it is of; the kernels don't read these */
     int32_t count, matrices;
     int32_t irregular;             /* how many surface.c must finish: clipped pieces, lines, points, clip-space meshes */
     int32_t projected;             /* how many have no record, so that `project` has work to do */

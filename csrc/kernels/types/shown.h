@@ -14,21 +14,21 @@ typedef struct e3d_run {
     uint16_t sample, length;
 } e3d_run;
 
-/* A piece that shows in a tile: its ID, and where its samples or runs begin in the list. */
-typedef struct e3d_shown_piece {
+/* A primitive that shows in a tile: its ID, and where its samples or runs begin in the list. */
+typedef struct e3d_shown_primitive {
     uint32_t id;
     int32_t first;
-} e3d_shown_piece;
+} e3d_shown_primitive;
 
 /* Entries of a list: as many as a tile has samples, and a row more, so that a list of whole rows is full only where samples repeat. */
 enum { E3D_SHOWN_ROOM = E3D_TILE_SAMPLES + E3D_TILE };
 
-/* What shows in a tile, piece after piece, as samples or as runs. */
+/* What shows in a tile, primitive after primitive, as samples or as runs. */
 typedef struct e3d_shown {
     int32_t sample[E3D_SHOWN_ROOM + 2 * E3D_PAD]; /* y * E3D_TILE + x; a run: its first sample | its length << E3D_RUN_LENGTH */
-    int32_t of[E3D_SHOWN_ROOM + 2 * E3D_PAD];     /* the number of its piece */
-    e3d_shown_piece piece[E3D_SHOWN_ROOM + 1];
-    int32_t count, pieces; /* how many samples or runs, and how many pieces */
+    int32_t of[E3D_SHOWN_ROOM + 2 * E3D_PAD];     /* the number of its primitive */
+    e3d_shown_primitive primitive[E3D_SHOWN_ROOM + 1];
+    int32_t count, primitives; /* how many samples or runs, and how many primitives */
     int runs;              /* whether `sample` has runs */
     const e3d_sample_pattern *pattern; /* not NULL: samples are pixels | the number of a sample of the pattern << E3D_SHOWN_NUMBER (R105) */
 } e3d_shown;
@@ -69,7 +69,7 @@ static inline void e3d_shown_begin(e3d_shown *shown, int runs)
 {
     shown->runs = runs;
     shown->pattern = NULL;
-    shown->count = shown->pieces = 0;
+    shown->count = shown->primitives = 0;
 }
 
 #endif

@@ -114,7 +114,7 @@ class DrawList:
             self.renewals += 1
         self._posed = posed
 
-    def open_windows(self, scene: Scene, view: View, size: tuple[int, int]) -> int | None:
+    def open_apertures(self, scene: Scene, view: View, size: tuple[int, int]) -> int | None:
         """Let backs show where the camera may look into holes of meshes that enclose a volume.
 
         Elsewhere they may be left out, of materials that do not show both sides anyway.
@@ -129,13 +129,13 @@ class DrawList:
         Returns
         -------
         count : int or None
-            How many windows there are; None if backs may show anywhere, because the near plane may
-            cut such a mesh or no mesh encloses a volume.
+            How many apertures there are; None if backs may show anywhere, because the near plane
+            may cut such a mesh or no mesh encloses a volume.
         """
         if not self._closed:
             return None
         arrays = scene._arrays
-        return self.native.open_windows(
+        return self.native.open_apertures(
             arrays.count, arrays.columns, view.clip_from_world, view.view_from_world, *size
         )
 

@@ -1,4 +1,5 @@
-/* Where a picture may show backs of objects that enclose a volume: apertures (R9), around the holes that one may look into. */
+/* Apertures (R9): boxes of pixels around holes of objects that enclose a volume. Through them a picture may show the objects'
+ * backs. */
 #ifndef E3D_APERTURES_H
 #define E3D_APERTURES_H
 
@@ -11,14 +12,14 @@
 extern "C" {
 #endif
 
-/* From where, and into how large a picture, one looks into holes. */
+/* The eye that may look into holes, and the size of its picture. */
 typedef struct e3d_looking {
     double clip_from_world[16], view_from_world[16];
     int32_t width, height;
 } e3d_looking;
 
-/* Finds the apertures of a frame that draws a list: where one may look into holes of objects that enclose a volume. Returns how many
- * there are; -1 if the near plane may cut such an object, so that its inside shows anywhere. bounds: of the nodes, as in e3d_graph. */
+/* Finds the apertures of a frame that draws a list. Returns how many there are, or -1 if the near plane may cut an object that
+ * encloses a volume, for then its inside shows anywhere. bounds: of the nodes, as in e3d_graph. */
 int32_t e3d_find_apertures(const e3d_draw_list *list, const e3d_node_rows *rows, const double *bounds, const e3d_placed *objects,
                            const e3d_looking *looking, e3d_aperture apertures[E3D_MAX_APERTURES]);
 

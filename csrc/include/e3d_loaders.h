@@ -1,8 +1,6 @@
-/* Reading model files: bytes in, arrays out. No files, no Python, no renderer.
- *
- * Always: nothing outside the bytes given is read, whatever they hold; time and memory grow with their
- *      number (sorting apart); no locale; the same arrays on every machine.
- */
+/* Reads model files: bytes in, arrays out. No files, no Python, no renderer.
+ * Always: nothing outside the bytes given is read, whatever they hold; time and memory are linear in their number (but for
+ * sorting); no locale; the same arrays on every machine. */
 #ifndef E3D_LOADERS_H
 #define E3D_LOADERS_H
 

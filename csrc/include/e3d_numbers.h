@@ -1,5 +1,5 @@
-/* Texts of numbers: lines of them, and rows of lists among these. The last byte of a text is a blank or ends a line, as
- * LF, CR or both do. */
+/* Reads texts of numbers: lines of them, and rows of lists among these. The last byte of a text is a blank or ends a line; LF,
+ * CR or both end a line. */
 #ifndef E3D_NUMBERS_H
 #define E3D_NUMBERS_H
 
@@ -21,10 +21,10 @@ typedef enum e3d_numbers_problem {
     E3D_NUMBERS_NOT_A_NUMBER,
 } e3d_numbers_problem;
 
-/* The numbers of a text, and of its rows: the lines that hold any. */
+/* The numbers of a text, and of its rows: a row is a line that holds any. */
 typedef struct e3d_numbers {
     double *values;  /* [count] */
-    int64_t *widths; /* [rows] how many numbers each holds; NULL if nobody asked */
+    int64_t *widths; /* [rows] how many numbers each row holds; NULL if nobody asked */
     size_t count, rows;
     size_t place;    /* behind the last line read; or the word that is no number */
 } e3d_numbers;

@@ -1,4 +1,4 @@
-/* What a call says of itself: done, or why not. */
+/* The result of a call: done, or why not. */
 #ifndef E3D_API_STATUS_H
 #define E3D_API_STATUS_H
 

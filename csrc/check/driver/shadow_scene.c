@@ -57,7 +57,7 @@ static void level_depths(e3d_light_maps *shadow, random_stream *r)
 static void add_map(scene *s, e3d_light *light, const float *depths, e3d_shadow_map *maps, int32_t *count, random_stream *r)
 {
     e3d_light_maps *shadow = &light->shadow.maps;
-    e3d_texture_layout layout = e3d_light_traits_of(light->kind).maps;
+    e3d_map_layout layout = e3d_light_traits_of(light->kind).maps;
     int32_t taps = 1 + 2 * random_below(r, 3);
     light->shadow.kind = E3D_SHADOW_MAP;
     shadow->first = *count;

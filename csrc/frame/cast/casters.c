@@ -1,4 +1,4 @@
-/* cast: what is kept of casters from frame to frame, and which lights' grids have to be made anew. */
+/* cast: the casters that are kept from frame to frame, and which lights' grids have to be made again. */
 #include "frame/cast/casters.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* What casts exact shadows, kept from frame to frame for as long as it stays the same. */
+/* The casters of exact shadows. They are kept from frame to frame for as long as they stay the same. */
 #ifndef E3D_CASTERS_H
 #define E3D_CASTERS_H
 
@@ -16,7 +16,7 @@ typedef struct e3d_caster_memory {
     int32_t kept_lights; /* whose grids are those of the casters */
 } e3d_caster_memory;
 
-/* Brings the index up to date with a frame that has such lights. */
+/* Brings the index of casters up to date with a frame whose lights have exact shadows. */
 e3d_status e3d_casters_prepare(e3d_caster_memory *memory, const e3d_frame *frame, int32_t threads);
 void e3d_casters_free(e3d_caster_memory *memory);
 

@@ -1,4 +1,4 @@
-/* cast: the faces that may hide lights, instance by instance, and their corners in the world (R97). */
+/* cast: the faces that cast exact shadows, instance by instance, and their corners in the world (R97). */
 #include "frame/cast/faces.h"
 
 #include "base/grow.h"

@@ -1,4 +1,4 @@
-/* Casters in the plane of a light, by where they are there. */
+/* Grids that find casters by their place in the plane of a light. */
 #ifndef E3D_GRIDS_H
 #define E3D_GRIDS_H
 
@@ -10,7 +10,7 @@
 /* The memory of one light's corners and grids. */
 typedef struct e3d_light_memory {
     e3d_array corners;                  /* float[9] */
-    e3d_array starts[E3D_CASTER_FACES]; /* uint32_t: of all levels */
+    e3d_array starts[E3D_CASTER_FACES]; /* uint32_t: the starts of cells, of all levels */
     e3d_array boxes[E3D_CASTER_FACES];  /* e3d_caster_box */
 } e3d_light_memory;
 

@@ -1,8 +1,6 @@
-/* bin: records to the tiles that they may cover.
- *
- * A record in one tile goes there; a larger one is tried edge by edge against each tile of its box. Bins are
- * each thread's own; the raster's rule (R16) makes their order irrelevant.
- */
+/* bin: lists records in the tiles that they may cover. A record whose box lies in one tile is listed there; a larger one is
+ * tested edge by edge against each tile of its box. Each thread has bins of its own; their order does not matter, by the
+ * raster's rule R16. */
 #include <string.h>
 
 #include "base/grow.h"
@@ -157,7 +155,7 @@ static inline int push(e3d_chains *chains, e3d_bin *bin, uint32_t id)
     return 1;
 }
 
-/* Edge functions where they are greatest in a tile: one that is negative rejects it. And what the next tile changes. */
+/* The edge functions where they are greatest in a tile, and their steps from tile to tile. A negative one rejects the tile. */
 typedef struct tile_edges {
     int64_t most[3], across[3], down[3];
 } tile_edges;
@@ -168,15 +166,15 @@ static void find_tile_edges(const e3d_record *record, int32_t x, int32_t y, int3
         e3d_edge edge = e3d_edge_at(record, k, x, y);
         int64_t a = edge.a, b = edge.b;
         out->most[k] = edge.e + (a > 0 ? a * (E3D_TILE - 1) : 0) + (b > 0 ? b * (E3D_TILE - 1) : 0);
-        if (reach) /* no sample is farther inside */
+        if (reach) /* no sample lies farther inside */
             out->most[k] += (((a < 0 ? -a : a) + (b < 0 ? -b : b)) * reach) / E3D_SUBPIXEL + 1;
         out->across[k] = a * E3D_TILE;
         out->down[k] = b * E3D_TILE;
     }
 }
 
-/* Lists a record in the tiles of a span that it does not miss; it meets each tile of a single row or column. This is a function of
- * its own because its registers would spill those of the common case. */
+/* Lists a record in those tiles of a rectangle that it does not miss; a single row or column of tiles is met whole. This is a
+ * function of its own, since its registers would spill those of the common case. */
 static int __attribute__((noinline)) bin_wide(const e3d_view *view, e3d_geometry_memory *state, const e3d_record *record, e3d_chains *to,
                                               e3d_tile_rect span, uint32_t id)
 {
@@ -209,7 +207,7 @@ static inline e3d_bin *bin_at(const e3d_view *view, e3d_chains *chains, uint32_t
     return (e3d_bin *)chains->bins.data + (int64_t)(tile >> 16) * view->tiles_x + (tile & 0xFFFF);
 }
 
-/* Most are in one tile, or in two side by side. */
+/* Most records lie in one tile, or in two side by side. */
 int e3d_bin_records(const e3d_view *view, e3d_geometry_memory *state, const e3d_record_set *set, e3d_chains *to, uint32_t first,
                     const e3d_tile_rect *spans, int count)
 {

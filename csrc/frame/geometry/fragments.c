@@ -1,8 +1,5 @@
-/* bin: what small triangles cover, as fragments, to the tiles that it lies in.
- *
- * A triangle of a few samples is cheaper as these than as a record: 10 bytes a sample, written and read one after the other. What
- * shading needs of the triangle it finds again by its ID.
- */
+/* bin: turns small triangles into fragments and lists these in their tiles. For a triangle of a few samples fragments are
+ * cheaper than a record: 10 bytes a sample, written and read in sequence. Shading finds the triangle again by its ID. */
 #include "base/grow.h"
 #include "base/limits.h"
 #include "kernels/types/fragments.h"
@@ -24,7 +21,7 @@ e3d_drawn_cluster *e3d_fragments_cluster(e3d_fragment_set *set)
     return (e3d_drawn_cluster *)set->drawn.data + set->drawn.count++;
 }
 
-/* The IDs of triangle t of the last cluster are first + (t << bits). */
+/* The ID of the last cluster's first triangle; triangle t has first + (t << bits). */
 static int32_t first_id(const e3d_geometry_memory *state)
 {
     int32_t number = (int32_t)(state->fragments.drawn.count - 1) * E3D_CLUSTER_TRIANGLES;

@@ -1,4 +1,4 @@
-/* The candidates of a round, cluster by cluster, to records and fragments in bins. */
+/* Turns the candidates of a round, cluster by cluster, into records and fragments in bins. */
 #ifndef E3D_GEOMETRY_H
 #define E3D_GEOMETRY_H
 

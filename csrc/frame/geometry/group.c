@@ -1,7 +1,5 @@
-/* geometry: which clusters of a group are drawn, and why not the others: they are outside, face away, or are hidden.
- *
- * Clusters that may reach into an aperture are open there: their backs aren't culled (R9).
- */
+/* geometry: decides which clusters of a group are drawn; the others are outside, face away, or are hidden. A cluster that may
+ * reach into an aperture is open: its backs aren't culled (R9). */
 #include "base/limits.h"
 #include "data/mesh.h"
 #include "e3d.h"
@@ -19,7 +17,7 @@
 #include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
 
-/* Whether what is in a box may reach into an aperture. */
+/* Whether a box may reach into an aperture. */
 static int reaches_aperture(const e3d_visit *v, const float lo[3], const float hi[3])
 {
     e3d_box_view box;
@@ -27,7 +25,7 @@ static int reaches_aperture(const e3d_visit *v, const float lo[3], const float h
     return box.state != E3D_BOX_OUTSIDE && e3d_meets_aperture(v->pass->view, &box.samples);
 }
 
-/* Whether what the cluster's vertices enclose may: less than its box does. */
+/* Whether the cluster's vertices may reach into an aperture; they enclose less than its box. */
 static int vertices_reach_aperture(const e3d_visit *v)
 {
     e3d_box_view view;
@@ -47,22 +45,22 @@ static unsigned find_open(const e3d_visit *v)
     return open;
 }
 
-/* A bit for each cluster. */
+/* Which of a group's clusters face away: a bit each. */
 static unsigned find_away(const e3d_visit *v, const e3d_cluster_job *job)
 {
-    if (!e3d_plans(v->pass, E3D_PLAN_FACES)) /* edges are drawn whichever way faces face */
+    if (!e3d_plans(v->pass, E3D_PLAN_FACES)) /* edges are drawn whichever way their faces face */
         return 0;
     return v->pass->kernels->face_away(&v->draw->mesh->clusters[v->group->first_cluster], v->group->clusters, &v->instance->facing,
                                        e3d_drop_sign(job), v->instance->clip, &v->pass->view->viewport);
 }
 
-/* Whether what earlier rounds drew hides a box. */
+/* Whether the depths of earlier rounds hide a box. */
 static int is_hidden(const e3d_visit *v, const e3d_box_view *view)
 {
     return v->in->round.tested && e3d_is_hidden(v->in->depths, v->pass->view->tiles_x, view);
 }
 
-/* What becomes of a cluster, before it is tested against what is drawn. Where it may show, *view is what that test needs. */
+/* The fate of a cluster before it is tested against depths. If it may show, *view is what that test needs. */
 static e3d_cull_result result_of(const e3d_visit *v, const e3d_cluster *cluster, int away, e3d_box_view *view)
 {
     const float *clip = v->pass->frustum->instances[v->candidate->instance].clip;
@@ -78,7 +76,7 @@ static e3d_cull_result result_of(const e3d_visit *v, const e3d_cluster *cluster,
     return view->state == E3D_BOX_OUTSIDE ? E3D_RESULT_OUTSIDE : E3D_RESULT_DRAWN;
 }
 
-/* Whether a cluster is drawn, and if not, why. A box may be hidden by what earlier rounds drew. */
+/* The fate of a cluster, with the test against the depths of earlier rounds. */
 static e3d_cull_result tested_result_of(const e3d_visit *v, const e3d_cluster *cluster, int away)
 {
     e3d_box_view view;
@@ -86,8 +84,8 @@ static e3d_cull_result tested_result_of(const e3d_visit *v, const e3d_cluster *c
     return result == E3D_RESULT_DRAWN && is_hidden(v, &view) ? E3D_RESULT_OCCLUDED : result;
 }
 
-/* The results of those of a group's clusters whose bits are set; a bit for each that is drawn. What was seen faced the viewer, and is
- * tested again in turn. */
+/* Finds the fates of the clusters whose bits are set, and returns the bits of those that are drawn. Clusters that were seen
+ * faced the viewer, and are tested again in turn. */
 static unsigned find_results(const e3d_visit *v, const e3d_cluster_job *job, unsigned asked, unsigned open,
                              e3d_cull_result results[E3D_GROUP_CLUSTERS])
 {
@@ -100,21 +98,21 @@ static unsigned find_results(const e3d_visit *v, const e3d_cluster_job *job, uns
     return shown;
 }
 
-/* Whether what is drawn hides all that the cluster's vertices enclose on the screen: less than its box does. */
+/* Whether depths hide everything that the cluster's vertices enclose on the screen, which is less than its box. */
 static int vertices_are_hidden(const e3d_visit *v)
 {
     e3d_box_view view;
     return e3d_view_vertices(&v->pass->view->viewport, &v->state->vertices, &view) && is_hidden(v, &view);
 }
 
-/* Whether the vertices of a group's clusters are worth testing: those of a smaller one are drawn in the same time. */
+/* Whether a group is large enough on the screen for tests of its clusters' vertices. Drawing a smaller one takes no longer. */
 static int is_wide(const e3d_box *samples)
 {
     enum { WIDE = 48 };
     return (samples->x1 - samples->x0) + (samples->y1 - samples->y0) > WIDE;
 }
 
-/* Threads may mark the same instance. */
+/* Marks the instance as shown. Several threads may mark the same instance. */
 static void mark(const e3d_visit *v, e3d_cull_result result)
 {
     uint8_t *marks = &v->out->marks[v->candidate->instance];
@@ -133,7 +131,7 @@ static void count_cluster(const e3d_visit *v, const e3d_cluster *cluster, e3d_cu
     mark(v, result);
 }
 
-/* Counts the clusters of a hidden group; it looks at each only where not all count, or not all are in the frustum. */
+/* Counts the clusters of a hidden group. It looks at each one only if not all of them count, or not all are in the frustum. */
 static void count_hidden(const e3d_visit *v, unsigned counted)
 {
     e3d_cull_counters *counters = &v->state->counters.culled;
@@ -153,7 +151,7 @@ static void count_hidden(const e3d_visit *v, unsigned counted)
     }
 }
 
-/* What the group's clusters have in common. */
+/* The part of a cluster's job that all clusters of the group share. */
 static e3d_cluster_job job_of(const e3d_visit *v)
 {
     uint32_t number = v->candidate->instance;

@@ -24,8 +24,7 @@ typedef struct e3d_visit {
     const e3d_group_box *group;
 } e3d_visit;
 
-/* Draws the group's clusters that are in `wanted` and may show; returns all that may, of those that are in `asked`. Bit k is
- * cluster k. */
+/* Draws the clusters of a group that are in `wanted` and may show. Returns those of `asked` that may show. Bit k is cluster k. */
 unsigned e3d_draw_group(const e3d_visit *v, unsigned asked, unsigned wanted);
 
 #endif

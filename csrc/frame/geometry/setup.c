@@ -1,4 +1,4 @@
-/* setup, scalar half: a piece's facing, box and depth plane become a record (R8-R13), which is then binned. */
+/* setup, scalar half: finds a piece's facing, box and depth plane, makes a record of it (R8-R13), and bins it. */
 #include <math.h>
 
 #include "base/grow.h"
@@ -18,7 +18,7 @@ static float clamp(float v, float lo, float hi)
     return t < hi ? t : hi;
 }
 
-/* 0: does not show. What was clipped may leave the guard band by rounding, and is put back on it. */
+/* Projects a vertex; 0 if it doesn't show. A clipped vertex that rounding moved off the guard band is put back on it. */
 int e3d_project(const float v[4], int clipped, const e3d_viewport *viewport, e3d_corner *out)
 {
     float iw = 1.0f / v[3];
@@ -52,7 +52,7 @@ static int depth_plane(const e3d_corner *c0, const e3d_corner *c1, const e3d_cor
     out->zmin = lo < c2->zn ? lo : c2->zn;
     out->zmax = hi > c2->zn ? hi : c2->zn;
     float none = (out->z0 - out->z0) + ((out->gx - out->gx) + (out->gy - out->gy));
-    return none == 0.0f; /* v - v is 0 for finite v, NaN for the others */
+    return none == 0.0f; /* v - v is 0 for finite v, and NaN for others */
 }
 
 static int append_corners(e3d_record_set *set, const e3d_corner *corner[3], uint32_t *meta)
@@ -77,7 +77,7 @@ static int append_key(e3d_record_set *set, const e3d_corner *corner[3])
 
 int e3d_records_fit(e3d_record_set *set, int id_bits, size_t more)
 {
-    return (set->records.count + more) >> (30 - id_bits) == 0 && /* IDs are less than E3D_FRAGMENT_ID */
+    return (set->records.count + more) >> (30 - id_bits) == 0 && /* IDs must be less than E3D_FRAGMENT_ID */
            e3d_array_reserve(&set->records, set->records.count + more, sizeof(e3d_record));
 }
 

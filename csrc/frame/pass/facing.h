@@ -1,4 +1,4 @@
-/* Which way an instance's clusters face. */
+/* The backface test of an instance's clusters. */
 #ifndef E3D_FACING_H
 #define E3D_FACING_H
 

@@ -1,4 +1,4 @@
-/* plan: which ways a frame's tiles take, by a table of conditions over what is asked for. */
+/* plan: chooses how a frame's tiles are drawn, by a table of conditions on what is asked for. */
 #include <math.h>
 
 #include "base/limits.h"
@@ -131,7 +131,7 @@ const e3d_plan_condition E3D_PLAN_CONDITIONS[] = {
     {E3D_PLAN_NORMAL, .asked = ASKED(NORMAL_MODE), .planned = PLAN(COLORS)},
     {E3D_PLAN_NORMAL, .asked = ASKED(NORMALS)},
     {E3D_PLAN_NORMAL, .asked = ASKED(TANGENTS)},
-    {E3D_PLAN_POSITION, .asked = ASKED(TANGENTS)}, /* by which a face's tangent is found */
+    {E3D_PLAN_POSITION, .asked = ASKED(TANGENTS)}, /* a face's tangent is found by it */
     {E3D_PLAN_POSITION, .asked = ASKED(MAPPED_NORMALS), .planned = PLAN(NORMAL)},
     {E3D_PLAN_UV, .asked = ASKED(UVS)},
     {E3D_PLAN_BASE_COLOR, .asked = ASKED(LIT), .planned = PLAN(COLORS)},
@@ -142,7 +142,7 @@ const e3d_plan_condition E3D_PLAN_CONDITIONS[] = {
     {E3D_PLAN_KEEPS_RADIANCE, .asked = ASKED(RADIANCE), .planned = PLAN(COLORS)},
     {E3D_PLAN_FACES, .unless_asked = ASKED(WIRE_ONLY)},
     {E3D_PLAN_FACES, .asked = ASKED(HIDDEN_LINES)},
-    {E3D_PLAN_FACES, .asked = ASKED(LINES)}, /* which faces hide, drawn or not (R36) */
+    {E3D_PLAN_FACES, .asked = ASKED(LINES)}, /* faces hide, whether they are drawn or not (R36) */
     {E3D_PLAN_FACES, .planned = PLAN(OUTPUTS)},
     {E3D_PLAN_FACES, .asked = ASKED(NDC_DEPTH)},
     {E3D_PLAN_SORTS, .unless_asked = ASKED(ZBUFFER)},
@@ -153,7 +153,7 @@ const e3d_plan_condition E3D_PLAN_CONDITIONS[] = {
     {E3D_PLAN_SOLID, .asked = ASKED(ALPHA) | ASKED(TRANSPARENT_OUTPUTS), .unless_planned = PLAN(COLORS)},
     {E3D_PLAN_FRONT, .asked = ASKED(TRANSPARENT_OUTPUTS), .planned = PLAN(BLENDS) | PLAN(OUTPUTS)},
     {E3D_PLAN_FRONT, .asked = ASKED(NDC_DEPTH) | ASKED(TRANSPARENT_OUTPUTS), .planned = PLAN(BLENDS)},
-    /* what is cut out or laid over is known last */
+    /* alpha tests and blending come last */
     {E3D_PLAN_AT_ONCE, .asked = ASKED(FORWARD), .planned = PLAN(SHADES),
      .unless_asked = ASKED(ALPHA) | ASKED(MULTISAMPLING)},
     {E3D_PLAN_SLOTS, .planned = PLAN(SORTS)},

@@ -1,4 +1,4 @@
-/* The plan of a frame: what is asked for, and from that, once, which ways its tiles take. */
+/* The plan of a frame: it says what a frame asks for, and derives once how its tiles are drawn. */
 #ifndef E3D_PLAN_H
 #define E3D_PLAN_H
 
@@ -6,10 +6,10 @@
 
 #include "e3d.h"
 
-/* Tiles of more samples than these are not kept over rounds: 8 bytes a sample. */
+/* Tiles are not kept over rounds if the frame has more samples: keeping takes 8 bytes a sample. */
 #define E3D_MOST_KEPT_SAMPLES (1 << 25)
 
-/* What a frame may ask for: X(name, what it says). */
+/* What a frame may ask for: X(name, description). */
 #define E3D_ASKED_FOR(X)                                                               \
     X(COLOR, "the colour output")                                                      \
     X(NDC_DEPTH, "the output ndc_depth")                                               \
@@ -48,7 +48,7 @@
     X(EXACT_SHADOWS, "lights that have exact shadows")                                 \
     X(MULTISAMPLING, "several samples a pixel, of which each surface is shaded once")
 
-/* What is done about it: X(name, what that is). */
+/* What is done for it: X(name, description). */
 #define E3D_PLANNED(X)                                                                   \
     X(COLORS, "visible samples get colours")                                             \
     X(OUTPUTS, "visible samples get other outputs")                                      \
@@ -90,13 +90,13 @@ typedef enum e3d_asked_item { E3D_ASKED_FOR(E3D_ASKED_NAME) E3D_ASKED_ITEMS } e3
 typedef enum e3d_plan_item { E3D_PLANNED(E3D_PLAN_NAME) E3D_PLAN_ITEMS } e3d_plan_item;
 _Static_assert(E3D_ASKED_ITEMS <= 64 && E3D_PLAN_ITEMS <= 64, "each item has a bit of its word");
 
-/* What is planned, a bit for each item. What was asked for stays in plan.c: stages do what is planned, whatever the reason. */
+/* The planned items, a bit each. The asked items stay in plan.c: stages do what is planned, whatever the reason. */
 typedef uint64_t e3d_plan;
 
 static inline int e3d_plan_has(e3d_plan plan, e3d_plan_item item) { return (int)(plan >> item & 1); }
 
-/* An item is planned where a frame asks for all of some things and none of some others, and likewise has planned them. Conditions hold in their
- * order; an item may have several. */
+/* A condition plans an item if the frame asks for all of `asked` and none of `unless_asked`, and all of `planned` and none of
+ * `unless_planned` is planned already. Conditions are tested in order; an item may have several. */
 typedef struct e3d_plan_condition {
     e3d_plan_item item;
     uint64_t asked, planned, unless_asked, unless_planned;
@@ -105,7 +105,7 @@ typedef struct e3d_plan_condition {
 extern const e3d_plan_condition E3D_PLAN_CONDITIONS[];
 extern const int E3D_PLAN_CONDITION_COUNT;
 
-/* An item's name, and what it says. */
+/* The name of an item, and its description. */
 typedef struct e3d_plan_word {
     const char *name, *text;
 } e3d_plan_word;
@@ -113,16 +113,16 @@ typedef struct e3d_plan_word {
 extern const e3d_plan_word E3D_ASKED_WORDS[E3D_ASKED_ITEMS], E3D_PLAN_WORDS[E3D_PLAN_ITEMS];
 
 e3d_plan e3d_plan_of(const e3d_frame *frame, const e3d_targets *targets);
-/* What shading needs of each surface: E3D_WANT_POSITION, E3D_WANT_NORMAL, E3D_WANT_UV. */
+/* The inputs of shading that each surface needs: E3D_WANT_POSITION, E3D_WANT_NORMAL, E3D_WANT_UV. */
 int e3d_plan_inputs(e3d_plan plan);
 
-/* Whether parts of meshes are left out: those outside the frustum, that face away, or that are hidden. */
+/* Whether parts of meshes are left out that are outside the frustum, face away, or are hidden. */
 static inline int e3d_culls_parts(const e3d_frame *frame)
 {
     return frame->culling == E3D_CULLING_ALL || frame->culling == E3D_CULLING_ALWAYS;
 }
 
-/* Whether colours are those of surfaces, in light or without. */
+/* Whether colours are those of surfaces, lit or unlit. */
 static inline int e3d_has_light_or_color(const e3d_frame *frame) { return frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT; }
 
 static inline int e3d_shows_environment(const e3d_frame *frame)

@@ -1,4 +1,4 @@
-/* prepare: what depends on the eye: viewport, grid of tiles, lights, and each instance's clip matrix. */
+/* prepare: what depends on the eye: viewport, grid of tiles, lights, and the clip matrix of each instance. */
 #include <math.h>
 #include <stdatomic.h>
 #include <string.h>
@@ -54,10 +54,10 @@ static void find_apertures(e3d_view *view, const e3d_frame *frame)
     }
 }
 
-/* Where all shadows are exact. */
+/* The shadow maps of a frame without any. */
 static const e3d_shadow_map NO_MAPS;
 
-/* The lights' positions and ranges as the light kernel reads them, a vector of lights at a time. */
+/* Copies the lights' positions and ranges into the arrays of the light kernel, which works on a vector of lights at a time. */
 static int find_lights(e3d_view *view, const e3d_frame *frame)
 {
     e3d_lighting *lighting = &view->lighting;
@@ -112,7 +112,7 @@ void e3d_view_free(e3d_view *view)
 
 /* ---- instances ---- */
 
-/* Finds what follows from the world matrix, in float64, once the clip matrix is known. */
+/* Finds what follows from the world matrix, in float64; the clip matrix is known already. */
 static void finish(const e3d_view *view, const double world[16], e3d_instance *instance, e3d_view_instance *out)
 {
     for (int k = 0; k < 12; k++)
@@ -150,8 +150,8 @@ static void find_instance(const instances_job *job, const e3d_draw_state *state,
     double world[16];
     e3d_world_matrix(draw, (int32_t)(number - state->instance_base), world);
     e3d_clip_matrix(job->clip_from_world, world, out->clip);
-    int one = mesh->group_count == 1; /* whose box is tried soon, by one thread */
-    int later = one && e3d_culls_parts(frame); /* if it isn't hidden */
+    int one = mesh->group_count == 1; /* the mesh has one box, which one thread tests soon */
+    int later = one && e3d_culls_parts(frame); /* the instance is finished later, if its box isn't hidden */
     out->shows = mesh->desc.components == 4 || !e3d_culls_parts(frame) ||
                  (mesh->any_finite && (one || e3d_box_state(out->clip, mesh->lo, mesh->hi) != E3D_BOX_OUTSIDE));
     out->ready = 0;

@@ -1,4 +1,4 @@
-/* prepare: what a frame needs before anything is drawn: its plan, its draws, its view and its constants. */
+/* prepare: finds everything that a frame needs before it is drawn: its plan, its draws, its view and its constants. */
 #include <string.h>
 
 #include "base/grow.h"
@@ -50,7 +50,7 @@ static int reset_workers(e3d_renderer *renderer, const e3d_store *store)
     return e3d_bins_reset(&renderer->bins, e3d_tile_count(&renderer->view), e3d_plans(store->pass, E3D_PLAN_ALPHA_BINS));
 }
 
-/* What the stages that shade and store read. */
+/* Prepares what the stages read that shade and store. */
 static void prepare_shading(e3d_renderer *renderer, e3d_context *out)
 {
     const e3d_bins *bins = &renderer->bins;
@@ -64,7 +64,7 @@ static void prepare_shading(e3d_renderer *renderer, e3d_context *out)
     out->tiles = (e3d_tiles_in){.pass = &out->pass, .bins = bins, .shade = &out->shade, .poll = renderer->poll};
 }
 
-/* The gradient, if it is the background; 0 when memory is out. */
+/* Finds the gradient, if it is the background; 0 when memory is out. */
 static int prepare_gradient(e3d_renderer *renderer, const e3d_frame *frame, e3d_store *out)
 {
     out->gradient = NULL;
@@ -77,7 +77,7 @@ static int prepare_gradient(e3d_renderer *renderer, const e3d_frame *frame, e3d_
     return 1;
 }
 
-/* The view, and the one whose frustum tells what is drawn; 0 when memory is out. */
+/* Finds the view, and the frozen view whose frustum decides what is drawn; 0 when memory is out. */
 static int prepare_views(e3d_renderer *renderer, const e3d_frame *frame, const e3d_view *frustum)
 {
     e3d_view *view = &renderer->view, *frozen = &renderer->frozen;

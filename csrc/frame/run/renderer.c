@@ -26,7 +26,7 @@ static e3d_worker *create_worker(void)
     void *own = NULL;
     if (posix_memalign(&own, 64, sizeof(e3d_worker)))
         return NULL;
-    e3d_worker *worker = memset(own, 0, sizeof *worker); /* padding is read, never used */
+    e3d_worker *worker = memset(own, 0, sizeof *worker); /* padding is read, but never used */
     e3d_marks_init(&worker->tile.marks);
     return worker;
 }
@@ -45,7 +45,7 @@ static void destroy_worker(e3d_worker *worker)
     free(worker);
 }
 
-/* Each stage finds its own part of each worker. */
+/* Creates the workers. Each stage gets a pointer to its own part of each of them. */
 static int create_workers(e3d_renderer *renderer)
 {
     renderer->workers = calloc((size_t)renderer->threads, sizeof *renderer->workers);

@@ -1,5 +1,5 @@
-/* shade, the last steps of samples with alpha: their alphas (R80) are kept to be tested, or with their colours to be sorted, or they are laid
- * over the tile at once (R84). */
+/* shade, the last steps of samples with alpha (R80). Their alphas are kept for the alpha test, or their alphas and colours for
+ * the A-buffer, or they are blended over the tile at once (R84). */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -34,7 +34,7 @@ int e3d_alpha_wanted(const e3d_bucket *bucket)
     return wanted;
 }
 
-/* The place in the list of the batch's next sample, which is of that primitive: those of a primitive follow each other. */
+/* The place in the list of the batch's next sample, which is of that primitive. A primitive's samples follow each other. */
 static int32_t next_place(const e3d_visible_primitive *primitives, int32_t primitive, e3d_shaded_list *list)
 {
     if (primitive != list->primitive) {
@@ -53,7 +53,7 @@ void e3d_keep_alphas(const e3d_steps *s)
         list->alpha[next_place(memory->primitives.data, memory->surfaces.primitive[batch->surface[i]], list)] = batch->alpha[i];
 }
 
-/* The colours of four samples, channel by channel, clamped, as rows. */
+/* Transposes the clamped colours of four samples from channels to rows. */
 static inline void keep_four(const e3d_batch *batch, int i, float sign, float (*color)[4])
 {
     float4 channel[4], zero = splat(0.0f), one = splat(1.0f);
@@ -68,20 +68,20 @@ static inline void keep_four(const e3d_batch *batch, int i, float sign, float (*
     store4(color[3], LANES(high, high2, 2, 3, 6, 7));
 }
 
-/* Samples first to end - 1 of the batch, which stand side by side in the list. */
+/* Keeps samples first to end - 1 of the batch, which are neighbours in the list. */
 static void keep_run(const e3d_batch *batch, int first, int end, float sign, float (*color)[4])
 {
     float rest[4][4];
     int i = first;
     for (; i + 4 <= end; i += 4)
         keep_four(batch, i, sign, color + (i - first));
-    if (i < end) { /* lanes past the batch's end have a pad */
+    if (i < end) { /* lanes beyond the batch's end land in padding */
         keep_four(batch, i, sign, rest);
         memcpy(color + (i - first), rest, (size_t)(end - i) * sizeof *rest);
     }
 }
 
-/* Likewise what passes through them. */
+/* Keeps the light that passes through them. */
 static void keep_through(const e3d_texture_batch *textures, int first, int end, float (*through)[4])
 {
     for (int i = first; i < end; i++, through++) {
@@ -91,7 +91,7 @@ static void keep_through(const e3d_texture_batch *textures, int first, int end, 
     }
 }
 
-/* Likewise their radiance, with alpha. */
+/* Keeps their radiance, with alpha. */
 static void keep_light(const e3d_lane_array *radiance, const float *alpha, int first, int end, float (*light)[4])
 {
     for (int i = first; i < end; i++, light++) {
@@ -101,8 +101,8 @@ static void keep_light(const e3d_lane_array *radiance, const float *alpha, int f
     }
 }
 
-/* Where the samples end that stand side by side in the batch and in the list, from sample i and that place on. Mostly all of them do, of
- * one primitive or of several that follow each other in the list. */
+/* Where the samples end that are neighbours both in the batch and in the list, from sample i and that place on. Mostly that is
+ * the whole batch: the samples of one primitive, or of several that follow each other in the list. */
 static int end_of_run(const e3d_shade_memory *memory, int i, int32_t place, e3d_shaded_list *list)
 {
     const e3d_batch *batch = &memory->batch;
@@ -132,7 +132,7 @@ static void keep(e3d_shade_memory *memory, int transmits, float sign, e3d_shaded
     }
 }
 
-/* R133: without the mode blend, what transmits is there or is not. */
+/* R133: where materials aren't blended, one that transmits light is opaque or absent. */
 static void round_alphas(const e3d_material *m, e3d_batch *batch)
 {
     for (int i = 0; i < batch->count && m->alpha_mode != E3D_ALPHA_BLEND; i++)

@@ -1,4 +1,4 @@
-/* shade, display modes: colours that tell of depths, normals and numbers (R32). */
+/* shade, display modes: colours that show depths, normals or numbers (R32). */
 #include <stdint.h>
 
 #include "base/limits.h"

@@ -1,4 +1,4 @@
-/* shade: which primitive an ID stands for, by its place in the order of drawing (R16). */
+/* shade: finds the primitive of an ID by its place in the order of drawing (R16). */
 #include "frame/pass/draws.h"
 #include "frame/shade/primitive.h"
 

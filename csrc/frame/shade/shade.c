@@ -1,4 +1,4 @@
-/* shade, second half: visible samples, bucket by bucket and batch by batch, to their sink (R20-R32). */
+/* shade, second half: sends visible samples, bucket by bucket and batch by batch, to their sink (R20-R32). */
 #include "base/grow.h"
 #include "base/limits.h"
 #include "data/srgb_tables.h"
@@ -27,13 +27,14 @@ void e3d_shade_free(e3d_shade_memory *memory)
     e3d_array_free(&memory->buckets);
 }
 
-/* Pieces of a chain that stand side by side, and so do their samples or runs, as in a tile of one material all do. */
+/* Primitives of a chain that are neighbours, and so are their samples or runs. In a tile of one material all of them are. */
 typedef struct stretch {
     int32_t first, end; /* primitives */
     int32_t at, behind;
 } stretch;
 
-/* The one that begins with primitive `first`; the primitive behind it in the chain. A single bucket has all primitives of the tile. */
+/* Finds the stretch that begins with primitive `first`; returns the primitive behind it in the chain. If there is one bucket,
+ * the stretch is the whole tile. */
 static int32_t find_stretch(const e3d_shade_memory *memory, int32_t first, int32_t end, stretch *out)
 {
     const e3d_visible_primitive *primitives = memory->primitives.data;
@@ -66,7 +67,7 @@ static void shade_batch(const e3d_steps *s)
         s->step[k](s);
 }
 
-/* The samples of primitives whose surfaces, 0 and so on, are known. */
+/* Shades the samples of primitives whose surfaces are known; the first one is surface 0. */
 static void shade_primitives(const e3d_steps *steps, int32_t first, int32_t end)
 {
     e3d_shade_memory *memory = steps->out->memory;

@@ -1,8 +1,6 @@
-/* shade: the steps of a batch, which depend on its bucket and on its sink (R20-R32, R80-R84).
- *
- * In:  a batch of samples whose surfaces are known.
- * Out: pixels and outputs, or samples, or layers, or alphas.
- */
+/* shade: chooses the steps of a batch, by its bucket and its sink (R20-R32, R80-R84).
+ * In: a batch of samples whose surfaces are known.
+ * Out: pixels and outputs, or samples, or layers, or alphas. */
 #include <string.h>
 
 #include "e3d.h"
@@ -26,7 +24,7 @@
 
 static e3d_batch *batch_of(const e3d_steps *s) { return &s->out->memory->batch; }
 
-/* Tiles without anything in them are cleared between batches. */
+/* Clears some rows of empty tiles between batches. */
 static void clear_tiles(const e3d_steps *s) { e3d_blank_some(s->in->store, s->in->bins, s->out->blank); }
 
 static void count_samples(const e3d_steps *s) { s->out->memory->shaded += batch_of(s)->count; }
@@ -111,7 +109,7 @@ static void put_pixels(const e3d_steps *s) { e3d_resolve_batch(s->in->store, bat
 
 static void put_background(const e3d_steps *s) { e3d_resolve_hidden(s->in->store, batch_of(s), s->out->pixels); }
 
-/* All of this in one kernel: to pixels, or, of a list, to colours that stay in the batch. */
+/* Runs the fused kernel. It writes pixels or, for a list, leaves colours in the batch. */
 static void paint(const e3d_steps *s)
 {
     const e3d_prepared *pass = s->pass;
@@ -155,7 +153,7 @@ static int finds_alphas(e3d_sink sink) { return sink == E3D_SINK_ALPHA_TEST || s
 /* Whether the samples themselves show, and nothing behind them. */
 static int is_solid(e3d_sink sink) { return sink == E3D_SINK_PIXELS || sink == E3D_SINK_SOLID; }
 
-/* Whether samples are painted, straight to where colours are kept. */
+/* Whether the fused kernel is used: samples are painted straight to where colours are kept. */
 static int is_painted(const e3d_steps *s)
 {
     return is_solid(s->out->sink) && e3d_plans(s->pass, E3D_PLAN_PAINTS) && !s->bucket->mapped && !s->bucket->hidden;
@@ -205,7 +203,7 @@ static void add_alpha_steps(e3d_steps *s)
     add(s, sink == E3D_SINK_SOLID, e3d_keep_solid);
 }
 
-/* What the batches of a bucket need of their surfaces: identities need nothing. */
+/* The inputs that the batches of a bucket need of their surfaces. IDs need none. */
 static int wanted_to_show(const e3d_prepared *pass, const e3d_bucket *bucket)
 {
     int wanted = e3d_plan_inputs(pass->plan), colored = e3d_plans(pass, E3D_PLAN_BASE_COLOR);

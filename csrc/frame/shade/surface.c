@@ -1,4 +1,4 @@
-/* shade, first half: the primitives that show in a tile, and what each brings to its samples (R3, R18, R20-R24). */
+/* shade, first half: finds the primitives that show in a tile, and the attributes of their surfaces (R3, R18, R20-R24). */
 #include <stddef.h>
 #include <string.h>
 
@@ -52,7 +52,7 @@ static ALWAYS_INLINE void find_vertices(e3d_visible_primitive *primitive)
 
 /* ---- buckets ---- */
 
-/* Material and kind of primitive: with the draw, all that the bucket depends on. */
+/* The material and the kind of a primitive; with the draw they decide its bucket. */
 static int32_t bucket_id_of(const e3d_visible_primitive *primitive)
 {
     int32_t face = e3d_face_of(primitive->draw, primitive->local);
@@ -65,7 +65,7 @@ static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *stat
     const e3d_draw *draw = state->draw;
     const e3d_mesh_desc *mesh = &state->mesh->desc;
     e3d_bucket g;
-    memset(&g, 0, sizeof g); /* what lies between its members, too: same_bucket */
+    memset(&g, 0, sizeof g); /* the padding between members, too, since same_bucket compares bytes */
     g.material = &frame->materials[draw->material_base + (id < 0 ? 0 : id)];
     g.first = g.last = -1;
     g.face = id >= 0;
@@ -84,10 +84,10 @@ static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *stat
     return g;
 }
 
-/* Of all that the bucket depends on: what comes before the chain of its primitives. */
+/* Compares everything that decides the steps of a bucket: the bytes before the chain of its primitives. */
 static int same_bucket(const e3d_bucket *a, const e3d_bucket *b) { return !memcmp(a, b, offsetof(e3d_bucket, first)); }
 
-/* The bucket's number, or -1 when memory is out. */
+/* The number of a bucket, which is added if it is new; -1 when memory is out. */
 static int32_t number_bucket(e3d_shade_memory *memory, const e3d_bucket *bucket)
 {
     e3d_bucket *buckets = memory->buckets.data;
@@ -102,14 +102,14 @@ static int32_t number_bucket(e3d_shade_memory *memory, const e3d_bucket *bucket)
 
 /* ---- the primitives of a tile ---- */
 
-/* The bucket that was found last: mostly the next primitive is of it, too. */
+/* The bucket that was found last. Mostly the next primitive belongs to it, too. */
 typedef struct bucket_finder {
     const e3d_draw_state *draw;
-    int32_t id; /* as bucket_id_of counts them */
+    int32_t id; /* numbered as by bucket_id_of */
     int32_t bucket;
 } bucket_finder;
 
-/* The bucket of a primitive, whose last it becomes; 0 when memory is out. */
+/* Finds the bucket of a primitive, and appends the primitive to it; 0 when memory is out. */
 static ALWAYS_INLINE int join_bucket(const e3d_prepared *pass, e3d_shade_memory *memory, int32_t number, bucket_finder *finder)
 {
     e3d_visible_primitive *primitives = memory->primitives.data, *primitive = &primitives[number];
@@ -135,7 +135,7 @@ typedef struct primitive_range {
     int32_t first, end;
 } primitive_range;
 
-/* What IDs stand for: a record, or a triangle of a cluster. */
+/* Finds what IDs stand for: records, or triangles of clusters. */
 static void find_named(const e3d_record_table *table, const e3d_shown_primitive *of, primitive_range range,
                        e3d_visible_primitive *primitives)
 {
@@ -151,7 +151,7 @@ static void find_named(const e3d_record_table *table, const e3d_shown_primitive 
     }
 }
 
-/* The primitives, whose vertices are asked for. (Most are faces; what else is asked for does no harm.) */
+/* Finds the primitives, and prefetches their vertices. (Most are faces; the prefetch does no harm to others.) */
 static void find_primitives(const e3d_shade_in *in, const e3d_shown_primitive *of, primitive_range range,
                             e3d_instance_finder *finder,
                             e3d_visible_primitive *primitives)
@@ -187,8 +187,8 @@ static primitive_range range_of(int32_t first, int32_t count, int32_t all)
     return (primitive_range){first < 0 ? 0 : first, first + count < all ? first + count : all};
 }
 
-/* A software pipeline over ranges of primitives: each stage prefetches what the next one reads a range later, from anywhere in memory. The
- * stages' loops are short, so that an out-of-order processor overlaps several primitives. */
+/* A software pipeline over ranges of primitives: each stage prefetches, from anywhere in memory, what the next stage reads a
+ * range later. The stages' loops are short, so that an out-of-order processor overlaps several primitives. */
 int e3d_find_visible(const e3d_shade_in *in, e3d_shade_memory *memory)
 {
     enum { SOME = 32 };
@@ -231,7 +231,7 @@ static void add_matrices(const e3d_prepared *pass, e3d_surfaces *s, int32_t n, i
         s->normals[k][m] = pass->draws->instances[instance].normal[k];
 }
 
-/* `out`: [component][vertex]; vertices that aren't there are 0. */
+/* Fills `out`, [component][vertex], with 0 for vertices that don't exist. */
 static ALWAYS_INLINE void add_vectors(const float *from, size_t components, const int32_t vertex[3], int count,
                                       e3d_surface_floats out[][3], int32_t n)
 {
@@ -282,7 +282,7 @@ static void add_colors(const float unorm8[256], const e3d_visible_primitive *pri
     }
 }
 
-/* R80, of 8 bits or as they are. */
+/* R80: an alpha, of 8 bits or as it is. */
 static float alpha_value(const uint8_t *u8, const float *f32, size_t index)
 {
     return f32 ? f32[4 * index + 3] : (float)(u8[4 * index + 3] * 257) * E3D_UNORM16;
@@ -309,7 +309,7 @@ static void add_record(const e3d_record *record, int32_t face, e3d_surfaces *s, 
     s->back[n] = (record->meta & E3D_RECORD_BACK) != 0 && face >= 0;
 }
 
-/* The next surface is that of a primitive, without what e3d_find_surfaces adds. */
+/* Adds the surface of a primitive, without what e3d_find_surfaces adds. */
 static void add_surface(const e3d_shade_in *in, const e3d_visible_primitive *primitive, const e3d_bucket *bucket, int wanted,
                         e3d_surfaces *s)
 {
@@ -335,7 +335,8 @@ static void add_surface(const e3d_shade_in *in, const e3d_visible_primitive *pri
         add_alphas(primitive, bucket, count, s, n);
 }
 
-/* Ahead of their use: vertices are anywhere in memory. Only of a primitive of this draw, whose face was asked for when it was found. */
+/* Prefetches vertices, which lie anywhere in memory. It does so only for a primitive of this draw, whose face was prefetched
+ * when it was found. */
 static ALWAYS_INLINE void fetch_vertices(const e3d_visible_primitive *primitive, const e3d_draw_state *draw, int wanted)
 {
     const e3d_mesh_desc *mesh = &draw->mesh->desc;
@@ -399,7 +400,7 @@ int32_t e3d_add_surfaces(const e3d_shade_in *in, const e3d_bucket *bucket, int32
 
 /* ---- what the kernel leaves to do ---- */
 
-/* R18 of a clipped primitive, of a line or a point. */
+/* R18 for a clipped primitive, a line or a point. */
 static void cut_planes(const e3d_viewport *viewport, const e3d_visible_primitive *primitive, e3d_surfaces *s, int32_t n)
 {
     const e3d_record *r = primitive->record;
@@ -425,7 +426,7 @@ static void cut_planes(const e3d_viewport *viewport, const e3d_visible_primitive
             rows[row][j][n] = (float)((plane[row][0] * c[j] + plane[row][1] * c[3 + j]) + plane[row][2] * c[6 + j]);
 }
 
-/* R25, of planes that were not the kernel's. */
+/* R25 for planes that the kernel did not find. */
 static void cut_slopes(e3d_surfaces *s, int32_t n)
 {
     const e3d_surface_floats *const plane[3] = {s->p, s->px, s->py};
@@ -442,7 +443,7 @@ static void cut_slopes(e3d_surfaces *s, int32_t n)
     }
 }
 
-/* Positions that don't exist are 0, wherever the matrix would move them. */
+/* Sets positions that don't exist to 0, wherever the matrix would move them. */
 static void clear_positions(e3d_surfaces *s, int32_t n, int first)
 {
     for (int c = 0; c < 3; c++)

@@ -1,4 +1,4 @@
-/* shade: materials of more than a base colour (R45-R49). Which textures count is found once for each bucket. */
+/* shade: materials with more textures than a base colour (R45-R49). Which textures count is found once for each bucket. */
 #include <math.h>
 #include <string.h>
 
@@ -28,7 +28,7 @@ int e3d_texture_counts(const e3d_bucket *bucket, const e3d_texture_use *use)
 
 /* ---- the textures of a bucket ---- */
 
-/* Whether light is found on a bucket, for which its textures are read. */
+/* Whether a bucket is lit; then the textures are read that light needs. */
 static int finds_light(const e3d_prepared *pass, const e3d_bucket *bucket) { return e3d_plans(pass, E3D_PLAN_COLORS) && bucket->lit; }
 
 static int is_coated(const e3d_physical *p) { return p->clearcoat != 0.0f; }
@@ -37,7 +37,7 @@ static int absorbs(const e3d_physical *p) { return p->thickness != 0.0f && e3d_a
 static int is_anisotropic(const e3d_physical *p) { return p->anisotropy != 0.0f; }
 static int is_iridescent(const e3d_physical *p) { return p->iridescence != 0.0f; }
 
-/* Whether the fourth channel of a slot counts. */
+/* Whether the fourth channel of a slot is read. */
 static int reads_alpha(const e3d_material *m, e3d_texture_slot slot)
 {
 #define FOURTH(slot, channel, name, factor) | ((channel) == 3) << slot
@@ -76,7 +76,7 @@ static int same_place(const e3d_texture_place *a, const e3d_texture_place *b)
            a->texels[0] == b->texels[0] && a->texels[1] == b->texels[1];
 }
 
-/* The number of the place of a slot's texture, or of no texture. */
+/* The number of the place at which a slot is read, with its texture or, for tangents, without. */
 static int32_t find_place(e3d_read_textures *textures, const e3d_texture_use *use, const e3d_texture_view *view)
 {
     e3d_texture_place place = {.uv_set = use->uv_set, .is_moved = use->is_moved};
@@ -108,7 +108,7 @@ static int32_t find_texture(e3d_read_textures *textures, const e3d_texture_use *
     return number;
 }
 
-/* R47: the place of the texture whose coordinates tell what is right. */
+/* R47: finds the place whose coordinates define the tangent. */
 static void find_tangent_place(const e3d_bucket *bucket, e3d_read_textures *out)
 {
     const e3d_material *m = bucket->material;
@@ -171,7 +171,7 @@ void e3d_add_texture_surface(const e3d_prepared *pass, const e3d_visible_primiti
 
 /* ---- what textures say of a batch ---- */
 
-/* A channel of a slot's texture times a factor, or the factor. */
+/* One channel of a slot's texture times a factor; or the factor alone. */
 static e3d_varying varying_of(const e3d_texture_memory *memory, e3d_texture_slot slot, int channel, float factor)
 {
     int32_t texture = memory->read.of_slot[slot];
@@ -243,7 +243,7 @@ void e3d_find_texture_batch(const e3d_prepared *pass, const e3d_bucket *bucket, 
 
 /* ---- light ---- */
 
-/* The root of the mean square of how long the axes become in world space. */
+/* The root mean square of the lengths that the axes have in world space. */
 static float scale_of(const e3d_prepared *pass, const e3d_visible_primitive *primitive)
 {
     const float *w = pass->draws->instances[primitive->draw->instance_base + primitive->instance].world;
@@ -253,7 +253,7 @@ static float scale_of(const e3d_prepared *pass, const e3d_visible_primitive *pri
     return sqrtf(((square[0] + square[1]) + square[2]) * E3D_THIRD);
 }
 
-/* R134: how many world units a thickness of 1 is below each sample. */
+/* R134: finds how many world units a thickness of 1 has at each sample. */
 static void find_depths(const e3d_prepared *pass, const e3d_shade_memory *memory, float *out)
 {
     const e3d_visible_primitive *primitives = memory->primitives.data;
@@ -273,7 +273,7 @@ static e3d_anisotropy_texture stretch_of(const e3d_texture_memory *memory, const
     return (e3d_anisotropy_texture){directions.texels, directions.unit, p->anisotropy, {p->anisotropy_turn[0], p->anisotropy_turn[1]}};
 }
 
-/* Of few materials, which are shaded by code of their own. */
+/* Adds the numbers that few materials have; code of their own shades these. */
 static void add_rare(const e3d_texture_memory *textures, const e3d_physical *p, e3d_brdf *brdf)
 {
     int varies = textures->read.of_slot[E3D_SLOT_IRIDESCENCE_THICKNESS] >= 0;

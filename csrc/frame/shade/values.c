@@ -1,6 +1,5 @@
-/* shade: the outputs beside colour, from the visible sample of each pixel (R21, R22, R35). Samples come in the order of their
- * surfaces.
- */
+/* shade: writes the outputs other than colour, from the visible sample of each pixel (R21, R22, R35). Samples come in the order
+ * of their surfaces. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -17,7 +16,7 @@
 #include "frame/store/outputs.h"
 #include "frame/store/store.h"
 
-/* The pixel that each of the batch's samples stands for. */
+/* The pixel that each sample of the batch stands for. */
 static const int32_t *pixels_of(const e3d_batch *batch, int32_t axis, int32_t *room)
 {
     int32_t middle = axis / 2;
@@ -37,7 +36,7 @@ static void make_finite(const float *values, int count, float *out)
         out[i] = fabsf(values[i]) <= FLT_MAX ? values[i] : 0.0f;
 }
 
-/* Where a batch goes: to what is gathered, each sample to its pixel. */
+/* The destination of a batch: the gathered outputs, in which each sample has its pixel. */
 typedef struct batch_place {
     const e3d_store *store;
     const e3d_batch *batch;
@@ -45,7 +44,7 @@ typedef struct batch_place {
     e3d_store_memory *out;
 } batch_place;
 
-/* The values of one output, by channels. */
+/* Writes the values of one output, channel by channel. */
 static void put(const batch_place *place, e3d_output_kind kind, const e3d_lane_array *values)
 {
     float *pixels = e3d_outputs_gathered(place->store, place->out, kind);
@@ -69,7 +68,7 @@ static void put(const batch_place *place, e3d_output_kind kind, const e3d_lane_a
             pixels[4 * at[i] + k] = finite[k][i];
 }
 
-/* Rows of view_from_world applied to positions (w = 1) or directions (w = 0). */
+/* Applies rows of view_from_world to positions (w = 1) or directions (w = 0). */
 static void to_view(const e3d_view *view, const e3d_batch *batch, const e3d_lane_array *v, int w, e3d_lane_array out[3])
 {
     for (int row = 0; row < 3; row++) {
@@ -106,7 +105,7 @@ static void fill(float value, int count, float *out)
         out[i] = value;
 }
 
-/* R58 of a material that isn't mapped. */
+/* R58 for a material without textures. */
 static void fill_listed(const e3d_material *material, int count, e3d_texture_batch *out)
 {
     fill(0.0f, count, out->metallic_roughness[0]);
@@ -155,7 +154,7 @@ static void put_id(int32_t *pixels, const int32_t *at, int count, int32_t id)
         pixels[at[i]] = id;
 }
 
-/* Samples of one surface are neighbours. */
+/* Writes IDs; samples of one surface are neighbours. */
 static void put_ids(const batch_place *place, const e3d_shade_memory *memory)
 {
     const e3d_batch *batch = place->batch;

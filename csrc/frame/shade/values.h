@@ -1,4 +1,4 @@
-/* The outputs beside colour, of a batch: its colours as the radiance, and the others. */
+/* The outputs of a batch: its colours as the radiance, and those other than colour. */
 #ifndef E3D_VALUES_H
 #define E3D_VALUES_H
 

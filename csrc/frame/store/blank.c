@@ -1,6 +1,5 @@
-/* resolve: tiles that nothing is drawn in are all background. A few of their rows are written between the batches of other tiles:
- * write-combining buffers drain while the core computes (a head on a background takes 7 % less time with two threads).
- */
+/* resolve: clears the tiles in which nothing is drawn. A few of their rows are written between the batches of other tiles, so
+ * that the write-combining buffers drain while the core computes (a head on a background takes 7 % less time with two threads). */
 #include "base/limits.h"
 #include "frame/geometry/bin.h"
 #include "frame/pass/plan.h"
@@ -16,7 +15,7 @@
 
 enum { SOME_ROWS = 8 }; /* of samples */
 
-/* Looks at a few tiles for the next blank one; whether there may be more. */
+/* Looks at a few tiles for the next blank one; returns whether there may be more. */
 static int find_blank(const e3d_view *view, const e3d_bins *bins, e3d_blank_state *state)
 {
     enum { TILES = 8 };
@@ -33,7 +32,7 @@ static int find_blank(const e3d_view *view, const e3d_bins *bins, e3d_blank_stat
     return 1;
 }
 
-/* At most SOME_ROWS rows of a tile that are all background. */
+/* Clears at most SOME_ROWS rows of a tile that is all background. */
 static void clear(const e3d_store *store, const e3d_tile *tile)
 {
     uint8_t *color = store->pass->targets->color;

@@ -1,4 +1,5 @@
-/* raster and shade, blended records: layers are kept, sorted sample by sample, and laid over the colours there (R83, R84). */
+/* raster and shade, blended records: the layers of samples are kept, sorted sample by sample, and blended over the colours there
+ * (R83, R84). */
 #include <string.h>
 
 #include "base/always_inline.h"
@@ -41,7 +42,8 @@ void *e3d_radiance_of(const e3d_tile_job *job)
 
 /* ---- what is kept ---- */
 
-/* Room for so many layers of so many IDs, and where what shading finds of those from `first` on goes; 0 when memory is out. */
+/* Makes room for layers and their IDs; *to is where shading puts the colours of the layers from `first` on. Returns 0 when
+ * memory is out. */
 static int reserve(const e3d_tile_job *job, size_t first, size_t count, size_t ids, e3d_shaded_list *to)
 {
     e3d_a_buffer *f = &job->memory->alpha.a_buffer;
@@ -86,7 +88,7 @@ int e3d_a_buffer_keep(const e3d_tile_job *job)
 
 /* ---- their order ---- */
 
-/* The bits of a depth as an integer that is greater the farther it is; -0 is 0. */
+/* The bits of a depth as an integer that grows with the depth; -0 becomes 0. */
 static int32_t depth_key(float z)
 {
     float positive = z + 0.0f;
@@ -95,7 +97,8 @@ static int32_t depth_key(float z)
     return bits < 0 ? bits ^ 0x7FFFFFFF : bits;
 }
 
-/* Lists the layers by sample: the last ones first, since they come roughly from near to far. `cover`: only those that cover `plane`, or NULL. */
+/* Lists the layers by sample, the last ones first, since they come roughly from near to far. With `cover`, only layers that
+ * cover `plane` are listed. */
 static ALWAYS_INLINE void list_covering(e3d_a_buffer *f, const uint32_t *cover, int plane)
 {
     size_t count = f->z.count;
@@ -108,7 +111,7 @@ static ALWAYS_INLINE void list_covering(e3d_a_buffer *f, const uint32_t *cover, 
         if (!cover || cover[n] >> plane & 1)
             first[sample[n]]++;
     for (int s = 0; s < E3D_TILE_SAMPLES; s++)
-        first[s] = at += first[s]; /* so far where those of the next one begin */
+        first[s] = at += first[s]; /* here: the end of sample s, where the next one begins */
     for (size_t n = 0; n < count; n++) {
         if (cover && !(cover[n] >> plane & 1))
             continue;
@@ -132,7 +135,7 @@ static int list_by_sample(e3d_a_buffer *f, const uint32_t *cover, int plane)
     return 1;
 }
 
-/* Whether layer a is laid before b: it is farther, or later in order (R83). */
+/* Whether layer a is blended before layer b: it is farther, or later in order (R83). */
 static int is_before(const e3d_record_table *table, const e3d_a_buffer *f, uint32_t a, uint32_t b)
 {
     const float *z = f->z.data;
@@ -142,7 +145,7 @@ static int is_before(const e3d_record_table *table, const e3d_a_buffer *f, uint3
     return e3d_id_comes_first(table, ids[of[b]], ids[of[a]]);
 }
 
-/* Lets an element sink to its place in a heap, whose first is laid last. */
+/* Lets an element sink to its place in a heap; the heap's top is blended last. */
 static void sink(const e3d_record_table *table, const e3d_a_buffer *f, uint32_t *heap, uint32_t at, uint32_t count)
 {
     uint32_t sinking = heap[at];
@@ -156,7 +159,8 @@ static void sink(const e3d_record_table *table, const e3d_a_buffer *f, uint32_t 
     heap[at] = sinking;
 }
 
-/* Sorts the layers of a sample in the order in which they are laid: a heap, since a sample may have any number of them. */
+/* Sorts a sample's layers in the order in which they are blended. It is a heap sort, since a sample may have any number of
+ * layers. */
 static void sort_sample(const e3d_record_table *table, const e3d_a_buffer *f, uint32_t *which, uint32_t count)
 {
     for (uint32_t at = count / 2; at-- > 0;)
@@ -169,7 +173,7 @@ static void sort_sample(const e3d_record_table *table, const e3d_a_buffer *f, ui
     }
 }
 
-/* Lays the layers of one sample, which are sorted, over its colour (R84). */
+/* Blends the sorted layers of one sample over its colour (R84). */
 static void blend_sample(const e3d_alpha_layers *layers, int32_t sample, const uint32_t *which, uint32_t count, e3d_samples *samples)
 {
     float over[4] = {samples->color[0][sample], samples->color[1][sample], samples->color[2][sample], samples->counts[sample]};
@@ -182,7 +186,7 @@ static void blend_sample(const e3d_alpha_layers *layers, int32_t sample, const u
         e3d_lay_light(layers, which, (int)count, sample);
 }
 
-/* The nearest layer of a sample that shows (a face that a wireframe leaves out does), of those that are sorted. */
+/* Finds the nearest of a sample's sorted layers that shows; a face that a wireframe leaves out counts. */
 static void find_front(e3d_a_buffer *f, int32_t sample, const uint32_t *which, uint32_t count)
 {
     const float (*colors)[4] = (const float (*)[4])f->color.data;
@@ -196,7 +200,7 @@ static void find_front(e3d_a_buffer *f, int32_t sample, const uint32_t *which, u
     }
 }
 
-/* Blends samples one by one: those that the kernel leaves, or, where the nearest layers are asked for, all. */
+/* Blends one sample: one that the kernel left, or any if the nearest layers are asked for. */
 static void blend_slowly(const e3d_tile_job *job, const e3d_alpha_layers *layers, int32_t sample, e3d_samples *samples)
 {
     e3d_a_buffer *f = &job->memory->alpha.a_buffer;
@@ -241,7 +245,7 @@ static int blend_plane(const e3d_tile_job *job, const uint32_t *cover, int plane
     return 1;
 }
 
-/* The depths of the layers that cover a plane, in it. */
+/* Finds the depths that layers have in a plane. */
 static void find_depths(const e3d_tile_job *job, int plane)
 {
     e3d_a_buffer *f = &job->memory->alpha.a_buffer;

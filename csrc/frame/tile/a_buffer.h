@@ -7,13 +7,13 @@
 
 void e3d_a_buffer_free(e3d_a_buffer *buffer);
 void e3d_a_buffer_clear(e3d_a_buffer *buffer);
-/* Where the radiance of the tile's pixels is gathered, over which that of layers is laid; NULL where it isn't asked for. */
+/* Where the radiance of the tile's pixels is gathered; NULL if it isn't asked for. The layers' radiance is blended over it. */
 void *e3d_radiance_of(const e3d_tile_job *job);
-/* Shades what is listed, and keeps it as layers; 0 when memory is out. */
+/* Shades the listed samples, and keeps them as layers; 0 when memory is out. */
 int e3d_a_buffer_keep(const e3d_tile_job *job);
-/* Sorts the layers, and lays them over the tile's samples; 0 when memory is out. */
+/* Sorts the layers, and blends them over the tile's samples; 0 when memory is out. */
 int e3d_a_buffer_blend(const e3d_tile_job *job);
-/* With multisampling, of layers of which no two are in one sample: lays them over the samples. */
+/* With multisampling: blends layers of which no two share a sample, without sorting. */
 void e3d_a_buffer_lay(const e3d_tile_job *job);
 
 #endif

@@ -1,8 +1,6 @@
-/* raster, records with alpha: their samples are listed, their alphas found, and what shows of masked ones joins the visible surface.
- *
- * Which samples they show is known late, so that they hide no block and no cluster. With multisampling each is found once in a pixel,
- * for all samples that it covers there (R108).
- */
+/* raster, records with alpha: lists their samples, finds the alphas, and adds what masked records show to the visible surface.
+ * Which samples they cover is known late, so they hide no block and no cluster. With multisampling an alpha is found once for a
+ * pixel, for all samples that the record covers there (R108). */
 #include "base/grow.h"
 #include "base/limits.h"
 #include "data/sample_patterns.h"
@@ -35,7 +33,7 @@ static void empty(const e3d_tile_job *job)
     job->memory->shade.shown.pattern = job->in->pass->pattern;
 }
 
-/* Of the pixels of planes; 0 when memory is out. */
+/* Begins a list of pixels in planes; 0 when memory is out. */
 static int begin_planes(const e3d_tile_job *job, int depths)
 {
     const e3d_sample_pattern *pattern = job->in->pass->pattern;
@@ -50,7 +48,7 @@ static int begin_planes(const e3d_tile_job *job, int depths)
     return 1;
 }
 
-/* Where the last record in order shows, depths hide nothing. */
+/* Begins a list. If the last record in order shows, depths hide nothing. */
 int e3d_alpha_begin(const e3d_tile_job *job, int all)
 {
     e3d_alpha_memory *memory = &job->memory->alpha;
@@ -79,7 +77,7 @@ int e3d_alpha_piece(const e3d_tile_job *job, uint32_t id, e3d_piece *piece)
 /* A record in the planes of a tile. */
 typedef struct plane_pieces {
     e3d_piece of[E3D_MOST_MSAA_SAMPLES];
-    uint32_t live; /* those that it may show in: a bit each */
+    uint32_t live; /* the planes in which it may show: a bit each */
 } plane_pieces;
 
 static void find_planes(const e3d_tile_job *job, uint32_t id, plane_pieces *out)
@@ -187,7 +185,8 @@ static int act_on(const e3d_tile_job *job, sample_action act)
     return 1;
 }
 
-/* A sample shows a record if that wins there (R16): the list was made when less was kept. Sorted records are numbered as they are drawn. */
+/* Lets a sample show a record if that wins there (R16): other records may have been drawn since the list was made. Sorted
+ * records have IDs in the order of drawing. */
 static void show(const e3d_tile_job *job, e3d_visible_tile *plane, int32_t id, int32_t sample, float z)
 {
     int32_t kept = plane->id[sample];
@@ -237,7 +236,8 @@ static int visit_masked(const e3d_tile_job *job, int all, e3d_alpha_action actio
     return !job->memory->shade.shown.count || action(job);
 }
 
-/* With multisampling all that a record covers is listed, hidden or not: it decides where in a pixel the alpha is found (R105). */
+/* With multisampling all samples that a record covers are listed, hidden or not: they decide where in a pixel the alpha is found
+ * (R105). */
 int e3d_alpha_cut(const e3d_tile_job *job) { return !job->masked || visit_masked(job, job->in->pass->pattern != NULL, show_list); }
 
 int e3d_alpha_count(const e3d_tile_job *job) { return !job->masked || visit_masked(job, 1, count_list); }

@@ -29,7 +29,7 @@
 #include "frame/tile/memory.h"
 #include "frame/tile/piece.h"
 
-enum { MOST_LAYERS = 1 << 17 }; /* of rows that are done together, as far as can be foreseen */
+enum { MOST_LAYERS = 1 << 17 }; /* roughly the most layers of the rows that are done together */
 
 void e3d_alpha_free(e3d_alpha_memory *memory)
 {
@@ -49,7 +49,7 @@ typedef struct depth_range {
 
 static int is_tame(float v) { return v < 0x1p100f && v > -0x1p100f; }
 
-/* z is monotone along both axes, so its values at the corners of the box bound it, unless a step overflows. */
+/* Depth is monotone along both axes, so that its values at the corners of the box bound it, unless a step overflows. */
 static depth_range range_of(const e3d_piece *p)
 {
     if (!is_tame(p->z0) || !is_tame(p->gx) || !is_tame(p->gy))
@@ -58,20 +58,21 @@ static depth_range range_of(const e3d_piece *p)
     return (depth_range){e3d_piece_depth(p, x, y), e3d_piece_depth(p, p->x0 + p->x1 - x, p->y0 + p->y1 - y)};
 }
 
-/* Adds a record that shows in the tile, nearer than the far plane. */
+/* Adds a record if it shows in the tile, nearer than the far plane. */
 static void add_piece(const e3d_tile_job *job, uint32_t id, e3d_alpha_memory *memory)
 {
     e3d_piece *piece = (e3d_piece *)memory->pieces.data + memory->pieces.count;
     if (!e3d_alpha_piece(job, id, piece))
         return;
-    depth_range range = job->in->pass->pattern ? (depth_range){0.0f, 0.0f} : range_of(piece); /* with multisampling, all are one overlap */
+    /* With multisampling, all records are one overlap */
+    depth_range range = job->in->pass->pattern ? (depth_range){0.0f, 0.0f} : range_of(piece);
     if (range.near > 1.0f)
         return;
     range.far = range.far < 1.0f ? range.far : 1.0f; /* R15 */
     ((depth_range *)memory->ranges.data)[memory->pieces.count++] = range;
 }
 
-/* The records of a link; 0 when memory is out. */
+/* Adds the records of a link; 0 when memory is out. */
 static int add_link(const e3d_tile_job *job, const e3d_bin_link *link, e3d_alpha_memory *memory)
 {
     const e3d_record_table *table = &job->in->bins->tables[E3D_SET_SCENE];
@@ -102,7 +103,7 @@ static int find_pieces(const e3d_tile_job *job)
 
 /* ---- overlaps ---- */
 
-/* The slices that the depths of a tile's records are cut into. */
+/* The depths of a tile's records, cut into slices. */
 typedef struct slicing {
     float near, scale;
 } slicing;
@@ -123,8 +124,8 @@ static slicing slicing_of(const depth_range *ranges, size_t count)
     return (slicing){near, far - near > 0x1p-60f ? (float)E3D_ALPHA_SLICES / (far - near) : 0.0f};
 }
 
-/* Numbers overlaps from near to far: a slice begins one where no record reaches over from the slice before. Returns how many there are;
- * of each record its overlap, of each overlap how many records it has. */
+/* Numbers overlaps from near to far: a slice begins one if no record reaches into it from the slice before. Returns how many
+ * there are, the overlap of each record, and the number of records in each overlap. */
 static int32_t find_overlaps(const depth_range *ranges, size_t count, int32_t *overlap, int32_t records[E3D_ALPHA_SLICES])
 {
     const slicing s = slicing_of(ranges, count);
@@ -147,7 +148,7 @@ static int32_t find_overlaps(const depth_range *ranges, size_t count, int32_t *o
     return overlaps;
 }
 
-/* Sorts the records by their overlaps, the farthest first; returns how many overlaps there are, or -1 when memory is out. */
+/* Sorts the records by overlap, the farthest first; returns how many overlaps there are, or -1 when memory is out. */
 static int32_t sort_pieces(e3d_alpha_memory *memory, int32_t records[E3D_ALPHA_SLICES])
 {
     size_t count = memory->pieces.count;
@@ -167,7 +168,7 @@ static int32_t sort_pieces(e3d_alpha_memory *memory, int32_t records[E3D_ALPHA_S
 
 /* ---- an overlap ---- */
 
-/* How many rows are done together, so that their layers are not too many. */
+/* How many rows are done together, so that they don't have too many layers. */
 static int32_t rows_of(const e3d_piece *pieces, int32_t count)
 {
     int64_t most = 0;
@@ -177,13 +178,13 @@ static int32_t rows_of(const e3d_piece *pieces, int32_t count)
     return rows < 1 ? 1 : (int32_t)rows;
 }
 
-/* Whether layers must be kept even where each sample has one. */
+/* Whether layers must be kept even if no sample has two. */
 static int keeps_all(const e3d_tile_job *job)
 {
     return job->in->pass->pattern || e3d_plans(job->in->pass, E3D_PLAN_FRONT) || e3d_radiance_of(job);
 }
 
-/* Rows y .. end - 1 of records whose depths may interleave. Where no sample is met twice, there is nothing to sort. */
+/* Blends rows y .. end - 1 of an overlap's records. If no sample is met twice, there is nothing to sort. */
 static int blend_rows(const e3d_tile_job *job, const e3d_piece *pieces, int32_t count, int32_t y, int32_t end)
 {
     e3d_alpha_memory *memory = &job->memory->alpha;
@@ -229,7 +230,7 @@ static int blend_overlaps(const e3d_tile_job *job)
 
 /* ---- records that are sorted already ---- */
 
-/* The list is of one record: leaves out what it covers before the record that is kept in order; how much is left. */
+/* The list holds one record's samples. Removes those where the visible record comes later in order; returns how many are left. */
 static int32_t leave_later(const e3d_tile_job *job)
 {
     float *z = job->memory->alpha.z;
@@ -244,7 +245,7 @@ static int32_t leave_later(const e3d_tile_job *job)
     return shown->count = left;
 }
 
-/* The same with multisampling, sample by sample of each pixel. */
+/* The same with multisampling, for each sample of each pixel. */
 static int32_t leave_later_in_planes(const e3d_tile_job *job)
 {
     int32_t *covers = job->memory->multisample->alpha.cover;
@@ -263,7 +264,7 @@ static int32_t leave_later_in_planes(const e3d_tile_job *job)
     return shown->count = left;
 }
 
-/* What the list of one record adds lies over what its samples show. */
+/* Blends the listed record over the samples that it is later than. */
 static int lay_later(const e3d_tile_job *job)
 {
     const e3d_sample_pattern *pattern = job->in->pass->pattern;
@@ -292,7 +293,7 @@ static int blend_sequence(const e3d_tile_job *job)
 
 /* ---- the nearest layers ---- */
 
-/* Shades the outputs of the samples that a layer is in front of. */
+/* Shades the outputs of the samples whose nearest surface is a layer. */
 static int shade_front(const e3d_tile_job *job)
 {
     const int32_t *front = job->memory->alpha.a_buffer.front_id;
@@ -324,7 +325,7 @@ void e3d_alpha_front(const e3d_tile_job *job)
         }
 }
 
-/* R123: where sums are too great for a number. Beyond the picture nothing may have been written. */
+/* R123: replaces sums that overflowed. Beyond the picture nothing may have been written. */
 static void leave_finite(const e3d_tile_job *job, float *radiance)
 {
     int axis = job->in->pass->frame->samples_axis;

@@ -1,6 +1,5 @@
-/* raster over several rounds: a tile's visible surface is kept, and its farthest depths are noted, which hide clusters of the next
- * round.
- */
+/* raster over several rounds: keeps a tile's visible surface, and notes its farthest depths, which hide clusters of the next
+ * round. */
 #include <stdlib.h>
 #include <string.h>
 

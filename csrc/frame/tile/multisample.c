@@ -1,8 +1,6 @@
-/* raster with multisampling: a tile's records to the planes of its samples; pixels in which all samples show the same are shaded as with one
- * sample, the others piece by piece (msaa_mixed.c).
- *
- * In pixels whose samples all have one colour the average is that colour to the bit (R106), so these are encoded at once.
- */
+/* raster with multisampling: draws a tile's records into the planes of its samples. A pixel whose samples all show the same is
+ * shaded as with one sample; other pixels are mixed (msaa_mixed.c). If all samples of a pixel have one colour, their average is
+ * that colour to the bit (R106), so that it is encoded at once. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -58,7 +56,7 @@ int e3d_multisample_reserve(e3d_multisample_memory **memory, int32_t samples)
     m->samples = e3d_large_memory((size_t)samples * sizeof *m->samples);
     if (!m->planes || !m->samples)
         return 0;
-    memset(m->planes, 0, (size_t)samples * sizeof *m->planes); /* padding is read, never used */
+    memset(m->planes, 0, (size_t)samples * sizeof *m->planes); /* padding is read, but never used */
     memset(m->samples, 0, (size_t)samples * sizeof *m->samples);
     m->samples_room = samples;
     return 1;
@@ -66,7 +64,7 @@ int e3d_multisample_reserve(e3d_multisample_memory **memory, int32_t samples)
 
 /* ---- the planes ---- */
 
-/* Where the last record in order shows, record after record; each keeps its ID. */
+/* Draws record after record, if the last one in order shows; each keeps its ID. */
 static void overwrite_link(const e3d_tile_job *job, const e3d_bin_link *link)
 {
     const e3d_prepared *pass = job->in->pass;
@@ -114,7 +112,8 @@ static void draw_planes(const e3d_tile_job *job, int settle)
 
 static uint64_t columns_inside(const e3d_tile *tile) { return ~(uint64_t)0 >> (E3D_TILE - tile->width); }
 
-/* Parts the pixels: `mixed` ones, and the others, whose IDs go to the thread's own plane; whether some of these show nothing. */
+/* Splits the pixels into mixed ones and others. The others' IDs go to the thread's own plane; returns whether some of them show
+ * nothing. */
 static int split(const e3d_tile_job *job)
 {
     uint64_t *mixed = job->memory->multisample->mixed;

@@ -1,7 +1,5 @@
-/* raster, record by record: each record has a slot, in the order of the bins, and samples keep the slot of the one that shows.
- *
- * Where the last record in order shows (R16), where records are shaded at once, and where they are counted or are edges.
- */
+/* raster, record by record: each record has a slot, in the order of the bins, and a sample keeps the slot of the record that
+ * shows. This way is taken if the last record in order shows (R16), if records are shaded at once, and for counts and edges. */
 #include <math.h>
 
 #include "base/grow.h"
@@ -41,7 +39,7 @@ void e3d_slots_free(e3d_slots_state *slots)
 
 typedef int (*piece_action)(const e3d_tile_job *job, const e3d_piece *piece);
 
-/* The next free slot is this record's. */
+/* Gives a record the next free slot. */
 static int add_slot(e3d_slots_state *slots, uint32_t id, uint32_t order)
 {
     size_t n = slots->ids.count;
@@ -58,7 +56,7 @@ static const e3d_record *record_of(const e3d_tile_job *job, int which, uint32_t 
     return e3d_record_at(&job->in->bins->tables[which], ((const uint32_t *)job->memory->slots.ids.data)[slot]);
 }
 
-/* In the tile, or in the plane of it that the job is about. */
+/* Finds the piece in the tile, or in the plane that the job names. */
 static int find_piece(const e3d_tile_job *job, const e3d_record *record, uint32_t slot, e3d_piece *piece)
 {
     const e3d_prepared *pass = job->in->pass;
@@ -119,7 +117,7 @@ static int act_count(const e3d_tile_job *job, const e3d_piece *piece)
     return 1;
 }
 
-/* R36: an edge may lie behind the kept depth by the slope of that piece over the line's reach. */
+/* R36: an edge may lie behind the kept depth by the slope of its piece times the line's reach. */
 static void find_edge_limits(const e3d_tile_job *job)
 {
     e3d_marks_memory *marks = &job->memory->marks;
@@ -151,7 +149,7 @@ static int act_mark(const e3d_tile_job *job, const e3d_piece *piece)
     return 1;
 }
 
-/* The runs of one slot in a box, owned by its record. */
+/* Finds the runs of one slot in a box; their owner is the slot's record. */
 static int32_t runs_of_slot(const e3d_tile_job *job, int32_t slot, const e3d_box *box)
 {
     e3d_run *runs = job->memory->shade.runs.rows;
@@ -167,7 +165,7 @@ static int32_t runs_of_slot(const e3d_tile_job *job, int32_t slot, const e3d_box
     return count;
 }
 
-/* Forward shading: whatever the piece just won is shaded at once. */
+/* Forward shading: shades at once the samples that a piece has just won. */
 static int act_forward(const e3d_tile_job *job, const e3d_piece *piece)
 {
     act_visible(job, piece);
@@ -224,7 +222,7 @@ int e3d_slots_mark(const e3d_tile_job *job)
     if (!counts && !edges)
         return 1;
     if (e3d_plans(pass, E3D_PLAN_EDGE_DEPTHS))
-        find_edge_limits(job); /* while the slots are the scene's */
+        find_edge_limits(job); /* while the slots are still the scene's */
     if (counts) {
         clear_marks(marks);
         if (!visit_bins(job, E3D_SET_SCENE, act_count) || !e3d_alpha_count(job))

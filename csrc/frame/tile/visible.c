@@ -1,4 +1,4 @@
-/* raster, the visible surface: a tile's records and fragments to the IDs that its samples keep. */
+/* raster, the visible surface: draws a tile's records and fragments; each sample keeps an ID. */
 #include "base/always_inline.h"
 #include "base/limits.h"
 #include "kernels/kernels.h"
@@ -34,14 +34,14 @@ void e3d_visible_empty(e3d_visible_tile *visible)
     visible->noted = 0;
 }
 
-/* The first records of a link are in no near cache when they are drawn. */
+/* Prefetches the first records of a link, which are in no near cache. */
 static ALWAYS_INLINE void fetch_records(const e3d_record_table *table, const e3d_bin_link *link)
 {
     for (uint32_t i = 0; i < FETCHED && i < link->count; i++)
         __builtin_prefetch(e3d_record_at(table, link->id[i]));
 }
 
-/* The next link of each thread in turn: all of them list records from near to far. */
+/* Draws the next link of each thread in turn: all threads list records from near to far. */
 static void draw_records(const e3d_prepared *pass, const e3d_bins *bins, int64_t tile_number, int earlier, e3d_visible_tile *out)
 {
     const e3d_record_table *table = &bins->tables[E3D_SET_SCENE];
@@ -69,7 +69,7 @@ static void draw_records(const e3d_prepared *pass, const e3d_bins *bins, int64_t
     }
 }
 
-/* Blocks are in no cache when they are read first. */
+/* Prefetches a link, which is in no cache. */
 static ALWAYS_INLINE void fetch_link(const e3d_fragment_link *link)
 {
     enum { LINE = 64 };

@@ -1,8 +1,6 @@
-/* The kernels: one table of functions per instruction set. The plain structs that they work on are in kernels/types/.
- *
- * Every kernel gives the bytes of docs/exactness; what a table adds is speed. Arrays that a kernel reads
- * or writes vector by vector have room for E3D_PAD elements past the end; what it leaves there means nothing.
- */
+/* The kernels: one table of functions for each instruction set. The plain structs that they work on are in kernels/types/.
+ * Every kernel gives the bytes of docs/exactness; tables differ only in speed. Arrays that a kernel reads or writes vector by
+ * vector have room for E3D_PAD elements beyond the end; their contents mean nothing. */
 #ifndef E3D_KERNELS_H
 #define E3D_KERNELS_H
 
@@ -34,7 +32,7 @@ typedef struct e3d_kernels {
 } e3d_kernels;
 #undef E3D_KERNEL
 
-/* NULL for E3D_BACKEND_SCALAR and for what this build or CPU lacks. */
+/* NULL for E3D_BACKEND_SCALAR, and if this build or CPU lacks the backend. */
 const e3d_kernels *e3d_kernels_for(e3d_backend backend);
 
 extern const e3d_kernels e3d_kernels_portable;

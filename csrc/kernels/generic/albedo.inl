@@ -1,4 +1,4 @@
-/* albedo: what rough surfaces reflect of light that is 1 all around, from a table (R64). */
+/* albedo: looks up in a table the share of light that rough surfaces reflect if it is 1 all around (R64). */
 #ifndef E3D_KERNELS_ALBEDO_INL
 #define E3D_KERNELS_ALBEDO_INL
 

@@ -1,4 +1,4 @@
-/* anisotropy: a lobe that is rougher along one direction (R136-R138). */
+/* anisotropy: a lobe that is rougher along one direction than across it (R136-R138). */
 #ifndef E3D_KERNELS_ANISOTROPY_INL
 #define E3D_KERNELS_ANISOTROPY_INL
 
@@ -9,14 +9,14 @@
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/texture_slots.inl"
 
-/* The directions of the lobe, rougher along t. */
+/* The directions of the lobe, which is rougher along t. */
 typedef struct stretch_lanes {
     vf32 t[3], b[3], strength;
-    vf32 along, across, product; /* alphas along t and along b */
-    vf32 root;                   /* of Smith's term of the view */
+    vf32 along, across, product; /* the alphas along t and along b */
+    vf32 root;                   /* the root in Smith's term of the view */
 } stretch_lanes;
 
-/* A direction along the surface, where nothing tells one. */
+/* Finds any direction along the surface, if nothing defines one. */
 static inline void stretch_anywhere(const vf32 n[3], vf32 out[3])
 {
     vf32 one = v_setf(1.0f), zero = v_setf(0.0f), x = v_self(v_gt(n[0], zero), n[0], v_sub(zero, n[0]));

@@ -1,6 +1,6 @@
-/* Vectors over the rows of a block of 8 x 8 samples. Up to eight lanes lie in one row; of sixteen, eight lie in an even row and
- * eight in the next. With rows of eight lanes, as AVX2 has them, a fill from back to front took AVX-512 3.1 instead of 2.4 ms.
- */
+/* Vectors over the rows of a block of 8 x 8 samples. Up to eight lanes lie in one row; of sixteen lanes, eight lie in an even
+ * row and eight in the next. With one row of eight lanes, as in AVX2, a fill from back to front took AVX-512 3.1 instead of
+ * 2.4 ms. */
 #ifndef E3D_KERNELS_BLOCK_ROWS_INL
 #define E3D_KERNELS_BLOCK_ROWS_INL
 
@@ -31,7 +31,7 @@ static inline vf32 rows_loadf(const float *p) { return v_loadf(p); }
 static inline void rows_storef(float *p, vf32 a) { v_storef(p, a); }
 #endif
 
-/* How far a lane's sample lies behind the vector's first, in the tile. */
+/* The offset of a lane's sample from the vector's first, in the tile. */
 static inline int rows_sample(int lane) { return lane / ROW_LANES * E3D_TILE + lane % ROW_LANES; }
 
 #endif

@@ -14,8 +14,8 @@
 #include "kernels/generic/anisotropy.inl"
 #include "kernels/generic/iridescence.inl"
 
-/* Vectors that are shaded side by side. Each step is a loop over them: a processor looks ahead some hundred operations, and one vector
- * has a thousand, of which most wait for roots and quotients of its own. */
+/* So many vectors are interleaved, since each step loops over them. One vector has a chain of some thousand operations with
+ * roots and quotients, of which a processor sees only a few hundred at once. */
 enum { BRDF_VECTORS = 4 };
 
 /* A lobe of GGX about a normal. */
@@ -24,17 +24,17 @@ typedef struct lobe_lanes {
     vf32 nv, roughness, A, root;
 } lobe_lanes;
 
-/* What one vector of a batch is, and light on it so far. Whatever the batch has already is read there again: loads cost less than
- * stores. */
+/* One vector of a batch: its surface, and the light on it so far. What the batch holds is read again there, since loads cost
+ * less than stores. */
 typedef struct brdf_lanes {
     vf32 view[3];
     lobe_lanes base, coat;
     vf32 metallic, top, diffuse[3], f0[3];
-    vf32 rise, f_rise[3]; /* what Schlick's term adds at a grazing angle: to top, to f0 */
+    vf32 rise, f_rise[3]; /* what Schlick's term adds at a grazing angle: to `top`, to `f0` */
     vf32 sheen_power; /* 1 / alpha of the sheen */
-    vf32 transmission, rest; /* rest: 1 less it (R134) */
+    vf32 transmission, rest; /* rest: 1 - transmission (R134) */
     stretch_lanes stretch;
-    vf32 film_share, film[3], film_top; /* R141: what a film reflects of all, and the most of what is no metal */
+    vf32 film_share, film[3], film_top; /* R141: what a film reflects of each channel, and the greatest of that without metal */
     vf32 other_f0[3], metal_f0[3];
     vf32 direct[3], coat_light[3], fuzz[3];
 } brdf_lanes;
@@ -112,7 +112,7 @@ static ALWAYS_INLINE void brdf_begin(const e3d_batch *batch, const e3d_texture_b
 
 /* ---- what few materials have ---- */
 
-/* R134: what passes is not scattered. */
+/* R134: light that passes is not scattered. */
 static ALWAYS_INLINE void brdf_transmission(const e3d_brdf *brdf, int i, brdf_lanes *at)
 {
     at->transmission = varying_at(&brdf->transmission, i);

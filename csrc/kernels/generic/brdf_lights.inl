@@ -1,4 +1,4 @@
-/* model_lights: lights on physically based materials, and what comes from all around (R50-R55, R138). */
+/* Lights on physically based materials, and light from all around (R50-R55, R138). */
 #ifndef E3D_KERNELS_BRDF_LIGHTS_INL
 #define E3D_KERNELS_BRDF_LIGHTS_INL
 
@@ -17,7 +17,7 @@
 #include "kernels/generic/anisotropy.inl"
 #include "kernels/generic/brdf.inl"
 
-/* A light at a sample, in terms of h = l + v. */
+/* A light at a sample, by the half vector h = l + v. */
 typedef struct half_lanes {
     vf32 h[3], square;
 } half_lanes;
@@ -59,13 +59,13 @@ static inline vf32 sheen_reflect(const brdf_lanes *at, const vf32 normal[3], con
     return v_mul(d, v_div(one, v));
 }
 
-/* A light on one vector: towards it, in which lanes it adds something, and what R51 calls att, e, d and w5. */
+/* A light on one vector: the direction to it, the lanes in which it adds light, and att, e, d and w5 of R51. */
 typedef struct light_lanes {
     vf32 l[3], nl, attenuation, e, d, w5;
     vmask lit;
 } light_lanes;
 
-/* Towards a light, and what of it arrives; 0 where no lane gets any. */
+/* Finds the direction to a light, and the share of it that arrives; 0 if no lane gets any. */
 static ALWAYS_INLINE int brdf_meet(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, int has_coat,
                                    light_lanes *on)
 {
@@ -104,7 +104,7 @@ static ALWAYS_INLINE void brdf_add_coat(const e3d_light *light, const vf32 norma
     light_sum(at->coat_light, light->lux, v_mul(lobe_reflect(&at->coat, normal, h, nl), v_mul(on->attenuation, nl)), &lit);
 }
 
-/* What it shines like: all that R51 has but once for all channels. coat: the coat's normals, or NULL. */
+/* Finds the specular terms of R51 that all channels share. coat: the coat's normals, or NULL. */
 static ALWAYS_INLINE void brdf_shine(const e3d_light *light, const e3d_batch *batch, int i, const e3d_lane_array *coat,
                                      int has_sheen,
                                      const e3d_brdf *rare, brdf_lanes *at, light_lanes *on)
@@ -144,7 +144,7 @@ static ALWAYS_INLINE void brdf_add(const e3d_light *light, const e3d_brdf *rare,
     }
 }
 
-/* R51 of one light on vectors from i on. rare: NULL, or the brdf with what few materials have. */
+/* R51: adds one light to vectors from i on. rare: NULL, or the BRDF if it has what few materials have. */
 static ALWAYS_INLINE void brdf_add_light(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, int count,
                                          const e3d_lane_array *coat, int has_sheen, const e3d_brdf *rare,
                                          brdf_lanes at[BRDF_VECTORS])
@@ -187,7 +187,8 @@ static ALWAYS_INLINE void around_radiance(const e3d_lighting *lighting, const en
         out[k] = v_add(out[k], more[k]);
 }
 
-/* R55: a lobe under light that is 1 all around: once is what it reflects once, twice a factor of what it reflects more often. */
+/* R55: a lobe under light that is 1 all around. once: the share that it reflects once; twice: a factor for light reflected
+ * more often. */
 typedef struct scatter_lanes {
     vf32 once, twice, q;
 } scatter_lanes;
@@ -221,7 +222,7 @@ typedef struct around_lanes {
     vf32 irradiance[3], radiance[3], a, b;
 } around_lanes;
 
-/* In steps over vectors from i on, as lights are added. */
+/* Finds light from all around for vectors from i on, interleaved as for lights. */
 static ALWAYS_INLINE void around_find(const e3d_lighting *lighting, const environment_plan *plan, const e3d_batch *batch, int i, int count,
                                       const e3d_brdf *rare, const brdf_lanes at[BRDF_VECTORS], around_lanes out[BRDF_VECTORS])
 {
@@ -242,7 +243,7 @@ static ALWAYS_INLINE void around_find(const e3d_lighting *lighting, const enviro
     }
 }
 
-/* R55. through: what passes of light behind (R134). */
+/* R55. through: the share of the light behind that passes (R134). */
 static ALWAYS_INLINE void around_indirect(const e3d_batch *batch, const e3d_brdf *brdf, const e3d_brdf *rare, int i,
                                           const brdf_lanes *at, const around_lanes *around, vf32 through[3], vf32 out[3])
 {

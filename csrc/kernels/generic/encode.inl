@@ -7,16 +7,17 @@
 
 static inline vf32 encode_clamp(vf32 v) { return v_min(v_max(v, v_setf(0.0f)), v_setf(1.0f)); }
 
-/* The codes of one vector of colours, which are not clamped yet. */
+/* The codes of one vector of colours, which need not be clamped. */
 static ALWAYS_INLINE vi32 encode_linear(const vf32 color[3])
 {
     vi32 code[3];
     for (int k = 0; k < 3; k++)
-        code[k] = v_rint(v_mul(v_setf(255.0f), v_min(v_setf(1.0f), color[k]))); /* a NaN: INT32_MIN, which v_rgba takes as 0 */
+        /* NaN becomes INT32_MIN, which v_rgba takes as 0 */
+        code[k] = v_rint(v_mul(v_setf(255.0f), v_min(v_setf(1.0f), color[k])));
     return v_rgba(code);
 }
 
-/* The number of thresholds <= v, found on the curve of encode_tables.h. */
+/* The number of thresholds <= v, found by the curve of encode_tables.h. */
 static ALWAYS_INLINE vi32 encode_srgb(const vcurve *curve, const vf32 color[3])
 {
     vi32 place[3];

@@ -1,6 +1,5 @@
-/* exact shadows: which lights are hidden from samples (R98-R102). A sample's own cell of each level of a light's grid
- * holds all casters that R99 may take: whether x lies within a box is asked of rounded numbers, and cells are found by steps that never
- * turn order round. */
+/* exact shadows: finds which lights are hidden from samples (R98-R102). A sample's cell, in each level of a light's grid,
+ * holds all casters that R99 may find: both sides compare the same rounded numbers, and cells are found by monotone steps. */
 #ifndef E3D_KERNELS_EXACT_SHADOW_INL
 #define E3D_KERNELS_EXACT_SHADOW_INL
 
@@ -57,13 +56,13 @@ static void kernel_receivers(const e3d_surfaces *surfaces, e3d_receivers *out)
 typedef struct exact_lanes {
     const e3d_caster_index *index;
     const float (*corners)[9]; /* of the light */
-    int x, y, z;               /* where those of the face begin */
+    int x, y, z;               /* where x, y and z of the face begin in a caster's corners */
     int is_point;
-    float sign;            /* of z; of point lights */
-    vf32 place[2], far;    /* x and y, or slopes, and z of R98 */
+    float sign;            /* of z, for point lights */
+    vf32 place[2], far;    /* x and y of R98, or slopes; and z */
     vf32 position[3], normal[3], slack[3], limit; /* the plane of R100, turned to the light */
     vi32 surface;
-    vf32 towards[3]; /* the light, of any length */
+    vf32 towards[3]; /* the direction to the light, of any length */
     int has_plane;
     const e3d_receivers *receivers;
 } exact_lanes;
@@ -76,7 +75,7 @@ static ALWAYS_INLINE vf32 exact_pick(const float *from, const int32_t *at)
     return v_loadf(lanes);
 }
 
-/* Fetches the samples' planes, which many never need. */
+/* Fetches the samples' planes, which many samples never need. */
 static void exact_fetch_planes(exact_lanes *at)
 {
     int32_t surface[V_LANES];
@@ -130,7 +129,7 @@ static ALWAYS_INLINE vmask exact_inside(const exact_lanes *at, const float *cast
     return v_mand(lanes, v_mand(exact_spans(a), exact_spans(b)));
 }
 
-/* R101: the lanes of these where the hit is above the sample's plane and before the light. */
+/* R101: of these lanes, those where the hit is above the sample's plane and before the light. */
 static vmask exact_above(exact_lanes *at, uint32_t number, vmask lanes, vf32 weight[3])
 {
     const float *world = at->index->world[number], *caster = at->corners[number];
@@ -153,7 +152,7 @@ static vmask exact_above(exact_lanes *at, uint32_t number, vmask lanes, vf32 wei
     return at->is_point ? v_mand(lanes, v_gt(dot_three(weight, z), zero)) : lanes;
 }
 
-/* R101: the lanes of these where the caster has no hole. */
+/* R101: of these lanes, those where the caster has no hole. */
 static vmask __attribute__((noinline)) exact_solid(const exact_lanes *at, uint32_t number, vmask lanes, const vf32 weight[3])
 {
     float weights[3][V_LANES];
@@ -170,7 +169,7 @@ static vmask __attribute__((noinline)) exact_solid(const exact_lanes *at, uint32
 
 /* ---- grids ---- */
 
-/* The lanes of these that a caster of the cell hides. */
+/* Of these lanes, those that a caster of the cell hides. */
 static ALWAYS_INLINE vmask exact_in_cell(exact_lanes *at, const e3d_caster_box *box, const e3d_caster_box *end, int is_point,
                                          vmask lanes)
 {
@@ -204,7 +203,7 @@ static ALWAYS_INLINE vi32 exact_column(const e3d_caster_grid *grid, vf32 x, int 
     return v_trunc(v_min(v_max(at, v_setf(0.0f)), v_setf(last)));
 }
 
-/* A cell, and the lanes in it. */
+/* A cell, and the lanes whose samples lie in it. */
 typedef struct exact_cell {
     uint32_t first, end;
     vmask lanes;
@@ -215,7 +214,7 @@ static ALWAYS_INLINE const uint32_t *exact_start(const e3d_caster_grid *grid, in
     return grid->starts[level] + ((size_t)row << (grid->levels - 1 - level)) + column;
 }
 
-/* Finds the cells of a level that lanes are in, and asks for their boxes: they come from anywhere in memory. */
+/* Finds the cells of a level in which lanes lie, and prefetches their boxes, which lie anywhere in memory. */
 static ALWAYS_INLINE int exact_cells(const e3d_caster_grid *grid, int level, vf32 finest_column, vf32 finest_row, vmask lanes,
                                      exact_cell *out)
 {
@@ -237,7 +236,7 @@ static ALWAYS_INLINE int exact_cells(const e3d_caster_grid *grid, int level, vf3
     return count;
 }
 
-/* Asks for the starts of the fine cells while casters of the coarse ones are tested. */
+/* Prefetches the starts of the fine cells while casters of the coarse cells are tested. */
 static ALWAYS_INLINE void exact_fetch_starts(const e3d_caster_grid *grid, vf32 column, vf32 row, uint32_t lanes)
 {
     enum { FINE_LEVELS = 3 };
@@ -251,8 +250,8 @@ static ALWAYS_INLINE void exact_fetch_starts(const e3d_caster_grid *grid, vf32 c
     }
 }
 
-/* The lanes of these that a caster of the grid hides: of each level, the coarsest first, since what is large
- * hides most, cell by cell of those that lanes are in. */
+/* Of these lanes, those that a caster of the grid hides. Levels are tested from the coarsest, since large casters hide most,
+ * and in each level only cells with lanes in them. */
 static ALWAYS_INLINE vmask exact_in_grid(exact_lanes *at, const e3d_caster_grid *grid, int is_point, vmask lanes)
 {
     if (!grid->levels)
@@ -287,7 +286,7 @@ static vmask exact_directional(exact_lanes *at, const e3d_caster_light *caster_l
     return exact_in_grid(at, &caster_light->grids[0], 0, lanes);
 }
 
-/* The lanes of these whose light comes through one face of the cube around it. */
+/* Of these lanes, those that a caster hides through one face of the cube around the light. */
 static ALWAYS_INLINE vmask exact_through_face(exact_lanes *at, const e3d_caster_light *caster_light, const vf32 d[3], int face,
                                               vmask lanes)
 {
@@ -322,7 +321,7 @@ static vmask exact_point(exact_lanes *at, const e3d_caster_light *caster_light, 
     return hidden;
 }
 
-/* The lanes that a light does not reach for things in between, of those where it would add anything. */
+/* The lanes from which casters hide a light, among those where it would add light. */
 static ALWAYS_INLINE vmask exact_from(exact_lanes *at, const e3d_lighting *lighting, const e3d_caster_light *caster_light,
                                       const vf32 normal[3])
 {

@@ -1,9 +1,6 @@
-/* fragments: the samples that small triangles cover, with their depths (R9, R10, R12-R14), a vector of triangles at a time, then a
- * vector of samples, then tile by tile.
- *
- * Stages are short loops over a batch. One loop from corners to tiles would not fit the out-of-order window: iterations would not
- * overlap, and a city from above took 5 % longer.
- */
+/* fragments: finds the samples that small triangles cover, with their depths (R9, R10, R12-R14): a vector of triangles at a
+ * time, then a vector of samples, then tile by tile. The stages are short loops over a batch. A single loop from corners to
+ * tiles would not fit the out-of-order window: iterations would not overlap, and a city from above took 5 % longer. */
 #ifndef E3D_KERNELS_FRAGMENTS_INL
 #define E3D_KERNELS_FRAGMENTS_INL
 
@@ -33,7 +30,7 @@ static inline void fragment_add_each(const e3d_vertices *v, const uint8_t *indic
     }
 }
 
-/* Looks the vertices of a vector of triangles up in tables; lanes past the last triangle hold anything. */
+/* Looks up the vertices of a vector of triangles in tables; lanes beyond the last triangle hold anything. */
 static inline void fragment_add_vectors(const e3d_vertices *v, const uint8_t *indices, uint64_t triangles, int32_t first, int bits,
                                         e3d_small_triangles *to)
 {
@@ -57,7 +54,7 @@ static inline void fragment_add_vectors(const e3d_vertices *v, const uint8_t *in
     to->count += count;
 }
 
-/* Vectors are faster only where the tables lie in registers; a look-up there needs no valid index either. */
+/* Vectors are faster only if the tables lie in registers; a lookup there needs no valid index, either. */
 static void kernel_add_small(const e3d_vertices *v, const uint8_t *indices, uint64_t triangles, int32_t first, int bits,
                              e3d_small_triangles *to)
 {
@@ -69,7 +66,8 @@ static void kernel_add_small(const e3d_vertices *v, const uint8_t *indices, uint
 
 /* ---- which triangles cover samples ---- */
 
-/* Appends the lanes of `bits` of one vector to a list. It may be the list they come from, if that has no more than was read. */
+/* Appends the lanes of `bits` of one vector to a list. This may be the list that they come from, if that is no longer than
+ * what was read. */
 static inline void fragment_move(const e3d_small_triangles *from, int first, uint32_t bits, e3d_small_triangles *to)
 {
     int at = to->count;
@@ -81,7 +79,8 @@ static inline void fragment_move(const e3d_small_triangles *from, int first, uin
     to->count += v_pack(to->id + at, v_loadi(from->id + first), bits);
 }
 
-/* Sorts a vector of triangles: tiny ones (2 x 2 samples) that cover something to the front, with their cover, others to `wide`. */
+/* Sorts a vector of triangles: tiny ones (2 x 2 samples) that cover a sample go to the front, with their cover; others go to
+ * `wide`. */
 static inline void fragment_sort(e3d_small_triangles *triangles, int first, int left, const e3d_viewport *viewport,
                                  uint8_t *covers, e3d_small_triangles *wide)
 {
@@ -102,7 +101,8 @@ static inline void fragment_sort(e3d_small_triangles *triangles, int first, int 
 
 /* ---- vectors of triangles, and which samples they cover ---- */
 
-/* A vector of triangles, and their covered samples. A place is a byte: the triangle's lane, and the column and row in its box. */
+/* A vector of triangles, and the places of their covered samples. A place is a byte: the triangle's lane, and the column and
+ * row in its box. */
 enum { FRAGMENT_COLUMN = 4, FRAGMENT_ROW = 6 };
 typedef struct fragment_vector {
     vi32 x, y, id; /* first sample of the box */
@@ -138,7 +138,7 @@ static inline uint32_t fragment_begin(const e3d_small_triangles *triangles, int 
     return v_bits(finite) & setup_tail(triangles->count - first);
 }
 
-/* The place of a sample. Places are listed triangle after triangle, so that shading meets each triangle once. */
+/* The place of a sample. Places are listed triangle by triangle, so that shading meets each triangle once. */
 static inline vi32 fragment_place(vi32 lane, vi32 column, vi32 row)
 {
     return v_ori(lane, v_ori(v_shl(column, FRAGMENT_COLUMN), v_shl(row, FRAGMENT_ROW)));
@@ -235,7 +235,7 @@ static inline int fragment_wide(const e3d_small_triangles *triangles, const e3d_
 enum { FRAGMENT_MANY = 512, FRAGMENT_ROOM = FRAGMENT_MANY + V_LANES * E3D_SMALL * E3D_SMALL + E3D_PAD };
 typedef struct fragment_buffer {
     float z[FRAGMENT_ROOM];
-    int32_t id[FRAGMENT_ROOM], at[FRAGMENT_ROOM]; /* number of the tile * E3D_TILE_SAMPLES + sample in it */
+    int32_t id[FRAGMENT_ROOM], at[FRAGMENT_ROOM]; /* at: number of the tile * E3D_TILE_SAMPLES + sample in it */
     int count;
 } fragment_buffer;
 
@@ -260,14 +260,15 @@ static inline void fragment_make(const fragment_vector *v, vi32 place, int count
 
 /* ---- to their tiles ---- */
 
-/* The tile's last link, or a new one, with room for a vector. */
+/* Returns the tile's last link, or a new one, with room for a vector. */
 static inline e3d_fragment_link *fragment_link(e3d_fragment_bins *out, int32_t tile)
 {
     e3d_bin *bin = &out->bins[tile];
     if (bin->last != E3D_NO_LINK && out->links[bin->last].count <= E3D_BLOCK_FRAGMENTS - V_LANES)
         return &out->links[bin->last];
     e3d_fragment_link *link = &out->links[out->count];
-    for (size_t at = 0; at < sizeof *link; at += 64) /* it is in no cache yet, and would be fetched line by line as it fills */
+    /* Prefetched for writing, since it is in no cache and would be fetched line by line as it fills */
+    for (size_t at = 0; at < sizeof *link; at += 64)
         __builtin_prefetch((const char *)link + at, 1);
     link->next = E3D_NO_LINK;
     link->count = 0;
@@ -276,7 +277,7 @@ static inline e3d_fragment_link *fragment_link(e3d_fragment_bins *out, int32_t t
     return link;
 }
 
-/* Moves the fragments of one tile, in the vectors from `first` on, to its list, and takes them out of `left`. */
+/* Moves the fragments of one tile, in the vectors from `first` on, to its list, and removes them from `left`. */
 static inline void fragment_bin(const fragment_buffer *from, int first, int32_t tile, uint32_t *left, e3d_fragment_bins *out)
 {
     e3d_fragment_link *link = fragment_link(out, tile);
@@ -315,7 +316,7 @@ static inline void fragment_bin_all(fragment_buffer *from, e3d_fragment_bins *ou
 
 /* ---- all ---- */
 
-/* Makes fragments of vectors of triangles, and sorts them by tile whenever there are many. */
+/* Makes fragments of vectors of triangles, and sorts them by tile whenever many have gathered. */
 static inline void fragment_finish(const fragment_vector *vectors, int triangles, int32_t tiles_x, fragment_buffer *buffer,
                                    e3d_fragment_bins *out)
 {

@@ -1,4 +1,4 @@
-/* film: what a thin film on a surface reflects of each colour (R139, R140). */
+/* Iridescence: the reflectance of a thin film on a surface, by channel (R139, R140). */
 #ifndef E3D_KERNELS_IRIDESCENCE_INL
 #define E3D_KERNELS_IRIDESCENCE_INL
 
@@ -14,7 +14,7 @@ static inline vf32 iridescence_clamp(vf32 v, float low, float high)
     return v_self(v_lt(t, most), t, most);
 }
 
-/* R139: of one wave, after a path. */
+/* R139: one wave's response after a path. */
 static inline vf32 iridescence_wave(int number, vf32 path)
 {
     vf32 turns = v_mul(path, v_setf(E3D_FILM_TURNS[number]));
@@ -43,7 +43,7 @@ static inline vf32 iridescence_schlick(vf32 f0, vf32 cosine)
     return v_add(f0, v_mul(v_sub(one, f0), v_mul(v_mul(w2, w2), w)));
 }
 
-/* R140 of one channel: what comes back once, and with each turn within the film. */
+/* R140 for one channel: the light that comes back at once, and after each round trip within the film. */
 static inline vf32 iridescence_sum(vf32 r12, vf32 r23, vf32 once, vf32 twice)
 {
     vf32 one = v_setf(1.0f), t = v_sub(one, r12);
@@ -73,7 +73,7 @@ static inline void iridescence_reflect(vf32 cosine, float iridescence_ior, vf32 
         out[c] = v_self(v_lt(square, zero), one, iridescence_clamp(iridescence_sum(r12, r23[c], once[c], twice[c]), 0.0f, 1.0f));
 }
 
-/* R141: f0 becomes, as far as the film counts, what would give it by Schlick's term. */
+/* R141: blends f0, by the film's share, towards the value that gives the film's reflectance in Schlick's term. */
 static inline void iridescence_mix_f0(vf32 cosine, const vf32 film[3], vf32 share, vf32 f0[3])
 {
     vf32 one = v_setf(1.0f), w = v_sub(one, cosine), w2 = v_mul(w, w);

@@ -1,4 +1,5 @@
-/* alpha with multisampling: what a record with alpha covers of the samples of a tile's pixels, in front of what shows there (R83, R104). */
+/* alpha with multisampling: lists the samples of a tile's pixels that a record with alpha covers in front of the visible
+ * surface (R83, R104). */
 #ifndef E3D_KERNELS_MSAA_ALPHA_INL
 #define E3D_KERNELS_MSAA_ALPHA_INL
 
@@ -13,7 +14,7 @@
 #include "kernels/generic/visible.inl"
 #include "kernels/generic/alpha.inl"
 
-/* The lanes of one vector of pixels, from (x, y) on, whose sample in a plane is covered and in front. */
+/* Of one vector of pixels, from (x, y) on, the lanes whose sample in a plane is covered and in front. */
 static ALWAYS_INLINE uint32_t cover_plane(const e3d_piece *p, const float *limits, const int32_t *kept, int32_t x, int32_t y,
                                           const e3d_record_table *table)
 {
@@ -38,7 +39,7 @@ static ALWAYS_INLINE int32_t cover_vector(const e3d_piece *pieces, uint32_t live
         vmask lanes = visible_lanes(shown);
         any |= shown;
         cover = v_ori(cover, v_seli(lanes, v_seti(1 << s), v_seti(0)));
-        number = v_seli(lanes, v_seti(s), number); /* of the first one at last */
+        number = v_seli(lanes, v_seti(s), number); /* ends as the first sample's number */
     }
     vi32 pixel = v_addi(v_iota(), v_seti(y * E3D_TILE + x));
     v_pack(out->cover + count, cover, any);

@@ -1,4 +1,4 @@
-/* raster with multisampling: small records, in strips, and what is done with all planes of a tile. */
+/* raster with multisampling: draws small records in strips, and does what concerns all planes of a tile. */
 #ifndef E3D_KERNELS_MSAA_PLANES_INL
 #define E3D_KERNELS_MSAA_PLANES_INL
 
@@ -18,7 +18,7 @@
 
 /* ---- small records, in strips ---- */
 
-/* A vector of records, whose edge functions stand here for each plane. */
+/* A vector of records, with their edge functions in each plane. */
 typedef struct msaa_lanes {
     records_lanes in;
     int32_t e[E3D_MOST_MSAA_SAMPLES][3][V_LANES];
@@ -91,7 +91,7 @@ static ALWAYS_INLINE void msaa_strips_of(const msaa_lanes *lanes, int lane, cons
     }
 }
 
-/* Four samples are the common number: a constant for the compiler. */
+/* Mostly there are four samples, which is then a constant for the compiler. */
 static void msaa_strips(const msaa_lanes *lanes, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *planes,
                         const e3d_sample_pattern *pattern, const e3d_record_table *table)
 {
@@ -101,14 +101,14 @@ static void msaa_strips(const msaa_lanes *lanes, int lane, const e3d_record *r, 
         msaa_strips_of(lanes, lane, r, id, planes, pattern, table, pattern->count);
 }
 
-/* Draws a record, unless what is there hides it (see records_draw). */
+/* Draws a record, unless the visible surface hides it (see records_draw). */
 static inline void msaa_draw(msaa_lanes *lanes, int lane, const e3d_record *r, int32_t id, uint64_t open,
                              records_touched *touched,
                              e3d_visible_tile *planes, const e3d_sample_pattern *pattern, const e3d_record_table *table)
 {
     const records_lanes *in = &lanes->in;
     uint64_t met = records_met(in, lane);
-    int strips = in->few >> lane & 1; /* of what is larger, whole blocks need not be written in each plane */
+    int strips = in->few >> lane & 1; /* for larger ones, blocks need not be written in each plane */
     if (!(strips && met & open) && !(met & ~records_behind(r->zmin, planes)))
         return;
     if (!strips) {
@@ -158,7 +158,7 @@ static void kernel_msaa_measure(e3d_visible_tile *planes, int count, float colum
     }
 }
 
-/* The pixels of a row that don't show the same in all planes, a bit each, and the IDs of those that do. */
+/* The mixed pixels of a row, a bit each; `shared` gets the IDs of the others. */
 static inline uint64_t msaa_row(const e3d_visible_tile *planes, int count, int row, int32_t *shared)
 {
     uint64_t mixed = 0;
@@ -173,7 +173,7 @@ static inline uint64_t msaa_row(const e3d_visible_tile *planes, int count, int r
     return mixed;
 }
 
-/* Bits of a row of blocks, spread over the pixels of a row. */
+/* Spreads the bits of a row of blocks over the pixels of a row. */
 static inline uint64_t msaa_spread(uint64_t blocks)
 {
     uint64_t pixels = 0;
@@ -182,7 +182,7 @@ static inline uint64_t msaa_spread(uint64_t blocks)
     return pixels;
 }
 
-/* A bit for each pixel of a row that shows nothing in all planes. */
+/* The pixels of a row that show nothing in any plane, a bit each. */
 static inline uint64_t msaa_gaps(const int32_t *shared)
 {
     uint64_t gaps = 0;

@@ -26,7 +26,7 @@ static ALWAYS_INLINE float msaa_z0(const e3d_record *r, const e3d_sample_pattern
     return (r->z0 + u * r->gx) + v * r->gy;
 }
 
-/* First column or row of the box (R104). */
+/* The first column or row of the box (R104). */
 static inline int32_t msaa_first(const int32_t v[3], int32_t reach)
 {
     int32_t first = (visible_min3(v) + (127 - reach)) >> 8;
@@ -41,7 +41,7 @@ static inline raster_constants msaa_constants(const e3d_record *r, const e3d_sam
 
 /* ---- blocks ---- */
 
-/* A block shows nothing. */
+/* Makes a block show nothing. */
 static inline void msaa_clear_block(e3d_visible_tile *plane, int block)
 {
     int at = block / VISIBLE_BLOCKS * RASTER_BLOCK * E3D_TILE + block % VISIBLE_BLOCKS * RASTER_BLOCK;
@@ -78,7 +78,7 @@ static void msaa_unfold(e3d_visible_tile *planes, const e3d_sample_pattern *patt
     }
 }
 
-/* The farthest depth of each column of a block in all planes. */
+/* The farthest depth of each column of a block, over all planes. */
 static inline void msaa_columns(const e3d_visible_tile *planes, int count, int block, float columns[RASTER_BLOCK])
 {
     float more[RASTER_BLOCK];
@@ -105,7 +105,7 @@ static inline int msaa_hide(const e3d_visible_tile *planes, int count, int block
     return 1;
 }
 
-/* Measures stale blocks; returns those that hide the record. */
+/* Measures stale blocks; returns the blocks that hide the record. */
 static inline uint32_t msaa_behind(uint32_t blocks, int first, const float near[V_LANES], e3d_visible_tile *planes, int count)
 {
     uint32_t behind = 0;
@@ -121,14 +121,13 @@ static inline uint32_t msaa_behind(uint32_t blocks, int first, const float near[
 
 /* ---- a vector of samples in each plane ---- */
 
-/* What the planes share: bounds of depth, and how edge functions change from row to row. */
+/* What the planes share: bounds of depth, and the steps of edge functions from row to row. */
 typedef struct msaa_strip {
     vf32 zmin, zmax;
     vi32 down[3];
 } msaa_strip;
 
-/* One vector of one plane: its depths, and the lanes that are covered and not behind what is there. Its edge functions go on to the
- * next row. */
+/* One vector of one plane: its depths, and the lanes that are covered and not hidden. Its edge functions step to the next row. */
 typedef struct msaa_vector {
     vf32 z, old;
     vmask near;
@@ -143,7 +142,7 @@ static ALWAYS_INLINE msaa_vector msaa_test(const msaa_strip *strip, vi32 e[3], v
     return v;
 }
 
-/* visible_write, of what is tested. */
+/* visible_write, for what is tested. */
 static ALWAYS_INLINE void msaa_write(const msaa_vector *v, size_t at, const e3d_record *r, int32_t id, e3d_visible_tile *plane,
                                      const e3d_record_table *table)
 {
@@ -157,7 +156,7 @@ static ALWAYS_INLINE void msaa_write(const msaa_vector *v, size_t at, const e3d_
         visible_ties(equal, v->z, depth, kept, r, id, table);
 }
 
-/* Two planes, or four: whether anything is in front is asked once for all of them. */
+/* Does two planes, or four, and tests once for all of them whether anything is in front. */
 static ALWAYS_INLINE void msaa_some(const msaa_strip *strip, vi32 (*e)[3], const vf32 *column, vf32 below, size_t at,
                                     const e3d_record *r,
                                     int32_t id, e3d_visible_tile *planes, const e3d_record_table *table, int some)
@@ -181,7 +180,7 @@ static ALWAYS_INLINE void msaa_some(const msaa_strip *strip, vi32 (*e)[3], const
     }
 }
 
-/* All planes; `count` is a constant where it is 4, so that no loop is left. */
+/* Does all planes; `count` is a constant if it is 4, so that no loop remains. */
 static ALWAYS_INLINE void msaa_all(const msaa_strip *strip, vi32 (*e)[3], const vf32 *column, vf32 below, size_t at,
                                    const e3d_record *r,
                                    int32_t id, e3d_visible_tile *planes, const e3d_record_table *table, int count)

@@ -15,7 +15,7 @@
 #include "kernels/generic/visible_records.inl"
 #include "kernels/generic/msaa_planes_blocks.inl"
 
-/* A record in the planes: its edge functions in each, and those of them that it may show in (a bit each). */
+/* A record in the planes: its edge functions in each plane, and the planes in which it may show (a bit each). */
 typedef struct msaa_piece {
     e3d_piece piece[E3D_MOST_MSAA_SAMPLES];
     raster_constants constants[E3D_MOST_MSAA_SAMPLES];
@@ -23,11 +23,11 @@ typedef struct msaa_piece {
     int tame;
 } msaa_piece;
 
-/* What it covers of a vector of blocks in each plane, and at which depths in all of them. */
+/* The cover of a vector of blocks in each plane, and its range of depths over all planes. */
 typedef struct msaa_cover {
     visible_corners corners[E3D_MOST_MSAA_SAMPLES];
     uint32_t some[E3D_MOST_MSAA_SAMPLES];
-    visible_cover all; /* some: in any plane; whole: in all */
+    visible_cover all; /* some: in any plane; whole: in all planes */
     visible_range range;
 } msaa_cover;
 
@@ -56,7 +56,7 @@ static inline void msaa_find_cover(const msaa_piece *p, int count, int first, ms
     }
 }
 
-/* Draws a record into a block of each plane, which shows nothing yet. */
+/* Draws a record into a block, in each plane, that shows nothing yet. */
 static inline void msaa_fresh_block(const msaa_piece *p, const msaa_cover *cover, int count, int block, const e3d_record *r,
                                     e3d_visible_tile *planes, const e3d_record_table *table)
 {
@@ -68,7 +68,8 @@ static inline void msaa_fresh_block(const msaa_piece *p, const msaa_cover *cover
     }
 }
 
-/* The edge functions of a plane in a block's first vector, from column x on: negative everywhere if the record misses the plane. */
+/* The edge functions of a plane in a block's first vector, from column x on; they are negative everywhere if the record
+ * misses the plane. */
 static ALWAYS_INLINE void msaa_corner(const msaa_piece *p, const msaa_cover *cover, int s, int lane, int x, vi32 e[3])
 {
     const e3d_piece *piece = &p->piece[s];
@@ -77,11 +78,12 @@ static ALWAYS_INLINE void msaa_corner(const msaa_piece *p, const msaa_cover *cov
                                 : v_seti(INT32_MIN / 2);
 }
 
-/* Draws a record into a block of all planes, whose samples are written, side by side. */
+/* Draws a record into a block, in all planes side by side; the block's samples are written already. */
 static ALWAYS_INLINE void msaa_block_of(const msaa_piece *p, const msaa_cover *cover, int block, const e3d_record *r,
                                         e3d_visible_tile *planes, const e3d_record_table *table, int count)
 {
-    const e3d_piece *piece = &p->piece[__builtin_ctz(p->live)]; /* what isn't of a sample is the same in all */
+    /* Everything except the samples' offsets is the same in all planes */
+    const e3d_piece *piece = &p->piece[__builtin_ctz(p->live)];
     int left = block % VISIBLE_BLOCKS * RASTER_BLOCK, top = block / VISIBLE_BLOCKS * RASTER_BLOCK;
     msaa_strip shared = {.zmin = p->constants[0].zmin, .zmax = p->constants[0].zmax};
     for (int k = 0; k < 3; k++)
@@ -131,7 +133,8 @@ static inline void msaa_blocks(const msaa_piece *p, int first, const e3d_record 
     float near[V_LANES];
     v_storef(near, range.near);
     uint32_t noted = rest & (uint32_t)(planes->noted >> first), fresh = noted & v_bits(v_negi(v_loadi(planes->noted_id + first)));
-    uint32_t unsure = rest & (uint32_t)(planes->stale >> first) & v_bits(v_gt(range.near, zmin)); /* others can't be behind zmax */
+    /* Blocks that aren't stale can't be behind zmax */
+    uint32_t unsure = rest & (uint32_t)(planes->stale >> first) & v_bits(v_gt(range.near, zmin));
     rest &= ~msaa_behind(unsure, first, near, planes, count);
     zmin = v_loadf(planes->zmin + first);
     v_storef(planes->zmin + first, v_self(visible_lanes(rest), v_min(range.near, zmin), zmin));
@@ -145,8 +148,8 @@ static inline void msaa_blocks(const msaa_piece *p, int first, const e3d_record 
         msaa_block(p, &cover, count, first + __builtin_ctz(some), r, planes, table);
 }
 
-/* Finds an edge function in all planes: one that leaves no sample of a plane out there, but of another, is kept in both, so that all
- * change alike from sample to sample. Planes that it leaves no sample of are no longer live. */
+/* Finds an edge function in all planes. If it leaves out no sample of one plane but some of another, it is kept in both, so
+ * that all planes step alike. A plane of which it leaves no sample is no longer live. */
 static inline void msaa_find_edge(const e3d_record *r, int k, const e3d_visible_tile *planes, const e3d_sample_pattern *pattern,
                                   msaa_piece *out)
 {
@@ -167,7 +170,7 @@ static inline void msaa_find_edge(const e3d_record *r, int k, const e3d_visible_
     }
 }
 
-/* Finds a record in the planes of a tile; 0 if it misses all. */
+/* Finds a record in the planes of a tile; 0 if it misses all of them. */
 static inline int msaa_find_piece(const records_lanes *in, int lane, const e3d_record *r, int32_t id,
                                   const e3d_visible_tile *planes,
                                   const e3d_sample_pattern *pattern, msaa_piece *out)

@@ -1,4 +1,4 @@
-/* physical: all light on physically based materials, summed up and laid over by their layers (R56, R57, R134). */
+/* physical: adds up all light on physically based materials, layer by layer (R56, R57, R134). */
 #ifndef E3D_KERNELS_PHYSICAL_INL
 #define E3D_KERNELS_PHYSICAL_INL
 
@@ -45,7 +45,7 @@ static ALWAYS_INLINE void brdf_add_layer(const e3d_brdf *brdf, const e3d_lightin
     }
 }
 
-/* R134: what layers and the volume leave of it. */
+/* R134: the share of the light behind that layers and the volume leave. */
 static ALWAYS_INLINE void brdf_through(const e3d_brdf *brdf, int has_coat, int has_sheen, const brdf_lanes *at, int i,
                                        vf32 through[3], e3d_texture_batch *m)
 {
@@ -79,7 +79,7 @@ static ALWAYS_INLINE vf32 brdf_occlusion(const e3d_batch *batch, const e3d_brdf 
     return lighting->has_visibility ? v_mul(occlusion, v_loadf(batch->visibility + i)) : occlusion;
 }
 
-/* coat: the coat's normals, or NULL. */
+/* Finishes a vector. coat: the coat's normals, or NULL. */
 static ALWAYS_INLINE void brdf_finish(const e3d_batch *batch, const e3d_brdf *brdf, const e3d_lighting *lighting,
                                       const environment_plan *plan, const e3d_lane_array *coat, int has_sheen, const e3d_brdf *rare,
                                       const brdf_lanes *at, const around_lanes *around, int i, e3d_texture_batch *m, vf32 color[3])
@@ -104,7 +104,7 @@ static ALWAYS_INLINE void brdf_finish(const e3d_batch *batch, const e3d_brdf *br
 
 /* ---- batches ---- */
 
-/* Some of the lights: those before them are added up already, in the batch; others may follow. */
+/* Some of the lights. The earlier ones are added up in the batch already; others may follow. */
 typedef struct chosen_lights {
     const int32_t *numbers;
     int count, is_first, is_last;
@@ -134,7 +134,7 @@ static ALWAYS_INLINE void brdf_keep_sums(e3d_texture_batch *m, int has_coat, int
     }
 }
 
-/* `count` vectors from i on; which parts there are is mostly a constant for the compiler. */
+/* Shades `count` vectors from i on. Which parts a material has is mostly a constant for the compiler. */
 static ALWAYS_INLINE void physical_block(e3d_batch *batch, int i, int count, e3d_texture_batch *m, const e3d_brdf *brdf,
                                          const e3d_lighting *lighting, const environment_plan *plan, const chosen_lights *lights, int has_coat,
                                          int has_sheen, const e3d_brdf *rare)

@@ -1,4 +1,4 @@
-/* project: the corners on the screen of visible pieces that have no record (R3, R8, R9), a vector of pieces at a time. */
+/* project: finds the corners on the screen of visible primitives that have no record (R3, R8, R9), a vector of them at a time. */
 #ifndef E3D_KERNELS_PROJECT_INL
 #define E3D_KERNELS_PROJECT_INL
 

@@ -1,7 +1,5 @@
-/* raster: the samples of a tile that a piece covers, and its depth there (R12, R14-R17).
- *
- * Four uses of one loop: depth test, overwrite, count, mark. A piece is drawn in strips: columns of unaligned vectors.
- */
+/* raster: finds the samples of a tile that a piece covers, and its depths there (R12, R14-R17). One loop has four uses: depth
+ * test, overwrite, count, mark. A piece is drawn in strips, which are columns of unaligned vectors. */
 #ifndef E3D_KERNELS_RASTER_INL
 #define E3D_KERNELS_RASTER_INL
 
@@ -17,7 +15,7 @@ typedef struct raster_constants {
     vi32 slot;
 } raster_constants;
 
-/* R14, the part that a column of vectors shares. */
+/* The part of R14 that a column of vectors shares. */
 static inline vf32 raster_column(const raster_constants *c, int32_t from)
 {
     vf32 dx = v_float(v_addi(v_iota(), v_seti(from)));
@@ -30,7 +28,7 @@ static inline vf32 raster_z(const raster_constants *c, vf32 column, int32_t dy)
     return v_min(v_max(z, c->zmin), c->zmax);
 }
 
-/* The lanes of equal depth in which this piece comes first (R16). */
+/* Of lanes with equal depth, those in which this piece comes first (R16). */
 static inline uint32_t raster_ties(uint32_t equal, const int32_t *slot, const e3d_piece *piece,
                                    const e3d_tile_buffers *tile)
 {
@@ -106,7 +104,7 @@ static inline void raster_strip(int use, const e3d_piece *p, int x, const raster
     }
 }
 
-/* Draws strips from the box's first column on, or as far to the right as the tile allows. */
+/* Draws strips from the box's first column on; the last strip begins where the tile still holds a vector. */
 static inline void raster_piece(int use, const e3d_piece *p, const e3d_tile_buffers *tile)
 {
     raster_constants c = {v_setf(p->z0),   v_setf(p->gx),   v_setf(p->gy),

@@ -1,6 +1,5 @@
-/* runs: neighbouring samples of a row with the same slot or ID, found, and spread over batches, a vector at a time. Where a whole
- * row of blocks is noted, no sample is looked at: its eight rows are alike.
- */
+/* runs: finds neighbouring samples of a row with the same slot or ID, and spreads them over batches, a vector at a time. If a
+ * whole row of blocks is noted, no sample is read: its eight rows are alike. */
 #ifndef E3D_KERNELS_RUNS_INL
 #define E3D_KERNELS_RUNS_INL
 
@@ -11,7 +10,7 @@
 #include "kernels/generic/raster.inl"
 #include "kernels/generic/visible.inl"
 
-/* Bit x: sample x differs from sample x + 1, or is the row's last. */
+/* Bit x is set if sample x differs from sample x + 1, or is the row's last. */
 static inline uint64_t runs_ends(const int32_t *row, int width)
 {
     uint64_t ends = 0;
@@ -23,7 +22,7 @@ static inline uint64_t runs_ends(const int32_t *row, int width)
     return (ends & (last - 1)) | last;
 }
 
-/* Bit b: all blocks of the row that b is in are noted. */
+/* Bit b is set if all blocks in the row of block b are noted. */
 static inline uint64_t runs_noted(uint64_t noted)
 {
     for (int step = 1; step < VISIBLE_BLOCKS; step *= 2)
@@ -31,7 +30,7 @@ static inline uint64_t runs_noted(uint64_t noted)
     return (noted & 0x0101010101010101) * 0xFF;
 }
 
-/* Finds the runs of a row of blocks that are all noted: its rows of samples are alike. */
+/* Finds the runs of a row of blocks that are all noted, whose eight rows are alike. */
 static inline int runs_of_blocks(const int32_t *ids, int width, int rows, int sample, e3d_run *out, int32_t *owners)
 {
     int count = 0;
@@ -51,8 +50,8 @@ static inline int runs_of_blocks(const int32_t *ids, int width, int rows, int sa
     return rows * count;
 }
 
-/* Finds the runs of at most a block's rows. How many a row has is often mispredicted, so the ends of all rows are found first:
- * after a misprediction they are there already. Inside the spheres, 303 instead of 349 us a frame. */
+/* Finds the runs of at most a block's rows. Their number is often mispredicted, so the ends of all rows are found first:
+ * after a misprediction they are known already. Inside the spheres this takes 303 instead of 349 us a frame. */
 static inline int runs_of_rows(const int32_t *row, int width, int rows, int sample, e3d_run *out, int32_t *owners)
 {
     uint64_t ends_of[RASTER_BLOCK];
@@ -79,7 +78,7 @@ static inline int runs_of_rows(const int32_t *row, int width, int rows, int samp
 static int kernel_find_runs(e3d_visible_tile *tile, int width, int height, e3d_run *out, int *gaps)
 {
     uint64_t noted = runs_noted(tile->noted);
-    int32_t owners = 0; /* the OR of all owners: its sign bit tells of gaps */
+    int32_t owners = 0; /* the OR of all owners: its sign bit is set if there is a gap */
     int count = 0;
     for (uint64_t left = tile->noted & ~noted; left; left &= left - 1)
         visible_unfold_ids(tile, __builtin_ctzll(left));
@@ -101,7 +100,7 @@ static inline void batch_pad(e3d_batch *batch, int count)
     batch->count = count;
 }
 
-/* Spreads long runs, each by itself in whole vectors, which may go past its end. */
+/* Spreads long runs one by one in whole vectors, which may reach beyond a run's end. */
 static inline int runs_take_long(const e3d_shown *shown, int first, int count, int32_t primitive, e3d_batch *batch)
 {
     int n = batch->count, r = first;
@@ -120,12 +119,12 @@ static inline int runs_take_long(const e3d_shown *shown, int first, int count, i
     return r - first;
 }
 
-/* A run as one word that all its samples share: its surface, and how far its first sample is from its place among the new samples,
- * plus RUN_BEFORE, which keeps it positive. */
+/* A run as one word, which all its samples share: its surface, and the distance from its place among the new samples to its
+ * first sample. RUN_BEFORE keeps that positive. */
 enum { RUN_SURFACE = 16, RUN_BEFORE = E3D_BATCH };
 
 /* Writes `count` new samples from place `first` on, each vector once. Their words are the running sums of batch->steps, which
- * become 0 again. */
+ * are reset to 0. */
 static inline void runs_add_up(int first, int count, e3d_batch *batch)
 {
     vi32 before = v_seti(0), last = v_seti(count - 1 - RUN_BEFORE), place = v_subi(v_iota(), v_seti(RUN_BEFORE));
@@ -139,8 +138,8 @@ static inline void runs_add_up(int first, int count, e3d_batch *batch)
     }
 }
 
-/* Spreads short runs: where one begins, its word minus the one before is noted; then every vector is written once. Overlapping
- * stores would take longer: 2 % of the head with AVX2, 4 % with AVX-512. */
+/* Spreads short runs: at the place where a run begins, the difference to the word before is stored; then every vector is
+ * written once. Overlapping stores would take longer: 2 % of the head with AVX2, 4 % with AVX-512. */
 static inline int runs_take_short(const e3d_shown *shown, int first, int count, int32_t primitive, e3d_batch *batch)
 {
     int room = E3D_BATCH - batch->count, n = 0, r = first;
@@ -160,7 +159,8 @@ static inline int runs_take_short(const e3d_shown *shown, int first, int count, 
     return r - first;
 }
 
-enum { RUNS_LONG = 2 * E3D_TILE }; /* if a tile has at most so many runs, they are long */
+/* A tile of at most so many runs has on average 32 samples a run or more: they are copied one by one */
+enum { RUNS_LONG = 2 * E3D_TILE };
 
 static int kernel_take_runs(const e3d_shown *shown, int first, int count, int32_t primitive, e3d_batch *batch)
 {

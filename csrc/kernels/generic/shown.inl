@@ -1,8 +1,6 @@
-/* shown: the samples of a tile that show its records and fragments, primitive after primitive; and from there to batches.
- *
- * The samples of a record lie in its box, where those with its ID are packed, and the fragments of a triangle follow each other:
- * so nothing has to be sorted.
- */
+/* shown: lists the samples of a tile that show its records and fragments, primitive after primitive; and makes batches of
+ * them. A record's samples lie in its box, where those with its ID are packed; the fragments of a triangle follow each other.
+ * So nothing has to be sorted. */
 #ifndef E3D_KERNELS_SHOWN_INL
 #define E3D_KERNELS_SHOWN_INL
 
@@ -19,14 +17,14 @@
 #include "kernels/generic/visible_records.inl"
 #include "kernels/generic/runs.inl"
 
-/* The end of the list: where the next sample goes, and the next primitive. */
+/* The end of the list: the places of the next sample and the next primitive. */
 typedef struct shown_end {
     int32_t count, primitive;
 } shown_end;
 
-enum { SHOWN_FEW = 2 * E3D_PAD }; /* so many samples of a primitive are numbered without a loop, however many there are */
+enum { SHOWN_FEW = 2 * E3D_PAD }; /* so many samples of a primitive are numbered without a loop, however many it has */
 
-/* Makes a primitive of the samples from `end->count` up to `last`, which show an ID; if there are none, there is no primitive. */
+/* Makes a primitive of the samples from `end->count` up to `last`, which show an ID; without samples there is no primitive. */
 static inline void shown_name(uint32_t id, int32_t last, shown_end *end, e3d_shown *out)
 {
     int32_t first = end->count;
@@ -40,7 +38,7 @@ static inline void shown_name(uint32_t id, int32_t last, shown_end *end, e3d_sho
     end->count = last;
 }
 
-/* Stores the samples `at` + lane of some lanes of one row, which mostly are neighbours or none; returns how many. */
+/* Stores the samples `at` + lane for some lanes of one row, which mostly are neighbours or none; returns how many. */
 static inline int shown_in_row(int32_t at, uint32_t lanes, int32_t *out)
 {
     int first = __builtin_ctz(lanes | 1u << (V_LANES - 1));
@@ -59,7 +57,8 @@ static inline int shown_in_row(int32_t at, uint32_t lanes, int32_t *out)
 enum { SHOWN_VECTORS = RECORDS_FEW }; /* V_LANES boxes of RECORDS_FEW / V_LANES vectors each */
 typedef struct shown_vectors {
     int32_t count;
-    int32_t first[SHOWN_VECTORS + E3D_PAD], lane[SHOWN_VECTORS + E3D_PAD]; /* its first sample, and the lane of its record */
+    /* The vector's first sample, and the lane of its record */
+    int32_t first[SHOWN_VECTORS + E3D_PAD], lane[SHOWN_VECTORS + E3D_PAD];
 } shown_vectors;
 
 static inline void shown_list(const records_lanes *in, int lane, shown_vectors *list)
@@ -79,7 +78,7 @@ static inline void shown_list(const records_lanes *in, int lane, shown_vectors *
     }
 }
 
-/* Lists the samples that show records with small boxes, those of some lanes. */
+/* Lists the samples that show records with small boxes, for some lanes. */
 static inline void shown_strips(const records_lanes *in, uint32_t lanes, const uint32_t *ids, const e3d_visible_tile *tile, shown_end *end,
                                 e3d_shown *out)
 {
@@ -104,7 +103,7 @@ static inline void shown_strips(const records_lanes *in, uint32_t lanes, const u
 
 /* ---- larger boxes ---- */
 
-/* The blocks of its box that may show a record: neither noted for another nor nearer everywhere. */
+/* The blocks of a record's box that may show it: neither noted for another record nor nearer everywhere. */
 static inline uint64_t shown_blocks(const records_lanes *in, int lane, const e3d_record *r, int32_t id, const e3d_visible_tile *tile)
 {
     uint64_t own = 0, blocks = records_met(in, lane) & ~records_behind(r->zmin, tile);
@@ -165,7 +164,7 @@ static void kernel_show_records(const e3d_visible_tile *tile, const e3d_record_t
 
 /* ---- fragments ---- */
 
-/* Finds the fragments that show first, since they may be few, and without a branch, since which ones show is unpredictable. */
+/* First finds the fragments that show, since they may be few; without a branch, since which ones show is unpredictable. */
 static void kernel_show_fragments(const e3d_visible_tile *tile, const e3d_fragment_link *b, e3d_shown *out)
 {
     uint8_t shown[E3D_BLOCK_FRAGMENTS];
@@ -199,7 +198,7 @@ static int kernel_take_shown(const e3d_shown *shown, int first, int count, int32
     return some;
 }
 
-/* Pixels with the numbers of R105. */
+/* Takes pixels with the sample numbers of R105. */
 static int kernel_take_placed(const e3d_shown *shown, int first, int count, int32_t primitive, e3d_batch *batch)
 {
     int n = batch->count, some = count < E3D_BATCH - n ? count : E3D_BATCH - n;

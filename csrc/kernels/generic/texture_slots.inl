@@ -17,7 +17,7 @@
 
 static inline vf32 negate_if(vmask negative, vf32 v) { return v_self(negative, v_sub(v_setf(0.0f), v), v); }
 
-/* R47: of vertices, whose tangents are directions in object space. */
+/* R47: tangents of vertices, which are directions in object space. */
 static inline void slot_vertex_tangents(const e3d_surfaces *matrices, const element_lanes *lanes, e3d_texture_surfaces *m, int n)
 {
     vf32 t[3][3]; /* [vertex][component] */
@@ -33,7 +33,7 @@ static inline void slot_vertex_tangents(const e3d_surfaces *matrices, const elem
     }
 }
 
-/* R47: of the face, by its corners in world space and their coordinates. */
+/* R47: the tangent of a face, from its corners in world space and their coordinates. */
 static inline void slot_face_tangents(const e3d_surfaces *s, e3d_texture_surfaces *m, int place, int n)
 {
     vf32 u[3], v[3], p[3], zero = v_setf(0.0f);
@@ -144,7 +144,8 @@ static ALWAYS_INLINE void stage_maps(e3d_batch *batch, const sample_vector *v, c
 
 /* ---- texels ---- */
 
-/* Whether texels of two textures at one place have the same numbers and weights. (Probes of anisotropic ones aren't kept.) */
+/* Whether two textures at one place have texels with the same numbers and weights. (Probes of anisotropic textures aren't
+ * kept.) */
 static inline int textures_are_alike(const e3d_read_texture *a, const e3d_read_texture *b)
 {
     const e3d_texture_view *x = a->view, *y = b->view;
@@ -155,7 +156,7 @@ static inline int textures_are_alike(const e3d_read_texture *a, const e3d_read_t
 
 static const float slot_ones[3] = {1.0f, 1.0f, 1.0f};
 
-/* Reads a texture, whose places may be found already. */
+/* Reads a texture; its places may be known already. */
 static ALWAYS_INLINE void slot_filter(texture_plan *plan, int filter, int bits, int is_found, const texture_source *from,
                                       e3d_lane_array *out)
 {
@@ -198,7 +199,7 @@ static inline void slot_anisotropic(texture_plan *plan, const e3d_read_texture *
     anisotropic_read(plan, &from, &to);
 }
 
-/* Coordinates, tangents and texels of a batch, whose weights and normals are there. */
+/* Finds coordinates, tangents and texels of a batch whose weights and normals are known. */
 static void kernel_read_textures(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_read_textures *textures,
                                  const e3d_texture_surfaces *m, e3d_texture_batch *out)
 {
@@ -216,7 +217,7 @@ static void kernel_read_textures(e3d_batch *batch, const e3d_surfaces *surfaces,
 
 /* ---- normals ---- */
 
-/* R48 of one vector. */
+/* R48 for one vector. */
 static ALWAYS_INLINE void map_normal(const e3d_texture_batch *m, const e3d_normal_texture *texture, int i, const vf32 n[3],
                                      vf32 out[3])
 {
@@ -263,7 +264,7 @@ static ALWAYS_INLINE vf32 varying_at(const e3d_varying *varying, int i)
     return varying->lanes ? v_mul(v_loadf(varying->lanes + i), factor) : factor;
 }
 
-/* Numbers of a batch. */
+/* Finds the numbers of a batch. */
 static void kernel_varying(const e3d_varying *varying, int count, float *out)
 {
     for (int i = 0; i < count; i += V_LANES)

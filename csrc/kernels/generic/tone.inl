@@ -19,10 +19,10 @@ static ALWAYS_INLINE void tone_multiply(const float matrix[3][3], const vf32 v[3
                          v_mul(v_setf(matrix[row][2]), v[2]));
 }
 
-/* Mappers work on several vectors side by side, in short steps: one after the other, most operations would wait for those before. */
+/* Mappers interleave several vectors in short steps, since within one vector most operations would wait for those before. */
 enum { TONE_SIDE = 4 };
 
-/* Of `side` vectors, a constant for the compiler: channel by channel. */
+/* The colours of `side` vectors, channel by channel; `side` is a constant for the compiler. */
 typedef vf32 tone_colors[TONE_SIDE][3];
 
 #define TONE_EACH(side, j) for (int j = 0; j < side; j++)
@@ -56,7 +56,7 @@ static ALWAYS_INLINE void tone_multiply_all(const float matrix[3][3], int side, 
     }
 }
 
-/* R118: what is left of dark colours; returns the greatest channel. */
+/* R118: takes the toe from dark colours; returns the greatest channel. */
 static ALWAYS_INLINE vf32 tone_neutral_dark(vf32 color[3])
 {
     vf32 least = v_min(v_min(color[0], color[1]), color[2]);
@@ -67,7 +67,7 @@ static ALWAYS_INLINE vf32 tone_neutral_dark(vf32 color[3])
     return v_max(v_max(color[0], color[1]), color[2]);
 }
 
-/* Where no lane is bright, nothing is divided. */
+/* R118. If no lane is bright, nothing is divided. */
 static ALWAYS_INLINE void tone_neutral(int side, tone_colors color)
 {
     vf32 peak[TONE_SIDE], lower[TONE_SIDE], scale[TONE_SIDE], whiter[TONE_SIDE], one = v_setf(1.0f), start = v_setf(0.76f), most;
@@ -108,7 +108,7 @@ static ALWAYS_INLINE void tone_aces(int side, tone_colors color)
     tone_multiply_all(E3D_ACES_OUT, side, color);
 }
 
-/* R119: the first matrix, and the limits of the curve. */
+/* R119: applies the first matrix, and the limits of the curve. */
 static ALWAYS_INLINE void tone_agx_in(vf32 c[3])
 {
     const float(*in)[3] = E3D_AGX_IN;
@@ -119,7 +119,7 @@ static ALWAYS_INLINE void tone_agx_in(vf32 c[3])
         c[k] = v_min(v_max(v[k], v_setf(E3D_AGX_LEAST[k])), v_setf(E3D_AGX_MOST[k]));
 }
 
-/* Stops from the middle of the curve. */
+/* Finds the stops from the middle of the curve. */
 static ALWAYS_INLINE void tone_agx_stops(int side, tone_colors v)
 {
     tone_colors m, sum;
@@ -144,7 +144,7 @@ static ALWAYS_INLINE void tone_agx_curve(int side, tone_colors v)
     TONE_STEP(v[j][k] = sum[j][k])
 }
 
-/* To the power of 2.2. */
+/* Raises to the power of 2.2. */
 static ALWAYS_INLINE void tone_agx_power(int side, tone_colors v)
 {
     tone_colors root;
@@ -170,7 +170,7 @@ static ALWAYS_INLINE void tone_agx(int side, tone_colors color)
     tone_multiply_all(E3D_AGX_SRGB, side, color);
 }
 
-/* The mapping is a constant for the compiler, too. */
+/* Maps some vectors; the mapping is a constant for the compiler, too. */
 static ALWAYS_INLINE void tone_some(e3d_tone_mapping mapping, float *const planes[3], int at, int side)
 {
     tone_colors color;
@@ -221,7 +221,7 @@ static ALWAYS_INLINE vf32 fog_share(const e3d_fog_view *fog, const float *const 
     return v_sub(one, exp2_poly(v_mul(v_mul(u, u), v_setf(E3D_MINUS_LOG2_E))));
 }
 
-/* The kind is a constant for the compiler. */
+/* Blends fog over planes of colours; the kind is a constant for the compiler. */
 static ALWAYS_INLINE void fog_planes(const e3d_fog_view *fog, const float *const position[3], int count, float *const color[3],
                                      e3d_fog_kind kind)
 {

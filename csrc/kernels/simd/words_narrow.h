@@ -1,6 +1,5 @@
-/* The vector words that SSE4.1 and AVX2 share beyond words_x86.h: a mask is a vector whose lanes are all ones or 0, and tables lie in
- * memory. Whoever includes it has v_iota, rows_pairs and curve_fetch, too.
- */
+/* The vector words that SSE4.1 and AVX2 share beyond words_x86.h: a mask is a vector whose lanes are all ones or 0, and
+ * tables lie in memory. A file that includes this one has v_iota, rows_pairs and curve_fetch, too. */
 #ifndef E3D_WORDS_NARROW_H
 #define E3D_WORDS_NARROW_H
 

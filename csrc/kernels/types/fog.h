@@ -6,7 +6,7 @@
 
 typedef struct e3d_fog_view {
     e3d_fog_kind kind;
-    float row[4]; /* of view_from_world: depth is 0 - z */
+    float row[4]; /* the row of view_from_world for which depth is 0 - z */
     float color[3];
     float near, scale; /* linear: scale is 1 over the range of depths */
     float density;     /* exponential */

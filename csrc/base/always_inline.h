@@ -1,6 +1,5 @@
-/* Functions that must be inlined: constants of the caller specialise them, and GCC drops a call of a function that does nothing but
- * prefetch.
- */
+/* Functions that must be inlined: constants of the caller specialise them. GCC would even drop the call of a function that
+ * only prefetches. */
 #ifndef E3D_ALWAYS_INLINE_H
 #define E3D_ALWAYS_INLINE_H
 

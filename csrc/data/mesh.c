@@ -1,4 +1,4 @@
-/* A mesh's box, and what of it may change: attributes of its vertices. */
+/* A mesh's box, and the parts of a mesh that may change: its vertices' attributes. */
 #include "data/mesh.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* The names of what options can be, from the lists that their enums are made of. */
+/* The names of options' values, from the lists that their enums are made from. */
 #include "e3d.h"
 
 #define NAME(enumerator, name, ...) #name,

@@ -1,4 +1,4 @@
-/* Where the samples of a pixel lie with multisampling (R103). */
+/* The places of a pixel's samples with multisampling (R103). */
 #ifndef E3D_SAMPLE_PATTERNS_H
 #define E3D_SAMPLE_PATTERNS_H
 

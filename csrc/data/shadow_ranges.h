@@ -1,4 +1,4 @@
-/* The depths between which lies what the comparisons of R93 may touch, as numbers of 16 bits. */
+/* The ranges of depths that the comparisons of R93 may read, as numbers of 16 bits. */
 #ifndef E3D_SHADOW_RANGES_H
 #define E3D_SHADOW_RANGES_H
 

@@ -2,7 +2,7 @@
 #ifndef E3D_ARC_TANGENT_H
 #define E3D_ARC_TANGENT_H
 
-/* Of t in [0, 1], within 2 ulps. */
+/* For t in [0, 1], within 2 ulps. */
 static inline double e3d_arc_tangent(double t)
 {
     static const double OF_EIGHTHS[9] = {0.0,

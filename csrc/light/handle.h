@@ -1,4 +1,4 @@
-/* What a handle of an environment stands for. */
+/* The struct behind a handle of an environment. */
 #ifndef E3D_ENVIRONMENT_HANDLE_H
 #define E3D_ENVIRONMENT_HANDLE_H
 

@@ -1,13 +1,12 @@
-/* Film: what a thin film on a surface reflects of each colour.
- *
- * In:  the cosine of the angle of view, the film's index of refraction and thickness, what the surface below reflects.
+/* Iridescence: the reflectance of a thin film on a surface, by colour.
+ * In: the cosine of the angle of view, the film's index of refraction and thickness, the reflectance of the surface below.
  * Out: the reflectance of each channel.
- * Rules: R139 (sensitivity), R140 (reflectance). Source: KHR_materials_iridescence, after Belcour and Barla 2017.
- */
+ * Rules: R139 (sensitivity), R140 (reflectance).
+ * Source: KHR_materials_iridescence, after Belcour and Barla 2017. */
 #include "data/iridescence_tables.h"
 #include "reference/surface.h"
 
-/* R139: of one wave, after a path. */
+/* R139: one wave's response after a path. */
 static float wave(int number, float path)
 {
     float turns = path * E3D_FILM_TURNS[number];

@@ -1,9 +1,7 @@
-/* Maps: what the textures of a material say at one sample, beside its base colour.
- *
- * In:  a surface with its place, normal and albedo.
- * Out: its emission, tangent and mapped normal; of physically based materials all that R49 reads.
- * Rules: R45 (coordinates), R46 (values), R47 (tangent), R48 (mapped normal).
- */
+/* Texture slots: the values of a material's textures at one sample, besides its base colour.
+ * In: a surface with its place, normal and albedo. Out: its emission, tangent and mapped normal; for physically based
+ * materials everything that R49 reads.
+ * Rules: R45 (coordinates), R46 (values), R47 (tangent), R48 (mapped normal). */
 #include "reference/arithmetic.h"
 #include "reference/surface.h"
 
@@ -68,7 +66,7 @@ static float find_occlusion(const e3d_material *m, const ref_surface *s)
 
 /* ---- tangent (R47) ---- */
 
-/* The texture whose coordinates tell what is right: one of normals, or none. */
+/* The texture whose coordinates define the tangent: a normal texture, or none. */
 static const e3d_texture_use *tangent_slot(const e3d_material *m)
 {
     int by_coat = m->is_physical && !m->normal_texture.texture;
@@ -80,7 +78,7 @@ static int is_flat(const ref_scene *scene, const ref_surface *s)
     return e3d_is_flat(scene->frame->normals, s->piece->primitive.material->flat) && s->instance->mesh->face_normals;
 }
 
-/* The sign of the bitangent on the side of the winding. */
+/* The sign of the bitangent on the side that the winding faces. */
 static float turned_sign(const ref_surface *s, float sign) { return s->instance->turned_round ? 0.0f - sign : sign; }
 
 static float vertex_tangents(const ref_surface *s, float corners[3][3])
@@ -105,7 +103,7 @@ static float face_tangent(const ref_surface *s, const ref_coordinates *at, float
     return turned_sign(s, det < 0.0f ? -1.0f : 1.0f);
 }
 
-/* Of a face; all 0 where nothing tells. */
+/* Finds the tangent of a face; all 0 if nothing defines one. */
 static void find_tangent(const ref_scene *scene, ref_surface *s)
 {
     const e3d_texture_use *slot = tangent_slot(s->piece->primitive.material);

@@ -1,9 +1,6 @@
-/* draws: from slots to the draws of a frame, and the order in which the nodes were added.
- *
- * Nodes that draw the same mesh become one draw, whose nodes take their turns in that order.
- * Of many instances only those that may show are drawn, as runs of neighbours. The order stays instance,
- * then face, and first_instance keeps the instances' numbers.
- */
+/* draws: turns slots into the draws of a frame, and keeps the order in which the nodes were added. Nodes of the same mesh
+ * become one draw, whose nodes take their turns in that order. Of many instances only those that may show are drawn, as runs
+ * of neighbours; the order stays instance, then face, and first_instance keeps the instances' numbers. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +9,7 @@
 #include "e3d_scene.h"
 #include "scene/pose.h"
 
-/* A run goes on over so many instances that do not show: a draw of its own would cost more. */
+/* A run continues over so many instances that do not show, since another draw would cost more. */
 enum { GAP = 3 };
 
 void e3d_draw_list_free(e3d_draw_list *list)
@@ -38,7 +35,7 @@ static int reserve(void *array, int32_t count, size_t size)
     return data != NULL;
 }
 
-/* Adds a place in the order for a draw. */
+/* Gives a draw a place in the order. */
 static int take_turn(e3d_draw_list *list, int32_t draw)
 {
     if (list->order_count == list->order_room) {
@@ -98,7 +95,7 @@ static int append_runs(e3d_draw_list *list, const e3d_draw *whole)
     return first < 0 || append_run(list, whole, first, end);
 }
 
-/* Lists the instances that may show: the planes are taken into the node's space. */
+/* Lists the instances that may show, by planes that are transformed into the node's space. */
 static int select_instances(e3d_draw_list *list, const e3d_view_volume *view, const e3d_placed *object,
                             const double world[16])
 {
@@ -175,7 +172,7 @@ static int append_member(e3d_draw_list *list, const e3d_placed *object, e3d_batc
     return take_turn(list, batch->draw);
 }
 
-/* Finds where the rows of each batch's nodes start. */
+/* Finds where the rows of each batch's nodes begin. */
 static void lay_out_batches(e3d_draw_list *list, int32_t batches)
 {
     int32_t first = 0;
@@ -240,7 +237,7 @@ static e3d_batch *batch_of(const e3d_draw_list *list, const e3d_node_rows *rows,
     return &list->batches[2 * (size_t)rows->object[slot] + (size_t)receives_none(rows, slot)];
 }
 
-/* Lists the slots that are drawn, and counts them for each batch. */
+/* Lists the slots that draw anything, and counts them for each batch. */
 static void list_slots(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
                        const e3d_placed *objects, int32_t object_count)
 {

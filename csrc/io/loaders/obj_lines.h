@@ -17,13 +17,13 @@
 
 typedef struct obj_lines {
     const uint8_t *next, *end;
-    size_t number; /* of the line at `next`, from 1 */
+    size_t number; /* the number of the line at `next`, from 1 */
     e3d_array scratch;
 } obj_lines;
 
 typedef struct obj_line {
     const uint8_t *at, *end;
-    size_t number; /* of the line in which its first word stands */
+    size_t number; /* the number of the line that holds its first word */
 } obj_line;
 
 typedef enum obj_step { OBJ_LINE, OBJ_NO_MORE_LINES, OBJ_LINES_NO_MEMORY } obj_step;
@@ -47,7 +47,7 @@ static inline const uint8_t *obj_word_end(const uint8_t *at, const uint8_t *end)
     return at;
 }
 
-/* Whether a line, whose blanks are skipped, begins with a keyword of two letters, or of one where `second` is 0. */
+/* Whether a line, behind its blanks, begins with a keyword of two letters, or of one if `second` is 0. */
 static inline bool obj_begins(const obj_line *line, char first, char second)
 {
     const uint8_t *at = line->at;
@@ -55,7 +55,7 @@ static inline bool obj_begins(const obj_line *line, char first, char second)
                                               : e3d_is_gap(at[1]));
 }
 
-/* The elements that a line holds, with line->at behind the keyword; OBJ_ELEMENT_KINDS for none. */
+/* The kind of elements on a line, with line->at moved behind the keyword; OBJ_ELEMENT_KINDS for none. */
 static inline obj_element_kind obj_elements_of(obj_line *line)
 {
     line->at = obj_skip_gaps(line->at, line->end);

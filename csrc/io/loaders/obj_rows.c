@@ -42,8 +42,7 @@ static bool read_numbers(e3d_obj *obj, e3d_obj_list list, const obj_line *line,
     return true;
 }
 
-/* Adds the colour of a vertex. One without, or with one that is not finite, has NaN for its red; one
- * without alpha, NaN there. */
+/* Adds the colour of a vertex. If it has none, or one that is not finite, its red is NaN; if it has no alpha, that is NaN. */
 static bool add_color(e3d_obj *obj, const double *numbers, size_t count)
 {
     e3d_array *colors = &obj->reader->colors;

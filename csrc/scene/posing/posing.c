@@ -1,7 +1,5 @@
-/* posing: many meshes at once, shared out over threads.
- *
- * Small meshes are posed whole by one thread, in its caches. The vertices of a large one are shared out, then its clusters.
- */
+/* posing: poses many meshes at once on several threads. A small mesh is posed whole by one thread, in its caches. Of a large
+ * one, first the vertices are shared out, and then its clusters. */
 #include "e3d_posing.h"
 
 #include "base/fpenv.h"

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "data/clusters.h"
 #include "base/pool.h"
+#include "data/clusters.h"
 #include "data/triangles.h"
 
 typedef struct keyed {

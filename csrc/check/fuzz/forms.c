@@ -5,8 +5,8 @@
  * Claims: lines of no form begin where reading stops, and a text cut there gives the same; of STL, a reader that goes by
  *      words keeps the same numbers and marks; of 3D Studio, indices and flags are in range, marks in order.
  */
-#include "e3d_forms.h"
 #include "check/fuzz/input.h"
+#include "e3d_forms.h"
 
 #include <strings.h>
 

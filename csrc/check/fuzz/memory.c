@@ -3,11 +3,11 @@
  * In:  a byte: what is done; a byte: which allocation fails, whether those behind it do; then the data.
  * Claims: each says so, and frees what it had. Linked so that the allocations of the core come through here.
  */
+#include "check/fuzz/input.h"
 #include "e3d_images.h"
 #include "e3d_loaders.h"
 #include "e3d_navigation.h"
 #include "e3d_scene.h"
-#include "check/fuzz/input.h"
 
 #include <errno.h>
 

@@ -3,9 +3,9 @@
  * In:  a byte each: width, height, gap between rows; then pixels, again and again until all have some.
  * The targets are built with small windows and blocks (io/images/deflate.h), which few pixels fill.
  */
-#include "e3d_images.h"
 #include "check/fuzz/inflate.h"
 #include "check/fuzz/input.h"
+#include "e3d_images.h"
 #include "io/images/deflate.h"
 
 enum { PIXEL = 4, HEADER = 33, CHUNK = 12, MOST_COLUMNS = 63, MOST_PIXELS = 192 };

@@ -5,15 +5,15 @@
 #include <string.h>
 
 #include "base/grow.h"
-#include "data/mesh.h"
 #include "base/pool.h"
+#include "data/mesh.h"
 #include "e3d.h"
-#include "kernels/coverage.h"
 #include "frame/cull/cull.h"
 #include "frame/pass/boxes.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/plan.h"
 #include "frame/pass/prepared.h"
+#include "kernels/coverage.h"
 
 enum { GROUPS_A_TASK = 512 };
 

@@ -5,21 +5,21 @@
 
 #include "base/grow.h"
 #include "base/limits.h"
-#include "data/mesh.h"
 #include "base/pool.h"
-#include "data/shadows.h"
+#include "data/mesh.h"
 #include "data/sample_patterns.h"
+#include "data/shadows.h"
 #include "e3d.h"
-#include "kernels/coverage.h"
-#include "kernels/types/fog.h"
-#include "kernels/types/shading.h"
-#include "kernels/types/vertices.h"
 #include "frame/pass/boxes.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/facing.h"
 #include "frame/pass/matrices.h"
 #include "frame/pass/plan.h"
 #include "frame/pass/view.h"
+#include "kernels/coverage.h"
+#include "kernels/types/fog.h"
+#include "kernels/types/shading.h"
+#include "kernels/types/vertices.h"
 
 static float guard_factor(double half)
 {

@@ -5,21 +5,21 @@
 #include "base/grow.h"
 #include "base/limits.h"
 #include "e3d.h"
-#include "kernels/kernels.h"
 #include "frame/cast/casters.h"
 #include "frame/cull/cull.h"
 #include "frame/cull/history.h"
-#include "frame/run/renderer.h"
 #include "frame/geometry/bin.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/plan.h"
 #include "frame/pass/view.h"
+#include "frame/run/renderer.h"
 #include "frame/shade/shade.h"
 #include "frame/tile/alpha_test.h"
 #include "frame/tile/job.h"
 #include "frame/tile/kept.h"
 #include "frame/tile/multisample.h"
 #include "frame/tile/slots.h"
+#include "kernels/kernels.h"
 
 static e3d_worker *create_worker(void)
 {

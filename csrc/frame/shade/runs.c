@@ -1,9 +1,9 @@
 /* shade: sorts runs by their owners, so that each primitive is met once, and the primitives of a cluster follow each other. */
 #include <string.h>
 
+#include "frame/shade/runs.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
-#include "frame/shade/runs.h"
 
 enum { FEW = 24, MOST_BITS = 8, PARTS = 4 };
 

@@ -4,13 +4,13 @@
 
 #include "base/limits.h"
 #include "e3d.h"
-#include "kernels/types/visible.h"
 #include "frame/pass/plan.h"
 #include "frame/pass/view.h"
 #include "frame/store/backdrop.h"
 #include "frame/store/outputs.h"
 #include "frame/store/picture.h"
 #include "frame/store/store.h"
+#include "kernels/types/visible.h"
 
 /* The number of words that a pixel of each output has, and the background's word, which all of them hold. */
 static const struct {

@@ -1,10 +1,10 @@
 /* Copies a tile's rows to a picture of the caller's, and back. */
 #include <string.h>
 
-#include "kernels/types/samples.h"
 #include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
 #include "frame/store/picture.h"
+#include "kernels/types/samples.h"
 
 /* Whether a picture's cache lines aren't in this core's caches anyway: it is large, or another core wrote them last. */
 static int is_far(const e3d_prepared *pass, size_t bytes)

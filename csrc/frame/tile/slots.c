@@ -4,12 +4,6 @@
 
 #include "base/grow.h"
 #include "base/limits.h"
-#include "kernels/coverage.h"
-#include "kernels/types/records.h"
-#include "kernels/types/samples.h"
-#include "kernels/types/shown.h"
-#include "kernels/types/vertices.h"
-#include "kernels/types/visible.h"
 #include "frame/geometry/bin.h"
 #include "frame/geometry/lines.h"
 #include "frame/geometry/records.h"
@@ -22,6 +16,12 @@
 #include "frame/tile/piece.h"
 #include "frame/tile/slots.h"
 #include "frame/tile/visible.h"
+#include "kernels/coverage.h"
+#include "kernels/types/records.h"
+#include "kernels/types/samples.h"
+#include "kernels/types/shown.h"
+#include "kernels/types/vertices.h"
+#include "kernels/types/visible.h"
 
 void e3d_marks_init(e3d_marks_memory *marks)
 {

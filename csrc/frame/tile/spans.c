@@ -3,16 +3,16 @@
 #include <string.h>
 
 #include "base/limits.h"
-#include "kernels/kernels.h"
-#include "kernels/types/fragments.h"
-#include "kernels/types/shown.h"
-#include "kernels/types/visible.h"
 #include "frame/geometry/bin.h"
 #include "frame/geometry/records.h"
 #include "frame/pass/view.h"
 #include "frame/shade/runs.h"
 #include "frame/tile/memory.h"
 #include "frame/tile/spans.h"
+#include "kernels/kernels.h"
+#include "kernels/types/fragments.h"
+#include "kernels/types/shown.h"
+#include "kernels/types/visible.h"
 
 /* Whether a tile has few records, and no fragments. It stops as soon as there are too many. */
 static int are_few(const e3d_bins *bins, int64_t tile)

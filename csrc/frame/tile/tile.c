@@ -6,9 +6,6 @@
 #include "base/machine.h"
 #include "base/pool.h"
 #include "e3d.h"
-#include "kernels/kernels.h"
-#include "kernels/types/shown.h"
-#include "kernels/types/visible.h"
 #include "frame/cull/depths.h"
 #include "frame/geometry/bin.h"
 #include "frame/geometry/records.h"
@@ -30,6 +27,9 @@
 #include "frame/tile/spans.h"
 #include "frame/tile/tile.h"
 #include "frame/tile/visible.h"
+#include "kernels/kernels.h"
+#include "kernels/types/shown.h"
+#include "kernels/types/visible.h"
 
 /* Whether an earlier round drew this tile, and only the last round's primitives are new. With several samples a pixel, the
  * pixels are averages already, so that all of them are shaded again. */

@@ -6,8 +6,8 @@
 #include <stdint.h>
 
 #include "base/always_inline.h"
-#include "kernels/simd/rows_avx2.h"
 #include "kernels/simd/pairs_sse.h"
+#include "kernels/simd/rows_avx2.h"
 
 #define V_LANES 16
 

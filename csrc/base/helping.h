@@ -55,7 +55,8 @@ static inline void e3d_helping_choose(e3d_helping *h, int64_t now)
 /* Records a job that is over. */
 static inline void e3d_helping_note(e3d_helping *h, const e3d_job_times *job, int64_t now)
 {
-    enum { HELPED_NS = 50000000, ALONE_NS = 150000000 }; /* a scheduler takes its time to move other threads */
+    enum { HELPED_NS = 50000000,
+           ALONE_NS = 150000000 }; /* a scheduler takes its time to move other threads */
     e3d_job_times *sum = &h->times;
     sum->own += job->own;
     sum->all += job->all;

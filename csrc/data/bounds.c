@@ -6,7 +6,8 @@
 #include "base/vectors.h"
 #include "e3d.h"
 
-enum { RUN = 128, ROWS = 3 }; /* RUN: points; ROWS: vectors for four points, so that each lane keeps to one axis */
+enum { RUN = 128,
+       ROWS = 3 }; /* RUN: points; ROWS: vectors for four points, so that each lane keeps to one axis */
 
 /* Finds the box of a run of points; 0 if one of them isn't finite. */
 static int bound_run(const float *p, float lo[3], float hi[3])

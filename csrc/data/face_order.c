@@ -209,7 +209,8 @@ static int compare_floats(const void *a, const void *b)
 /* Finds the box of most faces from the corners of some of them. The other faces go into the cells at its border. */
 static void find_middle(const e3d_mesh_desc *d, float lo[3], float hi[3])
 {
-    enum { SAMPLES = 1024, BEYOND = 32 }; /* on either side one face in so many may lie farther out */
+    enum { SAMPLES = 1024,
+           BEYOND = 32 }; /* on either side one face in so many may lie farther out */
     float samples[3][SAMPLES + 1];
     int32_t step = d->faces_count / SAMPLES + 1;
     int count = 0;

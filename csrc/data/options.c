@@ -2,7 +2,8 @@
 #include "e3d.h"
 
 #define NAME(enumerator, name, ...) #name,
-#define NAMES(list) (const char *const[]){list(NAME) NULL}
+#define NAMES(list) \
+    (const char *const[]) { list(NAME) NULL }
 
 static const char *const *const NAMES_OF[E3D_OPTIONS] = {
     [E3D_OPTION_ALPHA_MODE] = NAMES(E3D_EACH_ALPHA_MODE),

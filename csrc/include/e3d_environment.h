@@ -53,7 +53,10 @@ typedef struct e3d_backdrop {
  * 63 and a cosine between normal and viewer of (j / 63)^2. GGX reflects F0 * A + B. SHEEN is Charlie's distribution with the
  * visibility 1 / (4 (n.l + n.v - (n.l)(n.v))), at most 1. */
 enum { E3D_DFG_SIZE = 64 };
-typedef enum e3d_dfg { E3D_DFG_A, E3D_DFG_B, E3D_DFG_SHEEN, E3D_DFG_TABLES } e3d_dfg;
+typedef enum e3d_dfg { E3D_DFG_A,
+                       E3D_DFG_B,
+                       E3D_DFG_SHEEN,
+                       E3D_DFG_TABLES } e3d_dfg;
 extern const float E3D_DFG_TABLE[E3D_DFG_TABLES][E3D_DFG_SIZE * E3D_DFG_SIZE];
 
 #ifdef __cplusplus

@@ -12,7 +12,8 @@ extern "C" {
 #endif
 
 /* The directions into which a light shines from its place: all of them, or a cone. */
-typedef enum e3d_emission { E3D_EMITS_EVENLY = 0, E3D_EMITS_CONE } e3d_emission;
+typedef enum e3d_emission { E3D_EMITS_EVENLY = 0,
+                            E3D_EMITS_CONE } e3d_emission;
 
 /* The layout of a light's shadow maps. CASCADES: one or several side by side, the finest first. CUBE: six, the faces of a cube
  * around the light, all with the x and y of the first. Else one map, ahead of the light. */
@@ -21,9 +22,9 @@ typedef enum e3d_map_layout { E3D_EACH_MAP_LAYOUT(E3D_ENUMERATOR) } e3d_map_layo
 
 /* The kinds of lights and their traits: X(kind, name, whether it has a place, emission, layout of its maps). A light without a
  * place is infinitely far away. */
-#define E3D_EACH_LIGHT_KIND(X)                                                    \
+#define E3D_EACH_LIGHT_KIND(X) \
     X(E3D_LIGHT_DIRECTIONAL, directional, 0, E3D_EMITS_EVENLY, E3D_MAPS_CASCADES) \
-    X(E3D_LIGHT_POINT, point, 1, E3D_EMITS_EVENLY, E3D_MAPS_CUBE)                 \
+    X(E3D_LIGHT_POINT, point, 1, E3D_EMITS_EVENLY, E3D_MAPS_CUBE) \
     X(E3D_LIGHT_SPOT, spot, 1, E3D_EMITS_CONE, E3D_MAPS_AHEAD)
 typedef enum e3d_light_kind { E3D_EACH_LIGHT_KIND(E3D_ENUMERATOR) } e3d_light_kind;
 
@@ -41,12 +42,16 @@ static inline e3d_light_traits e3d_light_traits_of(e3d_light_kind kind)
 }
 
 #define E3D_EACH_FALLOFF(X) \
-    X(E3D_FALLOFF_INVERSE_SQUARE, inverse_square) X(E3D_FALLOFF_WINDOW, window) X(E3D_FALLOFF_GLTF, gltf)
+    X(E3D_FALLOFF_INVERSE_SQUARE, inverse_square) \
+    X(E3D_FALLOFF_WINDOW, window) \
+    X(E3D_FALLOFF_GLTF, gltf)
 typedef enum e3d_falloff { E3D_EACH_FALLOFF(E3D_ENUMERATOR) } e3d_falloff;
 
 /* How a light's shadow is found. MAP: by depths that were drawn from the light. EXACT: by tracing the ray between the sample and
  * the light through the frame's casters. */
-typedef enum e3d_shadow_kind { E3D_SHADOW_NONE = 0, E3D_SHADOW_MAP, E3D_SHADOW_EXACT } e3d_shadow_kind;
+typedef enum e3d_shadow_kind { E3D_SHADOW_NONE = 0,
+                               E3D_SHADOW_MAP,
+                               E3D_SHADOW_EXACT } e3d_shadow_kind;
 
 enum { E3D_MAX_EXACT_LIGHTS = 32 };
 

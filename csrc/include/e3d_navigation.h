@@ -24,7 +24,8 @@ typedef struct e3d_navigation_desc {
 } e3d_navigation_desc;
 
 /* What a material means to a walker: one that is not solid, such as leaves, does not stop or carry him. */
-enum { E3D_SURFACE_WALKABLE = 1, E3D_SURFACE_SOLID = 2 };
+enum { E3D_SURFACE_WALKABLE = 1,
+       E3D_SURFACE_SOLID = 2 };
 
 typedef struct e3d_navigation_mesh {
     const float *positions;      /* (vertices, 3) */

@@ -28,7 +28,10 @@ typedef enum e3d_obj_problem {
     E3D_OBJ_OUT_OF_RANGE,  /* a corner with a vertex beyond the `count` that there are */
 } e3d_obj_problem;
 
-typedef enum e3d_obj_list { E3D_OBJ_V, E3D_OBJ_VT, E3D_OBJ_VN, E3D_OBJ_LISTS } e3d_obj_list;
+typedef enum e3d_obj_list { E3D_OBJ_V,
+                            E3D_OBJ_VT,
+                            E3D_OBJ_VN,
+                            E3D_OBJ_LISTS } e3d_obj_list;
 
 /* Where a problem is: the line, from 1, and a word in `names`. */
 typedef struct e3d_obj_place {

@@ -26,7 +26,10 @@ typedef struct e3d_level {
     int32_t width, height;
 } e3d_level;
 
-enum { E3D_MAX_LEVELS = 16, E3D_MAX_TEXTURE_SIZE = 16384, E3D_MAX_ANISOTROPY = 16, E3D_MAX_LOD_BIAS = 16 };
+enum { E3D_MAX_LEVELS = 16,
+       E3D_MAX_TEXTURE_SIZE = 16384,
+       E3D_MAX_ANISOTROPY = 16,
+       E3D_MAX_LOD_BIAS = 16 };
 
 /* How a texture is read. */
 typedef struct e3d_sampling {

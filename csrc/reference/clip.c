@@ -21,7 +21,8 @@ enum {
     CLIP_BITS = NEAR_BIT | W_MIN_BIT | GUARD_BIT
 };
 
-enum { PLANES = 6, COMPONENTS = 7 }; /* a cut vertex is x, y, z, w and three barycentrics */
+enum { PLANES = 6,
+       COMPONENTS = 7 }; /* a cut vertex is x, y, z, w and three barycentrics */
 
 /* The greatest power of two that keeps factor * samples / 2 within E3D_GUARD. */
 float ref_guard_factor(int32_t samples)
@@ -49,7 +50,8 @@ static unsigned outcode(const ref_scene *scene, const float p[4])
     return code;
 }
 
-static int corner_count(ref_kind kind) { return kind == REF_FACE ? 3 : kind == REF_POINT ? 1 : 2; }
+static int corner_count(ref_kind kind) { return kind == REF_FACE ? 3 : kind == REF_POINT ? 1
+                                                                                         : 2; }
 
 /* R4 and R6 */
 ref_verdict ref_test_primitive(const ref_scene *scene, ref_kind kind, const ref_corner *corners)

@@ -13,7 +13,10 @@
 #include "data/sample_patterns.h"
 #include "e3d.h"
 
-typedef enum ref_kind { REF_FACE, REF_LINE, REF_POINT, REF_EDGE } ref_kind;
+typedef enum ref_kind { REF_FACE,
+                        REF_LINE,
+                        REF_POINT,
+                        REF_EDGE } ref_kind;
 
 /* One instance of a draw: the f32 matrices of R1 and R2. */
 typedef struct ref_instance {
@@ -132,7 +135,9 @@ void ref_transform_normal(const ref_instance *instance, const float normal[3], f
 
 /* clip.c */
 enum { REF_MAX_CORNERS = 32 }; /* R7: 3 corners become 28 at most */
-typedef enum ref_verdict { REF_REJECTED, REF_ACCEPTED, REF_NEEDS_CLIPPING } ref_verdict;
+typedef enum ref_verdict { REF_REJECTED,
+                           REF_ACCEPTED,
+                           REF_NEEDS_CLIPPING } ref_verdict;
 float ref_guard_factor(int32_t samples);
 ref_verdict ref_test_primitive(const ref_scene *scene, ref_kind kind, const ref_corner *corners);
 int ref_clip_triangle(const ref_scene *scene, const ref_corner in[3], ref_corner out[REF_MAX_CORNERS]);

@@ -290,8 +290,13 @@ int32_t e3d_graph_ray(const e3d_graph *graph, const e3d_tree *tree, const e3d_sh
                       double farthest, e3d_cull cull, e3d_hit *hit)
 {
     e3d_fpenv saved = e3d_fpenv_enter();
-    search s = {.graph = graph, .shapes = shapes, .shape_count = shape_count, .cull = cull,
-                .ray = make_ray(origin, direction), .missing = -1, .hit = hit};
+    search s = {.graph = graph,
+                .shapes = shapes,
+                .shape_count = shape_count,
+                .cull = cull,
+                .ray = make_ray(origin, direction),
+                .missing = -1,
+                .hit = hit};
     *hit = (e3d_hit){.distance = farthest, .slot = -1, .instance = -1, .face = -1};
     walk(tree, &s.ray, &s, meet_node);
     e3d_fpenv_leave(saved);

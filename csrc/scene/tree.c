@@ -13,9 +13,13 @@
 
 /* A coordinate has BITS bits; the bits of all three are sorted RADIX at a time. */
 #ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
-enum { BITS = 12, RADIX = 12, PASSES = 3 };
+enum { BITS = 12,
+       RADIX = 12,
+       PASSES = 3 };
 #else
-enum { BITS = 12, RADIX = 4, PASSES = 9 }; /* small, so that thousands of small trees are built in a second */
+enum { BITS = 12,
+       RADIX = 4,
+       PASSES = 9 }; /* small, so that thousands of small trees are built in a second */
 #endif
 
 static const double WORN = 1.7; /* the tree is built again if its cost exceeds the first one's by this factor, */
@@ -42,7 +46,8 @@ void e3d_tree_destroy(e3d_tree *t)
 /* ---- tasks ---- */
 
 /* The number of tasks is fixed, whatever the number of threads, so that their sums are the same. */
-enum { TASKS = 16, FEW = 4096 };
+enum { TASKS = 16,
+       FEW = 4096 };
 
 typedef struct tree_job {
     e3d_tree *tree;
@@ -82,11 +87,13 @@ void e3d_block_set(e3d_block *block, int lane, const double box[E3D_BOX])
 {
     int whole = box[0] <= box[3] && box[1] <= box[4] && box[2] <= box[5] && box[6] >= 0;
     int none = box[0] > box[3]; /* NaN: it may be anywhere */
+// clang-format off
     for (int k = 0; k < 3; k++) {
         block->low[k][lane] = whole ? below(box[k]) : none ? INFINITY : -INFINITY;
         block->high[k][lane] = whole ? -below(-box[3 + k]) : none ? -INFINITY : INFINITY;
     }
     block->reach[lane] = whole ? -below(-box[6]) : none ? 0 : INFINITY;
+// clang-format on
 }
 
 static void clear(e3d_block *block)

@@ -11,7 +11,8 @@
 #include "base/vectors.h"
 #include "e3d_scene.h"
 
-enum { E3D_TREE_LEVELS = 16, E3D_TREE_STACK = 3 * E3D_TREE_LEVELS + 1 };
+enum { E3D_TREE_LEVELS = 16,
+       E3D_TREE_STACK = 3 * E3D_TREE_LEVELS + 1 };
 
 typedef float e3d_v4 __attribute__((vector_size(16)));
 typedef int32_t e3d_v4i __attribute__((vector_size(16)));

@@ -9,7 +9,8 @@
 
 #include "check/driver/compare.h"
 
-enum { CANVAS_SIDE = 80, CANVAS_CALLS = 40 };
+enum { CANVAS_SIDE = 80,
+       CANVAS_CALLS = 40 };
 
 /* Up to so many pixels wide and high, with so many calls. */
 outcome compare_canvas(random_stream r, int32_t most_side, int calls, const char *title);

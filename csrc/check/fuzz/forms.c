@@ -13,9 +13,12 @@
 enum { MOST_FORMS = 6 };
 
 static const e3d_form stl[] = {
-    {"vertex % % %", E3D_FORM_ROW, 3, SIZE_MAX, 0, 0}, {"endloop ", E3D_FORM_MARK, 0, 0, 0, 0},
-    {"facet ", E3D_FORM_SKIPPED, 0, 0, 0, 0},          {"outer ", E3D_FORM_SKIPPED, 0, 0, 0, 0},
-    {"endfacet ", E3D_FORM_SKIPPED, 0, 0, 0, 0},       {"endsolid ", E3D_FORM_SKIPPED, 0, 0, 0, 0},
+    {"vertex % % %", E3D_FORM_ROW, 3, SIZE_MAX, 0, 0},
+    {"endloop ", E3D_FORM_MARK, 0, 0, 0, 0},
+    {"facet ", E3D_FORM_SKIPPED, 0, 0, 0, 0},
+    {"outer ", E3D_FORM_SKIPPED, 0, 0, 0, 0},
+    {"endfacet ", E3D_FORM_SKIPPED, 0, 0, 0, 0},
+    {"endsolid ", E3D_FORM_SKIPPED, 0, 0, 0, 0},
 };
 
 static const e3d_form asc[] = {

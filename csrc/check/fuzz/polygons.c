@@ -7,7 +7,9 @@
 #include "check/fuzz/input.h"
 #include "e3d_surfaces.h"
 
-enum { MOST_CORNERS = 256, MOST_POSITIONS = 32, ENOUGH = 100000000 };
+enum { MOST_CORNERS = 256,
+       MOST_POSITIONS = 32,
+       ENOUGH = 100000000 };
 
 static bool are_in_range(const e3d_polygons *p)
 {

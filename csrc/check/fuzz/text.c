@@ -9,7 +9,8 @@
 
 #include <math.h>
 
-enum { MOST_NUMBERS = 64, MOST_CORNERS = 48 };
+enum { MOST_NUMBERS = 64,
+       MOST_CORNERS = 48 };
 
 static size_t digits_of(const char *text)
 {

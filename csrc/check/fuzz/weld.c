@@ -6,7 +6,10 @@
 #include "check/fuzz/input.h"
 #include "e3d_rows.h"
 
-enum { POSITION, UV, NORMAL, LISTS };
+enum { POSITION,
+       UV,
+       NORMAL,
+       LISTS };
 
 typedef struct corners {
     int32_t *given[LISTS]; /* NULL where there is no such list */

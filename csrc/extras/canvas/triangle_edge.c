@@ -35,7 +35,8 @@ static edge_function edge_at(e3d_subpixel a, e3d_subpixel b, int64_t x, int64_t 
     const e3d_wide exact = doubled_area(a, b, centre) - !is_top_left(dx, dy);
     const e3d_wide value = floor_div(exact, SUBPIXELS);
     return (edge_function){
-        .value = value > FAR_AWAY ? FAR_AWAY : value < -FAR_AWAY ? -FAR_AWAY : (int64_t)value,
+        .value = value > FAR_AWAY ? FAR_AWAY : value < -FAR_AWAY ? -FAR_AWAY
+                                                                 : (int64_t)value,
         .per_x = -dy,
         .per_y = dx,
     };

@@ -40,8 +40,11 @@ static void add_candidate(const e3d_prepared *pass, e3d_cull_state *state, const
                           int64_t group_number)
 {
     const e3d_group_box *box = &draw->mesh->groups[group];
-    e3d_candidate candidate = {number, (uint32_t)group, (int32_t)(draw - pass->draws->states), (int32_t)group_number,
-                               {E3D_BOX_CROSSES, E3D_DEPTH_UNBOUNDED, {0, 0, 0, 0}}};
+    e3d_candidate candidate = {.instance = number,
+                               .group = (uint32_t)group,
+                               .draw = (int32_t)(draw - pass->draws->states),
+                               .number = (int32_t)group_number,
+                               .view = {E3D_BOX_CROSSES, E3D_DEPTH_UNBOUNDED, {0, 0, 0, 0}}};
     int bounded = draw->mesh->desc.components == 3;
     if (bounded && box->any_finite)
         e3d_view_box(&pass->view->viewport, pass->frustum->instances[number].clip, box->lo, box->hi, &candidate.view);

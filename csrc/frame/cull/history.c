@@ -114,7 +114,8 @@ static int64_t match_rows(e3d_history *history)
                                   (old[at].node == rows[d].node && old[at].first + old[at].instances <= rows[d].first)))
             at++;
         for (size_t j = at; j < old_count && old[j].node == rows[d].node &&
-                            old[j].first < rows[d].first + rows[d].instances; j++)
+                            old[j].first < rows[d].first + rows[d].instances;
+             j++)
             known += take_over(&old[j], history->seen_before.data, &rows[d], history->seen.data);
     }
     return known;

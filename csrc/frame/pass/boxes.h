@@ -7,7 +7,9 @@
 #include "kernels/types/vertices.h"
 
 /* A box as the camera sees it. */
-enum { E3D_BOX_OUTSIDE = 0, E3D_BOX_CROSSES, E3D_BOX_INSIDE };
+enum { E3D_BOX_OUTSIDE = 0,
+       E3D_BOX_CROSSES,
+       E3D_BOX_INSIDE };
 typedef struct e3d_box_view {
     int32_t state;
     float near;    /* no z_ndc in the box is less */

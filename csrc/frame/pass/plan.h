@@ -10,78 +10,78 @@
 #define E3D_MOST_KEPT_SAMPLES (1 << 25)
 
 /* What a frame may ask for: X(name, description). */
-#define E3D_ASKED_FOR(X)                                                               \
-    X(COLOR, "the colour output")                                                      \
-    X(NDC_DEPTH, "the output ndc_depth")                                               \
-    X(POSITIONS, "an output of positions or metric depths")                            \
-    X(NORMALS, "an output of normals")                                                 \
-    X(UVS, "the output uv")                                                            \
-    X(ALBEDO, "the output albedo")                                                     \
-    X(IDENTITIES, "an output of IDs")                                                  \
-    X(BARYCENTRIC, "the output barycentric")                                           \
-    X(MATERIALS, "the outputs metallic_roughness or emissive")                         \
-    X(TANGENTS, "the output tangent")                                                  \
-    X(LIT, "mode lit")                                                                 \
-    X(UNLIT, "mode unlit")                                                             \
-    X(DEPTH_MODE, "mode depth")                                                        \
-    X(NORMAL_MODE, "mode normal")                                                      \
-    X(OVERDRAW_MODE, "mode overdraw")                                                  \
-    X(LOCAL_LIGHT, "light that depends on the position: point lights or highlights")   \
-    X(MAPPED_NORMALS, "a texture of normals")                                          \
-    X(MANY_LIGHTS, "more than 4 lights")                                               \
-    X(WIREFRAME, "a wireframe, with or without the faces")                             \
-    X(WIRE_ONLY, "a wireframe without the faces")                                      \
+#define E3D_ASKED_FOR(X) \
+    X(COLOR, "the colour output") \
+    X(NDC_DEPTH, "the output ndc_depth") \
+    X(POSITIONS, "an output of positions or metric depths") \
+    X(NORMALS, "an output of normals") \
+    X(UVS, "the output uv") \
+    X(ALBEDO, "the output albedo") \
+    X(IDENTITIES, "an output of IDs") \
+    X(BARYCENTRIC, "the output barycentric") \
+    X(MATERIALS, "the outputs metallic_roughness or emissive") \
+    X(TANGENTS, "the output tangent") \
+    X(LIT, "mode lit") \
+    X(UNLIT, "mode unlit") \
+    X(DEPTH_MODE, "mode depth") \
+    X(NORMAL_MODE, "mode normal") \
+    X(OVERDRAW_MODE, "mode overdraw") \
+    X(LOCAL_LIGHT, "light that depends on the position: point lights or highlights") \
+    X(MAPPED_NORMALS, "a texture of normals") \
+    X(MANY_LIGHTS, "more than 4 lights") \
+    X(WIREFRAME, "a wireframe, with or without the faces") \
+    X(WIRE_ONLY, "a wireframe without the faces") \
     X(HIDDEN_LINES, "that faces hide the edges behind them in a wireframe without them") \
-    X(LINES, "lines or points in a wireframe without the faces")                       \
-    X(ZBUFFER, "that the nearest surface shows")                                       \
-    X(FORWARD, "forward shading")                                                      \
-    X(SRGB, "the sRGB encoder")                                                        \
-    X(OCCLUSION, "that what is hidden is left out")                                    \
-    X(ALPHA, "materials that are masked or blended, or that light passes through")     \
-    X(TRANSPARENT_OUTPUTS, "other outputs of the nearest surface, blended or not")      \
-    X(OTHER_FRUSTUM, "what the frustum of another camera holds")                       \
+    X(LINES, "lines or points in a wireframe without the faces") \
+    X(ZBUFFER, "that the nearest surface shows") \
+    X(FORWARD, "forward shading") \
+    X(SRGB, "the sRGB encoder") \
+    X(OCCLUSION, "that what is hidden is left out") \
+    X(ALPHA, "materials that are masked or blended, or that light passes through") \
+    X(TRANSPARENT_OUTPUTS, "other outputs of the nearest surface, blended or not") \
+    X(OTHER_FRUSTUM, "what the frustum of another camera holds") \
     X(BACKDROP, "an environment, where there is light or plain colour, or a gradient as the background") \
-    X(FOG, "fog")                                                                      \
-    X(RADIANCE, "the output radiance")                                                 \
-    X(HUGE, "more samples than tiles are kept for")                                   \
-    X(SHADOWS, "lights that have shadows")                                             \
-    X(EXACT_SHADOWS, "lights that have exact shadows")                                 \
+    X(FOG, "fog") \
+    X(RADIANCE, "the output radiance") \
+    X(HUGE, "more samples than tiles are kept for") \
+    X(SHADOWS, "lights that have shadows") \
+    X(EXACT_SHADOWS, "lights that have exact shadows") \
     X(MULTISAMPLING, "several samples a pixel, of which each surface is shaded once")
 
 /* What is done for it: X(name, description). */
-#define E3D_PLANNED(X)                                                                   \
-    X(COLORS, "visible samples get colours")                                             \
-    X(OUTPUTS, "visible samples get other outputs")                                      \
+#define E3D_PLANNED(X) \
+    X(COLORS, "visible samples get colours") \
+    X(OUTPUTS, "visible samples get other outputs") \
     X(IDENTIFIES, "IDs are found straight from the visible samples, since depths are all else that is asked for") \
-    X(SHADES, "visible samples are shaded at all")                                       \
-    X(POSITION, "shading needs the position")                                            \
-    X(NORMAL, "shading needs the normal")                                                \
-    X(UV, "shading needs the texture coordinates")                                       \
-    X(BASE_COLOR, "shading needs the surface's own colour")                              \
-    X(MATERIAL_VALUES, "shading finds what materials are made of at each sample")        \
-    X(ADDS_FOG, "fog lies over what shows")                                              \
-    X(KEEPS_RADIANCE, "the light of samples is stored beside their colours")             \
-    X(FACES, "faces are drawn, not only counted")                                        \
-    X(SORTS, "records are sorted before they are binned, and the last one shows")        \
-    X(ALPHA_BINS, "records with alpha go to bins of their own")                          \
-    X(BLENDS, "blended layers are laid over what is behind them")                        \
-    X(SOLID, "blended faces show wherever their alpha isn't 0, as masked ones do")         \
-    X(FRONT, "outputs are those of the nearest blended layer, where there is one")    \
-    X(AT_ONCE, "each record is shaded at once, where it is the nearest so far")          \
-    X(SLOTS, "a tile draws record after record; its samples keep slots instead of IDs")  \
-    X(DEPTHS, "the depth of every sample is needed, not only the ID")                    \
-    X(FRAGMENTS, "micro-triangles go to the tiles as samples")                           \
-    X(SPANS, "tiles of few records may be drawn without depths")                         \
-    X(LISTS, "tiles may list visible samples by record instead of by row")               \
-    X(EXACT_SHADOWS, "what hides lights from visible samples is found, light by light")          \
-    X(PAINTS, "one kernel takes samples from the surface to the encoded pixel")          \
-    X(ROUNDS, "the frame may be drawn in rounds that test against the ones before")   \
-    X(FINISHES, "tiles may be finished in the first of two rounds")                      \
-    X(COUNTS_OVERDRAW, "faces are counted, sample by sample")                            \
-    X(EDGES, "the edges of faces are drawn")                                             \
-    X(EDGES_ALONE, "nothing but edges is drawn to the colours")                          \
-    X(EDGE_DEPTHS, "edges are tested against the depths of faces")                       \
-    X(BACKDROP, "the background is found pixel by pixel")                                \
+    X(SHADES, "visible samples are shaded at all") \
+    X(POSITION, "shading needs the position") \
+    X(NORMAL, "shading needs the normal") \
+    X(UV, "shading needs the texture coordinates") \
+    X(BASE_COLOR, "shading needs the surface's own colour") \
+    X(MATERIAL_VALUES, "shading finds what materials are made of at each sample") \
+    X(ADDS_FOG, "fog lies over what shows") \
+    X(KEEPS_RADIANCE, "the light of samples is stored beside their colours") \
+    X(FACES, "faces are drawn, not only counted") \
+    X(SORTS, "records are sorted before they are binned, and the last one shows") \
+    X(ALPHA_BINS, "records with alpha go to bins of their own") \
+    X(BLENDS, "blended layers are laid over what is behind them") \
+    X(SOLID, "blended faces show wherever their alpha isn't 0, as masked ones do") \
+    X(FRONT, "outputs are those of the nearest blended layer, where there is one") \
+    X(AT_ONCE, "each record is shaded at once, where it is the nearest so far") \
+    X(SLOTS, "a tile draws record after record; its samples keep slots instead of IDs") \
+    X(DEPTHS, "the depth of every sample is needed, not only the ID") \
+    X(FRAGMENTS, "micro-triangles go to the tiles as samples") \
+    X(SPANS, "tiles of few records may be drawn without depths") \
+    X(LISTS, "tiles may list visible samples by record instead of by row") \
+    X(EXACT_SHADOWS, "what hides lights from visible samples is found, light by light") \
+    X(PAINTS, "one kernel takes samples from the surface to the encoded pixel") \
+    X(ROUNDS, "the frame may be drawn in rounds that test against the ones before") \
+    X(FINISHES, "tiles may be finished in the first of two rounds") \
+    X(COUNTS_OVERDRAW, "faces are counted, sample by sample") \
+    X(EDGES, "the edges of faces are drawn") \
+    X(EDGES_ALONE, "nothing but edges is drawn to the colours") \
+    X(EDGE_DEPTHS, "edges are tested against the depths of faces") \
+    X(BACKDROP, "the background is found pixel by pixel") \
     X(ENCODES_SRGB, "colours go through the sRGB encoder")
 
 #define E3D_ASKED_NAME(name, text) E3D_ASKED_##name,

@@ -5,7 +5,9 @@
 #include "kernels/types/shown.h"
 #include "kernels/types/visible.h"
 
-enum { FEW = 24, MOST_BITS = 8, PARTS = 4 };
+enum { FEW = 24,
+       MOST_BITS = 8,
+       PARTS = 4 };
 
 typedef struct digit {
     int shift, bits;

@@ -22,8 +22,7 @@ static const struct {
     } background;
 } KINDS[E3D_OUTPUTS] = {
 #define KIND(output, name, type, channels, background, ...) {channels, {.as_##type = background}},
-    E3D_EACH_OUTPUT(KIND)
-};
+    E3D_EACH_OUTPUT(KIND)};
 
 enum { PLACES = E3D_TILE_SAMPLES + E3D_PAD };
 

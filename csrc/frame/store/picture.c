@@ -9,7 +9,8 @@
 /* Whether a picture's cache lines aren't in this core's caches anyway: it is large, or another core wrote them last. */
 static int is_far(const e3d_prepared *pass, size_t bytes)
 {
-    enum { LARGE = 1 << 20, SHARED = 1 << 18 };
+    enum { LARGE = 1 << 20,
+           SHARED = 1 << 18 };
     return bytes >= (pass->threads > 1 ? SHARED : LARGE);
 }
 

@@ -8,7 +8,9 @@
 #include "base/limits.h"
 
 /* The work on tiles: those that hold anything are drawn, the others cleared. */
-typedef enum e3d_to_do { E3D_TO_DRAW = 0, E3D_TO_CLEAR, E3D_TO_DO } e3d_to_do;
+typedef enum e3d_to_do { E3D_TO_DRAW = 0,
+                         E3D_TO_CLEAR,
+                         E3D_TO_DO } e3d_to_do;
 
 /* A range of tiles, by number. A worker shares its own range with others, but not the tiles that it has taken. */
 typedef struct e3d_tile_range {

@@ -126,7 +126,9 @@ static int32_t leave_out_shaded(const e3d_tile_job *job, int32_t count)
     return left;
 }
 
-enum { FEW_PIECES = 64, MANY_RECORDS = 768, MOSTLY = 4 }; /* in a tile */
+enum { FEW_PIECES = 64,
+       MANY_RECORDS = 768,
+       MOSTLY = 4 }; /* in a tile */
 
 /* Whether samples are listed piece by piece: the bins must hold all of the tile, and few records may be wide or hidden. */
 static int shows_pieces(const e3d_tile_job *job)

@@ -90,12 +90,13 @@ typedef struct code_lengths {
     int32_t written; /* lengths of `code` that are written, in ORDER */
 } code_lengths;
 
-static const uint8_t ORDER[CODE_LENGTH_SYMBOLS] = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
-                                                   11, 4,  12, 3, 13, 2, 14, 1, 15};
+static const uint8_t ORDER[CODE_LENGTH_SYMBOLS] = {16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15};
 
 static uint32_t repeat_bits(uint32_t item)
 {
+// clang-format off
     return item < 16 ? 0 : item == 16 ? 2 : item == 17 ? 3 : 7;
+// clang-format on
 }
 
 static void add_item(code_lengths *lengths, uint32_t item, uint32_t extra)
@@ -113,9 +114,11 @@ static void add_run(code_lengths *lengths, uint32_t length, uint32_t run)
         run--;
     }
     while (run >= 3) {
+// clang-format off
         const uint32_t most = length != 0 ? 6 : run > 10 ? 138 : 10;
         const uint32_t step = run < most ? run : most;
         const uint32_t item = length != 0 ? 16 : most == 10 ? 17 : 18;
+// clang-format on
         add_item(lengths, item, step - (item == 18 ? 11 : 3));
         run -= step;
     }

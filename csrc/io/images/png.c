@@ -18,7 +18,10 @@
 #define ADLER_SUMMANDS 5552 /* the most bytes before the sums could overflow 32 bits */
 #define CRC_POLYNOMIAL 0xEDB88320u
 
-typedef enum filter { SUB = 1, UP = 2, AVERAGE = 3, PAETH = 4 } filter;
+typedef enum filter { SUB = 1,
+                      UP = 2,
+                      AVERAGE = 3,
+                      PAETH = 4 } filter;
 
 /* Filters. A pixel has 1 to 8 bytes, a constant for the compiler where that matters. So many zeros precede a row, so that
  * every byte has a left neighbour. */

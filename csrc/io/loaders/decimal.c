@@ -21,9 +21,8 @@ typedef unsigned __int128 wide;
 #define LIMBS 44
 
 const double e3d_powers_of_ten[E3D_EXACT_POWER + 1] = {
-    1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
-};
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11,
+    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 typedef struct integer {
     uint64_t limb[LIMBS]; /* lowest first; the highest is not zero */
@@ -35,8 +34,7 @@ static const uint64_t powers_of_five[POWER_OF_FIVE + 1] = {
     244140625u, 1220703125u, 6103515625u, 30517578125u, 152587890625u, 762939453125u,
     3814697265625u, 19073486328125u, 95367431640625u, 476837158203125u, 2384185791015625u,
     11920928955078125u, 59604644775390625u, 298023223876953125u, 1490116119384765625u,
-    7450580596923828125u,
-};
+    7450580596923828125u};
 
 /* Rounds (mantissa + a little more, if `sticky`) * 2^exponent to a double; the mantissa's top bit is set. */
 static double rounded(uint64_t mantissa, bool sticky, int64_t exponent)

@@ -62,7 +62,10 @@ static bool follow(const e3d_form_text *text, size_t number, const uint8_t *end,
     const e3d_form *const form = &text->forms[number];
     for (const char *sign = form->pattern; *sign; sign++) {
         switch (*sign) {
-        case '%': case '@': case '?': case '#':
+        case '%':
+        case '@':
+        case '?':
+        case '#':
             m->at = e3d_skip_blanks(m->at, end);
             if (m->at == end || !read_item(text, number, *sign, m))
                 return false;

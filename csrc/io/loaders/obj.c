@@ -12,8 +12,8 @@
 #include <string.h>
 
 /* These statements change nothing that is drawn here. */
-static const char *const ignored[] = {"lod",      "shadow_obj", "trace_obj", "bevel",
-                                      "c_interp", "d_interp",   "vp",        "mg"};
+static const char *const ignored[] = {"lod", "shadow_obj", "trace_obj", "bevel",
+                                      "c_interp", "d_interp", "vp", "mg"};
 
 static bool is_word(const uint8_t *at, const uint8_t *end, const char *word)
 {
@@ -41,7 +41,8 @@ static int32_t smoothing_group(const uint8_t *at, const uint8_t *end)
             return -1;
         number = number * 10 + (*at - '0');
     }
-    return negative ? 0 : number > INT32_MAX ? INT32_MAX : (int32_t)number;
+    return negative ? 0 : number > INT32_MAX ? INT32_MAX
+                                             : (int32_t)number;
 }
 
 static bool add_setter(e3d_obj *obj, e3d_obj_setter_kind kind, const obj_line *line,

@@ -26,9 +26,14 @@ typedef struct obj_line {
     size_t number; /* the number of the line that holds its first word */
 } obj_line;
 
-typedef enum obj_step { OBJ_LINE, OBJ_NO_MORE_LINES, OBJ_LINES_NO_MEMORY } obj_step;
+typedef enum obj_step { OBJ_LINE,
+                        OBJ_NO_MORE_LINES,
+                        OBJ_LINES_NO_MEMORY } obj_step;
 
-typedef enum obj_element_kind { OBJ_FACES, OBJ_LINES, OBJ_POINTS, OBJ_ELEMENT_KINDS } obj_element_kind;
+typedef enum obj_element_kind { OBJ_FACES,
+                                OBJ_LINES,
+                                OBJ_POINTS,
+                                OBJ_ELEMENT_KINDS } obj_element_kind;
 
 void obj_lines_begin(obj_lines *lines, const uint8_t *bytes, size_t size);
 obj_step obj_next_line(obj_lines *lines, obj_line *line);

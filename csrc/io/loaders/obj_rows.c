@@ -49,7 +49,7 @@ static bool add_color(e3d_obj *obj, const double *numbers, size_t count)
     const size_t vertex = obj->counts[E3D_OBJ_V];
     if (!e3d_array_reserve(colors, vertex + 1, 4 * sizeof(double)))
         return obj_fail(obj, E3D_OBJ_NO_MEMORY);
-    double(*rows)[4] = colors->data;
+    double (*rows)[4] = colors->data;
     for (; colors->count <= vertex; colors->count++)
         rows[colors->count][0] = NAN;
     if (count < WITH_COLOR)
@@ -98,7 +98,8 @@ bool obj_read_row(e3d_obj *obj, e3d_obj_list list, const obj_line *line)
 static uint8_t color_byte(double value, double scale)
 {
     const double scaled = value * scale;
-    return (uint8_t)(scaled <= 0 ? 0 : scaled >= 255 ? 255 : scaled + 0.5);
+    return (uint8_t)(scaled <= 0 ? 0 : scaled >= 255 ? 255
+                                                     : scaled + 0.5);
 }
 
 bool obj_convert_colors(e3d_obj *obj)
@@ -106,7 +107,7 @@ bool obj_convert_colors(e3d_obj *obj)
     e3d_array *colors = &obj->reader->colors;
     if (!colors->data)
         return true;
-    const double(*rows)[4] = colors->data;
+    const double (*rows)[4] = colors->data;
     /* Alphas have a range of their own. */
     double largest = 0, largest_alpha = 0;
     for (size_t i = 0; i < colors->count; i++) {

@@ -7,7 +7,8 @@
  */
 #include "io/loaders/row_table.h"
 
-enum { PERIOD = 6, WIDTH = 3 };
+enum { PERIOD = 6,
+       WIDTH = 3 };
 
 static inline const uint8_t *corner_at(const uint8_t *corners, size_t stride, unsigned k)
 {

@@ -16,6 +16,7 @@
 #define MOST_POSITIONAL 1e6
 
 /* 10^k / 2^floor(log2(10^k)) * 2^63, rounded up, for k from -31 on. */
+// clang-format off
 static const uint64_t powers[] = {
     UINT64_C(0x81CEB32C4B43FCF5), UINT64_C(0xA2425FF75E14FC32), UINT64_C(0xCAD2F7F5359A3B3F), UINT64_C(0xFD87B5F28300CA0E),
     UINT64_C(0x9E74D1B791E07E49), UINT64_C(0xC612062576589DDB), UINT64_C(0xF79687AED3EEC552), UINT64_C(0x9ABE14CD44753B53),
@@ -38,6 +39,7 @@ static const uint64_t powers[] = {
     UINT64_C(0x92EFD1B8D0CF37BF), UINT64_C(0xB7ABC627050305AE), UINT64_C(0xE596B7B0C643C71A), UINT64_C(0x8F7E32CE7BEA5C70),
     UINT64_C(0xB35DBF821AE4F38C),
 };
+// clang-format on
 
 /* A decimal: digits * 10^exponent. */
 typedef struct decimal {

@@ -116,7 +116,7 @@ static int32_t kernel_raster_alpha(const e3d_piece *piece, const e3d_record_tabl
     const e3d_piece own = *piece, *p = &own; /* a copy, which no store can change */
     e3d_shown *shown = out->shown;
     const int32_t first = shown->count;
-    const raster_constants c = {v_setf(p->z0),   v_setf(p->gx),   v_setf(p->gy),
+    const raster_constants c = {v_setf(p->z0), v_setf(p->gx), v_setf(p->gy),
                                 v_setf(p->zmin), v_setf(p->zmax), v_seti((int32_t)p->slot)};
     alpha_end end = {table, out, shown->sample + first, out->z + first};
     int32_t y = p->y0, next;

@@ -13,7 +13,7 @@
 #include "kernels/generic/texture.inl"
 #include "kernels/generic/texel_alpha.inl"
 
-_Static_assert(E3D_MAX_ANISOTROPY * V_LANES <= E3D_BATCH, "a plan has places for all probes of a vector");
+_Static_assert(E3D_MAX_ANISOTROPY *V_LANES <= E3D_BATCH, "a plan has places for all probes of a vector");
 
 /* The probes of one vector, by R111 and R112. */
 typedef struct probe_lanes {

@@ -6,8 +6,10 @@
 
 #include "base/limits.h"
 
-enum { ROW_LANES = V_LANES < 8 ? V_LANES : 8, ROWS = V_LANES / ROW_LANES };
-enum { ROW_SHIFT = ROW_LANES == 8 ? 3 : ROW_LANES == 4 ? 2 : 0 };
+enum { ROW_LANES = V_LANES < 8 ? V_LANES : 8,
+       ROWS = V_LANES / ROW_LANES };
+enum { ROW_SHIFT = ROW_LANES == 8 ? 3 : ROW_LANES == 4 ? 2
+                                                       : 0 };
 
 static inline vi32 rows_x(void) { return ROWS > 1 ? v_andi(v_iota(), v_seti(ROW_LANES - 1)) : v_iota(); }
 static inline vi32 rows_y(void) { return ROWS > 1 ? v_shr(v_iota(), 3) : v_seti(0); }

@@ -29,7 +29,8 @@ static inline vf32 facing_abs(vf32 a) { return v_asf(v_andi(v_asi(a), v_seti(0x7
 /* Loads clusters; lanes beyond the last one repeat the first. */
 static inline facing_cones facing_load(const e3d_cluster *clusters, int count)
 {
-    enum { HALF = 8, LO = offsetof(e3d_cluster, lo) / 4 };
+    enum { HALF = 8,
+           LO = offsetof(e3d_cluster, lo) / 4 };
     _Static_assert(LO == 4 && sizeof(e3d_cluster) == 64, "a cluster's numbers are the last twelve of sixteen words");
     const void *first[V_LANES], *second[V_LANES];
     vi32 w[2 * HALF];

@@ -103,7 +103,8 @@ static inline void fragment_sort(e3d_small_triangles *triangles, int first, int 
 
 /* A vector of triangles, and the places of their covered samples. A place is a byte: the triangle's lane, and the column and
  * row in its box. */
-enum { FRAGMENT_COLUMN = 4, FRAGMENT_ROW = 6 };
+enum { FRAGMENT_COLUMN = 4,
+       FRAGMENT_ROW = 6 };
 typedef struct fragment_vector {
     vi32 x, y, id; /* first sample of the box */
     record_plane plane;
@@ -232,7 +233,8 @@ static inline int fragment_wide(const e3d_small_triangles *triangles, const e3d_
 
 /* ---- fragments, not yet sorted by tile ---- */
 
-enum { FRAGMENT_MANY = 512, FRAGMENT_ROOM = FRAGMENT_MANY + V_LANES * E3D_SMALL * E3D_SMALL + E3D_PAD };
+enum { FRAGMENT_MANY = 512,
+       FRAGMENT_ROOM = FRAGMENT_MANY + V_LANES * E3D_SMALL * E3D_SMALL + E3D_PAD };
 typedef struct fragment_buffer {
     float z[FRAGMENT_ROOM];
     int32_t id[FRAGMENT_ROOM], at[FRAGMENT_ROOM]; /* at: number of the tile * E3D_TILE_SAMPLES + sample in it */

@@ -250,7 +250,7 @@ static void kernel_tint(e3d_batch *batch, const e3d_surfaces *surfaces, int by_v
 /* R27 */
 static inline vf32 log2_poly(vf32 q)
 {
-    static const float c[7] = {0x1.c5507p-2f,  -0x1.1d270ep-2f, 0x1.99e72p-3f, -0x1.2cc076p-3f,
+    static const float c[7] = {0x1.c5507p-2f, -0x1.1d270ep-2f, 0x1.99e72p-3f, -0x1.2cc076p-3f,
                                0x1.823526p-4f, -0x1.5a65f6p-5f, 0x1.2b619ap-7f};
     vi32 bits = v_asi(q);
     vf32 exponent = v_float(v_subi(v_shr(bits, 23), v_seti(127)));

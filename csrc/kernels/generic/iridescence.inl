@@ -28,8 +28,7 @@ static inline vf32 iridescence_wave(int number, vf32 path)
 
 static inline void iridescence_sensitivity(vf32 path, const vf32 sign[3], vf32 out[3])
 {
-    vf32 xyz[3] = {v_mul(sign[0], v_add(iridescence_wave(0, path), iridescence_wave(3, path))), v_mul(sign[1],
-                                                                                                      iridescence_wave(1, path)),
+    vf32 xyz[3] = {v_mul(sign[0], v_add(iridescence_wave(0, path), iridescence_wave(3, path))), v_mul(sign[1], iridescence_wave(1, path)),
                    v_mul(sign[2], iridescence_wave(2, path))};
     for (int c = 0; c < 3; c++) {
         const vf32 row[3] = {v_setf(E3D_FILM_RGB[c][0]), v_setf(E3D_FILM_RGB[c][1]), v_setf(E3D_FILM_RGB[c][2])};

@@ -109,7 +109,9 @@ static ALWAYS_INLINE vf32 light_shadowed(const e3d_lighting *lighting, int n, co
 
 /* What varies from sample to sample besides the surface, as a constant for the compiler: nothing; the share of lights that
  * arrives; or ambient light, too. */
-enum light_variety { LIGHT_ALIKE = 0, LIGHT_SHADOWED, LIGHT_VARIED };
+enum light_variety { LIGHT_ALIKE = 0,
+                     LIGHT_SHADOWED,
+                     LIGHT_VARIED };
 
 /* Adds a light to samples of the batch from i on. */
 static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, enum light_variety varied,
@@ -243,7 +245,7 @@ static ALWAYS_INLINE void ambient_light(const e3d_lighting *lighting, const vf32
 static inline enum light_variety light_varies(const e3d_lighting *lighting)
 {
     return ambient_varies(lighting) ? LIGHT_VARIED : lighting->shadows ? LIGHT_SHADOWED
-                                                                        : LIGHT_ALIKE;
+                                                                       : LIGHT_ALIKE;
 }
 
 /* Loads one vector, lit only by ambient light so far; that is the same everywhere, unless it varies. */

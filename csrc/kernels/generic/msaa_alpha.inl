@@ -18,7 +18,7 @@
 static ALWAYS_INLINE uint32_t cover_plane(const e3d_piece *p, const float *limits, const int32_t *kept, int32_t x, int32_t y,
                                           const e3d_record_table *table)
 {
-    const raster_constants c = {v_setf(p->z0),   v_setf(p->gx),   v_setf(p->gy),
+    const raster_constants c = {v_setf(p->z0), v_setf(p->gx), v_setf(p->gy),
                                 v_setf(p->zmin), v_setf(p->zmax), v_seti((int32_t)p->slot)};
     int32_t at = y * E3D_TILE + x;
     alpha_column column = alpha_column_of(p, &c, x);

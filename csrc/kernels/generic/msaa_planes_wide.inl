@@ -179,8 +179,14 @@ static inline int msaa_find_piece(const records_lanes *in, int lane, const e3d_r
     out->tame = 1;
     for (int s = 0; s < pattern->count; s++) {
         e3d_piece *p = &out->piece[s];
-        *p = (e3d_piece){.x0 = (int32_t)in->x0[lane], .y0 = (int32_t)in->y0[lane], .x1 = (int32_t)in->x1[lane], .y1 = (int32_t)in->y1[lane],
-                         .z0 = msaa_z0(r, pattern, s), .gx = r->gx, .gy = r->gy, .slot = (uint32_t)id};
+        *p = (e3d_piece){.x0 = (int32_t)in->x0[lane],
+                         .y0 = (int32_t)in->y0[lane],
+                         .x1 = (int32_t)in->x1[lane],
+                         .y1 = (int32_t)in->y1[lane],
+                         .z0 = msaa_z0(r, pattern, s),
+                         .gx = r->gx,
+                         .gy = r->gy,
+                         .slot = (uint32_t)id};
         p->base_x = msaa_first(r->x, pattern->reach) - planes->x;
         p->base_y = msaa_first(r->y, pattern->reach) - planes->y;
         out->constants[s] = msaa_constants(r, pattern, s, id);

@@ -18,7 +18,10 @@
 /* ---- light ---- */
 
 /* How samples are lit, as a constant for the compiler. */
-enum paint_lit { PAINT_UNLIT = 0, PAINT_LIT, PAINT_SHADOWED, PAINT_VARIED };
+enum paint_lit { PAINT_UNLIT = 0,
+                 PAINT_LIT,
+                 PAINT_SHADOWED,
+                 PAINT_VARIED };
 
 /* R31 for all lights, which are few. Whether there are highlights is a constant for the compiler, too. */
 static ALWAYS_INLINE void paint_light(const e3d_batch *batch, int i, const e3d_paint *paint, enum light_variety varied, float shininess,

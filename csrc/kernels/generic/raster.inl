@@ -7,7 +7,10 @@
 #include "kernels/kernels.h"
 #include "kernels/types/visible.h"
 
-enum { RASTER_DEPTH, RASTER_OVERWRITE, RASTER_COUNT, RASTER_MARK };
+enum { RASTER_DEPTH,
+       RASTER_OVERWRITE,
+       RASTER_COUNT,
+       RASTER_MARK };
 enum { RASTER_BLOCK = 8 };
 
 typedef struct raster_constants {
@@ -107,7 +110,7 @@ static inline void raster_strip(int use, const e3d_piece *p, int x, const raster
 /* Draws strips from the box's first column on; the last strip begins where the tile still holds a vector. */
 static inline void raster_piece(int use, const e3d_piece *p, const e3d_tile_buffers *tile)
 {
-    raster_constants c = {v_setf(p->z0),   v_setf(p->gx),   v_setf(p->gy),
+    raster_constants c = {v_setf(p->z0), v_setf(p->gx), v_setf(p->gy),
                           v_setf(p->zmin), v_setf(p->zmax), v_seti((int32_t)p->slot)};
     int strips = (p->x1 - p->x0) / V_LANES + 1, most = E3D_TILE - strips * V_LANES;
     int x = p->x0 < most ? p->x0 : most;
@@ -115,10 +118,10 @@ static inline void raster_piece(int use, const e3d_piece *p, const e3d_tile_buff
         raster_strip(use, p, x + i * V_LANES, &c, tile);
 }
 
-#define RASTER_KERNEL(name, use)                                                            \
-    static void kernel_raster_##name(const e3d_piece *piece, const e3d_tile_buffers *tile)  \
-    {                                                                                       \
-        raster_piece(use, piece, tile);                                                     \
+#define RASTER_KERNEL(name, use) \
+    static void kernel_raster_##name(const e3d_piece *piece, const e3d_tile_buffers *tile) \
+    { \
+        raster_piece(use, piece, tile); \
     }
 
 RASTER_KERNEL(depth, RASTER_DEPTH)

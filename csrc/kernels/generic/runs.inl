@@ -121,7 +121,8 @@ static inline int runs_take_long(const e3d_shown *shown, int first, int count, i
 
 /* A run as one word, which all its samples share: its surface, and the distance from its place among the new samples to its
  * first sample. RUN_BEFORE keeps that positive. */
-enum { RUN_SURFACE = 16, RUN_BEFORE = E3D_BATCH };
+enum { RUN_SURFACE = 16,
+       RUN_BEFORE = E3D_BATCH };
 
 /* Writes `count` new samples from place `first` on, each vector once. Their words are the running sums of batch->steps, which
  * are reset to 0. */

@@ -444,7 +444,7 @@ static ALWAYS_INLINE void shadow_find_batch(const e3d_light *light, const e3d_sh
         shadow_load(batch->position, i, position);
         shadow_turn(light, position, s.at);
         shadow_place place = light->shadow.maps.count == 1 ? shadow_place_single(&light->shadow.maps, maps, s.at, of.moved)
-                                                      : shadow_place_cascades(&light->shadow.maps, maps, &s);
+                                                           : shadow_place_cascades(&light->shadow.maps, maps, &s);
         shadow_add_places(&light->shadow.maps, &place, faces, i, out);
     }
 }

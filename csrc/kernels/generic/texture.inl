@@ -116,8 +116,7 @@ static inline void texture_tabulate(const e3d_texture_view *view, texture_levels
 
 static inline level_lanes texture_one_level(const texture_levels *levels, int l)
 {
-    return (level_lanes){v_seti(levels->start[l]), v_seti(levels->stride[l]),
-                         {v_setf(levels->scale[0][l]), v_setf(levels->scale[1][l])}};
+    return (level_lanes){v_seti(levels->start[l]), v_seti(levels->stride[l]), {v_setf(levels->scale[0][l]), v_setf(levels->scale[1][l])}};
 }
 
 /* Looks up a number of each lane's level: in a register if a vector holds all levels, else by a gather. */
@@ -131,8 +130,9 @@ static inline level_lanes texture_levels_of(const texture_levels *levels, vi32 l
 {
     if (!v_any(v_mnot(v_eqi(level, v_seti(guess)))))
         return texture_one_level(levels, guess);
-    return (level_lanes){v_asi(level_number(levels->start, level)), v_asi(level_number(levels->stride, level)),
-                         {level_number(levels->scale[0], level), level_number(levels->scale[1], level)}};
+    return (level_lanes){.start = v_asi(level_number(levels->start, level)),
+                         .stride = v_asi(level_number(levels->stride, level)),
+                         .scale = {level_number(levels->scale[0], level), level_number(levels->scale[1], level)}};
 }
 
 static inline vi32 texture_nearest_at(const e3d_level *level, vf32 s, vf32 t)

@@ -29,28 +29,28 @@ typedef vf32 tone_colors[TONE_SIDE][3];
 
 static ALWAYS_INLINE void tone_load(float *const planes[3], int at, int side, tone_colors out)
 {
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         for (int k = 0; k < 3; k++)
             out[j][k] = v_loadf(planes[k] + at + j * V_LANES);
 }
 
 static ALWAYS_INLINE void tone_store(float *const planes[3], int at, int side, tone_colors color)
 {
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         for (int k = 0; k < 3; k++)
             v_storef(planes[k] + at + j * V_LANES, encode_clamp(color[j][k]));
 }
 
 static ALWAYS_INLINE void tone_limit_all(int side, tone_colors color)
 {
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         for (int k = 0; k < 3; k++)
             color[j][k] = tone_limit(color[j][k]);
 }
 
 static ALWAYS_INLINE void tone_multiply_all(const float matrix[3][3], int side, tone_colors color)
 {
-    TONE_EACH(side, j) {
+    TONE_EACH (side, j) {
         const vf32 v[3] = {color[j][0], color[j][1], color[j][2]};
         tone_multiply(matrix, v, color[j]);
     }
@@ -72,23 +72,23 @@ static ALWAYS_INLINE void tone_neutral(int side, tone_colors color)
 {
     vf32 peak[TONE_SIDE], lower[TONE_SIDE], scale[TONE_SIDE], whiter[TONE_SIDE], one = v_setf(1.0f), start = v_setf(0.76f), most;
     vmask bright[TONE_SIDE];
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         peak[j] = tone_neutral_dark(color[j]);
     most = peak[0];
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         most = v_max(most, peak[j]);
     if (!v_any(v_mnot(v_lt(most, start))))
         return;
-    TONE_EACH(side, j) {
+    TONE_EACH (side, j) {
         bright[j] = v_mnot(v_lt(peak[j], start));
         peak[j] = v_max(peak[j], start); /* in the other lanes any number will do */
         lower[j] = v_sub(one, v_div(v_setf(0.0576f), v_sub(peak[j], v_setf(0.52f))));
     }
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         scale[j] = v_div(lower[j], peak[j]);
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         whiter[j] = v_sub(one, v_div(one, v_add(v_mul(v_setf(0.15f), v_sub(peak[j], lower[j])), one)));
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         for (int k = 0; k < 3; k++) {
             vf32 scaled = v_mul(color[j][k], scale[j]);
             color[j][k] = v_self(bright[j], v_add(scaled, v_mul(v_sub(lower[j], scaled), whiter[j])), color[j][k]);
@@ -99,7 +99,7 @@ static ALWAYS_INLINE void tone_neutral(int side, tone_colors color)
 static ALWAYS_INLINE void tone_aces(int side, tone_colors color)
 {
     tone_multiply_all(E3D_ACES_IN, side, color);
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         for (int k = 0; k < 3; k++) {
             vf32 v = color[j][k], a = v_sub(v_mul(v, v_add(v, v_setf(0.0245786f))), v_setf(0.000090537f));
             vf32 b = v_add(v_mul(v, v_add(v_mul(v_setf(0.983729f), v), v_setf(0.432951f))), v_setf(0.238081f));
@@ -111,7 +111,7 @@ static ALWAYS_INLINE void tone_aces(int side, tone_colors color)
 /* R119: applies the first matrix, and the limits of the curve. */
 static ALWAYS_INLINE void tone_agx_in(vf32 c[3])
 {
-    const float(*in)[3] = E3D_AGX_IN;
+    const float (*in)[3] = E3D_AGX_IN;
     const vf32 v[3] = {v_add(v_add(c[0], v_mul(v_setf(in[0][1]), c[1])), v_mul(v_setf(in[0][2]), c[2])),
                        v_add(v_add(v_mul(v_setf(in[1][0]), c[0]), c[1]), v_mul(v_setf(in[1][2]), c[2])),
                        v_add(v_add(v_mul(v_setf(in[2][0]), c[0]), v_mul(v_setf(in[2][1]), c[1])), c[2])};
@@ -123,8 +123,8 @@ static ALWAYS_INLINE void tone_agx_in(vf32 c[3])
 static ALWAYS_INLINE void tone_agx_stops(int side, tone_colors v)
 {
     tone_colors m, sum;
-#define TONE_STEP(step)              \
-    TONE_EACH(side, j)               \
+#define TONE_STEP(step) \
+    TONE_EACH (side, j) \
         for (int k = 0; k < 3; k++) \
             step;
     TONE_STEP(m[j][k] = v_asf(v_ori(v_andi(v_asi(v[j][k]), v_seti(0x7FFFFF)), v_seti(0x3F800000))))
@@ -148,7 +148,7 @@ static ALWAYS_INLINE void tone_agx_curve(int side, tone_colors v)
 static ALWAYS_INLINE void tone_agx_power(int side, tone_colors v)
 {
     tone_colors root;
-    TONE_EACH(side, j) {
+    TONE_EACH (side, j) {
         vf32 sum = v_add(v_mul(v_setf(E3D_AGX_OUT[0]), v[j][0]), v_mul(v_setf(E3D_AGX_OUT[1]), v[j][1]));
         sum = v_add(sum, v_mul(v_setf(E3D_AGX_OUT[2]), v[j][2]));
         for (int k = 0; k < 3; k++)
@@ -162,7 +162,7 @@ static ALWAYS_INLINE void tone_agx_power(int side, tone_colors v)
 
 static ALWAYS_INLINE void tone_agx(int side, tone_colors color)
 {
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         tone_agx_in(color[j]);
     tone_agx_stops(side, color);
     tone_agx_curve(side, color);

@@ -310,7 +310,7 @@ static inline uint32_t visible_behind(uint32_t blocks, int first, const float ne
 
 /* Draws a record into one vector of blocks. */
 static inline void visible_blocks(const e3d_piece *p, const raster_constants *c, int first, int tame,
-                               const e3d_record *r, e3d_visible_tile *tile, const e3d_record_table *table)
+                                  const e3d_record *r, e3d_visible_tile *tile, const e3d_record_table *table)
 {
     int32_t top = first / VISIBLE_BLOCKS * RASTER_BLOCK, left = first % VISIBLE_BLOCKS * RASTER_BLOCK;
     vi32 x = v_addi(v_seti(left), v_shl(rows_x(), 3)), y = v_addi(v_seti(top), v_shl(rows_y(), 3));

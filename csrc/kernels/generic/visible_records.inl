@@ -258,7 +258,10 @@ static inline void records_tiny(const e3d_record *r, int32_t id, e3d_visible_til
 static inline void records_wide(const records_lanes *in, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *tile,
                                 const e3d_record_table *table)
 {
-    e3d_piece p = {.x0 = (int32_t)in->x0[lane], .y0 = (int32_t)in->y0[lane], .x1 = (int32_t)in->x1[lane], .y1 = (int32_t)in->y1[lane],
+    e3d_piece p = {.x0 = (int32_t)in->x0[lane],
+                   .y0 = (int32_t)in->y0[lane],
+                   .x1 = (int32_t)in->x1[lane],
+                   .y1 = (int32_t)in->y1[lane],
                    .slot = (uint32_t)id};
     for (int k = 0; k < 3; k++)
         if (!e3d_piece_edge(r, k, tile->x, tile->y, &p))

@@ -8,7 +8,8 @@
 #include "base/limits.h"
 #include "kernels/types/records.h"
 
-enum { E3D_SMALLS = 4 * E3D_CLUSTER_TRIANGLES, E3D_MOST_FRAGMENTS = E3D_SMALLS * E3D_SMALL * E3D_SMALL };
+enum { E3D_SMALLS = 4 * E3D_CLUSTER_TRIANGLES,
+       E3D_MOST_FRAGMENTS = E3D_SMALLS * E3D_SMALL * E3D_SMALL };
 
 /* Micro-triangles of several clusters that wait to become fragments: each has an area, and a sample in its box. Every array
  * fills whole cache lines, so that no vector is split across two. */

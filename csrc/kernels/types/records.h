@@ -18,7 +18,8 @@ _Static_assert(E3D_CLUSTER_TRIANGLES == 64, "a bit for each triangle of a cluste
 
 /* The limits of a micro-triangle: samples a side of its box, and 1/256 samples along an axis. Within them, edge functions fit
  * 32 bits. */
-enum { E3D_SMALL = 4, E3D_SMALL_REACH = 16383 };
+enum { E3D_SMALL = 4,
+       E3D_SMALL_REACH = 16383 };
 
 /* A set-up triangle: everything that raster and shading need of one piece of a primitive, in one cache line. */
 typedef struct e3d_record {

@@ -10,7 +10,8 @@
 #include "kernels/types/fog.h"
 #include "kernels/types/samples.h"
 
-enum { E3D_BATCH = 256, E3D_BATCH_SURFACES = 128 };
+enum { E3D_BATCH = 256,
+       E3D_BATCH_SURFACES = 128 };
 /* So many directional lights look up their maps for a whole batch at once; others do it vector by vector */
 enum { E3D_SUNS = 2 };
 

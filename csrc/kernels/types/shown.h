@@ -34,7 +34,8 @@ typedef struct e3d_shown {
     const e3d_sample_pattern *pattern;
 } e3d_shown;
 
-enum { E3D_RUN_LENGTH = 16, E3D_SHOWN_NUMBER = 2 * E3D_TILE_SHIFT };
+enum { E3D_RUN_LENGTH = 16,
+       E3D_SHOWN_NUMBER = 2 * E3D_TILE_SHIFT };
 
 /* A record in a tile: the rows of its box, and where their spans begin in e3d_cover.span. */
 typedef struct e3d_covering {
@@ -44,7 +45,8 @@ typedef struct e3d_covering {
 } e3d_covering;
 
 /* The samples that the records of a tile cover, hidden or not, row by row (spans.inl). */
-enum { E3D_MOST_COVERING = 256, E3D_COVER_ROWS = 8192 };
+enum { E3D_MOST_COVERING = 256,
+       E3D_COVER_ROWS = 8192 };
 typedef struct e3d_cover {
     int32_t x, y, width, height;                             /* the tile's first sample, and its size inside the viewport */
     int32_t count, used;                                     /* how many records there are, and spans in use */

@@ -6,7 +6,8 @@
 #include "e3d_ui.h"
 
 /* Portable kernels draw pictures that are narrower than any vector. */
-enum { E3D_UI_LEAST_WIDTH = 16, E3D_UI_ROWS = 64 };
+enum { E3D_UI_LEAST_WIDTH = 16,
+       E3D_UI_ROWS = 64 };
 
 /* The alpha of a pixel or texel in a register. */
 #define E3D_UI_ALPHA 0xFF000000u

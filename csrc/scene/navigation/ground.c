@@ -81,8 +81,10 @@ void e3d_navigation_span(double low, double high, double start, double cell, int
                          int32_t *last)
 {
     double a = ceil((low - start) / cell) - 1.0, b = floor((high - start) / cell);
-    *first = a < 0.0 ? 0 : a > count ? count : (int32_t)a;
-    *last = b < 0.0 ? -1 : b > count - 1 ? count - 1 : (int32_t)b;
+    *first = a < 0.0 ? 0 : a > count ? count
+                                     : (int32_t)a;
+    *last = b < 0.0 ? -1 : b > count - 1 ? count - 1
+                                         : (int32_t)b;
 }
 
 static int add_sample(e3d_navigation *grid, sample added)
@@ -267,6 +269,6 @@ e3d_status e3d_navigation_sort(e3d_navigation *grid)
 
 void e3d_navigation_get_view(const e3d_navigation *grid, e3d_navigation_view *view)
 {
-    *view = (e3d_navigation_view){grid->starts,  grid->height,   grid->slope_x,
+    *view = (e3d_navigation_view){grid->starts, grid->height, grid->slope_x,
                                   grid->slope_z, grid->walkable, grid->layers};
 }

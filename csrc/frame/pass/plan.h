@@ -73,7 +73,7 @@
     X(FRAGMENTS, "micro-triangles go to the tiles as samples") \
     X(SPANS, "tiles of few records may be drawn without depths") \
     X(LISTS, "tiles may list visible samples by record instead of by row") \
-    X(EXACT_SHADOWS, "what hides lights from visible samples is found, light by light") \
+    X(FINDS_EXACT_SHADOWS, "exact shadows are found on visible samples, light by light") \
     X(PAINTS, "one kernel takes samples from the surface to the encoded pixel") \
     X(ROUNDS, "the frame may be drawn in rounds that test against the ones before") \
     X(FINISHES, "tiles may be finished in the first of two rounds") \

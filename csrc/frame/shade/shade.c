@@ -99,7 +99,7 @@ static void shade_bucket(const e3d_shade_in *in, const e3d_tile *tile, const e3d
         end = e3d_add_surfaces(in, bucket, first, s.wanted, memory);
         if (s.wanted & E3D_WANT_SURFACE)
             e3d_find_surfaces(in->pass, tile, bucket, s.wanted, memory);
-        if (e3d_casts_exact_shadows(in->pass, bucket) && s.wanted & E3D_WANT_POSITION)
+        if (e3d_receives_exact_shadows(in->pass, bucket) && s.wanted & E3D_WANT_POSITION)
             in->pass->kernels->receivers(&memory->surfaces, &memory->receivers);
         shade_primitives(&s, first, end);
     }

@@ -143,9 +143,9 @@ static void add(e3d_steps *s, int is_taken, e3d_shade_step step)
         s->step[s->count++] = step;
 }
 
-int e3d_casts_exact_shadows(const e3d_prepared *pass, const e3d_bucket *bucket)
+int e3d_receives_exact_shadows(const e3d_prepared *pass, const e3d_bucket *bucket)
 {
-    return e3d_plans(pass, E3D_PLAN_EXACT_SHADOWS) && bucket->lit && !bucket->unshadowed;
+    return e3d_plans(pass, E3D_PLAN_FINDS_EXACT_SHADOWS) && bucket->lit && !bucket->unshadowed;
 }
 
 static int finds_alphas(e3d_sink sink) { return sink == E3D_SINK_ALPHA_TEST || sink == E3D_SINK_A_BUFFER || sink == E3D_SINK_SAMPLES; }
@@ -171,7 +171,7 @@ static void add_radiance_steps(e3d_steps *s)
 {
     const e3d_bucket *bucket = s->bucket;
     add(s, bucket->lit, find_visibility);
-    add(s, e3d_casts_exact_shadows(s->pass, bucket), hide_lights);
+    add(s, e3d_receives_exact_shadows(s->pass, bucket), hide_lights);
     add(s, bucket->lit, bucket->material->is_physical ? light_physical : light);
     add(s, !e3d_has_light_or_color(s->pass->frame), show_mode);
     add(s, fog_of(s->pass, bucket) != NULL, add_fog);

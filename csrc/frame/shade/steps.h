@@ -9,6 +9,6 @@
 /* Chooses the steps of a bucket, and finds the inputs that they need of its surfaces. */
 e3d_steps e3d_choose_steps(const e3d_shade_in *in, const e3d_bucket *bucket, const e3d_shade_out *out);
 /* Whether exact shadows may fall on a bucket's samples. */
-int e3d_casts_exact_shadows(const e3d_prepared *pass, const e3d_bucket *bucket);
+int e3d_receives_exact_shadows(const e3d_prepared *pass, const e3d_bucket *bucket);
 
 #endif

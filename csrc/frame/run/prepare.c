@@ -106,8 +106,8 @@ e3d_status e3d_prepare(e3d_renderer *renderer, const e3d_pass *asked, e3d_contex
     e3d_status status = e3d_draws_prepare(&renderer->draws, frame, e3d_plans(&out->pass, E3D_PLAN_EDGES), e3d_plans(&out->pass, E3D_PLAN_ALPHA_BINS));
     if (status != E3D_OK)
         return status;
-    if (e3d_plans(&out->pass, E3D_PLAN_FINDS_EXACT_SHADOWS) && (status = e3d_casters_prepare(&renderer->casters, frame,
-                                                                                       renderer->threads)) != E3D_OK)
+    if (e3d_plans(&out->pass, E3D_PLAN_FINDS_EXACT_SHADOWS) &&
+        (status = e3d_casters_prepare(&renderer->casters, frame, renderer->threads)) != E3D_OK)
         return status;
     if (!prepare_views(renderer, frame, out->pass.frustum) || !prepare_gradient(renderer, frame, &out->store) || !clear_marks(renderer))
         return E3D_OUT_OF_MEMORY;

@@ -214,7 +214,7 @@ _FORMATS = (
     ("tiff", "TIFF", (".tif", ".tiff"), "TIFF", _starts_with(b"II*\0", b"MM\0*")),
     ("ppm", "Portable pixmap", (".ppm", ".pgm", ".pbm"), "PPM", _is_ppm),
 )
-# What Pillow may open, whatever a file claims to be.
+# The formats that Pillow may open, whatever a file claims to be.
 PILLOW_FORMATS = [pillow_name for _, _, _, pillow_name, _ in _FORMATS]
 
 READERS = tuple(

@@ -23,9 +23,9 @@ from ..reading.sources import Source
 from ..reading.warning_list import WarningList
 from ..reading.zip_archives import ZIP, ZipArchive
 
-# What trimesh reads by itself, and what it reads with further packages.
+# The formats that trimesh reads by itself, and with further packages.
 _EXTENSIONS = (".xyz", ".dxf", ".dae", ".zae", ".3dxml", ".xaml")
-# What files of a kind begin with, if anything.
+# The first bytes of files of a kind, if they are known.
 _BEGINNINGS = {
     **dict.fromkeys(("3dxml", "zae"), ZIP),
     **dict.fromkeys(("dae", "xaml"), b"<"),

@@ -24,7 +24,7 @@ _ALL = slice(None)
 
 @dataclass
 class IndexedGeometry:
-    """What a mesh is made of.
+    """The data of a mesh.
 
     Attributes
     ----------
@@ -113,7 +113,7 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
 
 
 def _chosen(geometry: IndexedGeometry, vertices) -> dict[str, np.ndarray]:
-    """What some vertices carry beside positions, as parameters of a mesh."""
+    """Return the attributes of some vertices besides positions, as parameters of a mesh."""
     given = {name: getattr(geometry, name) for name in ("normals", *vertex_attributes(Mesh))}
     return {name: _rows(array, vertices) for name, array in given.items() if array is not None}
 

@@ -40,14 +40,14 @@ if TYPE_CHECKING:
 
 #: What a file says of what a scene holds, for whoever writes it again: the record of each thing.
 records: WeakKeyDictionary = WeakKeyDictionary()
-#: Pairs of properties of which the first must be less.
+#: Pairs of properties, the first of which must be less.
 _APART = (("znear", "zfar"), ("inner_cone_angle", "outer_cone_angle"))
 #: Stands there for a node that holds what the one above it could not hold besides.
 FURTHER_PART = object()
 
 
 class MeshWords(NamedTuple):
-    """What a file says of a mesh, without the mesh: what holds its key is never forgotten.
+    """What a file says of a mesh, without the mesh; the holder of its key is kept forever.
 
     Attributes
     ----------
@@ -64,7 +64,7 @@ class MeshWords(NamedTuple):
 
 
 class InstanceWords(NamedTuple):
-    """What a file says of instances.
+    """The statements of a file about instances.
 
     Attributes
     ----------

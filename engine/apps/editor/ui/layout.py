@@ -1,4 +1,4 @@
-"""Where panels are, which of them are closed, by which steps tools snap: kept from time to time.
+"""The layout: places of panels, closed ones, and the steps of snapping; saved from time to time.
 
 In: the workspace, Dear ImGui's windows. Out: one file in ImGui's own format, in which the editor's
 settings are a section that ImGui passes over.

@@ -40,7 +40,7 @@ class Map(NamedTuple):
     beside_key: str = ""
 
 
-# What files mean that leave these out, where it is not what a `Material` is by default.
+# The defaults of files, where they differ from those of `Material`.
 _LEFT_OUT = {"color": (1.0, 1.0, 1.0, 1.0), "metallic": 1.0, "roughness": 1.0}
 
 
@@ -283,7 +283,7 @@ class GltfMaterials:
             raise self._file.damaged(str(error)) from None
 
     def _values(self, part: dict, item: Numbers | Map, where: str, uv_sets) -> dict:
-        """What one item says, as parameters of a material."""
+        """Return the values of one item, as parameters of a material."""
         if isinstance(item, Numbers):
             if isinstance(item.default, tuple):
                 return {item.field: self._file.numbers(part, item.key, where, item.default)}
@@ -319,7 +319,7 @@ def undrawn_kinds(material: Material) -> set[str]:
 
 
 def _from_glossiness(values: dict, glossiness: float) -> dict:
-    """What a specular-glossiness material is as a metallic-roughness one."""
+    """Turn a specular-glossiness material into a metallic-roughness one."""
     found = {"metallic": 0.0, "roughness": 1.0 - glossiness, "ior": 0.0}
     held: Texture | PlacedTexture | None = values.get("specular_color_texture")
     if held is not None:

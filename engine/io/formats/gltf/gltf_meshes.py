@@ -25,7 +25,7 @@ from .gltf_file import DamagedError, GltfFile
 from .gltf_materials import GltfMaterials
 from .gltf_primitives import GltfPrimitives, Primitive
 
-# Of so many faces of a mesh that bends, tangents are found while it is read.
+# For meshes that bend, of up to so many faces, tangents are found while reading.
 MOST_BENDING = 1 << 17
 _MORPHS = ("positions", "normals", "tangents")
 _NO_MATERIAL = Material()
@@ -239,7 +239,7 @@ class GltfMeshes:
 
 
 def _kind_of(primitive: Primitive) -> tuple:
-    """What primitives of one mesh have in common."""
+    """Return the kind that all primitives of a mesh share."""
     joints = 0 if primitive.joints is None else primitive.joints.shape[1]
     material = None if primitive.kind == "faces" else primitive.material
     # The materials of other sets of texture coordinates are others, of these one may be drawn.

@@ -26,7 +26,7 @@ _MAX_GROUPS_OF_A_FACE = 16
 
 
 class ObjParts(NamedTuple):
-    """What an OBJ file holds.
+    """The contents of an OBJ file.
 
     Attributes
     ----------
@@ -118,7 +118,7 @@ class ObjParts(NamedTuple):
         return found or [self.whole(stem)]
 
     def _object(self, name, chosen: slice, lines, points, starts) -> DocumentObject:
-        """Some triangles, lines and points that stand together."""
+        """Return some triangles, lines and points as one object."""
         geometry = Geometry(
             self.file.vertices,
             self.triangles.part(chosen),

@@ -142,10 +142,10 @@ class Kernels:
         request = record("record_request", **dict(zip(names, members, strict=True)))
         return self._call("record", request, out, spans)
 
-    def fragments(self, triangles, viewport, tiles_x, blocks, bins, count):
-        """Of a copy of the triangles, to `blocks` of which `count` are in use; returns how many are
+    def fragments(self, triangles, viewport, tiles_x, links, bins, count):
+        """Of a copy of the triangles, to `links` of which `count` are in use; returns how many are
         then, the fragments and the triangles that have some."""
-        out = record("fragment_bins", blocks=blocks, bins=bins, count=count)
+        out = record("fragment_bins", links=links, bins=bins, count=count)
         self._call("fragments", triangles.copy(), viewport, tiles_x, out)
         return tuple(int(out[name][0]) for name in ("count", "fragments", "triangles"))
 
@@ -163,8 +163,8 @@ class Kernels:
     def raster_visible(self, tile, records, ids, drawn=None):
         self._call("raster_visible", tile, record_table(records, drawn), ids, len(ids))
 
-    def raster_fragments(self, tile, records, drawn, block):
-        self._call("raster_fragments", tile, record_table(records, drawn), block)
+    def raster_fragments(self, tile, records, drawn, link):
+        self._call("raster_fragments", tile, record_table(records, drawn), link)
 
     def raster_settle(self, tile, records, depths=True):
         self._call("raster_settle", tile, record_table(records), depths)

@@ -7,8 +7,8 @@ from kernels.layouts import (
     BATCH,
     BATCH_RECORD,
     BLOCK_FRAGMENTS,
-    FRAGMENT_BLOCK,
     FRAGMENT_ID,
+    FRAGMENT_LINK,
     PAD,
     SHOWN,
     TILE,
@@ -67,35 +67,35 @@ def test_show_records(kernels, parts):
     lists.check_gaps()
 
 
-def fragment_blocks(rng, tile):
-    """Fragments, some of which show: one or several of each triangle, in two blocks."""
+def fragment_links(rng, tile):
+    """Fragments, some of which show: one or several of each triangle, in two links."""
     count = int(rng.integers(2, BLOCK_FRAGMENTS))
     ids = FRAGMENT_ID + np.repeat(rng.permutation(1000), rng.choice([1, 1, 1, 2, 5], 1000))
     at = rng.permutation(TILE * TILE)[: 2 * count]
-    blocks = np.zeros(2, FRAGMENT_BLOCK)
-    blocks["count"] = count, rng.integers(0, count)
+    links = np.zeros(2, FRAGMENT_LINK)
+    links["count"] = count, rng.integers(0, count)
     for number in range(2):
         some = slice(number * count, (number + 1) * count)
-        blocks["id"][number, :count] = ids[some]
-        blocks["sample"][number, :count] = at[some]
+        links["id"][number, :count] = ids[some]
+        links["sample"][number, :count] = at[some]
         shows = at[some][rng.random(count) < rng.choice([0, 0.3, 1])]
         tile.fields["id"][0, shows] = ids[some][np.isin(at[some], shows)]
-    return blocks
+    return links
 
 
 @all_backends
 def test_show_fragments(kernels):
-    """Those that show, in order; of one triangle they are one piece, in two blocks, too."""
+    """Those that show, in order; of one triangle they are one piece, in two links, too."""
     lists, pieces = Records(SHOWN, 200), 0
     for seed, (row, fields) in enumerate(zip(lists.rows, lists.fields, strict=True)):
         rng, tile = np.random.default_rng(seed), Tile(0, 0)
-        blocks = fragment_blocks(rng, tile)
+        links = fragment_links(rng, tile)
         before = tile.bytes.copy()
         fields["count"], fields["primitives"] = 0, 0
         ids, samples = [], []
-        for block in blocks:
-            kernels.show_fragments(tile.bytes, block.reshape(1).view(np.uint8), row)
-            all_ids, at = (block[name][: block["count"]] for name in ("id", "sample"))
+        for link in links:
+            kernels.show_fragments(tile.bytes, link.reshape(1).view(np.uint8), row)
+            all_ids, at = (link[name][: link["count"]] for name in ("id", "sample"))
             shows = tile.fields["id"][0, at] == all_ids
             ids, samples = np.append(ids, all_ids[shows]), np.append(samples, at[shows])
         assert np.array_equal(tile.bytes, before)

@@ -164,7 +164,7 @@ def test_map_normals(kernels):
     textures["tangent"][0, 3] = rng.choice([-1, 1], LANES)
     scales = np.float32([0.8, 1.5])
     given = [
-        record("normal_map", texels=texels[k].ravel(), unit=1, scale=scales[k]) for k in range(2)
+        record("normal_texture", texels=texels[k].ravel(), unit=1, scale=scales[k]) for k in range(2)
     ]
     kernels.map_normals(batch, *given, textures)
     t = textures["tangent"][0]
@@ -177,7 +177,7 @@ def test_map_normals(kernels):
         assert np.array_equal(bits(got[:, :BATCH]), bits(np.array(unit(mapped))[:, :BATCH]))
     assert np.array_equal(textures["shading_normal"][0, :, :BATCH], normals[:, :BATCH])
     before = batch["normal"].copy()
-    none = record("normal_map")
+    none = record("normal_texture")
     kernels.map_normals(batch, none, none, textures)
     assert np.array_equal(batch["normal"], before)
     assert dot(t[:3], t[:3]).max() > 1  # nothing expects tangents of unit length

@@ -164,7 +164,8 @@ def test_map_normals(kernels):
     textures["tangent"][0, 3] = rng.choice([-1, 1], LANES)
     scales = np.float32([0.8, 1.5])
     given = [
-        record("normal_texture", texels=texels[k].ravel(), unit=1, scale=scales[k]) for k in range(2)
+        record("normal_texture", texels=texels[k].ravel(), unit=1, scale=scales[k])
+        for k in range(2)
     ]
     kernels.map_normals(batch, *given, textures)
     t = textures["tangent"][0]

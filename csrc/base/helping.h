@@ -1,9 +1,9 @@
-/* Whether helpers get work done, or are waited for.
+/* Decides whether helpers speed a job up, or hold it up.
  *
- * In:  of each job, the time that its threads had of their CPUs, and the time that passed.
- * Out: whether the next one is better done alone.
- * Where other programs use the CPUs, a thread that loses its own amid a tile holds up the whole job, so that two may get less
- * done than one. So each way of working is measured by the CPU time that it gets per time that passes, whatever the jobs are.
+ * In:  for each job the CPU time of its threads, and the time that passed.
+ * Out: whether the next job is better done alone.
+ * If other programs use the CPUs, a thread that loses its CPU within a tile holds up the whole job, so that two threads may
+ * get less done than one. So each way of working is measured by its CPU time over the time that passed, whatever the jobs are.
  */
 #ifndef E3D_HELPING_H
 #define E3D_HELPING_H

@@ -159,7 +159,7 @@ def fit_frustum(
 
 
 def _middle(support, axes, center, edges: FrustumReach, distance: float) -> tuple[float, float]:
-    """Where the eye stands across its line of sight, to have as much room on both sides.
+    """Return where the eye stands across its line of sight, with equal room on both sides.
 
     From farther away than one of the ways needs, narrower planes touch there, and between them is
     the middle. The slope from which they meet at the eye is found by the secant method.
@@ -186,7 +186,7 @@ def _middle(support, axes, center, edges: FrustumReach, distance: float) -> tupl
 
 
 class FrustumReach(NamedTuple):
-    """How far something reaches across the planes of a frustum, from a center.
+    """The extent of something across the planes of a frustum, from a center.
 
     A camera at (x, y, distance) along its own axes sees a point (across, upward, near) between
     planes that open by ``slope`` if ``|across - x| <= slope * (distance - near)``: a bound for the
@@ -212,7 +212,7 @@ class FrustumReach(NamedTuple):
 
     @property
     def x(self) -> float:
-        """Where the camera stands to see both sides from as near as possible."""
+        """The camera's position from which both sides are seen, as near as possible."""
         return 0.5 * (self.right - self.left)
 
     @property

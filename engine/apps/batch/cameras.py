@@ -1,4 +1,4 @@
-"""How tasks say from where one looks.
+"""The cameras of tasks.
 
 In: a number, or an object of JSON with one of three sets of members; angles in degrees. Out: a
 camera and its pose. Near and far planes enclose the scene where nothing else is said.

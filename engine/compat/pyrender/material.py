@@ -65,7 +65,7 @@ def _color(name: str, length: int, default: float, doc: str) -> property:
 
 
 class Material(Named, abc.ABC):
-    """What all materials have.
+    """The base of all materials.
 
     Parameters
     ----------

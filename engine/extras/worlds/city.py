@@ -158,7 +158,7 @@ def city(triangles: int = 1_000_000, seed: int = 0) -> World:
 
 
 class _Ground:
-    """Which tiles are city and which meadow, and the trees that make up the number."""
+    """The ground: which tiles are city and which meadow, and the trees that complete the number."""
 
     def __init__(self, seed: int, triangles: int) -> None:
         self.seed = seed

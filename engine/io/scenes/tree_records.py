@@ -127,7 +127,7 @@ class _Filling:
     def _add(self, index: int, parent: Node | None) -> None:
         record = self._tree.nodes[index]
         held = [*self._meshes(record), *self._placed(record)]
-        # What a node of ours cannot hold besides hangs below it.
+        # Further objects, which one of our nodes cannot hold, hang below it.
         first, others = (held[0], held[1:]) if held else (None, [])
         node = self._scene.add(first, name=record.name, parent=parent, **_place(record))
         node.visible = record.visible

@@ -14,7 +14,7 @@ from ..reading.sources import read_source
 from .written_names import linkable_stem
 
 LIBRARY_MARK = b"# written by engine3d\n"
-# As much of an old library is looked through for the images that it names.
+# So much of an old library is searched for the images that it names.
 _MOST_READ = 1 << 22
 
 

@@ -1,4 +1,4 @@
-"""What follows from the arrays of a mesh, computed when asked for: normals, edges, bounds."""
+"""Data derived from a mesh's arrays, computed when asked for: normals, edges, bounds."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from . import topology as _topology
 
 
 def derive(kept: dict[str, tuple[list[Any], np.ndarray]], what: str, arrays: dict[str, Any]) -> Any:
-    """What follows from arrays, as they were at one moment: computed once for these."""
+    """Derived data of arrays as they were at one moment, computed once for these."""
     if what == "normals" and arrays["_given_normals"] is not None:
         return arrays["_given_normals"]
     compute, names = _DERIVED[what]

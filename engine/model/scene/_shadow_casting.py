@@ -1,4 +1,4 @@
-"""What all lights say of their shadows, in three.js's words."""
+"""The shadow parameters of all lights, in three.js's words."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ class CastsShadows(Closed):
             )
 
     def _shadow_margin(self) -> int:
-        """How many texels at the sides of a map are there for comparisons alone.
+        """Return how many texels at the sides of a map serve comparisons alone.
 
         Beside half of these, samples of directional lights move along their normals: R91.
         """

@@ -425,7 +425,7 @@ class Scene(Surroundings, SceneQueries):
             self._colliders = dict(sorted(self._colliders.items()))
 
     def _census(self) -> tuple[int, int]:
-        """What is another once a node has come or gone."""
+        """Return numbers that differ once a node has come or gone."""
         return self._arrays.count, self._removals
 
     def _node_of(self, number: int) -> Node | None:
@@ -477,7 +477,7 @@ def _take_animations(scene: Scene, clips: dict, put: Callable[[dict], None]) -> 
 
 
 def _unfound(node) -> str:
-    """What a caller gave for a node: mostly what `Scene.find` returns of an unknown name."""
+    """Return what was given for a node: mostly the result of `Scene.find` for an unknown name."""
     return "None, which find() returns of an unknown name" if node is None else shown(node)
 
 

@@ -63,7 +63,7 @@ class StagedScene(Surroundings):
         self._objects = _JoinedObjects()
 
     def __getattr__(self, name: str) -> Any:
-        """What was not assigned is as the scene has it."""
+        """Return the scene's own value of anything that was not assigned."""
         if name[1:] not in SCENE_VALUES:
             raise AttributeError(f"a StagedScene has no {name}")
         return getattr(self.scene, name)
@@ -94,7 +94,7 @@ class StagedScene(Surroundings):
         arrays = self.scene._arrays
         return int(arrays.columns["id"][arrays.count - 1]) + 1 if arrays.count else 0
 
-    # What follows is what renderers read of a `Scene`.
+    # The members below are those of a `Scene` that renderers read.
 
     bounds = Scene.bounds
     _census = Scene._census
@@ -127,7 +127,7 @@ class StagedScene(Surroundings):
 
     @property
     def _removals(self) -> tuple:
-        """What is another once a node, or what it held, went, or rows stand elsewhere."""
+        """Return numbers that differ once a node, or its object, went, or rows moved."""
         trees = [(tree._arrays, tree._arrays.count, tree._removals) for tree in self._trees()]
         return self.keeps_lights, *trees
 
@@ -216,7 +216,7 @@ class _JoinedRows:
             added[added >= 0] += offset
 
     def select(self, frustum, widen: float, flat: bool, bits: NDArray[np.uint64]) -> int:
-        """As of `NodeArrays`; what was added is always taken."""
+        """As of `NodeArrays`; added nodes are always selected."""
         arrays = self._made_of().scene._arrays
         own = bits[: (arrays.count + 63) // 64]
         tested = arrays.select(frustum, widen, flat, own)
@@ -227,7 +227,7 @@ class _JoinedRows:
 
 
 def _state_of(staged: StagedScene, own: int, added: int) -> tuple[tuple, tuple]:
-    """What the rows of a scene, and those of what was added, are made of, at some changes."""
+    """Return the state of the rows of a scene and of the added ones, at some changes."""
     scene, beside, objects = staged.scene._arrays, staged.beside._arrays, staged._objects
     return (
         (scene, scene.count, own, staged._hidden, objects.renewals),

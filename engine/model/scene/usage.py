@@ -1,4 +1,4 @@
-"""What the nodes of scenes use: meshes, materials, textures, and how many nodes each.
+"""The resources of scenes: meshes, materials, textures, and how many nodes use each.
 
 In: scenes. Out: counts. Nodes that share an object are counted together, so that a scene of tens of
 thousands of nodes costs what its different objects cost.

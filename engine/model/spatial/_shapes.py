@@ -1,4 +1,4 @@
-"""What meshes and instances are to rays: trees of boxes, made when a ray first meets them.
+"""The shapes of meshes and instances for rays: trees of boxes, made when a ray first meets them.
 
 In: `Mesh`, `InstancedMesh`. Out: native trees, made anew when arrays are others, forgotten with
 the object.

@@ -290,7 +290,7 @@ class DrawList:
 
 
 def _needs_of(mesh: Mesh, needs: MeshNeeds, normals: str) -> MeshNeeds:
-    """Which arrays of this mesh are read, once its materials' flat shading is known."""
+    """Return which arrays of this mesh are read, given its materials' flat shading."""
     smooth, flat = needs.vertex_normals, needs.face_normals
     if normals == "auto":
         flat = flat and any(material.flat_shading for material in mesh.materials)

@@ -117,7 +117,7 @@ def _view_of(axes: Axes, position: Sequence[float]) -> NDArray[np.float64]:
 
 
 class _Square(NamedTuple):
-    """What a map shows: texels in a unit of the world, and where its middle is, in texels."""
+    """The square that a map shows: texels in a unit of the world, and the place of its middle."""
 
     scale: float
     column: int
@@ -165,7 +165,7 @@ def _unproject(view_from_clip, x: float, y: float, z: float) -> NDArray[np.float
 
 
 def _at_depth(line: list[NDArray[np.float64]], depth: float) -> NDArray[np.float64]:
-    """The point of a line through two points that is so deep in view space."""
+    """Return the point at a depth in view space on the line through two points."""
     first, second = line
     share = (-depth - first[2]) / (second[2] - first[2])
     return first + (second - first) * share

@@ -87,7 +87,7 @@ static int32_t list_pixels(const e3d_tile_job *job, int32_t first, e3d_run *runs
     return first;
 }
 
-/* Sorts what is to be shaded by primitive; here a run's `length` is the number of its colour. */
+/* Sorts the listed colours by the primitives that they are shaded from; here a run's `length` is the number of its colour. */
 static void show(const e3d_tile_job *job, int32_t count, e3d_mixed_list *list)
 {
     e3d_runs_memory *memory = &job->memory->shade.runs;

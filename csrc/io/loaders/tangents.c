@@ -1,4 +1,4 @@
-/* Tangents: which way is right in the image that a surface wears, corner by corner.
+/* Tangents: for each corner, the direction on the surface in which its texture's u grows.
  *
  * In:  triangles whose vertices have positions, normals and texture coordinates.
  * Out: groups of corners that share a tangent, and the tangents, with 1 or -1 for whether up is left or right of them.

@@ -63,7 +63,7 @@ class LoadedFiles:
         return self._shared("texture", self._resources.load_texture, path, options)
 
     def scene(self, path: str, root: str | None = None) -> Scene:
-        """Return a scene of its own of what a file holds, with the meshes that are loaded."""
+        """Return a new scene of a file's contents, with the meshes that are loaded already."""
         path = os.path.realpath(path)
         key = "scene", path, root, self.out
         held = self._kept.get(key)

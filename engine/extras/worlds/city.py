@@ -46,7 +46,7 @@ DISTRICT = 4
 #: Rings of meadows round the city.
 _MEADOWS = 1
 _FEWEST_A_TILE = 1_500
-#: What coarser districts leave out or move, in metres.
+#: The sizes up to which coarser districts leave things out or move them, in metres.
 _TOLERANCES = (0.3, 1.5)
 _LAND = {HOUSES: "gravel", TOWERS: "stone", PARK: "grass", PLAZA: "stone"}
 

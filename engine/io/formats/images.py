@@ -24,7 +24,8 @@ from ..reading.sources import Source
 # More pixels than this are refused before anything is decoded; as RGBA they take 683 MiB. Assign
 # another value to change it (beyond this one, which is Pillow's, Image.MAX_IMAGE_PIXELS as well).
 MAX_PIXELS = 178_956_970
-# The images of one model may together have MAX_PIXELS, and so many for each byte of their files.
+# A guard against decompression bombs: all images of a model have at most MAX_PIXELS, and at most
+# so many pixels for each byte of their files.
 PIXELS_PER_BYTE = 10
 # Pixels that are converted at a time.
 _STRIP = 1 << 20

@@ -112,7 +112,7 @@ def _said(warnings: WarningList):
 
 
 def _check_beginning(source: Source, kind: str) -> None:
-    """Refuse what is no such file at all: trimesh would find fault with something else."""
+    """Refuse files that are not of the format; trimesh's own errors would mislead."""
     head = source.head(64)
     is_marked = head.startswith(_BYTE_ORDER_MARKS) and kind in ("dae", "xaml")
     if not is_marked and not head.lstrip().startswith(_BEGINNINGS.get(kind, b"")):

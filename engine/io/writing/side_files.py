@@ -44,7 +44,7 @@ class SideFiles:
 
     @property
     def usual_library(self) -> str:
-        """Where the library would be if nobody else's file had that name."""
+        """Return the library's usual path, whether or not another file has that name."""
         return os.path.join(self._folder, f"{self._stem}.mtl")
 
     def next_image(self) -> str:

@@ -51,7 +51,7 @@ def way_to_face(
 
 
 def tell(shapes: NativeShapes, number: int, obj: Any) -> None:
-    """Tell the shape of a scene's object, as it is at one moment."""
+    """Pass the shape of a scene's object to the core, as it is at one moment."""
     mesh, poses, tree = as_shown(obj), None, None
     if isinstance(obj, InstancedMesh):
         mesh, (tree, poses) = obj.mesh, obj._tree()

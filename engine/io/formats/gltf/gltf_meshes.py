@@ -213,7 +213,7 @@ class GltfMeshes:
     ) -> list[MorphTarget]:
         """The morph targets of joined primitives: what only some change is 0 for the others."""
         found = []
-        # A primitive that has fewer stays as it is where the others move.
+        # A primitive with fewer targets does not move by the targets that it lacks.
         held = ([*p.morphs, *({},) * (len(names) - len(p.morphs))] for p in primitives)
         for name, *targets in zip(names, *held, strict=True):
             deltas = {}

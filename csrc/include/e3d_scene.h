@@ -169,25 +169,25 @@ typedef struct e3d_node_rows {
     const uint32_t *spared_lights; /* as in e3d_draw; NULL: none */
 } e3d_node_rows;
 
-/* A batch of one object's nodes: those that receive shadows, or those that don't. */
-typedef struct e3d_batch {
+/* The draw that merges one object's nodes: those that receive shadows, or those that don't. */
+typedef struct e3d_merged_draw {
     int32_t nodes;      /* that are drawn */
     int32_t draw;       /* the draw of all of them; -1: none yet */
     int32_t first, end; /* the rows of those placed so far */
-} e3d_batch;
+} e3d_merged_draw;
 
 /* Zeroed at first; kept from frame to frame. */
 typedef struct e3d_draw_list {
     e3d_draw *draws;
     int32_t count, room;
-    int32_t *order;   /* as in e3d_frame; as many as draws if nothing were batched */
+    int32_t *order;   /* as in e3d_frame; as many as draws if none were merged */
     int32_t order_count, order_room;
     int32_t nodes;    /* that are drawn */
-    double *worlds;   /* (nodes, 12) and (nodes,): of batched nodes, batch after batch */
+    double *worlds;   /* (nodes, 12) and (nodes,): of merged nodes, one draw after the other */
     int32_t *ids, *slots;
     int32_t node_room;
-    e3d_batch *batches; /* two of each object: receivers of shadows, the others */
-    int32_t batch_room;
+    e3d_merged_draw *merged; /* two of each object: receivers of shadows, the others */
+    int32_t merged_room;
     uint64_t *bits;   /* scratch */
     int32_t words;
     int64_t boxes_tested; /* of instances, and of the branches of their trees */
@@ -201,10 +201,10 @@ typedef struct e3d_totals {
 e3d_totals e3d_graph_totals(const e3d_node_rows *rows, const e3d_placed *objects, int32_t object_count);
 
 /* Lists the draws of the nodes that show, in the order of slots: objects[number] with the node's ID and world pose. selection: a
- * bit a slot, or NULL for all; view: NULL draws all instances; batch: the nodes of one mesh share a draw. Returns 0 when memory
+ * bit a slot, or NULL for all; view: NULL draws all instances; merge: the nodes of one mesh share a draw. Returns 0 when memory
  * is out. */
 int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
-                    const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count, int batch);
+                    const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count, int merge);
 
 /* ---- Rays ---- */
 

@@ -19,7 +19,7 @@ void e3d_draw_list_free(e3d_draw_list *list)
     free(list->worlds);
     free(list->ids);
     free(list->slots);
-    free(list->batches);
+    free(list->merged);
     free(list->bits);
     memset(list, 0, sizeof *list);
 }
@@ -145,51 +145,51 @@ static int append_node(e3d_draw_list *list, const e3d_placed *object, const draw
     return to && take_turn(list, list->count - 1);
 }
 
-/* ---- batches ---- */
+/* ---- merged draws ---- */
 
 /* Finds the one draw for all nodes of a mesh; it is made when the first of them is met. */
-static int begin_batch(e3d_draw_list *list, const e3d_placed *object, e3d_batch *batch, int32_t unshadowed)
+static int begin_merged_draw(e3d_draw_list *list, const e3d_placed *object, e3d_merged_draw *merged, int32_t unshadowed)
 {
     e3d_draw *draw = append(list);
     if (!draw)
         return 0;
     *draw = object->draw;
     draw->pose_kind = E3D_POSE_NODES;
-    draw->instances = batch->nodes;
-    draw->node_worlds = list->worlds + 12 * (size_t)batch->first;
-    draw->node_ids = list->ids + batch->first;
+    draw->instances = merged->nodes;
+    draw->node_worlds = list->worlds + 12 * (size_t)merged->first;
+    draw->node_ids = list->ids + merged->first;
     draw->unshadowed = unshadowed;
-    batch->draw = list->count - 1;
+    merged->draw = list->count - 1;
     return 1;
 }
 
-static int append_member(e3d_draw_list *list, const e3d_placed *object, e3d_batch *batch, const drawn_node *node)
+static int append_member(e3d_draw_list *list, const e3d_placed *object, e3d_merged_draw *merged, const drawn_node *node)
 {
-    if (batch->draw < 0 && !begin_batch(list, object, batch, node->unshadowed))
+    if (merged->draw < 0 && !begin_merged_draw(list, object, merged, node->unshadowed))
         return 0;
-    memcpy(list->worlds + 12 * (size_t)batch->end, node->world, 12 * sizeof *node->world);
-    list->ids[batch->end++] = node->id;
-    return take_turn(list, batch->draw);
+    memcpy(list->worlds + 12 * (size_t)merged->end, node->world, 12 * sizeof *node->world);
+    list->ids[merged->end++] = node->id;
+    return take_turn(list, merged->draw);
 }
 
-/* Finds where the rows of each batch's nodes begin. */
-static void lay_out_batches(e3d_draw_list *list, int32_t batches)
+/* Finds where the rows of each merged draw's nodes begin. */
+static void lay_out_merged_draws(e3d_draw_list *list, int32_t count)
 {
     int32_t first = 0;
-    for (int32_t i = 0; i < batches; i++) {
-        list->batches[i].first = list->batches[i].end = first;
-        first += list->batches[i].nodes;
+    for (int32_t i = 0; i < count; i++) {
+        list->merged[i].first = list->merged[i].end = first;
+        first += list->merged[i].nodes;
     }
 }
 
 /* ---- nodes ---- */
 
-static int reserve_all(e3d_draw_list *list, int32_t slots, int32_t batches)
+static int reserve_all(e3d_draw_list *list, int32_t slots, int32_t count)
 {
-    if (batches > list->batch_room) {
-        if (!reserve(&list->batches, batches, sizeof *list->batches))
+    if (count > list->merged_room) {
+        if (!reserve(&list->merged, count, sizeof *list->merged))
             return 0;
-        list->batch_room = batches;
+        list->merged_room = count;
     }
     if (slots > list->node_room) {
         if (!reserve(&list->worlds, slots, 12 * sizeof *list->worlds) ||
@@ -232,12 +232,12 @@ static int casts_none(const e3d_node_rows *rows, int32_t slot)
 
 static uint32_t spared_lights(const e3d_node_rows *rows, int32_t slot) { return rows->spared_lights ? rows->spared_lights[slot] : 0; }
 
-static e3d_batch *batch_of(const e3d_draw_list *list, const e3d_node_rows *rows, int32_t slot)
+static e3d_merged_draw *merged_draw_of(const e3d_draw_list *list, const e3d_node_rows *rows, int32_t slot)
 {
-    return &list->batches[2 * (size_t)rows->object[slot] + (size_t)receives_none(rows, slot)];
+    return &list->merged[2 * (size_t)rows->object[slot] + (size_t)receives_none(rows, slot)];
 }
 
-/* Lists the slots that draw anything, and counts them for each batch. */
+/* Lists the slots that draw anything, and counts them for each merged draw. */
 static void list_slots(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
                        const e3d_placed *objects, int32_t object_count)
 {
@@ -249,28 +249,28 @@ static void list_slots(e3d_draw_list *list, const e3d_node_rows *rows, const uin
         }
         if (draws_at(rows, slot, objects, object_count) && !casts_none(rows, slot)) {
             list->slots[list->nodes++] = slot;
-            batch_of(list, rows, slot)->nodes += !spared_lights(rows, slot);
+            merged_draw_of(list, rows, slot)->nodes += !spared_lights(rows, slot);
         }
     }
 }
 
 int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
-                    const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count, int batch)
+                    const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count, int merge)
 {
     list->count = list->order_count = list->nodes = 0;
     list->boxes_tested = 0;
     if (object_count > INT32_MAX / 2 || !reserve_all(list, rows->count, 2 * object_count))
         return 0;
     for (int32_t i = 0; i < 2 * object_count; i++)
-        list->batches[i] = (e3d_batch){.draw = -1};
+        list->merged[i] = (e3d_merged_draw){.draw = -1};
     list_slots(list, rows, selection, objects, object_count);
-    lay_out_batches(list, 2 * object_count);
+    lay_out_merged_draws(list, 2 * object_count);
     for (int32_t i = 0; i < list->nodes; i++) {
         int32_t slot = list->slots[i];
         const e3d_placed *object = &objects[rows->object[slot]];
         const drawn_node node = {e3d_placing_pose(rows->world, rows->anchor, slot), rows->id[slot], receives_none(rows, slot), spared_lights(rows, slot)};
-        e3d_batch *of = batch_of(list, rows, slot);
-        int together = batch && of->nodes > 1 && !node.spared_lights && object->draw.pose_kind == E3D_POSE_NONE;
+        e3d_merged_draw *of = merged_draw_of(list, rows, slot);
+        int together = merge && of->nodes > 1 && !node.spared_lights && object->draw.pose_kind == E3D_POSE_NONE;
         if (!(together ? append_member(list, object, of, &node) : append_node(list, object, &node, view)))
             return 0;
     }

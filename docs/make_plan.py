@@ -1,4 +1,4 @@
-"""Writes docs/plan.md: the rules by which a frame chooses how its tiles are drawn.
+"""Writes docs/plan.md: the conditions by which a frame chooses how its tiles are drawn.
 
     python docs/make_plan.py            write it
     python docs/make_plan.py --check    exit with 1 if it is out of date
@@ -16,7 +16,7 @@ from pathlib import Path
 from generated_page import write_or_check
 
 import engine3d as e3d
-from engine3d._native.kernels_testing import asked_items, plan_rules, planned_items
+from engine3d._native.kernels_testing import asked_items, plan_conditions, planned_items
 
 PAGE = Path(__file__).resolve().parent / "plan.md"
 INTRODUCTION = """\
@@ -57,11 +57,11 @@ def condition(needs: list[str], forbids: list[str]) -> str:
 
 
 def rules_of_items() -> dict[str, str]:
-    """Where each planned item holds: its rules, as one sentence."""
-    rules = groupby(plan_rules(), key=lambda rule: rule[0])
+    """Where each planned item holds: its conditions, as one sentence."""
+    conditions = groupby(plan_conditions(), key=lambda condition: condition[0])
     return {
         item: "; or ".join(condition(needs, forbids) for _, needs, forbids in group)
-        for item, group in rules
+        for item, group in conditions
     }
 
 

@@ -1,9 +1,5 @@
-/* Functions that must be inlined: constants of the caller specialise them, and GCC drops a call of a function that does nothing but
- * prefetch.
- */
-#ifndef E3D_ALWAYS_INLINE_H
-#define E3D_ALWAYS_INLINE_H
+/* Functions that must be inlined: constants of the caller specialise them. GCC would even drop the call of a function that
+ * only prefetches. */
+#pragma once
 
 #define ALWAYS_INLINE inline __attribute__((always_inline))
-
-#endif

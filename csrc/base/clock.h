@@ -1,6 +1,5 @@
-/* Time, for what is measured and for what is awaited a short while. */
-#ifndef E3D_CLOCK_H
-#define E3D_CLOCK_H
+/* Clocks, for measurements and for short waits. */
+#pragma once
 
 #include <stdint.h>
 #include <time.h>
@@ -15,7 +14,5 @@ static inline int64_t e3d_read_clock(clockid_t clock)
 /* Nanoseconds since some fixed moment. */
 static inline int64_t e3d_now_ns(void) { return e3d_read_clock(CLOCK_MONOTONIC); }
 
-/* Nanoseconds that the calling thread has had of a CPU. */
+/* Nanoseconds of CPU time that the calling thread has had. */
 static inline int64_t e3d_thread_ns(void) { return e3d_read_clock(CLOCK_THREAD_CPUTIME_ID); }
-
-#endif

@@ -1,8 +1,6 @@
-/* What this machine can run: instruction sets of CPU and operating system, and usable CPUs.
- *
- * Thread count: the affinity mask, capped by the cgroup's CPU quota (v2 cpu.max, v1 cfs_quota_us),
- * because a container's quota does not show in the mask.
- */
+/* The capabilities of this machine: instruction sets of CPU and operating system, and usable CPUs.
+ * The number of threads is that of the affinity mask, capped by the cgroup's CPU quota (v2 cpu.max, v1 cfs_quota_us), since
+ * the mask doesn't show a container's quota. */
 #include <stdio.h>
 
 #include "base/limits.h"
@@ -31,7 +29,7 @@ e3d_backend e3d_backend_best(void)
     return E3D_BACKEND_PORTABLE;
 }
 
-/* CPUs that the quota allows, rounded up; 0 where there is none. */
+/* How many CPUs the quota allows, rounded up; 0 if there is none. */
 static int quota_count(void)
 {
     long long quota = 0, period = 0;

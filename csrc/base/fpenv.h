@@ -3,8 +3,7 @@
  * Another library's flush-to-zero or rounding mode must not change a pixel, and ours must not leak
  * out: every entry and every worker enters and leaves.
  */
-#ifndef E3D_FPENV_H
-#define E3D_FPENV_H
+#pragma once
 
 #include "base/machine.h"
 
@@ -21,5 +20,3 @@ static inline e3d_fpenv e3d_fpenv_enter(void)
     return saved;
 }
 static inline void e3d_fpenv_leave(e3d_fpenv saved) { e3d_float_control_set(saved); }
-
-#endif

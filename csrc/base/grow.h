@@ -1,8 +1,5 @@
-/* Arrays that grow and are kept: room is doubled, never given back before the owner dies, so that a
- * steady frame allocates nothing.
- */
-#ifndef E3D_GROW_H
-#define E3D_GROW_H
+/* Arrays that grow: room is doubled, and not given back before the owner dies, so that a steady frame allocates nothing. */
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -16,7 +13,7 @@ typedef struct e3d_array {
     size_t count, room; /* elements */
 } e3d_array;
 
-/* Makes room for `wanted` elements; 0 when memory is out (the array stays as it was). */
+/* Makes room for `wanted` elements; 0 when memory is out, and then the array stays as it was. */
 static inline int e3d_array_reserve(e3d_array *array, size_t wanted, size_t size)
 {
     if (wanted <= array->room)
@@ -53,5 +50,3 @@ static inline void e3d_array_free(e3d_array *array)
     array->data = NULL;
     array->count = array->room = 0;
 }
-
-#endif

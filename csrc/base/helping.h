@@ -1,31 +1,30 @@
-/* Whether helpers get work done, or are waited for.
+/* Decides whether helpers speed a job up, or hold it up.
  *
- * In:  of each job, the time that its threads had of their CPUs, and the time that passed.
- * Out: whether the next one is better done alone.
- * Where other programs use the CPUs, a thread that loses its own amid a tile holds up the whole job, so that two may get less
- * done than one. So each way of working is measured by the CPU time that it gets per time that passes, whatever the jobs are.
+ * In:  for each job the CPU time of its threads, and the time that passed.
+ * Out: whether the next job is better done alone.
+ * If other programs use the CPUs, a thread that loses its CPU within a tile holds up the whole job, so that two threads may
+ * get less done than one. So each way of working is measured by its CPU time over the time that passed, whatever the jobs are.
  */
-#ifndef E3D_HELPING_H
-#define E3D_HELPING_H
+#pragma once
 
 #include <stdint.h>
 
-/* Nanoseconds of jobs. */
+/* The times of jobs, in nanoseconds. */
 typedef struct e3d_job_times {
-    int64_t own, all;        /* of CPUs: the caller's, and that of all threads */
-    int64_t working, passed; /* the caller's, without and with waiting for helpers */
+    int64_t own, all;        /* CPU time: the caller's, and that of all threads */
+    int64_t working, passed; /* the caller's wall clock: without waiting for helpers, and with it */
 } e3d_job_times;
 
 typedef struct e3d_helping {
-    int alone;             /* how jobs are done now: without helpers; */
-    double rate[2];        /* what each way gets of the CPUs, lately; 0: not measured yet */
-    double share;          /* what the caller has of its own as long as it does not wait */
+    int alone;             /* not 0: jobs are now done without helpers */
+    double rate[2];        /* the CPU time a unit of time that each way got lately; 0: not measured yet */
+    double share;          /* the caller's share of its own CPU while it does not wait */
     e3d_job_times times;   /* since the last measurement */
-    int64_t try_at, pause; /* when the other way is tried again, and how long it was until then */
+    int64_t try_at, pause; /* when the other way is tried again, and the pause until then */
 } e3d_helping;
 
-/* To work alone is not tried while helpers get much done, or plainly more than the caller would do meanwhile. It is chosen only
- * where it is plainly better. */
+/* Working alone is not tried while helpers get much done, or clearly more than the caller would do meanwhile. It is chosen
+ * only if it is clearly better. */
 #define E3D_MUCH 0.7
 #define E3D_PLAINLY_MORE 1.2
 #define E3D_PLAINLY_BETTER 1.1
@@ -35,7 +34,7 @@ static inline int e3d_helping_pays(const e3d_helping *h)
     return h->rate[0] >= E3D_MUCH || h->rate[0] >= E3D_PLAINLY_MORE * h->share;
 }
 
-/* Chooses the next way after a measurement of this one. The longer it stays the same, the seldomer the other is tried. */
+/* Chooses the next way after this one was measured. The longer a way stays, the more rarely the other one is tried. */
 static inline void e3d_helping_choose(e3d_helping *h, int64_t now)
 {
     enum { SHORTEST_NS = 200000000 };
@@ -52,10 +51,11 @@ static inline void e3d_helping_choose(e3d_helping *h, int64_t now)
     }
 }
 
-/* Takes note of a job that is over. */
+/* Records a job that is over. */
 static inline void e3d_helping_note(e3d_helping *h, const e3d_job_times *job, int64_t now)
 {
-    enum { HELPED_NS = 50000000, ALONE_NS = 150000000 }; /* a scheduler takes its time to move others */
+    enum { HELPED_NS = 50000000,
+           ALONE_NS = 150000000 }; /* a scheduler takes its time to move other threads */
     e3d_job_times *sum = &h->times;
     sum->own += job->own;
     sum->all += job->all;
@@ -72,5 +72,3 @@ static inline void e3d_helping_note(e3d_helping *h, const e3d_job_times *job, in
     *sum = (e3d_job_times){0};
     e3d_helping_choose(h, now);
 }
-
-#endif

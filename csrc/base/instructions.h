@@ -1,24 +1,21 @@
-/* Which instruction sets an x86 processor has, and the operating system lets programs use: it must save their registers.
- *
- * __builtin_cpu_supports, which compilers have for this, answers with 0 where their runtime does not set it up, as that of zig does not.
- * Source: Intel 64 and IA-32 Architectures Software Developer's Manual, volume 2, CPUID, and volume 1, 13.3 and 15.2.
- */
-#ifndef E3D_INSTRUCTIONS_H
-#define E3D_INSTRUCTIONS_H
+/* The instruction sets that an x86 processor has, and whose registers the operating system saves. Compilers' own
+ * __builtin_cpu_supports returns 0 if their runtime does not set it up, as zig's doesn't. Source: Intel 64 and IA-32
+ * Architectures Software Developer's Manual, volume 2, CPUID, and volume 1, 13.3 and 15.2. */
+#pragma once
 
 #include <cpuid.h>
 #include <stdatomic.h>
 #include <stdint.h>
 #include <string.h>
 
-/* What XCR0 must enable: registers of SSE and AVX; those, the masks, and both parts of AVX-512's. */
+/* The bits that XCR0 must have: registers of SSE and AVX; these, the masks, and both parts of AVX-512's. */
 enum { STATE_NONE = 0,
        STATE_AVX = 0x06,
        STATE_AVX512 = 0xE6 };
 
-/* A bit of ECX of leaf 1, or of EBX of leaf 7. */
+/* An instruction set: a bit of ECX of leaf 1, or of EBX of leaf 7. */
 typedef struct e3d_instructions {
-    const char *name; /* as compilers call them */
+    const char *name; /* the name that compilers have for it */
     int leaf, bit;
     uint32_t state;
 } e3d_instructions;
@@ -34,7 +31,7 @@ static const e3d_instructions E3D_INSTRUCTIONS[] = {
 };
 enum { E3D_INSTRUCTION_SETS = sizeof E3D_INSTRUCTIONS / sizeof *E3D_INSTRUCTIONS };
 
-/* XCR0, or 0 where the operating system has not enabled XGETBV. */
+/* XCR0, or 0 if the operating system has not enabled XGETBV. */
 static inline uint32_t saved_registers(uint32_t ecx1)
 {
     const uint32_t osxsave = 1u << 27;
@@ -74,5 +71,3 @@ static inline int e3d_has_instructions(const char *name)
             return found >> i & 1;
     return 0;
 }
-
-#endif

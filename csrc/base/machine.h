@@ -1,7 +1,6 @@
-/* What differs from processor to processor: the floating-point control register, and its bits that flush denormals and round towards
- * +inf; how a thread rests that spins; stores that pass the caches; and which backends' kernels this build has. */
-#ifndef E3D_MACHINE_H
-#define E3D_MACHINE_H
+/* The parts that differ from processor to processor: the floating-point control register, and its bits that flush denormals
+ * and round towards +inf; how a spinning thread rests; stores past the caches; and which backends this build has. */
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -9,7 +8,8 @@
 
 #include "e3d_backends.h"
 
-/* The backends of whose kernels this build has more than one lane: E3D_EACH_BUILT_BACKEND(X). The build says for which processor it is. */
+/* The backends of this build whose kernels have more than one lane: E3D_EACH_BUILT_BACKEND(X). The build says which processor
+ * it is for. */
 #if defined(E3D_HAVE_X86)
 #include "base/instructions.h"
 #define E3D_EACH_BUILT_BACKEND(X) E3D_EACH_X86_BACKEND(X)
@@ -63,7 +63,7 @@ static inline void e3d_pause(void) {}
 
 #endif
 
-/* Copies by non-temporal stores, 16 bytes at a time; e3d_stream_end must follow before other threads are told of them. */
+/* Copies by non-temporal stores, 16 bytes at a time. e3d_stream_end must be called before other threads may read the bytes. */
 #if defined(__SSE2__)
 
 static inline void e3d_stream(void *to, const void *from, size_t bytes)
@@ -81,7 +81,5 @@ static inline void e3d_stream_end(void) { _mm_sfence(); }
 
 static inline void e3d_stream(void *to, const void *from, size_t bytes) { memcpy(to, from, bytes); }
 static inline void e3d_stream_end(void) {}
-
-#endif
 
 #endif

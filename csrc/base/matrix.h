@@ -1,6 +1,5 @@
-/* Products and cofactors of matrices, row after row, in f64: their operations and the order of these are the same wherever they are used. */
-#ifndef E3D_MATRIX_H
-#define E3D_MATRIX_H
+/* Products and cofactors of matrices, row after row, in f64. Their operations and the order of these are the same everywhere. */
+#pragma once
 
 #include <string.h>
 
@@ -9,7 +8,7 @@
 /* Two columns of a row. */
 typedef double e3d_double2 __attribute__((vector_size(16)));
 
-/* b: rows, in registers: what is stored by ones is waited for when it is loaded by twos. */
+/* b: rows in registers, since a load of two would wait for two stores of one. */
 static ALWAYS_INLINE void e3d_multiply_rows(const double a[16], const e3d_double2 b[4][2], double out[16])
 {
     for (int r = 0; r < 4; r++)
@@ -37,5 +36,3 @@ static inline double e3d_find_cofactors(const double m[16], double cofactor[9])
         }
     return (m[0] * cofactor[0] + m[1] * cofactor[1]) + m[2] * cofactor[2];
 }
-
-#endif

@@ -21,18 +21,19 @@
 
 static struct {
     pthread_mutex_t owner; /* held by the caller whose job runs */
-    pthread_mutex_t lock;  /* guards what follows */
+    pthread_mutex_t lock;  /* guards the members that follow */
     pthread_cond_t start, done;
-    int threads;           /* made so far, without the caller */
-    int wanted, running;   /* helpers that may still join it (none once it is over); that are at work */
-    int64_t used;          /* the CPU time of those that have returned */
+    int threads;           /* how many threads exist, without the caller */
+    int wanted, running;   /* how many helpers may still join the job (none once it is over); how many are at work */
+    int64_t used;          /* the CPU time of helpers that have returned */
     unsigned long job;
     void (*work)(void *, int);
     void *argument;
     e3d_helping helping;   /* the owner's */
-    atomic_int watches;    /* whether threads spin: there is a CPU for each */
-    atomic_ulong posted;   /* the last job, set after the lock is free: whoever spins on it finds it so */
-    atomic_ulong finished; /* the last job whose last helper returned after it was over: the caller spins on it */
+    atomic_int watches;    /* whether threads spin, since there is a CPU for each */
+    /* The last job; it is set after the lock is released, so that a thread that spins on it finds the lock free */
+    atomic_ulong posted;
+    atomic_ulong finished; /* the last job whose last helper returned after it was over; the caller spins on it */
 } pool = {.owner = PTHREAD_MUTEX_INITIALIZER,
           .lock = PTHREAD_MUTEX_INITIALIZER,
           .start = PTHREAD_COND_INITIALIZER,
@@ -41,12 +42,12 @@ static struct {
 static pthread_once_t fork_guard = PTHREAD_ONCE_INIT;
 static _Thread_local int owning; /* the pool */
 
-/* A fork does not wait for a running job, which may itself wait for the thread that forks, or be that thread's own. */
+/* A fork does not wait for a running job, which may itself wait for the forking thread, or be that thread's own. */
 static void before_fork(void) { pthread_mutex_lock(&pool.lock); }
 
 static void in_parent(void) { pthread_mutex_unlock(&pool.lock); }
 
-static void in_child(void) /* no thread came along */
+static void in_child(void) /* only the forking thread exists in the child */
 {
     if (!owning)
         pthread_mutex_init(&pool.owner, NULL);
@@ -58,9 +59,9 @@ static void in_child(void) /* no thread came along */
 
 static void guard_fork(void) { pthread_atfork(before_fork, in_parent, in_child); }
 
-enum { WAKING_NS = 30000 }; /* about what a thread takes to wake up */
+enum { WAKING_NS = 30000 }; /* about the time that a thread takes to wake up */
 
-/* Spins until the number reaches a job's, but not for longer than waking up takes. */
+/* Spins until the number reaches a job's, at most as long as waking up takes. */
 static void watch(const atomic_ulong *number, unsigned long job)
 {
     if (!atomic_load(&pool.watches))
@@ -69,7 +70,7 @@ static void watch(const atomic_ulong *number, unsigned long job)
         e3d_pause();
 }
 
-/* Waits for a job to join after the one that was seen; returns its number, with the lock held. */
+/* Waits for a job to join that is newer than `seen`; returns its number, with the lock held. */
 static unsigned long await_job(int worker, unsigned long seen)
 {
     for (;;) {
@@ -88,7 +89,7 @@ static void *helper(void *number)
 {
     int worker = (int)(intptr_t)number;
     pthread_mutex_lock(&pool.lock);
-    unsigned long seen = pool.job - 1; /* made for the job that is about to start */
+    unsigned long seen = pool.job - 1; /* the job that is about to start is new to it */
     pthread_mutex_unlock(&pool.lock);
     for (;;) {
         seen = await_job(worker, seen);

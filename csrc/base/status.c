@@ -1,4 +1,4 @@
-/* Status codes in words. */
+/* The messages of status codes. */
 #include "e3d.h"
 
 const char *e3d_status_text(e3d_status status)

@@ -1,4 +1,4 @@
-/* What Linux, macOS and Windows give in different ways: system.h. */
+/* Functions that Linux, macOS and Windows provide in different ways: system.h. */
 #define _GNU_SOURCE
 #include "base/system.h"
 
@@ -22,7 +22,7 @@
 
 int e3d_random_bytes(void *bytes, size_t count)
 {
-#if defined(__linux__) /* as a system call: glibc has a function for it from 2.25 on */
+#if defined(__linux__) /* called directly, since glibc has a function for it only from 2.25 on */
     const unsigned without_waiting = 1;
     return syscall(SYS_getrandom, bytes, count, without_waiting) == (long)count;
 #elif defined(__APPLE__)

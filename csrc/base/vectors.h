@@ -1,6 +1,5 @@
 /* Four floats at a time, in the compiler's own vectors: on every processor, with the same bits. */
-#ifndef E3D_VECTORS_H
-#define E3D_VECTORS_H
+#pragma once
 
 #include <math.h>
 #include <stdint.h>
@@ -13,7 +12,7 @@ typedef float float4 __attribute__((vector_size(16)));
 typedef int32_t int4 __attribute__((vector_size(16)));
 
 static inline float4 splat(float v) { return (float4){v, v, v, v}; }
-/* a where the mask's lane has all bits, b where it has none. */
+/* a where the mask's lane is all ones, b where it is 0. */
 static inline int4 choose_bits(int4 mask, int4 a, int4 b) { return (mask & a) | (~mask & b); }
 static inline float4 choose(int4 mask, float4 a, float4 b) { return (float4)choose_bits(mask, (int4)a, (int4)b); }
 /* a < b ? a : b and a > b ? a : b. SSE's minimum and maximum are exactly these, NaNs included. */
@@ -38,7 +37,7 @@ static inline float4 load4(const float *p)
     return v;
 }
 static inline float4 root_of(float4 v) { return (float4){sqrtf(v[0]), sqrtf(v[1]), sqrtf(v[2]), sqrtf(v[3])}; }
-/* Lanes of a and b (those of b count from 4), by their numbers. */
+/* Picks lanes of a and b by number; those of b count from 4. */
 #if defined(__clang__)
 #define LANES(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #else
@@ -54,5 +53,3 @@ static inline void columns_of(const float4 row[4], float4 column[3])
     column[2] = LANES(high, high2, 0, 1, 4, 5);
 }
 static inline void store4(float *p, float4 v) { memcpy(p, &v, sizeof v); }
-
-#endif

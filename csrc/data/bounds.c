@@ -1,15 +1,13 @@
-/* The box of many points, at the speed at which memory delivers them.
- *
- * In:  (points, 3) float32.
- * Out: the box of those that are finite.
- * Always: a run of points is bounded twelve floats at a time; only where one of its floats isn't finite, point by point.
- */
+/* The box of many points, found at the speed of memory.
+ * In: (points, 3) float32. Out: the box of those that are finite.
+ * Always: a run of points is bounded twelve floats at a time; only if one of its floats isn't finite, point by point. */
 #include "data/bounds.h"
 
 #include "base/vectors.h"
 #include "e3d.h"
 
-enum { RUN = 128, ROWS = 3 }; /* points; vectors for four points, so that each lane keeps to one axis */
+enum { RUN = 128,
+       ROWS = 3 }; /* RUN: points; ROWS: vectors for four points, so that each lane keeps to one axis */
 
 /* Finds the box of a run of points; 0 if one of them isn't finite. */
 static int bound_run(const float *p, float lo[3], float hi[3])

@@ -1,11 +1,10 @@
-/* Boxes round points. */
-#ifndef E3D_BOUNDS_H
-#define E3D_BOUNDS_H
+/* Boxes around points. */
+#pragma once
 
 #include <math.h>
 #include <stdint.h>
 
-/* Makes a box hold a point, unless that isn't finite; *any tells whether it holds one already. */
+/* Extends a box by a point, if that is finite; *any tells whether the box holds a point already. */
 static inline void e3d_grow_bounds(const float *p, float lo[3], float hi[3], int32_t *any)
 {
     if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2]))
@@ -16,5 +15,3 @@ static inline void e3d_grow_bounds(const float *p, float lo[3], float hi[3], int
     }
     *any = 1;
 }
-
-#endif

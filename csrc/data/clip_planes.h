@@ -1,10 +1,9 @@
-/* The planes that primitives of clip space are cut at (R7). */
-#ifndef E3D_CLIP_PLANES_H
-#define E3D_CLIP_PLANES_H
+/* The planes at which primitives are clipped (R7). */
+#pragma once
 
 enum { E3D_CLIP_PLANES = 6 };
 
-/* How far a point is inside: of the near plane, of a least w, and of so many times the picture to each side. */
+/* The distance of a point inside one of the planes: the near plane, the least w, or a multiple of the picture on each side. */
 static inline double e3d_inside(const double p[4], int plane, double least_w, double across, double up)
 {
     switch (plane) {
@@ -16,5 +15,3 @@ static inline double e3d_inside(const double p[4], int plane, double least_w, do
     default: return up * p[3] - p[1];
     }
 }
-
-#endif

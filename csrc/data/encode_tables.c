@@ -1,4 +1,4 @@
-/* The table of encode_tables.h; the last pieces only fill it up, and no colour reaches them. */
+/* The table of encode_tables.h. The last pieces only fill it up; no colour reaches them. */
 #include "data/encode_tables.h"
 
 const int32_t ENCODE_CURVE[ENCODE_PIECES] = {

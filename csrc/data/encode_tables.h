@@ -5,8 +5,7 @@
  * code is (base + (rise * t >> 16)) >> 8. Each piece is the line that errs least: a 22nd of a code at most. The shift leaves the
  * dark, where the curve is nearly straight, few pieces. After a table of Giesen's ("float->sRGB8 using SSE2", 2012).
  */
-#ifndef E3D_ENCODE_TABLES_H
-#define E3D_ENCODE_TABLES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -14,5 +13,3 @@
 enum { ENCODE_PIECES = 64 };
 
 extern const int32_t ENCODE_CURVE[ENCODE_PIECES];
-
-#endif

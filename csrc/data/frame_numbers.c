@@ -1,5 +1,5 @@
-/* The numbers of a frame by their names: those that options and a scene's surroundings set. What is chosen or switched is an
- * integer of 32 bits. */
+/* The members of a frame by their names, for options and a scene's surroundings. A choice or a switch is an integer of 32
+ * bits. */
 #include <stddef.h>
 #include <string.h>
 

@@ -1,6 +1,5 @@
 /* A half circle in 64 steps, for the ends of round lines and for round points (R114). */
-#ifndef E3D_HALF_CIRCLE_H
-#define E3D_HALF_CIRCLE_H
+#pragma once
 
 enum { E3D_HALF_CIRCLE = 64 };
 
@@ -51,5 +50,3 @@ static inline double e3d_half_circle_sine(int j)
 {
     return j <= 32 ? E3D_QUARTER_COSINES[32 - j] : E3D_QUARTER_COSINES[j - 32];
 }
-
-#endif

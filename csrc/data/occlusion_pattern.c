@@ -1,6 +1,6 @@
-/* The directions of ambient occlusion, spread evenly. The order of pixels is that of ordered dithering (Bayer 1973); with the distances by
- * reversed bits (Hammersley 1960), every square of four, of sixteen and of all pixels of a cell looks all around, near and far.
- */
+/* The directions of ambient occlusion, spread evenly. Pixels are ordered as in ordered dithering (Bayer 1973), and distances
+ * are reversed bits (Hammersley 1960), so that the pixels of every square of four, of sixteen, and of a whole cell look in
+ * all directions, near and far. */
 #include "data/occlusion_pattern.h"
 
 const float E3D_OCCLUSION_COSINES[16] = {

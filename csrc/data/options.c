@@ -1,8 +1,9 @@
-/* The names of what options can be, from the lists that their enums are made of. */
+/* The names of options' values, from the lists that their enums are made from. */
 #include "e3d.h"
 
 #define NAME(enumerator, name, ...) #name,
-#define NAMES(list) (const char *const[]){list(NAME) NULL}
+#define NAMES(list) \
+    (const char *const[]) { list(NAME) NULL }
 
 static const char *const *const NAMES_OF[E3D_OPTIONS] = {
     [E3D_OPTION_ALPHA_MODE] = NAMES(E3D_EACH_ALPHA_MODE),

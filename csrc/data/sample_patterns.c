@@ -1,4 +1,4 @@
-/* The standard patterns of Direct3D 11 (D3D11_STANDARD_MULTISAMPLE_PATTERN), which are given there in 1/16 pixel. */
+/* The standard patterns of Direct3D 11 (D3D11_STANDARD_MULTISAMPLE_PATTERN), which gives them in 1/16 pixel. */
 #include "data/sample_patterns.h"
 
 #include <stddef.h>

@@ -1,6 +1,5 @@
-/* Where the samples of a pixel lie with multisampling (R103). */
-#ifndef E3D_SAMPLE_PATTERNS_H
-#define E3D_SAMPLE_PATTERNS_H
+/* The places of a pixel's samples with multisampling (R103). */
+#pragma once
 
 #include <stdint.h>
 
@@ -15,5 +14,3 @@ typedef struct e3d_sample_pattern {
 
 /* The pattern of 2, 4, 8 or 16 samples; NULL for other numbers. */
 const e3d_sample_pattern *e3d_sample_pattern_of(int32_t samples);
-
-#endif

@@ -1,8 +1,6 @@
-/* The ranges of a map of shadows: between which depths lies what comparisons touch.
- *
- * In:  depths of a map, how many comparisons there are and how far apart.
- * Out: a word for each block of 2 x 2 texels (shadow_ranges.h).
- */
+/* The ranges of a shadow map: the least and the greatest depth that comparisons may read.
+ * In: depths of a map, the number of comparisons and the distance between them. Out: a word for each block of 2 x 2 texels
+ * (shadow_ranges.h). */
 #include <stdlib.h>
 
 #include "data/shadow_ranges.h"
@@ -42,7 +40,8 @@ static void clear(int32_t count, int16_t *least, int16_t *greatest)
     }
 }
 
-/* The words of a row of blocks, of the columns' least and greatest codes; `reach` columns behind a block's first one count, too. */
+/* Finds the words of a row of blocks from the columns' least and greatest codes; `reach` columns behind a block's first one
+ * count, too. */
 static void join_columns(const int16_t *least, const int16_t *greatest, int32_t side, int32_t reach, uint32_t *words)
 {
     for (int32_t b = 0; b < side; b++) {
@@ -55,7 +54,7 @@ static void join_columns(const int16_t *least, const int16_t *greatest, int32_t 
     }
 }
 
-/* The codes of `reach + 1` rows are kept, each until no block needs it any more. */
+/* The codes of `reach + 1` rows are kept, each row until no block needs it any more. */
 static void find_rows(const float *depths, int32_t size, int32_t reach, int16_t *kept, uint32_t *ranges)
 {
     int32_t side = e3d_shadow_ranges_side(size), rows = reach + 1, room = size + reach + BLOCK, next = 0;
@@ -73,7 +72,7 @@ static void find_rows(const float *depths, int32_t size, int32_t reach, int16_t 
 
 e3d_status e3d_find_shadow_ranges(const float *depths, int32_t size, int32_t taps, int32_t step, uint32_t *ranges)
 {
-    /* From the first texel on, comparisons touch (255 + across)/256 + 1 others; it may be the last one of its block. */
+    /* From the first texel on, comparisons read (255 + across)/256 + 1 others; the first one may be the last one of its block. */
     int32_t across = step * (taps - 1), reach = (255 + across) / 256 + 1 + BLOCK - 1;
     reach = reach < size ? reach : size;
     size_t room = (size_t)size + (size_t)reach + BLOCK;

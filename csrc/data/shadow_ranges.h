@@ -1,6 +1,5 @@
-/* The depths between which lies what the comparisons of R93 may touch, as numbers of 16 bits. */
-#ifndef E3D_SHADOW_RANGES_H
-#define E3D_SHADOW_RANGES_H
+/* The ranges of depths that the comparisons of R93 may read, as numbers of 16 bits. */
+#pragma once
 
 /* A word of e3d_light_maps.ranges stands for a block of 2 x 2 texels. It has the codes of the least depth, in its lower half, and of the
  * greatest of all texels that may be compared where the first of them is in the block. The code of a depth is the integer part of
@@ -11,5 +10,3 @@ enum { E3D_SHADOW_BLOCK_SHIFT = 1,
        E3D_SHADOW_CODE_LIMIT = 32767,
        E3D_SHADOW_CODE_NONE = -32768 };
 #define E3D_SHADOW_CODE_SCALE 32000.0f
-
-#endif

@@ -1,4 +1,4 @@
-/* The shadows of a frame's lights, as they are given: arguments, checked before anything is drawn. */
+/* Checks the shadows of a frame's lights before anything is drawn. */
 #include "data/shadows.h"
 
 int e3d_has_exact_shadows(const e3d_frame *frame)
@@ -17,7 +17,7 @@ int e3d_has_shadows(const e3d_frame *frame)
     return 0;
 }
 
-/* Whether so many maps lie as a light's do. */
+/* Whether the maps have the number and layout for such a light. */
 static int has_maps(const e3d_light *light)
 {
     int32_t count = light->shadow.maps.count;
@@ -36,11 +36,11 @@ static int map_is_valid(const e3d_frame *frame, const e3d_light *light)
         return 0;
     if ((s->taps != 1 && s->taps != 3 && s->taps != 5) || s->size < 1 || s->size > E3D_MAX_SIZE || s->step < 0)
         return 0;
-    /* Numbers of texels fit 32 bits, and between the sides there is room for all comparisons. */
+    /* Numbers of texels fit 32 bits, and all comparisons fit between the sides. */
     return (int64_t)s->count * s->size * s->size <= INT32_MAX && (int64_t)s->step * (s->taps - 1) <= 256 * (int64_t)s->size - 512;
 }
 
-/* The lights of exact shadows are numbered one after the other. */
+/* Exact lights must be numbered one after the other. */
 static int exact_lights_are_valid(const e3d_frame *frame)
 {
     int32_t count = 0;

@@ -1,6 +1,5 @@
-/* Whether the lights of a frame have shadows, and whether their maps can be looked up. */
-#ifndef E3D_SHADOWS_H
-#define E3D_SHADOWS_H
+/* Whether the lights of a frame have shadows, and whether lookups in their maps are safe. */
+#pragma once
 
 #include "e3d.h"
 
@@ -8,7 +7,5 @@
 int e3d_has_shadows(const e3d_frame *frame);
 /* Whether any light has an exact shadow. */
 int e3d_has_exact_shadows(const e3d_frame *frame);
-/* Whether the maps of all lights are there, and no comparison leaves them. */
+/* Whether all lights' maps are there, and no comparison leaves them. */
 int e3d_shadows_are_valid(const e3d_frame *frame);
-
-#endif

@@ -1,4 +1,4 @@
-/* The thresholds of srgb_tables.h: a kilobyte, once rather than in each file that includes the header. */
+/* The thresholds of srgb_tables.h: a kilobyte, kept once and not in each file that includes the header. */
 #include "data/srgb_tables.h"
 
 const float SRGB_THRESHOLDS[256] = {

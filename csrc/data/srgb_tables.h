@@ -6,8 +6,7 @@
  *                      encode(decode(c)) = c for every c. There are 255, and one that no colour reaches.
  * E3D_OVERDRAW_RAMP    display colours of 1 .. 15 layers (row 0 is unused).
  */
-#ifndef E3D_SRGB_TABLES_H
-#define E3D_SRGB_TABLES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -52,5 +51,3 @@ static const uint8_t E3D_OVERDRAW_RAMP[16][3] = {
     {236, 140, 128},
     {255, 240, 232},
 };
-
-#endif

@@ -17,7 +17,7 @@ struct e3d_texture {
     uint8_t *texels; /* of all levels */
 };
 
-enum { PAST = 16 }; /* bytes that kernels may read past the last texel */
+enum { PAST = 16 }; /* so many bytes past the last texel may be read by kernels */
 
 static size_t texel_bytes(const e3d_texture *texture) { return (size_t)texture->view.channel_bits / 2; }
 
@@ -54,7 +54,7 @@ static uint8_t *row_of(const e3d_texture *texture, const e3d_level *level, int32
 
 static uint16_t to_15_bits(uint32_t c16) { return (uint16_t)((c16 * 32767 + 32767) / 65535); }
 
-/* What 8-bit colours and alphas are as texels. */
+/* The texels that 8-bit colours and alphas become. */
 typedef struct decoding {
     uint16_t color[256], alpha[256];
 } decoding;
@@ -105,7 +105,8 @@ static uint64_t load_texel(const uint8_t *at)
     return texel;
 }
 
-/* R28: the mean of four texels, which are 8 bytes apart side by side. Every other channel has 32 bits to be summed in. */
+/* R28: the mean of four texels; each has 8 bytes, and two of a row are neighbours. Every other channel gets 32 bits to be
+ * summed in. */
 static uint64_t mean_of_four(const uint8_t *top, const uint8_t *bottom, size_t next)
 {
     const uint64_t some = UINT64_C(0x0000FFFF0000FFFF), half = UINT64_C(0x0000000200000002);
@@ -123,7 +124,7 @@ static void halve_row(const uint8_t *top, const uint8_t *bottom, int32_t width, 
     }
 }
 
-/* Averages a level of 15-bit texels to the next coarser one (R28). A level that is one texel wide or high counts it twice. */
+/* Averages a level of 15-bit texels to the next coarser one (R28). A level of one column or row counts that twice. */
 static void halve(const e3d_texture *texture, const e3d_level *fine, const e3d_level *coarse)
 {
     for (int32_t y = 0; y < coarse->height; y++) {
@@ -169,7 +170,7 @@ static void build_levels(e3d_texture *texture, const uint8_t *pixels, int32_t wi
     }
 }
 
-/* Makes 8-bit texels signed, as the kernels multiply them. */
+/* Makes 8-bit texels signed, since the kernels multiply them so. */
 static void make_signed(e3d_texture *texture, size_t bytes)
 {
     for (size_t i = 0; i < bytes; i++)
@@ -194,7 +195,7 @@ static float power_of_two(float y)
     return ldexpf((1.0f + f) + (f * (f - 1.0f)) * sum, (int)whole);
 }
 
-/* Only a chain of levels has any use for either. */
+/* Only a chain of levels uses anisotropy and bias. */
 static void keep_sampling(const e3d_sampling *sampling, e3d_texture_view *view)
 {
     int has_levels = sampling->filter == E3D_TRILINEAR;

@@ -4,12 +4,11 @@
  * Sobotka's, in the form that Filament and three.js use: sRGB to Rec. 2020 and inset, the logarithm, Benjamin Wrensch's polynomial of
  * the sigmoid, outset, and back from Rec. 2020. Products of matrices were found in float64 and rounded once.
  */
-#ifndef E3D_TONE_TABLES_H
-#define E3D_TONE_TABLES_H
+#pragma once
 
 #include <stdint.h>
 
-#define E3D_MOST_LIGHT 0x1p16f /* what is brighter counts as this bright */
+#define E3D_MOST_LIGHT 0x1p16f /* brighter light counts as this bright */
 
 static const float E3D_ACES_IN[3][3] = {
     {0x1.fd9a26p-1f, 0x1.2e932ep-1f, 0x1.494008p-4f},
@@ -24,7 +23,7 @@ static const float E3D_ACES_OUT[3][3] = {
 /* AgX, rearranged so that it takes few operations: rows of the first matrix are divided by their diagonal, the sigmoid is a polynomial of
  * stops from its middle, divided by its first coefficient, and what was divided by is in the constants that follow. */
 static const float E3D_AGX_IN[3][3] = {
-    {1.0f, 0x1.5f48f4p-1f, 0x1.31eb32p-3f}, /* the diagonal isn't multiplied by */
+    {1.0f, 0x1.5f48f4p-1f, 0x1.31eb32p-3f}, /* the diagonal isn't multiplied by anything */
     {0x1.7d598ap-3f, 1.0f, 0x1.1e3c54p-3f},
     {0x1.f0c60cp-4f, 0x1.f4336ap-3f, 1.0f},
 };
@@ -47,7 +46,7 @@ static const float E3D_AGX_SRGB[3][3] = {
 
 #define E3D_MINUS_LOG2_E -0x1.715476p+0f
 
-/* Bayer 1973: each value of 0 .. 63 once. */
+/* Ordered dithering (Bayer 1973): each value of 0 .. 63 once. */
 enum { E3D_DITHER = 8 };
 static const uint8_t E3D_DITHER_ORDER[E3D_DITHER][E3D_DITHER] = {
     {0, 32, 8, 40, 2, 34, 10, 42},
@@ -59,5 +58,3 @@ static const uint8_t E3D_DITHER_ORDER[E3D_DITHER][E3D_DITHER] = {
     {15, 47, 7, 39, 13, 45, 5, 37},
     {63, 31, 55, 23, 61, 29, 53, 21},
 };
-
-#endif

@@ -1,6 +1,5 @@
-/* Triangles side by side, as structure of arrays, and their areas, four at a time. */
-#ifndef E3D_TRIANGLES_H
-#define E3D_TRIANGLES_H
+/* Triangles as structure of arrays, and their areas, four at a time. */
+#pragma once
 
 #include "base/limits.h"
 #include "base/vectors.h"
@@ -16,8 +15,8 @@ typedef struct e3d_areas {
     float4 longest;   /* the longest edge, squared */
 } e3d_areas;
 
-/* The areas of triangles t to t + 3, whose edges are multiplied by `scale` first. What float32 cannot square becomes infinite or
- * NaN. */
+/* The areas of triangles t to t + 3, whose edges are first multiplied by `scale`. Numbers that float32 cannot square become
+ * infinite or NaN. */
 static inline e3d_areas e3d_areas_of(const e3d_triangles *in, int t, float scale)
 {
     e3d_areas out;
@@ -37,5 +36,3 @@ static inline e3d_areas e3d_areas_of(const e3d_triangles *in, int t, float scale
     out.square = out.normal[0] * out.normal[0] + out.normal[1] * out.normal[1] + out.normal[2] * out.normal[2];
     return out;
 }
-
-#endif

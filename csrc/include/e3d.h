@@ -7,8 +7,7 @@
  *      at a time. Matrices are row-major and act on column vectors. Clip space is OpenGL's
  *      (-w <= z <= w). Images are top row first, without padding. docs/exactness has the formulas.
  */
-#ifndef E3D_H
-#define E3D_H
+#pragma once
 
 #include "e3d_backends.h"
 #include "e3d_bloom.h"
@@ -25,5 +24,3 @@
 #include "e3d_targets.h"
 #include "e3d_texture.h"
 #include "e3d_tone.h"
-
-#endif

@@ -1,6 +1,5 @@
 /* Bloom: light above 1 glows around where it comes from. docs/exactness, R124. */
-#ifndef E3D_API_BLOOM_H
-#define E3D_API_BLOOM_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -20,13 +19,11 @@ typedef struct e3d_bloom {
     int32_t srgb;          /* colours are sRGB, else linear */
 } e3d_bloom;
 
-/* How many floats e3d_add_bloom needs beside. */
+/* The size of the scratch memory of e3d_add_bloom, in floats. */
 size_t e3d_bloom_scratch(int32_t width, int32_t height, int32_t threads);
-/* threads: at least 1; the bytes don't depend on it. scratch: of as many floats as e3d_bloom_scratch says. */
+/* threads: at least 1; their number doesn't change the bytes. scratch: as many floats as e3d_bloom_scratch returns. */
 e3d_status e3d_add_bloom(const e3d_bloom *bloom, e3d_backend backend, int32_t threads, float *scratch);
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

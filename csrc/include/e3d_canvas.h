@@ -1,14 +1,11 @@
 /* The 2-D canvas: points, lines, triangles, rectangles and text on an RGBA8 framebuffer.
- *
- * In:  a framebuffer and positions in screen space: x right, y down, in pixels; pixel (i, j) is the
- *      square [i, i+1) x [j, j+1), its centre is (i + 1/2, j + 1/2).
- * Out: the pixels, overwritten by an opaque colour, blended with one whose alpha is below 255.
- * Always: every position is legal. What is not finite draws nothing; a coordinate beyond +-2^31 is
- *      moved there; what lies outside the framebuffer costs no time in proportion to its size.
- *      Results are exact integers, so that they are the same on every machine. No allocation.
- */
-#ifndef E3D_CANVAS_H
-#define E3D_CANVAS_H
+ * In: a framebuffer and positions in screen space: x right, y down, in pixels; pixel (i, j) is the square [i, i+1) x [j, j+1),
+ * its centre is (i + 1/2, j + 1/2).
+ * Out: the pixels, overwritten by an opaque colour, or blended with a colour whose alpha is below 255.
+ * Always: every position is legal. A position that is not finite draws nothing; a coordinate beyond +-2^31 is clamped to that;
+ * what lies outside the framebuffer costs no time in proportion to its size. Results are exact integers, so that they are the
+ * same on every machine. Nothing is allocated. */
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -49,7 +46,7 @@ void e3d_canvas_clear(const e3d_canvas *canvas, e3d_rgba color);
 void e3d_canvas_rectangle(const e3d_canvas *canvas, double x, double y, double width, double height,
                           e3d_rgba color);
 
-/* The outermost pixels, one deep, of the same rectangle. */
+/* The border of the same rectangle, one pixel wide. */
 void e3d_canvas_rectangle_outline(const e3d_canvas *canvas, double x, double y, double width,
                                   double height, e3d_rgba color);
 
@@ -60,34 +57,31 @@ void e3d_canvas_rectangle_outline(const e3d_canvas *canvas, double x, double y, 
 void e3d_canvas_points(const e3d_canvas *canvas, const double *xy, size_t count,
                        const uint8_t *colors, size_t color_stride);
 
-/* Lines (x0, y0, x1, y1) from the pixel that holds one end to the pixel that holds the other, both
- * included, the same pixels from either end. Widths up to 1 use `algorithm`; wider lines are
- * parallelograms along the centre line, `width` thick along the minor axis, filled by the triangles' rule. */
+/* Draws lines (x0, y0, x1, y1) from the pixel that holds one end to the pixel that holds the other. Both ends are included, and
+ * either direction gives the same pixels. Widths up to 1 use `algorithm`; wider lines are parallelograms, `width` thick along
+ * the minor axis, filled by the triangles' rule. */
 void e3d_canvas_lines(const e3d_canvas *canvas, const double *xyxy, size_t count,
                       const uint8_t *colors, size_t color_stride, double width,
                       e3d_line_algorithm algorithm);
 
-/* Lines through `count` points, and back to the first one if `closed`. At widths up to 1 a vertex
- * between two lines is drawn once, so that a translucent polyline shows no dots. A vertex that is not
- * finite interrupts it. */
+/* Draws lines through `count` points, and back to the first one if `closed`. At widths up to 1 the vertex between two lines is
+ * drawn once, so that a translucent polyline shows no dots. A vertex that is not finite interrupts the polyline. */
 void e3d_canvas_polyline(const e3d_canvas *canvas, const double *xy, size_t count, int closed,
                          e3d_rgba color, double width, e3d_line_algorithm algorithm);
 
-/* Triangles (x0, y0, x1, y1, x2, y2), in either winding: the pixels whose centres lie inside the
- * triangle of the vertices snapped to 1/256 pixel (nearest, ties to even); centres on an edge belong
- * to it if it is a top or a left edge. Both algorithms give the same pixels. */
+/* Draws triangles (x0, y0, x1, y1, x2, y2) of either winding. Vertices are snapped to 1/256 pixel (nearest, ties to even). A
+ * triangle covers the pixels whose centres lie inside, or on an edge that is a top or a left one. Both algorithms give the same
+ * pixels. */
 void e3d_canvas_triangles(const e3d_canvas *canvas, const double *xyxyxy, size_t count,
                           const uint8_t *colors, size_t color_stride,
                           e3d_triangle_algorithm algorithm);
 
-/* Text in the built-in font, with the top left corner of its first cell in the pixel that holds
- * (x, y). `codes` are ASCII, and those of font.c beyond it; 10 starts a new line; what the font lacks shows as a hollow box. Each
- * pixel of the font is a square of scale x scale pixels (scale >= 1). */
+/* Draws text in the built-in font; the top left corner of its first cell is the pixel that holds (x, y). `codes` are ASCII, and
+ * beyond it those of font.c. Code 10 starts a new line. A code that the font lacks shows as a hollow box. Each pixel of the font
+ * becomes scale x scale pixels (scale >= 1). */
 void e3d_canvas_text(const e3d_canvas *canvas, double x, double y, const uint8_t *codes,
                      size_t length, int32_t scale, e3d_rgba color);
 
-/* The size, in pixels, of the cells that a text takes: its longest line by its number of lines. */
+/* Finds the size in pixels of a text's cells: its longest line by its number of lines. */
 void e3d_text_size(const uint8_t *codes, size_t length, int32_t scale, int64_t *width,
                    int64_t *height);
-
-#endif

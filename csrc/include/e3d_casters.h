@@ -1,6 +1,5 @@
-/* What casts exact shadows: draws that a frame's lights may be hidden by, in the picture or not. */
-#ifndef E3D_API_CASTERS_H
-#define E3D_API_CASTERS_H
+/* The casters of exact shadows: draws that may hide a frame's lights, whether the picture shows them or not. */
+#pragma once
 
 #include <stdint.h>
 
@@ -11,18 +10,16 @@
 extern "C" {
 #endif
 
-/* Their order does not matter. Lines and points cast nothing. */
+/* The order of the draws does not matter. Lines and points cast no shadows. */
 typedef struct e3d_casters {
     const e3d_draw *draws;
     int32_t draw_count;
-    const e3d_material *materials; /* that the draws count from their own bases */
+    const e3d_material *materials; /* the draws' material_base counts from here */
     int32_t material_count;
-    /* 0, or a number that stands for these draws as they are: for as long as it stays, a renderer keeps what it found out about them. */
+    /* A number of this list of draws, or 0. While it stays the same, a renderer keeps what it found out about the draws. */
     int64_t version;
 } e3d_casters;
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

@@ -1,6 +1,5 @@
 /* A frame: what is drawn, from where, and how. */
-#ifndef E3D_API_FRAME_H
-#define E3D_API_FRAME_H
+#pragma once
 
 #include <stdint.h>
 
@@ -39,7 +38,7 @@ typedef enum e3d_hidden { E3D_EACH_HIDDEN(E3D_ENUMERATOR) } e3d_hidden;
 #define E3D_EACH_SHADING(X) X(E3D_SHADING_DEFERRED, deferred) X(E3D_SHADING_FORWARD, forward)
 typedef enum e3d_shading { E3D_EACH_SHADING(E3D_ENUMERATOR) } e3d_shading;
 
-/* FACET: as FLAT, and a face is lit as it is in its middle. */
+/* FACET: like FLAT, but a whole face has the light of its middle. */
 #define E3D_EACH_NORMALS(X) \
     X(E3D_NORMALS_AUTO, auto) \
     X(E3D_NORMALS_SMOOTH, smooth) \
@@ -53,10 +52,10 @@ static inline int e3d_is_flat(e3d_normals normals, int flat)
     return normals == E3D_NORMALS_FLAT || normals == E3D_NORMALS_FACET || (normals == E3D_NORMALS_AUTO && flat);
 }
 
-/* What is left out before it is drawn; the picture is the same. ALL: what is outside the frustum, faces away or is behind
- * what is drawn already. ALWAYS: as ALL, and what is drawn already is tried against even where that cannot pay. NONE:
- * nothing. TREE, FRUSTUM: nothing either, as the caller has left out the nodes outside the frustum (e3d_tree_select: by
- * the tree's branches, or flat). */
+/* Which objects and clusters are left out before they are drawn; the picture is the same. ALL: those outside the frustum, facing
+ * away, or behind what is drawn already. ALWAYS: like ALL, but it also tests against drawn depths where that cannot pay. NONE:
+ * none. TREE, FRUSTUM: none here; the caller has left out the nodes outside the frustum by e3d_tree_select, which walks the
+ * tree's branches or tests one node after the other. */
 #define E3D_EACH_CULLING(X) \
     X(E3D_CULLING_ALL, all) \
     X(E3D_CULLING_TREE, tree) \
@@ -65,7 +64,7 @@ static inline int e3d_is_flat(e3d_normals normals, int flat)
     X(E3D_CULLING_ALWAYS, always)
 typedef enum e3d_culling { E3D_EACH_CULLING(E3D_ENUMERATOR) } e3d_culling;
 
-/* PLAIN: parallelograms with slanted ends, as R11 has them. ROUND: as wide as they say at any angle, with half a disc at each end. */
+/* PLAIN: parallelograms with slanted ends (R11). ROUND: the full width at any angle, with half a disc at each end (R114). */
 #define E3D_EACH_LINE_SHAPE(X) X(E3D_LINES_PLAIN, plain) X(E3D_LINES_ROUND, round)
 typedef enum e3d_line_shape { E3D_EACH_LINE_SHAPE(E3D_ENUMERATOR) } e3d_line_shape;
 
@@ -73,38 +72,38 @@ typedef enum e3d_line_shape { E3D_EACH_LINE_SHAPE(E3D_ENUMERATOR) } e3d_line_sha
 typedef enum e3d_point_shape { E3D_EACH_POINT_SHAPE(E3D_ENUMERATOR) } e3d_point_shape;
 
 enum { E3D_MAX_SIZE = 16384,
-       E3D_MAX_WINDOWS = 16 };
+       E3D_MAX_APERTURES = 16 };
 
 /* Pixels of a picture, inclusive. */
-typedef struct e3d_window {
+typedef struct e3d_aperture {
     int32_t x0, y0, x1, y1;
-} e3d_window;
+} e3d_aperture;
 
 typedef struct e3d_frame {
     int32_t width, height;       /* 1 .. E3D_MAX_SIZE output pixels */
     int32_t samples_axis;        /* 1, 2 or 4: samples a pixel along each axis */
     double clip_from_world[16];
     double view_from_world[16];
-    float eye[4];                /* world: w = 1 the camera's position, w = 0 the unit direction
-                                  * towards the viewer (orthographic) */
+    /* Perspective: the camera's position, w = 1; orthographic: the unit direction to the viewer, w = 0 (world) */
+    float eye[4];
     e3d_mode mode;
     e3d_cull cull;
-    const e3d_window *windows;   /* E3D_CULL_BACK leaves backs that reach into one (R9) */
-    int32_t window_count;        /* at most E3D_MAX_WINDOWS */
+    const e3d_aperture *apertures;   /* with E3D_CULL_BACK, backs that reach into one are drawn (R9) */
+    int32_t aperture_count;        /* at most E3D_MAX_APERTURES */
     e3d_wireframe wireframe;
     e3d_hidden hidden;
     e3d_shading shading;
     e3d_normals normals;
-    int32_t remove_hidden_lines; /* with E3D_WIRE_ONLY: faces hide the edges behind them */
+    int32_t remove_hidden_lines; /* with E3D_WIRE_ONLY: faces that aren't drawn hide the edges behind them */
     float line_width, point_size; /* output pixels, 0 < size <= 256 */
     float line_color[3];         /* display-ready: goes through the frame's encoder like any colour */
     float background[4];         /* rgb through the encoder; a is 0 or 1 */
-    e3d_backdrop backdrop;       /* lit and unlit only: the background, if it has an environment */
+    e3d_backdrop backdrop;       /* the background where it is an environment; modes lit and unlit only */
     e3d_environment_light environment; /* lights physically based materials */
-    int32_t encode_srgb;         /* lit and unlit only: encoder is sRGB, else floor(255 v + 1/2) */
+    int32_t encode_srgb;         /* modes lit and unlit: the encoder is sRGB; else it is floor(255 v + 1/2) */
     int32_t decode_srgb;         /* 8-bit vertex and instance colours are decoded from sRGB */
-    int64_t view;                /* any number that tells this eye from others: the renderer remembers what each saw last */
-    float depth_near, depth_far; /* metric depths that mode depth shows white and black; near < far */
+    int64_t view;                /* the number of this eye, any; the renderer remembers for each eye what it showed last */
+    float depth_near, depth_far; /* metric depths that mode depth shows as white and as black; near < far */
     float ambient[3];
     float light_clamp[2];        /* {0, +inf}: no clamp */
     float exposure;              /* multiplies what lit surfaces show; > 0 */
@@ -114,34 +113,35 @@ typedef struct e3d_frame {
     int32_t light_count;
     const e3d_draw *draws;
     int32_t draw_count;
-    /* Numbers of draws, in the order of drawing: each once, but one of E3D_POSE_NODES once for each of its nodes.
-     * NULL: the draws as given, none of which is of E3D_POSE_NODES. */
+    /* Numbers of draws in the order of drawing. Each stands once, but a draw of E3D_POSE_NODES stands once for each of its
+     * nodes. NULL: the draws as given; none of them is of E3D_POSE_NODES. */
     const int32_t *order;
     int32_t order_count;
-    int32_t transparent_outputs; /* outputs but colour are of the nearest surface, blended or not; else of the nearest that isn't blended */
+    /* Outputs other than colour show the nearest surface even if it is blended; else the nearest that isn't */
+    int32_t transparent_outputs;
     e3d_culling culling;
-    const double *frozen_clip_from_world; /* or NULL: draw what this camera's frustum holds, nothing else */
+    const double *frozen_clip_from_world; /* NULL, or another camera: only what its frustum holds is drawn */
     const e3d_shadow_map *shadow_maps; /* of all lights */
     int32_t shadow_map_count;
     int32_t faces_only;          /* neither lines nor points are drawn */
-    e3d_tone_mapping tone_mapping; /* of lit surfaces and of the backdrop, in mode lit */
+    e3d_tone_mapping tone_mapping; /* for lit surfaces and the backdrop, in mode lit */
     e3d_fog fog;                   /* lit and unlit only */
     e3d_gradient gradient;
-    const e3d_casters *casters;  /* of exact shadows, or NULL: none */
-    e3d_line_shape line_shape;            /* of lines and of a wireframe's edges */
+    const e3d_casters *casters;  /* the casters of exact shadows; NULL: none */
+    e3d_line_shape line_shape;            /* the shape of lines and of a wireframe's edges */
     e3d_point_shape point_shape;
-    int32_t msaa_samples; /* 2, 4, 8 or 16: multisampling, with samples_axis 1; else 0 */
-    int32_t alpha_to_coverage; /* with multisampling: alpha tells how many of a pixel's samples E3D_ALPHA_MASK covers */
+    int32_t msaa_samples; /* multisampling: 2, 4, 8 or 16, with samples_axis 1; else 0 */
+    /* With multisampling: the alpha of E3D_ALPHA_MASK decides how many of a pixel's samples are covered */
+    int32_t alpha_to_coverage;
     e3d_ambient_light ambient_light;      /* beside ambient */
-    const float *ambient_visibility;      /* (height, width) or NULL: what of the light from all around reaches the surfaces that a pixel
-                                           * shows, but for blended ones (R129) */
+    /* (height, width) or NULL: the share of ambient light that reaches the opaque surfaces in a pixel (R129) */
+    const float *ambient_visibility;
 } e3d_frame;
 
-/* Set a member that options or a scene's surroundings decide, by its name; return 0 where none has that name and count. */
+/* These set a member by its name: one that options decide, or one that a scene's surroundings decide. They return 0 if no member
+ * has that name and count. */
 int e3d_frame_set(e3d_frame *frame, const char *name, const double *values, int32_t count);
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

@@ -1,10 +1,7 @@
-/* Reading model files: bytes in, arrays out. No files, no Python, no renderer.
- *
- * Always: nothing outside the bytes given is read, whatever they hold; time and memory grow with their
- *      number (sorting apart); no locale; the same arrays on every machine.
- */
-#ifndef E3D_LOADERS_H
-#define E3D_LOADERS_H
+/* Reads model files: bytes in, arrays out. No files, no Python, no renderer.
+ * Always: nothing outside the bytes given is read, whatever they hold; time and memory are linear in their number (but for
+ * sorting); no locale; the same arrays on every machine. */
+#pragma once
 
 #include "e3d_forms.h"
 #include "e3d_meshopt.h"
@@ -13,5 +10,3 @@
 #include "e3d_ply.h"
 #include "e3d_rows.h"
 #include "e3d_surfaces.h"
-
-#endif

@@ -1,6 +1,5 @@
-/* What a surface is made of. */
-#ifndef E3D_API_MATERIAL_H
-#define E3D_API_MATERIAL_H
+/* A material: the look of a surface. */
+#pragma once
 
 #include <stdint.h>
 
@@ -11,7 +10,8 @@
 extern "C" {
 #endif
 
-/* The textures of a material: X(ENUMERATOR, name). Each multiplies what it is named after, by some of its channels. */
+/* The texture slots of a material: X(ENUMERATOR, name). A texture multiplies the factor that its slot is named after, by some of
+ * its channels. */
 #define E3D_EACH_TEXTURE_SLOT(X) \
     X(E3D_SLOT_TEXTURE, texture) /* the colour, and alpha */ \
     X(E3D_SLOT_METALLIC_ROUGHNESS, metallic_roughness_texture) /* G roughness, B metallic */ \
@@ -27,35 +27,35 @@ extern "C" {
     X(E3D_SLOT_SHEEN_ROUGHNESS, sheen_roughness_texture) /* A */ \
     X(E3D_SLOT_TRANSMISSION, transmission_texture) /* R */ \
     X(E3D_SLOT_THICKNESS, thickness_texture) /* G */ \
-    X(E3D_SLOT_ANISOTROPY, anisotropy_texture) /* R and G the direction, B the strength */ \
+    X(E3D_SLOT_ANISOTROPY, anisotropy_texture) /* R and G: the direction, B: the strength */ \
     X(E3D_SLOT_IRIDESCENCE, iridescence_texture) /* R */ \
-    X(E3D_SLOT_IRIDESCENCE_THICKNESS, iridescence_thickness_texture) /* G: from the least to the most */
+    X(E3D_SLOT_IRIDESCENCE_THICKNESS, iridescence_thickness_texture) /* G: 0 is the least thickness, 1 the greatest */
 typedef enum e3d_texture_slot { E3D_EACH_TEXTURE_SLOT(E3D_ENUMERATOR) E3D_TEXTURE_SLOTS } e3d_texture_slot;
 
-/* A texture, and the coordinates that it is read at. */
+/* A texture in a slot, and the coordinates at which it is read. */
 typedef struct e3d_texture_use {
     const e3d_texture *texture; /* or NULL */
     int32_t uv_set;             /* 0: uvs, 1: uvs1 */
-    int32_t is_moved;           /* 0: the matrix is the identity, and not read */
-    float matrix[6];            /* two rows of three, of coordinates whose origin is at the bottom left */
+    int32_t is_moved;           /* 0: the matrix is the identity, and is not read */
+    float matrix[6];            /* two rows of three; coordinates have their origin at the bottom left */
 } e3d_texture_use;
 
 #define E3D_EACH_ALPHA_MODE(X) X(E3D_ALPHA_OPAQUE, opaque) X(E3D_ALPHA_MASK, mask) X(E3D_ALPHA_BLEND, blend)
 typedef enum e3d_alpha_mode { E3D_EACH_ALPHA_MODE(E3D_ENUMERATOR) } e3d_alpha_mode;
 
-/* What a physically based material is made of beside its colours (docs/exactness, section 12). */
+/* The parameters of a physically based material besides its colours (docs/exactness, section 12). */
 typedef struct e3d_physical {
     float metallic, roughness; /* 0 .. 1 */
     float occlusion_strength;
-    float reflectance[3];      /* of what is no metal, seen from above; before specular_intensity */
+    float reflectance[3];      /* F0 of the part that isn't metal, before specular_intensity */
     float specular_intensity;
     float clearcoat, clearcoat_roughness, clearcoat_normal_scale;
     float sheen_color[3], sheen_roughness;
     float transmission, thickness;
-    float absorption[3];       /* per world unit of thickness: the base-2 logarithm of what is left of light */
+    float absorption[3];       /* the base-2 logarithm of the share of light that is left after a world unit of thickness */
     float anisotropy, anisotropy_turn[2]; /* strength, 0 .. 1; cosine and sine of the angle from the tangent */
-    float iridescence, iridescence_ior;   /* share, 0 .. 1; of the film, 1 or more */
-    float iridescence_thickness[2];       /* nanometres, the least and the most */
+    float iridescence, iridescence_ior;   /* the share, 0 .. 1; the film's index of refraction, 1 or more */
+    float iridescence_thickness[2];       /* of the film: the least and the greatest, in nanometres */
 } e3d_physical;
 
 typedef struct e3d_material {
@@ -64,7 +64,7 @@ typedef struct e3d_material {
     float specular[3];           /* Blinn-Phong Ks; all zero: no highlight is computed */
     float shininess;             /* Blinn-Phong Ns, > 0 */
     float emissive[3];
-    float normal_scale;          /* of normal_texture, along the surface */
+    float normal_scale;          /* scales the normal texture's slopes */
 #define E3D_MATERIAL_TEXTURE(enumerator, name) e3d_texture_use name;
     E3D_EACH_TEXTURE_SLOT(E3D_MATERIAL_TEXTURE)
     int32_t id;                  /* what material_id outputs */
@@ -81,6 +81,4 @@ void e3d_material_set_texture(e3d_material *material, e3d_texture_slot slot, con
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

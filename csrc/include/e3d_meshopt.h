@@ -1,11 +1,8 @@
-/* Buffer views of glTF files, unpacked: EXT_meshopt_compression and KHR_meshopt_compression.
- *
+/* Unpacks buffer views of glTF files: EXT_meshopt_compression and KHR_meshopt_compression.
  * Source: the specification of KHR_meshopt_compression, appendices A (bitstream) and B (filters).
- * Always: nothing outside the bytes given is read or written, whatever they hold. Each returns false, with any bytes
- *      in `to`, for a stream that is damaged.
- */
-#ifndef E3D_MESHOPT_H
-#define E3D_MESHOPT_H
+ * Always: nothing outside the bytes given is read or written, whatever they hold. Each function returns false if the stream is
+ * damaged; the bytes in `to` then mean nothing. */
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -27,7 +24,5 @@ typedef enum e3d_meshopt_filter {
     E3D_MESHOPT_COLOR /* stride 4 or 8 */
 } e3d_meshopt_filter;
 
-/* Turns the elements of attributes into what they stand for, in place. */
+/* Undoes a filter: decodes the elements of attributes in place. */
 void e3d_meshopt_undo_filter(uint8_t *elements, size_t count, size_t stride, e3d_meshopt_filter filter);
-
-#endif

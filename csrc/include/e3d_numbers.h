@@ -1,7 +1,6 @@
-/* Texts of numbers: lines of them, and rows of lists among these. The last byte of a text is a blank or ends a line, as
- * LF, CR or both do. */
-#ifndef E3D_NUMBERS_H
-#define E3D_NUMBERS_H
+/* Reads texts of numbers: lines of them, and rows of lists among these. The last byte of a text is a blank or ends a line; LF,
+ * CR or both end a line. */
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -21,10 +20,10 @@ typedef enum e3d_numbers_problem {
     E3D_NUMBERS_NOT_A_NUMBER,
 } e3d_numbers_problem;
 
-/* The numbers of a text, and of its rows: the lines that hold any. */
+/* The numbers of a text, and of its rows: a row is a line that holds any. */
 typedef struct e3d_numbers {
     double *values;  /* [count] */
-    int64_t *widths; /* [rows] how many numbers each holds; NULL if nobody asked */
+    int64_t *widths; /* [rows] how many numbers each row holds; NULL if nobody asked */
     size_t count, rows;
     size_t place;    /* behind the last line read; or the word that is no number */
 } e3d_numbers;
@@ -51,5 +50,3 @@ void e3d_copy_numbers(const double *values, const int64_t *starts, const int64_t
  * that is not whole, or not from 0 on and below `limit`. */
 size_t e3d_numbers_to_indices(const double *values, size_t width, size_t stride, size_t rows, size_t limit,
                               int32_t *indices);
-
-#endif

@@ -8,8 +8,7 @@
  * or piece by piece, where somebody wants to watch: e3d_obj_begin, e3d_obj_read until nothing is left,
  * e3d_obj_end, e3d_obj_free. The bytes must stay until e3d_obj_end has returned.
  */
-#ifndef E3D_OBJ_H
-#define E3D_OBJ_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -28,9 +27,12 @@ typedef enum e3d_obj_problem {
     E3D_OBJ_OUT_OF_RANGE,  /* a corner with a vertex beyond the `count` that there are */
 } e3d_obj_problem;
 
-typedef enum e3d_obj_list { E3D_OBJ_V, E3D_OBJ_VT, E3D_OBJ_VN, E3D_OBJ_LISTS } e3d_obj_list;
+typedef enum e3d_obj_list { E3D_OBJ_V,
+                            E3D_OBJ_VT,
+                            E3D_OBJ_VN,
+                            E3D_OBJ_LISTS } e3d_obj_list;
 
-/* Where something stands: the line, from 1, and a word that `names` holds. */
+/* Where a problem is: the line, from 1, and a word in `names`. */
 typedef struct e3d_obj_place {
     size_t line, word, word_length;
 } e3d_obj_place;
@@ -42,7 +44,7 @@ typedef struct e3d_obj_error {
     e3d_obj_place place;
 } e3d_obj_error;
 
-/* How often something was left out, and where first. */
+/* How often something was left out, and where it was first. */
 typedef struct e3d_obj_note {
     size_t count;
     e3d_obj_place first;
@@ -50,34 +52,34 @@ typedef struct e3d_obj_note {
 
 /* Faces (`f`, `fo`), lines (`l`) or points (`p`) in the order of the file. */
 typedef struct e3d_obj_elements {
-    int32_t *sizes;     /* [count] corners of each, also 0 */
+    int32_t *sizes;     /* [count] the corners of each element, perhaps 0 */
     int32_t *indices[E3D_OBJ_LISTS]; /* [corners] from 0; -1 for none; VT, VN: NULL if no corner has any */
     size_t count, corners;
-    bool are_triangles; /* each has three corners; true if there are none */
-    e3d_obj_note small; /* those of fewer than three corners */
-    e3d_obj_note outside[E3D_OBJ_LISTS]; /* VT, VN: corners whose index was out of range: now -1 */
+    bool are_triangles; /* all have three corners, or there are none */
+    e3d_obj_note small; /* elements of fewer than three corners */
+    e3d_obj_note outside[E3D_OBJ_LISTS]; /* VT, VN: corners whose index was out of range and became -1 */
 } e3d_obj_elements;
 
 typedef enum e3d_obj_setter_kind {
     E3D_OBJ_OBJECT,    /* o */
     E3D_OBJ_GROUP,     /* g */
-    E3D_OBJ_SMOOTHING, /* s: `value`, 0 for off; -1, and the name, for what is no number */
+    E3D_OBJ_SMOOTHING, /* s: `value`, 0 for off; -1 and the name if it is no number */
     E3D_OBJ_MATERIAL,  /* usemtl */
     E3D_OBJ_LIBRARY,   /* mtllib */
     E3D_OBJ_UNKNOWN,   /* anything else: the name is the keyword */
 } e3d_obj_setter_kind;
 
-/* A statement that sets something for the elements behind it. */
+/* A statement that changes the state for the elements behind it. */
 typedef struct e3d_obj_setter {
     uint32_t kind;
     uint32_t line;                 /* from 1 */
-    uint32_t faces, lines, points; /* how many stand before it */
-    uint32_t name, name_length;    /* what follows the keyword, without the blanks around: in `names` */
+    uint32_t faces, lines, points; /* how many elements stand before it */
+    uint32_t name, name_length;    /* the rest of the line without blanks around it, in `names` */
     int32_t value;
 } e3d_obj_setter;
 
-/* What a file holds. Arrays are NULL where they would be empty; whoever takes one over (and frees it with
- * free()) puts NULL in its place. */
+/* The contents of a file. An array is NULL where it would be empty. Whoever takes one over puts NULL in its place, and frees it
+ * with free(). */
 typedef struct e3d_obj {
     double *positions; /* [3 * counts[V]] */
     double *uvs;       /* [2 * counts[VT]] zero where the file leaves one out */
@@ -94,15 +96,13 @@ typedef struct e3d_obj {
     struct e3d_obj_reader *reader;
 } e3d_obj;
 
-/* Returns the problem, which `obj->error` tells more of. Whatever it is, e3d_obj_free() frees all. */
+/* Returns the problem; `obj->error` tells where it is. In any case e3d_obj_free() frees all. */
 e3d_obj_problem e3d_obj_parse(const uint8_t *bytes, size_t size, e3d_obj *obj);
 
 /* Begins; false if memory is out. */
 bool e3d_obj_begin(e3d_obj *obj, const uint8_t *bytes, size_t size);
-/* Reads `bytes` more or less; returns whether there is more to read (false after an error, too). */
+/* Reads about `bytes` more. Returns whether there is more to read; false after an error. */
 bool e3d_obj_read(e3d_obj *obj, size_t bytes);
-/* Checks the indices, and fills in what `e3d_obj` says. */
+/* Checks the indices, and fills in the members of `e3d_obj`. */
 e3d_obj_problem e3d_obj_end(e3d_obj *obj);
 void e3d_obj_free(e3d_obj *obj);
-
-#endif

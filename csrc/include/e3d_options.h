@@ -1,7 +1,6 @@
-/* Lists of named values. Each stands once, as a macro E3D_EACH_…(X) beside its enum: X(ENUMERATOR, name, ...), where the
- * name is what users write. Everything else that is a list of these is made of it. */
-#ifndef E3D_API_OPTIONS_H
-#define E3D_API_OPTIONS_H
+/* Lists of named values. Each list stands once, as a macro E3D_EACH_...(X) beside its enum: X(ENUMERATOR, name, ...), where the
+ * name is the one that users write. Enums, tables and options are made from it. */
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -34,10 +33,10 @@ typedef enum e3d_option {
     E3D_OPTIONS
 } e3d_option;
 
-/* The name of a value; NULL behind the last, and where there is no such value. */
+/* The name of a value, or NULL if there is none of that number. */
 const char *e3d_option_name(e3d_option option, int32_t value);
 
-/* What an array of an output or of vertices holds. */
+/* The format of an output's array or of a vertex attribute's. */
 typedef struct e3d_array_format {
     const char *name;
     int32_t channels;
@@ -46,6 +45,4 @@ typedef struct e3d_array_format {
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

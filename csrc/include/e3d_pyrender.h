@@ -1,11 +1,8 @@
 /* Pictures lit as the package pyrender lights them (docs/exactness, section 24).
- *
- * In:  draws, lights, a camera, and for opaque triangles which of them shows where: IDs that e3d_render wrote.
+ * In: draws, lights, a camera, and for opaque triangles the IDs of those that show, as e3d_render wrote them.
  * Out: colours and metric depths.
- * Always: the same bytes for any number of threads: a pixel depends on nothing that another pixel writes.
- */
-#ifndef E3D_API_PYRENDER_H
-#define E3D_API_PYRENDER_H
+ * Always: the same bytes for any number of threads, since no pixel depends on what is written for another. */
+#pragma once
 
 #include <stdint.h>
 
@@ -19,7 +16,7 @@ typedef enum e3d_pyr_mode { E3D_PYR_TRIANGLES = 0,
                             E3D_PYR_LINES,
                             E3D_PYR_POINTS } e3d_pyr_mode;
 
-/* LIT: by lights. FLAT: the colour of the surface as it is. PLAIN: the colour of the draw. DEPTH: no colours. */
+/* LIT: by lights. FLAT: the surface's own colour. PLAIN: the draw's colour. DEPTH: no colours. */
 typedef enum e3d_pyr_shading { E3D_PYR_LIT = 0,
                                E3D_PYR_FLAT,
                                E3D_PYR_PLAIN,
@@ -30,20 +27,20 @@ typedef enum e3d_pyr_wrap { E3D_PYR_REPEAT = 0,
                             E3D_PYR_MIRROR } e3d_pyr_wrap;
 
 enum { E3D_PYR_LEVELS = 15,
-       E3D_PYR_SAMPLES = 4,                 /* a pixel has this many, or one */
+       E3D_PYR_SAMPLES = 4,                 /* a pixel has this many samples, or one */
        E3D_PYR_CENTRE = E3D_PYR_SAMPLES,
-       E3D_PYR_PLACES = E3D_PYR_SAMPLES + 1 /* where visibility is known: the samples, then the pixel's centre */ };
+       E3D_PYR_PLACES = E3D_PYR_SAMPLES + 1 /* the places where visibility is known: the samples, and the pixel's centre */ };
 
 /* 8-bit texels, row 0 at the bottom; level k is max(1, size >> k) texels a side. */
 typedef struct e3d_pyr_texture {
     const uint8_t *level[E3D_PYR_LEVELS];
     int32_t width, height, channels, levels;
     int32_t wrap[2];                       /* e3d_pyr_wrap, along u and v */
-    int32_t linear_near, linear_far;       /* whether texels are blended where the texture is magnified, where it isn't */
+    int32_t linear_near, linear_far;       /* whether texels are blended: where the texture is magnified; where it is minified */
     int32_t blends_levels;
 } e3d_pyr_texture;
 
-/* What a material's textures are; each is read at the first set of coordinates. */
+/* The textures of a material; each is read at the first set of coordinates. */
 typedef enum e3d_pyr_slot { E3D_PYR_BASE_COLOR = 0,
                             E3D_PYR_ROUGHNESS_METALLIC,
                             E3D_PYR_NORMAL,
@@ -51,19 +48,19 @@ typedef enum e3d_pyr_slot { E3D_PYR_BASE_COLOR = 0,
                             E3D_PYR_EMISSIVE,
                             E3D_PYR_SLOTS } e3d_pyr_slot;
 
-/* A primitive at one place. Indices are in range, (count, 3), (count, 2) or (count,) by the mode. */
+/* A primitive at one place. Indices are in range; the mode says whether they are (count, 3), (count, 2) or (count,). */
 typedef struct e3d_pyr_draw {
     int32_t mode, count, vertices;
     const int32_t *indices;
     const float *positions;                /* (vertices, 3) */
     const float *normals, *uvs, *colors;   /* (vertices, 3), (vertices, 2), (vertices, 4), or NULL */
-    const uint8_t *calm;                   /* (count,) of triangles, what e3d_pyr_find_calm found */
+    const uint8_t *calm;                   /* (count,) for triangles, by e3d_pyr_find_calm */
     double world[16];                      /* world_from_object */
     int32_t culls_backs, is_wireframe, blends;
-    float color[4];                        /* the base colour's factor, or of PLAIN the colour */
+    float color[4];                        /* the base colour's factor; PLAIN: the colour */
     float metallic, roughness, emissive[3];
     const e3d_pyr_texture *textures[E3D_PYR_SLOTS]; /* or NULL */
-    int32_t first_light, light_count;      /* in e3d_pyr_frame.light_numbers */
+    int32_t first_light, light_count;      /* the draw's range in e3d_pyr_frame.light_numbers */
 } e3d_pyr_draw;
 
 typedef enum e3d_pyr_light_kind { E3D_PYR_DIRECTIONAL = 0,
@@ -73,17 +70,18 @@ typedef enum e3d_pyr_light_kind { E3D_PYR_DIRECTIONAL = 0,
 typedef struct e3d_pyr_light {
     int32_t kind;
     float color[3];                        /* times the intensity */
-    float position[3], direction[3];       /* the direction in which it shines, of unit length */
+    float position[3], direction[3];       /* the direction is where it shines, of unit length */
     float cone_scale, cone_offset;
     const float *shadow_map;               /* ndc depths, row 0 at the top, or NULL: no shadows */
     int32_t shadow_size;
     double shadow_from_world[16];          /* clip space of the map */
 } e3d_pyr_light;
 
-/* A step of the picture, in the order in which they are drawn. Either opaque triangles of which it is known what shows
- * (triangle_id isn't NULL): at each place the draw is draw_of_object[object_id] + instance_id, or none where triangle_id is
- * negative; object_id is NULL where all is of object 0, and instance_id where there are no instances. Or draws that are
- * drawn here, one after the other. */
+/* A step of the picture; steps are drawn one after the other.
+ * With triangle_id, a step is opaque triangles whose visibility is known: at each place the draw is draw_of_object[object_id] +
+ * instance_id, or none where triangle_id is negative. object_id is NULL if all IDs are of object 0, instance_id if there are no
+ * instances.
+ * Without it, a step is draws that are rasterised here, one after the other. */
 typedef struct e3d_pyr_step {
     const int32_t *object_id[E3D_PYR_PLACES], *triangle_id[E3D_PYR_PLACES], *instance_id[E3D_PYR_PLACES];
     const int32_t *draw_of_object;
@@ -91,13 +89,13 @@ typedef struct e3d_pyr_step {
 } e3d_pyr_step;
 
 typedef struct e3d_pyr_frame {
-    int32_t width, height, samples;        /* samples: E3D_PYR_SAMPLES, or 1: then the only place of a pixel is that of its depth */
+    int32_t width, height, samples;        /* samples: E3D_PYR_SAMPLES, or 1: then a pixel's colour is found where its depth is */
     int32_t shading;
     double clip_from_world[16];
     float eye[3], ambient[3], background[4], point_size;
     double depth_near, depth_far;          /* depth_far: infinity for none */
     int32_t depth_place;                   /* where depths are found: E3D_PYR_CENTRE, or the number of a sample */
-    int32_t depth_is_straight;             /* depth rises with z_ndc in a straight line, as without perspective */
+    int32_t depth_is_straight;             /* depth is linear in z_ndc, as it is without perspective */
     const e3d_pyr_draw *draws;
     int32_t draw_count;
     const e3d_pyr_light *lights;
@@ -109,19 +107,18 @@ typedef struct e3d_pyr_frame {
     float *depth;                          /* (height, width) */
 } e3d_pyr_frame;
 
-/* Which triangles of a draw differ little from corner to corner, so that neighbours may be lit together (R152). */
+/* Finds the calm triangles of a draw: they differ so little from corner to corner that neighbouring samples may be lit together
+ * (R152). */
 void e3d_pyr_find_calm(const e3d_pyr_draw *draw, uint8_t *out);
 
-/* What stays from picture to picture; NULL when memory is out. */
+/* Memory that pictures use again. e3d_pyr_memory_new returns NULL when memory is out. */
 typedef struct e3d_pyr_memory e3d_pyr_memory;
 e3d_pyr_memory *e3d_pyr_memory_new(void);
 void e3d_pyr_memory_free(e3d_pyr_memory *memory);
 
-/* Draw on up to `threads` threads (0: all). One picture at a time may be drawn with a memory. */
+/* Draws on up to `threads` threads (0: all). A memory serves one picture at a time. */
 e3d_status e3d_pyr_render(const e3d_pyr_frame *frame, int32_t threads, e3d_pyr_memory *memory);
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

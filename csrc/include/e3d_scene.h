@@ -1,14 +1,10 @@
-/* The C interface of scenes: trees of nodes in arrays, their poses, boxes and draws.
- *
- * In:  arrays that the caller owns, one element or row a slot. A node keeps its slot until the caller
- *      packs the arrays; slots stand in the order in which the nodes were added.
+/* Scenes: trees of nodes in arrays, their poses, boxes and draws.
+ * In: arrays that the caller owns, one element or row a slot. A node keeps its slot until the caller packs the arrays; slots
+ * stand in the order in which the nodes were added.
  * Out: the same arrays, up to date after e3d_graph_update, and the draws of e3d.h.
- * Always: f64, one written order of operations (docs/exactness, section 1), so that a node's numbers do not
- *      depend on how many others move with it. One graph is one thread's at a time. Affine matrices
- *      are three rows of four.
- */
-#ifndef E3D_SCENE_H
-#define E3D_SCENE_H
+ * Always: f64, one written order of operations (docs/exactness, section 1), so that a node's numbers do not depend on how many
+ * others move with it. Only one thread at a time may use a graph. Affine matrices are three rows of four. */
+#pragma once
 
 #include <stdint.h>
 
@@ -18,24 +14,24 @@
 extern "C" {
 #endif
 
-/* A box: lowest x y z, highest x y z, and its reach: no coordinate of what is in it, nor any that the sums
- * went through which made it, is farther from 0. Rounding is measured by it. */
+/* A box: lowest x y z, highest x y z, and its reach. The reach bounds the absolute value of every coordinate in the box and of
+ * every intermediate sum that made it: the margin for rounding is proportional to it. */
 enum { E3D_BOX = 7 };
 
-/* Of an object, in its own space: lowest, highest, and the reach along each axis. */
+/* A box of an object, in its own space: lowest, highest, and the reach along each axis. */
 enum { E3D_OBJECT_BOX = 9 };
 
 enum {
     E3D_NODE_ALIVE = 1,   /* not removed */
     E3D_NODE_VISIBLE = 2, /* the node's own switch */
-    E3D_NODE_SHOWN = 4,   /* alive and visible, like all above it; true once the node is not stale */
-    E3D_NODE_STALE = 8,   /* world and SHOWN are out of date; then so are those of all below */
-    E3D_NODE_LISTED = 16, /* stands in the list of nodes that changed since the last update */
+    E3D_NODE_SHOWN = 4,   /* it and all above it are alive and visible; valid once the node is not stale */
+    E3D_NODE_STALE = 8,   /* its world pose and SHOWN are out of date; so are those of all below */
+    E3D_NODE_LISTED = 16, /* it stands in the list of nodes that changed since the last update */
     E3D_NODE_PARTS = 32,  /* rotation and scale are those of the pose */
     E3D_NODE_STATIC = 64  /* the caller says that it stays where it is */
 };
 
-/* What a node has nothing to do with. */
+/* Shadows that a node has no part in: it casts none, or receives none. */
 enum { E3D_NODE_CASTS_NONE = 1,
        E3D_NODE_RECEIVES_NONE = 2 };
 
@@ -50,8 +46,9 @@ typedef struct e3d_graph {
     double *rotation, *scale;  /* (slots, 4) quaternion x y z w as given; (slots, 3) */
     double *world;             /* (slots, 12) world from node */
     double *bounds;            /* (slots, E3D_BOX) in the world; lowest > highest where nothing shows */
-    int32_t *anchor;           /* NULL, or a slot each: what a node draws is placed by that node's world pose; -1: by its own;
-                                * the node's own slot: it is in the world already */
+    /* NULL, or for each slot the node whose world pose places what is drawn; -1: the node itself; its own slot: what is drawn is
+     * in world space already */
+    int32_t *anchor;
     uint32_t *pose_version, *world_version; /* grow when pose or world change */
     int32_t *changed;          /* the slots that are LISTED */
     int32_t changed_count;
@@ -62,50 +59,51 @@ typedef struct e3d_graph {
 
 /* Makes a node at the identity in slot `count`, for which there must be room; returns its slot. */
 int32_t e3d_graph_add(e3d_graph *graph, int32_t parent, int32_t object, int32_t id);
-/* Says that the first slots hold nodes, of which nothing derived is known. */
+/* Takes over arrays whose first slots hold nodes; nothing derived is known of them. */
 void e3d_graph_adopt(e3d_graph *graph, int32_t count);
-/* Hangs a node under another (-1: none), before one of its other children or as the last (-1); 0 if the parent is
- * the node itself or below it. */
+/* Makes a node a child of another (-1: a root), before another child, or as the last one (-1). Returns 0 if the parent is the
+ * node itself or below it. */
 int e3d_graph_link(e3d_graph *graph, int32_t slot, int32_t parent, int32_t before);
-/* Takes a node out of its parent's children and marks it and all below as not alive. */
+/* Unlinks a node from its parent, and marks it and all nodes below as not alive. */
 void e3d_graph_remove(e3d_graph *graph, int32_t slot);
-/* Makes a removed node, which hangs under none, and all below it alive again. */
+/* Makes a removed node, which has no parent, and all nodes below it alive again. */
 void e3d_graph_restore(e3d_graph *graph, int32_t slot);
-/* The node after this one in the walk over all below `top`, parents first; -1 at the end. */
+/* The next node of the walk over all nodes below `top`, parents first; -1 at the end. */
 int32_t e3d_graph_walk(const e3d_graph *graph, int32_t slot, int32_t top);
 /* Switches flags (VISIBLE or STATIC). */
 void e3d_graph_set_flag(e3d_graph *graph, int32_t slot, int flag, int on);
 
 /* ---- Poses ---- */
 
-/* Says that the node's world pose, and those of all below, have to be found anew. */
+/* Marks the world poses of a node and of all nodes below as out of date. */
 void e3d_graph_touch(e3d_graph *graph, int32_t slot);
 void e3d_graph_set_pose(e3d_graph *graph, int32_t slot, const double pose[12]);
 void e3d_graph_set_translation(e3d_graph *graph, int32_t slot, const double translation[3]);
-/* NULL keeps a part. 0, and nothing changes, if the quaternion's length is zero or not finite. */
+/* A part that is NULL stays as it is. Returns 0, and changes nothing, if the quaternion's length is zero or not finite. */
 int e3d_graph_set_parts(e3d_graph *graph, int32_t slot, const double *rotation, const double *scale);
 /* Finds rotation and scale of a pose that was set as a matrix; shear is lost. */
 void e3d_graph_find_parts(e3d_graph *graph, int32_t slot);
 
 /* ---- Once a frame ---- */
 
-/* Makes one node's world pose true, and with it those above it. */
+/* Brings one node's world pose up to date, and those of the nodes above it. */
 void e3d_graph_find_world(e3d_graph *graph, int32_t slot);
-/* Makes all world poses, SHOWN and bounds true. `changed` still lists what was touched, for who has to follow:
- * the caller then empties it. boxes: (objects, E3D_OBJECT_BOX); lowest > highest for none. Threads change nothing. */
+/* Brings all world poses, SHOWN and bounds up to date. `changed` still lists the nodes that were touched, for callers that
+ * follow changes; the caller empties it. boxes: (objects, E3D_OBJECT_BOX); lowest > highest for none. The number of threads
+ * doesn't change the result. */
 void e3d_graph_update(e3d_graph *graph, const double *boxes, int32_t objects, int threads);
-/* Touches those of the nodes whose anchors were touched: they are drawn elsewhere now. */
+/* Touches those of the nodes whose anchors were touched, since they are drawn elsewhere now. */
 void e3d_graph_follow(e3d_graph *graph, const int32_t *slots, int32_t count);
 /* The world pose that places what a node draws; anchor may be NULL. */
 const double *e3d_placing_pose(const double *world, const int32_t *anchor, int32_t slot);
-/* Touches the nodes of objects whose box changed: dirty is (objects,). */
+/* Touches the nodes of objects whose box changed. dirty: (objects,). */
 void e3d_graph_touch_objects(e3d_graph *graph, const uint8_t *dirty, int32_t objects);
 /* ---- Boxes ---- */
 
-/* The boxes of a mesh's instances in the space of their node: (count, E3D_BOX); none where a pose is not finite. */
+/* The boxes of a mesh's instances in the space of their node: (count, E3D_BOX). An instance whose pose is not finite has none. */
 void e3d_instance_boxes(const float *poses, e3d_pose_kind kind, int32_t count,
                         const double box[E3D_OBJECT_BOX], double *boxes);
-/* The boxes of triangles in the space of their mesh; none where a vertex is not finite. */
+/* The boxes of triangles in the space of their mesh. A triangle with a vertex that is not finite has none. */
 void e3d_triangle_boxes(const float *positions, const int32_t *faces, int32_t count, double *boxes);
 /* The box around boxes; 0 if there are none. */
 int e3d_boxes_union(const double *boxes, int32_t count, double box[E3D_OBJECT_BOX]);
@@ -117,43 +115,46 @@ typedef struct e3d_tree e3d_tree;
 /* NULL when memory is out. */
 e3d_tree *e3d_tree_create(void);
 void e3d_tree_destroy(e3d_tree *tree);
-/* Items are numbered by the rows of boxes: (count, E3D_BOX). Rows without a box are left out. 0 when memory is
- * out: the tree is then empty. Threads change nothing. */
+/* Builds a tree over the rows of boxes, (count, E3D_BOX); an item's number is its row. Rows without a box are left out. Returns
+ * 0 when memory is out; the tree is then empty. The number of threads doesn't change the tree. */
 int e3d_tree_build(e3d_tree *tree, const double *boxes, int32_t count, int threads);
-/* Says which rows are other boxes now; new rows may have come. Builds again where that is better; as above. */
+/* Brings a tree up to date after the listed rows changed or new ones came; builds it again where that is better. Results as
+ * above. */
 int e3d_tree_refit(e3d_tree *tree, const double *boxes, int32_t count, const int32_t *moved, int32_t moves, int threads);
 
 typedef struct e3d_view_volume {
     double clip_from_world[16];
-    double widen; /* by which the planes of the sides stand off (1: none), for what is drawn wider than it is */
-    int flat;     /* the boxes of all items are tested one by one, those of the tree's branches never */
+    double widen; /* a factor, 1 or more, by which the side planes move outwards, for what is drawn wider than its box */
+    int flat;     /* all items' boxes are tested one by one, and the tree's branches never */
 } e3d_view_volume;
 
-/* Sets the bits of the items that may show, by the planes of the clip volume. They are the same if the volume is flat.
- * Returns how many boxes were tested: those of items and of branches. */
+/* Sets the bits of the items that may show, by the planes of the clip volume. The bits do not depend on `flat`. Returns how many
+ * boxes were tested: those of items and of branches. */
 int64_t e3d_tree_select(const e3d_tree *tree, const double *boxes, const e3d_view_volume *view, uint64_t *bits);
 
-/* How many levels a tree has: level 0 holds the boxes of items, each other one a box around up to four of the level below. */
+/* The number of levels of a tree. Level 0 holds the boxes of items; a box of any other level encloses up to four of the level
+ * below. */
 int e3d_tree_levels(const e3d_tree *tree);
 /* Writes the boxes of a level, (boxes, 6): lowest x y z, highest x y z; NULL: none. Returns how many there are. */
 int32_t e3d_tree_level_boxes(const e3d_tree *tree, int level, float *boxes);
 
-/* Sets the bits of the items whose boxes meet a box; touching counts. */
+/* Sets the bits of the items whose boxes meet or touch a box. */
 void e3d_tree_overlaps(const e3d_tree *tree, const double low[3], const double high[3], uint64_t *bits);
-/* Sets the bits of the items whose boxes a ray (unit direction) may meet, no farther than `farthest`. */
+/* Sets the bits of the items whose boxes a ray (unit direction) may meet within `farthest`. */
 void e3d_tree_ray(const e3d_tree *tree, const double origin[3], const double direction[3], double farthest,
                   uint64_t *bits);
 
 /* ---- Draws ---- */
 
-/* An object as nodes draw it; with a tree of e3d_instance_boxes, instances that do not show are left out. */
+/* An object as nodes draw it. If it has a tree of e3d_instance_boxes, its instances outside the view are left out. */
 typedef struct e3d_placed {
     e3d_draw draw;
     const e3d_tree *instances;
-    int32_t encloses;        /* a volume, but for holes; its fronts are outside */
+    int32_t encloses;        /* not 0: it encloses a volume, but for holes, with its fronts outside */
     int32_t holes;
     const int32_t *rim_ends; /* (holes,) */
-    const double *rims;      /* (rim_ends[holes - 1], 3) points round one hole after the other, as the triangles run there */
+    /* (rim_ends[holes - 1], 3) the points around each hole, one hole after the other, in the direction of its triangles */
+    const double *rims;
 } e3d_placed;
 
 typedef struct e3d_node_rows {
@@ -163,50 +164,50 @@ typedef struct e3d_node_rows {
     const double *world;
     const int32_t *anchor; /* as in e3d_graph */
     const uint8_t *unshadowed; /* E3D_NODE_CASTS_NONE, E3D_NODE_RECEIVES_NONE; NULL: neither of any */
-    int32_t casting;       /* not 0: only what casts shadows is drawn */
+    int32_t casting;       /* not 0: only objects that cast shadows are drawn */
     const uint32_t *spared_lights; /* as in e3d_draw; NULL: none */
 } e3d_node_rows;
 
-/* The nodes of one object that receive shadows, or those that don't. */
-typedef struct e3d_batch {
+/* The draw that merges one object's nodes: those that receive shadows, or those that don't. */
+typedef struct e3d_merged_draw {
     int32_t nodes;      /* that are drawn */
-    int32_t draw;       /* of all of them; -1: none yet */
-    int32_t first, end; /* those that have their row */
-} e3d_batch;
+    int32_t draw;       /* the draw of all of them; -1: none yet */
+    int32_t first, end; /* the rows of those placed so far */
+} e3d_merged_draw;
 
 /* Zeroed at first; kept from frame to frame. */
 typedef struct e3d_draw_list {
     e3d_draw *draws;
     int32_t count, room;
-    int32_t *order;   /* as in e3d_frame; as many as there were draws without batches */
+    int32_t *order;   /* as in e3d_frame; as many as draws if none were merged */
     int32_t order_count, order_room;
     int32_t nodes;    /* that are drawn */
-    double *worlds;   /* (nodes, 12) and (nodes,): of batched nodes, batch after batch */
+    double *worlds;   /* (nodes, 12) and (nodes,): of merged nodes, one draw after the other */
     int32_t *ids, *slots;
     int32_t node_room;
-    e3d_batch *batches; /* two of each object: receivers of shadows, the others */
-    int32_t batch_room;
+    e3d_merged_draw *merged; /* two of each object: receivers of shadows, the others */
+    int32_t merged_room;
     uint64_t *bits;   /* scratch */
     int32_t words;
     int64_t boxes_tested; /* of instances, and of the branches of their trees */
 } e3d_draw_list;
 
 void e3d_draw_list_free(e3d_draw_list *list);
-/* What all nodes would draw that are shown, wherever they are. */
+/* The primitives of all nodes that are shown, in view or not. */
 typedef struct e3d_totals {
     int64_t clusters, triangles;
 } e3d_totals;
 e3d_totals e3d_graph_totals(const e3d_node_rows *rows, const e3d_placed *objects, int32_t object_count);
 
-/* Lists the draws of what shows, in the order of slots: objects[number] with the node's id and world pose.
- * selection: a bit a slot, or NULL for all; view: NULL draws all instances; batch: nodes of one mesh are one draw.
- * 0 when memory is out. */
+/* Lists the draws of the nodes that show, in the order of slots: objects[number] with the node's ID and world pose. selection: a
+ * bit a slot, or NULL for all; view: NULL draws all instances; merge: the nodes of one mesh share a draw. Returns 0 when memory
+ * is out. */
 int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
-                    const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count, int batch);
+                    const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count, int merge);
 
 /* ---- Rays ---- */
 
-/* What an object is to a ray: triangles, perhaps at many poses. Arrays and trees are borrowed. */
+/* An object as rays meet it: triangles, perhaps at many poses. Arrays and trees are borrowed. */
 typedef struct e3d_shape {
     int32_t known;               /* 0: ask for it */
     int32_t face_count;
@@ -221,18 +222,17 @@ typedef struct e3d_shape {
 
 typedef struct e3d_hit {
     double distance;
-    double position[3], normal[3]; /* in the world; unit, of the face's front */
+    double position[3], normal[3]; /* in the world; the normal has length 1 and is that of the face's front */
     double barycentric[3];
     int32_t slot, instance, face;  /* slot: -1 where nothing was met */
 } e3d_hit;
 
-/* The nearest hit of a ray (world, unit direction) on the faces of what shows, no farther than `farthest`. Equal
- * distances: the first in the order of drawing. Returns the number of an object of which the shape
- * has to be known first, else -1. */
+/* Finds the nearest hit of a ray (world, unit direction) on the faces of what shows, within `farthest`. At equal distances the
+ * first in the order of drawing counts. Returns the number of an object whose shape is still missing, or else -1. */
 int32_t e3d_graph_ray(const e3d_graph *graph, const e3d_tree *tree, const e3d_shape *shapes,
                       int32_t shape_count, const double origin[3], const double direction[3],
                       double farthest, e3d_cull cull, e3d_hit *hit);
-/* The same of one shape without instances, at the pose `world`; its slot is 0. */
+/* The same for one shape without instances, at the pose `world`; its slot is 0. */
 void e3d_shape_ray(const e3d_shape *shape, const double world[12], const double origin[3],
                    const double direction[3], double farthest, e3d_cull cull, e3d_hit *hit);
 
@@ -253,6 +253,4 @@ int e3d_camera_view(const double clip_from_view[16], const double world_from_vie
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

@@ -1,6 +1,5 @@
-/* What a call says of itself: done, or why not. */
-#ifndef E3D_API_STATUS_H
-#define E3D_API_STATUS_H
+/* The result of a call: done, or why not. */
+#pragma once
 
 #ifdef __cplusplus
 extern "C" {
@@ -19,6 +18,4 @@ const char *e3d_status_text(e3d_status status);
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

@@ -1,6 +1,5 @@
-/* What is computed of the triangles and polygons of a file: normals, edges, triangles of polygons. */
-#ifndef E3D_SURFACES_H
-#define E3D_SURFACES_H
+/* What is computed from the triangles and polygons of a file: normals, edges, triangulations. */
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -9,101 +8,100 @@
 typedef enum e3d_sums_problem {
     E3D_SUMS_DONE,
     E3D_SUMS_NO_MEMORY,
-    E3D_SUMS_OUT_OF_RANGE, /* an index of a position or of a group */
+    E3D_SUMS_OUT_OF_RANGE, /* an index of a position or of a group is out of range */
 } e3d_sums_problem;
 
 /* Triangles whose corners are in groups. */
 typedef struct e3d_surface {
     const void *positions; /* [3 * position_count] doubles or floats */
     bool are_doubles;
-    const int32_t *faces, *groups; /* [3 * face_count] of each corner its position and its group */
+    const int32_t *faces, *groups; /* [3 * face_count] the position and the group of each corner */
     size_t position_count, face_count, group_count;
 } e3d_surface;
 
-/* Adds to sums[3 * group_count] the unit normals of all triangles, times the angle at the corner that is in
- * the group; `block_faces` triangles are added up at a time, and their sums to the others. */
+/* Adds to sums[3 * group_count] the unit normals of all triangles, each times its angle at the corner in that group. The sums of
+ * `block_faces` triangles are added up first, and then added to the others. */
 e3d_sums_problem e3d_smooth_sums(const e3d_surface *surface, size_t block_faces, double *sums);
 
 /* A surface that is smooth but for its creases. */
 typedef struct e3d_creased_surface {
-    const float *positions;  /* [3 * position_count] */
+    const float *positions;  /* [3 * position_count] positions */
     const int32_t *faces;    /* [3 * face_count] in range, fewer than 2^31 */
-    const int32_t *places;   /* of each vertex the place where it is, less than place_count; NULL: each has its own */
-    const uint8_t *visible;  /* [3 * face_count] 0 for the side behind a corner that is the diagonal of a polygon; NULL: none is */
+    const int32_t *places;   /* of each vertex the number of its place, below place_count; NULL: each has a place of its own */
+    const uint8_t *visible;  /* [3 * face_count] 0 where the side behind a corner is a diagonal of a polygon; NULL: no side is */
     size_t position_count, face_count, place_count;
-    double cosine; /* of the angle between two triangles' normals beyond which their edge is a crease */
+    double cosine; /* an edge is a crease where the angle between its triangles' normals has a smaller cosine */
 } e3d_creased_surface;
 
-/* Its corners and normals; freed by e3d_free_creases. */
+/* The vertices and normals of a creased surface; e3d_free_creases frees them. */
 typedef struct e3d_creases {
     int32_t *faces;   /* [3 * face_count] */
-    int32_t *sources; /* [added] the vertex that each further one is at */
+    int32_t *sources; /* [added] the vertex that each added one copies */
     float *normals;   /* [3 * (position_count + added)] */
     size_t added;
-    bool is_smooth; /* whether all corners at a place have one normal */
+    bool is_smooth; /* true if all corners at a place share one normal */
 } e3d_creases;
 
-/* Finds them; false if memory is out. */
+/* Finds the creases of a surface; false if memory is out. */
 bool e3d_find_creases(const e3d_creased_surface *surface, e3d_creases *made);
 void e3d_free_creases(e3d_creases *made);
 
-/* Finds whether the triangles enclose a volume, their fronts outside; the angle and what is visible do not matter.
- * -1 if memory is out. */
+/* Finds whether the triangles enclose a volume, with their fronts outside; `cosine` and `visible` are not used. -1 if memory is
+ * out. */
 int e3d_encloses(const e3d_creased_surface *surface);
 
-/* Finds the sides that one triangle alone has: sides[2 * room], the places that it runs along from and to. Returns how many; -1
- * if memory is out, -2 if they are more than `room`, or a side is run along more often one way than the other by several. */
+/* Finds the sides that only one triangle has: sides[2 * room], from place to place. Returns how many there are; -1 if memory is
+ * out; -2 if there are more than `room`, or if triangles run along a side at least twice more in one direction than in the
+ * other. */
 int64_t e3d_find_open_sides(const e3d_creased_surface *surface, int32_t *sides, size_t room);
 
-/* Triangles that wear an image: (vertices, 3) positions and normals, (vertices, 2) coordinates whose origin is at the bottom left,
- * and a number for each vertex, the same for those that are equal in all of these. */
+/* Textured triangles: (vertices, 3) positions and normals, (vertices, 2) coordinates from the bottom left, and a number for each
+ * vertex, which equal vertices share. */
 typedef struct e3d_mapped_surface {
     const float *positions, *normals, *uvs;
     const int32_t *faces, *points; /* in range */
     size_t face_count;             /* below 2^30 */
 } e3d_mapped_surface;
 
-/* Finds which corners share a tangent, (faces, 3), and the tangents: (groups, 4), for which there is room for three a face. False
- * if memory is out. */
+/* Finds the tangents, (groups, 4), and the number of each corner's tangent, (faces, 3). There is room for three groups a face.
+ * False if memory is out. */
 bool e3d_find_tangents(const e3d_mapped_surface *surface, int32_t *groups, float *tangents, size_t *group_count);
 
 /* The sides of triangles: side k of a face is from its vertex k to the next one. */
 typedef struct e3d_sides {
     const int32_t *faces;  /* [3 * face_count] */
-    const int32_t *points; /* of each vertex the point that it is, less than point_count; NULL: each is its own */
-    const uint8_t *wanted; /* [3 * face_count]; NULL: all are */
+    const int32_t *points; /* of each vertex the number of its point, below point_count; NULL: each has a point of its own */
+    const uint8_t *wanted; /* [3 * face_count] not 0 where the side is wanted; NULL: all are */
     size_t face_count, point_count;
 } e3d_sides;
 
-/* Marks each side that is the first between its two points, of those that are wanted and join two. first[3 * face_count] is
- * zeros to begin with. False if memory is out; fewer than 2^32 sides. */
+/* Sets first[3 * face_count], zeros at first, to 1 at each wanted side that joins two points and is the first one between them.
+ * There are fewer than 2^32 sides. False if memory is out. */
 bool e3d_find_edges(const e3d_sides *sides, uint8_t *first);
 
 typedef enum e3d_cut_problem {
     E3D_CUT_DONE,
     E3D_CUT_NO_MEMORY,
-    E3D_CUT_OUT_OF_RANGE, /* an index of a position, a size, or the number of all corners */
+    E3D_CUT_OUT_OF_RANGE, /* an index of a position, a size, or the count of corners is out of range */
 } e3d_cut_problem;
 
-/* Polygons, whose corners stand one behind another. */
+/* Polygons; their corners follow each other. */
 typedef struct e3d_polygons {
-    const int32_t *sizes;   /* [count] corners of each; those of fewer than three give no triangle */
-    const int32_t *indices; /* [corner_count] of each corner its position; NULL if it has the corner's number */
+    const int32_t *sizes;   /* [count] the number of corners; a polygon of fewer than three gives no triangle */
+    const int32_t *indices; /* [corner_count] the position of each corner; NULL: a corner has the position of its own number */
     const void *positions;  /* [3 * position_count] doubles or floats */
     bool are_doubles;
     size_t count, corner_count, position_count;
 } e3d_polygons;
 
-/* n - 2 triangles for a polygon of n corners. */
+/* The triangles of polygons: n - 2 for n corners. */
 typedef struct e3d_cut {
-    int32_t *corners;  /* [3 * triangles] corner numbers, counted over all polygons */
-    int32_t *polygons; /* [triangles] the polygon that each is part of */
-    uint8_t *visible;  /* [3 * triangles] whether the edge behind a corner is the polygon's */
+    int32_t *corners;  /* [3 * triangles] numbers of corners, counted over all polygons */
+    int32_t *polygons; /* [triangles] the polygon of each triangle */
+    uint8_t *visible;  /* [3 * triangles] whether the side behind a corner is a side of the polygon */
     bool all_visible;
-    bool is_complete;  /* false if concave polygons were cut as fans, since no tests were left or they are too large */
+    bool is_complete;  /* false if concave polygons were cut as fans: they are too large, or no tests were left */
 } e3d_cut;
 
-/* Cuts polygons into triangles; what is tested to find the ears of concave ones is taken from *tests. */
+/* Triangulates polygons. Each search for an ear of a concave polygon takes its tests from *tests. */
 e3d_cut_problem e3d_cut_polygons(const e3d_polygons *polygons, int64_t *tests, e3d_cut *made);
-
-#endif

@@ -1,7 +1,5 @@
-/* What a frame may be written to: arrays, (height, width[, channels]), each of which may be NULL. What is not asked for is
- * not computed. */
-#ifndef E3D_API_TARGETS_H
-#define E3D_API_TARGETS_H
+/* The targets of a frame: arrays, (height, width[, channels]). NULL: that output is not asked for, and is not computed. */
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -12,9 +10,9 @@
 extern "C" {
 #endif
 
-/* The outputs: X(ENUMERATOR, name, type of a channel, channels, what is written where nothing shows, what it tells of the
- * surface that shows: the plan of a frame asks for this). IDs are those of faces, lines and points; triangle_id is -1 on the
- * latter two. Vectors have unit length or the length of the world; normals look towards the viewer. */
+/* The outputs: X(ENUMERATOR, name, type of a channel, channels, the value where nothing shows, the item of the plan that asks
+ * for it). IDs are of faces, lines and points; triangle_id is -1 on the latter two. Directions have unit length; normals look
+ * towards the viewer. */
 #define E3D_EACH_OUTPUT(X) \
     X(E3D_OUTPUT_COLOR, color, uint8_t, 4, 0, COLOR) /* RGBA */ \
     X(E3D_OUTPUT_DEPTH, depth, float, 1, 0, POSITIONS) /* along the view axis */ \
@@ -33,7 +31,7 @@ extern "C" {
     X(E3D_OUTPUT_METALLIC_ROUGHNESS, metallic_roughness, float, 2, 0, MATERIALS) \
     X(E3D_OUTPUT_EMISSIVE, emissive, float, 3, 0, MATERIALS) /* working space */ \
     X(E3D_OUTPUT_TANGENT, tangent, float, 4, 0, TANGENTS) /* view space, and the sign of the bitangent */ \
-    X(E3D_OUTPUT_RADIANCE, radiance, float, 3, 0, RADIANCE) /* working space: the colour before it is tone mapped and clamped */
+    X(E3D_OUTPUT_RADIANCE, radiance, float, 3, 0, RADIANCE) /* the working space's colour before tone mapping and clamping */
 
 typedef enum e3d_output_kind { E3D_EACH_OUTPUT(E3D_ENUMERATOR) E3D_OUTPUTS } e3d_output_kind;
 
@@ -50,6 +48,4 @@ extern const e3d_array_format E3D_OUTPUT_FORMATS[E3D_OUTPUTS];
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

@@ -1,13 +1,10 @@
-/* Triangles of a user interface: two-dimensional, textured, blended, each list of them cut by scissor rectangles.
- *
- * In:  a picture and lists as Dear ImGui makes them (ImDrawVert, 16- or 32-bit indices, commands).
- * Out: the picture's pixels, blended over in the order of the list. docs/exactness, section 11, has the rules.
- * Always: every backend gives the same bytes. Any position, uv and colour is legal: what lies outside is clipped, and a triangle
- *      with a position that is no number draws nothing. One thread, no allocation; the whole picture is the call's as long as
- *      it lasts.
- */
-#ifndef E3D_UI_H
-#define E3D_UI_H
+/* Triangles of a user interface: two-dimensional, textured, blended, clipped by scissor rectangles.
+ * In: a picture, and lists as Dear ImGui makes them (ImDrawVert, 16- or 32-bit indices, commands).
+ * Out: the picture's pixels, with the triangles blended over them in the order of the list. docs/exactness, section 11, has the
+ * rules.
+ * Always: every backend gives the same bytes. Any position, uv and colour is legal: triangles are clipped, and one with a NaN in
+ * a position draws nothing. One thread, no allocation; nobody else may use the picture during the call. */
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -20,7 +17,7 @@
 extern "C" {
 #endif
 
-/* The longest side of a picture, and of a texture: texel coordinates in 1/256 are exact in float32. */
+/* The longest side of a picture and of a texture: up to it, texel coordinates in 1/256 are exact in float32. */
 #define E3D_UI_MAX_SIDE 16384
 
 typedef struct e3d_ui_vertex {
@@ -31,8 +28,8 @@ typedef struct e3d_ui_vertex {
 
 typedef enum e3d_ui_format {
     E3D_UI_RGBA8 = 0,
-    E3D_UI_A8 = 1,    /* white, of that alpha */
-    E3D_UI_RGBX8 = 2, /* opaque: the fourth byte isn't looked at */
+    E3D_UI_A8 = 1,    /* white, with that alpha */
+    E3D_UI_RGBX8 = 2, /* opaque: the fourth byte is ignored */
 } e3d_ui_format;
 
 typedef enum e3d_ui_filter {
@@ -40,23 +37,23 @@ typedef enum e3d_ui_filter {
     E3D_UI_NEAREST = 1,
 } e3d_ui_filter;
 
-/* Coordinates beyond its sides take the texels at the sides. */
+/* Coordinates beyond a side read the texels at that side. */
 typedef struct e3d_ui_texture {
-    const uint8_t *pixels; /* top row first; unless of A8 aligned to 4 bytes; shares no byte with the picture */
+    const uint8_t *pixels; /* top row first; aligned to 4 bytes unless A8; no byte is shared with the picture */
     int32_t width;         /* 1 ... E3D_UI_MAX_SIDE */
     int32_t height;
-    int32_t stride; /* bytes from a row to the one below it; a multiple of a texel's; height * stride is below 2^31 */
+    int32_t stride; /* bytes from a row to the one below it: a multiple of a texel's; height * stride is below 2^31 */
     e3d_ui_format format;
     e3d_ui_filter filter;
 } e3d_ui_texture;
 
-/* Triangles of three indices each, to which `first_vertex` is added. Pixels in [left, right) x [top, bottom) may change. */
+/* Triangles of three indices each; `first_vertex` is added to the indices. Pixels in [left, right) x [top, bottom) may change. */
 typedef struct e3d_ui_command {
     int32_t left, top, right, bottom;
     uint32_t first_index;
     uint32_t index_count; /* a multiple of 3 */
     uint32_t first_vertex;
-    uint32_t texture; /* its place in the list's textures */
+    uint32_t texture; /* the number of its texture in the list */
 } e3d_ui_command;
 
 typedef struct e3d_ui_list {
@@ -71,11 +68,10 @@ typedef struct e3d_ui_list {
     uint32_t index_bytes; /* 2 or 4 */
 } e3d_ui_list;
 
-/* Draws all commands. E3D_INVALID_ARGUMENT where a count, a size, an index or a texture is out of its range: then nothing is drawn. */
+/* Draws all commands. Returns E3D_INVALID_ARGUMENT, and draws nothing, if a count, a size, an index or a texture is out of
+ * range. */
 e3d_status e3d_ui_draw(e3d_backend backend, const e3d_canvas *picture, const e3d_ui_list *list);
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

@@ -1,6 +1,5 @@
-/* Where a piece lies: its box of sample centres (R10) and its edge functions (R12). */
-#ifndef E3D_COVERAGE_H
-#define E3D_COVERAGE_H
+/* The place of a piece: its box of sample centres (R10) and its edge functions (R12). */
+#pragma once
 
 #include "base/limits.h"
 #include "kernels/types/records.h"
@@ -12,8 +11,8 @@ typedef struct e3d_box {
     int32_t x0, y0, x1, y1;
 } e3d_box;
 
-/* The samples whose centres lie in the corners' rectangle, within the viewport (R10); with multisampling, the pixels that have samples
- * there (R104). */
+/* The samples whose centres lie in the corners' rectangle, within the viewport (R10); with multisampling, the pixels that
+ * have samples in it (R104). */
 static inline e3d_box e3d_sample_box(const int32_t x[3], const int32_t y[3], const e3d_viewport *viewport)
 {
     int32_t xlo = x[0], xhi = x[0], ylo = y[0], yhi = y[0];
@@ -32,7 +31,7 @@ static inline e3d_box e3d_sample_box(const int32_t x[3], const int32_t y[3], con
     return box;
 }
 
-/* Twice the area in 1/256 sample squared (R9). */
+/* Twice the area, in 1/256 sample squared (R9). */
 static inline int64_t e3d_doubled_area(const int32_t x[3], const int32_t y[3])
 {
     return (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
@@ -44,7 +43,7 @@ typedef struct e3d_edge {
     int32_t a, b;
 } e3d_edge;
 
-/* (u, v) from the centre of sample (x, y), in 1/256 sample. */
+/* The edge function at an offset (u, v) from the centre of sample (x, y), in 1/256 sample. */
 static inline e3d_edge e3d_edge_beside(const e3d_record *r, int k, int32_t x, int32_t y, int32_t u, int32_t v)
 {
     int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -58,8 +57,8 @@ static inline e3d_edge e3d_edge_beside(const e3d_record *r, int k, int32_t x, in
 
 static inline e3d_edge e3d_edge_at(const e3d_record *r, int k, int32_t x, int32_t y) { return e3d_edge_beside(r, k, x, y, 0, 0); }
 
-/* An edge of a piece at the first sample of a tile; 0 if the whole tile lies outside it. An edge with the whole tile
- * on its inner side is left out, so that those that cross the tile fit 32 bits. */
+/* Keeps an edge function at the first sample of a tile for a piece; 0 if the whole tile lies outside it. An edge with the
+ * whole tile inside is left out, so that the edges that cross the tile fit 32 bits. */
 static inline int e3d_keep_edge(e3d_edge edge, int k, e3d_piece *piece)
 {
     const int64_t span = E3D_TILE - 1;
@@ -79,6 +78,5 @@ static inline int e3d_piece_edge(const e3d_record *r, int k, int32_t x, int32_t 
     return e3d_keep_edge(e3d_edge_at(r, k, x, y), k, piece);
 }
 
-static inline int32_t e3d_in_tile(int32_t v) { return v < 0 ? 0 : v > E3D_TILE - 1 ? E3D_TILE - 1 : v; }
-
-#endif
+static inline int32_t e3d_in_tile(int32_t v) { return v < 0 ? 0 : v > E3D_TILE - 1 ? E3D_TILE - 1
+                                                                                   : v; }

@@ -1,4 +1,4 @@
-/* Which table of kernels serves which backend. */
+/* The table of kernels of each backend. */
 #include "base/machine.h"
 #include "e3d.h"
 #include "kernels/kernels.h"

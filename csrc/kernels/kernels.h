@@ -1,10 +1,7 @@
-/* The kernels: one table of functions per instruction set. The plain structs that they work on are in kernels/types/.
- *
- * Every kernel gives the bytes of docs/exactness; what a table adds is speed. Arrays that a kernel reads
- * or writes vector by vector have room for E3D_PAD elements past the end; what it leaves there means nothing.
- */
-#ifndef E3D_KERNELS_H
-#define E3D_KERNELS_H
+/* The kernels: one table of functions for each instruction set. The plain structs that they work on are in kernels/types/.
+ * Every kernel gives the bytes of docs/exactness; tables differ only in speed. Arrays that a kernel reads or writes vector by
+ * vector have room for E3D_PAD elements beyond the end; their contents mean nothing. */
+#pragma once
 
 #include "base/limits.h"
 #include "base/machine.h"
@@ -13,17 +10,17 @@
 #include "e3d.h"
 #include "e3d_canvas.h"
 #include "kernels/types/alpha.h"
+#include "kernels/types/ambient_occlusion.h"
 #include "kernels/types/casters.h"
 #include "kernels/types/fog.h"
 #include "kernels/types/fragments.h"
 #include "kernels/types/lobe.h"
-#include "kernels/types/texture_slots.h"
 #include "kernels/types/msaa_mixed.h"
-#include "kernels/types/ambient_occlusion.h"
 #include "kernels/types/records.h"
 #include "kernels/types/samples.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
+#include "kernels/types/texture_slots.h"
 #include "kernels/types/ui.h"
 #include "kernels/types/vertices.h"
 #include "kernels/types/visible.h"
@@ -34,11 +31,9 @@ typedef struct e3d_kernels {
 } e3d_kernels;
 #undef E3D_KERNEL
 
-/* NULL for E3D_BACKEND_SCALAR and for what this build or CPU lacks. */
+/* NULL for E3D_BACKEND_SCALAR, and if this build or CPU lacks the backend. */
 const e3d_kernels *e3d_kernels_for(e3d_backend backend);
 
 extern const e3d_kernels e3d_kernels_portable;
 #define E3D_DECLARE_KERNELS(backend, name, ...) extern const e3d_kernels e3d_kernels_##name;
 E3D_EACH_BUILT_BACKEND(E3D_DECLARE_KERNELS)
-
-#endif

@@ -1,8 +1,7 @@
 /* The arc tangent with the same bits everywhere: the method and the operations of engine/base/linalg/trigonometry.py. */
-#ifndef E3D_ARC_TANGENT_H
-#define E3D_ARC_TANGENT_H
+#pragma once
 
-/* Of t in [0, 1], within 2 ulps. */
+/* For t in [0, 1], within 2 ulps. */
 static inline double e3d_arc_tangent(double t)
 {
     static const double OF_EIGHTHS[9] = {0.0,
@@ -23,5 +22,3 @@ static inline double e3d_arc_tangent(double t)
         series = series * square + TERMS[k];
     return OF_EIGHTHS[nearest] + (step + step * square * series);
 }
-
-#endif

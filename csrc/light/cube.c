@@ -4,7 +4,7 @@
 
 #include "light/cube.h"
 
-/* Of each face the axes along which its columns and rows go: +X -X +Y -Y +Z -Z, as OpenGL lays them out. */
+/* The axes along which the columns and rows of each face go: +X -X +Y -Y +Z -Z, in OpenGL's layout. */
 static const struct {
     double middle[3], across[3], down[3];
 } FACES[E3D_FACES] = {
@@ -55,11 +55,11 @@ static place place_of(float x, float y, float z)
 
 /* ---- borders ---- */
 
-/* The texel of another face that lies at the edge beside a texel of the border. */
+/* The texel of another face that touches the edge beside a texel of the border. */
 static const float *beyond(const e3d_cube *cube, int face, int32_t column, int32_t row)
 {
     double ends[2] = {e3d_cube_middle(cube->size, column), e3d_cube_middle(cube->size, row)}, d[3];
-    for (int k = 0; k < 2; k++) /* only just beyond the edge: further out, the texels of its row would drift apart */
+    for (int k = 0; k < 2; k++) /* only just beyond the edge: farther out, the texels of a row would drift apart */
         ends[k] = fabs(ends[k]) > 1.0 ? ends[k] / fabs(ends[k]) * (1.0 + 0x1p-20) : ends[k];
     e3d_cube_direction(face, ends[0], ends[1], d);
     place at = place_of((float)d[0], (float)d[1], (float)d[2]);
@@ -77,7 +77,7 @@ static void fill_corner(const e3d_cube *cube, int face, int32_t column, int32_t 
     const float *a = e3d_cube_texel(cube, face, inner[0], inner[1]), *b = e3d_cube_texel(cube, face, column, inner[1]),
                 *c = e3d_cube_texel(cube, face, inner[0], row);
     float *out = e3d_cube_texel(cube, face, column, row);
-    for (int k = 0; k < E3D_TEXEL; k++) /* alike texels keep their value, which three thirds would not */
+    for (int k = 0; k < E3D_TEXEL; k++) /* equal texels keep their value, which three thirds would not */
         out[k] = a[k] + ((b[k] - a[k]) + (c[k] - a[k])) / 3.0f;
 }
 

@@ -1,6 +1,5 @@
-/* The faces of a cube, as e3d_environment_level has them, and places on it (R60). */
-#ifndef E3D_CUBE_H
-#define E3D_CUBE_H
+/* The faces of a cube, as in e3d_environment_level, and places on it (R60). */
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -24,16 +23,14 @@ static inline float *e3d_cube_texel(const e3d_cube *cube, int face, int32_t colu
     return cube->texels + E3D_TEXEL * (((size_t)face * pitch + (size_t)(row + 1)) * pitch + (size_t)(column + 1));
 }
 
-/* The coordinate of the middle of a texel on its face, in (-1, 1). */
+/* The coordinate of a texel's middle on its face, in (-1, 1). */
 static inline double e3d_cube_middle(int32_t size, int32_t number) { return (2.0 * number + 1.0) / size - 1.0; }
 
 /* The direction of a place on a face; not of unit length. */
 void e3d_cube_direction(int face, double p, double q, double out[3]);
 /* The same of unit length. */
 void e3d_cube_unit(int face, double p, double q, float out[3]);
-/* The solid angle of a texel but for a factor that is common to all of a cube. */
+/* The solid angle of a texel, without a factor that all texels of a cube share. */
 double e3d_cube_weight(double p, double q);
-/* Fills the borders with the texels of the neighbours; where three meet, with their mean. */
+/* Fills the borders with the neighbouring faces' texels; where three faces meet, with their mean. */
 void e3d_cube_fill_border(const e3d_cube *cube);
-
-#endif

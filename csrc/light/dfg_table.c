@@ -1,4 +1,4 @@
-/* What rough surfaces reflect of light that is 1 all around: make_dfg_table.py writes the numbers, and says what they are. */
+/* Written by make_dfg_table.py, which explains the table. */
 #include "e3d_environment.h"
 
 const float E3D_DFG_TABLE[E3D_DFG_TABLES][E3D_DFG_SIZE * E3D_DFG_SIZE] = {

@@ -1,10 +1,7 @@
-/* Environments: a picture of the whole sphere becomes a cube, and what mirrors of some roughness show of it.
- *
- * In:  an equirectangular picture of linear radiance.
- * Out: the levels of e3d_environment_view, in one piece of memory.
- * Always: the same bytes for any number of threads: each texel is computed by one thread, in a fixed order, from directions of
- *      written polynomials (docs/exactness, R65-R68).
- */
+/* Environments: turns a picture of the whole sphere into a cube, and finds what mirrors of several roughnesses show of it.
+ * In: an equirectangular picture of linear radiance. Out: the levels of e3d_environment_view, in one piece of memory.
+ * Always: the same bytes for any number of threads: each texel is computed by one thread, in a fixed order, from directions
+ * by written polynomials (docs/exactness, R65-R68). */
 #include <stdlib.h>
 
 #include "base/fpenv.h"
@@ -19,7 +16,7 @@ enum { LEAST_SIZE = 32,
        LEAST_LOBES = 64,
        MOST_SIZE = 1024 };
 
-/* Of faces that have about as many texels to a degree as the picture has along the horizon and along a meridian. */
+/* The size of faces that have about as many texels a degree as the picture has along the horizon and along a meridian. */
 static int32_t size_of_faces(int32_t width, int32_t height)
 {
     int32_t size = LEAST_SIZE, around = width > 2 * height ? width : 2 * height;
@@ -28,7 +25,7 @@ static int32_t size_of_faces(int32_t width, int32_t height)
     return size;
 }
 
-/* A lobe needs as many texels as show its shape: no more, but also where the picture has fewer. */
+/* The size of a level: enough texels for the shape of its lobe, even if the picture has fewer. */
 static int32_t size_of_level(int32_t faces, int level)
 {
     static const int32_t MOST[E3D_ENVIRONMENT_LEVELS] = {MOST_SIZE, 256, 128, 64, 32, 32, 32, 32, 32};
@@ -61,7 +58,7 @@ static e3d_cube cube_of(const e3d_environment *environment, int level)
     return (e3d_cube){(float *)view->texels, view->size};
 }
 
-/* The levels from the first; 0 when memory is out. */
+/* Fills the levels, from the first on; 0 when memory is out. */
 static int fill(const e3d_environment *environment, const float *pixels, int32_t width, int32_t height, int threads)
 {
     e3d_cube faces = cube_of(environment, 0);

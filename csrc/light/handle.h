@@ -1,6 +1,5 @@
-/* What a handle of an environment stands for. */
-#ifndef E3D_ENVIRONMENT_HANDLE_H
-#define E3D_ENVIRONMENT_HANDLE_H
+/* The struct behind a handle of an environment. */
+#pragma once
 
 #include "e3d_environment.h"
 
@@ -8,5 +7,3 @@ struct e3d_environment {
     e3d_environment_view view;
     float *texels;
 };
-
-#endif

@@ -1,16 +1,14 @@
-/* Light trees (R67): a cell stands for the light of its texels at their centre of light, so that a small sun in a dark cell stays
- * where it is. After the light trees of Walter et al., Lightcuts, 2005.
- */
+/* Light trees (R67): a cell stands for the light of its texels at their centre of light, so that a small sun in a dark cell
+ * keeps its place. After the light trees of Walter et al., Lightcuts, 2005. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/pool.h"
-#include "light/cube.h"
 #include "light/light_tree.h"
 
-enum { MOST_CELLS = 256 }; /* along a face: what is finer, no lobe tells apart */
-#define FAINT 0x1p-100     /* light that a black texel counts for, to have a centre */
+enum { MOST_CELLS = 256 }; /* cells along a face: lobes don't resolve finer ones */
+#define FAINT 0x1p-100     /* the light that a black texel counts for, so that a cell has a centre */
 
 /* Sums over a cell's texels. */
 typedef struct cell {
@@ -49,7 +47,7 @@ static void add_cell(const cell *part, cell *sum)
     }
 }
 
-/* A row of cells: each sums up a square of texels, or four finer cells. */
+/* Sums up a row of cells, each from a square of texels or from four finer cells. */
 static void sum_row(void *argument, int number)
 {
     const build_job *job = argument;
@@ -95,7 +93,7 @@ static void group_row(void *argument, int number)
     }
 }
 
-/* The cells of a level, and their groups. */
+/* Builds the cells of a level, and their groups. */
 static int build_level(build_job *job, int threads, e3d_tree_level *out)
 {
     size_t cells = E3D_FACES * (size_t)job->size * (size_t)job->size;

@@ -1,6 +1,5 @@
-/* The light of a cube as a tree: cells, each of which sums up the four of the next level. */
-#ifndef E3D_LIGHT_TREE_H
-#define E3D_LIGHT_TREE_H
+/* The light of a cube as a tree: each cell sums up four cells of the next level. */
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -26,8 +25,6 @@ static inline const e3d_cell_group *e3d_group_at(const e3d_tree_level *level, in
     return &level->groups[((size_t)face * (size_t)level->size + (size_t)row) * (size_t)level->size + (size_t)column];
 }
 
-/* 0 when memory is out; either way to be freed. */
+/* Returns 0 when memory is out; the tree must be freed in either case. */
 int e3d_light_tree_create(const e3d_cube *cube, int threads, e3d_light_tree *out);
 void e3d_light_tree_free(e3d_light_tree *tree);
-
-#endif

@@ -11,16 +11,15 @@
 
 #include "base/pool.h"
 #include "light/arc_tangent.h"
-#include "light/cube.h"
 #include "light/picture.h"
 
 #define E3D_MAX_RADIANCE 0x1p40f
 #define HALF_PI 0x1.921fb54442d18p+0
 
-enum { PLACES = 3 }; /* along a texel, for each pixel of the picture that falls on it */
+enum { PLACES = 3 }; /* places along a texel, for each pixel of the picture that falls on it */
 
-/* A copy whose pixels are numbers within the limits and fill a register each; each row and column goes on beyond the ends, around
- * the sphere. */
+/* A copy of the picture with its numbers limited, and a register for each pixel. Rows and columns continue beyond the ends,
+ * around the sphere. */
 typedef struct picture {
     float *texels; /* (height + 2, width + 2, 4) */
     int32_t width, height;
@@ -42,12 +41,12 @@ typedef struct copy_job {
     const picture *to;
 } copy_job;
 
-/* How many pixels to either side are about as wide, near a pole, as a pixel is high. */
+/* How many pixels to either side, near a pole, are together about as wide as a pixel is high. */
 static int32_t spread_of(const picture *p, int32_t row)
 {
     int32_t from_pole = row < p->height - 1 - row ? row : p->height - 1 - row;
     double angle = 2.0 * HALF_PI * (from_pole + 0.5) / p->height, square = angle * angle;
-    double sine = angle * (1.0 - square / 6.0 * (1.0 - square / 20.0)); /* where it matters, to a thousandth */
+    double sine = angle * (1.0 - square / 6.0 * (1.0 - square / 20.0)); /* accurate to a thousandth where it matters */
     double spread = (1.0 / sine - 0.5) * ((double)p->width / (2.0 * p->height)), most = (p->width - 1) / 2;
     return angle > 1.0 ? 0 : (int32_t)(spread < most ? spread : most);
 }
@@ -80,7 +79,7 @@ static void copy_row(void *argument, int row)
     memcpy(picture_texel(to, to->width, row), picture_texel(to, 0, row), bytes);
 }
 
-/* Beyond a pole the picture goes on half around. */
+/* Beyond a pole the picture continues half a turn around. */
 static void copy_poles(const picture *to)
 {
     const int32_t rows[2][2] = {{-1, 0}, {to->height, to->height - 1}};
@@ -102,7 +101,7 @@ static int copy_picture(const float *pixels, int threads, picture *to)
     return 1;
 }
 
-/* Adds what the picture shows at (u, v), which wrap around and lie in [0, 1]. */
+/* Adds the picture's radiance at (u, v); these wrap around, and lie in [0, 1]. */
 static void add_sample(const picture *p, double u, double v, float sum[E3D_TEXEL])
 {
     float x = (float)(u * p->width + 0.5), y = (float)(v * p->height + 0.5);
@@ -120,7 +119,7 @@ static void add_sample(const picture *p, double u, double v, float sum[E3D_TEXEL
 
 /* ---- places of the sphere ---- */
 
-/* Of a vector's angle to the axis x, as a share of the whole turn: in (-1/2, 1/2]. */
+/* A vector's angle to the x axis, as a share of the whole turn: in (-1/2, 1/2]. */
 static double turn_of(double y, double x)
 {
     double rise = fabs(y), run = fabs(x), longer = rise > run ? rise : run, shorter = rise > run ? run : rise;
@@ -139,7 +138,7 @@ typedef struct faces_job {
     const picture *from;
     const e3d_cube *to;
     int places;          /* along a texel */
-    const double *turns; /* of each place along a row: the azimuth on an upright face */
+    const double *turns; /* for each place along a row its azimuth on an upright face */
 } faces_job;
 
 static double place_at(const faces_job *job, int32_t number) { return e3d_cube_middle(job->to->size * job->places, number); }
@@ -147,7 +146,7 @@ static double place_at(const faces_job *job, int32_t number) { return e3d_cube_m
 /* A row of the four upright faces. */
 static void fill_upright(void *argument, int row)
 {
-    static const double BASE[4] = {0.5, 0.0, 0.75, 0.25}; /* the azimuth of the middles: +X -X +Z -Z */
+    static const double BASE[4] = {0.5, 0.0, 0.75, 0.25}; /* the azimuths of the middles: +X -X +Z -Z */
     static const int FACE[4] = {0, 1, 4, 5};
     const faces_job *job = argument;
     int n = job->places;
@@ -187,7 +186,7 @@ static void fill_level(void *argument, int row)
 static int fill_faces(const picture *from, int threads, const e3d_cube *cube)
 {
     int around = from->width > 2 * from->height ? from->width : 2 * from->height; /* pixels */
-    int finest = 4 * cube->size;                                                  /* where one falls on a texel */
+    int finest = 4 * cube->size;                                                  /* the level where one pixel falls on a texel */
     faces_job job = {from, cube, PLACES * ((around + finest - 1) / finest), NULL};
     int32_t count = job.places * cube->size;
     double *turns = malloc((size_t)count * sizeof *turns);

@@ -1,13 +1,10 @@
 /* Equirectangular pictures to the faces of a cube. */
-#ifndef E3D_ENVIRONMENT_PICTURE_H
-#define E3D_ENVIRONMENT_PICTURE_H
+#pragma once
 
 #include <stdint.h>
 
 #include "light/cube.h"
 
-/* Fills the cube, borders too, with the mean of the picture over each texel; 0 when memory is out. pixels: as of
+/* Fills the cube with the mean of the picture over each texel, borders included; 0 when memory is out. pixels: as for
  * e3d_environment_create. */
 int e3d_cube_from_picture(const float *pixels, int32_t width, int32_t height, int threads, const e3d_cube *cube);
-
-#endif

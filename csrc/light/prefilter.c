@@ -8,8 +8,6 @@
 #include <string.h>
 
 #include "base/pool.h"
-#include "light/cube.h"
-#include "light/light_tree.h"
 #include "light/prefilter.h"
 #include "kernels/kernels.h"
 #include "kernels/types/lobe.h"
@@ -20,7 +18,7 @@ enum {
     SMALL = 32, /* texels of a face */
     GROUPS_IN_A_ROW = 16 /* whose sums are f32 */
 };
-/* The width of a cell over the lobe's there; of small levels, whose wide lobes show all of the light, less. */
+/* The greatest width of a cell, over the lobe's width there. Small levels, whose wide lobes show all of the light, use less. */
 #define COARSE 0.5f
 #define FINE 0.05f
 
@@ -66,7 +64,7 @@ static void begin(const lobe *lobe, int face, int32_t column, int32_t row, block
     }
 }
 
-/* Moves the sums so far to where they lose no bits. */
+/* Moves the sums into wider ones, so that they lose no bits. */
 static void settle(block *b)
 {
     for (int k = 0; k < E3D_LOBE_SUMS; k++)
@@ -84,7 +82,7 @@ static void add_group(block *b, const e3d_cell_group *group)
         settle(b);
 }
 
-/* Adds a group, or in place of its cells those that they sum up, where these are too large for the lobe. */
+/* Adds a group; cells that are too large for the lobe are replaced by their four finer cells. */
 static void visit(block *b, int level, int face, int32_t column, int32_t row)
 {
     const e3d_light_tree *tree = b->lobe->tree;

@@ -1,10 +1,7 @@
-/* occlusion: ambient occlusion of a picture of depths, band by band of rows (R125-R128).
- *
- * In:  depths, 0 where nothing shows.
- * Out: what of the light from all around reaches each pixel.
- * Always: the same bytes for any backend and number of threads: a pixel depends on depths alone, its filtered value on shares that are
- *      all found before.
- */
+/* occlusion: finds the ambient occlusion of a picture of depths, band by band of rows (R125-R128).
+ * In: depths, 0 where nothing shows. Out: the share of light from all around that reaches each pixel.
+ * Always: the same bytes for any backend and number of threads: a pixel depends on depths alone, and its filtered value on
+ * shares that are all found before. */
 #include "e3d_occlusion.h"
 
 #include <stdatomic.h>
@@ -20,24 +17,24 @@
 #include "kernels/types/ambient_occlusion.h"
 #include "reference/post/ambient_occlusion.h"
 
-enum { BAND = 64, /* rows that a thread takes at a time */
+enum { BAND = 64, /* a thread takes so many rows at a time */
        SPAN = E3D_OCCLUSION_SPAN };
 
-/* A worker's rows: SPAN of each kind. */
+/* The kinds of a worker's rows: SPAN rows of each. */
 typedef enum row_kind { NEARNESS = 0,
                         MEANS,
                         DEPTH,
                         RESULT,
                         KINDS } row_kind;
 
-/* What both passes over the picture work on. */
+/* The data of both passes over the picture. */
 typedef struct occlusion_job {
     const e3d_kernels *kernels;
     const e3d_occlusion_plan *plan;
     float *scratch, *visibility;
-    float *rows;   /* a worker's own: SPAN of each kind */
+    float *rows;   /* a worker's own rows: SPAN of each kind */
     size_t pitch;  /* of such a row */
-    uint8_t *some; /* of each row of the picture: whether anything of it is hidden */
+    uint8_t *some; /* for each row of the picture whether anything in it is hidden */
     atomic_int next;
 } occlusion_job;
 
@@ -80,17 +77,17 @@ static void fill_plan(const e3d_depth_picture *picture, float radius, e3d_occlus
 
 /* ---- rows ---- */
 
-/* Row y of a worker's rows of one kind, where its first pixel is. */
+/* The first pixel of row y, among a worker's rows of one kind. */
 static float *own_row(const occlusion_job *job, int worker, row_kind kind, int32_t y)
 {
     size_t number = ((size_t)worker * KINDS + (size_t)kind) * SPAN + (size_t)((y + SPAN) % SPAN);
     return job->rows + number * job->pitch + E3D_PAD;
 }
 
-/* Whether kernels, which work on whole vectors, neither read nor write past the end of a row of a picture. */
+/* Whether kernels, which work on whole vectors, neither read nor write beyond the end of a picture's row. */
 static int is_whole(const occlusion_job *job) { return job->plan->picture->width % E3D_PAD == 0; }
 
-/* Row y of a picture, as kernels may read it: where it lies, or a copy. Outside of the picture it is 0. */
+/* Row y of a picture for kernels to read: the row itself, or a copy. Outside the picture it is 0. */
 static const float *row_to_read(const occlusion_job *job, int worker, const float *picture, row_kind kind, int32_t y)
 {
     size_t width = (size_t)job->plan->picture->width;
@@ -105,7 +102,7 @@ static const float *row_to_read(const occlusion_job *job, int worker, const floa
     return own;
 }
 
-/* Where the kernels write a row of a picture: to its place, or to a worker's own row, which is put there afterwards. */
+/* The row of a picture for kernels to write: the row itself, or a worker's row, which is copied there afterwards. */
 static float *row_to_write(const occlusion_job *job, int worker, float *picture, int32_t y)
 {
     return is_whole(job) ? picture + (size_t)y * (size_t)job->plan->picture->width : own_row(job, worker, RESULT, 0);
@@ -118,7 +115,7 @@ static void put_row(const occlusion_job *job, const float *row, float *picture, 
         memcpy(picture + (size_t)y * width, row, width * sizeof *row);
 }
 
-/* What lies after the last pixel of a row stays 0, and so does its nearness. Returns the depths. */
+/* Finds the nearness of a row; beyond the last pixel, depths and nearness stay 0. Returns the depths. */
 static const float *find_nearness(const occlusion_job *job, int worker, int32_t y)
 {
     const e3d_depth_picture *picture = job->plan->picture;
@@ -149,7 +146,7 @@ static int has_some(const float *row, int32_t width)
 
 /* ---- the two passes ---- */
 
-/* The shares of a band, filtered along rows. */
+/* Finds the shares of a band, and filters them along rows. */
 static void find_shares(const occlusion_job *job, int worker, int32_t first, int32_t end)
 {
     int32_t width = job->plan->picture->width;
@@ -163,7 +160,7 @@ static void find_shares(const occlusion_job *job, int worker, int32_t first, int
         job->kernels->occlusion(job->plan, &rows, shares);
         rows.share[E3D_OCCLUSION_FILTER] = shares;
         job->some[y] = (uint8_t)has_some(shares, width);
-        if (!job->some[y]) { /* their means are 0, too */
+        if (!job->some[y]) { /* the means are 0, too */
             memset(job->scratch + (size_t)y * (size_t)width, 0, (size_t)width * sizeof *job->scratch);
             continue;
         }
@@ -173,7 +170,7 @@ static void find_shares(const occlusion_job *job, int worker, int32_t first, int
     }
 }
 
-/* Whether something is hidden in any of the rows around y. */
+/* Whether anything is hidden in the rows around y. */
 static int has_some_around(const occlusion_job *job, int32_t y)
 {
     for (int32_t row = y - E3D_OCCLUSION_FILTER; row <= y + E3D_OCCLUSION_FILTER; row++)
@@ -192,7 +189,7 @@ static void filter_row(const occlusion_job *job, int worker, int32_t y, const fl
     put_row(job, out, job->visibility, y);
 }
 
-/* The means of a band, filtered down columns. Rows are found when they are asked for. */
+/* Filters the means of a band down columns. Rows are found when they are needed. */
 static void filter(const occlusion_job *job, int worker, int32_t first, int32_t end)
 {
     const float *means[SPAN];

@@ -1,9 +1,10 @@
-/* Bloom (R124): the light above 1, halved level by level, added up again from the smallest on, and laid over the picture.
- *
- * In:  radiance and colours of a picture. Out: the colours, changed.
- * Always: each row of a level is one task, made of rows of another level alone; all rows of a level are there before the next begins.
- * Source of the pyramid: Jimenez, "Next generation post processing in Call of Duty: Advanced Warfare", 2014, with other filters.
- */
+/* Bloom (R124): halves the light above 1 level by level, adds the levels up from the smallest on, and adds the sum to the
+ * picture.
+ * In: radiance and colours of a picture. Out: the colours, changed.
+ * Always: each row of a level is one task, made from rows of another level alone; all rows of a level are finished before the
+ * next level begins.
+ * Source of the pyramid: Jimenez, "Next generation post processing in Call of Duty: Advanced Warfare", 2014, with other
+ * filters. */
 #include <stdatomic.h>
 #include <string.h>
 
@@ -17,7 +18,7 @@
 #include "reference/reference.h"
 
 enum { CHANNELS = E3D_BLOOM_CHANNELS,
-       ROWS = 1 + CHANNELS, /* of scratch, a worker */
+       ROWS = 1 + CHANNELS, /* rows of scratch for each worker */
        ROWS_AT_ONCE = 8 };
 
 /* The planes of a level, red, green, blue; rows are `width` floats apart. */
@@ -36,7 +37,7 @@ typedef struct bloom_job {
     void (*task)(const struct bloom_job *job, int32_t y, float *rows);
     int32_t count;
     atomic_int next;
-    atomic_int *bright; /* not 0: something is */
+    atomic_int *bright; /* not 0: something is brighter than 1 */
 } bloom_job;
 
 static size_t row_floats(int32_t width) { return (size_t)width + E3D_PAD; }
@@ -82,7 +83,7 @@ static void halve_level(const bloom_job *job, int32_t y, float *rows)
     }
 }
 
-/* Row y of twice the rows of a level's plane. */
+/* Finds row y of a level's plane at twice its height. */
 static void mix_rows(const bloom_job *job, int k, int32_t y, float *out)
 {
     const level *from = job->from;
@@ -107,7 +108,7 @@ static void lay(const bloom_job *job, int32_t y, float *rows)
         float *out = rows + (size_t)(1 + k) * job->row;
         mix_rows(job, k, y, rows);
         job->kernels->bloom_spread(rows, bloom->width, 0, out);
-        memset(out + bloom->width, 0, E3D_PAD * sizeof *out); /* whole vectors are read, and what is dark is left out */
+        memset(out + bloom->width, 0, E3D_PAD * sizeof *out); /* whole vectors are read; beyond the end it is dark */
         glow[k] = out;
     }
     uint32_t *rgba = (uint32_t *)(void *)bloom->color + (size_t)y * (size_t)bloom->width;

@@ -1,9 +1,9 @@
-/* Alpha: what is cut out, and what is laid over what is behind it.
- *
- * In:  pieces whose materials are masked or blended, and the samples that they cover.
- * Out: whether they show there; of blended ones, fragments sorted by sample, and their colours laid over the sample's.
- * Rules: R81 (coverage), R82 (what is kept), R83 (order), R84 (composition), R123 (of radiance), R105 and R108 (multisampling). The alpha of a surface is R80, in surface.c.
- */
+/* Alpha: the alpha test, and blending over what is behind.
+ * In: pieces whose materials are masked or blended, and the samples that they cover.
+ * Out: whether masked ones show there; the fragments of blended ones, sorted by sample, and samples with their colours
+ * blended over them.
+ * Rules: R81 (coverage), R82 (visibility), R83 (order), R84 (composition), R123 (of radiance), R105 and R108 (multisampling).
+ * The alpha of a surface is R80, in surface.c. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -13,7 +13,7 @@
 static e3d_alpha_mode alpha_mode_of(const ref_piece *piece)
 {
     const e3d_material *material = piece->primitive.material;
-    return material ? material->alpha_mode : E3D_ALPHA_OPAQUE; /* a wireframe's edge has none */
+    return material ? material->alpha_mode : E3D_ALPHA_OPAQUE; /* a wireframe's edge has no material */
 }
 
 static int32_t first_of(uint32_t samples)
@@ -83,7 +83,7 @@ e3d_status ref_add_fragment(ref_band *band, size_t sample, float depth, int64_t 
     return E3D_OK;
 }
 
-/* Pieces are numbered in order, or, where the last one shows, in the order of drawing. */
+/* Pieces are numbered in order; if the last one shows, in the order of drawing. */
 static int is_in_front(const ref_scene *scene, const ref_band *band, const ref_fragment *fragment)
 {
     int64_t kept = band->piece[fragment->sample];
@@ -95,7 +95,7 @@ static int is_in_front(const ref_scene *scene, const ref_band *band, const ref_f
     return fragment->depth < depth || (fragment->depth == depth && fragment->piece < kept);
 }
 
-/* Of one sample, the later piece first: drawing order, turned round. */
+/* For qsort: of one sample's fragments, the later piece comes first. */
 static int later_first(const void *left, const void *right)
 {
     const ref_fragment *a = left, *b = right;
@@ -120,7 +120,7 @@ static int farther_first(const void *left, const void *right)
     return later_first(left, right);
 }
 
-/* Where the fragments of each sample start. */
+/* Finds where the fragments of each sample begin. */
 static void index_fragments(ref_band *band)
 {
     size_t samples = (size_t)band->rows * (size_t)band->width * (size_t)band->pixel_samples;
@@ -146,7 +146,7 @@ void ref_sort_fragments(const ref_scene *scene, ref_band *band)
     index_fragments(band);
 }
 
-/* The first sample of the pixel that the piece has a fragment in: R105. */
+/* R105: the first sample of the pixel in which the piece has a fragment. */
 static ref_place first_with(const ref_band *band, const ref_place *at, int64_t piece)
 {
     ref_place first = {at->x, at->y, 0};
@@ -159,14 +159,14 @@ static ref_place first_with(const ref_band *band, const ref_place *at, int64_t p
     return first;
 }
 
-/* What a fragment lays over a sample: a surface with its alpha, and of what transmits (R133) the shares of light that pass. */
+/* A fragment's layer over a sample: a surface with its alpha, and for one that transmits (R133) the shares of light that pass. */
 typedef struct layer {
     ref_surface surface;
     int transmits;
     float transmittance[3];
 } layer;
 
-/* Returns 0 where the fragment's alpha is too little to lay it. */
+/* Returns 0 if the fragment's alpha is too small to blend. */
 static int find_layer(const ref_scene *scene, const ref_piece *piece, const ref_place *at, layer *out)
 {
     ref_surface_at(scene, piece, at, &out->surface);

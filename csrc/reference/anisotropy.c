@@ -1,13 +1,11 @@
-/* Anisotropy: a lobe that is rougher along one direction, as brushed metal has.
- *
- * In:  a surface with its tangent, its mapped normal and what its texture says; the half vector of a light.
+/* Anisotropy: a lobe that is rougher along one direction than across it, as that of brushed metal.
+ * In: a surface with its tangent, its mapped normal and its texel; the half vector of a light.
  * Out: the directions of the lobe; D times V; the normal that mirrors light from all around.
- * Rules: R136 (directions), R137 (lights), R138 (light from all around). Sources: KHR_materials_anisotropy; Burley 2012; Heitz 2014;
- *      the bent normal is that of Khronos's sample viewer.
- */
+ * Rules: R136 (directions), R137 (lights), R138 (light from all around).
+ * Sources: KHR_materials_anisotropy; Burley 2012; Heitz 2014; the bent normal is that of Khronos's sample viewer. */
 #include "reference/surface.h"
 
-/* A direction along the surface, where nothing tells one. */
+/* Finds any direction along the surface, if nothing defines one. */
 static void any_direction(const float n[3], float out[3])
 {
     const float axis[3] = {fabsf(n[0]) < 0.5f ? 1.0f : 0.0f, fabsf(n[0]) < 0.5f ? 0.0f : 1.0f, 0.0f};

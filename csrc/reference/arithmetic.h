@@ -3,8 +3,7 @@
  * Always: IEEE 754, round to nearest even, denormals kept (base/fpenv.h), nothing
  * contracted or reassociated. Conversions to integers are only given values that fit.
  */
-#ifndef E3D_REFERENCE_ARITHMETIC_H
-#define E3D_REFERENCE_ARITHMETIC_H
+#pragma once
 
 #include <math.h>
 #include <stdint.h>
@@ -12,7 +11,7 @@
 
 #include "base/limits.h"
 
-/* Both give b when the comparison is false, NaN included. */
+/* Both return b if the comparison is false, as it is for NaN. */
 static inline float ref_min(float a, float b) { return a < b ? a : b; }
 static inline float ref_max(float a, float b) { return a > b ? a : b; }
 
@@ -31,7 +30,7 @@ static inline float ref_floor(float v)
     return i - (i > v ? 1.0f : 0.0f);
 }
 
-/* floor(n / 256): an arithmetic shift, in terms that C defines. */
+/* floor(n / 256), without shifting a negative number. */
 static inline int32_t ref_floor_256(int32_t n) { return n >= 0 ? n / 256 : -((255 - n) / 256); }
 
 static inline float ref_dot3(const float a[3], const float b[3])
@@ -45,7 +44,8 @@ static inline void ref_cross(const float a[3], const float b[3], float out[3])
         out[c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
 }
 
-/* A vector whose length is zero, or too great for a float, becomes zero (R22), or no number if it was none. */
+/* Normalises a vector. If its length is zero, or too great for a float, it becomes zero (R22); if it has a NaN, it becomes
+ * NaN. */
 static inline void ref_normalize(float v[3])
 {
     float length2 = ref_dot3(v, v);
@@ -92,5 +92,3 @@ static inline float ref_pow(float x, float n)
 {
     return x >= 0x1p-100f ? ref_exp2(n * ref_log2(x)) : 0.0f;
 }
-
-#endif

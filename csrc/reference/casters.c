@@ -1,8 +1,6 @@
-/* Casters: every face that may hide a light, in the world.
- *
- * In:  the frame's casters. Out: a list of their faces, in no order that matters.
- * Rules: R97; the corners are R3's.
- */
+/* Casters: all faces that may hide a light, in the world.
+ * In: the frame's casters. Out: a list of their faces; its order does not matter.
+ * Rules: R97; the corners are R3's. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,10 +1,8 @@
-/* Clip: reject what cannot be seen, cut what crosses the near plane, w = E3D_W_MIN or the guard band.
- *
- * In:  the corners of a primitive in clip space.
+/* Clip: rejects primitives that cannot be seen, and clips those that cross the near plane, w = E3D_W_MIN or the guard band.
+ * In: the corners of a primitive in clip space.
  * Out: a verdict; the corners that are left, with their barycentrics in the original primitive.
  * Rules: R4 (non-finite), R5 (outcodes), R6 (reject), R7 (cut, in f64).
- * Source: Sutherland and Hodgman, "Reentrant polygon clipping", 1974, in homogeneous space.
- */
+ * Source: Sutherland and Hodgman, "Reentrant polygon clipping", 1974, in homogeneous space. */
 #include <math.h>
 #include <string.h>
 
@@ -23,7 +21,8 @@ enum {
     CLIP_BITS = NEAR_BIT | W_MIN_BIT | GUARD_BIT
 };
 
-enum { PLANES = 6, COMPONENTS = 7 }; /* a cut vertex is x, y, z, w and three barycentrics */
+enum { PLANES = 6,
+       COMPONENTS = 7 }; /* a cut vertex is x, y, z, w and three barycentrics */
 
 /* The greatest power of two that keeps factor * samples / 2 within E3D_GUARD. */
 float ref_guard_factor(int32_t samples)
@@ -51,7 +50,8 @@ static unsigned outcode(const ref_scene *scene, const float p[4])
     return code;
 }
 
-static int corner_count(ref_kind kind) { return kind == REF_FACE ? 3 : kind == REF_POINT ? 1 : 2; }
+static int corner_count(ref_kind kind) { return kind == REF_FACE ? 3 : kind == REF_POINT ? 1
+                                                                                         : 2; }
 
 /* R4 and R6 */
 ref_verdict ref_test_primitive(const ref_scene *scene, ref_kind kind, const ref_corner *corners)
@@ -72,7 +72,7 @@ ref_verdict ref_test_primitive(const ref_scene *scene, ref_kind kind, const ref_
     return any & CLIP_BITS ? REF_NEEDS_CLIPPING : REF_ACCEPTED;
 }
 
-/* Not negative on the inside. */
+/* The distance from a plane; not negative inside. */
 static double distance(const ref_scene *scene, int plane, const double v[COMPONENTS])
 {
     double gx = (double)scene->guard_x, gy = (double)scene->guard_y;
@@ -86,7 +86,7 @@ static double distance(const ref_scene *scene, int plane, const double v[COMPONE
     }
 }
 
-/* From the inside to the outside end, so that both primitives of an edge get the same bits. */
+/* Cuts an edge from its inside to its outside end, so that both primitives of the edge get the same bits. */
 static void cut(const double inside[COMPONENTS], double d_inside, const double outside[COMPONENTS],
                 double d_outside, double out[COMPONENTS])
 {
@@ -111,7 +111,7 @@ static void narrow(const double v[COMPONENTS], ref_corner *out)
         out->barycentric[c] = (float)v[4 + c];
 }
 
-/* One plane; returns the number of vertices of the polygon that is left: at most count * 3 / 2. */
+/* Clips at one plane. Returns how many vertices are left, at most count * 3 / 2. */
 static int clip_polygon(const ref_scene *scene, int plane, double in[][COMPONENTS], int count,
                         double out[][COMPONENTS])
 {

@@ -1,9 +1,6 @@
-/* Environment: light from a direction, and what rough surfaces reflect of light from all of them.
- *
- * In:  an environment as a frame uses it, directions in world space.
- * Out: red, green and blue.
- * Rules: R60 (faces), R61 (texels), R62 (levels), R63 (background), R64 (albedos).
- */
+/* Environment: light from a direction, and the share of light from all directions that rough surfaces reflect.
+ * In: an environment as a frame uses it, directions in world space. Out: red, green and blue.
+ * Rules: R60 (faces), R61 (texels), R62 (levels), R63 (background), R64 (albedos). */
 #include <math.h>
 
 #include "reference/arithmetic.h"
@@ -12,7 +9,7 @@
 enum { CHANNELS = 3,
        LAST = E3D_ENVIRONMENT_LEVELS - 1 };
 
-/* A place on the cube: each coordinate in [-1, 1]. */
+/* A place on the cube: its face, and coordinates in [-1, 1]. */
 typedef struct cube_place {
     int face;
     float p, q;
@@ -20,7 +17,7 @@ typedef struct cube_place {
 
 static float opposite(float v) { return 0.0f - v; }
 
-/* R60, of a direction in the environment's space. */
+/* R60 for a direction in the environment's space. */
 static cube_place find_place(float x, float y, float z)
 {
     float a = fabsf(x), b = fabsf(y), m = fabsf(z);
@@ -98,7 +95,7 @@ void ref_backdrop(const e3d_backdrop *backdrop, int32_t x, int32_t y, float out[
     ref_environment(&backdrop->light, direction, backdrop->level, out);
 }
 
-/* R64: a node and the weight of the next. */
+/* R64: a node, and the weight of the next one. */
 typedef struct node {
     size_t number;
     float weight;

@@ -1,20 +1,17 @@
-/* Exact shadow: whether something is between a sample and a light.
- *
- * In:  a surface, a light, every caster of the scene: none is left out, and none is tried before another for a reason.
- * Out: whether one of them hides the light.
+/* Exact shadow: whether a caster lies between a sample and a light.
+ * In: a surface, a light, and all casters of the scene: each one is tested. Out: whether one of them hides the light.
  * Rules: R98 (the plane of the light), R99 (which casters the ray goes through), R100 (the plane of the sample), R101 (hits).
- *      Source of R99: Woop, Benthin and Wald 2013 ("Watertight ray/triangle intersection").
- */
+ * Source of R99: Woop, Benthin and Wald 2013 ("Watertight ray/triangle intersection"). */
 #include "reference/arithmetic.h"
 #include "reference/surface.h"
 
-/* R98: how places are seen from the light. */
+/* R98: the light's axes. */
 typedef struct eye {
     const e3d_light *light;
     int is_point;
     int axis, is_negative; /* of z */
     float slope[2];
-    float x, y, z; /* of the sample; of a point light only z */
+    float x, y, z; /* of the sample; for a point light only z */
 } eye;
 
 /* R100 */
@@ -36,7 +33,7 @@ static int longest(const float v[3])
 
 /* ---- R98 ---- */
 
-/* Of a place from which a point light's is taken away already. */
+/* Projects a point into the light's axes; for a point light, its position is subtracted already. */
 static void look(const eye *e, const float p[3], float *x, float *y, float *z)
 {
     *x = p[(e->axis + 1) % 3];
@@ -205,7 +202,7 @@ static int is_above(const eye *e, const plane *plane, const float p[3], const re
 }
 
 /* R102 */
-int ref_is_hidden(const e3d_light *light, const ref_surface *surface)
+int ref_is_in_exact_shadow(const e3d_light *light, const ref_surface *surface)
 {
     const ref_casters *casters = surface->casters;
     const float *p = surface->lit_position;

@@ -1,10 +1,7 @@
-/* Geometry: walks draws, instances and primitives in the order of R16 through transform, clip, setup.
- *
- * In:  the frame's draws.
- * Out: the scene's pieces, and with them the instances that the pieces refer to.
- * Rules: R7 (fans), R16 (order), R24 (materials), R36 (edges). An instance of which nothing is left
- *      is forgotten, so that memory grows only with what may be seen.
- */
+/* Geometry: takes draws, instances and primitives in the order of R16 through transform, clip and setup.
+ * In: the frame's draws. Out: the scene's pieces, and the instances that they refer to.
+ * Rules: R7 (fans), R16 (order), R24 (materials), R36 (edges).
+ * An instance without pieces is forgotten, so that memory grows only with what may be seen. */
 #include <stdlib.h>
 
 #include "reference/stages.h"
@@ -60,7 +57,7 @@ static e3d_status build_point(ref_scene *scene, const ref_primitive *primitive, 
     return ref_setup_point(scene, primitive, corner);
 }
 
-/* Fills the rest of a primitive of which kind, index and instance are known; returns its corners. */
+/* Fills in the rest of a primitive whose kind, index and instance are known; returns its corners. */
 static e3d_status describe(const ref_scene *scene, ref_primitive *primitive, ref_corner corners[3])
 {
     const ref_instance *instance = &scene->instances[primitive->instance];
@@ -155,7 +152,7 @@ static int32_t instances_of(const e3d_draw *draw)
     return draw->pose_kind == E3D_POSE_NONE ? 1 : draw->instances;
 }
 
-/* All instances of a draw, or the next one of several nodes. */
+/* Draws all instances of a draw, or the next one if they are nodes. */
 static e3d_status take_turn(ref_scene *scene, const e3d_draw *draw, int32_t *done, int with_edges)
 {
     e3d_status status = E3D_OK;
@@ -171,7 +168,7 @@ e3d_status ref_build_geometry(ref_scene *scene, int with_edges)
 {
     const e3d_frame *frame = scene->frame;
     e3d_status status = E3D_OK;
-    int32_t *done = calloc((size_t)frame->draw_count + 1, sizeof *done); /* nodes of each draw */
+    int32_t *done = calloc((size_t)frame->draw_count + 1, sizeof *done); /* how many nodes of each draw are done */
     int32_t turns = frame->order ? frame->order_count : frame->draw_count;
     if (!done)
         return E3D_OUT_OF_MEMORY;

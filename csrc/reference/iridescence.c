@@ -1,13 +1,12 @@
-/* Film: what a thin film on a surface reflects of each colour.
- *
- * In:  the cosine of the angle of view, the film's index of refraction and thickness, what the surface below reflects.
+/* Iridescence: the reflectance of a thin film on a surface, by colour.
+ * In: the cosine of the angle of view, the film's index of refraction and thickness, the reflectance of the surface below.
  * Out: the reflectance of each channel.
- * Rules: R139 (sensitivity), R140 (reflectance). Source: KHR_materials_iridescence, after Belcour and Barla 2017.
- */
+ * Rules: R139 (sensitivity), R140 (reflectance).
+ * Source: KHR_materials_iridescence, after Belcour and Barla 2017. */
 #include "data/iridescence_tables.h"
 #include "reference/surface.h"
 
-/* R139: of one wave, after a path. */
+/* R139: one wave's response after a path. */
 static float wave(int number, float path)
 {
     float turns = path * E3D_FILM_TURNS[number];
@@ -33,14 +32,14 @@ static float schlick(float f0, float cosine)
 }
 
 /* R140 */
-void ref_film(float cosine, float ior, float thickness, const float f0[3], float out[3])
+void ref_iridescence(float cosine, float ior, float thickness, const float f0[3], float out[3])
 {
     static const float ALWAYS[3] = {1.0f, 1.0f, 1.0f};
     float outer = (ior - 1.0f) / (ior + 1.0f), r12 = schlick(outer * outer, cosine), t = 1.0f - r12;
     float square = 1.0f - (1.0f / (ior * ior)) * (1.0f - cosine * cosine), below = sqrtf(ref_max(square, 0.0f));
     float path = ((2.0f * ior) * thickness) * below, sign[3], once[3], twice[3], r23[3];
     for (int c = 0; c < 3; c++) {
-        float root = sqrtf(ref_clamp(f0[c], 0.0f, E3D_MOST_FILM_F0)), base = (1.0f + root) / (1.0f - root);
+        float root = sqrtf(ref_clamp(f0[c], 0.0f, E3D_MOST_IRIDESCENCE_F0)), base = (1.0f + root) / (1.0f - root);
         float inner = (base - ior) / (base + ior);
         sign[c] = base < ior ? 1.0f : -1.0f;
         r23[c] = schlick(inner * inner, below);
@@ -48,16 +47,16 @@ void ref_film(float cosine, float ior, float thickness, const float f0[3], float
     sensitivity(path, sign, once);
     sensitivity(path + path, ALWAYS, twice);
     for (int c = 0; c < 3; c++) {
-        float both = ref_clamp(r12 * r23[c], E3D_LEAST_FILM_PRODUCT, E3D_MOST_FILM_F0), root = sqrtf(both);
+        float both = ref_clamp(r12 * r23[c], E3D_LEAST_IRIDESCENCE_PRODUCT, E3D_MOST_IRIDESCENCE_F0), root = sqrtf(both);
         float rs = ((t * t) * r23[c]) / (1.0f - both), first = (rs - t) * root, second = first * root;
         float sum = ((r12 + rs) + first * (once[c] + once[c])) + second * (twice[c] + twice[c]);
         out[c] = square < 0.0f ? 1.0f : ref_clamp(sum, 0.0f, 1.0f);
     }
 }
 
-void ref_film_f0(float cosine, const float film[3], float out[3])
+void ref_iridescence_f0(float cosine, const float film[3], float out[3])
 {
-    float w = 1.0f - cosine, w2 = w * w, w5 = ref_min((w2 * w2) * w, E3D_MOST_FILM_F0);
+    float w = 1.0f - cosine, w2 = w * w, w5 = ref_min((w2 * w2) * w, E3D_MOST_IRIDESCENCE_F0);
     for (int c = 0; c < 3; c++)
         out[c] = ref_clamp((film[c] - w5) / (1.0f - w5), 0.0f, 1.0f);
 }

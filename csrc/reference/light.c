@@ -1,13 +1,10 @@
 /* Light: the Blinn-Phong sum over the lights, in their order.
- *
- * In:  a surface, the frame's lights.
- * Out: its linear colour, not yet clamped.
- * Rules: R31, R90, R130, and the attenuations there. A light that is out of range adds nothing at all.
- */
+ * In: a surface, the frame's lights. Out: its linear colour, not yet clamped.
+ * Rules: R31, R90, R130, and the attenuations there. A light that is out of range adds nothing at all. */
 #include "reference/arithmetic.h"
 #include "reference/surface.h"
 
-/* R31, R43, R51: `x` is the squared distance over that of the range, `i` one over the distance. */
+/* R31, R43, R51: `x` is the squared distance over the squared range, `i` is 1 over the distance. */
 static float falloff(const e3d_light *light, float d2, float x, float i, int by_product)
 {
     float t = 1.0f - x;
@@ -17,14 +14,14 @@ static float falloff(const e3d_light *light, float d2, float x, float i, int by_
     return by_product ? window * (i * i) : window / d2;
 }
 
-/* R43: how much of a spot light goes along l. */
+/* R43: the factor of a spot light's cone along l. */
 static float cone(const e3d_light *light, const float l[3])
 {
     float t = ref_clamp((ref_dot3(l, light->to_light) - light->cone[0]) * light->cone[1], 0.0f, 1.0f);
     return t * t;
 }
 
-/* Unit vector towards the light and attenuation; returns 0 where the light is out of range. */
+/* Finds the unit vector to the light, and the attenuation; returns 0 if the light is out of range. */
 int ref_light_reach(const e3d_light *light, const float p[3], int by_product, float l[3], float *attenuation)
 {
     if (!e3d_light_traits_of(light->kind).has_position) {
@@ -57,7 +54,7 @@ void ref_direction_to_eye(const e3d_frame *frame, const ref_surface *surface, fl
         ref_normalize(out);
 }
 
-/* Highlight: the cosine between the normal and the half vector, to the power of the shininess. */
+/* The highlight: the cosine between the normal and the half vector, raised to the shininess. */
 static float highlight(const e3d_frame *frame, const ref_surface *surface, const float l[3], float shininess)
 {
     float h[3];

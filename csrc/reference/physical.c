@@ -1,11 +1,10 @@
-/* Physical: light on physically based materials, as glTF 2.0 has it.
- *
- * In:  a surface with what its maps say, the frame's lights, ambient and environment.
- * Out: its linear colour, not yet clamped.
- * Rules: R49 (what a sample is made of), R50 and R51 (lights), R52 (coat), R53 (sheen), R54 and R55 (light from all around),
- *      R56 and R57 (sums). Sources: glTF 2.0, appendix B; Walter et al. 2007 (GGX); Heitz 2014 (Smith); Schlick 1994;
- *      Estevez and Kulla 2017 (sheen); Fdez-Aguera 2019 (multiple scattering).
- */
+/* Physical: light on physically based materials, as in glTF 2.0.
+ * In: a surface with the values of its textures; the frame's lights, ambient light and environment. Out: its linear colour,
+ * not yet clamped.
+ * Rules: R49 (the material at a sample), R50 and R51 (lights), R52 (coat), R53 (sheen), R54 and R55 (light from all around),
+ * R56 and R57 (sums).
+ * Sources: glTF 2.0, appendix B; Walter et al. 2007 (GGX); Heitz 2014 (Smith); Schlick 1994; Estevez and Kulla 2017 (sheen);
+ * Fdez-Aguera 2019 (multiple scattering). */
 #include "reference/arithmetic.h"
 #include "reference/surface.h"
 
@@ -15,21 +14,21 @@ typedef struct lobe {
     float nv, roughness, A, root;
 } lobe;
 
-/* R49: all that doesn't depend on the light. */
+/* R49: everything that doesn't depend on the light. */
 typedef struct sample {
     float view[3];
     lobe base, coat;
     float specular, top, diffuse[3], f0[3], f90;
     float sheen_power; /* 1 / alpha of the sheen */
-    float film[3], film_top; /* R141: what a film reflects of all, and the most of what is no metal */
+    float film[3], film_top; /* R141: what a film reflects of each channel, and the greatest of that without metal */
 } sample;
 
-/* Of a light at a sample, in terms of h = l + v. */
+/* A light at a sample, by the half vector h = l + v. */
 typedef struct half_vector {
     float h[3], square;
 } half_vector;
 
-/* What lights add up to. */
+/* The sums over lights. */
 typedef struct sums {
     float direct[3], coat[3], fuzz[3];
 } sums;
@@ -67,13 +66,13 @@ static float fifth_power(float w)
 }
 
 /* R141 */
-static void find_film(const ref_surface *s, sample *out)
+static void find_iridescence(const ref_surface *s, sample *out)
 {
     const ref_physical *p = &s->physical;
     const e3d_physical *m = &s->piece->primitive.material->physical;
     float other[3], metal[3], cosine = ref_min(out->base.nv, 1.0f);
-    ref_film(cosine, m->iridescence_ior, p->film, p->reflectance, other);
-    ref_film(cosine, m->iridescence_ior, p->film, s->albedo, metal);
+    ref_iridescence(cosine, m->iridescence_ior, p->film_thickness, p->reflectance, other);
+    ref_iridescence(cosine, m->iridescence_ior, p->film_thickness, s->albedo, metal);
     for (int c = 0; c < 3; c++)
         out->film[c] = other[c] + (metal[c] - other[c]) * p->metallic;
     out->film_top = ref_max(ref_max(other[0], other[1]), other[2]);
@@ -99,7 +98,7 @@ static sample find_sample(const e3d_frame *frame, const ref_surface *s)
     float rough = ref_clamp(p->sheen_roughness, E3D_LEAST_SHEEN_ROUGHNESS, 1.0f);
     out.sheen_power = 1.0f / (rough * rough);
     if (is_iridescent(s))
-        find_film(s, &out);
+        find_iridescence(s, &out);
     return out;
 }
 
@@ -173,7 +172,7 @@ static void add_light(const e3d_frame *frame, int32_t n, const ref_surface *s, c
 
 /* ---- light from all around ---- */
 
-/* R141: F0 of what is no metal, and of metal, under a film. */
+/* R141: F0 of the part that isn't metal, and of metal, under a film. */
 static void find_f0(const ref_surface *s, float nv, float other[3], float metal[3])
 {
     const ref_physical *p = &s->physical;
@@ -185,17 +184,17 @@ static void find_f0(const ref_surface *s, float nv, float other[3], float metal[
     }
     if (!is_iridescent(s))
         return;
-    ref_film(cosine, m->iridescence_ior, p->film, p->reflectance, film);
-    ref_film_f0(cosine, film, f0);
+    ref_iridescence(cosine, m->iridescence_ior, p->film_thickness, p->reflectance, film);
+    ref_iridescence_f0(cosine, film, f0);
     for (int c = 0; c < 3; c++)
         other[c] = other[c] + (f0[c] - other[c]) * p->iridescence;
-    ref_film(cosine, m->iridescence_ior, p->film, s->albedo, film);
-    ref_film_f0(cosine, film, f0);
+    ref_iridescence(cosine, m->iridescence_ior, p->film_thickness, s->albedo, film);
+    ref_iridescence_f0(cosine, film, f0);
     for (int c = 0; c < 3; c++)
         metal[c] = metal[c] + (f0[c] - metal[c]) * p->iridescence;
 }
 
-/* R54: what arrives at a normal. */
+/* R54: the irradiance at a normal. */
 static void find_irradiance(const e3d_frame *frame, const float normal[3], float out[3])
 {
     float more[3];
@@ -207,7 +206,7 @@ static void find_irradiance(const e3d_frame *frame, const float normal[3], float
         out[c] = out[c] + more[c];
 }
 
-/* R54: what a lobe mirrors. */
+/* R54: the radiance that a lobe mirrors. */
 static void find_radiance(const e3d_frame *frame, const lobe *lobe, const float view[3], float out[3])
 {
     float mirrored[3], more[3];
@@ -221,7 +220,8 @@ static void find_radiance(const e3d_frame *frame, const lobe *lobe, const float 
         out[c] = out[c] + more[c];
 }
 
-/* R55: a lobe under light that is 1 all around: once is what it reflects once, twice a factor of what it reflects more often. */
+/* R55: a lobe under light that is 1 all around. once: the share that it reflects once; twice: a factor for light reflected
+ * more often. */
 typedef struct scattering {
     float once, twice, q;
 } scattering;

@@ -1,4 +1,4 @@
-/* posing: one vertex after the other, as R71 to R74 say. */
+/* posing: moves one vertex after the other, as R71 to R74 say. */
 #include <math.h>
 
 #include "base/fpenv.h"
@@ -65,7 +65,7 @@ static void turn_tangent(const float m[3][4], const float t[3], float out[3])
     make_unit(out);
 }
 
-/* A direction that joints do not turn: unit where a target moved it. */
+/* Keeps a direction that joints do not turn; it is normalised if a target moved it. */
 static void keep(const float v[3], int moved, float out[3])
 {
     for (int k = 0; k < 3; k++)

@@ -1,17 +1,15 @@
-/* Raster: which piece is seen at each sample of a band, and how far away it is.
- *
- * In:  the scene's pieces, in the order of R16 or sorted for the painter.
- * Out: depth, visible piece, layers of overdraw and wireframe edges of each sample of the band.
- * Rules: R12 (coverage, in exact integers), R14 and R15 (depth), R16 (order), R17 (overdraw),
- *      R36, R109, R116 (wireframe), R103 and R104 (multisampling), R81, R82 and R108 through alpha.c.
- */
+/* Raster: finds the piece that is seen at each sample of a band, and its depth.
+ * In: the scene's pieces, in the order of R16 or sorted for the painter.
+ * Out: depth, visible piece, layers of overdraw and wireframe edges for each sample of the band.
+ * Rules: R12 (coverage, in exact integers), R14 and R15 (depth), R16 (order), R17 (overdraw), R36, R109, R116 (wireframe),
+ * R103 and R104 (multisampling), R81, R82 and R108 through alpha.c. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "reference/arithmetic.h"
 #include "reference/stages.h"
 
-/* R103: how far a sample lies from its pixel's centre, in 1/256 pixel. */
+/* R103: the offset of a sample from its pixel's centre, in 1/256 pixel. */
 typedef struct offset {
     int32_t x, y;
 } offset;
@@ -21,7 +19,7 @@ static offset offset_of(const ref_scene *scene, int32_t number)
     return scene->pattern ? (offset){scene->pattern->x[number], scene->pattern->y[number]} : (offset){0, 0};
 }
 
-/* R12: the sample is inside, or on a top or left edge. */
+/* R12: whether a sample is inside, or on a top or left edge. */
 static int covers(const ref_piece *piece, int32_t x, int32_t y, offset from_centre)
 {
     for (int k = 0; k < 3; k++) {
@@ -47,7 +45,7 @@ static float depth_at(const ref_scene *scene, const ref_piece *piece, int32_t x,
     return ref_clamp(z, piece->z_min, piece->z_max);
 }
 
-/* Pieces come in order, so that an equal depth never replaces an earlier piece. */
+/* Pieces come in order, so a piece of equal depth never replaces an earlier one. */
 static e3d_status keep_fragment(const ref_scene *scene, const ref_piece *piece, int64_t number, float z,
                                 ref_band *band, size_t sample)
 {
@@ -62,7 +60,7 @@ static e3d_status keep_fragment(const ref_scene *scene, const ref_piece *piece, 
     return E3D_OK;
 }
 
-/* R36: how far behind the kept depth an edge still shows: the slope of that piece over the line's reach. */
+/* R36: how far behind the visible depth an edge still shows: the slope of that piece times the line's reach. */
 static float edge_slack(const ref_scene *scene, const ref_piece *kept)
 {
     float reach = (float)ref_greatest_offset(scene) * (1.0f / 256.0f) + 0.5f;
@@ -82,7 +80,7 @@ static void keep_edge(const ref_scene *scene, float z, ref_band *band, size_t sa
         band->edge[sample] = 1;
 }
 
-/* The samples of a pixel that a piece covers, no farther than the far plane: a bit each, and their depths. */
+/* The samples of a pixel that a piece covers up to the far plane, a bit each, and their depths. */
 static uint32_t covered_samples(const ref_scene *scene, const ref_piece *piece, int32_t x, int32_t y, float z[E3D_MOST_MSAA_SAMPLES])
 {
     uint32_t covered = 0;

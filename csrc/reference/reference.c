@@ -1,10 +1,7 @@
 /* The frame: geometry once, then raster and resolve in bands. Read this file first.
- *
- * In:  a frame and the caller's targets.
- * Out: the targets, filled; counters and milliseconds.
- * Always: one thread; the default floating-point environment; memory for the pieces that may be seen
- *      and one band of at most BAND_SAMPLES samples (or one row of pixels), with its blended fragments.
- */
+ * In: a frame and the caller's targets. Out: the targets, filled; counters and milliseconds.
+ * Always: one thread; the default floating-point environment; memory for the pieces that may be seen, and for one band of at
+ * most BAND_SAMPLES samples (or one row of pixels) with its blended fragments. */
 #include "reference/reference.h"
 
 #include <math.h>
@@ -19,7 +16,7 @@ enum { BAND_SAMPLES = 1 << 20 };
 
 static double milliseconds(void)
 {
-    struct timespec now = {0}; /* where there is no clock */
+    struct timespec now = {0}; /* stays so if there is no clock */
     timespec_get(&now, TIME_UTC);
     return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
 }

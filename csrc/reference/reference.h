@@ -3,8 +3,7 @@
  * It is the oracle that every kernel is compared with, byte for byte, and the page to read first:
  * start at reference.c, which reads as the way of a frame. It shares no code with the kernels.
  */
-#ifndef E3D_REFERENCE_H
-#define E3D_REFERENCE_H
+#pragma once
 
 #include "e3d.h"
 #include "e3d_bloom.h"
@@ -14,5 +13,3 @@
 e3d_status e3d_reference_render(const e3d_frame *frame, const e3d_targets *targets, e3d_stats *stats);
 /* Adds the glow of a picture to it. */
 e3d_status e3d_reference_bloom(const e3d_bloom *bloom);
-
-#endif

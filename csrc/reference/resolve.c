@@ -1,11 +1,8 @@
-/* Resolve: from the samples of a band to the caller's arrays.
- *
- * In:  what raster left at each sample.
- * Out: one row of pixels after another: colour averaged over a pixel's samples and encoded; every
- *      other output from the one sample of R35.
- * Rules: R32 (overdraw), R33 and R85 (average), R34 (encoding), R35 and R86 (outputs), R36 (what wireframe shows), R63 (an
- *      environment as the background), R123 (radiance); R84 and R123 through alpha.c, R117, R122 through tone.c.
- */
+/* Resolve: writes the samples of a band to the caller's arrays.
+ * In: the samples that raster found. Out: one row of pixels after another: colour averaged over a pixel's samples and
+ * encoded; every other output from the one sample of R35.
+ * Rules: R32 (overdraw), R33 and R85 (average), R34 (encoding), R35 and R86 (outputs), R36 (wireframes), R63 (an environment
+ * as the background), R123 (radiance); R84 and R123 through alpha.c, R117, R122 through tone.c. */
 #include <math.h>
 
 #include "reference/arithmetic.h"
@@ -51,7 +48,7 @@ static int shows_backdrop(const e3d_frame *frame)
     return frame->backdrop.light.environment && (frame->mode == E3D_MODE_LIT || frame->mode == E3D_MODE_UNLIT);
 }
 
-/* R63, R122: of the pixel that a sample belongs to. */
+/* R63, R122: the background in the pixel of a sample. */
 static void background_color(const e3d_frame *frame, const ref_place *at, float out[3])
 {
     int32_t column = at->x / frame->samples_axis, row = at->y / frame->samples_axis;
@@ -66,7 +63,7 @@ static void background_color(const e3d_frame *frame, const ref_place *at, float 
     clamp_color(color, out);
 }
 
-/* R105: the first sample of the pixel that keeps what this one keeps. */
+/* R105: the first sample of the pixel that shows the same piece as this one. */
 static ref_place first_kept(const ref_band *band, const ref_place *at)
 {
     int64_t number = band->piece[ref_sample_at(band, at)];
@@ -76,7 +73,7 @@ static ref_place first_kept(const ref_band *band, const ref_place *at)
     return first;
 }
 
-/* A surface, with what of the light from all around reaches it (R129). */
+/* Finds a surface, with the share of ambient light that reaches it (R129). */
 static void find_surface(const ref_scene *scene, const ref_piece *piece, const ref_place *at, ref_surface *out)
 {
     const e3d_frame *frame = scene->frame;
@@ -85,7 +82,7 @@ static void find_surface(const ref_scene *scene, const ref_piece *piece, const r
         out->visibility = frame->ambient_visibility[at->y / frame->samples_axis * frame->width + at->x / frame->samples_axis];
 }
 
-/* The colour of what is kept at a sample, clamped; returns 0, and the background's colour, where nothing shows. */
+/* Finds the clamped colour of the visible piece at a sample. If there is none, returns 0, and finds the background's colour. */
 static int kept_color(ref_scene *scene, const ref_band *band, const ref_place *at, float out[3])
 {
     const e3d_frame *frame = scene->frame;
@@ -114,7 +111,7 @@ static int kept_color(ref_scene *scene, const ref_band *band, const ref_place *a
     return 1;
 }
 
-/* The colour of a sample, multiplied by its alpha, which it returns. */
+/* Finds the colour of a sample, multiplied by its alpha, and returns the alpha. */
 static float sample_color(ref_scene *scene, const ref_band *band, const ref_place *at, float out[3])
 {
     int has_background = shows_backdrop(scene->frame) || scene->frame->background[3] != 0.0f;
@@ -126,7 +123,7 @@ static float sample_color(ref_scene *scene, const ref_band *band, const ref_plac
     return alpha;
 }
 
-/* R33, R85 and R34, of sums over a pixel's samples: colours, and alphas. */
+/* R33, R85 and R34 for sums over a pixel's samples: of colours, and of alphas. */
 static void resolve_sums(const e3d_frame *frame, const float sum[4], int32_t samples, const float background[3], uint8_t out[4])
 {
     float scale = sum[3] == 0.0f ? 1.0f : 1.0f / sum[3];
@@ -135,7 +132,7 @@ static void resolve_sums(const e3d_frame *frame, const float sum[4], int32_t sam
     out[3] = (uint8_t)ref_rint(255.0f * (sum[3] / (float)samples));
 }
 
-/* Of the pixel whose first sample is (x, y), row by row. */
+/* Sums up the samples of the pixel whose first sample is (x, y), row by row. */
 static void sum_rows(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float sum[4])
 {
     int32_t n = scene->frame->samples_axis;
@@ -151,7 +148,7 @@ static void sum_rows(ref_scene *scene, const ref_band *band, int32_t x, int32_t 
         }
 }
 
-/* R106: in pairs, then pairs of these, until one sum is left. */
+/* R106: adds samples in pairs, then these sums in pairs, until one is left. */
 static void sum_pairs(ref_scene *scene, const ref_band *band, int32_t x, int32_t y, float sum[4])
 {
     float samples[E3D_MOST_MSAA_SAMPLES][4];
@@ -200,7 +197,7 @@ static void write_background(const e3d_targets *targets, size_t pixel)
     E3D_EACH_OUTPUT(WRITE_BACKGROUND)
 }
 
-/* R123, of what is kept at a sample; of what is behind everything, only an environment has any. */
+/* R123: the radiance of the visible piece at a sample. If there is none, only an environment has any. */
 static void kept_radiance(const ref_scene *scene, const ref_band *band, const ref_place *at, float out[3])
 {
     const e3d_frame *frame = scene->frame;

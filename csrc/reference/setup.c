@@ -1,11 +1,9 @@
-/* Setup: from clip space to pieces: triangles on the screen with their planes.
- *
- * In:  accepted or clipped corners of a triangle, line or point.
- * Out: pieces at the end of the scene's list, each with a positive area, a sample box that is not
- *      empty, edge functions, a depth plane and barycentric planes.
- * Rules: R8 (screen), R9 (area, facing), R10 (box), R11 (lines, points), R12 (a, b), R13 (depth),
- *      R18 (barycentrics), R114 (round lines), R115 (round points).
- */
+/* Setup: from clip space to pieces, which are triangles on the screen with their planes.
+ * In: accepted or clipped corners of a triangle, line or point.
+ * Out: pieces at the end of the scene's list. Each has a positive area, a sample box that is not empty, edge functions, a
+ * depth plane and barycentric planes.
+ * Rules: R8 (screen), R9 (area, facing), R10 (box), R11 (lines, points), R12 (a, b), R13 (depth), R18 (barycentrics), R114
+ * (round lines), R115 (round points). */
 #include <math.h>
 #include <stdlib.h>
 
@@ -13,15 +11,15 @@
 #include "reference/arithmetic.h"
 #include "reference/stages.h"
 
-/* A corner on the screen: 1/256 sample, Y down. */
+/* A corner on the screen, in 1/256 sample, Y down. */
 typedef struct screen_corner {
     int32_t x, y;
     float z, iw;
     float barycentric[3];
 } screen_corner;
 
-/* R8. Returns 0 where the corner cannot be placed. Only a cut corner can lie behind the eye or beyond
- * the guard band, by the rounding of the cut. */
+/* R8. Returns 0 if the corner cannot be placed. Only a clipped corner can lie behind the eye or beyond the guard band,
+ * through the rounding of the cut. */
 static int project(const ref_scene *scene, const ref_corner *corner, int clipped, screen_corner *out)
 {
     float iw = 1.0f / corner->position[3];
@@ -49,11 +47,11 @@ static int64_t double_area(const screen_corner v[3])
     return ax * cy - cx * ay;
 }
 
-/* Whether the box of a piece reaches into a window of the frame. */
-static int meets_window(const e3d_frame *frame, const ref_piece *piece)
+/* Whether the box of a piece reaches into an aperture of the frame. */
+static int meets_aperture(const e3d_frame *frame, const ref_piece *piece)
 {
-    for (int32_t i = 0; i < frame->window_count; i++) {
-        const e3d_window *w = &frame->windows[i];
+    for (int32_t i = 0; i < frame->aperture_count; i++) {
+        const e3d_aperture *w = &frame->apertures[i];
         int32_t axis = frame->samples_axis;
         if (piece->left < axis * (w->x1 + 1) && piece->right >= axis * w->x0 && piece->top < axis * (w->y1 + 1) &&
             piece->bottom >= axis * w->y0)
@@ -62,7 +60,7 @@ static int meets_window(const e3d_frame *frame, const ref_piece *piece)
     return 0;
 }
 
-/* R9, of a piece whose box is known. */
+/* R9 for a piece whose box is known. */
 static int is_culled(const ref_scene *scene, const ref_piece *piece)
 {
     const e3d_frame *frame = scene->frame;
@@ -70,7 +68,7 @@ static int is_culled(const ref_scene *scene, const ref_piece *piece)
         return 0;
     if (piece->front)
         return frame->cull == E3D_CULL_FRONT;
-    return frame->cull == E3D_CULL_BACK && !meets_window(frame, piece);
+    return frame->cull == E3D_CULL_BACK && !meets_aperture(frame, piece);
 }
 
 static int32_t min3(const int32_t v[3])
@@ -85,7 +83,7 @@ static int32_t max3(const int32_t v[3])
     return m > v[2] ? m : v[2];
 }
 
-/* R10 and R104. Returns 0 where the box holds no sample of the viewport. */
+/* R10 and R104. Returns 0 if the box holds no sample of the viewport. */
 static int setup_box(const ref_scene *scene, ref_piece *piece)
 {
     int32_t reach = scene->pattern ? scene->pattern->reach : 0;
@@ -114,7 +112,7 @@ static void setup_edges(ref_piece *piece)
     }
 }
 
-/* R13. Returns 0 where the plane is not finite. */
+/* R13. Returns 0 if the plane is not finite. */
 static int setup_depth(ref_piece *piece, const screen_corner v[3], int64_t area)
 {
     double ax = (double)(v[1].x - v[0].x), ay = (double)(v[1].y - v[0].y);
@@ -134,8 +132,8 @@ static int setup_depth(ref_piece *piece, const screen_corner v[3], int64_t area)
     return isfinite(piece->z0) && isfinite(piece->z_dx) && isfinite(piece->z_dy);
 }
 
-/* R18. Every corner carries its barycentrics in the original primitive. Those of a whole triangle
- * are unit vectors: for them the change of basis is exact, and undoes the exchange of R9. */
+/* R18. Every corner carries its barycentrics in the original primitive. For a whole triangle they are unit vectors, for which
+ * the change of basis is exact and undoes the exchange of R9. */
 static void setup_barycentrics(ref_piece *piece, const screen_corner v[3], int64_t area)
 {
     double m = 0.0, ra = 1.0 / (double)area;
@@ -176,7 +174,7 @@ static e3d_status append(ref_piece_list *list, const ref_piece *piece)
     return E3D_OK;
 }
 
-/* R9 and what follows from it: every kind of primitive ends here. */
+/* R9, and everything that follows from it: all kinds of primitives end here. */
 static e3d_status setup_piece(ref_scene *scene, const ref_primitive *primitive, const screen_corner corners[3])
 {
     int64_t area = double_area(corners);
@@ -230,7 +228,7 @@ int32_t ref_half_size(const ref_scene *scene, float size)
     return half > 1 ? half : 1;
 }
 
-/* R11: how far a line reaches along its minor axis, in 1/256 sample. */
+/* R11: how far a line reaches from its centre along its minor axis, in 1/256 sample. */
 static int32_t line_offset(const ref_scene *scene, double dx, double dy)
 {
     int32_t half = ref_half_size(scene, scene->frame->line_width);
@@ -246,7 +244,7 @@ int32_t ref_greatest_offset(const ref_scene *scene)
     return scene->frame->line_width <= 1.0f || scene->frame->line_shape == E3D_LINES_ROUND ? half : (int32_t)lrint((double)half * sqrt(2.0));
 }
 
-/* R114: how many corners a half circle has, less one. */
+/* R114: the number of corners of a half circle, less one. */
 static int arc_steps(int32_t radius)
 {
     static const int32_t MOST[] = {128, 512, 2048, 8192, 32768};
@@ -256,7 +254,7 @@ static int arc_steps(int32_t radius)
     return steps;
 }
 
-/* R114: corner j of the half circle around v that begins across the direction u, to its left on the screen. */
+/* R114: corner j of the half circle around v, which begins across the direction u, to its left on the screen. */
 static screen_corner arc_corner(screen_corner v, int32_t radius, const double u[2], int j, int sign)
 {
     int step = j * (E3D_HALF_CIRCLE / arc_steps(radius));

@@ -1,8 +1,7 @@
 /* Shade: the colour of a surface in the frame's mode, not yet encoded.
- *
- * In:  a surface, the frame's mode. Out: three floats. Overdraw is not about surfaces: resolve.c.
- * Rules: R31 through light.c, R49 … R57 through physical.c, R32, R44; R117, R121 through tone.c.
- */
+ * In: a surface, the frame's mode. Out: three floats.
+ * Overdraw is not about surfaces: resolve.c.
+ * Rules: R31 through light.c, R49 ... R57 through physical.c, R32, R44; R117, R121 through tone.c. */
 #include "reference/surface.h"
 
 /* R32 */

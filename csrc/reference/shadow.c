@@ -1,14 +1,11 @@
-/* Shadow: how much of a light reaches a surface, by the maps that were drawn from the light.
- *
- * In:  a surface, one of the frame's lights, the depths of its maps.
- * Out: from 0, all of it is kept off, to 1.
- * Rules: R90 (where it counts), R91 (the sample moves towards the light), R92 (where it is in the maps), R93 (comparisons).
- *      Sources: Williams 1978; Reeves, Salesin and Cook 1987.
- */
+/* Shadow: the share of a light that reaches a surface, by the shadow maps that were drawn from the light.
+ * In: a surface, one of the frame's lights, the depths of its maps. Out: the share, from 0 to 1.
+ * Rules: R90 (where it counts), R91 (the sample moves towards the light), R92 (its place in the maps), R93 (comparisons).
+ * Sources: Williams 1978; Reeves, Salesin and Cook 1987. */
 #include "reference/arithmetic.h"
 #include "reference/surface.h"
 
-/* Where a sample is in the maps of its light; map: -1 where it is in none. */
+/* The place of a sample in the maps of its light; map: -1 if it is in none. */
 typedef struct place {
     float x, y, depth;
     int32_t map;
@@ -82,7 +79,7 @@ static place place_ahead(const e3d_light_maps *shadow, const e3d_shadow_map *map
     return project(shadow, map, at, 0);
 }
 
-/* To the right of each face of the cube and down, as axes and their signs: +x, -x, +y, -y, +z, -z. */
+/* The directions to the right of each face of the cube and down it, as axes and their signs: +x, -x, +y, -y, +z, -z. */
 static const int FACE_AXES[6][2] = {{2, 1}, {2, 1}, {0, 2}, {0, 2}, {0, 1}, {0, 1}};
 static const int FACE_SIGNS[6][2] = {{1, -1}, {-1, -1}, {1, -1}, {1, 1}, {-1, -1}, {1, -1}};
 
@@ -120,7 +117,7 @@ static place place_of(const e3d_light *light, const e3d_shadow_map *maps, const 
 static int32_t within(int32_t a, int32_t most) { return a < 0 ? 0 : a > most ? most
                                                                              : a; }
 
-/* Four comparisons about a place in 1/256 texel, which share a weight of 65536. */
+/* Four comparisons around a place in 1/256 texel, which share a weight of 65536. */
 static int32_t tap(const e3d_light_maps *shadow, const float *map, int32_t x, int32_t y, float depth)
 {
     int32_t sum = 0, fx = x & 255, fy = y & 255;
@@ -156,7 +153,7 @@ float ref_light_reached(const e3d_frame *frame, int32_t n, const ref_surface *su
     if (surface->instance->draw->unshadowed)
         return 1.0f;
     if (light->shadow.kind == E3D_SHADOW_EXACT)
-        return ref_is_hidden(light, surface) ? 0.0f : 1.0f;
+        return ref_is_in_exact_shadow(light, surface) ? 0.0f : 1.0f;
     for (int k = 0; k < 3; k++)
         p[k] = e3d_light_traits_of(light->kind).has_position ? surface->lit_position[k] - light->position[k] : surface->lit_position[k];
     place at = place_of(light, frame->shadow_maps + light->shadow.maps.first, p, normal, sine);

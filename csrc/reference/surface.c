@@ -1,15 +1,12 @@
-/* Surface: what is seen at one sample: place, normal, texture coordinates, albedo.
- *
- * In:  a piece and a sample that it covers; everything is computed again from the mesh.
- * Out: ref_surface, in world and view space.
- * Rules: R19 and R20 (interpolation), R21 (position), R22 (normal), R23 and R24 (colours), R25 (uv);
- *      what textures add to it is in texture_slots.c.
- */
-#include "reference/arithmetic.h"
+/* Surface: everything about the surface at one sample: place, normal, texture coordinates, albedo.
+ * In: a piece and a sample that it covers; everything is computed again from the mesh. Out: ref_surface, in world and view
+ * space.
+ * Rules: R19 and R20 (interpolation), R21 (position), R22 (normal), R23 and R24 (colours), R25 (uv). texture_slots.c adds
+ * what textures say. */
 #include "data/srgb_tables.h"
 #include "reference/surface.h"
 
-/* R19, before the weights are limited. */
+/* R19, before the weights are clamped. */
 static void find_planes(ref_surface *s, float dx, float dy)
 {
     const ref_piece *piece = s->piece;
@@ -34,7 +31,7 @@ static void find_weights(const ref_scene *scene, ref_surface *s, const ref_place
         s->barycentric[k] = ref_min(s->weight[k] * s->r, 1.0f);
 }
 
-/* One component of a vertex attribute; a vertex that the primitive lacks counts as 0. */
+/* Interpolates one component of a vertex attribute; a vertex that the primitive lacks counts as 0. */
 static float interpolate_attribute(const ref_surface *s, const float *values, int components, int c)
 {
     float v[3];
@@ -74,7 +71,7 @@ static void find_lit_position(const ref_scene *scene, ref_surface *s)
     }
 }
 
-/* In world space, towards the viewer's side. */
+/* Turns a normal towards the viewer's side, in world space. */
 static void turned_normal(const ref_surface *s, const float normal[3], float out[3])
 {
     ref_transform_normal(s->instance, normal, out);
@@ -82,7 +79,7 @@ static void turned_normal(const ref_surface *s, const float normal[3], float out
         out[c] = s->piece->front ? 0.0f + out[c] : 0.0f - out[c];
 }
 
-/* Its length doesn't matter: the weights stand for the barycentrics. */
+/* Weights replace barycentrics, since the normal's length doesn't matter. */
 static void interpolate_normal(ref_surface *s)
 {
     const float *normals = s->instance->mesh->normals;
@@ -152,7 +149,7 @@ static void multiply_color(ref_surface *s, const float factor[4])
     s->alpha = s->alpha * factor[3];
 }
 
-/* R24, and R80 before it is clamped: material, texture, vertex, instance, in this order. */
+/* R24, and R80 before it is clamped: material, texture, vertex and instance, in this order. */
 static void find_albedo(const ref_scene *scene, ref_surface *s)
 {
     const ref_primitive *primitive = &s->piece->primitive;
@@ -192,7 +189,7 @@ void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_pl
     find_normal(scene, out);
     find_uv(out);
     find_albedo(scene, out);
-    ref_find_maps(scene, out);
+    ref_find_textures(scene, out);
     out->alpha = ref_clamp(out->alpha, 0.0f, 1.0f);
-    out->visibility = 1.0f; /* resolve.c knows of what isn't blended */
+    out->visibility = 1.0f; /* resolve.c sets it for surfaces that aren't blended */
 }

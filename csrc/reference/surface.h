@@ -1,11 +1,10 @@
-/* What is seen at one sample, and the stages that find it: surface, texture, maps, environment, light, shade. */
-#ifndef E3D_REFERENCE_SURFACE_H
-#define E3D_REFERENCE_SURFACE_H
+/* The surface at one sample, and the stages that find it: surface, texture, texture slots, environment, light, shade. */
+#pragma once
 
 #include "reference/arithmetic.h"
 #include "reference/stages.h"
 
-/* Where a texture is read: a set of coordinates, moved (R45). */
+/* The place at which a texture is read: a set of coordinates, moved (R45). */
 typedef struct ref_coordinates {
     float uv[2], corner[2][3]; /* [coordinate][vertex] */
 } ref_coordinates;
@@ -15,18 +14,18 @@ typedef struct ref_stretch {
     float t[3], b[3], strength;
 } ref_stretch;
 
-/* What a physically based material is made of at one sample (R46). */
+/* A physically based material at one sample (R46). */
 typedef struct ref_physical {
     float metallic, roughness, occlusion;
-    float specular, reflectance[3]; /* F90 and F0 of what is no metal */
+    float specular, reflectance[3]; /* F90 and F0 of the part that isn't metal */
     float coat, coat_roughness, coat_normal[3];
     float sheen[3], sheen_roughness;
-    float transmission, depth; /* depth: world units of what absorbs (R134) */
-    ref_stretch stretch;       /* where the material has anisotropy */
-    float iridescence, film;   /* film: its thickness */
+    float transmission, depth; /* depth: the distance in world units over which light is absorbed (R134) */
+    ref_stretch stretch;       /* used if the material has anisotropy */
+    float iridescence, film_thickness;
 } ref_physical;
 
-/* What is seen at one sample. */
+/* The surface at one sample. */
 typedef struct ref_surface {
     const ref_casters *casters; /* of the scene */
     const ref_piece *piece;
@@ -34,27 +33,28 @@ typedef struct ref_surface {
     float dx, dy, weight[3], r; /* of R19 */
     float barycentric[3];
     float world_position[3], view_position[3];
-    float lit_position[3]; /* R153: in world space, where light is found */
+    float lit_position[3]; /* R153: the position in world space at which light is found */
     float metric_depth;
     float corner_position[3][3];                 /* [vertex], in world space */
-    float shading_normal[3];                     /* before it is mapped */
+    float shading_normal[3];                     /* the normal before it is mapped */
     float world_normal[3], view_normal[3];
-    float tangent[4], view_tangent[4]; /* R47; all 0 where there is none */
+    float tangent[4], view_tangent[4]; /* R47; all 0 if there is none */
     float uv[2];                                 /* of set 0 */
     float albedo[3], alpha; /* alpha: R80 */
     float emissive[3];
-    ref_physical physical; /* of faces whose material is */
-    float visibility;      /* R129: of light from all around */
+    ref_physical physical; /* used if the face's material is physical */
+    float visibility;      /* R129: the share of ambient light that arrives */
 } ref_surface;
 
-/* R20: of three values. */
+/* R20 for three values. */
 static inline float ref_interpolate(const ref_surface *surface, const float corners[3])
 {
     return ref_dot3(surface->weight, corners) * surface->r;
 }
 
 /* surface.c */
-/* With multisampling, R105: at the pixel's centre, or at the sample where the piece's corners leave no choice. */
+/* With multisampling, R105 applies: the surface is found at the pixel's centre, or at the sample if the piece's corners don't
+ * allow that. */
 void ref_surface_at(const ref_scene *scene, const ref_piece *piece, const ref_place *at, ref_surface *out);
 void ref_decode_color(const e3d_frame *frame, const uint8_t color[4], float out[4]);
 
@@ -66,7 +66,7 @@ float ref_texture_sample(const e3d_texture_view *texture, const ref_surface *sur
 int ref_slot_counts(const e3d_texture_use *use, const ref_surface *surface);
 void ref_slot_coordinates(const e3d_texture_use *use, const ref_surface *surface, ref_coordinates *out);
 float ref_slot_sample(const e3d_texture_use *use, const ref_surface *surface, float out[4]);
-void ref_find_maps(const ref_scene *scene, ref_surface *surface);
+void ref_find_textures(const ref_scene *scene, ref_surface *surface);
 
 /* environment.c */
 void ref_environment(const e3d_environment_light *light, const float direction[3], float level, float out[3]);
@@ -76,37 +76,37 @@ void ref_backdrop(const e3d_backdrop *backdrop, int32_t x, int32_t y, float out[
 float ref_albedo(e3d_dfg kind, float roughness, float cosine);
 
 /* light.c */
-/* R130: what white surfaces of that normal show of light from all around. */
+/* R130: the ambient light that white surfaces of that normal show. */
 void ref_ambient(const e3d_frame *frame, const float normal[3], float out[3]);
-/* The unit vector from p towards the light, and its attenuation, in the way of R51 if by_product; returns 0 where the light is out of
- * range. */
+/* Finds the unit vector from p to the light, and its attenuation, by the formula of R51 if by_product; returns 0 if the light
+ * is out of range. */
 int ref_light_reach(const e3d_light *light, const float p[3], int by_product, float l[3], float *attenuation);
 void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 void ref_direction_to_eye(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 
 /* shadow.c */
-/* R90: how much of light n reaches a surface from direction l. */
+/* R90: the share of light n that reaches a surface from direction l. */
 float ref_light_reached(const e3d_frame *frame, int32_t n, const ref_surface *surface, const float l[3]);
 
 /* exact_shadow.c */
 /* R98-R101: whether a caster is between a surface and a light. */
-int ref_is_hidden(const e3d_light *light, const ref_surface *surface);
+int ref_is_in_exact_shadow(const e3d_light *light, const ref_surface *surface);
 
-/* texture.c, R29 and R30 of the fourth channel at level 0; returns the unit. */
+/* texture.c, R29 and R30 for the fourth channel at level 0; returns the unit. */
 float ref_texture_alpha(const e3d_texture_view *texture, const float uv[2], float *out);
 
 /* physical.c */
 void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, float out[3]);
-/* R134: what the surface leaves of light from behind it, before any is absorbed. */
+/* R134: the share of light from behind that the surface leaves, before absorption. */
 void ref_light_behind(const ref_surface *surface, const float view[3], float out[3]);
 
 /* iridescence.c */
-/* R140, of F0 of what is below; R141: what F0 would give it by Schlick's term. */
-void ref_film(float cosine, float ior, float thickness, const float f0[3], float out[3]);
-void ref_film_f0(float cosine, const float film[3], float out[3]);
+/* R140, from F0 of the surface below; R141: the F0 that gives the same by Schlick's term. */
+void ref_iridescence(float cosine, float ior, float thickness, const float f0[3], float out[3]);
+void ref_iridescence_f0(float cosine, const float film[3], float out[3]);
 
 /* anisotropy.c */
-/* R136; texel: NULL where there is no texture. */
+/* R136; texel: NULL if there is no texture. */
 void ref_find_stretch(const e3d_physical *material, const float texel[4], float unit, const ref_surface *s, ref_stretch *out);
 /* R137 */
 float ref_reflect_stretched(const ref_stretch *stretch, float alpha, const float view[3], float nv, const float l[3], float nl,
@@ -120,7 +120,7 @@ int ref_transmits(const e3d_frame *frame, const ref_piece *piece);
 float ref_transmitting_alpha(const e3d_material *material, float alpha);
 /* R134 */
 void ref_transmittance(const e3d_frame *frame, const ref_surface *surface, float out[3]);
-/* R135: lays a fragment that transmits over a sample. */
+/* R135: blends a fragment that transmits over a sample. */
 void ref_lay_transmitting(const float color[3], float alpha, const float transmittance[3], float under[3], float *under_alpha);
 
 /* tone.c */
@@ -130,8 +130,6 @@ void ref_add_fog(const e3d_fog *fog, float metric_depth, int is_lit, float color
 void ref_gradient(const e3d_frame *frame, int32_t x, int32_t y, float out[3]);
 
 /* shade.c */
-/* The colour before it is tone mapped, and as it shows. */
+/* The colour before tone mapping, and the colour that shows. */
 void ref_shade(const e3d_frame *frame, const ref_surface *surface, float out[3]);
 void ref_show(const e3d_frame *frame, const ref_surface *surface, float out[3]);
-
-#endif

@@ -1,9 +1,8 @@
-/* Texture: filtered texels at a place, in 8-bit fixed-point weights.
- *
- * In:  a texture's levels (linear RGBA, top row first), uv and how they change over the piece.
- * Out: the red, green, blue and alpha of the texture there, and their unit.
- * Rules: R25 and R26 (level of detail), R29 (wrap), R30 (filters), R110 to R113 (bias, anisotropy). The levels themselves are R28.
- */
+/* Texture: filters the texels at a place, with 8-bit fixed-point weights.
+ * In: a texture's levels (linear RGBA, top row first), uv, and their change over the piece. Out: red, green, blue and alpha
+ * of the texture there, and their unit.
+ * Rules: R25 and R26 (level of detail), R29 (wrap), R30 (filters), R110 to R113 (bias, anisotropy). The levels themselves are
+ * R28. */
 #include <math.h>
 #include <string.h>
 
@@ -14,7 +13,8 @@ enum { CHANNELS = 4 };
 
 static float sum_of(const float v[3]) { return (v[0] + v[1]) + v[2]; }
 
-/* R25: texels that one coordinate passes from a sample to the next, along the row and down the column, before they are divided. */
+/* R25: the texels that one coordinate passes from a sample to the next, along the row and down the column, before the
+ * division. */
 static void find_slopes(const ref_surface *s, const float corners[3], float size, float *along, float *down)
 {
     const ref_piece *piece = s->piece;
@@ -36,7 +36,7 @@ static void find_changes(const e3d_texture_view *texture, const ref_surface *s, 
     find_slopes(s, at->corner[1], counted_size(texture, texture->levels[0].height), &along[1], &down[1]);
 }
 
-/* R26: in 1/256 level, of a squared length in texels that is at least 1. */
+/* R26: the level in 1/256, from a squared length in texels that is at least 1. */
 static int32_t level_of_length(const e3d_texture_view *texture, float squared)
 {
     int32_t coarsest = (texture->level_count - 1) * 256, bits;
@@ -54,15 +54,15 @@ static int32_t level_of_detail(const e3d_texture_view *texture, const ref_surfac
     return level_of_length(texture, ref_max((longest * (s->r * s->r)) * (s->r * s->r), 1.0f));
 }
 
-/* Where an anisotropic filter reads: how many probes, how far apart in u and v, and at which level. */
+/* The probes of an anisotropic filter: how many, how far apart in u and v, and at which level. */
 typedef struct probes {
     float count, step[2];
     int32_t lod;
 } probes;
 
-/* R111: the axes of the footprint, the minor one at least a texel. */
+/* R111: the axes of the footprint; the minor one is at least a texel. */
 typedef struct ellipse {
-    float longest2, longest, shortest; /* longest2: its square */
+    float longest2, longest, shortest; /* longest2: the square of longest */
     float direction[2];                /* of the major axis, in texels */
 } ellipse;
 
@@ -115,7 +115,7 @@ static float wrap_coordinate(float s, e3d_wrap wrap)
     return m > 1.0f ? 2.0f - m : m;
 }
 
-/* A channel: 15 bits, or 8, which are stored signed. Levels have a border, which goes unused here. */
+/* A channel of a texel: 15 bits, or 8, which are stored signed. Levels have a border, which isn't used here. */
 static int32_t texel(const e3d_texture_view *texture, const e3d_level *level, int32_t column, int32_t row, int c)
 {
     size_t at = 4 * ((size_t)(row + 1) * ((size_t)level->width + 2) + (size_t)(column + 1)) + (size_t)c;
@@ -134,7 +134,7 @@ static void sample_nearest(const e3d_texture_view *texture, const e3d_level *lev
         out[c] = (float)texel(texture, level, column, row, c);
 }
 
-/* The two neighbours along one axis and the weight of the second. */
+/* The two neighbours along one axis, and the weight of the second one. */
 typedef struct neighbours {
     int32_t first, second, weight;
 } neighbours;
@@ -155,14 +155,14 @@ static neighbours find_neighbours(float s, int32_t size, e3d_wrap wrap)
     return (neighbours){first, second, weight};
 }
 
-/* t[row][column], of 8 bits: exact, with weights of 255. */
+/* Blends t[row][column] of 8 bits: exact, with weights of 255. */
 static int32_t blend8(const int32_t t[2][2], int32_t fx, int32_t fy)
 {
     int32_t upper = t[0][0] * (255 - fx) + t[0][1] * fx, lower = t[1][0] * (255 - fx) + t[1][1] * fx;
     return upper * (255 - fy) + lower * fy;
 }
 
-/* Of 15 bits: each column to 15 bits, then the two of them. */
+/* Blends 15 bits: each column to 15 bits, then the two results. */
 static int32_t blend15(const int32_t t[2][2], int32_t fx, int32_t fy)
 {
     int32_t column[2];

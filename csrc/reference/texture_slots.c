@@ -1,9 +1,7 @@
-/* Maps: what the textures of a material say at one sample, beside its base colour.
- *
- * In:  a surface with its place, normal and albedo.
- * Out: its emission, tangent and mapped normal; of physically based materials all that R49 reads.
- * Rules: R45 (coordinates), R46 (values), R47 (tangent), R48 (mapped normal).
- */
+/* Texture slots: the values of a material's textures at one sample, besides its base colour.
+ * In: a surface with its place, normal and albedo. Out: its emission, tangent and mapped normal; for physically based
+ * materials everything that R49 reads.
+ * Rules: R45 (coordinates), R46 (values), R47 (tangent), R48 (mapped normal). */
 #include "reference/arithmetic.h"
 #include "reference/surface.h"
 
@@ -68,7 +66,7 @@ static float find_occlusion(const e3d_material *m, const ref_surface *s)
 
 /* ---- tangent (R47) ---- */
 
-/* The texture whose coordinates tell what is right: one of normals, or none. */
+/* The texture whose coordinates define the tangent: a normal texture, or none. */
 static const e3d_texture_use *tangent_slot(const e3d_material *m)
 {
     int by_coat = m->is_physical && !m->normal_texture.texture;
@@ -80,7 +78,7 @@ static int is_flat(const ref_scene *scene, const ref_surface *s)
     return e3d_is_flat(scene->frame->normals, s->piece->primitive.material->flat) && s->instance->mesh->face_normals;
 }
 
-/* The sign of the bitangent on the side of the winding. */
+/* The sign of the bitangent on the side that the winding faces. */
 static float turned_sign(const ref_surface *s, float sign) { return s->instance->turned_round ? 0.0f - sign : sign; }
 
 static float vertex_tangents(const ref_surface *s, float corners[3][3])
@@ -105,7 +103,7 @@ static float face_tangent(const ref_surface *s, const ref_coordinates *at, float
     return turned_sign(s, det < 0.0f ? -1.0f : 1.0f);
 }
 
-/* Of a face; all 0 where nothing tells. */
+/* Finds the tangent of a face; all 0 if nothing defines one. */
 static void find_tangent(const ref_scene *scene, ref_surface *s)
 {
     const e3d_texture_use *slot = tangent_slot(s->piece->primitive.material);
@@ -156,14 +154,14 @@ static void map_normal(const e3d_texture_use *use, float scale, const ref_surfac
 /* ---- all of it ---- */
 
 /* R141 */
-static void find_film(const e3d_material *m, const ref_surface *s, ref_physical *out)
+static void find_iridescence(const e3d_material *m, const ref_surface *s, ref_physical *out)
 {
     const float *range = m->physical.iridescence_thickness;
-    out->film = range[1];
+    out->film_thickness = range[1];
     if (ref_slot_counts(&m->iridescence_thickness_texture, s))
-        out->film = range[0] + multiplied(&m->iridescence_thickness_texture, s, 1, range[1] - range[0]);
+        out->film_thickness = range[0] + multiplied(&m->iridescence_thickness_texture, s, 1, range[1] - range[0]);
     out->iridescence = multiplied(&m->iridescence_texture, s, 0, m->physical.iridescence);
-    out->iridescence = out->film > 0.0f ? out->iridescence : 0.0f;
+    out->iridescence = out->film_thickness > 0.0f ? out->iridescence : 0.0f;
 }
 
 static void find_stretch(const e3d_material *m, const ref_surface *s, ref_physical *out)
@@ -204,13 +202,13 @@ static void find_physical(const e3d_material *m, ref_surface *s)
     multiply_three(&m->sheen_color_texture, s, physical->sheen_color, out->sheen);
     out->sheen_roughness = multiplied(&m->sheen_roughness_texture, s, 3, physical->sheen_roughness);
     out->transmission = multiplied(&m->transmission_texture, s, 0, physical->transmission);
-    find_film(m, s, out);
+    find_iridescence(m, s, out);
     if (physical->anisotropy != 0.0f)
         find_stretch(m, s, out);
     out->depth = depth_below(s, multiplied(&m->thickness_texture, s, 1, physical->thickness));
 }
 
-void ref_find_maps(const ref_scene *scene, ref_surface *surface)
+void ref_find_textures(const ref_scene *scene, ref_surface *surface)
 {
     const ref_primitive *primitive = &surface->piece->primitive;
     const e3d_material *m = primitive->material;

@@ -1,9 +1,6 @@
-/* Tone: what becomes of a surface's colour before it is clamped: fog over it, and the tone mapper.
- *
- * In:  a colour of R31, R32 or R57, after exposure.
- * Out: the colour that R33 and R84 clamp.
- * Rules: R117 … R121, and the colours of a gradient R122.
- */
+/* Tone: the colour of a surface before it is clamped: fog, and tone mapping.
+ * In: a colour of R31, R32 or R57, after exposure. Out: the colour that R33 and R84 clamp.
+ * Rules: R117 ... R121, and the colours of a gradient, R122. */
 #include <string.h>
 
 #include "data/srgb_tables.h"
@@ -101,7 +98,7 @@ void ref_map_tone(e3d_tone_mapping mapping, float color[3])
 {
     if (mapping == E3D_TONE_NONE)
         return;
-    if (mapping == E3D_TONE_AGX) { /* which has limits of its own */
+    if (mapping == E3D_TONE_AGX) { /* it has limits of its own */
         map_agx(color);
         return;
     }

@@ -33,7 +33,7 @@ static void read_pose(double out[16], const e3d_draw *draw, int32_t number)
     out[15] = 1.0;
 }
 
-/* Of the upper left 3x3 of a matrix; returns its determinant. */
+/* The cofactors of the upper left 3x3 part of a matrix; returns its determinant. */
 static double find_cofactors(const double m[16], double cofactors[3][3])
 {
     for (int r = 0; r < 3; r++) {
@@ -46,7 +46,7 @@ static double find_cofactors(const double m[16], double cofactors[3][3])
     return (m[0] * cofactors[0][0] + m[1] * cofactors[0][1]) + m[2] * cofactors[0][2];
 }
 
-/* R2: proportional to the inverse transpose, scaled so that the greatest element is 1. */
+/* R2: a matrix proportional to the inverse transpose, scaled so that its greatest element is 1. */
 static void make_normal_matrix(ref_instance *instance, const double m[16], const double view_from_world[16])
 {
     double cofactors[3][3], of_view[3][3], big = 0.0;

@@ -1,10 +1,8 @@
-/* Transmission: surfaces that light passes through, laid over what is behind them.
- *
- * In:  a surface with what its maps say, and the sample behind it.
- * Out: which share of the light from behind passes, channel by channel; the sample with the surface in front of it.
- * Rules: R133 (which surfaces, and their alpha), R134 (transmittance), R135 (composition). Sources: KHR_materials_transmission;
- *      KHR_materials_volume, whose absorption is that of Beer and Lambert.
- */
+/* Transmission: surfaces that light passes through, blended over what is behind them.
+ * In: a surface with the values of its textures, and the sample behind it. Out: the share of the light from behind that
+ * passes, channel by channel; the sample with the surface in front of it.
+ * Rules: R133 (which surfaces, and their alpha), R134 (transmittance), R135 (composition).
+ * Sources: KHR_materials_transmission; KHR_materials_volume, whose absorption is that of Beer and Lambert. */
 #include "reference/surface.h"
 
 /* R133 */

@@ -1,23 +1,22 @@
-/* windows: where a picture may show backs of objects that enclose a volume, because one looks into their holes (R9).
- *
- * A ray from outside goes into such a volume before it comes out: it meets a front first, unless it goes in through a hole. So a
- * back may show only where the fan of triangles that would close a hole faces the viewer; a window is the box of these on the screen.
- * In: what is drawn, and from where. Out: windows, in pixels.
- * Always: f64; what rounding or snapping might turn faces the viewer.
- */
+/* apertures: finds where a picture may show backs of objects that enclose a volume, because one looks into their holes (R9).
+ * A ray from outside enters such a volume before it leaves it: it meets a front first, unless it enters through a hole. So a
+ * back may show only where the fan of triangles that would close a hole faces the viewer; an aperture is the box of these
+ * triangles on the screen.
+ * In: what is drawn, and from where. Out: apertures, in pixels.
+ * Always: f64; a triangle that rounding or snapping might turn to the viewer counts as facing him. */
 #include <math.h>
 
 #include "base/fpenv.h"
 #include "data/mesh/mesh.h"
 #include "e3d_scene.h"
-#include "e3d_windows.h"
+#include "e3d_apertures.h"
 
-/* Points that are nearer to a plane than this share of their coordinates are not surely before it. */
+/* Points nearer to a plane than this share of their coordinates don't surely lie before it. */
 #define LEAST 1e-6
-/* By how much snapping moves a corner along an axis, in pixels, many times over. */
+/* A bound, with a wide margin, of how far snapping moves a corner along an axis, in pixels. */
 #define SNAPS (1.0 / 64)
 
-/* Before it is where plane[0..2] . point + plane[3] > 0. */
+/* A point lies before a plane if plane[0..2] . point + plane[3] > 0. */
 static int is_before(const double plane[4], double x, double y, double z)
 {
     double rise = ((plane[0] * x + plane[1] * y) + plane[2] * z) + plane[3];
@@ -45,7 +44,7 @@ static int cluster_is_before(const double plane[4], const e3d_cluster *cluster)
     return 1;
 }
 
-/* Whether all that a node draws is before the near plane. */
+/* Whether everything that a node draws lies before the near plane. */
 static int node_is_before(const double clip_from_world[16], const double *bounds, const e3d_draw *draw, const double world[12])
 {
     double plane[4], own[4];
@@ -54,7 +53,7 @@ static int node_is_before(const double clip_from_world[16], const double *bounds
     if (bounds[0] > bounds[3] || box_is_before(plane, bounds, bounds + 3))
         return 1;
     if (draw->pose_kind != E3D_POSE_NONE)
-        return 0; /* each instance would have to be looked at */
+        return 0; /* each instance would need a test of its own */
     for (int c = 0; c < 4; c++)
         own[c] = ((plane[0] * world[c] + plane[1] * world[4 + c]) + plane[2] * world[8 + c]) + (c == 3 ? plane[3] : 0);
     for (int32_t i = 0; i < draw->mesh->cluster_count; i++)
@@ -70,7 +69,7 @@ static double determinant(const double *a, const double *b, const double *c)
     return (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])) + a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-/* How a node's points come to the picture: x and y in pixels, y down, times w, and w. */
+/* The projection of a node's points into the picture: x and y in pixels, y down, times w; and w. */
 typedef struct projection {
     double row[3][4];
     int mirrored; /* fronts turn the other way on the screen */
@@ -115,7 +114,7 @@ static int may_face(pixel a, pixel b, pixel c, int mirrored)
     return !(area < -SNAPS * (((fabs(bx) + fabs(by)) + (fabs(cx) + fabs(cy))) + 1));
 }
 
-/* A box of pixels that grows; empty where low is above high. */
+/* A box of pixels that grows; it is empty if low is above high. */
 typedef struct extent {
     double low_x, low_y, high_x, high_y;
 } extent;
@@ -128,7 +127,7 @@ static void extend(extent *e, pixel p)
     e->high_y = fmax(e->high_y, p.y);
 }
 
-/* The box of those triangles of the fan from the middle of a hole to its rim that may face the viewer. */
+/* The box of a fan's triangles that may face the viewer. The fan goes from the middle of a hole to its rim. */
 static extent open_extent(const projection *p, const double *rim, int32_t count)
 {
     extent open = {INFINITY, INFINITY, -INFINITY, -INFINITY};
@@ -142,7 +141,7 @@ static extent open_extent(const projection *p, const double *rim, int32_t count)
     pixel before = project(p, rim + 3 * (count - 1));
     for (int32_t i = 0; i < count; i++) {
         const pixel at = project(p, rim + 3 * i);
-        if (may_face(at, before, centre, p->mirrored)) { /* sides of the fan run against the triangles beside the hole */
+        if (may_face(at, before, centre, p->mirrored)) { /* sides of the fan run against those of the triangles beside the hole */
             extend(&open, at);
             extend(&open, before);
             extend(&open, centre);
@@ -155,47 +154,47 @@ static extent open_extent(const projection *p, const double *rim, int32_t count)
 static double within(double v, double low, double high) { return v < low ? low : v < high ? v
                                                                                           : high; }
 
-/* The pixels of an extent, and one more on each side; 0 if none is in the picture. */
-static int window_of(const extent *e, const e3d_looking *looking, e3d_window *window)
+/* Finds the pixels of an extent, and one more on each side; 0 if none is in the picture. */
+static int aperture_of(const extent *e, const e3d_looking *looking, e3d_aperture *aperture)
 {
     const double right = looking->width - 1, bottom = looking->height - 1;
     if (!(e->low_x <= right + 1) || !(e->low_y <= bottom + 1) || !(e->high_x >= -1) || !(e->high_y >= -1))
         return 0;
-    *window = (e3d_window){(int32_t)within(floor(e->low_x) - 1, 0, right), (int32_t)within(floor(e->low_y) - 1, 0, bottom),
-                           (int32_t)within(ceil(e->high_x) + 1, 0, right), (int32_t)within(ceil(e->high_y) + 1, 0, bottom)};
+    *aperture = (e3d_aperture){(int32_t)within(floor(e->low_x) - 1, 0, right), (int32_t)within(floor(e->low_y) - 1, 0, bottom),
+                               (int32_t)within(ceil(e->high_x) + 1, 0, right), (int32_t)within(ceil(e->high_y) + 1, 0, bottom)};
     return 1;
 }
 
-/* Adds a window; the last one takes in what there is no room for. */
-static int32_t add_window(e3d_window windows[E3D_MAX_WINDOWS], int32_t count, e3d_window window)
+/* Adds an aperture; if there is no room, the last one grows to include it. */
+static int32_t add_aperture(e3d_aperture apertures[E3D_MAX_APERTURES], int32_t count, e3d_aperture aperture)
 {
-    if (count < E3D_MAX_WINDOWS) {
-        windows[count] = window;
+    if (count < E3D_MAX_APERTURES) {
+        apertures[count] = aperture;
         return count + 1;
     }
-    e3d_window *last = &windows[count - 1];
-    last->x0 = window.x0 < last->x0 ? window.x0 : last->x0;
-    last->y0 = window.y0 < last->y0 ? window.y0 : last->y0;
-    last->x1 = window.x1 > last->x1 ? window.x1 : last->x1;
-    last->y1 = window.y1 > last->y1 ? window.y1 : last->y1;
+    e3d_aperture *last = &apertures[count - 1];
+    last->x0 = aperture.x0 < last->x0 ? aperture.x0 : last->x0;
+    last->y0 = aperture.y0 < last->y0 ? aperture.y0 : last->y0;
+    last->x1 = aperture.x1 > last->x1 ? aperture.x1 : last->x1;
+    last->y1 = aperture.y1 > last->y1 ? aperture.y1 : last->y1;
     return count;
 }
 
 static int32_t add_holes(const e3d_placed *object, const e3d_looking *looking, const double world[12],
-                         e3d_window windows[E3D_MAX_WINDOWS], int32_t count)
+                         e3d_aperture apertures[E3D_MAX_APERTURES], int32_t count)
 {
     const projection p = projection_of(looking, world);
     for (int32_t hole = 0, first = 0; hole < object->holes; first = object->rim_ends[hole++]) {
         const extent open = open_extent(&p, object->rims + 3 * (size_t)first, object->rim_ends[hole] - first);
-        e3d_window window;
-        if (window_of(&open, looking, &window))
-            count = add_window(windows, count, window);
+        e3d_aperture aperture;
+        if (aperture_of(&open, looking, &aperture))
+            count = add_aperture(apertures, count, aperture);
     }
     return count;
 }
 
-int32_t e3d_find_windows(const e3d_draw_list *list, const e3d_node_rows *rows, const double *bounds, const e3d_placed *objects,
-                         const e3d_looking *looking, e3d_window windows[E3D_MAX_WINDOWS])
+int32_t e3d_find_apertures(const e3d_draw_list *list, const e3d_node_rows *rows, const double *bounds, const e3d_placed *objects,
+                           const e3d_looking *looking, e3d_aperture apertures[E3D_MAX_APERTURES])
 {
     const e3d_fpenv saved = e3d_fpenv_enter();
     int32_t count = 0;
@@ -206,7 +205,7 @@ int32_t e3d_find_windows(const e3d_draw_list *list, const e3d_node_rows *rows, c
             continue;
         const double *world = e3d_placing_pose(rows->world, rows->anchor, slot);
         if (node_is_before(looking->clip_from_world, bounds + E3D_BOX * (size_t)slot, &object->draw, world))
-            count = add_holes(object, looking, world, windows, count);
+            count = add_holes(object, looking, world, apertures, count);
         else
             count = -1;
     }

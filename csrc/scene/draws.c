@@ -1,9 +1,6 @@
-/* draws: from slots to the draws of a frame, and the order in which the nodes were added.
- *
- * Nodes that draw the same mesh become one draw, whose nodes take their turns in that order.
- * Of many instances only those that may show are drawn, as runs of neighbours. The order stays instance,
- * then face, and first_instance keeps the instances' numbers.
- */
+/* draws: turns slots into the draws of a frame, and keeps the order in which the nodes were added. Nodes of the same mesh
+ * become one draw, whose nodes take their turns in that order. Of many instances only those that may show are drawn, as runs
+ * of neighbours; the order stays instance, then face, and first_instance keeps the instances' numbers. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +9,7 @@
 #include "e3d_scene.h"
 #include "scene/pose.h"
 
-/* A run goes on over so many instances that do not show: a draw of its own would cost more. */
+/* A run continues over so many instances that do not show, since another draw would cost more. */
 enum { GAP = 3 };
 
 void e3d_draw_list_free(e3d_draw_list *list)
@@ -22,7 +19,7 @@ void e3d_draw_list_free(e3d_draw_list *list)
     free(list->worlds);
     free(list->ids);
     free(list->slots);
-    free(list->batches);
+    free(list->merged);
     free(list->bits);
     memset(list, 0, sizeof *list);
 }
@@ -38,7 +35,7 @@ static int reserve(void *array, int32_t count, size_t size)
     return data != NULL;
 }
 
-/* Adds a place in the order for a draw. */
+/* Gives a draw a place in the order. */
 static int take_turn(e3d_draw_list *list, int32_t draw)
 {
     if (list->order_count == list->order_room) {
@@ -98,7 +95,7 @@ static int append_runs(e3d_draw_list *list, const e3d_draw *whole)
     return first < 0 || append_run(list, whole, first, end);
 }
 
-/* Lists the instances that may show: the planes are taken into the node's space. */
+/* Lists the instances that may show, by planes that are transformed into the node's space. */
 static int select_instances(e3d_draw_list *list, const e3d_view_volume *view, const e3d_placed *object,
                             const double world[16])
 {
@@ -148,51 +145,51 @@ static int append_node(e3d_draw_list *list, const e3d_placed *object, const draw
     return to && take_turn(list, list->count - 1);
 }
 
-/* ---- batches ---- */
+/* ---- merged draws ---- */
 
 /* Finds the one draw for all nodes of a mesh; it is made when the first of them is met. */
-static int begin_batch(e3d_draw_list *list, const e3d_placed *object, e3d_batch *batch, int32_t unshadowed)
+static int begin_merged_draw(e3d_draw_list *list, const e3d_placed *object, e3d_merged_draw *merged, int32_t unshadowed)
 {
     e3d_draw *draw = append(list);
     if (!draw)
         return 0;
     *draw = object->draw;
     draw->pose_kind = E3D_POSE_NODES;
-    draw->instances = batch->nodes;
-    draw->node_worlds = list->worlds + 12 * (size_t)batch->first;
-    draw->node_ids = list->ids + batch->first;
+    draw->instances = merged->nodes;
+    draw->node_worlds = list->worlds + 12 * (size_t)merged->first;
+    draw->node_ids = list->ids + merged->first;
     draw->unshadowed = unshadowed;
-    batch->draw = list->count - 1;
+    merged->draw = list->count - 1;
     return 1;
 }
 
-static int append_member(e3d_draw_list *list, const e3d_placed *object, e3d_batch *batch, const drawn_node *node)
+static int append_member(e3d_draw_list *list, const e3d_placed *object, e3d_merged_draw *merged, const drawn_node *node)
 {
-    if (batch->draw < 0 && !begin_batch(list, object, batch, node->unshadowed))
+    if (merged->draw < 0 && !begin_merged_draw(list, object, merged, node->unshadowed))
         return 0;
-    memcpy(list->worlds + 12 * (size_t)batch->end, node->world, 12 * sizeof *node->world);
-    list->ids[batch->end++] = node->id;
-    return take_turn(list, batch->draw);
+    memcpy(list->worlds + 12 * (size_t)merged->end, node->world, 12 * sizeof *node->world);
+    list->ids[merged->end++] = node->id;
+    return take_turn(list, merged->draw);
 }
 
-/* Finds where the rows of each batch's nodes start. */
-static void lay_out_batches(e3d_draw_list *list, int32_t batches)
+/* Finds where the rows of each merged draw's nodes begin. */
+static void lay_out_merged_draws(e3d_draw_list *list, int32_t count)
 {
     int32_t first = 0;
-    for (int32_t i = 0; i < batches; i++) {
-        list->batches[i].first = list->batches[i].end = first;
-        first += list->batches[i].nodes;
+    for (int32_t i = 0; i < count; i++) {
+        list->merged[i].first = list->merged[i].end = first;
+        first += list->merged[i].nodes;
     }
 }
 
 /* ---- nodes ---- */
 
-static int reserve_all(e3d_draw_list *list, int32_t slots, int32_t batches)
+static int reserve_all(e3d_draw_list *list, int32_t slots, int32_t count)
 {
-    if (batches > list->batch_room) {
-        if (!reserve(&list->batches, batches, sizeof *list->batches))
+    if (count > list->merged_room) {
+        if (!reserve(&list->merged, count, sizeof *list->merged))
             return 0;
-        list->batch_room = batches;
+        list->merged_room = count;
     }
     if (slots > list->node_room) {
         if (!reserve(&list->worlds, slots, 12 * sizeof *list->worlds) ||
@@ -235,12 +232,12 @@ static int casts_none(const e3d_node_rows *rows, int32_t slot)
 
 static uint32_t spared_lights(const e3d_node_rows *rows, int32_t slot) { return rows->spared_lights ? rows->spared_lights[slot] : 0; }
 
-static e3d_batch *batch_of(const e3d_draw_list *list, const e3d_node_rows *rows, int32_t slot)
+static e3d_merged_draw *merged_draw_of(const e3d_draw_list *list, const e3d_node_rows *rows, int32_t slot)
 {
-    return &list->batches[2 * (size_t)rows->object[slot] + (size_t)receives_none(rows, slot)];
+    return &list->merged[2 * (size_t)rows->object[slot] + (size_t)receives_none(rows, slot)];
 }
 
-/* Lists the slots that are drawn, and counts them for each batch. */
+/* Lists the slots that draw anything, and counts them for each merged draw. */
 static void list_slots(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
                        const e3d_placed *objects, int32_t object_count)
 {
@@ -252,28 +249,28 @@ static void list_slots(e3d_draw_list *list, const e3d_node_rows *rows, const uin
         }
         if (draws_at(rows, slot, objects, object_count) && !casts_none(rows, slot)) {
             list->slots[list->nodes++] = slot;
-            batch_of(list, rows, slot)->nodes += !spared_lights(rows, slot);
+            merged_draw_of(list, rows, slot)->nodes += !spared_lights(rows, slot);
         }
     }
 }
 
 int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
-                    const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count, int batch)
+                    const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count, int merge)
 {
     list->count = list->order_count = list->nodes = 0;
     list->boxes_tested = 0;
     if (object_count > INT32_MAX / 2 || !reserve_all(list, rows->count, 2 * object_count))
         return 0;
     for (int32_t i = 0; i < 2 * object_count; i++)
-        list->batches[i] = (e3d_batch){.draw = -1};
+        list->merged[i] = (e3d_merged_draw){.draw = -1};
     list_slots(list, rows, selection, objects, object_count);
-    lay_out_batches(list, 2 * object_count);
+    lay_out_merged_draws(list, 2 * object_count);
     for (int32_t i = 0; i < list->nodes; i++) {
         int32_t slot = list->slots[i];
         const e3d_placed *object = &objects[rows->object[slot]];
         const drawn_node node = {e3d_placing_pose(rows->world, rows->anchor, slot), rows->id[slot], receives_none(rows, slot), spared_lights(rows, slot)};
-        e3d_batch *of = batch_of(list, rows, slot);
-        int together = batch && of->nodes > 1 && !node.spared_lights && object->draw.pose_kind == E3D_POSE_NONE;
+        e3d_merged_draw *of = merged_draw_of(list, rows, slot);
+        int together = merge && of->nodes > 1 && !node.spared_lights && object->draw.pose_kind == E3D_POSE_NONE;
         if (!(together ? append_member(list, object, of, &node) : append_node(list, object, &node, view)))
             return 0;
     }

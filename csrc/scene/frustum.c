@@ -1,10 +1,8 @@
-/* frustum: which boxes of a tree may show. Out: a bit per item, and how many boxes were tested.
- *
- * Method: planes by Gribb and Hartmann (2001), the positive vertex of each box, four boxes at a time; a plane
- * that a box lies wholly inside of is not asked again below it. The arithmetic is f32. Its slack, measured
- * by the coordinates that made the box, is far above the rounding of the pictures' own f32 transform, so
- * that what shows is never lost. Every sum grows with the box, so that no parent's rounding loses a box.
- */
+/* frustum: finds the boxes of a tree that may show. Out: a bit an item, and how many boxes were tested.
+ * Method: planes by Gribb and Hartmann (2001), and the positive vertex of each box, four boxes at a time. A plane is not
+ * tested again below a box that lies wholly inside it. The arithmetic is f32, with a slack proportional to the coordinates
+ * that made the box; it is far greater than the rounding of the pictures' own f32 transform, so that nothing that shows is
+ * lost. Every sum grows with the box, so that no parent's rounding loses a box. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -17,13 +15,13 @@ enum { ALL_PLANES = 63 };
 
 typedef struct plane {
     e3d_v4 p[4];
-    e3d_v4 slack[2];  /* times reach, and alone */
+    e3d_v4 slack[2];  /* a factor of the reach, and a constant */
     int positive[3];
 } plane;
 
 typedef struct entry {
     int32_t block;
-    int level, planes; /* a bit per plane that is still asked */
+    int level, planes; /* planes: a bit for each plane that is still tested */
 } entry;
 
 static void set_plane(plane *out, const double m[16], int axis, double sign, double widen)
@@ -50,7 +48,7 @@ static void set_planes(plane planes[6], const double m[16], double widen)
     }
 }
 
-/* Returns the plane's value at the corners farthest on its inner side, or at those nearest. */
+/* Returns the plane's value at the boxes' corners that lie farthest inside it, or at those that lie least inside. */
 static inline e3d_v4 value_at(const plane *p, const e3d_block *b, int farthest)
 {
     e3d_v4 m[3];
@@ -59,10 +57,10 @@ static inline e3d_v4 value_at(const plane *p, const e3d_block *b, int farthest)
     return ((m[0] + m[1]) + m[2]) + p->p[3];
 }
 
-/* Return the lanes that are outside of the plane, and those that are wholly inside. */
+/* Return the lanes that are outside the plane, and those that are wholly inside. */
 static inline int outside(const plane *p, const e3d_block *b)
 {
-    return lanes_of(value_at(p, b, 1) < -(p->slack[0] * b->reach + p->slack[1])); /* false for NaN: kept */
+    return lanes_of(value_at(p, b, 1) < -(p->slack[0] * b->reach + p->slack[1])); /* false for NaN: the box is kept */
 }
 static inline int inside(const plane *p, const e3d_block *b) { return lanes_of(value_at(p, b, 0) >= 0); }
 
@@ -97,7 +95,7 @@ static int visit_leaf(const e3d_tree *t, const plane planes[6], entry at, uint64
     return tested;
 }
 
-/* Prefetches the blocks below one, which lie side by side; the last may not be there, which does no harm. */
+/* Prefetches the blocks below one, which are neighbours; the last may not exist, which does no harm. */
 static void fetch_below(const e3d_tree *t, entry at)
 {
     enum { LINE = 64 };
@@ -149,7 +147,7 @@ static int select_loose(const e3d_tree *t, const plane planes[6], const double *
     return tested;
 }
 
-/* The walk down the tree; what is outside or wholly inside ends a branch. */
+/* Walks down the tree; a branch ends at a box that is outside or wholly inside. */
 static int64_t select_by_branches(const e3d_tree *t, const plane planes[6], uint64_t *bits)
 {
     entry stack[E3D_TREE_STACK];

@@ -1,9 +1,7 @@
-/* graph: the tree of nodes: adding, linking, removing, walking, and what has to be found anew.
- *
- * In:  slots. Out: links, flags and the list of what changed.
- * Always: what is below a STALE node is STALE and LISTED; a node is LISTED at most once, so that the
- * list has room for all.
- */
+/* graph: the tree of nodes: adding, linking, removing and walking, and marking what is out of date.
+ * In: slots. Out: links, flags and the list of changed nodes.
+ * Always: everything below a STALE node is STALE and LISTED; a node is LISTED at most once, so that the list has room for
+ * all. */
 #include <string.h>
 
 #include "e3d_scene.h"
@@ -19,7 +17,7 @@ int32_t e3d_graph_walk(const e3d_graph *g, int32_t slot, int32_t top)
     return slot == top ? -1 : g->next[slot];
 }
 
-/* Returns the node that comes after all that is below `slot`. */
+/* Returns the node that follows everything below `slot`. */
 static int32_t walk_past(const e3d_graph *g, int32_t slot, int32_t top)
 {
     while (slot != top && g->next[slot] < 0)
@@ -41,7 +39,7 @@ void e3d_graph_touch(e3d_graph *g, int32_t slot)
     }
 }
 
-/* `before` is a child of the parent, or -1 for the end. */
+/* Inserts a node before `before`, a child of the parent; -1 is the end. */
 static void put_in(e3d_graph *g, int32_t slot, int32_t parent, int32_t before)
 {
     g->parent[slot] = parent;

@@ -1,4 +1,4 @@
-/* levels: the boxes that a tree holds, level by level, to be looked at. */
+/* levels: the boxes of a tree, level by level, for programs that show them. */
 #include "scene/tree.h"
 
 int e3d_tree_levels(const e3d_tree *t) { return t->levels; }

@@ -1,4 +1,4 @@
-/* overlap: which boxes of a tree meet a box. Out: a bit per item; touching counts. */
+/* overlap: finds the boxes of a tree that meet a box. Out: a bit an item; touching counts. */
 #include "base/fpenv.h"
 #include "scene/tree.h"
 
@@ -22,7 +22,7 @@ void e3d_tree_overlaps(const e3d_tree *t, const double low[3], const double high
     while (top) {
         entry at = stack[--top];
         const e3d_block *b = e3d_tree_level(t, at.level) + at.block;
-        int lanes = lanes_of(b->low[0] <= b->high[0]); /* an endless box meets all, but not what is none */
+        int lanes = lanes_of(b->low[0] <= b->high[0]); /* an endless box meets every box, but not an empty one */
         for (int k = 0; k < 3; k++)
             lanes &= lanes_of((b->low[k] <= q.high[k]) & (b->high[k] >= q.low[k]));
         for (int lane = 0; lane < 4; lane++) {

@@ -35,7 +35,7 @@ int e3d_pose_compose(const double rotation[4], const double scale[3], double pos
     return 1;
 }
 
-/* Divides by the largest of the four components; w >= 0. A null matrix gives the identity. */
+/* Divides by the largest of the four components; w >= 0. A null matrix becomes the identity. */
 static void quaternion_of(double m[3][3], double q[4])
 {
     double trace = (m[0][0] + m[1][1]) + m[2][2];
@@ -82,7 +82,7 @@ void e3d_pose_decompose(const double pose[12], double rotation[4], double scale[
     quaternion_of(m, rotation);
 }
 
-/* The products with the last row 0 0 0 1 stay in the sums: they decide the sign of a zero. */
+/* The products with the last row 0 0 0 1 are part of the sums, since they decide the sign of a zero. */
 void e3d_pose_multiply(const double a[12], const double b[12], double out[12])
 {
     for (int r = 0; r < 3; r++) {

@@ -21,7 +21,7 @@ typedef struct ray {
     double origin[3], direction[3], inverse[3];
 } ray;
 
-/* One search: what is being looked at, and the nearest so far. */
+/* A search: its ray and trees, and the nearest hit so far. */
 typedef struct search {
     const e3d_graph *graph;
     const e3d_shape *shapes;
@@ -32,7 +32,7 @@ typedef struct search {
     int32_t slot, instance, missing;
     const e3d_shape *shape;
     e3d_hit *hit;
-    uint64_t *bits; /* where only boxes are asked for */
+    uint64_t *bits; /* for a search of boxes alone */
 } search;
 
 typedef void meet(search *s, int32_t item);
@@ -56,7 +56,7 @@ typedef struct entry {
     int level;
 } entry;
 
-/* Returns a bit for each lane whose box the ray meets no farther than `most`; near: where it enters. */
+/* Returns a bit for each lane whose box the ray meets within `most`; near: the distance at which it enters. */
 static int enter(const ray *r, const e3d_block *b, double pad, double most, v4d *near)
 {
     v4d in = {0}, out = in + most;
@@ -72,7 +72,7 @@ static int enter(const ray *r, const e3d_block *b, double pad, double most, v4d 
     }
     v4l meets = in <= out * (1 + 1e-14);
     *near = in;
-    /* A ray that is not finite meets everything, but nothing stands where there is no box. */
+    /* A ray that is not finite meets everything except empty boxes. */
     return ((meets[0] & 1) | (meets[1] & 2) | (meets[2] & 4) | (meets[3] & 8)) &
            lanes_of(b->low[0] <= b->high[0]);
 }
@@ -107,7 +107,7 @@ static void walk(const e3d_tree *t, const ray *r, search *s, meet *meet_item)
         for (int lane = 0; lane < 4; lane++) {
             if (!(lanes >> lane & 1))
                 continue;
-            int place = top++; /* the nearest comes last: it is taken first */
+            int place = top++; /* the nearest one comes last, and is taken first */
             for (; place > first && stack[place - 1].near < near[lane]; place--)
                 stack[place] = stack[place - 1];
             stack[place] = (entry){near[lane], 4 * at.block + lane, at.level - 1};
@@ -221,7 +221,7 @@ static void meet_triangle(search *s, int32_t face)
 
 /* ---- spaces ---- */
 
-/* Takes the ray into the space of a pose; 0 if that has no volume. */
+/* Transforms the ray into the space of a pose; 0 if the pose has no volume. */
 static int into_space(const ray *r, const double m[12], ray *out)
 {
     double det = determinant(m), origin[3], from[3], direction[3];
@@ -290,8 +290,13 @@ int32_t e3d_graph_ray(const e3d_graph *graph, const e3d_tree *tree, const e3d_sh
                       double farthest, e3d_cull cull, e3d_hit *hit)
 {
     e3d_fpenv saved = e3d_fpenv_enter();
-    search s = {.graph = graph, .shapes = shapes, .shape_count = shape_count, .cull = cull,
-                .ray = make_ray(origin, direction), .missing = -1, .hit = hit};
+    search s = {.graph = graph,
+                .shapes = shapes,
+                .shape_count = shape_count,
+                .cull = cull,
+                .ray = make_ray(origin, direction),
+                .missing = -1,
+                .hit = hit};
     *hit = (e3d_hit){.distance = farthest, .slot = -1, .instance = -1, .face = -1};
     walk(tree, &s.ray, &s, meet_node);
     e3d_fpenv_leave(saved);

@@ -11,15 +11,19 @@
 
 #include "base/pool.h"
 
-/* A coordinate has BITS bits; those of all three are sorted RADIX at a time. */
+/* A coordinate has BITS bits; the bits of all three are sorted RADIX at a time. */
 #ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
-enum { BITS = 12, RADIX = 12, PASSES = 3 };
+enum { BITS = 12,
+       RADIX = 12,
+       PASSES = 3 };
 #else
-enum { BITS = 12, RADIX = 4, PASSES = 9 }; /* so that thousands of small trees are built in a second */
+enum { BITS = 12,
+       RADIX = 4,
+       PASSES = 9 }; /* small, so that thousands of small trees are built in a second */
 #endif
 
-static const double WORN = 1.7; /* times the cost when built: it is built again, */
-enum { LEAST_REFITS = 8 };      /* but not each time, where everything goes anywhere */
+static const double WORN = 1.7; /* the tree is built again if its cost exceeds the first one's by this factor, */
+enum { LEAST_REFITS = 8 };      /* but only after so many refits, in case everything moves at random */
 
 typedef struct key {
     uint64_t code;
@@ -41,8 +45,9 @@ void e3d_tree_destroy(e3d_tree *t)
 
 /* ---- tasks ---- */
 
-/* There are always as many tasks, whatever the number of threads, so that what they add up is the same. */
-enum { TASKS = 16, FEW = 4096 };
+/* The number of tasks is fixed, whatever the number of threads, so that their sums are the same. */
+enum { TASKS = 16,
+       FEW = 4096 };
 
 typedef struct tree_job {
     e3d_tree *tree;
@@ -50,14 +55,14 @@ typedef struct tree_job {
     double cost[TASKS];
     key *keys; /* `used` of them */
     int32_t used;
-    double low[TASKS][3], high[TASKS][3]; /* of the middles of the task's boxes */
+    double low[TASKS][3], high[TASKS][3]; /* the bounds of the middles of the task's boxes */
 } tree_job;
 
 typedef struct task_range {
     int32_t first, end;
 } task_range;
 
-/* Finds one task's share of some elements; all but the last share end at a multiple of 4. */
+/* A task's share of some elements; each share but the last one ends at a multiple of 4. */
 static task_range range_of(int32_t count, int task)
 {
     int32_t each = (count / TASKS + 4) / 4 * 4;
@@ -81,12 +86,14 @@ static float below(double v)
 void e3d_block_set(e3d_block *block, int lane, const double box[E3D_BOX])
 {
     int whole = box[0] <= box[3] && box[1] <= box[4] && box[2] <= box[5] && box[6] >= 0;
-    int none = box[0] > box[3]; /* else a NaN: may be anywhere */
+    int none = box[0] > box[3]; /* NaN: it may be anywhere */
+// clang-format off
     for (int k = 0; k < 3; k++) {
         block->low[k][lane] = whole ? below(box[k]) : none ? INFINITY : -INFINITY;
         block->high[k][lane] = whole ? -below(-box[3 + k]) : none ? -INFINITY : INFINITY;
     }
     block->reach[lane] = whole ? -below(-box[6]) : none ? 0 : INFINITY;
+// clang-format on
 }
 
 static void clear(e3d_block *block)
@@ -98,7 +105,7 @@ static void clear(e3d_block *block)
     block->reach = e3d_v4_all(0);
 }
 
-/* Writes the box around a block's boxes into a lane of its parent; returns by how much its cost grew. */
+/* Writes the box around a block's boxes into a lane of its parent; returns the growth of the cost. */
 static double gather(const e3d_block *from, e3d_block *to, int lane)
 {
     double size[2][3], area[2];
@@ -120,12 +127,12 @@ static double gather(const e3d_block *from, e3d_block *to, int lane)
     for (int i = 0; i < 2; i++) {
         const double *s = size[i];
         area[i] = s[0] * s[1] + s[1] * s[2] + s[2] * s[0];
-        area[i] = s[0] >= 0 && area[i] < 1e30 ? area[i] : 0; /* none, or without end */
+        area[i] = s[0] >= 0 && area[i] < 1e30 ? area[i] : 0; /* 0 for none, or one without end */
     }
     return area[1] - area[0];
 }
 
-/* Writes the boxes of blocks [first, end) of a level into that above; returns by how much its cost grew. */
+/* Writes the boxes of blocks [first, end) of a level into the level above; returns the growth of the cost. */
 static double gather_some(e3d_tree *t, int level, int32_t first, int32_t end)
 {
     e3d_block *from = e3d_tree_level(t, level), *to = e3d_tree_level(t, level + 1);
@@ -138,8 +145,8 @@ static double gather_some(e3d_tree *t, int level, int32_t first, int32_t end)
     return cost;
 }
 
-/* Finds the boxes above the leaves' parents. The cost is summed up task by task, so that it is the same on any
- * number of threads. */
+/* Finds the boxes above the leaves' parents. The cost is summed up task by task, so that it is the same on any number of
+ * threads. */
 static void gather_rest(tree_job *job)
 {
     e3d_tree *t = job->tree;

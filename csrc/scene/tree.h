@@ -4,14 +4,14 @@
  * block of the level above, up to one block. A child's number follows from its parent's, so there are no
  * pointers, and everything below a box is one run of items.
  */
-#ifndef E3D_TREE_H
-#define E3D_TREE_H
+#pragma once
 
 #include "base/grow.h"
 #include "base/vectors.h"
 #include "e3d_scene.h"
 
-enum { E3D_TREE_LEVELS = 16, E3D_TREE_STACK = 3 * E3D_TREE_LEVELS + 1 };
+enum { E3D_TREE_LEVELS = 16,
+       E3D_TREE_STACK = 3 * E3D_TREE_LEVELS + 1 };
 
 typedef float e3d_v4 __attribute__((vector_size(16)));
 typedef int32_t e3d_v4i __attribute__((vector_size(16)));
@@ -46,5 +46,3 @@ static inline e3d_block *e3d_tree_level(const e3d_tree *tree, int level)
 void e3d_block_set(e3d_block *block, int lane, const double box[E3D_BOX]);
 
 static inline e3d_v4 e3d_v4_all(float value) { return (e3d_v4){value, value, value, value}; }
-
-#endif

@@ -56,8 +56,8 @@ cdef class NativeDrawList:
     cdef e3d_casters casters
     cdef int exact_light_count
     cdef e3d_totals totals
-    cdef e3d_window windows[E3D_MAX_WINDOWS]
-    cdef int32_t window_count
+    cdef e3d_aperture apertures[E3D_MAX_APERTURES]
+    cdef int32_t aperture_count
     cdef e3d_material *materials
     cdef e3d_material *casting_materials
     cdef e3d_material *unlit_materials
@@ -188,11 +188,11 @@ cdef class NativeDrawList:
             self.totals = e3d_graph_totals(&rows, self.objects, self.object_count)
         self.list_draws(&self.placed, &rows, selection, view, batch)
 
-    def close_windows(self):
+    def close_apertures(self):
         """Let no back show that is culled."""
-        self.window_count = 0
+        self.aperture_count = 0
 
-    def open_windows(
+    def open_apertures(
         self,
         int32_t count,
         dict columns not None,
@@ -201,7 +201,7 @@ cdef class NativeDrawList:
         int width,
         int height,
     ) -> int | None:
-        """Let backs show where one may look into holes of what was placed last; return how many windows there are.
+        """Let backs show where one may look into holes of what was placed last; return how many apertures there are.
 
         None if the near plane may cut what encloses a volume: backs may show anywhere then.
         """
@@ -216,8 +216,8 @@ cdef class NativeDrawList:
         memcpy(looking.clip_from_world, &clip_from_world[0, 0], 16 * sizeof(double))
         memcpy(looking.view_from_world, &view_from_world[0, 0], 16 * sizeof(double))
         looking.width, looking.height = width, height
-        found = e3d_find_windows(&self.placed, &rows, &bounds[0, 0], self.objects, &looking, self.windows)
-        self.window_count = max(found, 0)
+        found = e3d_find_apertures(&self.placed, &rows, &bounds[0, 0], self.objects, &looking, self.apertures)
+        self.aperture_count = max(found, 0)
         return None if found < 0 else found
 
     def place_casters(

@@ -1,7 +1,7 @@
 """The core's insides for tests and benchmarks; the engine itself never imports it.
 
 Out: addresses of kernels and functions, which tests/kernels/ calls as the C headers declare them;
-     the rules of a frame's plan; the calling thread's floating-point control register.
+     the conditions of a frame's plan; the calling thread's floating-point control register.
 Always: nothing is checked here. The kernels that repeat are for one thread at a time.
 """
 
@@ -38,14 +38,14 @@ cdef extern from "frame/pass/plan.h" nogil:
         E3D_ASKED_ITEMS
     ctypedef enum e3d_plan_item:
         E3D_PLAN_ITEMS
-    ctypedef struct e3d_plan_rule:
+    ctypedef struct e3d_plan_condition:
         e3d_plan_item item
         uint64_t asked, planned, unless_asked, unless_planned
     ctypedef struct e3d_plan_word:
         const char *name
         const char *text
-    const e3d_plan_rule E3D_PLAN_RULES[]
-    const int E3D_PLAN_RULE_COUNT
+    const e3d_plan_condition E3D_PLAN_CONDITIONS[]
+    const int E3D_PLAN_CONDITION_COUNT
     const e3d_plan_word E3D_ASKED_WORDS[]
     const e3d_plan_word E3D_PLAN_WORDS[]
 
@@ -82,24 +82,24 @@ def repeat(int backend, int rounds):
     repeated_table, repeated_rounds = e3d_kernels_for(<e3d_backend>backend), rounds
 
 
-def plan_rules() -> list[tuple[str, list[str], list[str]]]:
-    """The rules of a frame's plan: (item, the items that it needs, those that it must not have).
+def plan_conditions() -> list[tuple[str, list[str], list[str]]]:
+    """The conditions of a frame's plan: (item, the items that it needs, those that it must not have).
 
     Each item is named, and has its meaning in asked_items() or planned_items().
     """
-    cdef const e3d_plan_rule *rule
+    cdef const e3d_plan_condition *condition
     asked, planned = asked_items(), planned_items()
 
     def names(items, bits):
         return [name for k, (name, _) in enumerate(items) if bits >> k & 1]
 
-    rules = []
-    for r in range(E3D_PLAN_RULE_COUNT):
-        rule = &E3D_PLAN_RULES[r]
-        needs = names(asked, rule.asked) + names(planned, rule.planned)
-        forbids = names(asked, rule.unless_asked) + names(planned, rule.unless_planned)
-        rules.append((planned[<int>rule.item][0], needs, forbids))
-    return rules
+    conditions = []
+    for r in range(E3D_PLAN_CONDITION_COUNT):
+        condition = &E3D_PLAN_CONDITIONS[r]
+        needs = names(asked, condition.asked) + names(planned, condition.planned)
+        forbids = names(asked, condition.unless_asked) + names(planned, condition.unless_planned)
+        conditions.append((planned[<int>condition.item][0], needs, forbids))
+    return conditions
 
 
 def asked_items() -> list[tuple[str, str]]:

@@ -21,7 +21,7 @@ from e3d cimport *
 from e3d_occlusion cimport *
 from e3d_posing cimport *
 from e3d_scene cimport *
-from e3d_windows cimport *
+from e3d_apertures cimport *
 
 from .scene_graph cimport NativeTree
 
@@ -400,7 +400,7 @@ cdef class NativeRenderer:
         frame.ambient_light = draw_list.ambient_light
         frame.depth_near = depth_near
         frame.depth_far = depth_far
-        frame.windows, frame.window_count = draw_list.windows, draw_list.window_count
+        frame.apertures, frame.aperture_count = draw_list.apertures, draw_list.aperture_count
         frame.materials = draw_list.materials
         if frame.mode == E3D_MODE_UNLIT:
             draw_list.find_unlit_materials()

@@ -144,7 +144,7 @@ class View(RemoteFrameBuffer):
         return bundle
 
     def _still(self) -> bytes:
-        """What the view shows now, as a PNG; the page gets its first picture all the same."""
+        """Return what the view shows now, as a PNG; the page gets its first picture in any case."""
         self._viewer.draw(self._viewer.sampling.at_rest())
         self._viewer.redraw()
         rgb = self._page.picture

@@ -1,1 +1,1 @@
-"""What every package uses: checks of what callers give, and notes of what changed since."""
+"""The base of every package: checks of arguments, and tracking of changes."""

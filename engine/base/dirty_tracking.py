@@ -1,4 +1,4 @@
-"""Which of many things changed, without looking at all of them.
+"""Tracks which of many things changed, without looking at all of them.
 
 Meshes, sets of instances, materials, textures, cameras and lights get another ``version`` whenever
 something is assigned to them, which is told here. In: such things. Out: those of a `Watch` whose

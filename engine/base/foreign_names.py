@@ -310,7 +310,7 @@ def foreign_names(kind: type) -> dict[str, str]:
 
 
 class UnknownName(AttributeError):
-    """What was asked for is not there; the text, with what may be meant, is found when it shows.
+    """The name asked for is not there; the text, with suggestions, is made when it is shown.
 
     Asking costs next to nothing, since `getattr` with a default and `hasattr` never read the text.
 
@@ -366,7 +366,7 @@ def refuses_foreign_names(kind: Kind) -> Kind:
 
 
 def _own_names(thing: Any) -> list[str]:
-    """What ``dir`` shows: not what is there to refuse."""
+    """Return the names that ``dir`` shows, without those that exist only to be refused."""
     refused = {
         n for kind in type(thing).__mro__ for n, v in vars(kind).items() if type(v) is _Foreign
     }

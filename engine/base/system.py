@@ -1,4 +1,4 @@
-"""What systems give in different ways: how files are opened and locked, processors, signals, forks.
+"""Functions that systems provide differently: opening, locking, processors, signals, forks.
 
 What a system lacks does nothing here: on Windows a file cannot be opened without waiting, from an
 open folder or without following links, no process is forked, and no signal tells that a terminal

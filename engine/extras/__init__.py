@@ -1,1 +1,1 @@
-"""What few programs need: worlds, levels of detail."""
+"""Extras that few programs need: worlds, levels of detail."""

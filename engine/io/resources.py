@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 @shows_annotations
 class ResourceStats(NamedTuple):
-    """What a `Resources` holds.
+    """The contents of a `Resources`.
 
     Attributes
     ----------
@@ -225,7 +225,7 @@ class Resources:
             return self._known(key) or self._keep(key, thing, _Loaded(load, options, states))
 
     def _known(self, key: tuple[Any, ...]) -> Any:
-        """What was loaded so, as long as nobody has changed it since."""
+        """Return the thing that was loaded so, as long as nobody has changed it since."""
         thing, loaded = self._by_file.get(key), self._files.get(key)
         if thing is None or loaded is None or loaded.versions != versions_of(thing):
             return None
@@ -304,7 +304,7 @@ def size_of(thing: Mesh | Texture) -> int:
 
 
 def _content(thing: Any) -> tuple[Any, ...]:
-    """What two things have in common if and only if they are equal, but for their names."""
+    """Return a key that two things share if and only if they are equal, but for their names."""
     digest = hashlib.blake2b(digest_size=20)
     if isinstance(thing, Texture):
         digest.update(thing.pixels.data)

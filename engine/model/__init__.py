@@ -1,1 +1,1 @@
-"""What is drawn: meshes, materials, environments, scenes, motion. None of it draws."""
+"""The model: meshes, materials, environments, scenes, motion. None of it draws."""

@@ -1,4 +1,4 @@
-"""How much memory a frame may take for what a scene or an option says in a few bytes.
+"""Limits the memory of a frame, since a scene or an option may ask for much in a few bytes.
 
 In: what a frame is about to allocate. Out: nothing, or one error that tells what takes how much and
 what to change, before anything of it is allocated.
@@ -43,7 +43,7 @@ class Use(NamedTuple):
 
 
 class FrameMemory:
-    """What the next frame of one renderer is to allocate.
+    """The memory that the next frame of one renderer will allocate.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ class FrameMemory:
         self._of_maps: list[Use] = []
 
     def check(self, outputs: tuple[str, ...], size: tuple[int, int], uses: list[Use]) -> list[Use]:
-        """Return all that frames with these outputs take, of which passes take so much.
+        """Return the memory of a frame with these outputs and of its passes.
 
         Raises
         ------

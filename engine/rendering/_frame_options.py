@@ -1,4 +1,4 @@
-"""How a frame is drawn: `RenderOptions` and the scene's colours, as the core takes them.
+"""The options of a frame: `RenderOptions` and the scene's colours, as the core takes them.
 
 In: checked options. Out: `FrameOptions`, whose `native` the core takes as it is. They are made when
 an option or a colour changes, and kept from frame to frame meanwhile.
@@ -51,7 +51,7 @@ _NO_CLAMP = (0.0, math.inf)
 _MOST_BLURRED = 8.0  # the last level of an environment: E3D_ENVIRONMENT_LEVELS - 1
 _scene_values = operator.attrgetter(*SCENE_VALUES)
 _MAX_KEPT = 16  # programs that draw ever other pictures keep no more options than these
-# What differs where a picture's surfaces are drawn without their colours.
+# Settings that differ if surfaces are drawn without their colours.
 _WITHOUT_COLOR = {
     "mode": _native.MODES["unlit"],  # what is blended is left out, as in mode lit
     "wireframe": _native.WIREFRAMES[None],
@@ -167,7 +167,7 @@ class FrameOptions:
 
 
 def _background(scene: AnyScene, color_space: ColorSpace, convert: Convert) -> dict[str, Any]:
-    """What shows where nothing is drawn, as the core takes it; an environment comes beside."""
+    """Return the background as the core takes it; an environment is passed separately."""
     background = scene.background
     if background is None:
         return {"background": (0.0, 0.0, 0.0, 0.0)}
@@ -182,7 +182,7 @@ def _background(scene: AnyScene, color_space: ColorSpace, convert: Convert) -> d
 
 
 def _environment(scene: AnyScene) -> dict[str, float]:
-    """How an environment is turned, how bright it is, and how blurred behind all, for the core."""
+    """Return the turn, brightness and blur of an environment, for the core."""
     turn, intensity = scene.environment_rotation, scene.environment_intensity
     cosine, sine = linalg.cos(turn), linalg.sin(turn)
     return {

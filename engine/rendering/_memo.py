@@ -1,10 +1,10 @@
-"""Of what something was made, so that it is made again of something else only."""
+"""Remembers from what a thing was made, so that it is made again only when that changes."""
 
 from __future__ import annotations
 
 
 class Memo:
-    """What one thing was last made of: values that ``==`` tells apart."""
+    """The values that a thing was last made from; ``==`` compares them."""
 
     __slots__ = ("_made_of", "_next")
 

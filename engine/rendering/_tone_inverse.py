@@ -1,4 +1,4 @@
-"""Which light a tone mapper shows as a colour.
+"""Inverts tone mapping: finds the light that a mapper shows as a given colour.
 
 In: a colour that a screen can show, linear. Out: light that shows so (docs/exactness, R118 and
 R119, backwards, in float64). Fog over lit surfaces takes it: what is all fog shows the fog's colour
@@ -98,7 +98,7 @@ def _agx_power(w: float) -> float:
 
 
 def _agx_stops(value: float, first: float) -> float:
-    """Of which logarithm, plus ``first``, the curve makes a value: with the error of R119's."""
+    """Return the logarithm, plus ``first``, at which the curve has a value, with R119's error."""
 
     def curve(stops: float) -> float:
         whole = math.floor(stops)
@@ -110,7 +110,7 @@ def _agx_stops(value: float, first: float) -> float:
 
 
 def _where(function: Callable[[float], float], value: float, low: float, high: float) -> float:
-    """Where a function, which rises, has a value; found by halving."""
+    """Return where a rising function has a value; found by bisection."""
     for _ in range(50):
         middle = 0.5 * (low + high)
         if function(middle) < value:

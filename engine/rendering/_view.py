@@ -63,7 +63,7 @@ class View:
 
     @functools.cached_property
     def rays(self) -> NDArray[np.float32]:
-        """Where the picture's pixels look, in world space, as the core takes it: three vectors.
+        """The rays of the picture's pixels in world space, as the core takes them: three vectors.
 
         Pixel (x, y) looks along ``rays[0] + (x + 0.5) * rays[1] + (y + 0.5) * rays[2]``.
         """

@@ -1,4 +1,4 @@
-"""Which backend draws, and with how many threads.
+"""Chooses the backend, and the number of threads.
 
 In: the arguments ``backend`` and ``threads`` and the environment. Out: a backend's number and a
 count of threads for the core. ``ENGINE3D_BACKEND`` and ``ENGINE3D_THREADS`` say what ``"auto"`` and

@@ -1,4 +1,4 @@
-"""Which nodes cast shadows, and whether they are the same as before, where they were."""
+"""The casters: which nodes cast shadows, and whether they are as they were."""
 
 from __future__ import annotations
 

@@ -173,7 +173,7 @@ def _middle(
     edges: FrustumReach,
     distance: float,
 ) -> tuple[float, float]:
-    """Where the eye stands across its line of sight, to have as much room on both sides.
+    """Return where the eye stands across its line of sight, with equal room on both sides.
 
     From farther away than one of the ways needs, narrower planes touch there, and between them is
     the middle. The slope from which they meet at the eye is found by the secant method.
@@ -200,7 +200,7 @@ def _middle(
 
 
 class FrustumReach(NamedTuple):
-    """How far something reaches across the planes of a frustum, from a center.
+    """The extent of something across the planes of a frustum, from a center.
 
     A camera at (x, y, distance) along its own axes sees a point (across, upward, near) between
     planes that open by ``slope`` if ``|across - x| <= slope * (distance - near)``: a bound for the
@@ -226,7 +226,7 @@ class FrustumReach(NamedTuple):
 
     @property
     def x(self) -> float:
-        """Where the camera stands to see both sides from as near as possible."""
+        """The camera's position from which both sides are seen, as near as possible."""
         return 0.5 * (self.right - self.left)
 
     @property

@@ -114,7 +114,7 @@ def _has_face(obj: Any, instance: int, face: int) -> bool:
 
 
 def _hit_of_face(node: Node, instance: int, face: int, origin: Any, direction: Any) -> RayHit:
-    """Where a ray meets the plane of a face that the frame says it shows; of a line, nowhere."""
+    """Return the hit of a ray on the plane of the face that the frame shows; none for a line."""
     unknown = np.full(3, np.nan)
     if face < 0:
         return RayHit(node, instance, face, math.nan, unknown, unknown, unknown)

@@ -1,4 +1,4 @@
-"""What tells a picture that engine3d drew from an image that was painted for a model.
+"""A mark that tells a picture drawn by engine3d from an image painted for a model.
 
 TGA files can say who wrote them: `Frame.save` puts these words in their image identification. A
 model that is drawn to ``head.tga`` twice must not wear the first picture in the second.

@@ -320,7 +320,7 @@ class Renderer(Closed):
             frame_options.placing(frustum, size),
         )
         picture = Picture(scene, options, frame_options, view, size, chosen, options.cull)
-        self._draw_list.native.close_windows()
+        self._draw_list.native.close_apertures()
         if options.cull == "auto":
             self._let_backs_show(picture)
         if options.mode == "depth":
@@ -329,9 +329,9 @@ class Renderer(Closed):
 
     def _let_backs_show(self, picture: Picture) -> None:
         """Leave out backs of closed meshes only, and only where nobody looks into their holes."""
-        windows = self._draw_list.open_windows(picture.scene.data, picture.view, picture.size)
+        apertures = self._draw_list.open_apertures(picture.scene.data, picture.view, picture.size)
         picture.shadow_cull = "none" if self._draw_list.has_holes else "back"
-        if windows is None:
+        if apertures is None:
             options = with_both_sides(picture.options)
             picture.frame_options = self._options.get(picture.scene, options, self._height)
 

@@ -23,7 +23,7 @@ from ..model.scene.shown import as_shown, placing_poses
 SupportFunction = Callable[[np.ndarray], np.ndarray]
 
 _BLOCK = 1 << 14  # vertices at a time: three coordinates and a sum stay in the cache
-# What is looked at vertex by vertex, some 20 ns each; beyond that, boxes must do.
+# So many vertices are looked at one by one, some 20 ns each; of more, only boxes.
 _MAX_VERTICES = 1 << 23
 _MAX_INSTANCES = 1 << 16
 

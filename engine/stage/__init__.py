@@ -1,4 +1,4 @@
-"""How a model is presented: opened, lit, framed, labelled and grounded, without a window.
+"""Presents a model without a window: opens, lights, frames, labels and grounds it.
 
 Nothing is imported here: Pillow loads only when a file is written.
 """

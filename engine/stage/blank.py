@@ -42,7 +42,7 @@ class Reason(NamedTuple):
 
 @dataclass
 class Sight:
-    """What a camera looks at.
+    """The direction and the extent of what a camera sees.
 
     Attributes
     ----------
@@ -146,7 +146,7 @@ def why_blank(sight: Sight) -> Reason | None:
 
 
 def reason_of(sight: Sight) -> Reason:
-    """Return why a picture of which no pixel shows anything is so."""
+    """Return why a picture shows nothing in any pixel."""
     nodes = _drawables(sight)
     return _of_content(sight, nodes) or _of_place(sight, nodes) or _of_surface(sight, nodes)
 

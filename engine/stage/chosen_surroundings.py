@@ -1,4 +1,4 @@
-"""What of a scene's surroundings the user asked for: its environment, and whether that shows.
+"""The surroundings that the user asked for: an environment, and whether it shows.
 
 In: plain values. Out: a staged scene that has them; what was left open stays as the scene has it.
 """

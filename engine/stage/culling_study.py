@@ -1,4 +1,4 @@
-"""What culling works with, looked at: frozen as from one view, its boxes drawn over pictures."""
+"""Shows how culling works: frozen from one view, with its boxes drawn over pictures."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .overlays.debug_lines import Lines, box_lines, frustum_lines, tree_lines
 
 
 class CullingStudy:
-    """How a renderer lets one look at culling.
+    """A study of a renderer's culling.
 
     Attributes
     ----------

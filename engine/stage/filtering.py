@@ -1,4 +1,4 @@
-"""How the textures of what is shown are read, where the command line or the viewer decides it."""
+"""The filtering of textures that the command line or the viewer asks for."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ USUAL_LOD_BIAS = -0.25
 
 @dataclass(frozen=True)
 class Filtering:
-    """What all textures of a scene are given.
+    """The filtering that all textures of a scene get.
 
     Attributes
     ----------

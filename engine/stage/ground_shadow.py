@@ -52,7 +52,7 @@ _FADES = 1.6
 
 
 class GroundShadow:
-    """The shadow of a scene on its ground, parts of which are kept for as long as they hold.
+    """The shadow of a scene on its ground; parts are kept while they are valid.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ class GroundShadow:
         spread: float,
         stands: tuple[float, Sphere, FrameCull, Any],
     ) -> np.ndarray:
-        """How much of a light is taken, (SIDE, SIDE) float32 from 0 to 1."""
+        """Return the share of a light that is blocked, (SIDE, SIDE) float32 from 0 to 1."""
         kept = self._kept.get(spread)
         if kept is None or kept[0] != (slant, stands):
             heights = self._heights(slant, *stands[:3])
@@ -112,7 +112,7 @@ class GroundShadow:
         return kept[1]
 
     def _state(self) -> tuple[object, ...]:
-        """What is the same while all that casts a shadow is, and stays as and where it is."""
+        """Return numbers that stay the same while all casters stay as and where they are."""
         data = self._scene.data
         data.update()
         posing = None if data.posing is None else data.posing.moment
@@ -133,7 +133,7 @@ class GroundShadow:
     def _heights(
         self, slant: tuple[float, float], lowest: float, sphere: Sphere, cull: FrameCull
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Where along rays the model begins and ends: two of (SIDE, SIDE) float32, in radii.
+        """Return where the model begins and ends along rays: two of (SIDE, SIDE) float32, in radii.
 
         Where nothing is, it begins infinitely high and ends infinitely low.
         """
@@ -216,7 +216,7 @@ def _darkness(first: np.ndarray, last: np.ndarray, spread: float) -> np.ndarray:
 
 
 def _texels(number: int, spread: float) -> tuple[int, int]:
-    """How often texels are doubled for a slice, and how many it spreads then."""
+    """Return how often texels are doubled for a slice, and how many each then spreads over."""
     reach, level = spread * _HEIGHTS[number] * SIDE / (2 * REACH), 0
     while reach > _MOST:
         reach, level = reach / 2, level + 1
@@ -224,7 +224,7 @@ def _texels(number: int, spread: float) -> tuple[int, int]:
 
 
 def _slice(first: np.ndarray, last: np.ndarray, number: int) -> np.ndarray:
-    """What is at the height of a slice, from 0 to `_WHOLE`; what nears it is partly in it."""
+    """Return what is at the height of a slice, from 0 to `_WHOLE`; what is near counts in part."""
     above = _HEIGHTS[number + 1] if number + 1 < len(_HEIGHTS) else _HIGH
     here, whole = _HEIGHTS[number], np.float32(_WHOLE)
     part = _share(np.float32(above) - first, above - here)

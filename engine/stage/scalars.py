@@ -31,7 +31,7 @@ _FARTHEST = 1e4
 
 
 class ScalarBar(NamedTuple):
-    """What the colours mean.
+    """The bar that explains the colours.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class ScalarBar(NamedTuple):
 
 @dataclass
 class ScalarColoring:
-    """Which numbers are shown, and how.
+    """The numbers that are shown as colours, and how.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""How far a scene reaches: what clip planes must enclose and what a first view must show.
+"""The extent of a scene: what clip planes must enclose, and what a first view must show.
 
 In: a `Scene`. Out: a `Sphere`, or points round everything visible. Vertices that are not finite do
 not count; instances count as their boxes.

@@ -1,4 +1,4 @@
-"""What `render` and `show` take besides a scene: a mesh, a part of a scene, what trimesh holds.
+"""The scenes of other things that `render` and `show` take: meshes, nodes, scenes of trimesh.
 
 In: one of these. Out: a `Scene` of it, whose nodes share the meshes that were given.
 """

@@ -1,4 +1,4 @@
-"""What the user asked for on the command line, whatever is shown.
+"""The user's wishes on the command line, whatever scene is shown.
 
 Plain data: the command line fills it in, `ViewRenderer` applies it to each scene.
 """

@@ -34,7 +34,7 @@ _BOX_REACH = 1.75
 
 
 class Staging:
-    """What a model is drawn with.
+    """Lights, ground and other things that a model is drawn with.
 
     Parameters
     ----------

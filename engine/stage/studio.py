@@ -159,7 +159,7 @@ def theme_for(picture: np.ndarray, themes: Iterable[Theme] = (LIGHT, DARK)) -> T
 
 
 def _distance(picture: np.ndarray, outline: tuple[np.ndarray, ...], theme: Theme) -> float:
-    """How far an outline's pixels are from a theme's background, in codes; 0 if there are none."""
+    """Return how far an outline's pixels are from a theme's background, in codes; 0 without any."""
     rows, columns = outline
     if not len(rows):
         return 0.0

@@ -129,7 +129,7 @@ class ViewRenderer:
 
     @property
     def renderer(self) -> Renderer:
-        """What draws with as many samples per pixel as are asked for now."""
+        """The renderer with as many samples per pixel as are asked for now."""
         if self.samples not in self._renderers:
             renderer = Renderer(*self.size, samples=self.samples, **self._options)
             self._renderers[self.samples] = renderer
@@ -235,7 +235,7 @@ class ViewRenderer:
         view.frame_beside(self._outline, self.aspect, self._taken())
 
     def fill(self, view: Viewpoint) -> None:
-        """Move a view to where the scene, as it first stands, fills the picture.
+        """Move a view so that the scene, in its first pose, fills the picture.
 
         That is nearer than `frame`, which leaves room for the scene to turn.
         """
@@ -248,7 +248,7 @@ class ViewRenderer:
             view.fit(self._support, np.array(self.bounds.center), self.aspect, self._taken())
 
     def _taken(self) -> Taken:
-        """What of the picture the bar of numbers takes."""
+        """Return the part of the picture that the bar of numbers takes."""
         bar = self.viewed.bar if self.settings.bar else None
         if bar is None:
             return NOTHING
@@ -330,7 +330,7 @@ class ViewRenderer:
 
     @property
     def point_size(self) -> float:
-        """How large points are, in the appearance's `size_unit`."""
+        """Return the size of points, in the appearance's `size_unit`."""
         if self.appearance.point_size is not None:
             return self.appearance.point_size
         pixels = point_size(self._points, self.size)

@@ -1,4 +1,4 @@
-"""What is shown: a scene, how it moves, and how it likes to be looked at.
+"""A viewed scene: the scene, how it moves, and how it is best looked at.
 
 Models that are opened and demo scenes both arrive here; the window, the turntable and the still
 picture take them from here.

@@ -1,4 +1,4 @@
-"""Which objects and materials of a scene are hidden in the viewer.
+"""The objects and materials of a scene that are hidden in the viewer.
 
 In: a scene; what the user hides, shows, or wants to see alone. Out: a staged scene without the
 hidden nodes, and with meshes that lack the faces of hidden materials; the scene itself has all.
@@ -93,7 +93,7 @@ class Visibility:
         self._apply()
 
     def tell_whole_face(self, frame: Frame, x: int, y: int) -> None:
-        """Let a pixel of a frame name the face of the whole mesh, of which a part was drawn."""
+        """Let a pixel name the face of the whole mesh, of which only a part was drawn."""
         face = int(frame.triangle_id[y, x])
         if face < 0 or not self._hidden_materials:
             return

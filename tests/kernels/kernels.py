@@ -63,9 +63,9 @@ def fog_view(kind, row, color, depths, density):
     return record("fog_view", **given, density=density)
 
 
-def surface_model(values):
+def brdf_record(values):
     """A physically based material without textures: arrays of float32 by name."""
-    made, varying = record("surface_model"), layout("e3d_varying")
+    made, varying = record("brdf"), layout("e3d_varying")
     for name in values.keys() & set(made.dtype.names):
         kind = made.dtype[name]
         (made[name]["factor"] if kind.base == varying else made[name])[0] = (
@@ -142,10 +142,10 @@ class Kernels:
         request = record("record_request", **dict(zip(names, members, strict=True)))
         return self._call("record", request, out, spans)
 
-    def fragments(self, triangles, viewport, tiles_x, blocks, bins, count):
-        """Of a copy of the triangles, to `blocks` of which `count` are in use; returns how many are
+    def fragments(self, triangles, viewport, tiles_x, links, bins, count):
+        """Of a copy of the triangles, to `links` of which `count` are in use; returns how many are
         then, the fragments and the triangles that have some."""
-        out = record("fragment_bins", blocks=blocks, bins=bins, count=count)
+        out = record("fragment_bins", links=links, bins=bins, count=count)
         self._call("fragments", triangles.copy(), viewport, tiles_x, out)
         return tuple(int(out[name][0]) for name in ("count", "fragments", "triangles"))
 
@@ -163,8 +163,8 @@ class Kernels:
     def raster_visible(self, tile, records, ids, drawn=None):
         self._call("raster_visible", tile, record_table(records, drawn), ids, len(ids))
 
-    def raster_fragments(self, tile, records, drawn, block):
-        self._call("raster_fragments", tile, record_table(records, drawn), block)
+    def raster_fragments(self, tile, records, drawn, link):
+        self._call("raster_fragments", tile, record_table(records, drawn), link)
 
     def raster_settle(self, tile, records, depths=True):
         self._call("raster_settle", tile, record_table(records), depths)
@@ -201,10 +201,10 @@ class Kernels:
     def combine(self, batch, specular, emissive, exposure=1.0):
         self._call("combine", batch, specular, emissive, exposure)
 
-    def physical(self, batch, model, lights, reach, ambient, eye, maps):
-        """`model`: as for `surface_model`; the coat's normals are in `maps`."""
+    def physical(self, batch, brdf, lights, reach, ambient, eye, textures):
+        """`brdf`: as for `brdf_record`; the coat's normals are in `textures`."""
         lighting = lighting_of(lights, reach, ambient, (0, np.inf), eye)
-        self._call("physical", batch, surface_model(model), lighting, maps)
+        self._call("physical", batch, brdf_record(brdf), lighting, textures)
 
     def environment(self, pixels, turn, intensity, *others):
         """Of an environment made of pixels."""

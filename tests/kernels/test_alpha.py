@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from kernels.arithmetic import ONE, clamp
 from kernels.harness import all_backends, bits, check_lanes, check_poisoned, hostile
-from kernels.layouts import MAP_BATCH, PAD, RECORD, SHOWN, SHOWN_ROOM, TILE
+from kernels.layouts import PAD, RECORD, SHOWN, SHOWN_ROOM, TEXTURE_BATCH, TILE
 from kernels.pieces import Triangle, piece_of
 from kernels.surfaces import LANES, at, bytes_of, fill, planes, random_batches, random_surfaces
 from kernels.test_interpolate import dot
@@ -89,7 +89,7 @@ def through_rounds():
     )
     rounds = []
     for one in fields:
-        count, before, maps = int(one["count"]), random_planes(rng), np.zeros(1, MAP_BATCH)
+        count, before, maps = int(one["count"]), random_planes(rng), np.zeros(1, TEXTURE_BATCH)
         maps["through"] = rng.random(maps["through"].shape, np.float32)
         maps["through"][0, :, ::5], maps["through"][0, :, 1::7] = 1, 0
         before[:, ::9] = 0
@@ -256,10 +256,10 @@ def test_raster_alpha(kernels):
         assert (following, again) == (p["y1"] + 1, False)
         assert np.array_equal(shown["sample"][0, :count], expected)
         assert np.array_equal(bits(depth[:count]), bits(z.ravel()[expected]))
-        assert shown["pieces"][0] == (count > 0)
+        assert shown["primitives"][0] == (count > 0)
         assert (shown["of"][0, :count] == 0).all()
         if count:
-            assert tuple(shown["piece"][0, 0]) == (SLOT, 0)
+            assert tuple(shown["primitive"][0, 0]) == (SLOT, 0)
             _, again = kernels.raster_alpha(*given, shown.view(np.uint8), depth)
             assert not again  # each call begins a list of bits of its own
     assert ties > 1000

@@ -15,7 +15,7 @@ from kernels.layouts import (
     BIN,
     BLOCK_FRAGMENTS,
     CLUSTER_VERTICES,
-    FRAGMENT_BLOCK,
+    FRAGMENT_LINK,
     MOST_FRAGMENTS,
     PAD,
     SMALL_TRIANGLES,
@@ -38,7 +38,7 @@ from kernels.test_record import (
 BATCHES = 350  # with four kinds: 250,000 triangles and more
 REACH = 16383
 SIDE = 4
-NO_BLOCK = 0xFFFFFFFF
+NO_LINK = 0xFFFFFFFF
 
 
 def boxes(rng, size, shape):
@@ -118,13 +118,13 @@ def small_triangles(rng, kind, viewport, sizes):
 
 
 class Lists:
-    """The bins of a picture's tiles, and blocks of fragments for so many calls."""
+    """The bins of a picture's tiles, and links of fragments for so many calls."""
 
     def __init__(self, tiles, calls):
-        self.bins = np.full(2 * tiles, NO_BLOCK, np.uint32).view(BIN)
+        self.bins = np.full(2 * tiles, NO_LINK, np.uint32).view(BIN)
         most = min(tiles, MOST_FRAGMENTS) + MOST_FRAGMENTS // (BLOCK_FRAGMENTS - PAD)
-        words = np.full(calls * most * FRAGMENT_BLOCK.itemsize // 4, POISON, np.uint32)
-        self.blocks = words.view(FRAGMENT_BLOCK)
+        words = np.full(calls * most * FRAGMENT_LINK.itemsize // 4, POISON, np.uint32)
+        self.links = words.view(FRAGMENT_LINK)
         self.count = 0
 
     def add(self, kernels, triangles, viewport, tiles_x):
@@ -133,42 +133,42 @@ class Lists:
             triangles.view(np.uint8),
             viewport.view(np.uint8),
             tiles_x,
-            self.blocks.view(np.uint8),
+            self.links.view(np.uint8),
             self.bins.view(np.uint8),
             self.count,
         )
         return made
 
     def owners(self):
-        """The tile whose chain each block in use is in: each is in one."""
+        """The tile whose chain each link in use is in: each is in one."""
         owner = np.full(self.count, -1)
-        tiles = np.flatnonzero(self.bins["first"] != NO_BLOCK)
-        blocks = self.bins["first"][tiles]
-        while len(blocks):
-            assert (owner[blocks] < 0).all()
-            owner[blocks] = tiles
-            after = self.blocks["next"][blocks]
-            assert np.array_equal(after == NO_BLOCK, self.bins["last"][tiles] == blocks)
-            tiles, blocks = tiles[after != NO_BLOCK], after[after != NO_BLOCK]
+        tiles = np.flatnonzero(self.bins["first"] != NO_LINK)
+        links = self.bins["first"][tiles]
+        while len(links):
+            assert (owner[links] < 0).all()
+            owner[links] = tiles
+            after = self.links["next"][links]
+            assert np.array_equal(after == NO_LINK, self.bins["last"][tiles] == links)
+            tiles, links = tiles[after != NO_LINK], after[after != NO_LINK]
         assert (owner >= 0).all()
         return owner
 
     def fragments(self):
         """ID, place in the picture, depth's bits of each, sorted."""
-        used = self.blocks[: self.count]
+        used = self.links[: self.count]
         assert (used["count"] > 0).all() and (used["count"] <= BLOCK_FRAGMENTS).all()
-        assert (self.blocks[self.count :].view(np.uint32) == POISON).all()
+        assert (self.links[self.count :].view(np.uint32) == POISON).all()
         there = np.arange(BLOCK_FRAGMENTS) < used["count"][:, None]
         places = self.owners()[:, None] * TILE * TILE + used["sample"]
         return in_order(used["id"][there], places[there], bits(used["z"][there]))
 
     def check_order(self):
         """In each tile's chain, the fragments of a triangle follow each other."""
-        for block in self.bins["first"][self.bins["first"] != NO_BLOCK]:
+        for link in self.bins["first"][self.bins["first"] != NO_LINK]:
             ids = []
-            while block != NO_BLOCK:
-                ids.append(self.blocks["id"][block, : self.blocks["count"][block]])
-                block = self.blocks["next"][block]
+            while link != NO_LINK:
+                ids.append(self.links["id"][link, : self.links["count"][link]])
+                link = self.links["next"][link]
             ids = np.concatenate(ids)
             assert (np.diff(ids) != 0).sum() + 1 == len(np.unique(ids))
 

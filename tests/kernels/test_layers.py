@@ -79,9 +79,9 @@ def owners_of(fields):
     owners = np.full(TILE * TILE, -1)
     runs, pieces = fields["sample"][: fields["count"]], fields["of"][: fields["count"]]
     assert (np.diff(pieces) >= 0).all()
-    assert np.array_equal(np.unique(pieces), np.arange(fields["pieces"]))
-    named = fields["piece"][: fields["pieces"]]
-    assert np.array_equal(named["first"], np.searchsorted(pieces, np.arange(fields["pieces"])))
+    assert np.array_equal(np.unique(pieces), np.arange(fields["primitives"]))
+    named = fields["primitive"][: fields["primitives"]]
+    assert np.array_equal(named["first"], np.searchsorted(pieces, np.arange(fields["primitives"])))
     for run, piece in zip(runs, pieces, strict=True):
         first, length = run & (TILE * TILE - 1), run >> RUN_LENGTH
         assert length > 0
@@ -124,9 +124,9 @@ def test_behind_what_is_listed_already(kernels):
         lists.fields[0],
     )
     assert kernels.show_layers(cover.rows[0], table, one.order, layers.rows[0], row)
-    count, pieces = int(fields["count"]), int(fields["pieces"])
+    count, pieces = int(fields["count"]), int(fields["primitives"])
     assert kernels.show_layers(cover.rows[0], table, one.order, layers.rows[0], row)
-    assert (fields["count"], fields["pieces"]) == (2 * count, 2 * pieces)
+    assert (fields["count"], fields["primitives"]) == (2 * count, 2 * pieces)
     assert np.array_equal(fields["sample"][:count], fields["sample"][count : 2 * count])
     assert np.array_equal(fields["of"][:count] + pieces, fields["of"][count : 2 * count])
 

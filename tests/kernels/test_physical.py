@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 from kernels.harness import all_backends
-from kernels.layouts import BATCH_RECORD, LIGHT, MAP_BATCH
+from kernels.layouts import BATCH_RECORD, LIGHT, TEXTURE_BATCH
 from kernels.test_light import DIRECTIONAL, reach_of
 from shared_corpus import GLTF, needs_gltf
 
@@ -25,8 +25,8 @@ PLAIN = {
     "anisotropy": [0],
     "anisotropy_turn": [1, 0],
     "iridescence": [0],
-    "film": [0],
-    "film_ior": [1.3],
+    "iridescence_thickness": [0],
+    "iridescence_ior": [1.3],
 }
 
 
@@ -34,9 +34,9 @@ def unit(v):
     return np.asarray(v) / np.linalg.norm(v, axis=-1, keepdims=True)
 
 
-def shown(kernels, *arguments, **model):
+def shown(kernels, *arguments, **numbers):
     """What one sample shows, (3,), seen along ``view`` under a light from ``light`` of 1 lux."""
-    return seen(kernels, *arguments, **model)[0]
+    return seen(kernels, *arguments, **numbers)[0]
 
 
 def seen(
@@ -49,10 +49,10 @@ def seen(
     coat_normal=None,
     depth=1,
     tangent=(0, 0, 0, 0),
-    **model,
+    **numbers,
 ):
     """What one sample shows, and which shares of light pass through it."""
-    batch, maps = np.zeros(1, BATCH_RECORD), np.zeros(1, MAP_BATCH)
+    batch, maps = np.zeros(1, BATCH_RECORD), np.zeros(1, TEXTURE_BATCH)
     batch["count"] = 1
     for name, value in (("normal", normal), ("position", np.negative(view)), ("color", albedo)):
         batch[name][0] = np.reshape(value, (3, 1))
@@ -64,7 +64,7 @@ def seen(
         lights["kind"], lights["to_light"], lights["lux"] = DIRECTIONAL, light, 1.0
     kernels.physical(
         batch.view(np.uint8),
-        {name: np.array(value, np.float32) for name, value in {**PLAIN, **model}.items()},
+        {name: np.array(value, np.float32) for name, value in {**PLAIN, **numbers}.items()},
         lights.view(np.uint8),
         reach_of(lights),
         np.full(3, ambient, np.float32),

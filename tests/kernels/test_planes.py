@@ -127,11 +127,11 @@ def test_what_shows(kernels, count):
         scene, rng = Scene(10 * count + seed, count), np.random.default_rng(seed)
         planes, ids = planes_at_lines(count, scene.place), np.arange(RECORDS, dtype=np.uint32)
         for part in np.array_split(rng.permutation(ids), 4):
-            kernels.raster_planes(planes, scene.pattern, scene.table, part, len(part))
+            kernels.raster_msaa(planes, scene.pattern, scene.table, part, len(part))
             columns = np.full((TILE_BLOCKS, BLOCK), np.nan, F)
-            kernels.planes_measure(planes, count, columns)
+            kernels.msaa_measure(planes, count, columns)
         bounds = planes[:1].copy()
-        kernels.planes_settle(planes, scene.pattern, scene.table)
+        kernels.msaa_settle(planes, scene.pattern, scene.table)
         assert planes["noted"][0] == 0
         for name, expected in (("z", scene.z), ("id", scene.ids)):
             got = of_samples(planes, name)
@@ -153,7 +153,7 @@ def test_pixels_are_parted_and_listed(kernels, count):
     differs = (scene.ids != scene.ids[0]).any(axis=0)
     for width, height in ((TILE, TILE), (1, 1), (37, 9)):
         mixed = np.zeros(TILE, np.uint64)
-        gaps = kernels.planes_split(planes, count, width, height, mixed, shared)
+        gaps = kernels.msaa_split(planes, count, width, height, mixed, shared)
         got = (mixed[:height, None] >> np.arange(TILE, dtype=np.uint64) & np.uint64(1)).astype(bool)
         assert np.array_equal(got, differs[:height] & (np.arange(TILE) < width))
         own = of_samples(shared, "id")[0, :height, :width]
@@ -220,17 +220,17 @@ def test_covers(kernels, count):
         pieces["z0"] = pieces["zmin"] = pieces["zmax"] = depth
         pieces["slot"], pieces["order"] = 1, 5
         shown, covers = np.zeros(1, SHOWN), np.zeros(SHOWN_ROOM + 2 * PAD, np.int32)
-        out = record("planes_list", pattern=pattern, shown=shown, cover=covers)
+        out = record("msaa_list", pattern=pattern, shown=shown, cover=covers)
         for name, array in (("limit", limit), ("kept", kept)):
             out[name][0, :count] = [row.ctypes.data for row in array]
         table = record_table(orders.view(np.uint8))
-        assert kernels.cover_planes(pieces, live, 0, TILE - 1, table, out) == TILE
+        assert kernels.cover_msaa(pieces, live, 0, TILE - 1, table, out) == TILE
         pixels, total = np.flatnonzero(cover), int(shown["count"][0])
         expected = cover.ravel()[pixels]
         lowest = np.log2(expected & -expected).astype(int)
         assert np.array_equal(shown["sample"][0, :total], pixels | lowest << layouts.SHOWN_NUMBER)
         assert np.array_equal(covers[:total], expected)
-        assert shown["pieces"][0] == (total > 0)
+        assert shown["primitives"][0] == (total > 0)
     assert ties > 50
 
 

@@ -55,7 +55,11 @@ def test_films_reflect_what_the_extension_says(kernels, metallic):
     for n, v, to in zip(*directions(60, 4), strict=True):
         ior, thickness, albedo = rng.uniform(1.05, 2.4), rng.uniform(1, 1200), rng.uniform(0, 1, 3)
         look = {"metallic": [metallic], "roughness": [0.6], "reflectance": [0.06, 0.04, 0.09]}
-        film = {"iridescence": [0.8], "film_ior": [ior], "film": [thickness]}
+        film = {
+            "iridescence": [0.8],
+            "iridescence_ior": [ior],
+            "iridescence_thickness": [thickness],
+        }
         f0 = albedo if metallic else np.array(look["reflectance"])
         bare, coated = (shown(kernels, n, v, albedo, to, **look, **more) for more in ({}, film))
         cosine, w5 = min(abs(n @ v), 1), (1 - v @ unit(to + v)) ** 5
@@ -73,7 +77,7 @@ def test_films_reflect_what_the_extension_says(kernels, metallic):
 @all_backends
 def test_no_film_without_thickness(kernels):
     for n, v, to in zip(*directions(5, 5), strict=True):
-        film = {"iridescence": [1], "film_ior": [1.3], "film": [0]}
+        film = {"iridescence": [1], "iridescence_ior": [1.3], "iridescence_thickness": [0]}
         args = kernels, n, v, (0.9, 0.5, 0.1), to, 0.3
         assert np.allclose(shown(*args, **film), shown(*args), rtol=1e-6)
 
@@ -124,7 +128,11 @@ def test_the_furnace_is_at_most_white(kernels):
         view = np.array([np.sin(angle), 0, np.cos(angle)])
         for roughness in (0, 0.3, 1):
             for film in (0, 150, 400, 700):
-                look = {"roughness": [roughness], "film": [film], "film_ior": [1.4]}
+                look = {
+                    "roughness": [roughness],
+                    "iridescence_thickness": [film],
+                    "iridescence_ior": [1.4],
+                }
                 look |= {"iridescence": [1], "anisotropy": [0.8], "transmission": [0.5]}
                 for metallic in (0, 0.5, 1):
                     args = kernels, (0, 0, 1), view, [1] * 3, None, 1

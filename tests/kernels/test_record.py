@@ -18,7 +18,7 @@ from kernels.layouts import (
     PAD,
     RECORD,
     TILE,
-    TILE_SPAN,
+    TILE_RECT,
     VERTICES,
     viewport_of,
 )
@@ -28,7 +28,7 @@ SIZES = [(1, 1), (2, 2), (16, 16), (640, 480), (65536, 65536), (1, 4096), (37, 2
 TABLES = [32, 33, 64, 65, CLUSTER_VERTICES]  # vertices at and beyond what a table's parts hold
 STEPS = 32767  # of 1/256 sample: larger triangles never carry their cover
 OUT = np.dtype([("rows", RECORD, CLUSTER_TRIANGLES)])
-SPANS = np.dtype([("rows", TILE_SPAN, CLUSTER_TRIANGLES)])
+SPANS = np.dtype([("rows", TILE_RECT, CLUSTER_TRIANGLES)])
 
 
 # ---- vertices ----
@@ -163,7 +163,7 @@ def expectation(c, viewport, told, cull, mirrored, order):
     plane = plane_of(c, np.abs(area), across, down)
     keep &= ~(small & (cover == 0)) & np.isfinite(plane).all(axis=0)
     front = swapped ^ mirrored[:, None]
-    records, spans = np.zeros(area.shape, RECORD), np.zeros(area.shape, TILE_SPAN)
+    records, spans = np.zeros(area.shape, RECORD), np.zeros(area.shape, TILE_RECT)
     for k in range(3):
         records["x"][..., k], records["y"][..., k], records["iw"][..., k] = x[k], y[k], c["iw"][k]
     records["z0"], records["gx"], records["gy"] = plane

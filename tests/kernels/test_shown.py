@@ -7,8 +7,8 @@ from kernels.layouts import (
     BATCH,
     BATCH_RECORD,
     BLOCK_FRAGMENTS,
-    FRAGMENT_BLOCK,
     FRAGMENT_ID,
+    FRAGMENT_LINK,
     PAD,
     SHOWN,
     TILE,
@@ -43,12 +43,12 @@ def test_show_records(kernels, parts):
         rng, some = np.random.default_rng(seed), scene(seed)
         tile = settled_tile(kernels, some, rng)
         before = tile.bytes.copy()
-        fields["count"], fields["pieces"], fields["runs"] = 0, 0, 7
+        fields["count"], fields["primitives"], fields["runs"] = 0, 0, 7
         for part in np.array_split(some.arrivals[1], parts):
             kernels.show_records(tile.bytes, some.table, some.ids[part], row)
         assert np.array_equal(tile.bytes, before)
-        count, pieces = int(fields["count"]), int(fields["pieces"])
-        named = fields["piece"][:pieces]
+        count, pieces = int(fields["count"]), int(fields["primitives"])
+        named = fields["primitive"][:pieces]
         ends = np.append(named["first"], count)
         for number, (record_id, first) in enumerate(named):
             assert np.array_equal(
@@ -60,56 +60,56 @@ def test_show_records(kernels, parts):
         assert count == sum(len(samples_of(tile, number)) for number in showing)
         for name in ("sample", "of"):
             check_poisoned({name: fields[name][count + 2 * PAD :]}, [name])
-        check_poisoned({"piece": fields["piece"][pieces + 1 :]}, ["piece"])
+        check_poisoned({"primitive": fields["primitive"][pieces + 1 :]}, ["primitive"])
         assert fields["runs"] == 7
         hidden += RECORDS - pieces
     assert hidden > TILES  # or nothing was left out
     lists.check_gaps()
 
 
-def fragment_blocks(rng, tile):
-    """Fragments, some of which show: one or several of each triangle, in two blocks."""
+def fragment_links(rng, tile):
+    """Fragments, some of which show: one or several of each triangle, in two links."""
     count = int(rng.integers(2, BLOCK_FRAGMENTS))
     ids = FRAGMENT_ID + np.repeat(rng.permutation(1000), rng.choice([1, 1, 1, 2, 5], 1000))
     at = rng.permutation(TILE * TILE)[: 2 * count]
-    blocks = np.zeros(2, FRAGMENT_BLOCK)
-    blocks["count"] = count, rng.integers(0, count)
+    links = np.zeros(2, FRAGMENT_LINK)
+    links["count"] = count, rng.integers(0, count)
     for number in range(2):
         some = slice(number * count, (number + 1) * count)
-        blocks["id"][number, :count] = ids[some]
-        blocks["sample"][number, :count] = at[some]
+        links["id"][number, :count] = ids[some]
+        links["sample"][number, :count] = at[some]
         shows = at[some][rng.random(count) < rng.choice([0, 0.3, 1])]
         tile.fields["id"][0, shows] = ids[some][np.isin(at[some], shows)]
-    return blocks
+    return links
 
 
 @all_backends
 def test_show_fragments(kernels):
-    """Those that show, in order; of one triangle they are one piece, in two blocks, too."""
+    """Those that show, in order; of one triangle they are one piece, in two links, too."""
     lists, pieces = Records(SHOWN, 200), 0
     for seed, (row, fields) in enumerate(zip(lists.rows, lists.fields, strict=True)):
         rng, tile = np.random.default_rng(seed), Tile(0, 0)
-        blocks = fragment_blocks(rng, tile)
+        links = fragment_links(rng, tile)
         before = tile.bytes.copy()
-        fields["count"], fields["pieces"] = 0, 0
+        fields["count"], fields["primitives"] = 0, 0
         ids, samples = [], []
-        for block in blocks:
-            kernels.show_fragments(tile.bytes, block.reshape(1).view(np.uint8), row)
-            all_ids, at = (block[name][: block["count"]] for name in ("id", "sample"))
+        for link in links:
+            kernels.show_fragments(tile.bytes, link.reshape(1).view(np.uint8), row)
+            all_ids, at = (link[name][: link["count"]] for name in ("id", "sample"))
             shows = tile.fields["id"][0, at] == all_ids
             ids, samples = np.append(ids, all_ids[shows]), np.append(samples, at[shows])
         assert np.array_equal(tile.bytes, before)
         fresh = np.flatnonzero(np.diff(ids, prepend=-1))
-        assert fields["count"] == len(ids) and fields["pieces"] == len(fresh)
+        assert fields["count"] == len(ids) and fields["primitives"] == len(fresh)
         assert np.array_equal(fields["sample"][: len(ids)], samples)
         assert np.array_equal(
             fields["of"][: len(ids)], np.cumsum(np.diff(ids, prepend=-1) != 0) - 1
         )
-        assert np.array_equal(fields["piece"]["id"][: len(fresh)], ids[fresh])
-        assert np.array_equal(fields["piece"]["first"][: len(fresh)], fresh)
+        assert np.array_equal(fields["primitive"]["id"][: len(fresh)], ids[fresh])
+        assert np.array_equal(fields["primitive"]["first"][: len(fresh)], fresh)
         for name in ("sample", "of"):
             check_poisoned({name: fields[name][len(ids) + PAD :]}, [name])
-        check_poisoned({"piece": fields["piece"][len(fresh) + 1 :]}, ["piece"])
+        check_poisoned({"primitive": fields["primitive"][len(fresh) + 1 :]}, ["primitive"])
         pieces += len(fresh)
     assert pieces > 5000
     lists.check_gaps()
@@ -122,9 +122,9 @@ def test_neighbours_stay_neighbours(kernels):
     for seed in range(2 * TILES):  # few records are as large
         some = scene(seed)
         tile, row = settled_tile(kernels, some, np.random.default_rng(seed)), Records(SHOWN, 1)
-        row.fields["count"] = row.fields["pieces"] = 0
+        row.fields["count"] = row.fields["primitives"] = 0
         kernels.show_records(tile.bytes, some.table, some.ids, row.rows[0])
-        named = row.fields["piece"][0, : row.fields["pieces"][0]]
+        named = row.fields["primitive"][0, : row.fields["primitives"][0]]
         for record_id, first in named:
             own = samples_of(tile, record_id)
             columns, rows = np.ptp(own % TILE) + 1, np.ptp(own // TILE) + 1

@@ -111,7 +111,7 @@ def cover_of(scene, kernels, shown, parts=1):
 
 def empty_lists(count):
     lists = Records(SHOWN, count)
-    lists.fields["count"] = lists.fields["pieces"] = 0
+    lists.fields["count"] = lists.fields["primitives"] = 0
     return lists
 
 
@@ -129,11 +129,11 @@ def check_list(fields, scene, numbers):
     numbers = [number for number in numbers if scene.covers[number].any()]
     runs = [scene.runs[number] for number in numbers]
     count = sum(map(len, runs))
-    assert (fields["count"], fields["pieces"]) == (count, len(numbers))
+    assert (fields["count"], fields["primitives"]) == (count, len(numbers))
     assert np.array_equal(fields["sample"][:count], np.concatenate([[], *runs]))
     pieces = np.repeat(np.arange(len(numbers)), list(map(len, runs)))
     assert np.array_equal(fields["of"][:count], pieces)
-    named = fields["piece"][: len(numbers)]
+    named = fields["primitive"][: len(numbers)]
     assert np.array_equal(named["id"], scene.ids[numbers])
     assert np.array_equal(named["first"], np.searchsorted(pieces, np.arange(len(numbers))))
     for name in ("sample", "of"):

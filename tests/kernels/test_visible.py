@@ -17,8 +17,8 @@ from kernels.layouts import (
     BLOCK_FRAGMENTS,
     CLUSTER_TRIANGLES,
     DRAWN_CLUSTER,
-    FRAGMENT_BLOCK,
     FRAGMENT_ID,
+    FRAGMENT_LINK,
     RECORD,
     TILE,
     VISIBLE_TILE,
@@ -297,20 +297,20 @@ class Fragments:
         self.blocks = [self._block(rng, scene, drawn["order"][0, 0]) for _ in range(8)]
 
     def _block(self, rng, scene, base):
-        """A block, and the orders of its fragments."""
-        block = np.zeros(1, FRAGMENT_BLOCK)
+        """A link, and the orders of its fragments."""
+        link = np.zeros(1, FRAGMENT_LINK)
         count = rng.integers(0, BLOCK_FRAGMENTS + 1)
         corner, side = rng.integers(0, TILE - 8, 2), rng.choice([2, 8])
         at = corner + rng.integers(0, side, (count, 2))
         worker, cluster, triangle = (rng.integers(0, most, count) for most in (*self.faces.shape,))
-        block["count"] = count
-        block["sample"][0, :count] = at[:, 1] * TILE + at[:, 0]
+        link["count"] = count
+        link["sample"][0, :count] = at[:, 1] * TILE + at[:, 0]
         number = cluster * CLUSTER_TRIANGLES + triangle
-        block["id"][0, :count] = FRAGMENT_ID | number * scene.workers | worker
+        link["id"][0, :count] = FRAGMENT_ID | number * scene.workers | worker
         few = np.float32([-0.0, 0.0, 0.25, 0.5, 1.0, BEYOND_FAR, 1.5])
         near = scene.z[at[:, 1], at[:, 0]]
-        block["z"][0, :count] = np.where(rng.random(count) < 0.5, rng.choice(few, count), near)
-        return block, base + self.faces[worker, cluster, triangle]
+        link["z"][0, :count] = np.where(rng.random(count) < 0.5, rng.choice(few, count), near)
+        return link, base + self.faces[worker, cluster, triangle]
 
 
 @all_backends

@@ -5,7 +5,7 @@ from itertools import product
 import pytest
 
 import engine3d as e3d
-from engine3d._native.kernels_testing import plan_rules, planned_items
+from engine3d._native.kernels_testing import plan_conditions, planned_items
 
 MODES = ("lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw")
 OUTPUTS = {
@@ -60,9 +60,9 @@ def asked_for(scene_facts, *, outputs=("color",), mode="lit", wireframe=None, hi
 
 
 def planned(facts):
-    """What the rules make of facts, as `frame.stats["plan"]` names it."""
+    """What the conditions make of facts, as `frame.stats["plan"]` names it."""
     known = set(facts)
-    for item, needs, forbids in plan_rules():
+    for item, needs, forbids in plan_conditions():
         if known.issuperset(needs) and known.isdisjoint(forbids):
             known.add(item)
     return tuple(name.lower() for name, _ in planned_items() if name in known)

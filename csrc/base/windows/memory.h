@@ -1,8 +1,6 @@
-/* Memory on Windows, where free() takes back only what malloc() gave: every allocation is aligned to a cache line, by functions of one
- * kind. The build includes this file before all others there.
- */
-#ifndef E3D_WINDOWS_MEMORY_H
-#define E3D_WINDOWS_MEMORY_H
+/* Memory on Windows, where free() takes back only what malloc() gave: all functions of this kind align allocations to a cache
+ * line. There, the build includes this file before all others. */
+#pragma once
 
 #define _CRT_RAND_S /* rand_s, for system.c: stdlib.h is read here first */
 #include <malloc.h>
@@ -21,7 +19,7 @@ static inline void *e3d_windows_calloc(size_t count, size_t size)
     return memory ? memset(memory, 0, count * size) : NULL;
 }
 
-/* As POSIX has it, but for alignments of more than a line, which are wishes. */
+/* As in POSIX, but an alignment of more than a cache line is not guaranteed. */
 static inline int e3d_windows_memalign(void **memory, size_t alignment, size_t bytes)
 {
     (void)alignment;
@@ -34,5 +32,3 @@ static inline int e3d_windows_memalign(void **memory, size_t alignment, size_t b
 #define realloc(memory, bytes) _aligned_realloc(memory, bytes, E3D_WINDOWS_LINE)
 #define free(memory) _aligned_free(memory)
 #define posix_memalign(memory, alignment, bytes) e3d_windows_memalign(memory, alignment, bytes)
-
-#endif

@@ -4,8 +4,7 @@
  * Out: the status and the hash of the pictures (FNV-1a, 64 bits).
  * Always: outputs are poisoned differently before each run, so that a pixel left unwritten shows.
  */
-#ifndef E3D_DRIVER_COMPARE_H
-#define E3D_DRIVER_COMPARE_H
+#pragma once
 
 #include "check/driver/hash.h"
 #include "check/driver/random.h"
@@ -32,5 +31,3 @@ outcome compare_alpha(random_stream r, const run_plan *plan, const char *title);
 /* The same scene, most of whose lights have maps of shadows. */
 outcome compare_shadows(random_stream r, const run_plan *plan, const char *title);
 outcome compare_rasterize(random_stream r, const run_plan *plan, const char *title);
-
-#endif

@@ -1,6 +1,5 @@
 /* The hash of what the driver draws. */
-#ifndef E3D_DRIVER_HASH_H
-#define E3D_DRIVER_HASH_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -13,5 +12,3 @@ static inline uint64_t hash_bytes(uint64_t hash, const uint8_t *bytes, size_t co
         hash = (hash ^ bytes[i]) * 0x100000001B3u;
     return hash;
 }
-
-#endif

@@ -11,7 +11,8 @@
 
 #include "check/driver/scenes.h"
 
-enum { FRAMES = 7, VIEWS = 2 };
+enum { FRAMES = 7,
+       VIEWS = 2 };
 enum { SETTLED = 5 }; /* frames, after which a view no longer knows what it took over from another when it was new */
 
 /* What the two views draw in one frame. */

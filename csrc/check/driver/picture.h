@@ -1,6 +1,5 @@
 /* What one run of a scene gives: an array for each output that it is asked for. */
-#ifndef E3D_DRIVER_PICTURE_H
-#define E3D_DRIVER_PICTURE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -22,5 +21,3 @@ uint64_t picture_hash(const picture *p);
 int picture_has_no_nan(const picture *p, const char *title, const char *run);
 /* Of the outputs that both have. */
 int picture_is_same(const picture *a, const picture *b, const char *title, const char *run);
-
-#endif

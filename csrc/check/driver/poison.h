@@ -3,10 +3,7 @@
  * The build names malloc, realloc and posix_memalign anew (.ci/build_driver.py), so that all that the core and the driver
  * allocate comes through here. calloc's memory is 0 by right.
  */
-#ifndef E3D_DRIVER_POISON_H
-#define E3D_DRIVER_POISON_H
+#pragma once
 
 /* From now on; 0 where the build has not named them anew. */
 int poison_begin(void);
-
-#endif

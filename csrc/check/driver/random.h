@@ -4,8 +4,7 @@
  * Method: splitmix64 (Steele, Lea, Flood 2014). Floats are integers times a power of two, and no
  * function of libm is used, since those differ between systems in the last bit.
  */
-#ifndef E3D_DRIVER_RANDOM_H
-#define E3D_DRIVER_RANDOM_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -49,5 +48,3 @@ static inline float random_float(random_stream *r, float low, float high)
 {
     return low + (high - low) * ((float)(random_bits(r) >> 40) * 0x1p-24f);
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Renderers of the driver's scenes: new ones, or some that have drawn other scenes before. */
-#ifndef E3D_DRIVER_RENDERERS_H
-#define E3D_DRIVER_RENDERERS_H
+#pragma once
 
 #include "e3d.h"
 
@@ -10,5 +9,3 @@ void renderers_free(void);
 e3d_status renderer_take(e3d_backend backend, int32_t threads, e3d_renderer **out);
 /* NULL: nothing is returned. */
 void renderer_return(e3d_renderer *renderer);
-
-#endif

@@ -9,13 +9,12 @@
 #include <stdlib.h>
 
 static const int32_t SIZES[][2] = {
-    {64, 64}, {65, 63}, {129, 97}, {160, 120}, {31, 200}, {7, 3}, {1, 1}, {1, 300}, {300, 1},
-};
+    {64, 64}, {65, 63}, {129, 97}, {160, 120}, {31, 200}, {7, 3}, {1, 1}, {1, 300}, {300, 1}};
 static const float HOSTILE[] = {
-    0.0f, -0.0f, 1e-45f, -1e-39f, 1e-20f, 1e20f, -3e38f, INFINITY, -INFINITY, NAN, 32768.0f, 0.5f,
-};
+    0.0f, -0.0f, 1e-45f, -1e-39f, 1e-20f, 1e20f, -3e38f, INFINITY, -INFINITY, NAN, 32768.0f, 0.5f};
 
-enum { MOST_GRID = 9, SOUP_TRIANGLES = 80 };
+enum { MOST_GRID = 9,
+       SOUP_TRIANGLES = 80 };
 
 /* Mostly one of the larger ones. */
 static const int32_t *random_size(random_stream *r)
@@ -95,8 +94,8 @@ static void grid_positions(float *positions, int32_t *faces, int32_t side, rando
     for (int32_t y = 0; y < side - 1; y++)
         for (int32_t x = 0; x < side - 1; x++, faces += 6) {
             int32_t corner = y * side + x;
-            int32_t quad[6] = {corner,     corner + 1,        corner + side + 1,
-                               corner,     corner + side + 1, corner + side};
+            int32_t quad[6] = {corner, corner + 1, corner + side + 1,
+                               corner, corner + side + 1, corner + side};
             memcpy(faces, quad, sizeof quad);
         }
 }
@@ -175,9 +174,9 @@ static void random_pose(double *m, random_stream *r)
     }
     double s = norm > 0.0 ? 2.0 / norm : 0.0;
     double x = q[0], y = q[1], z = q[2], w = q[3];
-    double rotation[9] = {1 - s * (y * y + z * z), s * (x * y - z * w),     s * (x * z + y * w),
-                          s * (x * y + z * w),     1 - s * (x * x + z * z), s * (y * z - x * w),
-                          s * (x * z - y * w),     s * (y * z + x * w), 1 - s * (x * x + y * y)};
+    double rotation[9] = {1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w),
+                          s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w),
+                          s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)};
     double mirror = random_once_in(r, 4) ? -1.0 : 1.0;
     double scale = mirror * random_float(r, 0.3f, 1.5f);
     for (int row = 0; row < 3; row++) {
@@ -419,14 +418,14 @@ static void choose_look(e3d_frame *frame, random_stream *r)
     frame->alpha_to_coverage = random_below(r, 2);
 }
 
-/* Up to two windows, in and beside the picture. */
-static void add_windows(scene *s, random_stream *r)
+/* Up to two apertures, in and beside the picture. */
+static void add_apertures(scene *s, random_stream *r)
 {
     const int32_t width = s->frame.width, height = s->frame.height;
-    s->frame.windows = s->windows;
-    s->frame.window_count = random_once_in(r, 2) ? random_below(r, 3) : 0;
+    s->frame.apertures = s->apertures;
+    s->frame.aperture_count = random_once_in(r, 2) ? random_below(r, 3) : 0;
     for (int k = 0; k < 2; k++) {
-        e3d_window *w = &s->windows[k];
+        e3d_aperture *w = &s->apertures[k];
         w->x0 = random_below(r, width);
         w->y0 = random_below(r, height);
         w->x1 = w->x0 + random_below(r, width);
@@ -480,7 +479,7 @@ e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
         status = add_draws(s, r);
     choose_tone(&s->frame, r);
     add_ambient(s, r);
-    add_windows(s, r);
+    add_apertures(s, r);
     return status;
 }
 
@@ -530,7 +529,8 @@ static e3d_environment_light environment_light(const scene *s, random_stream *r)
 
 e3d_status scene_add_environment(scene *s, random_stream *r)
 {
-    enum { WIDTH = 8, HEIGHT = 4 };
+    enum { WIDTH = 8,
+           HEIGHT = 4 };
     const float *pixels = random_floats(s, r, WIDTH * HEIGHT * 3, 0.0f, 4.0f);
     e3d_backdrop *backdrop = &s->frame.backdrop;
     e3d_status status = e3d_environment_create(pixels, WIDTH, HEIGHT, 2, &s->environment);

@@ -4,8 +4,7 @@
  * Out: a frame with all that it points to, owned by the scene.
  * Always: the same stream gives the same scene, on every machine.
  */
-#ifndef E3D_DRIVER_SCENES_H
-#define E3D_DRIVER_SCENES_H
+#pragma once
 
 #include "check/driver/random.h"
 #include "e3d.h"
@@ -25,7 +24,7 @@ typedef struct scene {
     e3d_texture *textures[SCENE_MAX_TEXTURES];
     e3d_material materials[SCENE_MAX_MATERIALS];
     e3d_light lights[SCENE_MAX_LIGHTS];
-    e3d_window windows[2];
+    e3d_aperture apertures[2];
     e3d_environment *environment; /* or NULL */
     void *arrays[SCENE_MAX_ARRAYS]; /* freed with the scene: what the meshes and draws borrow */
     int32_t array_count;
@@ -50,5 +49,3 @@ void scene_destroy(scene *s);
 
 clip_triangles clip_triangles_create(random_stream *r, int32_t most_side);
 void clip_triangles_destroy(clip_triangles *t);
-
-#endif

@@ -3,7 +3,8 @@
 #include "check/fuzz/input.h"
 
 /* Small pictures of few shapes: more of them. */
-enum { SIDE = 20, CALLS = 6 };
+enum { SIDE = 20,
+       CALLS = 6 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {

@@ -6,7 +6,8 @@
 #include "check/driver/compare.h"
 #include "check/fuzz/input.h"
 
-enum { SMALL = 12, LARGE = 66 };
+enum { SMALL = 12,
+       LARGE = 66 };
 
 /* The one that a number chooses of those that this machine can run, but for the reference. */
 static e3d_backend chosen_backend(uint32_t number)

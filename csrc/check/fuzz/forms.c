@@ -5,17 +5,20 @@
  * Claims: lines of no form begin where reading stops, and a text cut there gives the same; of STL, a reader that goes by
  *      words keeps the same numbers and marks; of 3D Studio, indices and flags are in range, marks in order.
  */
-#include "e3d_forms.h"
 #include "check/fuzz/input.h"
+#include "e3d_forms.h"
 
 #include <strings.h>
 
 enum { MOST_FORMS = 6 };
 
 static const e3d_form stl[] = {
-    {"vertex % % %", E3D_FORM_ROW, 3, SIZE_MAX, 0, 0}, {"endloop ", E3D_FORM_MARK, 0, 0, 0, 0},
-    {"facet ", E3D_FORM_SKIPPED, 0, 0, 0, 0},          {"outer ", E3D_FORM_SKIPPED, 0, 0, 0, 0},
-    {"endfacet ", E3D_FORM_SKIPPED, 0, 0, 0, 0},       {"endsolid ", E3D_FORM_SKIPPED, 0, 0, 0, 0},
+    {"vertex % % %", E3D_FORM_ROW, 3, SIZE_MAX, 0, 0},
+    {"endloop ", E3D_FORM_MARK, 0, 0, 0, 0},
+    {"facet ", E3D_FORM_SKIPPED, 0, 0, 0, 0},
+    {"outer ", E3D_FORM_SKIPPED, 0, 0, 0, 0},
+    {"endfacet ", E3D_FORM_SKIPPED, 0, 0, 0, 0},
+    {"endsolid ", E3D_FORM_SKIPPED, 0, 0, 0, 0},
 };
 
 static const e3d_form asc[] = {

@@ -9,7 +9,11 @@
 
 #include "check/fuzz/input.h"
 
-enum { ROOM = 24, OBJECTS = 3, VERTICES = 6, FACES = 4, INSTANCES = 5 };
+enum { ROOM = 24,
+       OBJECTS = 3,
+       VERTICES = 6,
+       FACES = 4,
+       INSTANCES = 5 };
 
 typedef struct columns {
     int32_t parent[ROOM], first_child[ROOM], last_child[ROOM], next[ROOM], previous[ROOM], object[ROOM], id[ROOM];
@@ -52,8 +56,12 @@ static void take_object(world *w, input *in, int k)
     e3d_triangle_boxes(w->positions[k], w->faces[k], FACES, triangle_boxes);
     e3d_boxes_union(triangle_boxes, FACES, own);
     e3d_shape *shape = &w->shapes[k];
-    *shape = (e3d_shape){.known = 1, .face_count = FACES, .positions = w->positions[k], .faces = w->faces[k],
-                         .pose_kind = E3D_POSE_NONE, .instances = 1};
+    *shape = (e3d_shape){.known = 1,
+                         .face_count = FACES,
+                         .positions = w->positions[k],
+                         .faces = w->faces[k],
+                         .pose_kind = E3D_POSE_NONE,
+                         .instances = 1};
     e3d_draw *draw = &w->placed[k].draw;
     draw->mesh = (const e3d_mesh *)(const void *)w; /* not looked into */
     draw->instances = 1;

@@ -3,7 +3,10 @@
 
 #include <string.h>
 
-enum { MAX_LENGTH = 15, LITERALS = 288, DISTANCES = 30, ALL = LITERALS + DISTANCES };
+enum { MAX_LENGTH = 15,
+       LITERALS = 288,
+       DISTANCES = 30,
+       ALL = LITERALS + DISTANCES };
 
 typedef struct stream {
     const uint8_t *bytes;
@@ -101,7 +104,8 @@ static void take_codes(stream *s, code *literals, code *distances)
         }
         s->bad |= item == 16 && k == 0;
         const uint8_t length = item == 16 && k > 0 ? lengths[k - 1] : 0;
-        int run = item == 16 ? 3 + (int)take_bits(s, 2) : item == 17 ? 3 + (int)take_bits(s, 3) : 11 + (int)take_bits(s, 7);
+        int run = item == 16 ? 3 + (int)take_bits(s, 2) : item == 17 ? 3 + (int)take_bits(s, 3)
+                                                                     : 11 + (int)take_bits(s, 7);
         while (run-- > 0)
             lengths[k++] = length;
         s->bad |= k > count;
@@ -115,7 +119,7 @@ static void take_codes(stream *s, code *literals, code *distances)
 
 static void copy_match(stream *s, int symbol, const code *distances)
 {
-    static const uint16_t base[30] = {1,   2,   3,   4,   5,   7,    9,    13,   17,   25,   33,   49,   65,    97,    129,
+    static const uint16_t base[30] = {1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49, 65, 97, 129,
                                       193, 257, 385, 513, 769, 1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577};
     const int group = symbol - 257;
     s->bad |= group > 28;

@@ -3,8 +3,7 @@
  * A target is one file with libFuzzer's entry. Where it feeds a parser, the bytes are the file as it is, so that
  * real files are seeds; elsewhere the first bytes choose sizes and options. A claim that fails is a finding.
  */
-#ifndef E3D_FUZZ_INPUT_H
-#define E3D_FUZZ_INPUT_H
+#pragma once
 
 #include <math.h>
 #include <stdbool.h>
@@ -81,5 +80,3 @@ static inline void *take_positions(input *in, size_t count, bool are_doubles)
     }
     return positions;
 }
-
-#endif

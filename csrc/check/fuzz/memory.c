@@ -3,11 +3,11 @@
  * In:  a byte: what is done; a byte: which allocation fails, whether those behind it do; then the data.
  * Claims: each says so, and frees what it had. Linked so that the allocations of the core come through here.
  */
+#include "check/fuzz/input.h"
 #include "e3d_images.h"
 #include "e3d_loaders.h"
 #include "e3d_navigation.h"
 #include "e3d_scene.h"
-#include "check/fuzz/input.h"
 
 #include <errno.h>
 
@@ -112,8 +112,12 @@ static int find_ground(input in)
     float positions[9];
     for (int k = 0; k < 9; k++)
         positions[k] = (float)take_number(&in);
-    e3d_navigation_mesh mesh = {.positions = positions, .faces = face, .faces_count = 1, .material_ids = &material,
-                                .kinds = &kind, .world_from_mesh = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    e3d_navigation_mesh mesh = {.positions = positions,
+                                .faces = face,
+                                .faces_count = 1,
+                                .material_ids = &material,
+                                .kinds = &kind,
+                                .world_from_mesh = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     e3d_navigation *grid = NULL;
     if (e3d_navigation_create(&desc, &grid) != E3D_OK)
         return 0;

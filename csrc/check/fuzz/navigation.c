@@ -8,7 +8,10 @@
 
 #include "check/fuzz/input.h"
 
-enum { MAX_SIDE = 12, MAX_VERTICES = 24, MAX_FACES = 24, MATERIALS = 4 };
+enum { MAX_SIDE = 12,
+       MAX_VERTICES = 24,
+       MAX_FACES = 24,
+       MATERIALS = 4 };
 
 static void take_mesh(input *in, e3d_navigation_mesh *mesh, float *positions, int32_t *faces, int32_t *ids,
                       uint8_t *kinds)

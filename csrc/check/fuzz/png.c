@@ -3,12 +3,16 @@
  * In:  a byte each: width, height, gap between rows; then pixels, again and again until all have some.
  * The targets are built with small windows and blocks (io/images/deflate.h), which few pixels fill.
  */
-#include "e3d_images.h"
 #include "check/fuzz/inflate.h"
 #include "check/fuzz/input.h"
+#include "e3d_images.h"
 #include "io/images/deflate.h"
 
-enum { PIXEL = 4, HEADER = 33, CHUNK = 12, MOST_COLUMNS = 63, MOST_PIXELS = 192 };
+enum { PIXEL = 4,
+       HEADER = 33,
+       CHUNK = 12,
+       MOST_COLUMNS = 63,
+       MOST_PIXELS = 192 };
 
 static uint32_t big_endian(const uint8_t *at)
 {
@@ -60,7 +64,8 @@ static uint8_t predicted(int type, int left, int up, int corner)
     case 1: return (uint8_t)left;
     case 2: return (uint8_t)up;
     case 3: return (uint8_t)((left + up) / 2);
-    default: return (uint8_t)(a <= b && a <= c ? left : b <= c ? up : corner);
+    default: return (uint8_t)(a <= b && a <= c ? left : b <= c ? up
+                                                               : corner);
     }
 }
 

@@ -4,10 +4,12 @@
  * Claims: an index out of range is found; triangles have corners of their polygon, three different ones; all edges of a
  *      polygon are shown once, and with enough tests none is cut as a fan.
  */
-#include "e3d_surfaces.h"
 #include "check/fuzz/input.h"
+#include "e3d_surfaces.h"
 
-enum { MOST_CORNERS = 256, MOST_POSITIONS = 32, ENOUGH = 100000000 };
+enum { MOST_CORNERS = 256,
+       MOST_POSITIONS = 32,
+       ENOUGH = 100000000 };
 
 static bool are_in_range(const e3d_polygons *p)
 {

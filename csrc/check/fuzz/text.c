@@ -4,12 +4,13 @@
  * Claims: strtof reads the same bits; no text of fewer digits is read so, and none as short is nearer; rows and lines
  *      are what printf makes of them.
  */
-#include "e3d_writers.h"
 #include "check/fuzz/input.h"
+#include "e3d_writers.h"
 
 #include <math.h>
 
-enum { MOST_NUMBERS = 64, MOST_CORNERS = 48 };
+enum { MOST_NUMBERS = 64,
+       MOST_CORNERS = 48 };
 
 static size_t digits_of(const char *text)
 {

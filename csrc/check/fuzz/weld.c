@@ -3,10 +3,13 @@
  * In:  a byte each: the number of positions, which lists there are; then three bytes a corner.
  * Claims: a corner's vertex has the corner's indices; vertices stand in order, so that none is there twice.
  */
-#include "e3d_rows.h"
 #include "check/fuzz/input.h"
+#include "e3d_rows.h"
 
-enum { POSITION, UV, NORMAL, LISTS };
+enum { POSITION,
+       UV,
+       NORMAL,
+       LISTS };
 
 typedef struct corners {
     int32_t *given[LISTS]; /* NULL where there is no such list */

@@ -20,14 +20,14 @@
 
 enum {
     CHUNK_FACES = 8192,
-    /* All clusters hold at least 42 triangles (126 / 3), except for the last of a chunk. */
+    /* Each cluster holds at least 42 triangles (126 / 3), except for the last one of a chunk. */
     LEAST_FACES = (E3D_CLUSTER_VERTICES - 2) / 3,
-    INDEX_FLOATS = 3 * E3D_CLUSTER_TRIANGLES / 4, /* the room that a cluster's indices take */
+    INDEX_FLOATS = 3 * E3D_CLUSTER_TRIANGLES / 4, /* the room for a cluster's indices */
     PLACES = 512, /* slots of the hash table of at most 128 positions */
-    RECENT = 256  /* vertices of the mesh whose members are remembered */
+    RECENT = 256  /* so many vertices of the mesh are cached with their members */
 };
 
-/* A position, of a mesh whose vertices move with its mover as the fourth word. Two are the same place if their bits are equal. */
+/* A position; if vertices move, their mover is the fourth word. Two places are the same if their bits are equal. */
 typedef union place {
     float at[4];
     float4 all;
@@ -41,7 +41,7 @@ typedef struct corner {
 
 typedef struct building {
     e3d_mesh *mesh;
-    e3d_cluster *clusters; /* `bound` for each chunk, which uses the first counts[chunk] of them */
+    e3d_cluster *clusters; /* room for `bound` clusters of each chunk, which uses the first counts[chunk] */
     int32_t *counts;
     int32_t bound, chunks;
     atomic_int next, failed;
@@ -59,7 +59,7 @@ typedef struct builder {
     struct {
         int32_t vertex;
         uint8_t member;
-    } recent[RECENT];                          /* a cache before the hash table, by the vertex's number */
+    } recent[RECENT];                          /* a cache in front of the hash table, by the vertex's number */
 } builder;
 
 /* ---- one cluster ---- */
@@ -80,7 +80,7 @@ static uint32_t hash_of(place p)
     return (uint32_t)((p.bits[0] * 0x9E3779B97F4A7C15u + p.bits[1] * 0xC2B2AE3D27D4EB4Fu) >> 55);
 }
 
-/* The index of the member at a place; where there is none, it is added. */
+/* The index of the member at a place, which is added if it is new. */
 static inline uint8_t find_member(builder *b, place p)
 {
     uint32_t at = hash_of(p);
@@ -124,7 +124,7 @@ static void bound_cluster(const builder *b)
         float4 p = b->members[v].all;
         lo = less_of(p, lo);
         hi = more_of(p, hi);
-        sum += p - p; /* 0, or a NaN where p isn't finite */
+        sum += p - p; /* 0, or NaN if p isn't finite */
     }
     int32_t any = sum[0] == 0 && sum[1] == 0 && sum[2] == 0;
     for (int k = 0; k < 3 && any; k++) {
@@ -158,7 +158,7 @@ static void close_cluster(builder *b)
 
 /* ---- a chunk of them ---- */
 
-/* Loads the corners of faces in two loops of independent loads: corners lie anywhere in memory, and their cache misses overlap. */
+/* Loads the corners of faces in two loops of independent loads, so that cache misses overlap: corners lie anywhere in memory. */
 static void fetch(const e3d_mesh_desc *d, const int32_t *faces, int32_t count, corner out[][3])
 {
     for (int32_t i = 0; i < count; i++)
@@ -190,14 +190,14 @@ static void build_clusters(builder *b, const int32_t *faces, int32_t first, int3
     close_cluster(b);
 }
 
-/* Positions and indices move from the thread's memory to a block of their own. */
+/* Moves positions and indices from the thread's memory to a slab of their own. */
 static int keep_data(building *work, builder *b, int32_t chunk)
 {
     void *block;
     if (posix_memalign(&block, 64, b->used * sizeof(float)))
         return 0;
     memcpy(block, b->data, b->used * sizeof(float));
-    work->mesh->blocks[chunk] = block;
+    work->mesh->slabs[chunk] = block;
     for (e3d_cluster *c = work->clusters + (size_t)chunk * (size_t)work->bound; c < b->now; c++)
         c->positions = (float *)block + (c->positions - b->data);
     return 1;
@@ -280,11 +280,11 @@ static int build_all(e3d_mesh *mesh, int threads)
     int32_t count = mesh->desc.faces_count;
     building work = {.mesh = mesh, .chunks = (count + CHUNK_FACES - 1) / CHUNK_FACES};
     work.bound = (count < CHUNK_FACES ? count : CHUNK_FACES) / LEAST_FACES + 1;
-    mesh->block_count = work.chunks;
-    mesh->blocks = calloc((size_t)work.chunks, sizeof *mesh->blocks);
+    mesh->slab_count = work.chunks;
+    mesh->slabs = calloc((size_t)work.chunks, sizeof *mesh->slabs);
     work.counts = calloc((size_t)work.chunks, sizeof *work.counts);
     work.clusters = malloc((size_t)work.chunks * (size_t)work.bound * sizeof *work.clusters);
-    int done = mesh->blocks && work.counts && work.clusters;
+    int done = mesh->slabs && work.counts && work.clusters;
     if (done)
         e3d_pool_run(threads < work.chunks ? threads : work.chunks, build_chunks, &work);
     done = done && !work.failed && join_chunks(&work) && group_clusters(mesh);
@@ -300,8 +300,10 @@ int e3d_clusters_build(e3d_mesh *mesh, int threads)
     mesh->faces = e3d_large_memory(((size_t)d->faces_count + E3D_CLUSTER_TRIANGLES) * sizeof *mesh->faces);
     if (!mesh->faces)
         return 0;
-    memset(mesh->faces + d->faces_count, 0, E3D_CLUSTER_TRIANGLES * sizeof *mesh->faces); /* padding: whole vectors are read */
-    if (d->components == 4 || d->faces_count <= E3D_CLUSTER_TRIANGLES) { /* one cluster, or a clip-space mesh, which is drawn once */
+    /* Padding, since whole vectors are read */
+    memset(mesh->faces + d->faces_count, 0, E3D_CLUSTER_TRIANGLES * sizeof *mesh->faces);
+    /* It has one cluster, or is a clip-space mesh, which is drawn once */
+    if (d->components == 4 || d->faces_count <= E3D_CLUSTER_TRIANGLES) {
         for (int32_t f = 0; f < d->faces_count; f++)
             mesh->faces[f] = f;
     } else {

@@ -25,7 +25,7 @@ static void gather(const e3d_cluster *c, e3d_triangles *out)
         }
 }
 
-/* A power of two that brings the box's size to between 1/2 and 1; 0 where there is none. */
+/* A power of two that scales the box's size to between 1/2 and 1; 0 if there is none. */
 static float scale_of(const e3d_cluster *c)
 {
     int exponent;
@@ -46,8 +46,8 @@ static float radius_of(const e3d_cluster *c)
     return 1.0001f * (float)sqrt(square);
 }
 
-/* Points the axis to the middle of the box of the normals; 0 where that has no direction. The mean would follow the majority of the
- * normals and leave a wider cone: of 50,000 clusters that face away, it lets 32,070 be found instead of 37,076. */
+/* Points the axis to the middle of the box of the normals; 0 if that has no direction. The mean of the normals would follow
+ * the majority, and leave a wider cone: of 50,000 clusters that face away, it finds 32,070 instead of 37,076. */
 static int find_axis(const float lo[3], const float hi[3], float axis[3])
 {
     double middle[3], square = 0;

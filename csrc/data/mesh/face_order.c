@@ -21,13 +21,13 @@ typedef struct keyed {
 
 enum {
     GRID_BITS = 9,      /* cells an axis: 512 */
-    FACES_A_CELL = 512, /* about as many in a cell of the coarse grid */
+    FACES_A_CELL = 512, /* aim: about so many in a cell of the coarse grid */
     SIDE_BITS = 3,
     KEY_BITS = 3 * GRID_BITS + SIDE_BITS,
     DIGIT_BITS = 10,
     DIGITS = 1 << DIGIT_BITS,
-    BUCKET_FACES = 4096, /* about as many in a bucket */
-    RANGE_FACES = 16384, /* at least as many in a range, */
+    BUCKET_FACES = 4096, /* aim: about so many in a bucket */
+    RANGE_FACES = 16384, /* a range has at least so many, */
     MOST_RANGES = 256
 };
 
@@ -36,10 +36,10 @@ typedef struct order {
     int32_t *faces;
     float lo[3], scale;
     int coarse;            /* bits an axis */
-    int low_bits;          /* of a key, below the bucket's number */
+    int low_bits;          /* how many bits of a key lie below the bucket's number */
     int32_t buckets, range_faces, ranges;
-    keyed *keys, *sorted;  /* in the order of the mesh; by bucket */
-    uint32_t *starts;      /* [range][bucket]: where the range's faces go in `sorted` */
+    keyed *keys, *sorted;  /* in the order of the mesh; sorted by bucket */
+    uint32_t *starts;      /* [range][bucket]: where the range's faces of a bucket begin in `sorted` */
     uint32_t *bucket_ends;
 } order;
 
@@ -56,7 +56,7 @@ static void gather(const e3d_mesh_desc *d, int32_t first, int count, e3d_triangl
         }
 }
 
-/* Spreads the bits of v, with two free places after each. */
+/* Spreads the bits of v: two zeros follow each. */
 static inline int4 spread(int4 v)
 {
     v = (v | v << 16) & 0x030000FF;
@@ -72,7 +72,8 @@ static inline int4 cell_of(float4 v, float lo, float scale)
     return __builtin_convertvector(less_of(cell, splat((1 << GRID_BITS) - 1)), int4);
 }
 
-/* One of six sides, by the greatest component; 6: thin, the longest edge is more than eight times the altitude. */
+/* The side that a triangle faces, one of six, by the greatest component of its normal; 6: it is thin, with a longest edge of
+ * more than eight times the altitude. */
 static inline int4 side_of(const e3d_areas *areas)
 {
     float4 along = areas->normal[0], most = size_of(along);
@@ -101,7 +102,7 @@ static inline int4 key_of(const order *o, const e3d_triangles *triangles, int t)
     return ((cell >> fine) << SIDE_BITS | side_of(&areas)) << fine | (cell & ((1 << fine) - 1));
 }
 
-/* Where the range that begins with a face ends. */
+/* The end of the range that begins with a face. */
 static int32_t range_end(const order *o, int32_t first)
 {
     return o->range_faces < o->desc->faces_count - first ? first + o->range_faces : o->desc->faces_count;
@@ -129,7 +130,7 @@ static void key_range(void *argument, int range)
 
 /* ---- sorting ---- */
 
-/* Turns the counts of each bucket in each range into the places where its faces go. */
+/* Turns the counts of each bucket in each range into the places of its faces. */
 static void place_buckets(order *o)
 {
     uint32_t total = 0;
@@ -205,10 +206,11 @@ static int compare_floats(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Finds the box of most faces by the corners of some of them; the other faces go into the cells at its border. */
+/* Finds the box of most faces from the corners of some of them. The other faces go into the cells at its border. */
 static void find_middle(const e3d_mesh_desc *d, float lo[3], float hi[3])
 {
-    enum { SAMPLES = 1024, BEYOND = 32 }; /* one in so many may be farther out, on either side */
+    enum { SAMPLES = 1024,
+           BEYOND = 32 }; /* on either side one face in so many may lie farther out */
     float samples[3][SAMPLES + 1];
     int32_t step = d->faces_count / SAMPLES + 1;
     int count = 0;
@@ -227,7 +229,8 @@ static void find_middle(const e3d_mesh_desc *d, float lo[3], float hi[3])
     }
 }
 
-/* Shrinks a box to where most of the mesh is: a single vertex a million units away would put all faces into one cell. */
+/* Shrinks a box to the part that holds most of the mesh: otherwise a single vertex a million units away would put all faces
+ * into one cell. */
 static void leave_out_far(const e3d_mesh_desc *d, float lo[3], float hi[3])
 {
     enum { FAR = 8 };
@@ -255,7 +258,7 @@ static void set_grid(order *o, const float mesh_lo[3], const float mesh_hi[3])
     float size = longest_side(lo, hi);
     o->scale = size > 0 ? (1 << GRID_BITS) / size : 0;
     while (o->coarse < GRID_BITS && (int64_t)FACES_A_CELL << (2 * (o->coarse + 1)) <= o->desc->faces_count)
-        o->coarse++; /* a surface meets about 4^n cells of 8^n */
+        o->coarse++; /* a surface touches about 4^n of 8^n cells */
 }
 
 static void set_sizes(order *o)

@@ -1,4 +1,4 @@
-/* A mesh's box, and what of it may change: attributes of its vertices. */
+/* A mesh's box, and the parts of a mesh that may change: its vertices' attributes. */
 #include "data/mesh/mesh.h"
 
 #include <stdlib.h>
@@ -26,9 +26,9 @@ void e3d_mesh_destroy(e3d_mesh *mesh)
 {
     if (!mesh)
         return;
-    for (int32_t i = 0; mesh->blocks && i < mesh->block_count; i++)
-        free(mesh->blocks[i]);
-    free(mesh->blocks);
+    for (int32_t i = 0; mesh->slabs && i < mesh->slab_count; i++)
+        free(mesh->slabs[i]);
+    free(mesh->slabs);
     free(mesh->clusters);
     free(mesh->groups);
     if (!mesh->borrows_faces)

@@ -1,11 +1,11 @@
-/* Meshes: arrays are checked once, then cut into clusters; the arrays themselves stay the caller's. */
+/* Meshes: their arrays are checked once, and then cut into clusters; the caller keeps owning the arrays. */
 #include <stdlib.h>
 
 #include "data/mesh/clusters.h"
 #include "base/fpenv.h"
 #include "data/mesh/mesh.h"
 
-/* Both index and vertices - 1 - index have a clear sign bit exactly where the index fits. */
+/* Both index and vertices - 1 - index have a clear sign bit exactly if the index is in range. */
 static int indices_fit(const int32_t *indices, size_t count, int32_t vertices)
 {
     int32_t signs = 0;
@@ -14,7 +14,7 @@ static int indices_fit(const int32_t *indices, size_t count, int32_t vertices)
     return signs >= 0;
 }
 
-/* The greatest material ID; negative if any is. */
+/* The greatest material ID; negative if any of them is. */
 static int32_t greatest_material(const e3d_mesh_desc *d)
 {
     int32_t most = 0, signs = 0;

@@ -1,9 +1,7 @@
-/* Clear, points and rectangles: the canvas's simplest calls, and the spans that the others end in.
- *
- * In:  a framebuffer, positions in pixels, colours.
- * Out: pixels. A rectangle takes the pixels whose centres it holds, its left and top sides included:
- *      the triangles' rule, so that rectangles which share a side share no pixel.
- */
+/* Clear, points and rectangles: the canvas's simplest calls, and the spans that the others use.
+ * In: a framebuffer, positions in pixels, colours. Out: pixels.
+ * A rectangle takes the pixels whose centres it holds, including its left and top sides. This is the triangles' rule, so that
+ * rectangles which share a side share no pixel. */
 #include "canvas_pixels.h"
 
 static void overwrite_span(uint8_t *pixel, int64_t count, e3d_rgba color)
@@ -95,7 +93,7 @@ void e3d_canvas_rectangle_outline(const e3d_canvas *canvas, double x, double y, 
     if (!rectangle_pixels(x, y, width, height, &box)) {
         return;
     }
-    /* Four boxes that share no pixel: a translucent outline has no dots at its corners. */
+    /* Four boxes that share no pixel, so that a translucent outline has no dots at its corners. */
     e3d_canvas_box(canvas, box.x0, box.y0, box.x1, box.y0 + 1, color);
     if (box.y1 - box.y0 > 1) {
         e3d_canvas_box(canvas, box.x0, box.y1 - 1, box.x1, box.y1, color);

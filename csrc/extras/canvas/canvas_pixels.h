@@ -3,8 +3,7 @@
  *
  * Always: addresses are built only from coordinates already clipped to the framebuffer.
  */
-#ifndef E3D_CANVAS_PIXELS_H
-#define E3D_CANVAS_PIXELS_H
+#pragma once
 
 #include "e3d_canvas.h"
 
@@ -19,7 +18,7 @@ __extension__ typedef __int128 e3d_wide;
 #define SUBPIXELS 256
 #define HALF_PIXEL 128
 
-/* Positions are moved into [-2^31, 2^31] pixels. */
+/* Positions are clamped to [-2^31, 2^31] pixels. */
 #define POSITION_LIMIT 2147483648.0
 
 static inline double clamp_position(double position)
@@ -90,7 +89,7 @@ static inline void blend_pixel(uint8_t *pixel, e3d_rgba color)
     }
     const uint32_t source = 255u * color.a;
     const uint32_t destination = (uint32_t)pixel[3] * (255u - color.a);
-    const uint32_t weight = source + destination; /* >= 255: a transparent source is never drawn */
+    const uint32_t weight = source + destination; /* >= 255, since a transparent source is never drawn */
     const uint32_t half = weight / 2;
     pixel[0] = (uint8_t)((source * color.r + destination * pixel[0] + half) / weight);
     pixel[1] = (uint8_t)((source * color.g + destination * pixel[1] + half) / weight);
@@ -137,24 +136,22 @@ static inline int64_t first_centre_subpixel(int64_t position)
     return shifted / SUBPIXELS - (shifted % SUBPIXELS < 0);
 }
 
-/* Thick lines (thick_line.c): from the centre of pixel (x0, y0) to that of (x1, y1). */
+/* Draws a thick line (thick_line.c) from the centre of pixel (x0, y0) to that of (x1, y1). */
 void e3d_canvas_thick_line(const e3d_canvas *canvas, int64_t x0, int64_t y0, int64_t x1, int64_t y1,
                            double width, e3d_rgba color);
 
-/* One pixel wide lines (line.c) between two pixels, without the end whose flag is false. */
+/* Draws a line one pixel wide (line.c) between two pixels, without an end whose flag is false. */
 void e3d_canvas_thin_line(const e3d_canvas *canvas, int64_t x0, int64_t y0, int64_t x1, int64_t y1,
                           bool draw_first, bool draw_last, e3d_rgba color,
                           e3d_line_algorithm algorithm);
 
-/* The font (font.c): the eight characters of a cell's row, '#' where the glyph is. */
+/* Returns a row of a glyph's cell (font.c): eight characters, '#' where the glyph is. */
 const char *e3d_font_row(uint8_t code, int32_t row);
 
-/* Where primitive k finds its colour. */
+/* The colour of primitive k. */
 static inline e3d_rgba color_at(const uint8_t *colors, size_t stride, size_t k)
 {
     e3d_rgba color;
     memcpy(&color, colors + k * stride, sizeof color);
     return color;
 }
-
-#endif

@@ -18,6 +18,7 @@
 #define BAND_COUNT ((LAST_CODE + 1 - FIRST_CODE) / GLYPHS_PER_BAND)
 #define CELL_PITCH (E3D_FONT_WIDTH + 1) /* with the blank between two glyphs */
 
+// clang-format off
 static const char sheet[BAND_COUNT][E3D_FONT_HEIGHT][GLYPHS_PER_BAND * CELL_PITCH] = {
     { /* space    !        "        #        $        %        &        ' */
         "........ ........ ........ ........ ........ ........ ........ ........",
@@ -243,6 +244,7 @@ static const char sheet[BAND_COUNT][E3D_FONT_HEIGHT][GLYPHS_PER_BAND * CELL_PITC
         "........ ........ ........ ........ ........ ........ ..##.... ........",
         "........ ........ ........ ........ ........ ........ ........ ........",
     },
+// clang-format on
 };
 
 const char *e3d_font_row(uint8_t code, int32_t row)

@@ -16,7 +16,7 @@
 typedef struct line_walk {
     int64_t major, minor; /* the pixel at step 0 */
     int64_t run, rise;    /* 0 <= rise <= run <= 2^32 */
-    int64_t direction;    /* of the minor coordinate: +1 or -1 */
+    int64_t direction;    /* the direction of the minor coordinate: +1 or -1 */
     int64_t tie;
     int64_t first, last; /* the steps to draw */
     bool steep;          /* the major axis is y */
@@ -89,12 +89,12 @@ static void draw_bresenham(const e3d_canvas *canvas, const line_walk *walk, e3d_
         minor += walk->direction * (int64_t)(moved / period);
         error = (int64_t)(moved % period);
     }
-    error -= period; /* so that the test in the loop is one of sign */
+    error -= period; /* so that the loop only tests a sign */
 
     const int64_t major = walk->major + walk->first;
     const ptrdiff_t along_major = walk->steep ? canvas->stride : 4;
     const ptrdiff_t along_minor = (walk->steep ? 4 : canvas->stride) * (ptrdiff_t)walk->direction;
-    ptrdiff_t offset = 0; /* from the first pixel; unlike a pointer it may step past the last */
+    ptrdiff_t offset = 0; /* from the first pixel; unlike a pointer it may step past the last one */
     uint8_t *const start =
         walk->steep ? pixel_address(canvas, minor, major) : pixel_address(canvas, major, minor);
     for (int64_t k = walk->first; k <= walk->last; k++) {
@@ -108,7 +108,7 @@ static void draw_bresenham(const e3d_canvas *canvas, const line_walk *walk, e3d_
     }
 }
 
-/* ceil(), for |value| < 2^62; without SSE4.1 that is a call, too slow for each pixel. */
+/* ceil() for |value| < 2^62. Without SSE4.1 that would be a call, too slow for each pixel. */
 static inline int64_t round_up(double value)
 {
     const int64_t truncated = (int64_t)value;

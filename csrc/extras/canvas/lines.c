@@ -1,8 +1,5 @@
-/* Lists of lines and polylines: from positions to pixels, then to the thin or the thick line.
- *
- * In:  positions in pixels, any values.
- * Out: what line.c and thick_line.c draw between the pixels that hold the ends.
- */
+/* Lists of lines and polylines: turns positions into pixels, and draws thin or thick lines.
+ * In: positions in pixels, any values. Out: what line.c and thick_line.c draw between the pixels that hold the ends. */
 #include "canvas_pixels.h"
 
 typedef struct line_style {
@@ -57,7 +54,7 @@ void e3d_canvas_polyline(const e3d_canvas *canvas, const double *xy, size_t coun
         if (!is_finite_point(from) || !is_finite_point(to)) {
             continue;
         }
-        /* The next segment draws the vertex that both share, if there is one. */
+        /* The next segment draws the vertex that both share, if there is a next one. */
         const bool has_next = closed || k + 1 < segments;
         const bool continues = has_next && is_finite_point(xy + 2 * ((k + 2) % count));
         draw_segment(canvas, from, to, !continues, style);

@@ -9,8 +9,8 @@
  */
 #include "canvas_pixels.h"
 
-/* Half of the line's extent along the minor axis in 1/256 pixel, rounded to nearest: at an angle more than
- * half of its width. Positions then stay within 2^40. */
+/* Half of the line's extent along the minor axis, in 1/256 pixel, rounded to nearest; at an angle this is more than half of
+ * its width. Positions then stay within 2^40. */
 static int64_t half_extent(double width, double run, double rise)
 {
     const double half = HALF_PIXEL * (width < POSITION_LIMIT ? width : POSITION_LIMIT);

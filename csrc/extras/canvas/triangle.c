@@ -1,11 +1,9 @@
-/* Lists of filled triangles: vertices snapped to 1/256 pixel, then one of the two fills.
- *
- * In:  positions in pixels, any values; a triangle with a vertex that is not finite is dropped.
- * Out: what triangle_edge.c or triangle_scanline.c draw: the same pixels.
- */
+/* Lists of filled triangles: snaps vertices to 1/256 pixel, and calls one of the two fills.
+ * In: positions in pixels, any values; a triangle with a vertex that is not finite is dropped. Out: what triangle_edge.c or
+ * triangle_scanline.c draw, which are the same pixels. */
 #include "canvas_pixels.h"
 
-/* To the nearest 1/256 pixel, ties to even, whatever the caller's rounding mode. */
+/* Snaps to the nearest 1/256 pixel, ties to even, whatever the caller's rounding mode. */
 static int64_t snap(double position)
 {
     const double scaled = clamp_position(position) * SUBPIXELS;

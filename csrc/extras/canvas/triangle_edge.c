@@ -10,18 +10,18 @@
  */
 #include "canvas_pixels.h"
 
-/* a and b below are differences of positions within 2^40: at most 2^41. */
+/* a and b below are differences of positions within 2^40, so at most 2^41. */
 _Static_assert(2 * (int64_t)E3D_CANVAS_MAX_SIDE <= INT64_C(1) << 19, "edge functions overflow");
 #define FAR_AWAY (INT64_C(1) << 61)
 
 typedef struct edge_function {
     int64_t value;    /* at the first pixel of the row; >= 0 is inside */
-    int64_t per_x;    /* its change from a pixel to the next one right */
+    int64_t per_x;    /* its change from a pixel to the next one on the right */
     int64_t per_y;    /* and to the next one below */
 } edge_function;
 
-/* With the interior on the right-hand side of a -> b (clockwise on the screen), an edge that goes up is
- * a left edge, and a horizontal one that goes right is a top edge. */
+/* The interior is on the right-hand side of a -> b (clockwise on the screen), so an edge that goes up is a left edge, and a
+ * horizontal edge that goes right is a top edge. */
 static bool is_top_left(int64_t dx, int64_t dy)
 {
     return dy < 0 || (dy == 0 && dx > 0);
@@ -35,7 +35,8 @@ static edge_function edge_at(e3d_subpixel a, e3d_subpixel b, int64_t x, int64_t 
     const e3d_wide exact = doubled_area(a, b, centre) - !is_top_left(dx, dy);
     const e3d_wide value = floor_div(exact, SUBPIXELS);
     return (edge_function){
-        .value = value > FAR_AWAY ? FAR_AWAY : value < -FAR_AWAY ? -FAR_AWAY : (int64_t)value,
+        .value = value > FAR_AWAY ? FAR_AWAY : value < -FAR_AWAY ? -FAR_AWAY
+                                                                 : (int64_t)value,
         .per_x = -dy,
         .per_y = dx,
     };

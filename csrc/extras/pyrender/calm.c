@@ -1,15 +1,14 @@
-/* Calm triangles: those that differ so little from corner to corner that neighbours may be lit together within a pixel (R152).
- *
- * In: a draw's corners, normals, colours. Out: 1 or 0 for each triangle. Always: what has coordinates of textures is never calm, since
- * colours change within a texel's width.
- */
+/* Calm triangles: triangles that differ so little from corner to corner that neighbours may be lit together within a pixel
+ * (R152).
+ * In: a draw's corners, normals, colours. Out: 1 or 0 for each triangle.
+ * Always: a triangle with texture coordinates is never calm, since colours change within a texel's width. */
 #include "base/pool.h"
 #include "e3d_renderer.h"
 #include "extras/pyrender/picture.h"
 
 enum { TRIANGLES_AT_A_TIME = 4096 };
 
-#define TURN_SQUARED (1.0f / 64)  /* of normals: 1/8 of their length */
+#define TURN_SQUARED (1.0f / 64)  /* between normals: 1/8 of their length, squared */
 #define COLOR_CHANGE (1.0f / 64)
 
 static float square_of(const float v[3]) { return (v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]; }

@@ -1,16 +1,15 @@
-/* Polygons and segments of clip space, cut where they leave the room before the near plane. */
-#ifndef E3D_PYR_CLIP_H
-#define E3D_PYR_CLIP_H
+/* Clips polygons and segments in clip space to the room before the near plane. */
+#pragma once
 
 #include "data/clip_planes.h"
 
 enum { PYR_MOST_CORNERS = 3 + E3D_CLIP_PLANES,
-       PYR_SIDE = 64 /* times the picture to each side is kept, so that what is left has coordinates that 64 bits multiply */ };
+       PYR_SIDE = 64 /* so many times the picture is kept to each side, so that coordinates fit products of 64 bits */ };
 
 static inline double pyr_inside(const double p[4], int plane) { return e3d_inside(p, plane, 0x1p-60, PYR_SIDE, PYR_SIDE); }
 
-/* Cuts a polygon; returns how many corners are left. Edges are cut as they run, those of frames from the inside to the outside (R7), which
- * rounds other bits. */
+/* Clips a polygon; returns how many corners are left. Edges are cut in their own direction; those of frames are cut from the
+ * inside to the outside (R7), which rounds differently. */
 static inline int pyr_clip_polygon(double p[PYR_MOST_CORNERS][4], int count)
 {
     double out[PYR_MOST_CORNERS][4];
@@ -38,5 +37,3 @@ static inline int pyr_clip_polygon(double p[PYR_MOST_CORNERS][4], int count)
     }
     return count;
 }
-
-#endif

@@ -1,4 +1,4 @@
-/* Depths: what is nearer, and how far away it is. */
+/* Depths: tests which is nearer, and turns them into distances. */
 #include <math.h>
 
 #include "extras/pyrender/picture.h"

@@ -1,14 +1,12 @@
-/* Fragments: gathered until they are lit together, then written to the samples that they cover.
- *
- * In: fragments in the order in which they are drawn. Out: codes of 8 bits, and depths where no samples are kept.
- * Always: where samples are kept, depths were tested before.
- */
+/* Fragments: gathers them, lights them together, and writes them to the samples that they cover.
+ * In: fragments in the order of drawing. Out: codes of 8 bits; and depths if no samples are kept.
+ * Always: if samples are kept, depths were tested before. */
 #include <math.h>
 
 #include "extras/pyrender/picture.h"
 #include "extras/pyrender/transfer_tables.h"
 
-/* Returns the number in the batch. */
+/* Adds a fragment; returns its number in the batch. */
 static int add(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, int32_t x, int32_t y, uint32_t mask)
 {
     pyr_batch *batch = &band->batch;
@@ -56,7 +54,7 @@ void pyr_add_shown(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *v
     band->batch.plane[i] = plane;
 }
 
-/* The depth of a pixel, if that is where the fragment shows. `z`: that at its centre. */
+/* Writes the depth of a pixel, if the fragment shows at the place of depths. `z`: the depth at its centre. */
 static void write_depth(const pyr_band *band, int i, double z)
 {
     const pyr_picture *picture = band->picture;
@@ -69,7 +67,7 @@ static void write_depth(const pyr_band *band, int i, double z)
     frame->depth[(size_t)batch->y[i] * (size_t)frame->width + (size_t)batch->x[i]] = pyr_metric_depth(frame, z);
 }
 
-/* What pyr_add_shown left for later. */
+/* Finds the surfaces that pyr_add_shown left for later. */
 static void find_surfaces(pyr_band *band)
 {
     pyr_batch *batch = &band->batch;
@@ -85,7 +83,7 @@ static void find_surfaces(pyr_band *band)
             pyr_find_surface(band, i, &weights[i], batch->plane[i]);
 }
 
-/* The code of light to the power of 1/2.2. */
+/* The code of light raised to the power of 1/2.2. */
 static uint8_t power_code(const pyr_picture *picture, float light)
 {
     if (!(light > 0))
@@ -112,7 +110,7 @@ static void find_codes(const pyr_picture *picture, const pyr_batch *batch, int i
     out[3] = pyr_code(batch->base[3][i] * batch->vertex_color[3][i]);
 }
 
-/* Source over what is there, in codes; alpha likewise. */
+/* Blends a source over the codes that are there; alpha likewise. */
 static void blend(uint8_t *to, const uint8_t code[4])
 {
     int share = code[3];
@@ -134,7 +132,7 @@ static void write_samples(const pyr_band *band, int i, const uint8_t code[4])
     }
 }
 
-/* A pixel of which no sample is kept: its colour, or what the fragment adds to it. */
+/* Writes a pixel without kept samples: its colour, or the fragment's part of it. */
 static void write_pixel(const pyr_band *band, int i, const uint8_t code[4])
 {
     const pyr_batch *batch = &band->batch;

@@ -1,8 +1,7 @@
-/* Light: what a batch of fragments shows of the lights, four fragments at a time (R149).
- *
- * In: surfaces and lights. Out: colors, linear, not clamped. The model is pyrender's: GGX's distribution, Schlick's
- * approximations of Fresnel's and of Smith's terms, with its limits (Karis 2013).
- */
+/* Light: finds the light on a batch of fragments, four at a time (R149).
+ * In: surfaces and lights. Out: colours, linear, not clamped.
+ * The model is pyrender's: GGX's distribution, Schlick's approximations of Fresnel's and of Smith's terms, with pyrender's
+ * limits (Karis 2013). */
 #include "base/vectors.h"
 #include "extras/pyrender/picture.h"
 
@@ -14,7 +13,7 @@
 typedef struct four {
     float4 p[3], n[3], v[3];
     float4 diffuse[3], f0[3];
-    float4 squared, k; /* of the roughness: of the distribution, of the masking */
+    float4 squared, k; /* of the roughness: its square for the distribution, k for the masking */
     float4 nv;
     float4 sum[3];
 } four;
@@ -23,7 +22,7 @@ static inline float4 dot4(const float4 a[3], const float4 b[3]) { return (a[0] *
 
 static inline float4 clamp4(float4 x, float low, float high) { return less_of(more_of(x, splat(low)), splat(high)); }
 
-/* Vectors without length stay so. */
+/* Normalises; vectors without length stay 0. */
 static inline float4 scale_to_unit(const float4 a[3]) { return splat(1) / root_of(more_of(dot4(a, a), splat(0x1p-120f))); }
 
 static inline void make_unit4(float4 a[3])
@@ -54,7 +53,7 @@ static void take_surface(const e3d_pyr_frame *frame, const pyr_batch *batch, int
     out->nv = clamp4(size_of(dot4(out->n, out->v)), 0.001f, 1);
 }
 
-/* Adds what light from direction l leaves towards the viewer. */
+/* Adds the light from direction l that goes to the viewer. */
 static inline void add_light(four *f, const float4 l[3], const float color[3], float4 strength)
 {
     float4 h[3] = {l[0] + f->v[0], l[1] + f->v[1], l[2] + f->v[2]};

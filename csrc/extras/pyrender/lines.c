@@ -1,20 +1,20 @@
 /* Lines, edges of triangles, and points.
- *
- * In: a draw. Out: fragments where it is nearer than what is there. Always: with one sample a pixel, a line takes one pixel for each step
- * along its longer axis, and leaves out what OpenGL's diamonds leave out at its ends; with several, it is a rectangle one pixel wide (R151).
- */
+ * In: a draw. Out: fragments where it is nearer than what is there.
+ * Always: with one sample a pixel, a line takes one pixel for each step along its longer axis, and leaves out at its ends
+ * what OpenGL's diamonds leave out; with several, it is a rectangle one pixel wide (R151). */
 #include <math.h>
 
 #include "extras/pyrender/clip.h"
 #include "extras/pyrender/picture.h"
 
 #define MOST_PIXELS 0x1p30
-#define HALF_DEPTHS 8388607.5 /* of the 2^24 - 1 steps that Mesa has from -1 to 1: of edges that two triangles share, the first one drawn shows */
+/* Half of the 2^24 - 1 steps that Mesa has from -1 to 1: on an edge that two triangles share, the first one drawn shows */
+#define HALF_DEPTHS 8388607.5
 
 /* A line in pixels, y up as OpenGL counts; z and 1/w at its ends. */
 typedef struct segment {
     double end[2][2], z[2], inverse_w[2];
-    pyr_weights weights[2]; /* of the corners, at the ends */
+    pyr_weights weights[2]; /* of the primitive's corners, at both ends */
 } segment;
 
 typedef struct line_job {
@@ -23,7 +23,7 @@ typedef struct line_job {
     const pyr_vertex *vertices;
 } line_job;
 
-/* Cuts the part of a line that is behind the near plane or far to the side; 0 where nothing is left. */
+/* Clips a line to the part before the near plane and not far to the side; 0 if nothing is left. */
 static int clip_segment(const double a[4], const double b[4], double range[2])
 {
     range[0] = 0, range[1] = 1;
@@ -61,15 +61,15 @@ static int set_segment(const line_job *job, const int32_t corner[2], segment *ou
     return 1;
 }
 
-/* How far along a line a point is, where a perpendicular to the line meets it: 0 at its first end, 1 at its second. */
+/* The parameter along a line at the foot of a perpendicular from a point: 0 at its first end, 1 at its second. */
 static double share_at(const segment *line, double x, double y)
 {
     double dx = line->end[1][0] - line->end[0][0], dy = line->end[1][1] - line->end[0][1];
     return ((x - line->end[0][0]) * dx + (y - line->end[0][1]) * dy) / (dx * dx + dy * dy);
 }
 
-/* The same of each place of a pixel, row counted from below, and at last of the light. Mesa takes samples and light half a pixel to the right
- * and above where they are. */
+/* Finds the parameter for each place of a pixel, with rows counted from below, and last for lighting. Mesa takes samples and
+ * lighting half a pixel to the right of and above their places. */
 static void find_shares(const pyr_picture *picture, const segment *line, int32_t x, double row, double out[E3D_PYR_PLACES + 1])
 {
     double dx = line->end[1][0] - line->end[0][0], dy = line->end[1][1] - line->end[0][1];
@@ -85,7 +85,7 @@ static void find_shares(const pyr_picture *picture, const segment *line, int32_t
     out[places] = share_at(line, x + 1, row + 1);
 }
 
-/* Adds the fragment of a line at a pixel, row counted from below, of those places that a mask names. */
+/* Adds the fragment of a line at a pixel, with rows counted from below, for the places in a mask. */
 static void add_pixel(const line_job *job, const segment *line, int32_t x, int64_t row, uint32_t mask)
 {
     const pyr_picture *picture = job->band->picture;
@@ -109,8 +109,8 @@ static void add_pixel(const line_job *job, const segment *line, int32_t x, int64
 
 /* ---- one sample a pixel ---- */
 
-/* An end of a line: where it is from the centre of its pixel, `along` the longer axis and `across` it; which way the line runs in both, and
- * how it rises across for each step along. */
+/* An end of a line: its offset from the centre of its pixel, `along` the longer axis and `across` it; the line's direction in
+ * both; and its slope across for each step along. */
 typedef struct line_end {
     double along, across, runs_along, runs_across, rise;
 } line_end;
@@ -119,7 +119,7 @@ static int is_in_diamond(const line_end *end) { return fabs(end->along) + fabs(e
 
 static int alike(double a, double b) { return (a >= 0) == (b >= 0); }
 
-/* Whether the line passes the middle of the diamond's side. Mesa adds here what would have to be subtracted, and is followed. */
+/* Whether the line passes the middle of the diamond's side. Mesa adds here what should be subtracted, and this does the same. */
 static int passes(const line_end *end) { return fabs(end->across + end->along * end->rise) < 0.5; }
 
 /* Whether the pixel of an end is drawn: a line draws the pixels whose diamonds it leaves. */
@@ -172,7 +172,7 @@ static void draw_thin(const line_job *job, const segment *line)
 
 /* ---- several samples a pixel ---- */
 
-/* Which places of a pixel are less than half a pixel off a line, between its ends. */
+/* The places of a pixel that are less than half a pixel off a line, between its ends. */
 static uint32_t near_line(const pyr_picture *picture, const segment *line, int32_t x, int64_t row)
 {
     double dx = line->end[1][0] - line->end[0][0], dy = line->end[1][1] - line->end[0][1], length2 = dx * dx + dy * dy;
@@ -246,7 +246,7 @@ void pyr_draw_edges(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *
 
 /* ---- points ---- */
 
-/* The places of a pixel in a square around a point, in 1/256 pixel, y down; what is on its left and lower sides is inside. */
+/* The places of a pixel in a square around a point, in 1/256 pixel, y down; its left and lower sides belong to it. */
 static uint32_t in_square(const pyr_picture *picture, const int64_t low[2], const int64_t high[2], int64_t x, int64_t y)
 {
     uint32_t mask = 0;
@@ -263,10 +263,10 @@ static void draw_point(const line_job *job, int32_t corner)
     const double *p = job->vertices[corner].clip;
     int64_t low[2], high[2], half = (int64_t)rint(128.0 * frame->point_size);
     if (pyr_inside(p, 0) < 0 || pyr_inside(p, 1) < 0 || !(fabs(p[0]) <= p[3] && fabs(p[1]) <= p[3]))
-        return; /* a point counts as outside when its middle is */
+        return; /* a point is outside if its middle is */
     double across = p[0] / p[3], up = p[1] / p[3];
     if (!(fabs(across) <= 1 && fabs(up) <= 1))
-        return; /* not a number: infinity by infinity */
+        return; /* NaN: infinity by infinity */
     int64_t middle[2] = {(int64_t)rint((across + 1) * (128.0 * frame->width)), (int64_t)rint((1 - up) * (128.0 * frame->height))};
     for (int c = 0; c < 2; c++)
         low[c] = middle[c] - half, high[c] = middle[c] + half;

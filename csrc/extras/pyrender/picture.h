@@ -1,6 +1,5 @@
-/* What the stages of a picture in pyrender's manner share: vertices, bands of rows, fragments. */
-#ifndef E3D_PYR_PICTURE_H
-#define E3D_PYR_PICTURE_H
+/* The data that the stages of a picture in pyrender's manner share: vertices, bands of rows, fragments. */
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -9,7 +8,7 @@
 #include "e3d_pyrender.h"
 
 enum { PYR_BATCH = 64,        /* fragments that are lit side by side */
-       PYR_BAND = 16,         /* rows that a thread takes at a time */
+       PYR_BAND = 16,         /* a thread takes so many rows at a time */
        PYR_CODE_STARTS = 4096 /* entries of e3d_pyr_codes */ };
 
 /* A vertex after its transformation. Clip space is f64: near planes of millimetres leave f32 few digits of depth. */
@@ -20,30 +19,30 @@ typedef struct pyr_vertex {
 
 _Static_assert(sizeof(pyr_vertex) == 64, "a vertex is a cache line: triangles take vertices from anywhere");
 
-/* How perspective-correct weights of a triangle's corners change over the picture: at (x, y) in pixels, y down, weight k is
- * row[k][0]*x + row[k][1]*y + row[k][2], divided by the sum of the three. */
+/* The change of the perspective-correct weights of a triangle's corners over the picture: at (x, y) in pixels, y down, weight
+ * k is row[k][0]*x + row[k][1]*y + row[k][2], divided by the sum of the three. */
 typedef struct pyr_plane {
     double row[3][3];
     int32_t corner[3];
     const pyr_vertex *vertex[3];
 } pyr_plane;
 
-/* What a fragment of a primitive is made of: up to three vertices, and what of each. */
+/* The weights of a fragment: up to three vertices, and the share of each. */
 typedef struct pyr_weights {
     int32_t corner[3];
     float weight[3];
 } pyr_weights;
 
-/* Fragments of one draw, as structure of arrays; those of which nothing is known have values that change nothing. */
+/* Fragments of one draw, as structure of arrays. Values that are not known have neutral defaults. */
 typedef struct pyr_batch {
     int32_t count;
-    uint32_t number;                            /* of batches before it */
+    uint32_t number;                            /* counts the batches before it */
     const e3d_pyr_draw *draw;
     const pyr_vertex *vertices;
-    const e3d_pyr_draw *filled;                 /* whose values all fragments have, where no texture changes them */
+    const e3d_pyr_draw *filled;                 /* the draw whose constants all fragments have, but for textures */
     int32_t x[PYR_BATCH], y[PYR_BATCH];
     uint8_t mask[PYR_BATCH];                    /* the places that are covered and show */
-    const pyr_plane *plane[PYR_BATCH];          /* of the triangle whose surface is yet to be found there, or NULL */
+    const pyr_plane *plane[PYR_BATCH];          /* the plane of a triangle whose surface is found there later, or NULL */
     _Alignas(16) float world[3][PYR_BATCH];
     _Alignas(16) float normal[3][PYR_BATCH];
     _Alignas(16) float base[4][PYR_BATCH];
@@ -54,25 +53,28 @@ typedef struct pyr_batch {
     _Alignas(16) float color[3][PYR_BATCH];
 } pyr_batch;
 
-/* All that the threads read. */
+/* The data that all threads read. */
 typedef struct pyr_picture {
     const e3d_pyr_frame *frame;
-    pyr_vertex **vertices;                      /* of each draw, or NULL where it shows nowhere */
+    pyr_vertex **vertices;                      /* for each draw; NULL: it shows nowhere */
     int32_t places;                             /* 1, or the samples and the centre */
-    int32_t depth_place;                        /* which of them has the depth of the picture */
-    int32_t keeps_samples;                      /* codes and depths of all places: a later step is hidden by an earlier one, or over it */
-    uint8_t code_start[PYR_CODE_STARTS + 1];    /* of the square root of light, in steps: the code of which to begin the search */
+    int32_t depth_place;                        /* the place that the picture's depths are from */
+    /* Codes and depths of all places are kept, since a later step may be hidden by an earlier one, or blended over it */
+    int32_t keeps_samples;
+    uint8_t code_start[PYR_CODE_STARTS + 1];    /* by steps of the square root of light: the code at which the search begins */
     uint8_t background[4];
-    int32_t sample_x[E3D_PYR_PLACES], sample_y[E3D_PYR_PLACES]; /* of each place from the centre, in 1/256 pixel, y down */
+    /* The offset of each place from the centre, in 1/256 pixel, y down */
+    int32_t sample_x[E3D_PYR_PLACES], sample_y[E3D_PYR_PLACES];
 } pyr_picture;
 
-/* Rows of the picture while a thread draws them. */
+/* The rows of the picture that a thread is drawing. */
 typedef struct pyr_band {
     const pyr_picture *picture;
     int32_t top, end;
-    uint8_t *codes;                             /* where samples are kept: (rows, width, samples, 4) */
-    double *depth;                              /* likewise (rows, width, places): z_ndc, infinity where nothing is */
-    uint16_t *sums;                             /* else, of pixels that show several things: (rows, width, 4), codes times samples */
+    uint8_t *codes;                             /* if samples are kept: (rows, width, samples, 4) */
+    double *depth;                              /* if samples are kept: (rows, width, places) z_ndc, infinity where nothing is */
+    /* Else, for pixels that show several things: (rows, width, 4), codes times samples */
+    uint16_t *sums;
     int32_t *differs;                           /* (width): whether the places of a pixel show different things */
     pyr_batch batch;
 } pyr_band;
@@ -89,7 +91,7 @@ static inline double *pyr_depths_at(const pyr_band *band, int32_t x, int32_t y)
     return band->depth + pixel * (size_t)band->picture->places;
 }
 
-/* The code of 0 .. 1, rounded as Mesa does: the product to f32, its half to even. */
+/* The code of 0 .. 1, rounded as Mesa does: the product to f32, and a half to even. */
 static inline uint8_t pyr_code(float v)
 {
     float product = (v > 0 ? v < 1 ? v : 1 : 0) * (255.0f / 256.0f);
@@ -116,51 +118,52 @@ void pyr_transform(const e3d_pyr_frame *frame, const e3d_pyr_draw *draw, int32_t
 
 /* ---- depths.c ---- */
 
-/* The distance that z_ndc stands for, 0 behind the far plane. */
+/* The distance of z_ndc; 0 behind the far plane. */
 float pyr_metric_depth(const e3d_pyr_frame *frame, double z);
-/* Keeps of `mask` the places at which z is nearer than what is there, and writes it there; returns the samples among them. */
+/* Keeps the places in `mask` at which z is nearer than what is there, and stores z there; returns the samples among them. */
 uint32_t pyr_test_depths(const pyr_band *band, int32_t x, int32_t y, uint32_t mask, const double z[E3D_PYR_PLACES]);
 
 /* ---- plane.c ---- */
 
-/* The corners of primitive number `number`: three, two or one. */
+/* Finds the corners of primitive number `number`: three, two or one. */
 void pyr_corners(const e3d_pyr_draw *draw, int32_t number, int32_t out[3]);
 void pyr_set_plane(const e3d_pyr_frame *frame, const e3d_pyr_draw *draw, const pyr_vertex *vertices, int32_t triangle,
                    pyr_plane *out);
-/* Weights at a point, and z_ndc there. */
+/* Finds the weights at a point; returns z_ndc there. */
 double pyr_weigh(const pyr_plane *plane, double x, double y, pyr_weights *out);
 double pyr_depth_at(const pyr_plane *plane, double x, double y);
 double pyr_depth_at_place(const pyr_picture *picture, const pyr_plane *plane, int place, int32_t x, int32_t y);
-/* Whether a triangle shows its back; of what is partly behind the viewer, the homogeneous area tells. */
+/* Whether a triangle shows its back. For one that is partly behind the viewer, the homogeneous area decides. */
 int pyr_shows_back(const pyr_vertex *vertices, const int32_t corner[3]);
-/* Whether a primitive is sure to show nothing in a band, nor in a pixel above and below it. */
+/* Whether a primitive surely shows nothing in a band, nor one pixel above or below it. */
 int pyr_misses_band(const pyr_band *band, const pyr_vertex *vertices, const int32_t *corner, int count);
 
 /* ---- fragments.c ---- */
 
-/* Adds a fragment; with `plane`, it is of a triangle, and textures may be read at the detail that the plane tells. */
+/* Adds a fragment. With `plane` it is a triangle's, and the plane gives the detail at which textures are read. */
 void pyr_add_fragment(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, const pyr_weights *weights,
                       const pyr_plane *plane, int32_t x, int32_t y, uint32_t mask);
-/* Adds what a triangle shows at those places of a pixel where nothing is nearer, where samples are kept. */
+/* If samples are kept: adds what a triangle shows at those places of a pixel where nothing is nearer. */
 void pyr_add_nearer(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, const pyr_plane *plane, int32_t x, int32_t y,
                     uint32_t mask);
-/* Adds what a triangle shows at the centre of a pixel, where no samples are kept: its surface, and its depth if `mask` has the place of it,
- * are found when the batch is lit, one fragment after the other, which a processor overlaps. Until then the plane must stay. */
+/* If no samples are kept: adds what a triangle shows at the centre of a pixel. Its surface, and its depth if `mask` has the
+ * place of depths, are found when the batch is lit: one fragment after the other, which a processor overlaps. Until then the
+ * plane must stay. */
 void pyr_add_shown(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, const pyr_plane *plane, int32_t x, int32_t y,
                    uint32_t mask);
-/* Lights and writes what was added. */
+/* Lights and writes the fragments that were added. */
 void pyr_flush(pyr_band *band);
 
 /* ---- surface.c ---- */
 
-/* Gives all fragments of a batch that begins what is the same everywhere on the draw, but for textures. */
+/* Begins a batch: gives all its fragments the constants of the draw, without textures. */
 void pyr_begin_surfaces(const e3d_pyr_frame *frame, pyr_batch *batch);
 /* Finds the surface of fragment `i` of the batch. */
 void pyr_find_surface(pyr_band *band, int i, const pyr_weights *weights, const pyr_plane *plane);
 
 /* ---- texels.c ---- */
 
-/* The color of a texture at (u, v), in 0 .. 1, missing channels 1. `detail`: texels a pixel, at most. */
+/* The colour of a texture at (u, v), in 0 .. 1; missing channels are 1. `detail`: texels a pixel, at most. */
 void pyr_sample(const e3d_pyr_texture *texture, float u, float v, float detail, float out[4]);
 
 /* ---- light.c ---- */
@@ -169,7 +172,7 @@ void pyr_light(const e3d_pyr_frame *frame, pyr_batch *batch);
 
 /* ---- shadow.c ---- */
 
-/* What of a light reaches each fragment. */
+/* Finds the share of a light that reaches each fragment. */
 void pyr_find_unshadowed(const e3d_pyr_light *light, pyr_batch *batch);
 
 /* ---- visible.c, triangles.c, lines.c ---- */
@@ -179,5 +182,3 @@ void pyr_draw_triangles(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vert
 void pyr_draw_lines(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices);
 void pyr_draw_edges(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices);
 void pyr_draw_points(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices);
-
-#endif

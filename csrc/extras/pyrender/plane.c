@@ -35,7 +35,7 @@ static double weigh(const pyr_plane *plane, double x, double y, double out[3])
         sum += out[k];
     }
     double scale = 1 / sum, w = 0, z = 0;
-    if (!(fabs(scale) < 1e300)) { /* seen from the side: any point of it is as good */
+    if (!(fabs(scale) < 1e300)) { /* seen from the side: any point of it will do */
         out[0] = out[1] = out[2] = 1;
         scale = 1.0 / 3;
     }

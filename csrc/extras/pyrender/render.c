@@ -17,10 +17,10 @@
 
 enum { VERTICES_AT_A_TIME = 4096 };
 
-#define LITTLE ((size_t)1 << 20) /* bytes that are asked for as they are; more is rounded up, to fill large pages */
+#define LITTLE ((size_t)1 << 20) /* smaller requests are allocated as they are; larger ones are rounded up, to fill large pages */
 
 struct e3d_pyr_memory {
-    pyr_vertex *vertices; /* fresh memory for each picture would take longer than their transformation */
+    pyr_vertex *vertices; /* kept, since fresh memory for each picture would take longer than the transformation */
     size_t room;
 };
 
@@ -28,7 +28,7 @@ typedef struct render_job {
     pyr_picture picture;
     e3d_pyr_memory *memory;
     pyr_band *bands;   /* of each thread */
-    int32_t *chunks;   /* where the chunks of vertices of each draw begin */
+    int32_t *chunks;   /* where each draw's chunks of vertices begin */
     int threads;
     atomic_int next_chunk, next_band;
 } render_job;
@@ -205,7 +205,7 @@ static void set_code_starts(pyr_picture *picture)
 {
     int code = 0;
     for (int i = 0; i <= PYR_CODE_STARTS; i++) {
-        float root = ((float)i - 0.01f) / PYR_CODE_STARTS; /* a little less: roots are rounded */
+        float root = ((float)i - 0.01f) / PYR_CODE_STARTS; /* a little less, since roots are rounded */
         while (code < 255 && i > 0 && E3D_PYR_POWER_THRESHOLDS[code] <= root * root)
             code++;
         picture->code_start[i] = (uint8_t)code;

@@ -1,12 +1,12 @@
-/* Shadows: what of a light its map lets through, blended over 4x4 texels of 24 bits, which repeat (R150). Maps of frames hold f32, and end at
- * their sides (R93). */
+/* Shadows: the share of a light that its map lets through, blended over 4x4 texels of 24 bits; the map repeats (R150). Maps
+ * of frames hold f32, and end at their sides (R93). */
 #include <math.h>
 
 #include "extras/pyrender/picture.h"
 
-#define DEPTHS 16777215.0 /* that a map of 24 bits tells apart */
+#define DEPTHS 16777215.0 /* the number of steps in a map of 24 bits */
 
-/* From the side of a texel before to that of one behind: what the mean of three blends of two has of each. */
+/* Finds the weights of four texels, from one before to one behind: the mean of three blends of two texels each. */
 static void set_shares(float fraction, float out[4])
 {
     out[0] = 1 - fraction;

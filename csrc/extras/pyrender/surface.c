@@ -1,8 +1,6 @@
-/* Surfaces: what is where a fragment lies, from its corners and textures.
- *
+/* Surfaces: finds the surface of a fragment from its corners and textures.
  * In: corners, their weights, the plane of the triangle. Out: a row of a batch.
- * Always: textures are read at the detail of the 2x2 pixels that a fragment is one of, as graphics hardware does.
- */
+ * Always: textures are read at the detail of the 2x2 pixels around the fragment, as graphics hardware does. */
 #include <math.h>
 
 #include "base/vectors.h"
@@ -37,7 +35,7 @@ static place place_at(const e3d_pyr_draw *draw, const pyr_plane *plane, double x
     return out;
 }
 
-/* How coordinates and positions change from pixel to pixel, to the right and up. */
+/* The change of coordinates and positions from pixel to pixel, to the right and up. */
 typedef struct slopes {
     float uv[2][2], world[2][3];
 } slopes;
@@ -45,7 +43,7 @@ typedef struct slopes {
 static slopes slopes_of(const e3d_pyr_frame *frame, const e3d_pyr_draw *draw, const pyr_plane *plane, int32_t x, int32_t y)
 {
     slopes out;
-    int32_t left = x & ~1, low = (frame->height - 1 - y) & ~1; /* of the four, in rows counted from below */
+    int32_t left = x & ~1, low = (frame->height - 1 - y) & ~1; /* the corner of the four pixels, with rows counted from below */
     double px = left + 0.5, py = (frame->height - 1 - low) + 0.5;
     place at = place_at(draw, plane, px, py), right = place_at(draw, plane, px + 1, py), up = place_at(draw, plane, px, py - 1);
     for (int c = 0; c < 2; c++) {
@@ -90,7 +88,8 @@ static void cross(const float a[3], const float b[3], float out[3])
         out[c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
 }
 
-/* The normal that a map tells, in the frame of the texture's directions along the surface (Mikkelsen 2010, without vertex tangents). */
+/* Finds the normal of a normal texture, in the frame of the texture's directions along the surface (Mikkelsen 2010, without
+ * vertex tangents). */
 static void map_normal(const e3d_pyr_texture *texture, const float uv[2], const slopes *change, pyr_batch *batch, int i)
 {
     float texel[4], n[3] = {batch->normal[0][i], batch->normal[1][i], batch->normal[2][i]}, t[3], b[3];

@@ -1,8 +1,7 @@
-/* Texels: a texture's color at a point, as OpenGL on a processor finds it (R148).
- *
- * In: a texture, coordinates, texels a pixel. Out: four channels. Always: 8-bit arithmetic, as Mesa's llvmpipe has it, which rounds after each
- *      blend; textures of frames don't (R30), so that they share no code.
- */
+/* Texels: finds a texture's colour at a point, as OpenGL on a processor does (R148).
+ * In: a texture, coordinates, texels a pixel. Out: four channels.
+ * Always: 8-bit arithmetic like that of Mesa's llvmpipe, which rounds after each blend. Textures of frames don't (R30), so
+ * the two share no code. */
 #include <math.h>
 #include <string.h>
 
@@ -24,7 +23,7 @@ static level_view level_of(const e3d_pyr_texture *texture, int32_t level)
                         .wrap = texture->wrap};
 }
 
-/* A texel's number along a side, wherever it was asked for. */
+/* The number of a texel along a side, wrapped from anywhere. */
 static int32_t wrapped(int64_t i, int32_t size, int32_t wrap)
 {
     if (wrap == E3D_PYR_CLAMP)
@@ -36,7 +35,7 @@ static int32_t wrapped(int64_t i, int32_t size, int32_t wrap)
     return (int32_t)(rest < size ? rest : period - 1 - rest);
 }
 
-/* A coordinate in 1/256 texel; what is far out, or no number, is taken for 0. */
+/* A coordinate in 1/256 texel; a number that is far out, or NaN, counts as 0. */
 static int64_t scaled(float coordinate, int32_t size)
 {
     float p = rintf(coordinate * (float)size * 256.0f);
@@ -52,7 +51,7 @@ static void read_nearest(level_view level, float u, float v, float out[4])
         out[c] = texel[c];
 }
 
-/* share: 0 .. 255, of which the upper half counts for one more, so that 255 is all of b. */
+/* share: 0 .. 255; its upper half counts for one more, so that 255 gives all of b. */
 static int32_t between(int32_t a, int32_t b, int32_t share)
 {
     return a + (((b - a) * (share + (share >> 7)) + 128) >> 8);
@@ -71,7 +70,7 @@ static void read_linear(level_view level, float u, float v, float out[4])
         out[c] = (float)between(between(low[x0 + c], low[x1 + c], fx), between(high[x0 + c], high[x1 + c], fx), fy);
 }
 
-/* The logarithm of a number of at least 1, to 2e-6: its mantissa's by a polynomial (that of R27). */
+/* The logarithm of a number of at least 1, to 2e-6; the mantissa's is a polynomial (that of R27). */
 static float log2_of(float v)
 {
     static const float TERMS[7] = {0x1.c5507p-2f, -0x1.1d270ep-2f, 0x1.99e72p-3f, -0x1.2cc076p-3f,
@@ -83,7 +82,7 @@ static float log2_of(float v)
     return (float)(power - 1) + (t + (t * (1 - t)) * sum);
 }
 
-/* Level and share of the next one, in 1/256. */
+/* Finds the level, and the share of the next one in 1/256. */
 static int32_t find_level(const e3d_pyr_texture *texture, float detail, int32_t *share)
 {
     *share = 0;

@@ -1,13 +1,12 @@
-/* Triangles that are drawn one after the other: what is blended, in the order in which it is given.
- *
- * In: a draw. Out: fragments where it is nearer than what is there. Always: coverage is that of R8 ... R12, of places in a pixel.
- */
+/* Triangles that are drawn one after the other: blended ones, in their given order.
+ * In: a draw. Out: fragments where it is nearer than what is there.
+ * Always: coverage is that of R8 ... R12, for places in a pixel. */
 #include <math.h>
 
 #include "extras/pyrender/clip.h"
 #include "extras/pyrender/picture.h"
 
-/* An edge function: inside where a*x + b*y + c >= 0, x and y in 1/256 pixel. */
+/* An edge function: inside if a*x + b*y + c >= 0, with x and y in 1/256 pixel. */
 typedef struct edge {
     int64_t a, b, c;
 } edge;
@@ -21,10 +20,10 @@ static void set_edge(const int64_t from[2], const int64_t to[2], edge *out)
     out->b = to[0] - from[0];
     out->c = -(out->a * from[0] + out->b * from[1]);
     if (!(out->a > 0 || (out->a == 0 && out->b > 0)))
-        out->c -= 1; /* neither top nor left: what lies on it is outside */
+        out->c -= 1; /* neither top nor left: a place on it is outside */
 }
 
-/* Where a corner is that was cut to the room before the viewer; 0 where it is no number. */
+/* Finds the place on the screen of a corner that was clipped to the room before the viewer; 0 if it is NaN. */
 static int to_screen(const e3d_pyr_frame *frame, const double p[4], int64_t out[2])
 {
     double across = p[0] / p[3], up = p[1] / p[3];
@@ -36,7 +35,7 @@ static int to_screen(const e3d_pyr_frame *frame, const double p[4], int64_t out[
     return 1;
 }
 
-/* Which places of a pixel three edges enclose. */
+/* The places of a pixel that three edges enclose. */
 static uint32_t covered(const pyr_picture *picture, const edge edges[3], int32_t x, int32_t y)
 {
     uint32_t mask = 0;
@@ -57,7 +56,7 @@ typedef struct triangle_job {
     pyr_plane plane;
 } triangle_job;
 
-/* A triangle on the screen, its corners in clockwise order (y down). */
+/* Draws a triangle on the screen, with corners in clockwise order (y down). */
 static void draw_piece(triangle_job *job, int64_t p[3][2])
 {
     const pyr_picture *picture = job->band->picture;
@@ -79,7 +78,7 @@ static void draw_piece(triangle_job *job, int64_t p[3][2])
         }
 }
 
-/* Twice the area of a polygon's piece, y down: negative for what is counter-clockwise to the viewer. */
+/* Twice the area of a polygon's piece, y down: negative if it is counter-clockwise to the viewer. */
 static int64_t area_of(int64_t p[3][2])
 {
     return (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1]);

@@ -7,7 +7,7 @@
 #include "base/matrix.h"
 #include "extras/pyrender/picture.h"
 
-/* The inverse, transposed, of the upper 3x3, but for its scale: normals become unit anyway. */
+/* The inverse transpose of the upper 3x3 part, up to its scale, since normals are normalised anyway. */
 static void set_normal_matrix(const double m[16], float out[9])
 {
     double cofactor[9], det = e3d_find_cofactors(m, cofactor), most = 0;

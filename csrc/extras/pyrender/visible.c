@@ -1,25 +1,24 @@
-/* Opaque triangles of which it is known what shows where.
- *
- * In: a step with IDs of each place. Out: a fragment for each triangle that shows in a pixel; but calm triangles that share a vertex with
- * the one at the pixel's centre, whose colours go over into one another, are one fragment with it (R152).
- */
+/* Opaque triangles of known visibility.
+ * In: a step with IDs for each place. Out: a fragment for each triangle that shows in a pixel. But calm triangles that share
+ * a vertex with the one at the pixel's centre are one fragment with it, since their colours blend into each other (R152). */
 #include "base/vectors.h"
 #include "extras/pyrender/picture.h"
 
-/* What shows at a place: nothing where the draw is negative. */
+/* What shows at a place; nothing if the draw is negative. */
 typedef struct shown {
     int32_t draw, triangle;
 } shown;
 
-/* The planes of triangles that showed last: neighbours often show the same, to the right and below. New ones take the places of the oldest. */
+/* The planes of triangles that showed last: neighbours to the right and below often show the same. New planes replace the
+ * oldest. */
 enum { RECENT = 256,
        RECENT_KEYS = 1024 };
 
 typedef struct recent {
-    uint16_t of_key[RECENT_KEYS]; /* the plane that may be of a triangle with such a number */
+    uint16_t of_key[RECENT_KEYS]; /* the plane that may belong to a triangle of such a number */
     uint16_t next;
     shown of[RECENT];
-    uint32_t batch[RECENT]; /* the last one that needs it */
+    uint32_t batch[RECENT]; /* the last batch that needs it */
     pyr_plane plane[RECENT];
 } recent;
 
@@ -42,7 +41,7 @@ static void set_row(const pyr_picture *picture, const e3d_pyr_step *step, int32_
     }
 }
 
-/* Sets bits where a place shows something else than the first one. */
+/* Sets bits where a place shows something other than the first place. */
 static void compare_places(const row *row, int32_t width, int32_t *differs)
 {
     memset(differs, 0, (size_t)width * sizeof *differs);
@@ -85,8 +84,8 @@ static int meet(const e3d_pyr_frame *frame, shown a, shown b)
     return 0;
 }
 
-/* Whether all samples of a pixel are one fragment with what its centre shows: mostly so within a surface, which is why this does not
- * go from sample to sample. */
+/* Whether all samples of a pixel are one fragment with what its centre shows. Within a surface mostly all do, so this tests
+ * them together. */
 static int all_meet(const e3d_pyr_frame *frame, const shown at[E3D_PYR_PLACES])
 {
     shown centre = at[E3D_PYR_CENTRE];
@@ -110,7 +109,7 @@ static int all_meet(const e3d_pyr_frame *frame, const shown at[E3D_PYR_PLACES])
     return calm && lanes_of(shared) == (1 << E3D_PYR_SAMPLES) - 1;
 }
 
-/* The number of a triangle's plane. The batch is flushed before a plane goes that it needs. */
+/* The number of a triangle's plane. The batch is flushed before a plane that it needs is replaced. */
 static int find_plane(pyr_band *band, shown what, recent *last)
 {
     const pyr_picture *picture = band->picture;
@@ -142,7 +141,7 @@ static void add(pyr_band *band, shown what, recent *last, int32_t x, int32_t y, 
     last->batch[number] = band->batch.number;
 }
 
-/* Where samples aren't kept: a row of background. */
+/* If no samples are kept: fills a row with the background. */
 static void fill_row(const pyr_band *band, int32_t y)
 {
     const e3d_pyr_frame *frame = band->picture->frame;
@@ -157,7 +156,7 @@ static void fill_row(const pyr_band *band, int32_t y)
     memcpy(to + done, to, size - done);
 }
 
-/* Where samples aren't kept: begins the sum of a pixel's codes with those of its samples that show nothing. */
+/* If no samples are kept: begins the sum of a pixel's codes with its samples that show nothing. */
 static void begin_sum(pyr_band *band, int32_t x, int32_t y, uint32_t nothing)
 {
     const e3d_pyr_frame *frame = band->picture->frame;
@@ -169,7 +168,7 @@ static void begin_sum(pyr_band *band, int32_t x, int32_t y, uint32_t nothing)
         sum[c] = (uint16_t)(count * band->picture->background[c] + frame->samples / 2);
 }
 
-/* A pixel whose places show different things: each of these once, the centre's first. */
+/* Adds a pixel whose places show different things: each of these once, the centre's first. */
 static void add_each(pyr_band *band, const shown at[E3D_PYR_PLACES], recent *last, int32_t x, int32_t y)
 {
     const e3d_pyr_frame *frame = band->picture->frame;
@@ -206,7 +205,7 @@ static void add_each(pyr_band *band, const shown at[E3D_PYR_PLACES], recent *las
         add(band, of[k], last, x, y, mask[k]);
 }
 
-/* Colours of the pixels of a row that have several. */
+/* Finds the colours of the pixels of a row that show several things. */
 static void add_up(const pyr_band *band, int32_t y)
 {
     const e3d_pyr_frame *frame = band->picture->frame;

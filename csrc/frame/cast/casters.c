@@ -1,13 +1,9 @@
-/* cast: what is kept of casters from frame to frame, and which lights' grids have to be made anew. */
+/* cast: the casters that are kept from frame to frame, and which lights' grids have to be made again. */
 #include "frame/cast/casters.h"
 
 #include <string.h>
 
 #include "base/grow.h"
-#include "e3d.h"
-#include "kernels/types/casters.h"
-#include "frame/cast/faces.h"
-#include "frame/cast/grids.h"
 #include "frame/cast/holes.h"
 
 /* ---- what is kept ---- */

@@ -1,6 +1,5 @@
-/* What casts exact shadows, kept from frame to frame for as long as it stays the same. */
-#ifndef E3D_CASTERS_H
-#define E3D_CASTERS_H
+/* The casters of exact shadows. They are kept from frame to frame for as long as they stay the same. */
+#pragma once
 
 #include "e3d.h"
 #include "kernels/types/casters.h"
@@ -16,8 +15,6 @@ typedef struct e3d_caster_memory {
     int32_t kept_lights; /* whose grids are those of the casters */
 } e3d_caster_memory;
 
-/* Brings the index up to date with a frame that has such lights. */
+/* Brings the index of casters up to date with a frame whose lights have exact shadows. */
 e3d_status e3d_casters_prepare(e3d_caster_memory *memory, const e3d_frame *frame, int32_t threads);
 void e3d_casters_free(e3d_caster_memory *memory);
-
-#endif

@@ -1,10 +1,8 @@
-/* cast: the faces that may hide lights, instance by instance, and their corners in the world (R97). */
+/* cast: the faces that cast exact shadows, instance by instance, and their corners in the world (R97). */
 #include "frame/cast/faces.h"
 
-#include "base/grow.h"
 #include "data/mesh/mesh.h"
 #include "base/pool.h"
-#include "e3d.h"
 #include "frame/pass/matrices.h"
 
 enum { CASTERS_A_TASK = 4096 };

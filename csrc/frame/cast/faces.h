@@ -1,6 +1,5 @@
-/* What may hide lights, as triangles in the world. */
-#ifndef E3D_FACES_H
-#define E3D_FACES_H
+/* The faces that cast exact shadows, as triangles in the world. */
+#pragma once
 
 #include "base/grow.h"
 #include "e3d.h"
@@ -12,17 +11,15 @@ typedef struct e3d_caster_instance {
 } e3d_caster_instance;
 
 typedef struct e3d_caster_faces {
-    e3d_casters casters;   /* those that the rest was made from */
-    e3d_array instances;   /* e3d_caster_instance, and one that is behind the last */
+    e3d_casters casters;   /* the draws that the rest was made from */
+    e3d_array instances;   /* e3d_caster_instance; the last one is an end mark */
     e3d_array world;       /* float[9]: of each caster the corners' x, y, z */
-    e3d_array may_be_open; /* uint8_t: whether its material has holes */
+    e3d_array may_be_open; /* uint8_t: whether a caster's material has holes */
     int64_t count;         /* of casters */
 } e3d_caster_faces;
 
 int e3d_casters_are_valid(const e3d_casters *casters);
 /* Finds the rest. */
 e3d_status e3d_place_casters(e3d_caster_faces *faces, int32_t threads);
-/* Finds the instance that a caster is of. */
+/* Returns the instance that a caster belongs to. */
 const e3d_caster_instance *e3d_caster_instance_of(const e3d_caster_faces *faces, uint32_t caster);
-
-#endif

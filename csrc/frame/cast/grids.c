@@ -1,7 +1,6 @@
-/* cast: grids of casters in the plane of a light, which lose none: a caster is in each cell that a sample may be in for which R99 takes
- * it. Of a directional light x and y of the corners bound that to the bit; of a point light slopes are divided out, and their rounding is
- * allowed for.
- */
+/* cast: grids of casters in the plane of a light. A cell holds every caster that R99 may find for a sample in it; none is lost.
+ * For a directional light x and y of the corners are those of R99, to the bit; for a point light they are divided by z, and a
+ * margin allows for the rounding. */
 #include "frame/cast/grids.h"
 
 #include <math.h>
@@ -9,21 +8,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/grow.h"
 #include "base/pool.h"
-#include "e3d.h"
-#include "kernels/types/casters.h"
-#include "frame/cast/faces.h"
 
 enum {
     CASTERS_A_TASK = 4096,
     CELLS_A_TASK = 4096,
-    LARGE = 4, /* casters of this level and above go to cells some levels finer: a city from above takes half of the time */
+    LARGE = 4, /* casters of this level and above go to cells some levels finer: a city from above then takes half the time */
     FINER = 2,
-    CASTERS_A_CELL = 4 /* of the finest level, about: more cells would be found in memory later than their casters are tested */
+    /* Aim: about so many in a cell of the finest level. With more cells, finding one in memory takes longer than testing its
+     * casters */
+    CASTERS_A_CELL = 4
 };
-#define SHAPE_MARGIN 0x1p-18 /* of the squared size: six roundings of R99, each of 2^-24 */
-#define CELL_MARGIN 0.51     /* of a side: half a cell, and more than cell_of rounds */
+#define SHAPE_MARGIN 0x1p-18 /* a share of the squared size: six roundings of R99, each of 2^-24 */
+#define CELL_MARGIN 0.51     /* in cell sides: half a cell, and more than the rounding of cell_of */
 #define SLOPE_MARGIN 0x1p-20f /* four roundings of a slope below 2 */
 
 /* One light's work: what all tasks read, and the counters that they share. */
@@ -34,16 +31,16 @@ typedef struct grid_job {
     e3d_caster_light *out;
     float (*corners)[9];
     /* Of one grid: */
-    int face; /* -1: a directional light */
+    int face; /* the face of the cube; -1: a directional light */
     e3d_caster_grid *grid;
     e3d_caster_box *boxes;
-    _Atomic uint32_t *counts; /* cells of all levels */
+    _Atomic uint32_t *counts; /* how many boxes each cell has, of all levels */
     e3d_caster_box *bounds;   /* of each task */
 } grid_job;
 
 static int tasks_of(int64_t items, int64_t each) { return (int)((items + each - 1) / each); }
 
-/* Of numbers, not NaNs. (The C library's are calls.) */
+/* For numbers, not NaNs. (fminf of the C library would be a call.) */
 static inline float lesser(float a, float b) { return a < b ? a : b; }
 static inline float greater(float a, float b) { return a > b ? a : b; }
 
@@ -71,7 +68,7 @@ static void find_corners(void *argument, int task)
         }
 }
 
-/* What is nowhere is in no grid. */
+/* Spared casters get corners that are NaN, so that no grid takes them. */
 static void leave_out_spared(const e3d_caster_faces *casters, const e3d_light *light, float (*corners)[9])
 {
     const e3d_caster_instance *instance = casters->instances.data;
@@ -93,7 +90,8 @@ static int is_finite(const float corners[9])
     return sum == 0.0f;
 }
 
-/* Whether rays through a face of the cube surely pass a caster on one side: x is farther out than the face's edge at its z. */
+/* Whether a caster surely misses all rays through a face of the cube: all its corners are farther out than the face's edge at
+ * their z. */
 static int is_beside(const float x[3], const float z[3], float side)
 {
     for (int v = 0; v < 3; v++)
@@ -102,7 +100,7 @@ static int is_beside(const float x[3], const float z[3], float side)
     return 1;
 }
 
-/* The slopes of what lies before the light; of what also lies behind it, all. */
+/* Finds the range of slopes of a triangle. If a part of it lies behind the light, the range is everything. */
 static void find_slopes(const float x[3], const float z[3], float *low, float *high)
 {
     *low = -1.0f;
@@ -114,7 +112,7 @@ static void find_slopes(const float x[3], const float z[3], float *low, float *h
     *high = lesser(1.0f, most(slopes) + SLOPE_MARGIN);
 }
 
-/* Where a caster may hide a light; 0: nowhere. */
+/* Finds the box of a caster in the light's plane; 0 if it cannot hide the light. */
 static int find_box(const grid_job *job, int64_t n, e3d_caster_box *box)
 {
     const float *corners = job->corners[n];
@@ -173,7 +171,7 @@ static void bound_some(void *argument, int task)
 
 /* ---- cells ---- */
 
-/* As kernel_hide finds them. */
+/* The cell of a coordinate, as kernel_exact_shadows finds it. */
 static int32_t cell_of(const e3d_caster_grid *grid, float x, int axis)
 {
     float at = (x - grid->low[axis]) * grid->scale[axis], last = (float)((1 << (grid->levels - 1)) - 1);
@@ -181,7 +179,7 @@ static int32_t cell_of(const e3d_caster_grid *grid, float x, int axis)
     return (int32_t)(at < last ? at : last);
 }
 
-/* The cells of a box at some level. */
+/* The cells of a box at one level. */
 typedef struct cell_range {
     int32_t level, first[2], last[2];
 } cell_range;
@@ -213,8 +211,8 @@ static cell_range cells_of(const e3d_caster_grid *grid, const e3d_caster_box *bo
 
 /* ---- cells that a large caster touches ---- */
 
-/* The edges of a caster of a directional light, inside where all are at least -slack; slack is more than what the roundings of R99 come
- * to. */
+/* The edges of a caster of a directional light. A point is inside if all edge functions are at least -slack; slack is more than
+ * the roundings of R99 add up to. */
 typedef struct caster_shape {
     double a[3], b[3], c[3], slack;
 } caster_shape;
@@ -235,7 +233,7 @@ static int find_shape(const float corners[9], caster_shape *out)
     return sign * area > out->slack;
 }
 
-/* Whether a cell surely lies outside of an edge; it is a little larger than it is, for the rounding of cell_of. */
+/* Whether a cell surely lies outside an edge. The cell is taken a little larger, for the rounding of cell_of. */
 static int misses_cell(const caster_shape *shape, const e3d_caster_grid *grid, int32_t level, int32_t column, int32_t row)
 {
     double side = 1 << level, x = (column + 0.5) * side / grid->scale[0] + grid->low[0], y = (row + 0.5) * side / grid->scale[1] + grid->low[1];
@@ -248,7 +246,7 @@ static int misses_cell(const caster_shape *shape, const e3d_caster_grid *grid, i
     return 0;
 }
 
-/* Where the cells of a level begin among those of all. */
+/* The number of the first cell of a level, counted over all levels. */
 static size_t level_start(const e3d_caster_grid *grid, int level)
 {
     size_t start = 0;
@@ -292,7 +290,7 @@ static int nearer_first(const void *left, const void *right)
     return a->near < b->near ? -1 : a->near > b->near;
 }
 
-/* After `put_some`, the count of a cell is where it ends. */
+/* Puts boxes into their cells. After `put_some`, the count of a cell is where it ends. */
 static void sort_some(void *argument, int task)
 {
     const grid_job *job = argument;
@@ -306,7 +304,7 @@ static void sort_some(void *argument, int task)
 
 /* ---- one grid ---- */
 
-/* The bounds of all boxes become the grid's, which has about as many cells as there are casters; returns how many these are. */
+/* Gives the grid the bounds of all boxes and about as many cells as there are casters; returns the number of cells. */
 static uint32_t size_grid(grid_job *job, int tasks)
 {
     e3d_caster_grid *grid = job->grid;
@@ -328,7 +326,7 @@ static uint32_t size_grid(grid_job *job, int tasks)
     return all.caster;
 }
 
-/* Turns counts into places; returns how many boxes there are in all. */
+/* Turns the counts of cells into places; returns how many boxes there are in all. */
 static uint64_t place_cells(const grid_job *job, size_t cells)
 {
     uint64_t sum = 0;
@@ -340,7 +338,7 @@ static uint64_t place_cells(const grid_job *job, size_t cells)
     return sum;
 }
 
-/* The starts of cells come after a 0, so that each cell's end is the next one's start. */
+/* Makes a grid. Its starts begin with a 0, so that each cell's end is the next one's start. */
 static int find_grid(grid_job *job, e3d_array *starts, e3d_array *boxes, int32_t threads)
 {
     e3d_caster_grid *grid = job->grid;

@@ -1,4 +1,4 @@
-/* cast: the alpha of a caster where a ray hits it (R80, R101), with textures at their level 0. */
+/* cast: the alpha of a caster where a ray hits it (R80, R101), by level 0 of its texture. */
 #include "frame/cast/holes.h"
 
 #include <math.h>
@@ -6,7 +6,6 @@
 #include "base/limits.h"
 #include "data/mesh/mesh.h"
 #include "e3d.h"
-#include "kernels/types/casters.h"
 #include "kernels/types/shading.h"
 #include "frame/cast/faces.h"
 
@@ -27,7 +26,8 @@ static float wrapped(float s, e3d_wrap wrap)
     return m > 1.0f ? 2.0f - m : m;
 }
 
-/* Texels have a border, which is the other side's of what is repeated: so neighbours are column and column + 1 of -1 and so on. */
+/* A level has a border, and where the texture repeats, that is the opposite side. So the neighbours of any column are column and
+ * column + 1, from -1 on. */
 static int32_t texel_alpha(const e3d_texture_view *view, int32_t column, int32_t row)
 {
     const e3d_level *level = &view->levels[0];
@@ -61,7 +61,7 @@ static float sampled(const e3d_texture_view *view, float s, float t)
 
 static float between(const float weight[3], float a, float b, float c) { return (weight[0] * a + weight[1] * b) + weight[2] * c; }
 
-/* R45: a coordinate of the texture, of each corner, between them. */
+/* R45: one coordinate of the texture at the hit, interpolated between the corners. */
 static float coordinate(const e3d_texture_use *use, const float *uvs, const int32_t *face, const float weight[3], int axis)
 {
     float corner[3];

@@ -1,25 +1,20 @@
-/* cull: which groups of clusters may show, from the nearest to the farthest.
- *
- * In:  the pass's instances, and the boxes of their meshes' groups.
- * Out: candidates, sorted by the depth of their nearest corner, in an order that no thread's timing changes.
- */
+/* cull: lists the groups of clusters that may show, from the nearest to the farthest.
+ * In: the pass's instances, and the boxes of their meshes' groups.
+ * Out: candidates, sorted by the depth of their nearest corner; the order does not depend on the threads' timing. */
 #include <stdatomic.h>
 #include <string.h>
 
-#include "base/grow.h"
 #include "data/mesh/mesh.h"
 #include "base/pool.h"
 #include "e3d.h"
-#include "kernels/coverage.h"
 #include "frame/cull/cull.h"
-#include "frame/pass/boxes.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/plan.h"
-#include "frame/pass/prepared.h"
+#include "kernels/coverage.h"
 
 enum { GROUPS_A_TASK = 512 };
 
-/* What one task left in its thread's list. */
+/* The candidates that one task added to its thread's list. */
 typedef struct task {
     int32_t worker, count;
     size_t first;
@@ -42,8 +37,11 @@ static void add_candidate(const e3d_prepared *pass, e3d_cull_state *state, const
                           int64_t group_number)
 {
     const e3d_group_box *box = &draw->mesh->groups[group];
-    e3d_candidate candidate = {number, (uint32_t)group, (int32_t)(draw - pass->draws->states), (int32_t)group_number,
-                               {E3D_BOX_CROSSES, E3D_DEPTH_UNBOUNDED, {0, 0, 0, 0}}};
+    e3d_candidate candidate = {.instance = number,
+                               .group = (uint32_t)group,
+                               .draw = (int32_t)(draw - pass->draws->states),
+                               .number = (int32_t)group_number,
+                               .view = {E3D_BOX_CROSSES, E3D_DEPTH_UNBOUNDED, {0, 0, 0, 0}}};
     int bounded = draw->mesh->desc.components == 3;
     if (bounded && box->any_finite)
         e3d_view_box(&pass->view->viewport, pass->frustum->instances[number].clip, box->lo, box->hi, &candidate.view);
@@ -60,7 +58,7 @@ static void add_candidate(const e3d_prepared *pass, e3d_cull_state *state, const
     ((e3d_candidate *)state->candidates.data)[state->candidates.count++] = candidate;
 }
 
-/* Groups [first, end) of the pass: draw after draw, instance after instance. */
+/* Tests groups [first, end) of the pass, counted draw after draw and instance after instance. */
 static void cull_groups(const e3d_prepared *pass, e3d_cull_state *state, int64_t first, int64_t end)
 {
     const e3d_draw_state *draw = e3d_draw_of_group(pass->draws, first);
@@ -99,7 +97,8 @@ static void cull_work(void *argument, int number)
 
 enum { BUCKETS = 1024 };
 
-/* Logarithmic in the distance of z_ndc from the far plane: in perspective about the distance from the eye. */
+/* A number that grows with the logarithm of the distance from the far plane, in z_ndc; in perspective this is about the distance
+ * from the eye. */
 static uint32_t bucket_of(float near)
 {
     float from_far = 1.0f - near;
@@ -128,7 +127,7 @@ static int sort_candidates(e3d_cull_memory *memory, int32_t threads, int64_t tas
         return 0;
     e3d_candidate *out = memory->candidates.data;
     for (int64_t t = 0; t < task_count; t++) {
-        const e3d_candidate *candidates = memory->of[tasks[t].worker]->candidates.data; /* NULL: it never had any */
+        const e3d_candidate *candidates = memory->of[tasks[t].worker]->candidates.data; /* NULL if it never had any */
         for (size_t i = tasks[t].first; i < tasks[t].first + (size_t)tasks[t].count; i++)
             out[start[bucket_of(candidates[i].view.near)]++] = candidates[i];
     }

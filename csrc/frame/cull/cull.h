@@ -1,6 +1,5 @@
 /* The groups of clusters that may show. */
-#ifndef E3D_CULL_H
-#define E3D_CULL_H
+#pragma once
 
 #include <stdint.h>
 
@@ -9,7 +8,7 @@
 #include "frame/pass/boxes.h"
 #include "frame/pass/prepared.h"
 
-/* What becomes of a cluster: it is transformed and drawn, or left out. */
+/* The fate of a cluster: it is drawn, or left out for one of these reasons. */
 typedef enum e3d_cull_result {
     E3D_RESULT_DRAWN = 0,
     E3D_RESULT_OUTSIDE,
@@ -18,7 +17,7 @@ typedef enum e3d_cull_result {
     E3D_CULL_RESULTS
 } e3d_cull_result;
 
-/* Clusters, and their triangles, by what became of the cluster. */
+/* How many clusters, and triangles in them, had each fate. */
 typedef struct e3d_cull_counters {
     int64_t clusters[E3D_CULL_RESULTS], triangles[E3D_CULL_RESULTS];
 } e3d_cull_counters;
@@ -26,15 +25,16 @@ typedef struct e3d_cull_counters {
 /* A group of clusters of one instance, in view. */
 typedef struct e3d_candidate {
     uint32_t instance, group;
-    int32_t draw, number; /* whose instance it is; its number in the frame: there are fewer than triangles */
+    /* The draw of the instance; the group's number in the frame, which fits since there are fewer groups than triangles */
+    int32_t draw, number;
     e3d_box_view view;
 } e3d_candidate;
 
-/* A thread's memory, and that of all. */
+/* A thread's memory, and the memory of all threads. */
 typedef struct e3d_cull_state {
-    e3d_array candidates; /* e3d_candidate, as the groups come */
+    e3d_array candidates; /* e3d_candidate, in the order of the groups */
     e3d_cull_counters counters;
-    int64_t blocks; /* that the boxes of the candidates may touch */
+    int64_t blocks; /* how many blocks of samples the candidates' boxes touch, at most */
     int failed;     /* out of memory */
 } e3d_cull_state;
 typedef struct e3d_cull_memory {
@@ -44,7 +44,5 @@ typedef struct e3d_cull_memory {
 } e3d_cull_memory;
 
 void e3d_cull_free(e3d_cull_memory *memory);
-/* Lists the pass's candidates; 0 when memory is out. */
+/* Lists the candidates of a pass; 0 when memory is out. */
 int e3d_find_candidates(const e3d_prepared *pass, e3d_cull_memory *out);
-
-#endif

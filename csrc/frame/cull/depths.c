@@ -1,21 +1,15 @@
-/* cull, by what is drawn: the farthest depths of every block of 8 x 8 samples of a tile are noted, and what is in a box that is
- * strictly behind all samples that it may touch is hidden: behind a block (Greene, Kass and Miller 1993), or else column by column
- * of a block.
- */
+/* cull, by depth: notes the farthest depth of each block of 8 x 8 samples of a tile. A box is hidden if it is strictly behind
+ * all samples that it may touch: behind each block (Greene, Kass and Miller 1993), or else behind each column of a block. */
 #include <string.h>
 
-#include "base/limits.h"
 #include "base/vectors.h"
 #include "kernels/coverage.h"
-#include "kernels/kernels.h"
-#include "kernels/types/visible.h"
 #include "frame/cull/depths.h"
-#include "frame/pass/boxes.h"
 
 enum { BLOCKS = E3D_TILE / E3D_BLOCK };
 _Static_assert(BLOCKS == 8 && E3D_BLOCK == 8, "a row of blocks and the columns of a block are compared eight at a time");
 
-#define NOTHING 4.0f /* greater than any depth: no other depths are noted */
+#define NOTHING 4.0f /* greater than any depth: nothing else of the tile is noted */
 
 /* ---- what is noted ---- */
 
@@ -31,7 +25,7 @@ static float farthest(const e3d_visible_tile *visible)
 void e3d_note_depths(const e3d_kernels *kernels, int planes, e3d_visible_tile *visible, e3d_tile_depths *out)
 {
     if (planes > 1)
-        kernels->planes_measure(visible, planes, out->columns);
+        kernels->msaa_measure(visible, planes, out->columns);
     else
         kernels->raster_measure(visible, out->columns);
     memcpy(out->zmax, visible->zmax, sizeof out->zmax);
@@ -43,7 +37,7 @@ void e3d_depths_clear(e3d_tile_depths *depths) { depths->most = NOTHING; }
 
 /* ---- a box against what is drawn ---- */
 
-/* The first and last of eight that lie one beside the other, and all between them: a bit each. */
+/* The bits of eight columns from the first to the last. */
 static unsigned from_to(int first, int last) { return (2u << last) - (1u << first); }
 
 /* Which of eight depths are nearer: a bit each. */
@@ -52,7 +46,7 @@ static unsigned nearer_than(const float depths[8], float near)
     return (unsigned)(lanes_of(load4(depths) < splat(near)) | lanes_of(load4(depths + 4) < splat(near)) << 4);
 }
 
-/* Whether all columns of a block that a box of samples meets are nearer. */
+/* Whether all columns of a block that a box of samples touches are nearer than the box. */
 static int block_is_nearer(const e3d_tile_depths *depths, int block, const e3d_box *samples, float near)
 {
     int left = block % BLOCKS * E3D_BLOCK, right = left + E3D_BLOCK - 1;
@@ -60,14 +54,14 @@ static int block_is_nearer(const e3d_tile_depths *depths, int block, const e3d_b
     return !(columns & ~nearer_than(depths->columns[block], near));
 }
 
-/* Whether the column in a box's middle tells at once that the box isn't hidden. */
+/* Whether the column in the box's middle already shows that the box isn't hidden. */
 static int is_open(const e3d_tile_depths *depths, const e3d_box *box, float near)
 {
     int x = (box->x0 + box->x1) / 2, y = (box->y0 + box->y1) / 2, block = y / E3D_BLOCK * BLOCKS + x / E3D_BLOCK;
     return !(near > (depths->noted >> block & 1 ? depths->zmax[block] : depths->columns[block][x % E3D_BLOCK]));
 }
 
-/* Whether the samples of a box, in the tile, are all nearer, as far as the columns of its blocks tell. */
+/* Whether all samples of a box in a tile are nearer, by the columns of the tile's blocks. */
 static int is_behind(const e3d_tile_depths *depths, const e3d_box *samples, float near)
 {
     const e3d_box blocks = e3d_blocks_of(samples);

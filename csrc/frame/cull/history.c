@@ -1,13 +1,8 @@
-/* cull, over time: clusters that the last frame of a view saw are drawn first, since they hide most of the others. The picture does
- * not depend on it.
- */
+/* cull, over time: clusters that the view's last frame showed are drawn first, since they hide most of the others. The picture
+ * does not depend on this. */
 #include <string.h>
 
-#include "base/grow.h"
-#include "data/mesh/mesh.h"
-#include "e3d.h"
 #include "frame/cull/history.h"
-#include "frame/pass/draws.h"
 
 /* ---- the views of a renderer ---- */
 
@@ -47,7 +42,7 @@ static void begin_with(e3d_history *history, const e3d_history *other)
     history->tiles_changed = other->tiles_changed;
 }
 
-/* What one light or eye sees tells nothing of what another light does. */
+/* Forgets what was seen: what one light or eye sees says nothing of what another light sees. */
 static void forget(e3d_history *history)
 {
     const e3d_history nothing = {0};
@@ -90,7 +85,7 @@ static e3d_history_row row_of(const e3d_draws *draws, const e3d_order_entry *ent
     return (e3d_history_row){state->mesh->like, base, node, draw->first_instance, draw->instances, groups};
 }
 
-/* Takes over what both frames know of the instances of one draw; how many groups that is. */
+/* Copies what the last frame knows of one draw's instances that this frame draws, too. Returns the number of groups. */
 static int64_t take_over(const e3d_history_row *from, const uint8_t *old, const e3d_history_row *to, uint8_t *seen)
 {
     int32_t first = from->first > to->first ? from->first : to->first;
@@ -104,7 +99,7 @@ static int64_t take_over(const e3d_history_row *from, const uint8_t *old, const 
     return count;
 }
 
-/* Both lists rise by node, and in a node by instance, as far as they can be matched. */
+/* Merges two lists of rows, both sorted by node and then by instance. */
 static int64_t match_rows(e3d_history *history)
 {
     const e3d_history_row *old = history->rows_before.data, *rows = history->rows.data;
@@ -115,7 +110,8 @@ static int64_t match_rows(e3d_history *history)
                                   (old[at].node == rows[d].node && old[at].first + old[at].instances <= rows[d].first)))
             at++;
         for (size_t j = at; j < old_count && old[j].node == rows[d].node &&
-                            old[j].first < rows[d].first + rows[d].instances; j++)
+                            old[j].first < rows[d].first + rows[d].instances;
+             j++)
             known += take_over(&old[j], history->seen_before.data, &rows[d], history->seen.data);
     }
     return known;
@@ -144,7 +140,7 @@ int e3d_history_remember(e3d_history *history, const e3d_draws *draws)
 
 /* ---- whether rounds pay ---- */
 
-/* Where little is hidden, rounds are tried again about once a second, at 60 frames a second. */
+/* If little is hidden, rounds are tried again about once a second at 60 frames a second. */
 enum { FRAMES_BETWEEN_TRIALS = 64 };
 
 int e3d_history_backs_off(e3d_history *history, int64_t covered, int64_t candidates)
@@ -152,7 +148,7 @@ int e3d_history_backs_off(e3d_history *history, int64_t covered, int64_t candida
     e3d_backoff *backoff = &history->backoff;
     if (backoff->frames_left > 0 && 2 * covered <= 3 * backoff->covered && 2 * candidates <= 3 * backoff->candidates) {
         backoff->frames_left--;
-        history->rows.count = 0; /* the scene will look otherwise when the next trial comes */
+        history->rows.count = 0; /* the scene will have changed when the next trial comes */
         return 1;
     }
     backoff->covered = covered;
@@ -160,7 +156,7 @@ int e3d_history_backs_off(e3d_history *history, int64_t covered, int64_t candida
     return 0;
 }
 
-/* The clusters that showed when they were last tried. */
+/* Counts the clusters that showed when they were last tested. */
 static int64_t count_seen(const e3d_history *history)
 {
     const uint8_t *seen = history->seen.data;
@@ -170,9 +166,9 @@ static int64_t count_seen(const e3d_history *history)
     return count;
 }
 
-/* Whether few of the clusters that were tried are hidden. Trying boxes costs about what drawing a third of the clusters does, and
- * keeping a tile what drawing one does (measured). A frame that remembers nothing draws much before it knows what hides
- * it: the next one tries all of that, and tells. */
+/* Whether few of the tested clusters are hidden. Testing boxes costs about as much as drawing a third of the clusters, and
+ * keeping a tile as much as drawing one (measured). A frame that remembers nothing draws much before it knows what hides it; the
+ * next frame tests all of that, and decides. */
 static int hides_little(const e3d_history *history, const e3d_stats *stats)
 {
     if (!history->remembers)

@@ -1,10 +1,10 @@
-/* geometry: round ends of lines, and round points (R114, R115). Larger ones have more corners, so that all look as round. */
+/* geometry: round ends of lines, and round points (R114, R115). Larger circles have more corners, so that all look equally
+ * round. */
 #include <math.h>
 
-#include "data/half_circle.h"
 #include "frame/geometry/arc.h"
 
-/* A power of two that lets a chord part from its circle by at most 0.16 of a sample. */
+/* The number of chords of a half circle, a power of two: a chord parts from the circle by at most 0.16 of a sample. */
 static int steps_of(int32_t radius)
 {
     int steps = 2;

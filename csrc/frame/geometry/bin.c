@@ -1,19 +1,11 @@
-/* bin: records to the tiles that they may cover.
- *
- * A record in one tile goes there; a larger one is tried edge by edge against each tile of its box. Bins are
- * each thread's own; the raster's rule (R16) makes their order irrelevant.
- */
+/* bin: lists records in the tiles that they may cover. A record whose box lies in one tile is listed there; a larger one is
+ * tested edge by edge against each tile of its box. Each thread has bins of its own; their order does not matter, by the
+ * raster's rule R16. */
 #include <string.h>
 
 #include "base/grow.h"
-#include "base/limits.h"
-#include "kernels/coverage.h"
 #include "kernels/types/fragments.h"
-#include "kernels/types/records.h"
-#include "kernels/types/visible.h"
 #include "frame/geometry/bin.h"
-#include "frame/geometry/records.h"
-#include "frame/pass/view.h"
 
 /* ---- the bins of all threads ---- */
 
@@ -33,12 +25,12 @@ void e3d_bins_init(e3d_bins *bins, int32_t threads)
 
 static void free_chains(e3d_chains *chains)
 {
-    e3d_array_free(&chains->blocks);
+    e3d_array_free(&chains->links);
     e3d_array_free(&chains->bins);
     e3d_array_free(&chains->earlier);
 }
 
-void e3d_geometry_free(e3d_geometry_state *state)
+void e3d_geometry_free(e3d_geometry_memory *state)
 {
     for (e3d_record_set *set = state->sets; set < state->sets + E3D_SETS; set++) {
         e3d_array_free(&set->records);
@@ -58,13 +50,13 @@ static int empty(e3d_array *bins, int32_t tiles)
     if (!e3d_array_reserve(bins, (size_t)tiles, sizeof(e3d_bin)))
         return 0;
     for (int32_t t = 0; t < tiles; t++)
-        ((e3d_bin *)bins->data)[t] = (e3d_bin){E3D_NO_BLOCK, E3D_NO_BLOCK};
+        ((e3d_bin *)bins->data)[t] = (e3d_bin){E3D_NO_LINK, E3D_NO_LINK};
     return 1;
 }
 
 static int clear(e3d_chains *chains, int32_t tiles)
 {
-    chains->blocks.count = 0;
+    chains->links.count = 0;
     return empty(&chains->bins, tiles);
 }
 
@@ -74,7 +66,7 @@ static int keep(e3d_chains *chains, int32_t tiles)
     return empty(&chains->bins, tiles);
 }
 
-static int reset(e3d_geometry_state *state, int32_t tiles, int alpha)
+static int reset(e3d_geometry_memory *state, int32_t tiles, int alpha)
 {
     memset(&state->counters, 0, sizeof state->counters);
     state->failed = 0;
@@ -133,31 +125,31 @@ void e3d_bins_index(e3d_bins *bins)
 
 /* ---- records to bins ---- */
 
-/* An empty block at a chain's end; 0 when memory is out. */
-static int __attribute__((noinline)) add_block(e3d_array *array, e3d_bin *bin)
+/* An empty link at a chain's end; 0 when memory is out. */
+static int __attribute__((noinline)) add_link(e3d_array *array, e3d_bin *bin)
 {
-    if (!e3d_array_reserve(array, array->count + 1, sizeof(e3d_bin_block)))
+    if (!e3d_array_reserve(array, array->count + 1, sizeof(e3d_bin_link)))
         return 0;
-    e3d_bin_block *blocks = array->data;
+    e3d_bin_link *links = array->data;
     uint32_t fresh = (uint32_t)array->count++;
-    blocks[fresh].next = E3D_NO_BLOCK;
-    blocks[fresh].count = 0;
-    *(bin->last == E3D_NO_BLOCK ? &bin->first : &blocks[bin->last].next) = fresh;
+    links[fresh].next = E3D_NO_LINK;
+    links[fresh].count = 0;
+    *(bin->last == E3D_NO_LINK ? &bin->first : &links[bin->last].next) = fresh;
     bin->last = fresh;
     return 1;
 }
 
 static inline int push(e3d_chains *chains, e3d_bin *bin, uint32_t id)
 {
-    const e3d_bin_block *blocks = chains->blocks.data;
-    if ((bin->last == E3D_NO_BLOCK || blocks[bin->last].count == 30) && !add_block(&chains->blocks, bin))
+    const e3d_bin_link *links = chains->links.data;
+    if ((bin->last == E3D_NO_LINK || links[bin->last].count == 30) && !add_link(&chains->links, bin))
         return 0;
-    e3d_bin_block *block = (e3d_bin_block *)chains->blocks.data + bin->last;
-    block->id[block->count++] = id;
+    e3d_bin_link *link = (e3d_bin_link *)chains->links.data + bin->last;
+    link->id[link->count++] = id;
     return 1;
 }
 
-/* Edge functions where they are greatest in a tile: one that is negative rejects it. And what the next tile changes. */
+/* The edge functions where they are greatest in a tile, and their steps from tile to tile. A negative one rejects the tile. */
 typedef struct tile_edges {
     int64_t most[3], across[3], down[3];
 } tile_edges;
@@ -168,17 +160,17 @@ static void find_tile_edges(const e3d_record *record, int32_t x, int32_t y, int3
         e3d_edge edge = e3d_edge_at(record, k, x, y);
         int64_t a = edge.a, b = edge.b;
         out->most[k] = edge.e + (a > 0 ? a * (E3D_TILE - 1) : 0) + (b > 0 ? b * (E3D_TILE - 1) : 0);
-        if (reach) /* no sample is farther inside */
+        if (reach) /* no sample lies farther inside */
             out->most[k] += (((a < 0 ? -a : a) + (b < 0 ? -b : b)) * reach) / E3D_SUBPIXEL + 1;
         out->across[k] = a * E3D_TILE;
         out->down[k] = b * E3D_TILE;
     }
 }
 
-/* Lists a record in the tiles of a span that it does not miss; it meets each tile of a single row or column. This is a function of
- * its own because its registers would spill those of the common case. */
-static int __attribute__((noinline)) bin_wide(const e3d_view *view, e3d_geometry_state *state, const e3d_record *record, e3d_chains *to,
-                                              e3d_tile_span span, uint32_t id)
+/* Lists a record in those tiles of a rectangle that it does not miss; a single row or column of tiles is met whole. This is a
+ * function of its own, since its registers would spill those of the common case. */
+static int __attribute__((noinline)) bin_wide(const e3d_view *view, e3d_geometry_memory *state, const e3d_record *record, e3d_chains *to,
+                                              e3d_tile_rect span, uint32_t id)
 {
     e3d_bin *bins = to->bins.data;
     int32_t x0 = (int32_t)(span.first & 0xFFFF), y0 = (int32_t)(span.first >> 16);
@@ -209,9 +201,9 @@ static inline e3d_bin *bin_at(const e3d_view *view, e3d_chains *chains, uint32_t
     return (e3d_bin *)chains->bins.data + (int64_t)(tile >> 16) * view->tiles_x + (tile & 0xFFFF);
 }
 
-/* Most are in one tile, or in two side by side. */
-int e3d_bin_records(const e3d_view *view, e3d_geometry_state *state, const e3d_record_set *set, e3d_chains *to, uint32_t first,
-                    const e3d_tile_span *spans, int count)
+/* Most records lie in one tile, or in two side by side. */
+int e3d_bin_records(const e3d_view *view, e3d_geometry_memory *state, const e3d_record_set *set, e3d_chains *to, uint32_t first,
+                    const e3d_tile_rect *spans, int count)
 {
     int bits = state->id_bits, entries = 0;
     for (int i = 0; i < count; i++) {
@@ -234,8 +226,8 @@ int e3d_bin_records(const e3d_view *view, e3d_geometry_state *state, const e3d_r
 int e3d_has_bin(const e3d_bins *bins, int which, int64_t tile)
 {
     for (int32_t t = 0; t < bins->threads; t++)
-        if (e3d_first_block(&bins->of[t]->sets[which].chains, 0, tile) != E3D_NO_BLOCK ||
-            (which == E3D_SET_SCENE && e3d_first_block(&bins->of[t]->fragments.chains, 0, tile) != E3D_NO_BLOCK))
+        if (e3d_first_link(&bins->of[t]->sets[which].chains, 0, tile) != E3D_NO_LINK ||
+            (which == E3D_SET_SCENE && e3d_first_link(&bins->of[t]->fragments.chains, 0, tile) != E3D_NO_LINK))
             return 1;
     return 0;
 }
@@ -257,16 +249,16 @@ int e3d_has_bins(const e3d_bins *bins, int64_t tile)
 static uint32_t count_records(const e3d_record_set *set, int64_t tile)
 {
     uint32_t count = 0;
-    for (const e3d_bin_block *block = e3d_first_records(set, 0, tile); block; block = e3d_bin_block_at(set, block->next))
-        count += block->count;
+    for (const e3d_bin_link *link = e3d_first_records(set, 0, tile); link; link = e3d_bin_link_at(set, link->next))
+        count += link->count;
     return count;
 }
 
 static uint32_t count_fragments(const e3d_fragment_set *set, int64_t tile)
 {
     uint32_t count = 0;
-    for (const e3d_fragment_block *block = e3d_first_fragments(set, 0, tile); block; block = e3d_fragment_block_at(set, block->next))
-        count += block->count;
+    for (const e3d_fragment_link *link = e3d_first_fragments(set, 0, tile); link; link = e3d_fragment_link_at(set, link->next))
+        count += link->count;
     return count;
 }
 

@@ -1,11 +1,8 @@
-/* clip: the few primitives that pass the near plane, the eye or the guard band (R5, R7).
- *
- * Sutherland and Hodgman (1974) in homogeneous space. Cut points run from the inside to the outside vertex, so
- * that both triangles of an edge get the same bits.
- */
+/* clip: the few primitives that cross the near plane, the eye's plane or the guard band (R5, R7), by Sutherland and Hodgman
+ * (1974) in homogeneous space. A cut point is computed from the inside to the outside vertex, so that both triangles of an edge
+ * get the same bits. */
 #include "data/clip_planes.h"
 #include "base/limits.h"
-#include "kernels/types/vertices.h"
 #include "frame/geometry/clip.h"
 
 typedef struct exact_vertex {
@@ -28,7 +25,7 @@ static exact_vertex cut(const exact_vertex *inside, const exact_vertex *outside,
     return result;
 }
 
-/* Walks the edges of a polygon (closed) or a segment (not). */
+/* Clips the edges of a polygon (closed) or of a segment (not closed) at one plane. */
 static int clip_plane(const exact_vertex *in, int count, int closed, int plane,
                       const e3d_viewport *viewport, exact_vertex *out)
 {

@@ -1,8 +1,7 @@
-/* geometry: the triangles of a cluster, which is transformed, clipped and set up, to records and fragments in bins. */
+/* geometry: transforms, clips and sets up the triangles of a cluster, which become records and fragments in bins. */
 #include <string.h>
 
 #include "base/limits.h"
-#include "data/mesh/mesh.h"
 #include "e3d.h"
 #include "kernels/coverage.h"
 #include "kernels/kernels.h"
@@ -14,12 +13,8 @@
 #include "frame/geometry/clip.h"
 #include "frame/geometry/cluster.h"
 #include "frame/geometry/fragments.h"
-#include "frame/geometry/records.h"
 #include "frame/geometry/setup.h"
-#include "frame/pass/draws.h"
 #include "frame/pass/plan.h"
-#include "frame/pass/prepared.h"
-#include "frame/pass/view.h"
 
 static e3d_cull cull_of(const e3d_cluster_job *j, int32_t face)
 {
@@ -31,7 +26,7 @@ static e3d_cull cull_of(const e3d_cluster_job *j, int32_t face)
     return frame->materials[material].two_sided ? E3D_CULL_NONE : frame->cull;
 }
 
-/* The sign of the area (screen, Y down) of what one-sided materials don't show: front faces have a negative one. */
+/* The sign of the area (screen, Y down) of the faces that one-sided materials don't show; front faces have a negative one. */
 static int culled_sign(const e3d_cluster_job *j)
 {
     e3d_cull cull = j->pass->frame->cull;
@@ -51,7 +46,7 @@ static e3d_primitive face_primitive(const e3d_cluster_job *j, int32_t face)
                            .mirrored = j->instance->mirrored};
 }
 
-/* Emits one triangle, with the key that painter's algorithm sorts by. */
+/* Emits one triangle, with its key for the painter's algorithm. */
 static void draw_triangle(const e3d_cluster_job *j, int triangle)
 {
     const e3d_vertices *v = &j->state->vertices;
@@ -102,7 +97,7 @@ static void draw_clipped(const e3d_cluster_job *j, int triangle)
 static void draw_records(const e3d_cluster_job *j, const e3d_record_request *request, int alpha)
 {
     e3d_record_set *set = &j->state->sets[E3D_SET_SCENE];
-    e3d_tile_span spans[E3D_CLUSTER_TRIANGLES];
+    e3d_tile_rect spans[E3D_CLUSTER_TRIANGLES];
     if (!e3d_records_fit(set, j->state->id_bits, E3D_CLUSTER_TRIANGLES)) {
         j->state->failed = 1;
         return;
@@ -117,14 +112,14 @@ static void draw_records(const e3d_cluster_job *j, const e3d_record_request *req
         j->state->failed = 1;
 }
 
-/* Triangles of a cluster, a bit each, a vector at a time; tiny ones may be among them. */
+/* Draws triangles of a cluster, given as bits, a vector at a time; tiny ones may be among them. */
 static void draw_triangles(const e3d_cluster_job *j, uint64_t triangles, int tiny, int alpha)
 {
     uint8_t list[E3D_CLUSTER_TRIANGLES + E3D_PAD];
     int count = 0;
     if (!triangles)
         return;
-    tiny = tiny && !j->pass->view->viewport.reach; /* with several samples in a pixel, a cover isn't found ahead */
+    tiny = tiny && !j->pass->view->viewport.reach; /* with multisampling a cover isn't found in advance */
     for (uint64_t left = triangles; left; left &= left - 1)
         list[count++] = (uint8_t)__builtin_ctzll(left);
     memset(list + count, 0, E3D_PAD);
@@ -141,7 +136,7 @@ static void draw_triangles(const e3d_cluster_job *j, uint64_t triangles, int tin
     draw_records(j, &request, alpha);
 }
 
-/* Whether a triangle that setup kept, because both sides of others of its cluster show, is culled. */
+/* Whether a triangle is culled that setup kept, since other materials of its cluster are two-sided. */
 static int is_culled(const e3d_cluster_job *j, int triangle)
 {
     const e3d_vertices *v = &j->state->vertices;
@@ -154,17 +149,17 @@ static int is_culled(const e3d_cluster_job *j, int triangle)
     if ((e3d_doubled_area(x, y) < 0 ? -1 : 1) != culled_sign(j))
         return 0;
     const e3d_box box = e3d_sample_box(x, y, &j->pass->view->viewport);
-    return !(j->open && e3d_meets_window(j->pass->view, &box)) &&
+    return !(j->open && e3d_meets_aperture(j->pass->view, &box)) &&
            cull_of(j, j->draw->mesh->faces[j->cluster->first + triangle]) != E3D_CULL_NONE;
 }
 
-/* Takes the triangles that are culled from the survivors. */
+/* Removes culled triangles from the survivors. */
 static void drop_culled(const e3d_cluster_job *j)
 {
     e3d_survivors *s = &j->state->survivors;
     uint64_t culled = 0;
     if (e3d_drop_sign(j) || !culled_sign(j) || j->draw->all_two_sided)
-        return; /* setup did, or none are */
+        return; /* setup has dropped them, or none are culled */
     for (uint64_t left = s->draw | s->small; left; left &= left - 1)
         if (is_culled(j, __builtin_ctzll(left)))
             culled |= left & -left;
@@ -172,8 +167,8 @@ static void drop_culled(const e3d_cluster_job *j)
     s->small &= ~culled;
 }
 
-/* Takes the triangles that have alpha from the survivors, small or not. They become records of their own lists: a fragment of a
- * micro-triangle would hide what is behind it at once. */
+/* Draws the triangles that have alpha, small or not, and removes them from the survivors. They become records in lists of their
+ * own: as fragments they would hide at once what is behind them. */
 static void draw_alpha(const e3d_cluster_job *j)
 {
     e3d_survivors *s = &j->state->survivors;
@@ -194,7 +189,8 @@ static void draw_small(const e3d_cluster_job *j)
         j->state->failed = 1;
         return;
     }
-    /* Written in place: a copy of the struct would load wider words than were just stored, which stores cannot forward. */
+    /* Written in place: a copy of the struct would load wider words than were just stored, which the processor cannot forward
+     * from its store buffer. */
     *drawn = (e3d_drawn_cluster){j->draw->mesh->faces + j->cluster->first, j->order, (int32_t)j->number,
                                  (int32_t)(j->draw - j->pass->draws->states), j->instance->mirrored};
     e3d_fragments_add(j->pass, j->state, j->indices, small);
@@ -211,12 +207,12 @@ void e3d_transform_cluster(const e3d_cluster_job *j, int inside)
         kernels->transform(j->cluster->positions, j->cluster->stride, j->cluster->vertices, j->instance->clip, viewport, inside, out);
 }
 
-/* Prefetches for writing the cache lines of the next records: other threads read the last frame's records there. */
+/* Prefetches, for writing, the cache lines of the next records: other threads read the last frame's records there. */
 static void fetch_records(const e3d_cluster_job *j, int count)
 {
     e3d_record_set *set = &j->state->sets[E3D_SET_SCENE];
     if (!count || !e3d_records_fit(set, j->state->id_bits, E3D_CLUSTER_TRIANGLES))
-        return; /* whoever makes them asks again */
+        return; /* the function that makes them prefetches again */
     const e3d_record *next = (const e3d_record *)set->records.data + set->records.count;
     _Static_assert(sizeof *next == 64, "a record is a line of the cache");
     for (int i = 0; i < count; i++)
@@ -228,7 +224,7 @@ void e3d_draw_cluster(const e3d_cluster_job *j)
     const e3d_mesh *mesh = j->draw->mesh;
     const e3d_kernels *kernels = j->pass->kernels;
     const e3d_viewport *viewport = &j->pass->view->viewport;
-    e3d_geometry_state *state = j->state;
+    e3d_geometry_memory *state = j->state;
     int fragments = e3d_plans(j->pass, E3D_PLAN_FRAGMENTS) && mesh->desc.components == 3 && e3d_fragments_fit(state);
     e3d_survivors *s = &state->survivors;
     int count = kernels->setup(&state->vertices, j->indices, j->cluster->triangles, e3d_drop_sign(j), fragments, viewport, s);

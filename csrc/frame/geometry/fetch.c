@@ -1,20 +1,16 @@
-/* geometry: prefetches, since what clusters and instances hold may lie anywhere in memory. */
+/* geometry: prefetches, since the data of clusters and instances may lie anywhere in memory. */
 #include <stddef.h>
 
 #include "base/always_inline.h"
 #include "base/limits.h"
-#include "data/mesh/mesh.h"
-#include "e3d.h"
-#include "frame/cull/cull.h"
 #include "frame/geometry/fetch.h"
-#include "frame/geometry/round.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
 
 enum { LINE = 64 };
 
-/* A cluster's positions and indices lie one after the other. */
+/* Prefetches a cluster's positions and indices, which follow each other. */
 static ALWAYS_INLINE void fetch_cluster(const e3d_cluster *c, int32_t components)
 {
     const char *from = (const char *)c->positions, *end = (const char *)e3d_cluster_indices(c, components) + 3 * E3D_CLUSTER_TRIANGLES;
@@ -32,7 +28,7 @@ void e3d_fetch_next(const e3d_mesh *mesh, const e3d_cluster *clusters, unsigned 
     }
 }
 
-/* Which clusters of a candidate showed when they were last tried; other threads may store it at the same time. */
+/* Which clusters of a candidate showed when they were last tested; other threads may write it at the same time. */
 static unsigned seen_of(const e3d_geometry_out *out, const e3d_candidate *candidate)
 {
     return __atomic_load_n(&out->seen[candidate->number], __ATOMIC_RELAXED);

@@ -1,8 +1,5 @@
-/* geometry: the walk over the candidates of a round, whose clusters become records and fragments in bins.
- *
- * Items are groups of clusters, the near ones first. Threads take some of them at a time; each keeps its
- * records and bins to itself.
- */
+/* geometry: walks over a round's candidates, whose clusters become records and fragments in bins. Candidates are groups of
+ * clusters, the near ones first. Threads take some of them at a time; each thread has records and bins of its own. */
 #include <stdatomic.h>
 
 #include "data/mesh/mesh.h"
@@ -16,7 +13,6 @@
 #include "frame/geometry/group.h"
 #include "frame/geometry/lines.h"
 #include "frame/geometry/records.h"
-#include "frame/geometry/round.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
@@ -24,7 +20,7 @@
 enum { TASKS_A_THREAD = 64 };
 enum { MOST_CANDIDATES_A_TASK = 32 };
 enum { UNITS_A_TASK = 8 };
-enum { LEAST_WORK = 4 }; /* candidates or tasks of units, that are worth a second thread */
+enum { LEAST_WORK = 4 }; /* the least number of candidates, or of tasks of units, for which a second thread pays */
 
 /* What all threads do with the candidates and the units. */
 typedef struct geometry_job {
@@ -33,11 +29,11 @@ typedef struct geometry_job {
     atomic_llong next, next_unit;
 } geometry_job;
 
-/* Clusters that the last frame saw are drawn without a test. A quarter of them is tested again in each frame, so that those that
- * are hidden now drop out. */
+/* Clusters that the last frame showed are drawn without a test. Each frame tests a quarter of them again, so that those that are
+ * hidden now drop out. */
 enum { FRAMES_A_TRIAL = 4 };
 
-/* Stores what showed; other threads may read it at the same time, to see what to prefetch. */
+/* Stores what showed. Other threads may read it at the same time, to decide what to prefetch. */
 static void set_seen(const e3d_geometry_out *out, const e3d_candidate *candidate, unsigned seen)
 {
     __atomic_store_n(&out->seen[candidate->number], (uint8_t)seen, __ATOMIC_RELAXED);
@@ -66,7 +62,7 @@ static void visit(const e3d_visit *v)
         set_seen(v->out, candidate, trusted | e3d_draw_group(v, all & ~trusted, all & ~seen));
 }
 
-static void visit_candidate(const geometry_job *job, e3d_geometry_state *state, const e3d_candidate *candidate, e3d_next_clusters *next)
+static void visit_candidate(const geometry_job *job, e3d_geometry_memory *state, const e3d_candidate *candidate, e3d_next_clusters *next)
 {
     const e3d_prepared *pass = job->in->pass;
     const e3d_draw_state *draw = &pass->draws->states[candidate->draw];
@@ -82,7 +78,8 @@ static void visit_candidate(const geometry_job *job, e3d_geometry_state *state, 
     visit(&v);
 }
 
-/* How many candidates a thread takes at once: many, so that it seldom asks; few, so that none waits long for another's last. */
+/* How many candidates a thread takes at once: enough that it seldom asks, and so few that no thread waits long for another's
+ * last ones. */
 static int64_t candidates_a_task(const e3d_geometry_in *in)
 {
     int64_t candidates = (in->round.end - in->round.first) / (TASKS_A_THREAD * in->pass->threads);
@@ -90,7 +87,7 @@ static int64_t candidates_a_task(const e3d_geometry_in *in)
     return candidates > 1 ? candidates : 1;
 }
 
-static void walk_candidates(geometry_job *job, e3d_geometry_state *state)
+static void walk_candidates(geometry_job *job, e3d_geometry_memory *state)
 {
     enum { AHEAD = 6 };
     const e3d_geometry_in *in = job->in;
@@ -113,7 +110,7 @@ static void walk_candidates(geometry_job *job, e3d_geometry_state *state)
     }
 }
 
-static void walk_units(const e3d_prepared *pass, e3d_geometry_state *state, atomic_llong *next)
+static void walk_units(const e3d_prepared *pass, e3d_geometry_memory *state, atomic_llong *next)
 {
     while (!state->failed) {
         int64_t first = atomic_fetch_add(next, UNITS_A_TASK);
@@ -130,7 +127,7 @@ static void walk_units(const e3d_prepared *pass, e3d_geometry_state *state, atom
 static void geometry_work(void *argument, int number)
 {
     geometry_job *job = argument;
-    e3d_geometry_state *state = job->out->bins->of[number];
+    e3d_geometry_memory *state = job->out->bins->of[number];
     walk_candidates(job, state);
     e3d_fragments_flush(job->in->pass, state);
     if (job->in->round.last)

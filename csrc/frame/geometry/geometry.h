@@ -1,10 +1,7 @@
-/* The candidates of a round, cluster by cluster, to records and fragments in bins. */
-#ifndef E3D_GEOMETRY_H
-#define E3D_GEOMETRY_H
+/* Turns the candidates of a round, cluster by cluster, into records and fragments in bins. */
+#pragma once
 
 #include "frame/geometry/round.h"
 
 /* 0 when memory is out. */
 int e3d_geometry(const e3d_geometry_in *in, const e3d_geometry_out *out);
-
-#endif

@@ -1,67 +1,59 @@
-/* geometry: which clusters of a group are drawn, and why not the others: they are outside, face away, or are hidden.
- *
- * Clusters that may reach into a window are open there: their backs aren't culled (R9).
- */
+/* geometry: decides which clusters of a group are drawn; the others are outside, face away, or are hidden. A cluster that may
+ * reach into an aperture is open: its backs aren't culled (R9). */
 #include "base/limits.h"
-#include "data/mesh/mesh.h"
 #include "e3d.h"
 #include "kernels/coverage.h"
 #include "kernels/kernels.h"
-#include "frame/cull/cull.h"
 #include "frame/cull/depths.h"
 #include "frame/geometry/cluster.h"
-#include "frame/geometry/fetch.h"
-#include "frame/geometry/round.h"
 #include "frame/geometry/group.h"
-#include "frame/geometry/records.h"
 #include "frame/pass/boxes.h"
 #include "frame/pass/plan.h"
-#include "frame/pass/prepared.h"
-#include "frame/pass/view.h"
 
-/* Whether what is in a box may reach into a window. */
-static int reaches_window(const e3d_visit *v, const float lo[3], const float hi[3])
+/* Whether a box may reach into an aperture. */
+static int reaches_aperture(const e3d_visit *v, const float lo[3], const float hi[3])
 {
     e3d_box_view box;
     e3d_view_box(&v->pass->view->viewport, v->instance->clip, lo, hi, &box);
-    return box.state != E3D_BOX_OUTSIDE && e3d_meets_window(v->pass->view, &box.samples);
+    return box.state != E3D_BOX_OUTSIDE && e3d_meets_aperture(v->pass->view, &box.samples);
 }
 
-/* Whether what the cluster's vertices enclose may: less than its box does. */
-static int vertices_reach_window(const e3d_visit *v)
+/* Whether the cluster's vertices may reach into an aperture; they enclose less than its box. */
+static int vertices_reach_aperture(const e3d_visit *v)
 {
     e3d_box_view view;
-    return !e3d_view_vertices(&v->pass->view->viewport, &v->state->vertices, &view) || e3d_meets_window(v->pass->view, &view.samples);
+    return !e3d_view_vertices(&v->pass->view->viewport, &v->state->vertices, &view) || e3d_meets_aperture(v->pass->view,
+                                                                                                          &view.samples);
 }
 
-/* The group's clusters that may reach into a window: a bit each. */
+/* The group's clusters that may reach into an aperture: a bit each. */
 static unsigned find_open(const e3d_visit *v)
 {
     const e3d_cluster *clusters = &v->draw->mesh->clusters[v->group->first_cluster];
     unsigned open = 0;
-    if (!v->pass->view->window_count || v->draw->all_two_sided || !reaches_window(v, v->group->lo, v->group->hi))
+    if (!v->pass->view->aperture_count || v->draw->all_two_sided || !reaches_aperture(v, v->group->lo, v->group->hi))
         return 0;
     for (int k = 0; k < v->group->clusters; k++)
-        open |= (unsigned)reaches_window(v, clusters[k].lo, clusters[k].hi) << k;
+        open |= (unsigned)reaches_aperture(v, clusters[k].lo, clusters[k].hi) << k;
     return open;
 }
 
-/* A bit for each cluster. */
+/* Which of a group's clusters face away: a bit each. */
 static unsigned find_away(const e3d_visit *v, const e3d_cluster_job *job)
 {
-    if (!e3d_plans(v->pass, E3D_PLAN_FACES)) /* edges are drawn whichever way faces face */
+    if (!e3d_plans(v->pass, E3D_PLAN_FACES)) /* edges are drawn whichever way their faces face */
         return 0;
     return v->pass->kernels->face_away(&v->draw->mesh->clusters[v->group->first_cluster], v->group->clusters, &v->instance->facing,
                                        e3d_drop_sign(job), v->instance->clip, &v->pass->view->viewport);
 }
 
-/* Whether what earlier rounds drew hides a box. */
+/* Whether the depths of earlier rounds hide a box. */
 static int is_hidden(const e3d_visit *v, const e3d_box_view *view)
 {
     return v->in->round.tested && e3d_is_hidden(v->in->depths, v->pass->view->tiles_x, view);
 }
 
-/* What becomes of a cluster, before it is tested against what is drawn. Where it may show, *view is what that test needs. */
+/* The fate of a cluster before it is tested against depths. If it may show, *view is what that test needs. */
 static e3d_cull_result result_of(const e3d_visit *v, const e3d_cluster *cluster, int away, e3d_box_view *view)
 {
     const float *clip = v->pass->frustum->instances[v->candidate->instance].clip;
@@ -77,7 +69,7 @@ static e3d_cull_result result_of(const e3d_visit *v, const e3d_cluster *cluster,
     return view->state == E3D_BOX_OUTSIDE ? E3D_RESULT_OUTSIDE : E3D_RESULT_DRAWN;
 }
 
-/* Whether a cluster is drawn, and if not, why. A box may be hidden by what earlier rounds drew. */
+/* The fate of a cluster, with the test against the depths of earlier rounds. */
 static e3d_cull_result tested_result_of(const e3d_visit *v, const e3d_cluster *cluster, int away)
 {
     e3d_box_view view;
@@ -85,8 +77,8 @@ static e3d_cull_result tested_result_of(const e3d_visit *v, const e3d_cluster *c
     return result == E3D_RESULT_DRAWN && is_hidden(v, &view) ? E3D_RESULT_OCCLUDED : result;
 }
 
-/* The results of those of a group's clusters whose bits are set; a bit for each that is drawn. What was seen faced the viewer, and is
- * tested again in turn. */
+/* Finds the fates of the clusters whose bits are set, and returns the bits of those that are drawn. Clusters that were seen
+ * faced the viewer, and are tested again in turn. */
 static unsigned find_results(const e3d_visit *v, const e3d_cluster_job *job, unsigned asked, unsigned open,
                              e3d_cull_result results[E3D_GROUP_CLUSTERS])
 {
@@ -99,21 +91,21 @@ static unsigned find_results(const e3d_visit *v, const e3d_cluster_job *job, uns
     return shown;
 }
 
-/* Whether what is drawn hides all that the cluster's vertices enclose on the screen: less than its box does. */
+/* Whether depths hide everything that the cluster's vertices enclose on the screen, which is less than its box. */
 static int vertices_are_hidden(const e3d_visit *v)
 {
     e3d_box_view view;
     return e3d_view_vertices(&v->pass->view->viewport, &v->state->vertices, &view) && is_hidden(v, &view);
 }
 
-/* Whether the vertices of a group's clusters are worth testing: those of a smaller one are drawn in the same time. */
+/* Whether a group is large enough on the screen for tests of its clusters' vertices. Drawing a smaller one takes no longer. */
 static int is_wide(const e3d_box *samples)
 {
     enum { WIDE = 48 };
     return (samples->x1 - samples->x0) + (samples->y1 - samples->y0) > WIDE;
 }
 
-/* Threads may mark the same instance. */
+/* Marks the instance as shown. Several threads may mark the same instance. */
 static void mark(const e3d_visit *v, e3d_cull_result result)
 {
     uint8_t *marks = &v->out->marks[v->candidate->instance];
@@ -132,7 +124,7 @@ static void count_cluster(const e3d_visit *v, const e3d_cluster *cluster, e3d_cu
     mark(v, result);
 }
 
-/* Counts the clusters of a hidden group; it looks at each only where not all count, or not all are in the frustum. */
+/* Counts the clusters of a hidden group. It looks at each one only if not all of them count, or not all are in the frustum. */
 static void count_hidden(const e3d_visit *v, unsigned counted)
 {
     e3d_cull_counters *counters = &v->state->counters.culled;
@@ -152,7 +144,7 @@ static void count_hidden(const e3d_visit *v, unsigned counted)
     }
 }
 
-/* What the group's clusters have in common. */
+/* The part of a cluster's job that all clusters of the group share. */
 static e3d_cluster_job job_of(const e3d_visit *v)
 {
     uint32_t number = v->candidate->instance;
@@ -188,7 +180,7 @@ unsigned e3d_draw_group(const e3d_visit *v, unsigned asked, unsigned wanted)
         job.cluster = &clusters[k];
         job.indices = e3d_cluster_indices(job.cluster, mesh->desc.components);
         e3d_transform_cluster(&job, inside);
-        job.open = open >> k & 1 && vertices_reach_window(v);
+        job.open = open >> k & 1 && vertices_reach_aperture(v);
         if (closely && vertices_are_hidden(v)) {
             results[k] = E3D_RESULT_OCCLUDED;
             shown &= ~(1u << k);

@@ -1,6 +1,5 @@
 /* Groups of clusters that may show. */
-#ifndef E3D_GEOMETRY_GROUP_H
-#define E3D_GEOMETRY_GROUP_H
+#pragma once
 
 #include "data/mesh/mesh.h"
 #include "frame/cull/cull.h"
@@ -16,7 +15,7 @@ typedef struct e3d_visit {
     const e3d_geometry_in *in;
     const e3d_geometry_out *out;
     const e3d_prepared *pass;
-    e3d_geometry_state *state;
+    e3d_geometry_memory *state;
     e3d_next_clusters *next;
     const e3d_candidate *candidate;
     const e3d_draw_state *draw;
@@ -24,8 +23,5 @@ typedef struct e3d_visit {
     const e3d_group_box *group;
 } e3d_visit;
 
-/* Draws the group's clusters that are in `wanted` and may show; returns all that may, of those that are in `asked`. Bit k is
- * cluster k. */
+/* Draws the clusters of a group that are in `wanted` and may show. Returns those of `asked` that may show. Bit k is cluster k. */
 unsigned e3d_draw_group(const e3d_visit *v, unsigned asked, unsigned wanted);
-
-#endif

@@ -1,28 +1,25 @@
-/* geometry: lines, points and wireframe edges, each a parallelogram of two triangles (R6-R8, R11), or with round ends (R114, R115). */
+/* geometry: lines, points and the edges of wireframes. Each is a parallelogram of two triangles (R6-R8, R11), or has round ends
+ * (R114, R115). */
 #include <math.h>
 
 #include "base/limits.h"
-#include "e3d.h"
 #include "kernels/types/vertices.h"
 #include "frame/geometry/alpha_bins.h"
 #include "frame/geometry/arc.h"
 #include "frame/geometry/clip.h"
 #include "frame/geometry/lines.h"
-#include "frame/geometry/records.h"
 #include "frame/geometry/setup.h"
-#include "frame/pass/draws.h"
-#include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
 
-/* Where a thread stands: one instance of one draw. */
+/* The instance of a draw whose units a thread draws. */
 typedef struct unit_walk {
     const e3d_prepared *pass;
-    e3d_geometry_state *state;
+    e3d_geometry_memory *state;
     e3d_line_style lines;
     const e3d_draw_state *draw;
     const e3d_view_instance *instance;
-    uint32_t order; /* of the instance's first primitive */
-    int alpha;      /* of lines and points (e3d_alpha_kind) */
+    uint32_t order; /* the order of the instance's first primitive */
+    int alpha;      /* the list for lines and points (e3d_alpha_kind) */
 } unit_walk;
 
 /* R11 */
@@ -72,7 +69,7 @@ static e3d_corner moved(e3d_corner c, int32_t x, int32_t y)
 
 static int32_t distance(int32_t a, int32_t b) { return a < b ? b - a : a - b; }
 
-/* How far a line of such extents reaches along its minor axis (R11). */
+/* The distance that a line of such extents reaches from its centre along its minor axis (R11). */
 static int32_t offset_of(const e3d_line_style *lines, double dx, double dy)
 {
     if (!lines->wide)
@@ -80,7 +77,7 @@ static int32_t offset_of(const e3d_line_style *lines, double dx, double dy)
     return (int32_t)lrint((double)lines->half * sqrt(dx * dx + dy * dy) / (dx > dy ? dx : dy));
 }
 
-/* Draws the half disc on one side of an arc around a point of the screen; sign -1: on the other side. */
+/* Draws the half disc on one side of an arc around a point on the screen; sign -1 is the other side. */
 static void draw_half_disc(unit_walk *w, const e3d_corner *middle, const e3d_arc *arc, int sign, const e3d_primitive *primitive)
 {
     for (int j = 1; j < arc->steps; j++) {
@@ -113,7 +110,7 @@ static void draw_disc(unit_walk *w, const e3d_corner *middle, uint32_t order)
     draw_half_disc(w, middle, &arc, -1, &primitive);
 }
 
-/* Draws a line between two points of the screen as a parallelogram. */
+/* Draws a line between two points on the screen as a parallelogram. */
 static void draw_band(unit_walk *w, const e3d_corner end[2], uint32_t order, int which)
 {
     int32_t across = distance(end[1].x, end[0].x), down = distance(end[1].y, end[0].y);
@@ -206,7 +203,7 @@ static void run_edges(unit_walk *w, int32_t unit)
         draw_line(w, d->edges + 2 * (size_t)i, 0, E3D_SET_EDGES);
 }
 
-void e3d_draw_unit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_draw_state *draw, int32_t instance, int32_t unit)
+void e3d_draw_unit(const e3d_prepared *pass, e3d_geometry_memory *state, const e3d_draw_state *draw, int32_t instance, int32_t unit)
 {
     int64_t number = draw->instance_base + instance;
     unit_walk w = {pass, state, e3d_line_style_of(pass->frame), draw, &pass->view->instances[number],

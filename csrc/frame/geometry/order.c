@@ -1,6 +1,5 @@
-/* order: for painter's algorithm (Newell, Newell and Sancha 1972, without splitting) and for no hidden-surface
- * removal at all, the frame's pieces are sorted before they are binned (R16), so that the last one wins.
- */
+/* order: sorts the frame's records before they are binned (R16), so that the last one wins. This is for the painter's algorithm
+ * (Newell, Newell and Sancha 1972, without splitting) and for no hidden-surface removal. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,16 +8,14 @@
 #include "kernels/coverage.h"
 #include "kernels/types/records.h"
 #include "frame/geometry/alpha_bins.h"
-#include "frame/geometry/bin.h"
 #include "frame/geometry/order.h"
 #include "frame/geometry/records.h"
 #include "frame/geometry/setup.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/plan.h"
-#include "frame/pass/prepared.h"
 
 typedef struct entry {
-    float key; /* 0 where only the order counts */
+    float key; /* 0 if only the order counts */
     uint32_t order, worker, record;
 } entry;
 
@@ -40,7 +37,7 @@ static size_t count_records(const e3d_bins *bins)
     return count;
 }
 
-/* `keyed`: by depth before order. */
+/* Lists the records to be sorted. `keyed`: depth comes before order. */
 static void list_records(const e3d_bins *bins, int keyed, entry *entries)
 {
     size_t n = 0;
@@ -52,7 +49,7 @@ static void list_records(const e3d_bins *bins, int keyed, entry *entries)
     }
 }
 
-/* Copies the records, and the corners they refer to, in sorted order. */
+/* Copies the records and their corners in sorted order. */
 static int gather(const e3d_bins *bins, const entry *entries, size_t count, e3d_record_set *sorted)
 {
     if (!e3d_array_reserve(&sorted->records, count, sizeof(e3d_record)) ||
@@ -75,7 +72,7 @@ static int gather(const e3d_bins *bins, const entry *entries, size_t count, e3d_
     return 1;
 }
 
-/* Worker 0's set becomes the sorted one; the others keep nothing of this pass. */
+/* Worker 0 gets the sorted set; the other workers' sets are emptied. */
 static void install(e3d_bins *bins, e3d_record_set *sorted)
 {
     e3d_record_set *set = &bins->of[0]->sets[E3D_SET_SCENE];
@@ -87,7 +84,7 @@ static void install(e3d_bins *bins, e3d_record_set *sorted)
         bins->of[t]->sets[E3D_SET_SCENE].records.count = 0;
 }
 
-/* The list that a record goes to. */
+/* The alpha list of a record. */
 static int alpha_of(const e3d_prepared *pass, const e3d_record *record)
 {
     if (!e3d_plans(pass, E3D_PLAN_ALPHA_BINS))
@@ -97,14 +94,14 @@ static int alpha_of(const e3d_prepared *pass, const e3d_record *record)
     return e3d_alpha_kind_of(pass, draw, (int32_t)((record->order - entry->order) % (uint32_t)draw->primitives));
 }
 
-/* Lists the records of worker 0, in their order. */
+/* Bins the records of worker 0, in their order. */
 static int bin_sorted(const e3d_prepared *pass, e3d_bins *bins, size_t count)
 {
     e3d_record_set *set = &bins->of[0]->sets[E3D_SET_SCENE];
     for (size_t r = 0; r < count; r++) {
         const e3d_record *record = (const e3d_record *)set->records.data + r;
         e3d_box box = e3d_sample_box(record->x, record->y, &pass->view->viewport);
-        const e3d_tile_span span = e3d_span_of(&box);
+        const e3d_tile_rect span = e3d_tile_rect_of(&box);
         if (!e3d_bin_records(pass->view, bins->of[0], set, e3d_chains_of(set, alpha_of(pass, record)), (uint32_t)r, &span, 1))
             return 0;
     }

@@ -1,11 +1,8 @@
-/* The records of a frame, sorted where the last one wins. */
-#ifndef E3D_ORDER_H
-#define E3D_ORDER_H
+/* Sorts a frame's records, where the last one wins. */
+#pragma once
 
 #include "frame/geometry/bin.h"
 #include "frame/pass/prepared.h"
 
-/* Sorts the records of all threads and bins them as the first one's; 0 when memory is out. */
+/* Sorts the records of all threads, and bins them as those of the first thread; 0 when memory is out. */
 int e3d_sort_records(const e3d_prepared *pass, e3d_bins *bins);
-
-#endif

@@ -1,15 +1,11 @@
-/* setup, scalar half: a piece's facing, box and depth plane become a record (R8-R13), which is then binned. */
+/* setup, scalar half: finds a piece's facing, box and depth plane, makes a record of it (R8-R13), and bins it. */
 #include <math.h>
 
 #include "base/grow.h"
-#include "e3d.h"
 #include "kernels/coverage.h"
 #include "kernels/types/records.h"
-#include "kernels/types/vertices.h"
 #include "frame/geometry/bin.h"
-#include "frame/geometry/records.h"
 #include "frame/geometry/setup.h"
-#include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
 
 static float clamp(float v, float lo, float hi)
@@ -18,7 +14,7 @@ static float clamp(float v, float lo, float hi)
     return t < hi ? t : hi;
 }
 
-/* 0: does not show. What was clipped may leave the guard band by rounding, and is put back on it. */
+/* Projects a vertex; 0 if it doesn't show. A clipped vertex that rounding moved off the guard band is put back on it. */
 int e3d_project(const float v[4], int clipped, const e3d_viewport *viewport, e3d_corner *out)
 {
     float iw = 1.0f / v[3];
@@ -52,7 +48,7 @@ static int depth_plane(const e3d_corner *c0, const e3d_corner *c1, const e3d_cor
     out->zmin = lo < c2->zn ? lo : c2->zn;
     out->zmax = hi > c2->zn ? hi : c2->zn;
     float none = (out->z0 - out->z0) + ((out->gx - out->gx) + (out->gy - out->gy));
-    return none == 0.0f; /* v - v is 0 for finite v, NaN for the others */
+    return none == 0.0f; /* v - v is 0 for finite v, and NaN for others */
 }
 
 static int append_corners(e3d_record_set *set, const e3d_corner *corner[3], uint32_t *meta)
@@ -77,19 +73,20 @@ static int append_key(e3d_record_set *set, const e3d_corner *corner[3])
 
 int e3d_records_fit(e3d_record_set *set, int id_bits, size_t more)
 {
-    return (set->records.count + more) >> (30 - id_bits) == 0 && /* IDs are less than E3D_FRAGMENT_ID */
+    return (set->records.count + more) >> (30 - id_bits) == 0 && /* IDs must be less than E3D_FRAGMENT_ID */
            e3d_array_reserve(&set->records, set->records.count + more, sizeof(e3d_record));
 }
 
 /* R9 */
 static int is_culled(const e3d_view *view, const e3d_primitive *primitive, int front, const e3d_box *box)
 {
-    return (primitive->cull == E3D_CULL_BACK && !front && !e3d_meets_window(view, box)) || (primitive->cull == E3D_CULL_FRONT && front);
+    return (primitive->cull == E3D_CULL_BACK && !front && !e3d_meets_aperture(view, box)) ||
+           (primitive->cull == E3D_CULL_FRONT && front);
 }
 
 e3d_chains *e3d_chains_of(e3d_record_set *set, int alpha) { return alpha < E3D_ALPHA_KINDS ? &set->alpha[alpha] : &set->chains; }
 
-void e3d_emit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_corner corner[3], const e3d_primitive *primitive)
+void e3d_emit(const e3d_prepared *pass, e3d_geometry_memory *state, const e3d_corner corner[3], const e3d_primitive *primitive)
 {
     const int32_t x[3] = {corner[0].x, corner[1].x, corner[2].x};
     const int32_t y[3] = {corner[0].y, corner[1].y, corner[2].y};
@@ -121,7 +118,7 @@ void e3d_emit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_cor
         state->failed = 1;
         return;
     }
-    const e3d_tile_span span = e3d_span_of(&box);
+    const e3d_tile_rect span = e3d_tile_rect_of(&box);
     uint32_t number = (uint32_t)set->records.count++;
     state->counters.records++;
     if (!sorted && !e3d_bin_records(pass->view, state, set, e3d_chains_of(set, primitive->alpha), number, &span, 1)) /* or after sorting */

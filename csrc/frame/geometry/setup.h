@@ -1,6 +1,5 @@
 /* Projected pieces of primitives, which become records. */
-#ifndef E3D_SETUP_H
-#define E3D_SETUP_H
+#pragma once
 
 #include <stddef.h>
 
@@ -17,17 +16,15 @@ typedef struct e3d_corner {
 typedef struct e3d_primitive {
     uint32_t order;
     int set, face, cut;
-    int alpha; /* which list it goes to (e3d_alpha_kind) */
+    int alpha; /* the list that it goes to (e3d_alpha_kind) */
     e3d_cull cull;
     int mirrored;
 } e3d_primitive;
 int e3d_project(const float v[4], int clipped, const e3d_viewport *viewport, e3d_corner *out);
-/* Makes a record of a piece that shows, and bins it where records aren't sorted first. */
-void e3d_emit(const e3d_prepared *pass, e3d_geometry_state *state, const e3d_corner corner[3], const e3d_primitive *primitive);
-/* The bins of a set where records of such an alpha are listed. */
+/* Makes a record of a piece that shows, and bins it, unless records are sorted first. */
+void e3d_emit(const e3d_prepared *pass, e3d_geometry_memory *state, const e3d_corner corner[3], const e3d_primitive *primitive);
+/* The chains of a set in which records of a kind of alpha are listed. */
 e3d_chains *e3d_chains_of(e3d_record_set *set, int alpha);
 
-/* Whether `more` records have IDs and memory. */
+/* Whether there are IDs and memory for `more` records. */
 int e3d_records_fit(e3d_record_set *set, int id_bits, size_t more);
-
-#endif

@@ -1,20 +1,15 @@
-/* cull: boxes as an eye sees them.
- *
- * Always: what the rules would keep is never lost: boxes are given the rounding of the f32 transform, many times over. A box is
- *      outside when all its corners are beyond one plane (Gribb and Hartmann 2001, for all corners at once).
- */
+/* cull: the boxes of clusters and instances as an eye sees them.
+ * Always: nothing that the rules would draw is lost. Boxes grow by many times the rounding of the f32 transform. A box is
+ * outside if all its corners are beyond one plane (Gribb and Hartmann 2001, for all corners at once). */
 #include <math.h>
 #include <string.h>
 
-#include "base/limits.h"
 #include "base/vectors.h"
-#include "kernels/coverage.h"
-#include "kernels/types/vertices.h"
 #include "frame/pass/boxes.h"
 
 static inline float4 column(const float m[16], int c) { return (float4){m[c], m[4 + c], m[8 + c], m[12 + c]}; }
 
-/* The eight corners of a box in clip space, and for each component what rounding may have moved. */
+/* The eight corners of a box in clip space, and a bound of the rounding of each component. */
 typedef struct corners {
     float4 at[8], slack;
 } corners;
@@ -31,11 +26,10 @@ static void find_corners(const float clip[16], const float lo[3], const float hi
             out->at[i] = out->at[i] + a;
         }
     }
-    out->slack = size * splat(0x1p-20f); /* some f32 roundings here, some in the kernels */
+    out->slack = size * splat(0x1p-20f); /* some f32 roundings here, and some in the kernels */
 }
 
-/* Left, top, right and bottom of what lies from lo to hi: samples whose centres are within, and a quarter of a sample more for the
- * snapping. */
+/* The box of the samples whose centres lie from lo to hi, with a quarter of a sample added for the snapping. */
 static e3d_box samples_of(const e3d_viewport *viewport, float4 lo, float4 hi)
 {
     float half_x = 0.5f * (float)viewport->width, half_y = 0.5f * (float)viewport->height;
@@ -47,7 +41,8 @@ static e3d_box samples_of(const e3d_viewport *viewport, float4 lo, float4 hi)
     return (e3d_box){at[0], at[1], at[2], at[3]};
 }
 
-/* Rectangle of samples and nearest depth; the whole picture and the nearest of all where the box reaches the eye. */
+/* Finds the samples and the nearest depth of a box. If it reaches the eye, these are the whole picture and the nearest depth
+ * there is. */
 static void project_corners(const e3d_viewport *viewport, const corners *c, e3d_box_view *out)
 {
     float4 lo = c->at[0] / splat(c->at[0][3]), hi = lo, nearest = c->at[0];
@@ -70,7 +65,7 @@ static void project_corners(const e3d_viewport *viewport, const corners *c, e3d_
     out->samples = samples_of(viewport, lo, hi);
 }
 
-/* 0: all corners are beyond one plane; E3D_BOX_INSIDE: none is beyond any. */
+/* The state of a box: outside if all corners are beyond one plane, inside if none is beyond any. */
 static int state_of(const corners *c)
 {
     float4 w = splat(c->at[0][3]);
@@ -84,7 +79,7 @@ static int state_of(const corners *c)
         least_high = less_of(least_high, high);
     }
     float4 slack = c->slack + splat(c->slack[3]);
-    const int three = 7; /* w is compared, too, but doesn't count */
+    const int three = 7; /* w is compared, too, but is ignored */
     if ((lanes_of(most_low < -slack) | lanes_of(most_high < -slack)) & three)
         return E3D_BOX_OUTSIDE;
     int inside = lanes_of(least_low > slack) & lanes_of(least_high > slack) & three;
@@ -130,7 +125,7 @@ int e3d_view_vertices(const e3d_viewport *viewport, const e3d_vertices *v, e3d_b
     x[0] = x[1] = load_words(v->sx);
     y[0] = y[1] = load_words(v->sy);
     for (int i = 4; i < v->count; i += 4) {
-        int at = i < v->count - 4 ? i : v->count - 4; /* the last may be looked at twice */
+        int at = i < v->count - 4 ? i : v->count - 4; /* the last four vertices may overlap the ones before */
         int4 ax = load_words(v->sx + at), ay = load_words(v->sy + at);
         x[0] = choose_bits(ax < x[0], ax, x[0]);
         x[1] = choose_bits(ax > x[1], ax, x[1]);

@@ -1,8 +1,6 @@
-/* prepare: a frame's draws, instances and units of work, which are counted draw after draw, and their places in the order (R16). */
+/* prepare: numbers a frame's draws, instances and units of work, draw after draw, and gives them their places in the order
+ * (R16). */
 #include "base/always_inline.h"
-#include "base/grow.h"
-#include "data/mesh/mesh.h"
-#include "e3d.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/transmits.h"
 
@@ -10,7 +8,7 @@
 
 static int32_t units_of(int32_t count) { return (count + E3D_LINES_A_UNIT - 1) / E3D_LINES_A_UNIT; }
 
-/* How many materials of a draw are two-sided. */
+/* Counts a draw's two-sided materials. */
 static int32_t count_two_sided(const e3d_frame *frame, const e3d_draw *draw)
 {
     int32_t count = 0;
@@ -19,7 +17,7 @@ static int32_t count_two_sided(const e3d_frame *frame, const e3d_draw *draw)
     return count;
 }
 
-/* Whether any material of a draw is masked or blended, or lets light pass. */
+/* Whether any material of a draw is masked, is blended, or lets light pass. */
 static int has_alpha(const e3d_frame *frame, const e3d_draw *draw)
 {
     for (int32_t m = 0; m <= draw->mesh->material_most; m++)
@@ -85,7 +83,7 @@ static e3d_status count_draws(e3d_draws *draws, const e3d_frame *frame, int edge
 
 /* ---- the order ---- */
 
-/* Gives the next instances of a draw their place in the order; 0 if it has no more. */
+/* Gives a draw's next instances their place in the order; 0 if it has no more. */
 static int place_instances(e3d_draws *draws, e3d_draw_state *state, uint32_t order, int32_t count)
 {
     if (state->placed + count > state->draw->instances)
@@ -143,10 +141,10 @@ void e3d_draws_free(e3d_draws *draws)
 
 /* ---- whose a number is ---- */
 
-/* Where number k of a table starts. */
+/* The function that tells where element k of a table starts. */
 typedef int64_t (*start_of)(const e3d_draws *draws, int32_t k);
 
-/* The last of `count` that starts at or before a number; the first one does. */
+/* The last of `count` elements that starts at or before a number; the first one always does. */
 static ALWAYS_INLINE int32_t find_by_start(const e3d_draws *draws, start_of start, int32_t count, int64_t number)
 {
     int32_t low = 0, high = count - 1;

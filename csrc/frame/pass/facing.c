@@ -1,7 +1,7 @@
-/* cull: what tells which way an instance's clusters face (kernels/generic/facing.inl): its eye, and how its clip matrix scales. */
+/* cull: finds what the backface test of clusters needs (kernels/generic/facing.inl): an instance's eye, and how its clip matrix
+ * scales. */
 #include <math.h>
 
-#include "kernels/types/vertices.h"
 #include "frame/pass/facing.h"
 
 static double determinant(const float *x, const float *y, const float *w)
@@ -21,9 +21,9 @@ void e3d_facing_prepare(const e3d_viewport *viewport, const float clip[16], e3d_
     const float *x = clip, *y = clip + 4, *w = clip + 12;
     double det = determinant(x, y, w), size = (double)length_of(x) * length_of(y) * length_of(w);
     *out = (e3d_facing){.sign = 0};
-    if (!(fabs(det) > 1e-4 * size)) /* orthographic, flat, or not finite */
+    if (!(fabs(det) > 1e-4 * size)) /* the matrix is orthographic, flat, or not finite */
         return;
-    /* M e = -t by Cramer's rule, a column replaced at a time. */
+    /* M e = -t by Cramer's rule: one column is replaced at a time. */
     for (int k = 0; k < 3; k++) {
         float a[3][3];
         for (int j = 0; j < 3; j++) {
@@ -33,7 +33,7 @@ void e3d_facing_prepare(const e3d_viewport *viewport, const float clip[16], e3d_
         }
         out->eye[k] = (float)(determinant(a[0], a[1], a[2]) / det);
     }
-    out->sign = det < 0 ? 1 : -1; /* the screen's Y is down */
+    out->sign = det < 0 ? 1 : -1; /* Y points down on the screen */
     out->scale = (float)(fabs(det) / size * viewport->scale_x * viewport->scale_y);
     out->length[0] = length_of(x);
     out->length[1] = length_of(y);

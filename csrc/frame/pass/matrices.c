@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/matrix.h"
-#include "e3d.h"
 #include "frame/pass/matrices.h"
 
 static void multiply_pose(const double a[16], const e3d_draw *draw, int32_t instance, double out[16])

@@ -1,6 +1,5 @@
 /* The matrices of an instance, in float64 and a fixed order of operations (R1, R2). */
-#ifndef E3D_MATRICES_H
-#define E3D_MATRICES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -9,9 +8,7 @@
 /* World from object space, of one instance of a draw. */
 void e3d_world_matrix(const e3d_draw *draw, int32_t instance, double out[16]);
 void e3d_clip_matrix(const double clip_from_world[16], const double world[16], float out[16]);
-/* The matrix of normals, scaled; whether the world matrix mirrors. Zero where it isn't finite. */
+/* Finds the matrix of normals, scaled; zero if it isn't finite. Returns whether the world matrix mirrors. */
 int e3d_normal_matrix(const double world[16], float out[9]);
-/* Whether the upper left 3x3 mirrors. */
+/* Whether the upper left 3x3 part mirrors. */
 int e3d_mirrors(const double m[16]);
-
-#endif

@@ -1,10 +1,9 @@
-/* plan: which ways a frame's tiles take, by a table of rules over what is asked for. */
+/* plan: chooses how a frame's tiles are drawn, by a table of conditions on what is asked for. */
 #include <math.h>
 
 #include "base/limits.h"
 #include "data/mesh/mesh.h"
 #include "data/shadows.h"
-#include "e3d.h"
 #include "kernels/types/shading.h"
 #include "frame/pass/plan.h"
 #include "frame/pass/transmits.h"
@@ -105,7 +104,7 @@ static asked_items asked_for(const e3d_frame *f, const e3d_targets *targets)
 
 /* ---- what is done about it ---- */
 
-const e3d_plan_rule E3D_PLAN_RULES[] = {
+const e3d_plan_condition E3D_PLAN_CONDITIONS[] = {
     {E3D_PLAN_COLORS, .asked = ASKED(COLOR), .unless_asked = ASKED(OVERDRAW_MODE)},
     {E3D_PLAN_COLORS, .asked = ASKED(RADIANCE), .unless_asked = ASKED(OVERDRAW_MODE)},
     {E3D_PLAN_OUTPUTS, .asked = ASKED(POSITIONS)},
@@ -131,7 +130,7 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_NORMAL, .asked = ASKED(NORMAL_MODE), .planned = PLAN(COLORS)},
     {E3D_PLAN_NORMAL, .asked = ASKED(NORMALS)},
     {E3D_PLAN_NORMAL, .asked = ASKED(TANGENTS)},
-    {E3D_PLAN_POSITION, .asked = ASKED(TANGENTS)}, /* by which a face's tangent is found */
+    {E3D_PLAN_POSITION, .asked = ASKED(TANGENTS)}, /* a face's tangent is found by it */
     {E3D_PLAN_POSITION, .asked = ASKED(MAPPED_NORMALS), .planned = PLAN(NORMAL)},
     {E3D_PLAN_UV, .asked = ASKED(UVS)},
     {E3D_PLAN_BASE_COLOR, .asked = ASKED(LIT), .planned = PLAN(COLORS)},
@@ -142,7 +141,7 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_KEEPS_RADIANCE, .asked = ASKED(RADIANCE), .planned = PLAN(COLORS)},
     {E3D_PLAN_FACES, .unless_asked = ASKED(WIRE_ONLY)},
     {E3D_PLAN_FACES, .asked = ASKED(HIDDEN_LINES)},
-    {E3D_PLAN_FACES, .asked = ASKED(LINES)}, /* which faces hide, drawn or not (R36) */
+    {E3D_PLAN_FACES, .asked = ASKED(LINES)}, /* faces hide, whether they are drawn or not (R36) */
     {E3D_PLAN_FACES, .planned = PLAN(OUTPUTS)},
     {E3D_PLAN_FACES, .asked = ASKED(NDC_DEPTH)},
     {E3D_PLAN_SORTS, .unless_asked = ASKED(ZBUFFER)},
@@ -153,7 +152,7 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_SOLID, .asked = ASKED(ALPHA) | ASKED(TRANSPARENT_OUTPUTS), .unless_planned = PLAN(COLORS)},
     {E3D_PLAN_FRONT, .asked = ASKED(TRANSPARENT_OUTPUTS), .planned = PLAN(BLENDS) | PLAN(OUTPUTS)},
     {E3D_PLAN_FRONT, .asked = ASKED(NDC_DEPTH) | ASKED(TRANSPARENT_OUTPUTS), .planned = PLAN(BLENDS)},
-    /* what is cut out or laid over is known last */
+    /* alpha tests and blending come last */
     {E3D_PLAN_AT_ONCE, .asked = ASKED(FORWARD), .planned = PLAN(SHADES),
      .unless_asked = ASKED(ALPHA) | ASKED(MULTISAMPLING)},
     {E3D_PLAN_SLOTS, .planned = PLAN(SORTS)},
@@ -167,9 +166,9 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_SPANS, .planned = PLAN(IDENTIFIES), .unless_planned = PLAN(DEPTHS)},
     {E3D_PLAN_LISTS, .planned = PLAN(SHADES), .unless_asked = ASKED(MULTISAMPLING),
      .unless_planned = PLAN(SLOTS)},
-    {E3D_PLAN_HIDES, .asked = ASKED(EXACT_SHADOWS), .planned = PLAN(COLORS)},
+    {E3D_PLAN_FINDS_EXACT_SHADOWS, .asked = ASKED(EXACT_SHADOWS), .planned = PLAN(COLORS)},
     {E3D_PLAN_PAINTS, .asked = ASKED(LIT), .planned = PLAN(COLORS), .unless_asked = ASKED(MANY_LIGHTS),
-     .unless_planned = PLAN(OUTPUTS) | PLAN(HIDES)},
+     .unless_planned = PLAN(OUTPUTS) | PLAN(FINDS_EXACT_SHADOWS)},
     {E3D_PLAN_PAINTS, .asked = ASKED(UNLIT), .planned = PLAN(COLORS), .unless_planned = PLAN(OUTPUTS)},
     {E3D_PLAN_ROUNDS, .asked = ASKED(OCCLUSION), .planned = PLAN(FACES),
      .unless_asked = ASKED(OVERDRAW_MODE) | ASKED(OTHER_FRUSTUM) | ASKED(HUGE), .unless_planned = PLAN(SLOTS)},
@@ -183,21 +182,21 @@ const e3d_plan_rule E3D_PLAN_RULES[] = {
     {E3D_PLAN_ENCODES_SRGB, .asked = ASKED(SRGB) | ASKED(LIT), .planned = PLAN(COLORS)},
     {E3D_PLAN_ENCODES_SRGB, .asked = ASKED(SRGB) | ASKED(UNLIT), .planned = PLAN(COLORS)},
 };
-const int E3D_PLAN_RULE_COUNT = (int)(sizeof E3D_PLAN_RULES / sizeof *E3D_PLAN_RULES);
+const int E3D_PLAN_CONDITION_COUNT = (int)(sizeof E3D_PLAN_CONDITIONS / sizeof *E3D_PLAN_CONDITIONS);
 
-static int holds(const e3d_plan_rule *rule, asked_items asked, e3d_plan plan)
+static int holds(const e3d_plan_condition *condition, asked_items asked, e3d_plan plan)
 {
-    return (asked & rule->asked) == rule->asked && (plan & rule->planned) == rule->planned && !(asked & rule->unless_asked) &&
-           !(plan & rule->unless_planned);
+    return (asked & condition->asked) == condition->asked && (plan & condition->planned) == condition->planned && !(asked & condition->unless_asked) &&
+           !(plan & condition->unless_planned);
 }
 
 e3d_plan e3d_plan_of(const e3d_frame *frame, const e3d_targets *targets)
 {
     asked_items asked = asked_for(frame, targets);
     e3d_plan plan = 0;
-    for (int r = 0; r < E3D_PLAN_RULE_COUNT; r++)
-        if (holds(&E3D_PLAN_RULES[r], asked, plan))
-            plan |= UINT64_C(1) << E3D_PLAN_RULES[r].item;
+    for (int r = 0; r < E3D_PLAN_CONDITION_COUNT; r++)
+        if (holds(&E3D_PLAN_CONDITIONS[r], asked, plan))
+            plan |= UINT64_C(1) << E3D_PLAN_CONDITIONS[r].item;
     return plan;
 }
 

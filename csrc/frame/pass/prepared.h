@@ -1,6 +1,5 @@
-/* A pass that is prepared: all that no stage changes while it is drawn. */
-#ifndef E3D_PREPARED_H
-#define E3D_PREPARED_H
+/* A prepared pass: everything that stays constant while it is drawn. */
+#pragma once
 
 #include "data/sample_patterns.h"
 #include "e3d.h"
@@ -16,13 +15,11 @@ typedef struct e3d_prepared {
     const e3d_frame *frame;
     const e3d_targets *targets;
     e3d_plan plan;
-    const e3d_draws *draws; /* the geometry finishes some instances, here and in the view */
+    const e3d_draws *draws; /* geometry finishes some instances, here and in the view */
     const e3d_view *view;
-    const e3d_caster_index *casters; /* where lights have exact shadows */
-    const e3d_sample_pattern *pattern; /* NULL: no multisampling */
-    const e3d_view *frustum; /* that tells what is drawn: the same view, or that of a camera that stands still */
+    const e3d_caster_index *casters; /* the casters, if lights have exact shadows */
+    const e3d_sample_pattern *pattern; /* the sample pattern; NULL: no multisampling */
+    const e3d_view *frustum; /* the view whose frustum decides what is drawn: `view` itself, or that of a frozen camera */
 } e3d_prepared;
 
 static inline int e3d_plans(const e3d_prepared *pass, e3d_plan_item item) { return e3d_plan_has(pass->plan, item); }
-
-#endif

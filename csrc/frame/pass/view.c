@@ -1,21 +1,13 @@
-/* prepare: what depends on the eye: viewport, grid of tiles, lights, and each instance's clip matrix. */
+/* prepare: what depends on the eye: viewport, grid of tiles, lights, and the clip matrix of each instance. */
 #include <math.h>
 #include <stdatomic.h>
 #include <string.h>
 
-#include "base/grow.h"
-#include "base/limits.h"
 #include "data/mesh/mesh.h"
 #include "base/pool.h"
-#include "data/shadows.h"
 #include "data/sample_patterns.h"
-#include "e3d.h"
-#include "kernels/coverage.h"
-#include "kernels/types/fog.h"
-#include "kernels/types/shading.h"
-#include "kernels/types/vertices.h"
+#include "data/shadows.h"
 #include "frame/pass/boxes.h"
-#include "frame/pass/draws.h"
 #include "frame/pass/facing.h"
 #include "frame/pass/matrices.h"
 #include "frame/pass/plan.h"
@@ -44,20 +36,20 @@ static void find_viewport(e3d_view *view, const e3d_frame *frame)
     view->tiles_y = (v->height + E3D_TILE - 1) / E3D_TILE;
 }
 
-static void find_windows(e3d_view *view, const e3d_frame *frame)
+static void find_apertures(e3d_view *view, const e3d_frame *frame)
 {
     const int32_t axis = frame->samples_axis;
-    view->window_count = frame->cull == E3D_CULL_BACK ? frame->window_count : 0;
-    for (int32_t i = 0; i < view->window_count; i++) {
-        const e3d_window *w = &frame->windows[i];
-        view->windows[i] = (e3d_box){axis * w->x0, axis * w->y0, axis * w->x1 + axis - 1, axis * w->y1 + axis - 1};
+    view->aperture_count = frame->cull == E3D_CULL_BACK ? frame->aperture_count : 0;
+    for (int32_t i = 0; i < view->aperture_count; i++) {
+        const e3d_aperture *w = &frame->apertures[i];
+        view->apertures[i] = (e3d_box){axis * w->x0, axis * w->y0, axis * w->x1 + axis - 1, axis * w->y1 + axis - 1};
     }
 }
 
-/* Where all shadows are exact. */
+/* The shadow maps of a frame without any. */
 static const e3d_shadow_map NO_MAPS;
 
-/* The lights' positions and ranges as the light kernel reads them, a vector of lights at a time. */
+/* Copies the lights' positions and ranges into the arrays of the light kernel, which works on a vector of lights at a time. */
 static int find_lights(e3d_view *view, const e3d_frame *frame)
 {
     e3d_lighting *lighting = &view->lighting;
@@ -112,7 +104,7 @@ void e3d_view_free(e3d_view *view)
 
 /* ---- instances ---- */
 
-/* Finds what follows from the world matrix, in float64, once the clip matrix is known. */
+/* Finds what follows from the world matrix, in float64; the clip matrix is known already. */
 static void finish(const e3d_view *view, const double world[16], e3d_instance *instance, e3d_view_instance *out)
 {
     for (int k = 0; k < 12; k++)
@@ -150,8 +142,8 @@ static void find_instance(const instances_job *job, const e3d_draw_state *state,
     double world[16];
     e3d_world_matrix(draw, (int32_t)(number - state->instance_base), world);
     e3d_clip_matrix(job->clip_from_world, world, out->clip);
-    int one = mesh->group_count == 1; /* whose box is tried soon, by one thread */
-    int later = one && e3d_culls_parts(frame); /* if it isn't hidden */
+    int one = mesh->group_count == 1; /* the mesh has one box, which one thread tests soon */
+    int later = one && e3d_culls_parts(frame); /* the instance is finished later, if its box isn't hidden */
     out->shows = mesh->desc.components == 4 || !e3d_culls_parts(frame) ||
                  (mesh->any_finite && (one || e3d_box_state(out->clip, mesh->lo, mesh->hi) != E3D_BOX_OUTSIDE));
     out->ready = 0;
@@ -187,7 +179,7 @@ int e3d_view_prepare(e3d_view *view, const e3d_view *frustum, const double clip_
 {
     instances_job job = {.view = view, .frustum = frustum, .clip_from_world = clip_from_world, .draws = draws, .frame = frame};
     find_viewport(view, frame);
-    find_windows(view, frame);
+    find_apertures(view, frame);
     for (int k = 0; k < 12; k++)
         view->rows[k] = (float)frame->view_from_world[k];
     view->mirrors = e3d_mirrors(frame->view_from_world);

@@ -1,18 +1,13 @@
-/* counts: what a frame submitted, and what became of it: nodes, clusters, triangles.
- *
- * In:  the workers' counters and the instances' marks, after the last tile.
- * Out: e3d_stats.
- */
-#include "e3d.h"
+/* counts: counts the nodes, clusters and triangles that a frame submitted, and what became of them.
+ * In: the workers' counters and the instances' marks, after the last tile.
+ * Out: e3d_stats. */
 #include "frame/cull/cull.h"
 #include "frame/run/counts.h"
-#include "frame/run/renderer.h"
 #include "frame/geometry/geometry.h"
 #include "frame/geometry/records.h"
 #include "frame/geometry/round.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/plan.h"
-#include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
 
 void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats)
@@ -29,7 +24,7 @@ void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats)
             nodes += draw->instances;
         else if (draw->instances && draw->node_id != last) {
             nodes++;
-            last = draw->node_id; /* runs of its instances follow each other */
+            last = draw->node_id; /* the instances of a node follow each other */
         }
     }
     stats->nodes_unoccluded = stats->nodes_drawn = nodes;
@@ -37,7 +32,7 @@ void e3d_count_submitted(const e3d_frame *frame, e3d_stats *stats)
     stats->triangles_in_frustum = stats->triangles_unoccluded = stats->triangles_drawn = stats->triangles;
 }
 
-/* `all`: the marks of all instances. */
+/* The marks of one entry; `all` are those of all instances. */
 static int marks_of(const e3d_draws *draws, const uint8_t *all, const e3d_order_entry *entry)
 {
     const e3d_draw_state *state = &draws->states[entry->draw];
@@ -49,7 +44,7 @@ static int marks_of(const e3d_draws *draws, const uint8_t *all, const e3d_order_
     return found;
 }
 
-/* A node may have several entries, one after the other. */
+/* Counts nodes; a node may have several entries, which follow each other. */
 static void count_nodes(const e3d_draws *draws, const uint8_t *all, e3d_stats *stats)
 {
     int marks = 0;

@@ -53,7 +53,7 @@ static int frame_is_valid(const e3d_frame *f)
 
 /* ---- a frame ---- */
 
-/* The stages from the candidates to the last tile. */
+/* Runs the stages from the candidates to the last tile. */
 static e3d_status draw(const e3d_context *context, e3d_stats *stats)
 {
     e3d_renderer *renderer = context->renderer;
@@ -100,7 +100,7 @@ static e3d_status run_pass(e3d_renderer *renderer, const e3d_pass *pass)
     return status;
 }
 
-/* R107: with multisampling, outputs beside colour, and the mode overdraw, are those of one sample a pixel. */
+/* R107: with multisampling, the mode overdraw and the outputs other than colour have one sample a pixel. */
 static e3d_status run_outputs(e3d_renderer *renderer, const e3d_pass *asked, e3d_stats *stats)
 {
     e3d_frame frame = *asked->frame;

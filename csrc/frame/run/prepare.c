@@ -1,26 +1,20 @@
-/* prepare: what a frame needs before anything is drawn: its plan, its draws, its view and its constants. */
+/* prepare: finds everything that a frame needs before it is drawn: its plan, its draws, its view and its constants. */
 #include <string.h>
 
 #include "base/grow.h"
 #include "data/sample_patterns.h"
 #include "data/tone_tables.h"
-#include "e3d.h"
 #include "frame/cast/casters.h"
-#include "frame/cull/history.h"
 #include "frame/run/prepare.h"
-#include "frame/run/renderer.h"
 #include "frame/geometry/bin.h"
 #include "frame/geometry/records.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/plan.h"
-#include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
 #include "frame/shade/shade.h"
 #include "frame/store/backdrop.h"
 #include "frame/store/resolve.h"
-#include "frame/store/store.h"
 #include "frame/store/tile_state.h"
-#include "frame/tile/job.h"
 #include "frame/tile/memory.h"
 #include "frame/tile/multisample.h"
 
@@ -50,7 +44,7 @@ static int reset_workers(e3d_renderer *renderer, const e3d_store *store)
     return e3d_bins_reset(&renderer->bins, e3d_tile_count(&renderer->view), e3d_plans(store->pass, E3D_PLAN_ALPHA_BINS));
 }
 
-/* What the stages that shade and store read. */
+/* Prepares what the stages read that shade and store. */
 static void prepare_shading(e3d_renderer *renderer, e3d_context *out)
 {
     const e3d_bins *bins = &renderer->bins;
@@ -64,7 +58,7 @@ static void prepare_shading(e3d_renderer *renderer, e3d_context *out)
     out->tiles = (e3d_tiles_in){.pass = &out->pass, .bins = bins, .shade = &out->shade, .poll = renderer->poll};
 }
 
-/* The gradient, if it is the background; 0 when memory is out. */
+/* Finds the gradient, if it is the background; 0 when memory is out. */
 static int prepare_gradient(e3d_renderer *renderer, const e3d_frame *frame, e3d_store *out)
 {
     out->gradient = NULL;
@@ -77,7 +71,7 @@ static int prepare_gradient(e3d_renderer *renderer, const e3d_frame *frame, e3d_
     return 1;
 }
 
-/* The view, and the one whose frustum tells what is drawn; 0 when memory is out. */
+/* Finds the view, and the frozen view whose frustum decides what is drawn; 0 when memory is out. */
 static int prepare_views(e3d_renderer *renderer, const e3d_frame *frame, const e3d_view *frustum)
 {
     e3d_view *view = &renderer->view, *frozen = &renderer->frozen;
@@ -106,7 +100,8 @@ e3d_status e3d_prepare(e3d_renderer *renderer, const e3d_pass *asked, e3d_contex
     e3d_status status = e3d_draws_prepare(&renderer->draws, frame, e3d_plans(&out->pass, E3D_PLAN_EDGES), e3d_plans(&out->pass, E3D_PLAN_ALPHA_BINS));
     if (status != E3D_OK)
         return status;
-    if (e3d_plans(&out->pass, E3D_PLAN_HIDES) && (status = e3d_casters_prepare(&renderer->casters, frame, renderer->threads)) != E3D_OK)
+    if (e3d_plans(&out->pass, E3D_PLAN_FINDS_EXACT_SHADOWS) &&
+        (status = e3d_casters_prepare(&renderer->casters, frame, renderer->threads)) != E3D_OK)
         return status;
     if (!prepare_views(renderer, frame, out->pass.frustum) || !prepare_gradient(renderer, frame, &out->store) || !clear_marks(renderer))
         return E3D_OUT_OF_MEMORY;

@@ -1,6 +1,5 @@
-/* What is found once a pass, before anything is drawn. */
-#ifndef E3D_PREPARE_H
-#define E3D_PREPARE_H
+/* The preparation of a pass, before anything is drawn. */
+#pragma once
 
 #include "e3d.h"
 #include "frame/cull/history.h"
@@ -10,9 +9,9 @@
 #include "frame/store/store.h"
 #include "frame/tile/job.h"
 
-/* The sum of what the stages read, which the frame hands to them. */
+/* Everything that the stages read; the frame hands it to them. */
 typedef struct e3d_context {
-    e3d_renderer *renderer; /* its memory is what they write */
+    e3d_renderer *renderer; /* its memory is written by the stages */
     e3d_prepared pass;
     e3d_history *history;
     e3d_store store;
@@ -20,7 +19,5 @@ typedef struct e3d_context {
     e3d_tiles_in tiles;
 } e3d_context;
 
-/* Prepares a pass, and all of the renderer's memory for it. */
+/* Prepares a pass, and the renderer's memory for it. */
 e3d_status e3d_prepare(e3d_renderer *renderer, const e3d_pass *asked, e3d_context *out);
-
-#endif

@@ -1,4 +1,4 @@
-/* The low-level door: a frame of one mesh that already is in clip space, without camera or shading. */
+/* The low-level door: draws a frame of one mesh in clip space, without camera or shading. */
 #include "e3d.h"
 
 static e3d_frame clip_frame(int32_t width, int32_t height, e3d_cull cull)

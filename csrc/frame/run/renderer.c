@@ -2,22 +2,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/grow.h"
 #include "base/limits.h"
-#include "e3d.h"
-#include "kernels/kernels.h"
-#include "frame/cast/casters.h"
-#include "frame/cull/cull.h"
-#include "frame/cull/history.h"
-#include "frame/run/renderer.h"
-#include "frame/geometry/bin.h"
-#include "frame/pass/draws.h"
 #include "frame/pass/plan.h"
-#include "frame/pass/view.h"
+#include "frame/run/renderer.h"
 #include "frame/shade/shade.h"
 #include "frame/tile/alpha_test.h"
-#include "frame/tile/job.h"
-#include "frame/tile/kept.h"
 #include "frame/tile/multisample.h"
 #include "frame/tile/slots.h"
 
@@ -26,7 +15,7 @@ static e3d_worker *create_worker(void)
     void *own = NULL;
     if (posix_memalign(&own, 64, sizeof(e3d_worker)))
         return NULL;
-    e3d_worker *worker = memset(own, 0, sizeof *worker); /* padding is read, never used */
+    e3d_worker *worker = memset(own, 0, sizeof *worker); /* padding is read, but never used */
     e3d_marks_init(&worker->tile.marks);
     return worker;
 }
@@ -45,7 +34,7 @@ static void destroy_worker(e3d_worker *worker)
     free(worker);
 }
 
-/* Each stage finds its own part of each worker. */
+/* Creates the workers. Each stage gets a pointer to its own part of each of them. */
 static int create_workers(e3d_renderer *renderer)
 {
     renderer->workers = calloc((size_t)renderer->threads, sizeof *renderer->workers);
@@ -77,7 +66,8 @@ e3d_status e3d_renderer_create(e3d_backend backend, int32_t threads, e3d_rendere
         return E3D_OUT_OF_MEMORY;
     renderer->backend = backend;
     renderer->kernels = e3d_kernels_for(backend);
-    renderer->threads = backend == E3D_BACKEND_SCALAR ? 1 : threads ? threads : e3d_thread_count();
+    renderer->threads = backend == E3D_BACKEND_SCALAR ? 1 : threads ? threads
+                                                                    : e3d_thread_count();
     if (backend != E3D_BACKEND_SCALAR && !create_workers(renderer)) {
         e3d_renderer_destroy(renderer);
         return E3D_OUT_OF_MEMORY;

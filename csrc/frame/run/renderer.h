@@ -1,6 +1,5 @@
-/* A renderer: its threads, and the sum of what the stages keep from frame to frame. */
-#ifndef E3D_RENDERER_H
-#define E3D_RENDERER_H
+/* A renderer: its threads, and the memory that its stages keep from frame to frame. */
+#pragma once
 
 #include "base/grow.h"
 #include "e3d.h"
@@ -17,10 +16,10 @@
 #include "frame/tile/kept.h"
 #include "frame/tile/memory.h"
 
-/* A thread. Each stage finds its own part of all threads. */
+/* A thread. Each stage has a pointer to its own part of all threads. */
 typedef struct e3d_worker {
     e3d_cull_state cull;
-    e3d_geometry_state geometry;
+    e3d_geometry_memory geometry;
     e3d_queue_state queue;
     e3d_tile_memory tile;
 } e3d_worker;
@@ -32,17 +31,15 @@ typedef struct e3d_renderer {
     e3d_worker **workers;
     e3d_draws draws;
     e3d_view view;
-    e3d_view frozen; /* of a camera that stands still while another one draws what it sees */
+    e3d_view frozen; /* the view of a camera that stands still while another camera draws what it sees */
     e3d_cull_memory cull;
     e3d_histories histories;
     e3d_bins bins;
     e3d_tiles_out tiles;
     e3d_kept_memory kept;
     e3d_caster_memory casters;
-    e3d_array marks;         /* uint8_t of each instance: E3D_MARK_ */
+    e3d_array marks;         /* a byte for each instance: E3D_MARK_UNOCCLUDED, E3D_MARK_DRAWN */
     e3d_array tile_progress; /* e3d_tile_progress */
-    e3d_array gradient;      /* uint32_t[E3D_DITHER], of each row of the picture */
+    e3d_array gradient;      /* uint32_t[E3D_DITHER] for each row of the picture */
     e3d_poll poll;
 } e3d_renderer;
-
-#endif

@@ -1,15 +1,11 @@
-/* rounds: what the nearest clusters cover is drawn first, so that clusters behind it are left out.
- *
- * In:  the frame's candidates, from near to far, and what the view's last frames showed.
- * Out: bins, for e3d_tiles(); tiles that are kept or drawn already, by their state.
- * Always: the picture does not depend on the rounds. After each of them the farthest depths of its tiles are noted (depths.c).
- */
+/* rounds: draws the nearest clusters first, so that clusters behind them can be left out.
+ * In: the frame's candidates, from near to far, and what the view's last frames showed.
+ * Out: bins, for e3d_tiles(), and tiles that are kept or drawn already, as their state says.
+ * Always: the picture does not depend on the rounds. After each round the farthest depths of its tiles are noted (depths.c). */
 #include "base/clock.h"
 #include "base/limits.h"
-#include "e3d.h"
 #include "frame/cull/cull.h"
 #include "frame/cull/history.h"
-#include "frame/run/prepare.h"
 #include "frame/run/renderer.h"
 #include "frame/run/rounds.h"
 #include "frame/geometry/bin.h"
@@ -24,8 +20,8 @@
 
 /* ---- a round ---- */
 
-/* The tiles are drawn from visible surface to pixels; those to which the next round adds something will be drawn anew, from these
- * bins and the next ones. */
+/* Draws the tiles from visible surface to pixels. A tile to which the next round adds something is drawn again, from these bins
+ * and the next ones. */
 static e3d_status finish_tiles(const e3d_context *context)
 {
     e3d_tiles_in in = context->tiles;
@@ -36,7 +32,7 @@ static e3d_status finish_tiles(const e3d_context *context)
     return status;
 }
 
-/* `finishes`: the tiles are shaded and resolved, though another round follows; else they are kept for it. */
+/* Draws one round. `finishes`: the tiles are shaded and resolved although another round follows; else they are kept for it. */
 static e3d_status draw_round(const e3d_context *context, e3d_stats *stats, e3d_round round, int finishes)
 {
     int64_t start = e3d_now_ns();
@@ -60,7 +56,7 @@ static e3d_status draw_round(const e3d_context *context, e3d_stats *stats, e3d_r
 
 /* ---- which rounds ---- */
 
-/* Whether rounds may pay: many candidates, which cover the picture more than once. */
+/* Whether rounds may pay: there are many candidates, which cover the picture more than once. */
 static int pay(const e3d_context *context)
 {
     const e3d_prepared *pass = &context->pass;
@@ -78,14 +74,14 @@ static int pay(const e3d_context *context)
     return !e3d_history_backs_off(context->history, covered, candidates) && covered * (E3D_BLOCK * E3D_BLOCK) > 2 * samples;
 }
 
-/* Whether most tiles can be drawn to their end with what the last frames showed: shading a tile while it lies in the caches pays
- * where few are drawn twice. */
+/* Whether most tiles can be finished with what the last frames showed. Shading a tile while it lies in the caches pays if few
+ * tiles are drawn twice. */
 static int finish_early(const e3d_context *context)
 {
     return e3d_plans(&context->pass, E3D_PLAN_FINISHES) && 8 * context->history->tiles_changed <= e3d_tile_count(context->pass.view);
 }
 
-/* After the last round's geometry. */
+/* Counts the tiles that the last round's geometry changed. */
 static int64_t count_changed_tiles(const e3d_bins *bins)
 {
     int64_t changed = 0;
@@ -94,7 +90,7 @@ static int64_t count_changed_tiles(const e3d_bins *bins)
     return changed;
 }
 
-/* What the last frames showed, then what came into view since. */
+/* Draws what the last frames showed, and then what came into view since. */
 static e3d_status draw_remembered(const e3d_context *context, e3d_stats *stats, int64_t count)
 {
     e3d_round seen = {.choice = E3D_SEEN_CANDIDATES, .end = count};
@@ -107,7 +103,7 @@ static e3d_status draw_remembered(const e3d_context *context, e3d_stats *stats, 
     return status;
 }
 
-/* The nearest part of the candidates, then twice as many again and again. */
+/* Draws the nearest candidates, then twice as many, again and again. */
 static e3d_status draw_from_near_to_far(const e3d_context *context, e3d_stats *stats, int64_t count)
 {
     int64_t done = 0;

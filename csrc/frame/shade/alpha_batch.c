@@ -1,19 +1,16 @@
-/* shade, the last steps of samples with alpha: their alphas (R80) are kept to be tested, or with their colours to be sorted, or they are laid
- * over the tile at once (R84). */
+/* shade, the last steps of samples with alpha (R80). Their alphas are kept for the alpha test, or their alphas and colours for
+ * the A-buffer, or they are blended over the tile at once (R84). */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/limits.h"
 #include "base/vectors.h"
-#include "e3d.h"
 #include "kernels/kernels.h"
 #include "kernels/types/texture_slots.h"
 #include "kernels/types/shading.h"
 #include "frame/shade/alpha_batch.h"
-#include "frame/shade/job.h"
 #include "frame/shade/texture_slots.h"
-#include "frame/shade/step.h"
 #include "frame/shade/surface.h"
 
 float e3d_alpha_cutoff(const e3d_material *material)
@@ -34,12 +31,12 @@ int e3d_alpha_wanted(const e3d_bucket *bucket)
     return wanted;
 }
 
-/* The place in the list of the batch's next sample, which is of that piece: those of a piece follow each other. */
-static int32_t next_place(const e3d_visible_primitive *pieces, int32_t piece, e3d_shaded_list *list)
+/* The place in the list of the batch's next sample, which is of that primitive. A primitive's samples follow each other. */
+static int32_t next_place(const e3d_visible_primitive *primitives, int32_t primitive, e3d_shaded_list *list)
 {
-    if (piece != list->piece) {
-        list->piece = piece;
-        list->at = pieces[piece].first;
+    if (primitive != list->primitive) {
+        list->primitive = primitive;
+        list->at = primitives[primitive].first;
     }
     return list->at++;
 }
@@ -50,10 +47,10 @@ void e3d_keep_alphas(const e3d_steps *s)
     const e3d_batch *batch = &memory->batch;
     e3d_shaded_list *list = s->out->list;
     for (int i = 0; i < batch->count; i++)
-        list->alpha[next_place(memory->pieces.data, memory->surfaces.piece[batch->surface[i]], list)] = batch->alpha[i];
+        list->alpha[next_place(memory->primitives.data, memory->surfaces.primitive[batch->surface[i]], list)] = batch->alpha[i];
 }
 
-/* The colours of four samples, channel by channel, clamped, as rows. */
+/* Transposes the clamped colours of four samples from channels to rows. */
 static inline void keep_four(const e3d_batch *batch, int i, float sign, float (*color)[4])
 {
     float4 channel[4], zero = splat(0.0f), one = splat(1.0f);
@@ -68,30 +65,30 @@ static inline void keep_four(const e3d_batch *batch, int i, float sign, float (*
     store4(color[3], LANES(high, high2, 2, 3, 6, 7));
 }
 
-/* Samples first to end - 1 of the batch, which stand side by side in the list. */
+/* Keeps samples first to end - 1 of the batch, which are neighbours in the list. */
 static void keep_run(const e3d_batch *batch, int first, int end, float sign, float (*color)[4])
 {
     float rest[4][4];
     int i = first;
     for (; i + 4 <= end; i += 4)
         keep_four(batch, i, sign, color + (i - first));
-    if (i < end) { /* lanes past the batch's end have a pad */
+    if (i < end) { /* lanes beyond the batch's end land in padding */
         keep_four(batch, i, sign, rest);
         memcpy(color + (i - first), rest, (size_t)(end - i) * sizeof *rest);
     }
 }
 
-/* Likewise what passes through them. */
-static void keep_through(const e3d_map_batch *maps, int first, int end, float (*through)[4])
+/* Keeps the light that passes through them. */
+static void keep_through(const e3d_texture_batch *textures, int first, int end, float (*through)[4])
 {
     for (int i = first; i < end; i++, through++) {
         for (int k = 0; k < 3; k++)
-            (*through)[k] = maps ? maps->through[k][i] : 0.0f;
-        (*through)[3] = maps ? 1.0f : 0.0f;
+            (*through)[k] = textures ? textures->through[k][i] : 0.0f;
+        (*through)[3] = textures ? 1.0f : 0.0f;
     }
 }
 
-/* Likewise their radiance, with alpha. */
+/* Keeps their radiance, with alpha. */
 static void keep_light(const e3d_lane_array *radiance, const float *alpha, int first, int end, float (*light)[4])
 {
     for (int i = first; i < end; i++, light++) {
@@ -101,18 +98,18 @@ static void keep_light(const e3d_lane_array *radiance, const float *alpha, int f
     }
 }
 
-/* Where the samples end that stand side by side in the batch and in the list, from sample i and that place on. Mostly all of them do, of
- * one piece or of several that follow each other in the list. */
+/* Where the samples end that are neighbours both in the batch and in the list, from sample i and that place on. Mostly that is
+ * the whole batch: the samples of one primitive, or of several that follow each other in the list. */
 static int end_of_run(const e3d_shade_memory *memory, int i, int32_t place, e3d_shaded_list *list)
 {
     const e3d_batch *batch = &memory->batch;
-    const e3d_visible_primitive *pieces = memory->pieces.data;
+    const e3d_visible_primitive *primitives = memory->primitives.data;
     int end = i + 1;
     for (; end < batch->count; end++) {
-        int32_t piece = memory->surfaces.piece[batch->surface[end]];
-        if (piece != list->piece && pieces[piece].first != place + (end - i))
+        int32_t primitive = memory->surfaces.primitive[batch->surface[end]];
+        if (primitive != list->primitive && primitives[primitive].first != place + (end - i))
             break;
-        list->piece = piece;
+        list->primitive = primitive;
     }
     return end;
 }
@@ -121,18 +118,18 @@ static void keep(e3d_shade_memory *memory, int transmits, float sign, e3d_shaded
 {
     const e3d_batch *batch = &memory->batch;
     for (int i = 0, end; i < batch->count; i = end) {
-        int32_t place = next_place(memory->pieces.data, memory->surfaces.piece[batch->surface[i]], list);
+        int32_t place = next_place(memory->primitives.data, memory->surfaces.primitive[batch->surface[i]], list);
         end = end_of_run(memory, i, place, list);
         keep_run(batch, i, end, sign, list->color + place);
         if (list->through)
-            keep_through(transmits ? &memory->maps.batch : NULL, i, end, list->through + place);
+            keep_through(transmits ? &memory->textures.batch : NULL, i, end, list->through + place);
         if (list->light)
             keep_light(memory->light, batch->alpha, i, end, list->light + place);
         list->at = place + (end - i);
     }
 }
 
-/* R133: without the mode blend, what transmits is there or is not. */
+/* R133: where materials aren't blended, one that transmits light is opaque or absent. */
 static void round_alphas(const e3d_material *m, e3d_batch *batch)
 {
     for (int i = 0; i < batch->count && m->alpha_mode != E3D_ALPHA_BLEND; i++)
@@ -144,14 +141,17 @@ void e3d_find_alphas(const e3d_steps *s)
     const e3d_bucket *bucket = s->bucket;
     const e3d_material *m = bucket->material;
     e3d_shade_memory *memory = s->out->memory;
-    const e3d_varying base = bucket->mapped ? e3d_mapped_alpha(bucket, &memory->maps) : (e3d_varying){NULL, m->alpha};
+    const e3d_varying base = bucket->mapped ? e3d_mapped_alpha(bucket, &memory->textures) : (e3d_varying){NULL, m->alpha};
     const e3d_texture_view *texture = bucket->textured && !bucket->mapped ? e3d_texture_get_view(m->texture.texture) : NULL;
     s->pass->kernels->alpha(&memory->batch, &memory->surfaces, texture, &base, bucket->by_vertex, bucket->by_instance);
     if (bucket->transmits)
         round_alphas(m, &memory->batch);
 }
 
-void e3d_keep_fragments(const e3d_steps *s) { keep(s->out->memory, s->bucket->transmits, s->bucket->hidden ? -1.0f : 1.0f, s->out->list); }
+void e3d_keep_layers(const e3d_steps *s)
+{
+    keep(s->out->memory, s->bucket->transmits, s->bucket->hidden ? -1.0f : 1.0f, s->out->list);
+}
 
 void e3d_keep_solid(const e3d_steps *s)
 {
@@ -165,7 +165,7 @@ void e3d_lay_batch(const e3d_steps *s)
 {
     e3d_shade_memory *memory = s->out->memory;
     if (s->bucket->transmits)
-        s->pass->kernels->lay_through(&memory->batch, &memory->maps.batch, &s->out->pixels->samples);
+        s->pass->kernels->lay_through(&memory->batch, &memory->textures.batch, &s->out->pixels->samples);
     else
         s->pass->kernels->lay(&memory->batch, &s->out->pixels->samples);
 }

@@ -1,19 +1,17 @@
-/* ambient: what of the light from all around reaches the samples of a batch (R129). */
+/* ambient: the share of ambient light that reaches the samples of a batch (R129). */
 #include <stdint.h>
 
 #include "base/always_inline.h"
 #include "base/limits.h"
 #include "e3d.h"
 #include "kernels/types/shading.h"
-#include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
 #include "frame/shade/ambient.h"
-#include "frame/shade/job.h"
 
-/* Whole vectors are stored: what is past the batch's end repeats its last sample. */
+/* The length of the batch in whole vectors; beyond its end the last sample is repeated. */
 static int padded(const e3d_batch *batch) { return (batch->count + E3D_PAD - 1) / E3D_PAD * E3D_PAD; }
 
-/* `shift` is a constant for the compiler. */
+/* Inlined for each `shift`, so that the compiler sees a constant. */
 static ALWAYS_INLINE void find_shifted(const e3d_frame *frame, const e3d_tile *tile, int shift, e3d_batch *batch)
 {
     const float *first = frame->ambient_visibility + (size_t)(tile->y >> shift) * (size_t)frame->width + (tile->x >> shift);

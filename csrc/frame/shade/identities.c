@@ -1,8 +1,6 @@
-/* shade: the IDs of visible samples, where little else is asked for: run by run, without surfaces, buckets or batches (R35).
- *
- * In:  runs of samples, and the IDs that own them.
- * Out: the outputs of IDs, in what is gathered of the tile.
- */
+/* shade: finds the IDs of visible samples if little else is asked for, run by run, without surfaces, buckets or batches (R35).
+ * In: runs of samples, and the IDs that own them.
+ * Out: the outputs of IDs, in the tile's gathered outputs. */
 #include <string.h>
 
 #include "base/limits.h"
@@ -12,9 +10,7 @@
 #include "kernels/types/visible.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/prepared.h"
-#include "frame/pass/view.h"
 #include "frame/shade/identities.h"
-#include "frame/shade/job.h"
 #include "frame/shade/primitive.h"
 #include "frame/store/outputs.h"
 #include "frame/store/store.h"
@@ -22,17 +18,18 @@
 /* ---- what owners are ---- */
 
 enum { SOME = 256 };
-_Static_assert(SOME >= (int)E3D_MOST_COVERING, "all pieces of spans are looked up at once");
+_Static_assert(SOME >= (int)E3D_MOST_COVERING, "all primitives of spans are looked up at once");
 
-/* Some owners of runs: their IDs, and the primitives that these stand for. */
+/* Owners of runs: their IDs, and the primitives that these stand for. */
 typedef struct owners {
     int32_t count;
     uint32_t id[SOME];
-    int32_t primitive[SOME], instance[SOME]; /* in the mesh, in the draw */
+    int32_t primitive[SOME], instance[SOME]; /* the primitive's number in its mesh, the instance's in its draw */
     const e3d_draw_state *draw[SOME];
 } owners;
 
-/* Finds the primitives of all. (Records that are asked for ahead, or parted from fragments, take longer: 7 to 12 % of a frame of small triangles.) */
+/* Finds the primitives of all owners. (Prefetching records, or separating them from fragments, takes longer: 7 to 12 % of a
+ * frame of small triangles.) */
 static void find_primitives(const e3d_shade_in *in, e3d_instance_finder *finder, owners *out)
 {
     const e3d_draws *draws = in->pass->draws;
@@ -84,10 +81,10 @@ static int64_t count_samples(const e3d_run *runs, int32_t count)
     return samples;
 }
 
-/* The first pixel of a row whose middle sample isn't before sample x. */
+/* The first pixel of a row whose middle sample is at sample x or behind it. */
 static int32_t first_pixel(int32_t x, int32_t axis) { return (x + axis - 1 - axis / 2) / axis; }
 
-/* The pixels whose middle samples are in a run, perhaps none. */
+/* The pixels whose middle samples are in a run; there may be none. */
 static e3d_run pixels_of(e3d_run run, int32_t axis)
 {
     int32_t x = run.sample % E3D_TILE, y = run.sample / E3D_TILE;
@@ -99,7 +96,7 @@ static e3d_run pixels_of(e3d_run run, int32_t axis)
     return (e3d_run){run.owner, (uint16_t)(y / axis * E3D_TILE + first), (uint16_t)(end - first)};
 }
 
-/* Runs of samples become runs of pixels, of which there are as many or fewer; how many. */
+/* Turns runs of samples into runs of pixels, which are as many or fewer; returns how many. */
 static int32_t reduce(e3d_run *runs, int32_t count, int32_t axis)
 {
     int32_t left = 0;
@@ -120,8 +117,8 @@ static void fill(int32_t *pixels, int32_t first, int32_t end, int32_t value)
         pixels[i] = value;
 }
 
-/* Writes runs that follow each other from pixel `end` on, and the background between them; returns where the last one ends. How long a run
- * is could not be foreseen, so whole vectors are written past its end, over which the next run is written. */
+/* Writes runs that follow each other from pixel `end` on, and the background between them; returns where the last one ends. The
+ * length of a run is unpredictable, so whole vectors are written beyond its end, and the next run overwrites them. */
 static int32_t write_in_order(const e3d_run *runs, int32_t count, const int32_t *values, int32_t end, int32_t *pixels)
 {
     for (int32_t r = 0; r < count; r++) {
@@ -139,7 +136,7 @@ static int32_t write_in_order(const e3d_run *runs, int32_t count, const int32_t 
 }
 _Static_assert(E3D_PAD >= 7, "the last run of a tile may be written so far past its end");
 
-/* Writes the pixels of some runs in order, of all outputs that are asked for; returns where the last one ends. */
+/* Writes the pixels of some runs, in order, to all outputs that are asked for; returns where the last run ends. */
 static int32_t write_outputs(const e3d_shade_in *in, const e3d_run *runs, const owners *of, int32_t before, const e3d_shade_out *out)
 {
     int32_t end = before, values[SOME];
@@ -177,7 +174,7 @@ void e3d_identify_runs(const e3d_shade_in *in, const e3d_tile *tile, int32_t cou
 
 /* ---- lists of what shows ---- */
 
-/* Run r of a list, without its owner. */
+/* Run r of a list; its owner isn't set. */
 static e3d_run run_of(const e3d_shown *shown, int32_t r)
 {
     int32_t run = shown->sample[r];
@@ -189,9 +186,9 @@ void e3d_identify_shown(const e3d_shade_in *in, const e3d_shade_out *out)
     const e3d_shown *shown = &out->memory->shown;
     e3d_instance_finder finder = {0};
     int32_t axis = in->pass->frame->samples_axis, values[SOME];
-    owners of = {.count = shown->pieces};
+    owners of = {.count = shown->primitives};
     for (int32_t n = 0; n < of.count; n++)
-        of.id[n] = shown->piece[n].id;
+        of.id[n] = shown->primitive[n].id;
     find_primitives(in, &finder, &of);
     for (int k = 0; k < KINDS; k++) {
         int32_t *pixels = e3d_outputs_gathered(in->store, out->pixels, IDENTITIES[k]);

@@ -1,6 +1,5 @@
-/* What shading reads and writes: the constants of a pass, a thread's memory, what shows in a tile. */
-#ifndef E3D_SHADE_JOB_H
-#define E3D_SHADE_JOB_H
+/* The inputs and outputs of shading: a pass's constants, a thread's memory, what shows in a tile. */
+#pragma once
 
 #include <stdint.h>
 
@@ -22,82 +21,82 @@ typedef struct e3d_bins e3d_bins;
 typedef struct e3d_shade_in {
     const e3d_prepared *pass;
     const e3d_record_table *table; /* of what shows */
-    const float *const *corners;   /* c[k][j] of the cut records of each thread */
+    const float *const *corners;   /* c[k][j] of the clipped records of each thread */
     const e3d_store *store;
-    const e3d_bins *bins; /* tiles without any are cleared between batches */
-    float unorm8[256];    /* values of 8-bit vertex and instance colours (R23) */
+    const e3d_bins *bins; /* tiles without any entry are cleared between batches */
+    float unorm8[256];    /* the values of 8-bit vertex and instance colours (R23) */
 } e3d_shade_in;
 
-/* Of materials of more than a base colour. */
-typedef struct e3d_map_memory {
-    e3d_maps maps; /* of the bucket */
-    _Alignas(64) e3d_map_surfaces surfaces;
-    _Alignas(64) e3d_map_batch batch;
-} e3d_map_memory;
+/* The memory for materials with more textures than a base colour. */
+typedef struct e3d_texture_memory {
+    e3d_read_textures read; /* of the bucket */
+    _Alignas(64) e3d_texture_surfaces surfaces;
+    _Alignas(64) e3d_texture_batch batch;
+} e3d_texture_memory;
 
-/* A thread's memory, of one tile. */
+/* A thread's memory for shading one tile. */
 typedef struct e3d_shade_memory {
     e3d_runs_memory runs;
     _Alignas(64) e3d_shown shown;
     _Alignas(64) e3d_batch batch;
-    e3d_lane_array light[3]; /* its radiance, where blended samples are kept with theirs */
-    _Alignas(64) e3d_surfaces surfaces; /* of the batch and its neighbours */
-    e3d_map_memory maps;
-    e3d_array pieces;                   /* e3d_visible_primitive */
+    e3d_lane_array light[3]; /* the batch's radiance, if blended samples keep theirs */
+    _Alignas(64) e3d_surfaces surfaces; /* the surfaces of the batch and of their neighbours */
+    e3d_texture_memory textures;
+    e3d_array primitives;                   /* e3d_visible_primitive */
     e3d_array buckets;                  /* e3d_bucket */
-    _Alignas(64) e3d_receivers receivers; /* the planes of the surfaces, where lights have exact shadows */
-    int64_t shaded;                     /* samples, of all tiles */
+    _Alignas(64) e3d_receivers receivers; /* the surfaces' planes, if lights have exact shadows */
+    int64_t shaded;                     /* how many samples were shaded, in all tiles */
 } e3d_shade_memory;
 
-/* Where samples go. Those of a list, in which a sample may be several times, do not simply show. */
+/* The sink of a batch: where its samples go. With a list the samples do not simply show, and one sample may stand in it several
+ * times. */
 typedef enum e3d_sink {
-    E3D_SINK_PIXELS = 0, /* what shows: colours go to pixels or to the samples that become pixels, and outputs are stored */
-    E3D_SINK_OUTPUTS,    /* all but colours and radiance is stored */
+    E3D_SINK_PIXELS = 0, /* samples that show: colours go to pixels, or to the samples that become pixels; outputs are stored */
+    E3D_SINK_OUTPUTS,    /* samples that show: everything but colours and radiance is stored */
     E3D_SINK_ALPHA_TEST, /* a list: alphas are found */
     E3D_SINK_A_BUFFER,   /* a list: alphas and colours are found */
     E3D_SINK_SOLID,      /* a list: colours are found, and alphas are 1 */
-    E3D_SINK_SAMPLES     /* a list that has each sample once: they are laid over the tile's samples */
+    E3D_SINK_SAMPLES     /* a list that has each sample once: it is blended over the tile's samples */
 } e3d_sink;
 
-/* What is found of a list, by the places in it. */
+/* The results of shading a list, in its order. */
 typedef struct e3d_shaded_list {
     float *alpha;        /* E3D_SINK_ALPHA_TEST */
-    float (*color)[4];   /* E3D_SINK_A_BUFFER: clamped colours, with alpha; -alpha of a face that a wireframe doesn't show */
+    float (*color)[4];   /* E3D_SINK_A_BUFFER: clamped colours, with alpha; -alpha for a face that a wireframe doesn't show */
     float (*through)[4]; /* E3D_SINK_A_BUFFER: NULL, or the shares of light that pass (e3d_alpha_layers) */
     float (*light)[4];   /* E3D_SINK_A_BUFFER: NULL, or radiances, with alpha */
-    int32_t piece, at;   /* the piece of the last sample, and the place behind it */
+    int32_t primitive, at;   /* the primitive of the last sample, and the place behind that */
 } e3d_shaded_list;
 
-/* Its own memory, a tile's pixels, and the tiles that are cleared meanwhile. */
+/* The outputs of shading: the thread's memory, a tile's pixels, and the tiles that it clears meanwhile. */
 typedef struct e3d_shade_out {
     e3d_shade_memory *memory;
     e3d_store_memory *pixels;
     e3d_blank_state *blank;
     e3d_sink sink;
-    e3d_shaded_list *list; /* of those sinks that are lists */
+    e3d_shaded_list *list; /* for sinks that are lists */
 } e3d_shade_out;
 
-/* Samples that are shaded by the same steps: all before `first` tells which. */
+/* A bucket: samples that are shaded by the same steps. Everything before `first` decides which steps. */
 typedef struct e3d_bucket {
     const e3d_material *material;
     int8_t face, flat, textured, by_vertex, by_instance, unshadowed;
-    int8_t mapped;                          /* by more than a texture of the base colour at the mesh's own coordinates: texture_slots.h */
+    /* Not 0: it reads more than a texture of the base colour at the mesh's own coordinates (texture_slots.h) */
+    int8_t mapped;
     int8_t has_uvs, has_uvs1, has_tangents; /* of mapped ones */
     int8_t transmits;                       /* R133 */
-    int8_t lit, hidden;                     /* light falls on it; faces that a wireframe leaves out */
-    int32_t first, last; /* of its visible pieces */
+    int8_t lit, hidden;                     /* not 0: light falls on it; its faces are left out by a wireframe */
+    int32_t first, last; /* the chain of its visible primitives */
 } e3d_bucket;
 
-/* A piece that shows in a tile, and its samples, or its runs (e3d_shown). */
+/* A visible primitive of a tile, and its samples or runs (e3d_shown). */
 typedef struct e3d_visible_primitive {
     const e3d_record *record;       /* or NULL: */
-    const e3d_drawn_cluster *drawn; /* the piece is of fragments */
-    const float *corners;           /* c[k][j] of a cut record, or NULL */
+    const e3d_drawn_cluster *drawn; /* the cluster, if the primitive has fragments */
+    const float *corners;           /* c[k][j] of a clipped record, or NULL */
     const e3d_draw_state *draw;
-    int32_t instance, local; /* in its draw, in its instance */
-    int32_t vertex[3];       /* of the mesh; as many as there are */
-    int32_t bucket, next;     /* the next of the same bucket, or -1 */
+    int32_t instance, local; /* in its draw; in its instance */
+    int32_t vertex[3];       /* numbers in the mesh, as many as the primitive has */
+    int32_t bucket, next;     /* the next primitive of the same bucket, or -1 */
     int32_t first, end;
 } e3d_visible_primitive;
-
-#endif

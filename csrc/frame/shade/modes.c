@@ -1,13 +1,11 @@
-/* shade, display modes: colours that tell of depths, normals and numbers (R32). */
+/* shade, display modes: colours that show depths, normals or numbers (R32). */
 #include <stdint.h>
 
 #include "base/limits.h"
 #include "e3d.h"
 #include "kernels/types/shading.h"
 #include "frame/pass/draws.h"
-#include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
-#include "frame/shade/job.h"
 #include "frame/shade/modes.h"
 
 static void set_bytes(e3d_batch *batch, int i, uint32_t bytes)
@@ -33,11 +31,11 @@ static uint32_t number_bytes(int32_t id) { return ((uint32_t)id + 1) * 0x9E3779B
 
 static void show_numbers(e3d_mode mode, e3d_shade_memory *memory)
 {
-    const e3d_visible_primitive *pieces = memory->pieces.data;
+    const e3d_visible_primitive *primitives = memory->primitives.data;
     e3d_batch *batch = &memory->batch;
     for (int i = 0; i < batch->count; i++) {
-        const e3d_visible_primitive *piece = &pieces[memory->surfaces.piece[batch->surface[i]]];
-        int32_t id = mode == E3D_MODE_OBJECT_ID ? e3d_object_id(piece->draw->draw, piece->instance) : piece->local;
+        const e3d_visible_primitive *primitive = &primitives[memory->surfaces.primitive[batch->surface[i]]];
+        int32_t id = mode == E3D_MODE_OBJECT_ID ? e3d_object_id(primitive->draw->draw, primitive->instance) : primitive->local;
         set_bytes(batch, i, mode == E3D_MODE_RANDOM ? random_bytes((uint32_t)id) : number_bytes(id));
     }
 }

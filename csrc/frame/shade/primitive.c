@@ -1,5 +1,4 @@
-/* shade: which primitive an ID stands for, by its place in the order of drawing (R16). */
-#include "frame/pass/draws.h"
+/* shade: finds the primitive of an ID by its place in the order of drawing (R16). */
 #include "frame/shade/primitive.h"
 
 void e3d_find_instance(const e3d_draws *draws, uint32_t order, e3d_instance_finder *finder)

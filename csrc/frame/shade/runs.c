@@ -1,11 +1,12 @@
-/* shade: runs sorted by what they are of, so that each piece is met once, and pieces of a cluster one after the other. */
+/* shade: sorts runs by their owners, so that each primitive is met once, and the primitives of a cluster follow each other. */
 #include <string.h>
 
-#include "kernels/types/shown.h"
-#include "kernels/types/visible.h"
 #include "frame/shade/runs.h"
+#include "kernels/types/visible.h"
 
-enum { FEW = 24, MOST_BITS = 8, PARTS = 4 };
+enum { FEW = 24,
+       MOST_BITS = 8,
+       PARTS = 4 };
 
 typedef struct digit {
     int shift, bits;
@@ -30,7 +31,7 @@ static void sort_few(e3d_run *runs, int32_t count)
     }
 }
 
-/* The lowest digit of those, as few and then as short as will do, that the bits are cut into. */
+/* The lowest digit of the differing bits. These are cut into as few digits as possible, and then as short ones. */
 static digit next_digit(uint32_t differ)
 {
     int shift = __builtin_ctz(differ), span = 32 - __builtin_clz(differ) - shift;
@@ -40,7 +41,7 @@ static digit next_digit(uint32_t differ)
 
 static inline uint32_t digit_of(const e3d_run *run, digit d) { return (uint32_t)run->owner >> d.shift & ((1u << d.bits) - 1); }
 
-/* Counts to the places before which so many are; of one value, all four in a word. */
+/* Turns counts into places: each is preceded by the sum of those before it. All four counters of a value lie in one word. */
 static void place(uint16_t next[][PARTS], uint32_t values)
 {
     const uint64_t each = 0x0001000100010001;
@@ -54,8 +55,8 @@ static void place(uint16_t next[][PARTS], uint32_t values)
     }
 }
 
-/* Neighbours often have the same digit, whose counter then is waited for: so parts of the runs take turns, each with
- * counters of its own. */
+/* Sorts by one digit. Neighbours often have the same digit, and each would wait for its counter; so four parts of the runs take
+ * turns, each with counters of its own. */
 static void sort_by_digit(const e3d_run *from, e3d_run *to, int32_t count, digit d)
 {
     uint16_t next[1 << MOST_BITS][PARTS];
@@ -93,20 +94,21 @@ e3d_run *e3d_sort_runs(e3d_run *runs, e3d_run *spare, int32_t count)
     return runs;
 }
 
-/* Runs of one owner are side by side. (Where one begins could not be foreseen: nothing is asked.) */
+/* Turns sorted runs into primitives. The runs of an owner are neighbours. (There is no branch, since where an owner begins is
+ * unpredictable.) */
 void e3d_show_runs(const e3d_run *runs, int32_t count, e3d_shown *out)
 {
-    int32_t pieces = 0, before = E3D_NO_SLOT;
+    int32_t primitives = 0, before = E3D_NO_SLOT;
     for (int32_t i = 0; i < count; i++) {
         int32_t owner = runs[i].owner;
-        out->piece[pieces] = (e3d_shown_piece){(uint32_t)owner, i};
-        pieces += owner != before;
+        out->primitive[primitives] = (e3d_shown_primitive){(uint32_t)owner, i};
+        primitives += owner != before;
         before = owner;
         out->sample[i] = runs[i].sample | runs[i].length << E3D_RUN_LENGTH;
-        out->of[i] = pieces - 1;
+        out->of[i] = primitives - 1;
     }
     out->runs = 1;
     out->pattern = NULL;
     out->count = count;
-    out->pieces = pieces;
+    out->primitives = primitives;
 }

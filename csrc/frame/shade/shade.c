@@ -1,4 +1,4 @@
-/* shade, second half: visible samples, bucket by bucket and batch by batch, to their sink (R20-R32). */
+/* shade, second half: sends visible samples, bucket by bucket and batch by batch, to their sink (R20-R32). */
 #include "base/grow.h"
 #include "base/limits.h"
 #include "data/srgb_tables.h"
@@ -7,8 +7,6 @@
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
 #include "frame/pass/prepared.h"
-#include "frame/pass/view.h"
-#include "frame/shade/job.h"
 #include "frame/shade/runs.h"
 #include "frame/shade/shade.h"
 #include "frame/shade/step.h"
@@ -23,41 +21,42 @@ void e3d_shade_prepare(e3d_shade_in *in)
 
 void e3d_shade_free(e3d_shade_memory *memory)
 {
-    e3d_array_free(&memory->pieces);
+    e3d_array_free(&memory->primitives);
     e3d_array_free(&memory->buckets);
 }
 
-/* Pieces of a chain that stand side by side, and so do their samples or runs, as in a tile of one material all do. */
+/* Primitives of a chain that are neighbours, and so are their samples or runs. In a tile of one material all of them are. */
 typedef struct stretch {
-    int32_t first, end; /* pieces */
+    int32_t first, end; /* primitives */
     int32_t at, behind;
 } stretch;
 
-/* The one that begins with piece `first`; the piece behind it in the chain. A single bucket has all pieces of the tile. */
+/* Finds the stretch that begins with primitive `first`; returns the primitive behind it in the chain. If there is one bucket,
+ * the stretch is the whole tile. */
 static int32_t find_stretch(const e3d_shade_memory *memory, int32_t first, int32_t end, stretch *out)
 {
-    const e3d_visible_primitive *pieces = memory->pieces.data;
+    const e3d_visible_primitive *primitives = memory->primitives.data;
     int32_t p = first;
     if (memory->buckets.count == 1) {
-        int32_t behind = end < 0 ? (int32_t)memory->pieces.count : end;
-        *out = (stretch){first, behind, pieces[first].first, pieces[behind - 1].end};
+        int32_t behind = end < 0 ? (int32_t)memory->primitives.count : end;
+        *out = (stretch){first, behind, primitives[first].first, primitives[behind - 1].end};
         return end;
     }
-    *out = (stretch){first, first, pieces[first].first, pieces[first].first};
-    for (; p != end && p == out->end; p = pieces[p].next) {
-        out->behind = pieces[p].end;
+    *out = (stretch){first, first, primitives[first].first, primitives[first].first};
+    for (; p != end && p == out->end; p = primitives[p].next) {
+        out->behind = primitives[p].end;
         out->end++;
     }
     return p;
 }
 
 /* Adds as much of a stretch as the batch has room for. */
-static void take(const e3d_kernels *kernels, e3d_shade_memory *memory, int32_t piece, stretch *s)
+static void take(const e3d_kernels *kernels, e3d_shade_memory *memory, int32_t primitive, stretch *s)
 {
     const e3d_shown *shown = &memory->shown;
     s->at += (shown->runs      ? kernels->take_runs
               : shown->pattern ? kernels->take_placed
-                               : kernels->take_shown)(shown, s->at, s->behind - s->at, piece, &memory->batch);
+                               : kernels->take_shown)(shown, s->at, s->behind - s->at, primitive, &memory->batch);
 }
 
 static void shade_batch(const e3d_steps *s)
@@ -66,8 +65,8 @@ static void shade_batch(const e3d_steps *s)
         s->step[k](s);
 }
 
-/* The samples of pieces whose surfaces, 0 and so on, are known. */
-static void shade_pieces(const e3d_steps *steps, int32_t first, int32_t end)
+/* Shades the samples of primitives whose surfaces are known; the first one is surface 0. */
+static void shade_primitives(const e3d_steps *steps, int32_t first, int32_t end)
 {
     e3d_shade_memory *memory = steps->out->memory;
     e3d_batch *batch = &memory->batch;
@@ -93,20 +92,20 @@ static void shade_bucket(const e3d_shade_in *in, const e3d_tile *tile, const e3d
 {
     const e3d_steps s = e3d_choose_steps(in, bucket, out);
     e3d_shade_memory *memory = out->memory;
-    memory->batch.unmapped_normal = bucket->mapped ? memory->maps.batch.shading_normal : NULL;
+    memory->batch.unmapped_normal = bucket->mapped ? memory->textures.batch.shading_normal : NULL;
     for (int32_t first = bucket->first, end; first >= 0; first = end) {
         end = e3d_add_surfaces(in, bucket, first, s.wanted, memory);
         if (s.wanted & E3D_WANT_SURFACE)
             e3d_find_surfaces(in->pass, tile, bucket, s.wanted, memory);
-        if (e3d_hides_lights(in->pass, bucket) && s.wanted & E3D_WANT_POSITION)
+        if (e3d_receives_exact_shadows(in->pass, bucket) && s.wanted & E3D_WANT_POSITION)
             in->pass->kernels->receivers(&memory->surfaces, &memory->receivers);
-        shade_pieces(&s, first, end);
+        shade_primitives(&s, first, end);
     }
 }
 
 int e3d_shade_shown(const e3d_shade_in *in, const e3d_tile *tile, const e3d_shade_out *out)
 {
-    if (!e3d_find_pieces(in, out->memory))
+    if (!e3d_find_visible(in, out->memory))
         return 0;
     const e3d_bucket *buckets = out->memory->buckets.data;
     for (size_t g = 0; g < out->memory->buckets.count; g++)

@@ -1,23 +1,20 @@
 /* A step that the batches of a bucket take, and all of them. */
-#ifndef E3D_SHADE_STEP_H
-#define E3D_SHADE_STEP_H
+#pragma once
 
 #include "frame/pass/prepared.h"
 #include "frame/shade/job.h"
 
 enum { E3D_MOST_STEPS = 16 };
 
-/* How a bucket is shaded: each batch takes all the steps, in their order. */
+/* The steps that shade a bucket; each batch takes all of them in order. */
 typedef struct e3d_steps {
     const e3d_shade_in *in;
     const e3d_prepared *pass;
     const e3d_bucket *bucket;
     const e3d_shade_out *out;
-    int wanted; /* of its surfaces: E3D_WANT_... */
+    int wanted; /* what they need of its surfaces: E3D_WANT_... */
     int count;
     void (*step[E3D_MOST_STEPS])(const struct e3d_steps *s);
 } e3d_steps;
 
 typedef void (*e3d_shade_step)(const e3d_steps *s);
-
-#endif

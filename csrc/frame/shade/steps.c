@@ -1,8 +1,6 @@
-/* shade: the steps of a batch, which depend on its bucket and on its sink (R20-R32, R80-R84).
- *
- * In:  a batch of samples whose surfaces are known.
- * Out: pixels and outputs, or samples, or fragments, or alphas.
- */
+/* shade: chooses the steps of a batch, by its bucket and its sink (R20-R32, R80-R84).
+ * In: a batch of samples whose surfaces are known.
+ * Out: pixels and outputs, or samples, or layers, or alphas. */
 #include <string.h>
 
 #include "e3d.h"
@@ -10,14 +8,11 @@
 #include "kernels/types/fog.h"
 #include "kernels/types/shading.h"
 #include "frame/pass/plan.h"
-#include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
 #include "frame/shade/alpha_batch.h"
 #include "frame/shade/ambient.h"
-#include "frame/shade/job.h"
 #include "frame/shade/texture_slots.h"
 #include "frame/shade/modes.h"
-#include "frame/shade/step.h"
 #include "frame/shade/steps.h"
 #include "frame/shade/surface.h"
 #include "frame/shade/values.h"
@@ -26,7 +21,7 @@
 
 static e3d_batch *batch_of(const e3d_steps *s) { return &s->out->memory->batch; }
 
-/* Tiles without anything in them are cleared between batches. */
+/* Clears some rows of empty tiles between batches. */
 static void clear_tiles(const e3d_steps *s) { e3d_blank_some(s->in->store, s->in->bins, s->out->blank); }
 
 static void count_samples(const e3d_steps *s) { s->out->memory->shaded += batch_of(s)->count; }
@@ -35,7 +30,7 @@ static void count_samples(const e3d_steps *s) { s->out->memory->shaded += batch_
 
 static void interpolate(const e3d_steps *s) { s->pass->kernels->interpolate(batch_of(s), &s->out->memory->surfaces, s->wanted); }
 
-static void find_textures(const e3d_steps *s) { e3d_find_map_batch(s->pass, s->bucket, s->wanted, s->out->memory); }
+static void find_textures(const e3d_steps *s) { e3d_find_texture_batch(s->pass, s->bucket, s->wanted, s->out->memory); }
 
 static void find_albedo(const e3d_steps *s)
 {
@@ -60,7 +55,7 @@ static void find_visibility(const e3d_steps *s) { e3d_find_visibility(s->pass, s
 
 static void hide_lights(const e3d_steps *s)
 {
-    s->pass->kernels->hide(batch_of(s), &s->pass->view->lighting, s->pass->casters, &s->out->memory->receivers);
+    s->pass->kernels->exact_shadows(batch_of(s), &s->pass->view->lighting, s->pass->casters, &s->out->memory->receivers);
 }
 
 static void light(const e3d_steps *s)
@@ -111,7 +106,7 @@ static void put_pixels(const e3d_steps *s) { e3d_resolve_batch(s->in->store, bat
 
 static void put_background(const e3d_steps *s) { e3d_resolve_hidden(s->in->store, batch_of(s), s->out->pixels); }
 
-/* All of this in one kernel: to pixels, or, of a list, to colours that stay in the batch. */
+/* Runs the fused kernel. It writes pixels or, for a list, leaves colours in the batch. */
 static void paint(const e3d_steps *s)
 {
     const e3d_prepared *pass = s->pass;
@@ -145,9 +140,9 @@ static void add(e3d_steps *s, int is_taken, e3d_shade_step step)
         s->step[s->count++] = step;
 }
 
-int e3d_hides_lights(const e3d_prepared *pass, const e3d_bucket *bucket)
+int e3d_receives_exact_shadows(const e3d_prepared *pass, const e3d_bucket *bucket)
 {
-    return e3d_plans(pass, E3D_PLAN_HIDES) && bucket->lit && !bucket->unshadowed;
+    return e3d_plans(pass, E3D_PLAN_FINDS_EXACT_SHADOWS) && bucket->lit && !bucket->unshadowed;
 }
 
 static int finds_alphas(e3d_sink sink) { return sink == E3D_SINK_ALPHA_TEST || sink == E3D_SINK_A_BUFFER || sink == E3D_SINK_SAMPLES; }
@@ -155,7 +150,7 @@ static int finds_alphas(e3d_sink sink) { return sink == E3D_SINK_ALPHA_TEST || s
 /* Whether the samples themselves show, and nothing behind them. */
 static int is_solid(e3d_sink sink) { return sink == E3D_SINK_PIXELS || sink == E3D_SINK_SOLID; }
 
-/* Whether samples are painted, straight to where colours are kept. */
+/* Whether the fused kernel is used: samples are painted straight to where colours are kept. */
 static int is_painted(const e3d_steps *s)
 {
     return is_solid(s->out->sink) && e3d_plans(s->pass, E3D_PLAN_PAINTS) && !s->bucket->mapped && !s->bucket->hidden;
@@ -173,7 +168,7 @@ static void add_radiance_steps(e3d_steps *s)
 {
     const e3d_bucket *bucket = s->bucket;
     add(s, bucket->lit, find_visibility);
-    add(s, e3d_hides_lights(s->pass, bucket), hide_lights);
+    add(s, e3d_receives_exact_shadows(s->pass, bucket), hide_lights);
     add(s, bucket->lit, bucket->material->is_physical ? light_physical : light);
     add(s, !e3d_has_light_or_color(s->pass->frame), show_mode);
     add(s, fog_of(s->pass, bucket) != NULL, add_fog);
@@ -200,17 +195,17 @@ static void add_alpha_steps(e3d_steps *s)
     }
     add(s, finds_alphas(sink), e3d_find_alphas);
     add(s, sink == E3D_SINK_ALPHA_TEST, e3d_keep_alphas);
-    add(s, sink == E3D_SINK_A_BUFFER, e3d_keep_fragments);
+    add(s, sink == E3D_SINK_A_BUFFER, e3d_keep_layers);
     add(s, sink == E3D_SINK_SAMPLES && !s->bucket->hidden, e3d_lay_batch);
     add(s, sink == E3D_SINK_SOLID, e3d_keep_solid);
 }
 
-/* What the batches of a bucket need of their surfaces: identities need nothing. */
+/* The inputs that the batches of a bucket need of their surfaces. IDs need none. */
 static int wanted_to_show(const e3d_prepared *pass, const e3d_bucket *bucket)
 {
     int wanted = e3d_plan_inputs(pass->plan), colored = e3d_plans(pass, E3D_PLAN_BASE_COLOR);
     if (bucket->mapped)
-        wanted |= E3D_WANT_WEIGHTS | E3D_WANT_MAPS;
+        wanted |= E3D_WANT_WEIGHTS | E3D_WANT_TEXTURES;
     else if (bucket->textured && colored)
         wanted |= e3d_texture_wanted(e3d_texture_get_view(bucket->material->texture.texture));
     if (pass->targets->barycentric || (colored && bucket->by_vertex))

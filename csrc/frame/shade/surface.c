@@ -1,27 +1,23 @@
-/* shade, first half: the pieces that show in a tile, and what each brings to its samples (R3, R18, R20-R24). */
+/* shade, first half: finds the primitives that show in a tile, and the attributes of their surfaces (R3, R18, R20-R24). */
 #include <stddef.h>
 #include <string.h>
 
 #include "base/always_inline.h"
 #include "base/grow.h"
 #include "base/limits.h"
-#include "e3d.h"
+#include "frame/pass/draws.h"
+#include "frame/pass/transmits.h"
+#include "frame/shade/primitive.h"
+#include "frame/shade/surface.h"
+#include "frame/shade/texture_slots.h"
 #include "kernels/coverage.h"
 #include "kernels/types/records.h"
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/vertices.h"
 #include "kernels/types/visible.h"
-#include "frame/pass/draws.h"
-#include "frame/pass/prepared.h"
-#include "frame/pass/transmits.h"
-#include "frame/pass/view.h"
-#include "frame/shade/job.h"
-#include "frame/shade/texture_slots.h"
-#include "frame/shade/primitive.h"
-#include "frame/shade/surface.h"
 
-/* ---- which primitive a piece is of ---- */
+/* ---- which primitive a primitive is of ---- */
 
 static const float *corners_of(const e3d_shade_in *in, uint32_t id, const e3d_record *record)
 {
@@ -31,32 +27,33 @@ static const float *corners_of(const e3d_shade_in *in, uint32_t id, const e3d_re
 }
 
 /* How many vertices the primitive has. */
-static int corners_count(const e3d_visible_primitive *piece)
+static int corners_count(const e3d_visible_primitive *primitive)
 {
-    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
-    int32_t line = piece->local - mesh->faces_count;
-    return line < 0 ? 3 : line < mesh->lines_count ? 2 : 1;
+    const e3d_mesh_desc *mesh = &primitive->draw->mesh->desc;
+    int32_t line = primitive->local - mesh->faces_count;
+    return line < 0 ? 3 : line < mesh->lines_count ? 2
+                                                   : 1;
 }
 
-static ALWAYS_INLINE void find_vertices(e3d_visible_primitive *piece)
+static ALWAYS_INLINE void find_vertices(e3d_visible_primitive *primitive)
 {
-    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
-    int32_t line = piece->local - mesh->faces_count;
+    const e3d_mesh_desc *mesh = &primitive->draw->mesh->desc;
+    int32_t line = primitive->local - mesh->faces_count;
     if (line < 0)
-        memcpy(piece->vertex, mesh->faces + 3 * (size_t)piece->local, 3 * sizeof *piece->vertex);
+        memcpy(primitive->vertex, mesh->faces + 3 * (size_t)primitive->local, 3 * sizeof *primitive->vertex);
     else if (line < mesh->lines_count)
-        memcpy(piece->vertex, mesh->lines + 2 * (size_t)line, 2 * sizeof *piece->vertex);
+        memcpy(primitive->vertex, mesh->lines + 2 * (size_t)line, 2 * sizeof *primitive->vertex);
     else
-        piece->vertex[0] = mesh->points[line - mesh->lines_count];
+        primitive->vertex[0] = mesh->points[line - mesh->lines_count];
 }
 
 /* ---- buckets ---- */
 
-/* Material and kind of primitive: with the draw, all that the bucket depends on. */
-static int32_t bucket_id_of(const e3d_visible_primitive *piece)
+/* The material and the kind of a primitive; with the draw they decide its bucket. */
+static int32_t bucket_id_of(const e3d_visible_primitive *primitive)
 {
-    int32_t face = e3d_face_of(piece->draw, piece->local);
-    return face < 0 ? -1 : e3d_material_of(piece->draw, face);
+    int32_t face = e3d_face_of(primitive->draw, primitive->local);
+    return face < 0 ? -1 : e3d_material_of(primitive->draw, face);
 }
 
 static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *state, int32_t id)
@@ -65,12 +62,12 @@ static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *stat
     const e3d_draw *draw = state->draw;
     const e3d_mesh_desc *mesh = &state->mesh->desc;
     e3d_bucket g;
-    memset(&g, 0, sizeof g); /* what lies between its members, too: same_bucket */
+    memset(&g, 0, sizeof g); /* the padding between members, too, since same_bucket compares bytes */
     g.material = &frame->materials[draw->material_base + (id < 0 ? 0 : id)];
     g.first = g.last = -1;
     g.face = id >= 0;
     g.flat = g.face && e3d_is_flat(frame->normals, g.material->flat) && mesh->face_normals;
-    g.mapped = g.face && e3d_needs_maps(g.material, pass->targets);
+    g.mapped = g.face && e3d_needs_textures(g.material, pass->targets);
     g.textured = g.face && g.material->texture.texture && mesh->uvs;
     g.has_uvs = g.mapped && mesh->uvs;
     g.has_uvs1 = g.mapped && mesh->uvs1;
@@ -84,10 +81,10 @@ static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *stat
     return g;
 }
 
-/* Of all that the bucket depends on: what comes before the chain of its pieces. */
+/* Compares everything that decides the steps of a bucket: the bytes before the chain of its primitives. */
 static int same_bucket(const e3d_bucket *a, const e3d_bucket *b) { return !memcmp(a, b, offsetof(e3d_bucket, first)); }
 
-/* The bucket's number, or -1 when memory is out. */
+/* The number of a bucket, which is added if it is new; -1 when memory is out. */
 static int32_t number_bucket(e3d_shade_memory *memory, const e3d_bucket *bucket)
 {
     e3d_bucket *buckets = memory->buckets.data;
@@ -100,23 +97,23 @@ static int32_t number_bucket(e3d_shade_memory *memory, const e3d_bucket *bucket)
     return (int32_t)memory->buckets.count++;
 }
 
-/* ---- the pieces of a tile ---- */
+/* ---- the primitives of a tile ---- */
 
-/* The bucket that was found last: mostly the next piece is of it, too. */
+/* The bucket that was found last. Mostly the next primitive belongs to it, too. */
 typedef struct bucket_finder {
     const e3d_draw_state *draw;
-    int32_t id; /* as bucket_id_of counts them */
+    int32_t id; /* numbered as by bucket_id_of */
     int32_t bucket;
 } bucket_finder;
 
-/* The bucket of a piece, whose last it becomes; 0 when memory is out. */
+/* Finds the bucket of a primitive, and appends the primitive to it; 0 when memory is out. */
 static ALWAYS_INLINE int join_bucket(const e3d_prepared *pass, e3d_shade_memory *memory, int32_t number, bucket_finder *finder)
 {
-    e3d_visible_primitive *pieces = memory->pieces.data, *piece = &pieces[number];
-    int32_t id = bucket_id_of(piece);
-    if (piece->draw != finder->draw || id != finder->id) {
-        e3d_bucket bucket = bucket_of(pass, piece->draw, id);
-        *finder = (bucket_finder){piece->draw, id, number_bucket(memory, &bucket)};
+    e3d_visible_primitive *primitives = memory->primitives.data, *primitive = &primitives[number];
+    int32_t id = bucket_id_of(primitive);
+    if (primitive->draw != finder->draw || id != finder->id) {
+        e3d_bucket bucket = bucket_of(pass, primitive->draw, id);
+        *finder = (bucket_finder){primitive->draw, id, number_bucket(memory, &bucket)};
         if (finder->bucket < 0)
             return 0;
     }
@@ -124,93 +121,95 @@ static ALWAYS_INLINE int join_bucket(const e3d_prepared *pass, e3d_shade_memory 
     if (bucket->last < 0)
         bucket->first = number;
     else
-        pieces[bucket->last].next = number;
+        primitives[bucket->last].next = number;
     bucket->last = number;
-    piece->bucket = finder->bucket;
+    primitive->bucket = finder->bucket;
     return 1;
 }
 
-/* Some pieces of a tile, first to end - 1. */
-typedef struct piece_range {
+/* Some primitives of a tile, first to end - 1. */
+typedef struct primitive_range {
     int32_t first, end;
-} piece_range;
+} primitive_range;
 
-/* What IDs stand for: a record, or a triangle of a cluster. */
-static void find_named(const e3d_record_table *table, const e3d_shown_piece *of, piece_range range, e3d_visible_primitive *pieces)
+/* Finds what IDs stand for: records, or triangles of clusters. */
+static void find_named(const e3d_record_table *table, const e3d_shown_primitive *of, primitive_range range,
+                       e3d_visible_primitive *primitives)
 {
     for (int32_t n = range.first; n < range.end; n++) {
-        pieces[n] = (e3d_visible_primitive){.next = -1, .first = of[n].first, .end = of[n + 1].first};
+        primitives[n] = (e3d_visible_primitive){.next = -1, .first = of[n].first, .end = of[n + 1].first};
         if (of[n].id & E3D_FRAGMENT_ID) {
-            pieces[n].drawn = e3d_drawn_at(table, of[n].id, &pieces[n].local);
-            __builtin_prefetch(pieces[n].drawn->faces + pieces[n].local);
+            primitives[n].drawn = e3d_drawn_at(table, of[n].id, &primitives[n].local);
+            __builtin_prefetch(primitives[n].drawn->faces + primitives[n].local);
         } else {
-            pieces[n].record = e3d_record_at(table, of[n].id);
-            __builtin_prefetch(pieces[n].record);
+            primitives[n].record = e3d_record_at(table, of[n].id);
+            __builtin_prefetch(primitives[n].record);
         }
     }
 }
 
-/* The primitives, whose vertices are asked for. (Most are faces; what else is asked for does no harm.) */
-static void find_primitives(const e3d_shade_in *in, const e3d_shown_piece *of, piece_range range, e3d_instance_finder *finder,
-                            e3d_visible_primitive *pieces)
+/* Finds the primitives, and prefetches their vertices. (Most are faces; the prefetch does no harm to others.) */
+static void find_primitives(const e3d_shade_in *in, const e3d_shown_primitive *of, primitive_range range,
+                            e3d_instance_finder *finder,
+                            e3d_visible_primitive *primitives)
 {
     const e3d_draws *draws = in->pass->draws;
     for (int32_t n = range.first; n < range.end; n++) {
-        if (pieces[n].drawn) {
-            pieces[n].local = e3d_find_face(draws, pieces[n].drawn, pieces[n].local, finder);
+        if (primitives[n].drawn) {
+            primitives[n].local = e3d_find_face(draws, primitives[n].drawn, primitives[n].local, finder);
         } else {
-            pieces[n].local = e3d_find_primitive(draws, pieces[n].record->order, finder);
-            pieces[n].corners = corners_of(in, of[n].id, pieces[n].record);
+            primitives[n].local = e3d_find_primitive(draws, primitives[n].record->order, finder);
+            primitives[n].corners = corners_of(in, of[n].id, primitives[n].record);
         }
-        pieces[n].draw = finder->draw;
-        pieces[n].instance = finder->instance;
-        __builtin_prefetch((const void *)((uintptr_t)finder->draw->mesh->desc.faces + 12 * (uintptr_t)pieces[n].local));
+        primitives[n].draw = finder->draw;
+        primitives[n].instance = finder->instance;
+        __builtin_prefetch((const void *)((uintptr_t)finder->draw->mesh->desc.faces + 12 * (uintptr_t)primitives[n].local));
     }
 }
 
 /* 0 when memory is out. */
-static int find_buckets(const e3d_prepared *pass, e3d_shade_memory *memory, piece_range range, bucket_finder *finder)
+static int find_buckets(const e3d_prepared *pass, e3d_shade_memory *memory, primitive_range range, bucket_finder *finder)
 {
-    e3d_visible_primitive *pieces = memory->pieces.data;
+    e3d_visible_primitive *primitives = memory->primitives.data;
     for (int32_t n = range.first; n < range.end; n++)
-        find_vertices(&pieces[n]);
+        find_vertices(&primitives[n]);
     for (int32_t n = range.first; n < range.end; n++)
         if (!join_bucket(pass, memory, n, finder))
             return 0;
     return 1;
 }
 
-static piece_range range_of(int32_t first, int32_t count, int32_t all)
+static primitive_range range_of(int32_t first, int32_t count, int32_t all)
 {
-    return (piece_range){first < 0 ? 0 : first, first + count < all ? first + count : all};
+    return (primitive_range){first < 0 ? 0 : first, first + count < all ? first + count : all};
 }
 
-/* A software pipeline over ranges of pieces: each stage prefetches what the next one reads a range later, from anywhere in memory. The
- * stages' loops are short, so that an out-of-order processor overlaps several pieces. */
-int e3d_find_pieces(const e3d_shade_in *in, e3d_shade_memory *memory)
+/* A software pipeline over ranges of primitives: each stage prefetches, from anywhere in memory, what the next stage reads a
+ * range later. The stages' loops are short, so that an out-of-order processor overlaps several primitives. */
+int e3d_find_visible(const e3d_shade_in *in, e3d_shade_memory *memory)
 {
     enum { SOME = 32 };
     const e3d_record_table *table = in->table;
     e3d_shown *shown = &memory->shown;
     e3d_instance_finder instance = {0};
     bucket_finder bucket = {0};
-    int32_t all = shown->pieces;
-    shown->piece[all].first = shown->count;
+    int32_t all = shown->primitives;
+    shown->primitive[all].first = shown->count;
     memory->buckets.count = 0;
-    if (!e3d_array_reserve(&memory->pieces, (size_t)all, sizeof(e3d_visible_primitive)))
+    if (!e3d_array_reserve(&memory->primitives, (size_t)all, sizeof(e3d_visible_primitive)))
         return 0;
-    e3d_visible_primitive *pieces = memory->pieces.data;
+    e3d_visible_primitive *primitives = memory->primitives.data;
     for (int32_t n = 0; n < all + 2 * SOME; n += SOME) {
-        find_named(table, shown->piece, range_of(n, SOME, all), pieces);
-        find_primitives(in, shown->piece, range_of(n - SOME, SOME, all), &instance, pieces);
+        find_named(table, shown->primitive, range_of(n, SOME, all), primitives);
+        find_primitives(in, shown->primitive, range_of(n - SOME, SOME, all), &instance, primitives);
         if (!find_buckets(in->pass, memory, range_of(n - 2 * SOME, SOME, all), &bucket))
             return 0;
     }
-    memory->pieces.count = (size_t)all;
+    memory->primitives.count = (size_t)all;
     return 1;
 }
 
-/* ---- what a piece brings, for the surface kernel to work on ---- */
+/* ---- what a primitive brings, for the surface kernel to work on ---- */
 
 static void add_matrices(const e3d_prepared *pass, e3d_surfaces *s, int32_t n, int32_t instance)
 {
@@ -229,7 +228,7 @@ static void add_matrices(const e3d_prepared *pass, e3d_surfaces *s, int32_t n, i
         s->normals[k][m] = pass->draws->instances[instance].normal[k];
 }
 
-/* `out`: [component][vertex]; vertices that aren't there are 0. */
+/* Fills `out`, [component][vertex], with 0 for vertices that don't exist. */
 static ALWAYS_INLINE void add_vectors(const float *from, size_t components, const int32_t vertex[3], int count,
                                       e3d_surface_floats out[][3], int32_t n)
 {
@@ -260,11 +259,11 @@ static void value_of(const float unorm8[256], const uint8_t *u8, const float *f3
         out[c] = f32 ? f32[4 * index + c] : unorm8[u8[4 * index + c]];
 }
 
-static void add_colors(const float unorm8[256], const e3d_visible_primitive *piece, const e3d_bucket *bucket,
+static void add_colors(const float unorm8[256], const e3d_visible_primitive *primitive, const e3d_bucket *bucket,
                        const int32_t vertex[3], int count, e3d_surfaces *s, int32_t n)
 {
-    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
-    const e3d_draw *draw = piece->draw->draw;
+    const e3d_mesh_desc *mesh = &primitive->draw->mesh->desc;
+    const e3d_draw *draw = primitive->draw->draw;
     for (int v = 0; v < 3 && bucket->by_vertex; v++) {
         float value[3] = {0.0f, 0.0f, 0.0f};
         if (v < count)
@@ -274,26 +273,26 @@ static void add_colors(const float unorm8[256], const e3d_visible_primitive *pie
     }
     if (bucket->by_instance) {
         float value[3];
-        value_of(unorm8, draw->instance_colors_u8, draw->instance_colors_f32, (size_t)piece->instance, value);
+        value_of(unorm8, draw->instance_colors_u8, draw->instance_colors_f32, (size_t)primitive->instance, value);
         for (int c = 0; c < 3; c++)
             s->instance_color[c][n] = value[c];
     }
 }
 
-/* R80, of 8 bits or as they are. */
+/* R80: an alpha, of 8 bits or as it is. */
 static float alpha_value(const uint8_t *u8, const float *f32, size_t index)
 {
     return f32 ? f32[4 * index + 3] : (float)(u8[4 * index + 3] * 257) * E3D_UNORM16;
 }
 
-static void add_alphas(const e3d_visible_primitive *piece, const e3d_bucket *bucket, int count, e3d_surfaces *s, int32_t n)
+static void add_alphas(const e3d_visible_primitive *primitive, const e3d_bucket *bucket, int count, e3d_surfaces *s, int32_t n)
 {
-    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
-    const e3d_draw *draw = piece->draw->draw;
+    const e3d_mesh_desc *mesh = &primitive->draw->mesh->desc;
+    const e3d_draw *draw = primitive->draw->draw;
     for (int v = 0; v < 3 && bucket->by_vertex; v++)
-        s->alpha[v][n] = v < count ? alpha_value(mesh->colors_u8, mesh->colors_f32, (size_t)piece->vertex[v]) : 0.0f;
+        s->alpha[v][n] = v < count ? alpha_value(mesh->colors_u8, mesh->colors_f32, (size_t)primitive->vertex[v]) : 0.0f;
     if (bucket->by_instance)
-        s->instance_alpha[n] = alpha_value(draw->instance_colors_u8, draw->instance_colors_f32, (size_t)piece->instance);
+        s->instance_alpha[n] = alpha_value(draw->instance_colors_u8, draw->instance_colors_f32, (size_t)primitive->instance);
 }
 
 static void add_record(const e3d_record *record, int32_t face, e3d_surfaces *s, int32_t n)
@@ -307,41 +306,42 @@ static void add_record(const e3d_record *record, int32_t face, e3d_surfaces *s, 
     s->back[n] = (record->meta & E3D_RECORD_BACK) != 0 && face >= 0;
 }
 
-/* The next surface is that of a piece, without what e3d_find_surfaces adds. */
-static void add_surface(const e3d_shade_in *in, const e3d_visible_primitive *piece, const e3d_bucket *bucket, int wanted,
+/* Adds the surface of a primitive, without what e3d_find_surfaces adds. */
+static void add_surface(const e3d_shade_in *in, const e3d_visible_primitive *primitive, const e3d_bucket *bucket, int wanted,
                         e3d_surfaces *s)
 {
-    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
-    const int32_t *vertex = piece->vertex;
-    int32_t n = s->count++, face = e3d_face_of(piece->draw, piece->local);
-    int count = corners_count(piece);
-    s->irregular += piece->corners || face < 0 || mesh->components == 4;
-    add_matrices(in->pass, s, n, (int32_t)piece->draw->instance_base + piece->instance);
-    s->project[n] = piece->drawn ? piece->drawn->mirrored ? 3 : 1 : 0;
-    s->projected += piece->drawn != NULL;
-    if (!piece->drawn)
-        add_record(piece->record, face, s, n);
-    if (wanted & E3D_WANT_POSITION || piece->drawn)
+    const e3d_mesh_desc *mesh = &primitive->draw->mesh->desc;
+    const int32_t *vertex = primitive->vertex;
+    int32_t n = s->count++, face = e3d_face_of(primitive->draw, primitive->local);
+    int count = corners_count(primitive);
+    s->irregular += primitive->corners || face < 0 || mesh->components == 4;
+    add_matrices(in->pass, s, n, (int32_t)primitive->draw->instance_base + primitive->instance);
+    s->project[n] = primitive->drawn ? primitive->drawn->mirrored ? 3 : 1 : 0;
+    s->projected += primitive->drawn != NULL;
+    if (!primitive->drawn)
+        add_record(primitive->record, face, s, n);
+    if (wanted & E3D_WANT_POSITION || primitive->drawn)
         add_vectors(mesh->positions, 3, vertex, mesh->components == 3 ? count : 0, s->position, n);
     if (wanted & E3D_WANT_NORMAL)
         add_normals(mesh, face, bucket->flat, vertex, s, n);
     if (wanted & E3D_WANT_UV)
         add_vectors(mesh->uvs, 2, vertex, mesh->uvs ? count : 0, s->uv, n);
     if (e3d_plans(in->pass, E3D_PLAN_BASE_COLOR))
-        add_colors(in->unorm8, piece, bucket, vertex, count, s, n);
+        add_colors(in->unorm8, primitive, bucket, vertex, count, s, n);
     if (wanted & E3D_WANT_ALPHA)
-        add_alphas(piece, bucket, count, s, n);
+        add_alphas(primitive, bucket, count, s, n);
 }
 
-/* Ahead of their use: vertices are anywhere in memory. Only of a piece of this draw, whose face was asked for when it was found. */
-static ALWAYS_INLINE void fetch_vertices(const e3d_visible_primitive *piece, const e3d_draw_state *draw, int wanted)
+/* Prefetches vertices, which lie anywhere in memory. It does so only for a primitive of this draw, whose face was prefetched
+ * when it was found. */
+static ALWAYS_INLINE void fetch_vertices(const e3d_visible_primitive *primitive, const e3d_draw_state *draw, int wanted)
 {
     const e3d_mesh_desc *mesh = &draw->mesh->desc;
-    if (piece->draw != draw)
+    if (primitive->draw != draw)
         return;
-    const int32_t *vertex = piece->vertex;
-    const float *normals = wanted & E3D_WANT_NORMAL ? mesh->normals : NULL, *tangents = wanted & E3D_WANT_MAPS ? mesh->tangents : NULL;
-    const float *uvs = wanted & (E3D_WANT_UV | E3D_WANT_MAPS) ? mesh->uvs : NULL;
+    const int32_t *vertex = primitive->vertex;
+    const float *normals = wanted & E3D_WANT_NORMAL ? mesh->normals : NULL, *tangents = wanted & E3D_WANT_TEXTURES ? mesh->tangents : NULL;
+    const float *uvs = wanted & (E3D_WANT_UV | E3D_WANT_TEXTURES) ? mesh->uvs : NULL;
     for (int v = 0; v < 3; v++)
         __builtin_prefetch(mesh->positions + 3 * (size_t)vertex[v]);
     for (int v = 0; v < 3 && normals; v++)
@@ -370,38 +370,38 @@ int e3d_texture_wanted(const e3d_texture_view *view)
 int32_t e3d_add_surfaces(const e3d_shade_in *in, const e3d_bucket *bucket, int32_t first, int wanted, e3d_shade_memory *memory)
 {
     enum { AHEAD = 24 };
-    const e3d_visible_primitive *pieces = memory->pieces.data;
+    const e3d_visible_primitive *primitives = memory->primitives.data;
     e3d_surfaces *s = &memory->surfaces;
-    int32_t p = first, last = (int32_t)memory->pieces.count - 1 - AHEAD;
+    int32_t p = first, last = (int32_t)memory->primitives.count - 1 - AHEAD;
     for (int32_t i = first; i < first + AHEAD && i <= last && wanted & E3D_WANT_SURFACE; i++)
-        fetch_vertices(&pieces[i], pieces[first].draw, wanted);
+        fetch_vertices(&primitives[i], primitives[first].draw, wanted);
     s->count = s->matrices = s->irregular = s->projected = 0;
     if (wanted & E3D_WANT_LEVEL)
         set_texels(bucket, s);
     if (bucket->mapped)
-        e3d_find_maps(in->pass, bucket, wanted, &memory->maps.maps);
-    for (; p >= 0 && s->count < E3D_BATCH_SURFACES; p = pieces[p].next) {
-        s->piece[s->count] = p;
+        e3d_find_textures(in->pass, bucket, wanted, &memory->textures.read);
+    for (; p >= 0 && s->count < E3D_BATCH_SURFACES; p = primitives[p].next) {
+        s->primitive[s->count] = p;
         if (!(wanted & E3D_WANT_SURFACE)) {
             s->count++;
             continue;
         }
         if (p <= last)
-            fetch_vertices(&pieces[p + AHEAD], pieces[p].draw, wanted);
+            fetch_vertices(&primitives[p + AHEAD], primitives[p].draw, wanted);
         if (bucket->mapped)
-            e3d_add_map_surface(in->pass, &pieces[p], &memory->maps.maps, &memory->maps.surfaces, s->count);
-        add_surface(in, &pieces[p], bucket, wanted, s);
+            e3d_add_texture_surface(in->pass, &primitives[p], &memory->textures.read, &memory->textures.surfaces, s->count);
+        add_surface(in, &primitives[p], bucket, wanted, s);
     }
     return p;
 }
 
 /* ---- what the kernel leaves to do ---- */
 
-/* R18 of a clipped piece, of a line or a point. */
-static void cut_planes(const e3d_viewport *viewport, const e3d_visible_primitive *piece, e3d_surfaces *s, int32_t n)
+/* R18 for a clipped primitive, a line or a point. */
+static void cut_planes(const e3d_viewport *viewport, const e3d_visible_primitive *primitive, e3d_surfaces *s, int32_t n)
 {
-    const e3d_record *r = piece->record;
-    const float *c = piece->corners;
+    const e3d_record *r = primitive->record;
+    const float *c = primitive->corners;
     e3d_box box = e3d_sample_box(r->x, r->y, viewport);
     double ra = 1.0 / (double)e3d_doubled_area(r->x, r->y), m = r->iw[0], plane[3][3];
     m = r->iw[1] > m ? r->iw[1] : m;
@@ -423,7 +423,7 @@ static void cut_planes(const e3d_viewport *viewport, const e3d_visible_primitive
             rows[row][j][n] = (float)((plane[row][0] * c[j] + plane[row][1] * c[3 + j]) + plane[row][2] * c[6 + j]);
 }
 
-/* R25, of planes that were not the kernel's. */
+/* R25 for planes that the kernel did not find. */
 static void cut_slopes(e3d_surfaces *s, int32_t n)
 {
     const e3d_surface_floats *const plane[3] = {s->p, s->px, s->py};
@@ -440,7 +440,7 @@ static void cut_slopes(e3d_surfaces *s, int32_t n)
     }
 }
 
-/* Positions that don't exist are 0, wherever the matrix would move them. */
+/* Sets positions that don't exist to 0, wherever the matrix would move them. */
 static void clear_positions(e3d_surfaces *s, int32_t n, int first)
 {
     for (int c = 0; c < 3; c++)
@@ -450,7 +450,7 @@ static void clear_positions(e3d_surfaces *s, int32_t n, int first)
 
 void e3d_find_surfaces(const e3d_prepared *pass, const e3d_tile *tile, const e3d_bucket *bucket, int wanted, e3d_shade_memory *memory)
 {
-    const e3d_visible_primitive *pieces = memory->pieces.data;
+    const e3d_visible_primitive *primitives = memory->primitives.data;
     e3d_surfaces *s = &memory->surfaces;
     for (int32_t n = s->count; n < s->count + E3D_PAD; n++)
         s->matrix[n] = s->matrix[s->count - 1];
@@ -459,17 +459,17 @@ void e3d_find_surfaces(const e3d_prepared *pass, const e3d_tile *tile, const e3d
         pass->kernels->project(s, &pass->view->viewport);
     pass->kernels->surface(s, tile->x, tile->y, wanted);
     for (int32_t n = 0; n < s->count && s->irregular; n++) {
-        const e3d_visible_primitive *piece = &pieces[s->piece[n]];
-        const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
-        if (piece->corners)
-            cut_planes(&pass->view->viewport, piece, s, n);
-        if (piece->corners && wanted & E3D_WANT_LEVEL)
+        const e3d_visible_primitive *primitive = &primitives[s->primitive[n]];
+        const e3d_mesh_desc *mesh = &primitive->draw->mesh->desc;
+        if (primitive->corners)
+            cut_planes(&pass->view->viewport, primitive, s, n);
+        if (primitive->corners && wanted & E3D_WANT_LEVEL)
             cut_slopes(s, n);
         if (mesh->components == 4)
             clear_positions(s, n, 0);
-        else if (e3d_face_of(piece->draw, piece->local) < 0)
-            clear_positions(s, n, corners_count(piece));
+        else if (e3d_face_of(primitive->draw, primitive->local) < 0)
+            clear_positions(s, n, corners_count(primitive));
     }
     if (bucket->mapped)
-        pass->kernels->map_surfaces(s, &memory->maps.maps, &memory->maps.surfaces);
+        pass->kernels->texture_surfaces(s, &memory->textures.read, &memory->textures.surfaces);
 }

@@ -1,18 +1,16 @@
-/* What shows in a tile, primitive by primitive, and what each brings to its samples. */
-#ifndef E3D_SURFACE_H
-#define E3D_SURFACE_H
+/* The visible primitives of a tile, and the attributes of their surfaces. */
+#pragma once
 
 #include "e3d.h"
 #include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
 #include "frame/shade/job.h"
 
-/* What interpolation must fill for a texture of a base colour or an alpha (E3D_WANT_*). */
+/* The inputs that a texture of a base colour or an alpha needs (E3D_WANT_*). */
 int e3d_texture_wanted(const e3d_texture_view *view);
-/* The pieces of what shows, chained by bucket; 0 when memory is out. */
-int e3d_find_pieces(const e3d_shade_in *in, e3d_shade_memory *memory);
-/* The surfaces of pieces of a bucket from `first` on, without what e3d_find_surfaces adds; the first piece that is left, or -1. */
+/* Finds the visible primitives, chained by bucket; 0 when memory is out. */
+int e3d_find_visible(const e3d_shade_in *in, e3d_shade_memory *memory);
+/* Adds the surfaces of a bucket's primitives from `first` on, without what e3d_find_surfaces adds. Returns the first primitive
+ * that is left, or -1. */
 int32_t e3d_add_surfaces(const e3d_shade_in *in, const e3d_bucket *bucket, int32_t first, int wanted, e3d_shade_memory *memory);
 void e3d_find_surfaces(const e3d_prepared *pass, const e3d_tile *tile, const e3d_bucket *bucket, int wanted, e3d_shade_memory *memory);
-
-#endif

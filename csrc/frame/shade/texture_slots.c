@@ -1,34 +1,29 @@
-/* shade: materials of more than a base colour (R45-R49). Which textures count is found once for each bucket. */
+/* shade: materials with more textures than a base colour (R45-R49). Which textures count is found once for each bucket. */
 #include <math.h>
 #include <string.h>
 
 #include "base/limits.h"
-#include "e3d.h"
-#include "kernels/kernels.h"
-#include "kernels/types/texture_slots.h"
 #include "kernels/types/shading.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/plan.h"
-#include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
-#include "frame/shade/job.h"
 #include "frame/shade/texture_slots.h"
 
-int e3d_needs_maps(const e3d_material *material, const e3d_targets *targets)
+int e3d_needs_textures(const e3d_material *material, const e3d_targets *targets)
 {
     const e3d_texture_use *base = &material->texture;
     int is_placed = base->texture && (base->uv_set || base->is_moved);
     return material->is_physical || material->normal_texture.texture || is_placed || targets->tangent;
 }
 
-int e3d_map_counts(const e3d_bucket *bucket, const e3d_texture_use *use)
+int e3d_texture_counts(const e3d_bucket *bucket, const e3d_texture_use *use)
 {
     return bucket->face && use->texture && (use->uv_set ? bucket->has_uvs1 : bucket->has_uvs);
 }
 
 /* ---- the textures of a bucket ---- */
 
-/* Whether light is found on a bucket, for which its textures are read. */
+/* Whether a bucket is lit; then the textures are read that light needs. */
 static int finds_light(const e3d_prepared *pass, const e3d_bucket *bucket) { return e3d_plans(pass, E3D_PLAN_COLORS) && bucket->lit; }
 
 static int is_coated(const e3d_physical *p) { return p->clearcoat != 0.0f; }
@@ -37,7 +32,7 @@ static int absorbs(const e3d_physical *p) { return p->thickness != 0.0f && e3d_a
 static int is_anisotropic(const e3d_physical *p) { return p->anisotropy != 0.0f; }
 static int is_iridescent(const e3d_physical *p) { return p->iridescence != 0.0f; }
 
-/* Whether the fourth channel of a slot counts. */
+/* Whether the fourth channel of a slot is read. */
 static int reads_alpha(const e3d_material *m, e3d_texture_slot slot)
 {
 #define FOURTH(slot, channel, name, factor) | ((channel) == 3) << slot
@@ -70,16 +65,16 @@ static int is_read(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_textu
     }
 }
 
-static int same_place(const e3d_map_place *a, const e3d_map_place *b)
+static int same_place(const e3d_texture_place *a, const e3d_texture_place *b)
 {
     return a->uv_set == b->uv_set && a->is_moved == b->is_moved && !memcmp(a->matrix, b->matrix, sizeof a->matrix) &&
            a->texels[0] == b->texels[0] && a->texels[1] == b->texels[1];
 }
 
-/* The number of the place of a slot's texture, or of no texture. */
-static int32_t find_place(e3d_maps *maps, const e3d_texture_use *use, const e3d_texture_view *view)
+/* The number of the place at which a slot is read, with its texture or, for tangents, without. */
+static int32_t find_place(e3d_read_textures *textures, const e3d_texture_use *use, const e3d_texture_view *view)
 {
-    e3d_map_place place = {.uv_set = use->uv_set, .is_moved = use->is_moved};
+    e3d_texture_place place = {.uv_set = use->uv_set, .is_moved = use->is_moved};
     int32_t number = 0;
     if (use->is_moved)
         memcpy(place.matrix, use->matrix, sizeof place.matrix);
@@ -87,29 +82,29 @@ static int32_t find_place(e3d_maps *maps, const e3d_texture_use *use, const e3d_
         place.texels[0] = e3d_counted_size(view, view->levels[0].width);
         place.texels[1] = e3d_counted_size(view, view->levels[0].height);
     }
-    while (number < maps->place_count && !same_place(&maps->places[number], &place))
+    while (number < textures->place_count && !same_place(&textures->places[number], &place))
         number++;
-    if (number == maps->place_count)
-        maps->places[maps->place_count++] = place;
-    maps->places[number].has_level |= view && view->filter == E3D_TRILINEAR;
+    if (number == textures->place_count)
+        textures->places[textures->place_count++] = place;
+    textures->places[number].has_level |= view && view->filter == E3D_TRILINEAR;
     return number;
 }
 
-static int32_t find_map(e3d_maps *maps, const e3d_texture_use *use, int has_alpha)
+static int32_t find_texture(e3d_read_textures *textures, const e3d_texture_use *use, int has_alpha)
 {
     const e3d_texture_view *view = e3d_texture_get_view(use->texture);
-    e3d_map map = {.view = view, .place = find_place(maps, use, view)};
+    e3d_read_texture texture = {.view = view, .place = find_place(textures, use, view)};
     int32_t number = 0;
-    while (number < maps->count && (maps->maps[number].view != view || maps->maps[number].place != map.place))
+    while (number < textures->count && (textures->read[number].view != view || textures->read[number].place != texture.place))
         number++;
-    if (number == maps->count)
-        maps->maps[maps->count++] = map;
-    maps->maps[number].has_alpha |= has_alpha;
+    if (number == textures->count)
+        textures->read[textures->count++] = texture;
+    textures->read[number].has_alpha |= has_alpha;
     return number;
 }
 
-/* R47: the place of the texture whose coordinates tell what is right. */
-static void find_tangent_place(const e3d_bucket *bucket, e3d_maps *out)
+/* R47: finds the place whose coordinates define the tangent. */
+static void find_tangent_place(const e3d_bucket *bucket, e3d_read_textures *out)
 {
     const e3d_material *m = bucket->material;
     int by_coat = m->is_physical && !m->normal_texture.texture;
@@ -121,16 +116,16 @@ static void find_tangent_place(const e3d_bucket *bucket, e3d_maps *out)
         out->tangent_place = find_place(out, slot, slot->texture ? e3d_texture_get_view(slot->texture) : NULL);
 }
 
-void e3d_find_maps(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, e3d_maps *out)
+void e3d_find_textures(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, e3d_read_textures *out)
 {
     const e3d_material *m = bucket->material;
-    int all = wanted & E3D_WANT_MAPS;
+    int all = wanted & E3D_WANT_TEXTURES;
     out->place_count = out->count = 0;
     out->tangent_place = -1;
 #define FIND(slot, name) \
     out->of_slot[slot] = -1; \
-    if ((slot == E3D_SLOT_TEXTURE || all) && is_read(pass, bucket, slot) && e3d_map_counts(bucket, &m->name)) \
-        out->of_slot[slot] = find_map(out, &m->name, reads_alpha(m, slot));
+    if ((slot == E3D_SLOT_TEXTURE || all) && is_read(pass, bucket, slot) && e3d_texture_counts(bucket, &m->name)) \
+        out->of_slot[slot] = find_texture(out, &m->name, reads_alpha(m, slot));
     E3D_EACH_TEXTURE_SLOT(FIND)
     int stretched = m->is_physical && is_anisotropic(&m->physical) && finds_light(pass, bucket);
     if (out->of_slot[E3D_SLOT_NORMAL] >= 0 || out->of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0 ||
@@ -138,9 +133,10 @@ void e3d_find_maps(const e3d_prepared *pass, const e3d_bucket *bucket, int wante
         find_tangent_place(bucket, out);
 }
 
-/* ---- what a piece brings ---- */
+/* ---- what a primitive brings ---- */
 
-static void add_place(const e3d_map_place *place, const e3d_mesh_desc *mesh, const int32_t vertex[3], e3d_surface_floats uv[2][3], int32_t n)
+static void add_place(const e3d_texture_place *place, const e3d_mesh_desc *mesh, const int32_t vertex[3],
+                      e3d_surface_floats uv[2][3], int32_t n)
 {
     const float *uvs = place->uv_set ? mesh->uvs1 : mesh->uvs, *m = place->matrix;
     for (int k = 0; k < 3; k++) {
@@ -150,52 +146,54 @@ static void add_place(const e3d_map_place *place, const e3d_mesh_desc *mesh, con
     }
 }
 
-void e3d_add_map_surface(const e3d_prepared *pass, const e3d_visible_primitive *piece, const e3d_maps *maps, e3d_map_surfaces *out, int32_t n)
+void e3d_add_texture_surface(const e3d_prepared *pass, const e3d_visible_primitive *primitive, const e3d_read_textures *textures,
+                             e3d_texture_surfaces *out, int32_t n)
 {
-    const e3d_mesh_desc *mesh = &piece->draw->mesh->desc;
-    for (int p = 0; p < maps->place_count; p++)
-        add_place(&maps->places[p], mesh, piece->vertex, out->uv[p], n);
-    if (maps->tangent_place < 0)
+    const e3d_mesh_desc *mesh = &primitive->draw->mesh->desc;
+    for (int p = 0; p < textures->place_count; p++)
+        add_place(&textures->places[p], mesh, primitive->vertex, out->uv[p], n);
+    if (textures->tangent_place < 0)
         return;
-    int32_t instance = (int32_t)piece->draw->instance_base + piece->instance;
+    int32_t instance = (int32_t)primitive->draw->instance_base + primitive->instance;
     out->turned_round[n] = pass->view->instances[instance].mirrored != pass->view->mirrors;
-    if (!maps->vertex_tangents)
+    if (!textures->vertex_tangents)
         return;
     for (int k = 0; k < 3; k++)
         for (int c = 0; c < 3; c++)
-            out->tangent[c][k][n] = mesh->tangents[4 * (size_t)piece->vertex[k] + c];
-    out->sign[n] = mesh->tangents[4 * (size_t)piece->vertex[0] + 3];
+            out->tangent[c][k][n] = mesh->tangents[4 * (size_t)primitive->vertex[k] + c];
+    out->sign[n] = mesh->tangents[4 * (size_t)primitive->vertex[0] + 3];
 }
 
-/* ---- what maps say of a batch ---- */
+/* ---- what textures say of a batch ---- */
 
-/* A channel of a slot's texture times a factor, or the factor. */
-static e3d_varying varying_of(const e3d_map_memory *memory, e3d_texture_slot slot, int channel, float factor)
+/* One channel of a slot's texture times a factor; or the factor alone. */
+static e3d_varying varying_of(const e3d_texture_memory *memory, e3d_texture_slot slot, int channel, float factor)
 {
-    int32_t map = memory->maps.of_slot[slot];
-    if (map < 0)
+    int32_t texture = memory->read.of_slot[slot];
+    if (texture < 0)
         return (e3d_varying){NULL, factor};
-    return (e3d_varying){memory->batch.texel[map][channel], factor * e3d_texture_unit(memory->maps.maps[map].view)};
+    return (e3d_varying){memory->batch.texel[texture][channel], factor * e3d_texture_unit(memory->read.read[texture].view)};
 }
 
-static e3d_normal_map normals_of(const e3d_map_memory *memory, e3d_texture_slot slot, float scale)
+static e3d_normal_texture normals_of(const e3d_texture_memory *memory, e3d_texture_slot slot, float scale)
 {
-    int32_t map = memory->maps.of_slot[slot];
-    if (map < 0)
-        return (e3d_normal_map){NULL, 0.0f, 0.0f};
-    return (e3d_normal_map){memory->batch.texel[map], e3d_texture_unit(memory->maps.maps[map].view), scale};
+    int32_t texture = memory->read.of_slot[slot];
+    if (texture < 0)
+        return (e3d_normal_texture){NULL, 0.0f, 0.0f};
+    return (e3d_normal_texture){memory->batch.texel[texture], e3d_texture_unit(memory->read.read[texture].view), scale};
 }
 
-e3d_varying e3d_mapped_alpha(const e3d_bucket *bucket, const e3d_map_memory *maps)
+e3d_varying e3d_mapped_alpha(const e3d_bucket *bucket, const e3d_texture_memory *textures)
 {
-    return varying_of(maps, E3D_SLOT_TEXTURE, 3, bucket->material->alpha);
+    return varying_of(textures, E3D_SLOT_TEXTURE, 3, bucket->material->alpha);
 }
 
-static void find_base(const e3d_kernels *kernels, const e3d_bucket *bucket, const e3d_surfaces *surfaces, const e3d_map_memory *maps,
+static void find_base(const e3d_kernels *kernels, const e3d_bucket *bucket, const e3d_surfaces *surfaces,
+                      const e3d_texture_memory *textures,
                       e3d_batch *batch)
 {
     for (int k = 0; k < 3; k++) {
-        e3d_varying base = varying_of(maps, E3D_SLOT_TEXTURE, k, bucket->material->color[k]);
+        e3d_varying base = varying_of(textures, E3D_SLOT_TEXTURE, k, bucket->material->color[k]);
         kernels->varying(&base, batch->count, batch->color[k]);
     }
     if (bucket->by_vertex || bucket->by_instance)
@@ -203,116 +201,116 @@ static void find_base(const e3d_kernels *kernels, const e3d_bucket *bucket, cons
 }
 
 /* R58 */
-static void find_listed(const e3d_kernels *kernels, const e3d_bucket *bucket, int count, e3d_map_memory *maps)
+static void find_listed(const e3d_kernels *kernels, const e3d_bucket *bucket, int count, e3d_texture_memory *textures)
 {
     const e3d_material *m = bucket->material;
-    e3d_varying metallic = varying_of(maps, E3D_SLOT_METALLIC_ROUGHNESS, 2, m->is_physical ? m->physical.metallic : 0.0f);
-    e3d_varying roughness = varying_of(maps, E3D_SLOT_METALLIC_ROUGHNESS, 1, m->is_physical ? m->physical.roughness : 1.0f);
-    kernels->varying(&metallic, count, maps->batch.metallic_roughness[0]);
-    kernels->varying(&roughness, count, maps->batch.metallic_roughness[1]);
+    e3d_varying metallic = varying_of(textures, E3D_SLOT_METALLIC_ROUGHNESS, 2, m->is_physical ? m->physical.metallic : 0.0f);
+    e3d_varying roughness = varying_of(textures, E3D_SLOT_METALLIC_ROUGHNESS, 1, m->is_physical ? m->physical.roughness : 1.0f);
+    kernels->varying(&metallic, count, textures->batch.metallic_roughness[0]);
+    kernels->varying(&roughness, count, textures->batch.metallic_roughness[1]);
     for (int k = 0; k < 3; k++) {
-        e3d_varying emissive = varying_of(maps, E3D_SLOT_EMISSIVE, k, m->emissive[k]);
-        kernels->varying(&emissive, count, maps->batch.emissive[k]);
+        e3d_varying emissive = varying_of(textures, E3D_SLOT_EMISSIVE, k, m->emissive[k]);
+        kernels->varying(&emissive, count, textures->batch.emissive[k]);
     }
 }
 
-void e3d_find_map_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, e3d_shade_memory *memory)
+void e3d_find_texture_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, e3d_shade_memory *memory)
 {
     const e3d_kernels *kernels = pass->kernels;
     const e3d_material *m = bucket->material;
-    e3d_map_memory *maps = &memory->maps;
+    e3d_texture_memory *textures = &memory->textures;
     e3d_batch *batch = &memory->batch;
-    if (maps->maps.tangent_place < 0)
-        memset(maps->batch.tangent, 0, sizeof maps->batch.tangent);
-    kernels->maps(batch, &memory->surfaces, &maps->maps, &maps->surfaces, &maps->batch);
-    if (!(wanted & E3D_WANT_MAPS))
+    if (textures->read.tangent_place < 0)
+        memset(textures->batch.tangent, 0, sizeof textures->batch.tangent);
+    kernels->read_textures(batch, &memory->surfaces, &textures->read, &textures->surfaces, &textures->batch);
+    if (!(wanted & E3D_WANT_TEXTURES))
         return;
     if (e3d_plans(pass, E3D_PLAN_NORMAL)) {
-        e3d_normal_map surface = normals_of(maps, E3D_SLOT_NORMAL, m->normal_scale);
-        e3d_normal_map coat = normals_of(maps, E3D_SLOT_CLEARCOAT_NORMAL, m->physical.clearcoat_normal_scale);
-        kernels->map_normals(batch, &surface, &coat, &maps->batch);
+        e3d_normal_texture surface = normals_of(textures, E3D_SLOT_NORMAL, m->normal_scale);
+        e3d_normal_texture coat = normals_of(textures, E3D_SLOT_CLEARCOAT_NORMAL, m->physical.clearcoat_normal_scale);
+        kernels->map_normals(batch, &surface, &coat, &textures->batch);
     }
     if (e3d_plans(pass, E3D_PLAN_BASE_COLOR))
-        find_base(kernels, bucket, &memory->surfaces, maps, batch);
+        find_base(kernels, bucket, &memory->surfaces, textures, batch);
     if (e3d_plans(pass, E3D_PLAN_MATERIAL_VALUES))
-        find_listed(kernels, bucket, batch->count, maps);
+        find_listed(kernels, bucket, batch->count, textures);
 }
 
 /* ---- light ---- */
 
-/* The root of the mean square of how long the axes become in world space. */
-static float scale_of(const e3d_prepared *pass, const e3d_visible_primitive *piece)
+/* The root mean square of the lengths that the axes have in world space. */
+static float scale_of(const e3d_prepared *pass, const e3d_visible_primitive *primitive)
 {
-    const float *w = pass->draws->instances[piece->draw->instance_base + piece->instance].world;
+    const float *w = pass->draws->instances[primitive->draw->instance_base + primitive->instance].world;
     float square[3];
     for (int r = 0; r < 3; r++)
         square[r] = (w[4 * r] * w[4 * r] + w[4 * r + 1] * w[4 * r + 1]) + w[4 * r + 2] * w[4 * r + 2];
     return sqrtf(((square[0] + square[1]) + square[2]) * E3D_THIRD);
 }
 
-/* R134: how many world units a thickness of 1 is below each sample. */
+/* R134: finds how many world units a thickness of 1 has at each sample. */
 static void find_depths(const e3d_prepared *pass, const e3d_shade_memory *memory, float *out)
 {
-    const e3d_visible_primitive *pieces = memory->pieces.data;
+    const e3d_visible_primitive *primitives = memory->primitives.data;
     const e3d_batch *batch = &memory->batch;
     float depth = 0.0f;
     for (int i = 0; i < batch->count; i++) {
         int32_t n = batch->surface[i];
         if (!i || n != batch->surface[i - 1])
-            depth = memory->surfaces.back[n] ? 0.0f : scale_of(pass, &pieces[memory->surfaces.piece[n]]);
+            depth = memory->surfaces.back[n] ? 0.0f : scale_of(pass, &primitives[memory->surfaces.primitive[n]]);
         out[i] = depth;
     }
 }
 
-static e3d_stretch_map stretch_of(const e3d_map_memory *memory, const e3d_physical *p)
+static e3d_anisotropy_texture stretch_of(const e3d_texture_memory *memory, const e3d_physical *p)
 {
-    e3d_normal_map directions = normals_of(memory, E3D_SLOT_ANISOTROPY, 1.0f);
-    return (e3d_stretch_map){directions.texels, directions.unit, p->anisotropy, {p->anisotropy_turn[0], p->anisotropy_turn[1]}};
+    e3d_normal_texture directions = normals_of(memory, E3D_SLOT_ANISOTROPY, 1.0f);
+    return (e3d_anisotropy_texture){directions.texels, directions.unit, p->anisotropy, {p->anisotropy_turn[0], p->anisotropy_turn[1]}};
 }
 
-/* Of few materials, which are shaded by code of their own. */
-static void add_rare(const e3d_map_memory *maps, const e3d_physical *p, e3d_surface_model *model)
+/* Adds the numbers that few materials have; code of their own shades these. */
+static void add_rare(const e3d_texture_memory *textures, const e3d_physical *p, e3d_brdf *brdf)
 {
-    int varies = maps->maps.of_slot[E3D_SLOT_IRIDESCENCE_THICKNESS] >= 0;
+    int varies = textures->read.of_slot[E3D_SLOT_IRIDESCENCE_THICKNESS] >= 0;
     float least = p->iridescence_thickness[0], most = p->iridescence_thickness[1];
-    model->anisotropic = is_anisotropic(p);
-    model->iridescent = is_iridescent(p);
-    model->stretch = stretch_of(maps, p);
-    model->film = varying_of(maps, E3D_SLOT_IRIDESCENCE_THICKNESS, 1, varies ? most - least : most);
-    model->film_least = least;
-    model->film_ior = p->iridescence_ior;
-    model->is_rare = model->transmits || model->anisotropic || model->iridescent;
+    brdf->anisotropic = is_anisotropic(p);
+    brdf->iridescent = is_iridescent(p);
+    brdf->stretch = stretch_of(textures, p);
+    brdf->iridescence_thickness = varying_of(textures, E3D_SLOT_IRIDESCENCE_THICKNESS, 1, varies ? most - least : most);
+    brdf->iridescence_thickness_least = least;
+    brdf->iridescence_ior = p->iridescence_ior;
+    brdf->is_rare = brdf->transmits || brdf->anisotropic || brdf->iridescent;
 }
 
-static e3d_surface_model model_of(const e3d_bucket *bucket, const e3d_map_memory *maps)
+static e3d_brdf brdf_of(const e3d_bucket *bucket, const e3d_texture_memory *textures)
 {
     const e3d_material *m = bucket->material;
     const e3d_physical *p = &m->physical;
-    e3d_surface_model model = {
+    e3d_brdf brdf = {
         .occlusion_strength = p->occlusion_strength,
         .transmits = bucket->transmits,
         .absorbs = bucket->transmits && absorbs(p),
         .has_coat = is_coated(p),
         .has_sheen = has_sheen(p),
-        .is_grey = maps->maps.of_slot[E3D_SLOT_SPECULAR_COLOR] < 0 && p->reflectance[0] == p->reflectance[1] &&
+        .is_grey = textures->read.of_slot[E3D_SLOT_SPECULAR_COLOR] < 0 && p->reflectance[0] == p->reflectance[1] &&
                    p->reflectance[1] == p->reflectance[2],
-        .coat_is_mapped = maps->maps.of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0,
+        .coat_is_mapped = textures->read.of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0,
     };
-#define VARYING(slot, channel, name, factor) model.name = varying_of(maps, slot, channel, factor);
+#define VARYING(slot, channel, name, factor) brdf.name = varying_of(textures, slot, channel, factor);
     E3D_EACH_VARYING(VARYING)
     for (int k = 0; k < 3; k++) {
-#define VARYING_COLOR(slot, name, factors) model.name[k] = varying_of(maps, slot, k, factors[k]);
+#define VARYING_COLOR(slot, name, factors) brdf.name[k] = varying_of(textures, slot, k, factors[k]);
         E3D_EACH_VARYING_COLOR(VARYING_COLOR)
-        model.absorption[k] = p->absorption[k];
+        brdf.absorption[k] = p->absorption[k];
     }
-    add_rare(maps, p, &model);
-    return model;
+    add_rare(textures, p, &brdf);
+    return brdf;
 }
 
 void e3d_light_physical(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory)
 {
-    const e3d_surface_model model = model_of(bucket, &memory->maps);
-    if (model.absorbs)
-        find_depths(pass, memory, memory->maps.batch.depth);
-    pass->kernels->physical(&memory->batch, &model, e3d_lighting_of(pass->view, bucket->unshadowed), &memory->maps.batch);
+    const e3d_brdf brdf = brdf_of(bucket, &memory->textures);
+    if (brdf.absorbs)
+        find_depths(pass, memory, memory->textures.batch.depth);
+    pass->kernels->physical(&memory->batch, &brdf, e3d_lighting_of(pass->view, bucket->unshadowed), &memory->textures.batch);
 }

@@ -1,6 +1,5 @@
-/* Materials of more than a base colour: which of their textures count, and what these say of a batch. */
-#ifndef E3D_SHADE_MAPS_H
-#define E3D_SHADE_MAPS_H
+/* Materials with more textures than a base colour: which of them count, and their values for a batch. */
+#pragma once
 
 #include "e3d.h"
 #include "kernels/kernels.h"
@@ -8,20 +7,20 @@
 #include "frame/pass/prepared.h"
 #include "frame/shade/job.h"
 
-/* Whether such a material's faces have to be looked at by maps at all. */
-int e3d_needs_maps(const e3d_material *material, const e3d_targets *targets);
-/* Whether a texture counts on faces of a bucket (R45). */
-int e3d_map_counts(const e3d_bucket *bucket, const e3d_texture_use *use);
-/* Finds the textures that are read for what is wanted: E3D_WANT_MAPS. */
-void e3d_find_maps(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, e3d_maps *out);
-/* What a piece brings, as surface n. */
-void e3d_add_map_surface(const e3d_prepared *pass, const e3d_visible_primitive *piece, const e3d_maps *maps, e3d_map_surfaces *out,
-                         int32_t n);
-/* Of a batch that is interpolated: texels, and with E3D_WANT_MAPS tangents, mapped normals, the base colour, and what outputs ask for. */
-void e3d_find_map_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, e3d_shade_memory *memory);
-/* The alpha of a batch of which texels are found, but for the vertices' and the instance's. */
-e3d_varying e3d_mapped_alpha(const e3d_bucket *bucket, const e3d_map_memory *maps);
-/* The colours of a physically based material. */
+/* Whether a material's faces are shaded with e3d_read_textures, and not just with a base colour. */
+int e3d_needs_textures(const e3d_material *material, const e3d_targets *targets);
+/* Whether a texture counts on the faces of a bucket (R45). */
+int e3d_texture_counts(const e3d_bucket *bucket, const e3d_texture_use *use);
+/* Finds the textures to be read; all of them with E3D_WANT_TEXTURES in `wanted`. */
+void e3d_find_textures(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, e3d_read_textures *out);
+/* Adds the attributes of a primitive that textures need, as surface n. */
+void e3d_add_texture_surface(const e3d_prepared *pass, const e3d_visible_primitive *primitive, const e3d_read_textures *textures,
+                             e3d_texture_surfaces *out,
+                             int32_t n);
+/* Finds the texels of an interpolated batch; with E3D_WANT_TEXTURES also tangents, mapped normals, the base colour, and the
+ * values that outputs ask for. */
+void e3d_find_texture_batch(const e3d_prepared *pass, const e3d_bucket *bucket, int wanted, e3d_shade_memory *memory);
+/* The alpha of a batch whose texels are found, without the vertices' and the instance's factors. */
+e3d_varying e3d_mapped_alpha(const e3d_bucket *bucket, const e3d_texture_memory *textures);
+/* Finds the colours of a physically based material. */
 void e3d_light_physical(const e3d_prepared *pass, const e3d_bucket *bucket, e3d_shade_memory *memory);
-
-#endif

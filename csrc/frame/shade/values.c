@@ -1,6 +1,5 @@
-/* shade: the outputs beside colour, from the visible sample of each pixel (R21, R22, R35). Samples come in the order of their
- * surfaces.
- */
+/* shade: writes the outputs other than colour, from the visible sample of each pixel (R21, R22, R35). Samples come in the order
+ * of their surfaces. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -8,16 +7,13 @@
 #include "base/limits.h"
 #include "e3d.h"
 #include "kernels/types/texture_slots.h"
-#include "kernels/types/shading.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/view.h"
-#include "frame/shade/job.h"
 #include "frame/shade/primitive.h"
 #include "frame/shade/values.h"
 #include "frame/store/outputs.h"
-#include "frame/store/store.h"
 
-/* The pixel that each of the batch's samples stands for. */
+/* The pixel that each sample of the batch stands for. */
 static const int32_t *pixels_of(const e3d_batch *batch, int32_t axis, int32_t *room)
 {
     int32_t middle = axis / 2;
@@ -37,7 +33,7 @@ static void make_finite(const float *values, int count, float *out)
         out[i] = fabsf(values[i]) <= FLT_MAX ? values[i] : 0.0f;
 }
 
-/* Where a batch goes: to what is gathered, each sample to its pixel. */
+/* The destination of a batch: the gathered outputs, in which each sample has its pixel. */
 typedef struct batch_place {
     const e3d_store *store;
     const e3d_batch *batch;
@@ -45,7 +41,7 @@ typedef struct batch_place {
     e3d_store_memory *out;
 } batch_place;
 
-/* The values of one output, by channels. */
+/* Writes the values of one output, channel by channel. */
 static void put(const batch_place *place, e3d_output_kind kind, const e3d_lane_array *values)
 {
     float *pixels = e3d_outputs_gathered(place->store, place->out, kind);
@@ -69,7 +65,7 @@ static void put(const batch_place *place, e3d_output_kind kind, const e3d_lane_a
             pixels[4 * at[i] + k] = finite[k][i];
 }
 
-/* Rows of view_from_world applied to positions (w = 1) or directions (w = 0). */
+/* Applies rows of view_from_world to positions (w = 1) or directions (w = 0). */
 static void to_view(const e3d_view *view, const e3d_batch *batch, const e3d_lane_array *v, int w, e3d_lane_array out[3])
 {
     for (int row = 0; row < 3; row++) {
@@ -106,8 +102,8 @@ static void fill(float value, int count, float *out)
         out[i] = value;
 }
 
-/* R58 of what has no maps. */
-static void fill_listed(const e3d_material *material, int count, e3d_map_batch *out)
+/* R58 for a material without textures. */
+static void fill_listed(const e3d_material *material, int count, e3d_texture_batch *out)
 {
     fill(0.0f, count, out->metallic_roughness[0]);
     fill(1.0f, count, out->metallic_roughness[1]);
@@ -118,20 +114,20 @@ static void fill_listed(const e3d_material *material, int count, e3d_map_batch *
 }
 
 /* R58 */
-static void put_maps(const batch_place *place, const e3d_bucket *bucket, e3d_map_batch *maps)
+static void put_textures(const batch_place *place, const e3d_bucket *bucket, e3d_texture_batch *textures)
 {
     const e3d_targets *t = place->store->pass->targets;
     int count = place->batch->count;
     if (!t->metallic_roughness && !t->emissive && !t->tangent)
         return;
     if (!bucket->mapped)
-        fill_listed(bucket->material, count, maps);
-    put(place, E3D_OUTPUT_METALLIC_ROUGHNESS, maps->metallic_roughness);
-    put(place, E3D_OUTPUT_EMISSIVE, maps->emissive);
+        fill_listed(bucket->material, count, textures);
+    put(place, E3D_OUTPUT_METALLIC_ROUGHNESS, textures->metallic_roughness);
+    put(place, E3D_OUTPUT_EMISSIVE, textures->emissive);
     if (t->tangent) {
         e3d_lane_array v[4];
-        to_view(place->store->pass->view, place->batch, maps->tangent, 0, v);
-        memcpy(v[3], maps->tangent[3], sizeof v[3]);
+        to_view(place->store->pass->view, place->batch, textures->tangent, 0, v);
+        memcpy(v[3], textures->tangent[3], sizeof v[3]);
         put(place, E3D_OUTPUT_TANGENT, v);
     }
 }
@@ -155,12 +151,12 @@ static void put_id(int32_t *pixels, const int32_t *at, int count, int32_t id)
         pixels[at[i]] = id;
 }
 
-/* Samples of one surface are neighbours. */
+/* Writes IDs; samples of one surface are neighbours. */
 static void put_ids(const batch_place *place, const e3d_shade_memory *memory)
 {
     const e3d_batch *batch = place->batch;
     const int32_t *at = place->at;
-    const e3d_visible_primitive *pieces = memory->pieces.data;
+    const e3d_visible_primitive *primitives = memory->primitives.data;
     const e3d_bucket *buckets = memory->buckets.data;
     int32_t *triangles = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_TRIANGLE_ID);
     int32_t *objects = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_OBJECT_ID);
@@ -171,16 +167,16 @@ static void put_ids(const batch_place *place, const e3d_shade_memory *memory)
     for (int i = 0, end = 0; i < batch->count; i = end) {
         while (end < batch->count && batch->surface[end] == batch->surface[i])
             end++;
-        const e3d_visible_primitive *piece = &pieces[memory->surfaces.piece[batch->surface[i]]];
-        const e3d_draw *draw = piece->draw->draw;
+        const e3d_visible_primitive *primitive = &primitives[memory->surfaces.primitive[batch->surface[i]]];
+        const e3d_draw *draw = primitive->draw->draw;
         if (triangles)
-            put_id(triangles, at + i, end - i, e3d_face_of(piece->draw, piece->local));
+            put_id(triangles, at + i, end - i, e3d_face_of(primitive->draw, primitive->local));
         if (objects)
-            put_id(objects, at + i, end - i, e3d_object_id(draw, piece->instance));
+            put_id(objects, at + i, end - i, e3d_object_id(draw, primitive->instance));
         if (instances)
-            put_id(instances, at + i, end - i, e3d_instance_id(draw, piece->instance));
+            put_id(instances, at + i, end - i, e3d_instance_id(draw, primitive->instance));
         if (materials)
-            put_id(materials, at + i, end - i, buckets[piece->bucket].material->id);
+            put_id(materials, at + i, end - i, buckets[primitive->bucket].material->id);
     }
 }
 
@@ -196,7 +192,7 @@ void e3d_outputs_batch(const e3d_store *store, const e3d_bucket *bucket, e3d_sha
     put(&place, E3D_OUTPUT_WORLD_POSITION, e3d_batch_places(batch));
     put(&place, E3D_OUTPUT_UV, batch->uv);
     put_barycentric(&place);
-    put_maps(&place, bucket, &memory->maps.batch);
+    put_textures(&place, bucket, &memory->textures.batch);
 }
 
 void e3d_outputs_radiance(const e3d_store *store, const e3d_batch *batch, e3d_store_memory *out)

@@ -1,22 +1,15 @@
-/* resolve: where the background is an environment (R63) or a gradient (R122), its colours are found pixel by pixel; all samples of a
- * pixel share one. A gradient's are codes of the picture: where no other sample counts, they are encoded already.
- */
+/* resolve: finds the background pixel by pixel if it is an environment (R63) or a gradient (R122). All samples of a pixel share
+ * its colour. A gradient is kept as codes of the picture: where no other sample counts, these are written as they are. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-#include "base/limits.h"
 #include "data/srgb_tables.h"
-#include "data/tone_tables.h"
-#include "e3d.h"
 #include "kernels/kernels.h"
 #include "kernels/types/samples.h"
-#include "kernels/types/shading.h"
 #include "frame/pass/plan.h"
 #include "frame/pass/prepared.h"
-#include "frame/pass/view.h"
 #include "frame/store/backdrop.h"
-#include "frame/store/store.h"
 
 /* Clamped colours of pixels of a row. */
 typedef struct colors {
@@ -46,7 +39,7 @@ void e3d_backdrop_prepare(const e3d_frame *frame, uint32_t (*rows)[E3D_DITHER])
     }
 }
 
-/* The codes of `count` pixels from (x, y) on; up to E3D_DITHER more are written. */
+/* Writes the codes of `count` pixels from (x, y) on, and up to E3D_DITHER more. */
 static void repeat_codes(const e3d_store *store, int x, int y, int count, uint32_t *rgba)
 {
     const uint32_t *row = store->gradient[y];
@@ -70,7 +63,7 @@ static void decode_codes(const e3d_store *store, const uint32_t *rgba, int count
 
 /* ---- pixels ---- */
 
-/* Of an environment, neither tone mapped nor clamped. */
+/* Finds the radiance of an environment, neither tone mapped nor clamped. */
 static void find_radiance(const e3d_store *store, int x, int y, int count, colors *out)
 {
     float *const planes[3] = {out->red, out->green, out->blue};
@@ -84,7 +77,7 @@ static void map_tone(const e3d_store *store, int count, colors *row)
     store->pass->kernels->tone(frame->mode == E3D_MODE_LIT ? frame->tone_mapping : E3D_TONE_NONE, planes, count);
 }
 
-/* The colours of `count` pixels from a sample of a tile on. */
+/* Finds the colours of `count` pixels, from a sample of a tile on. */
 static void find_colors(const e3d_store *store, const e3d_tile *tile, int x, int y, int count, colors *out)
 {
     int axis = store->pass->frame->samples_axis, column = (tile->x + x) / axis, row = (tile->y + y) / axis;
@@ -98,7 +91,7 @@ static void find_colors(const e3d_store *store, const e3d_tile *tile, int x, int
     map_tone(store, count, out);
 }
 
-/* The pixels of such colours. */
+/* Encodes the colours as pixels. */
 static void find_codes(const e3d_store *store, const e3d_tile *tile, int x, int y, int count, uint32_t *rgba)
 {
     const e3d_prepared *pass = store->pass;
@@ -125,7 +118,7 @@ static void put_sample(const colors *row, int pixel, int at, e3d_samples *sample
     samples->counts[at] = 1.0f;
 }
 
-/* Rows of samples of one row of pixels. */
+/* Fills the rows of samples of one row of pixels. */
 static void fill_samples(const colors *row, int axis, int y, e3d_samples *samples)
 {
     for (int j = 0; j < axis; j++)
@@ -157,7 +150,7 @@ void e3d_backdrop_pixel(const e3d_store *store, const e3d_tile *tile, int x, int
     color[3] = 1.0f;
 }
 
-/* How many samples from one on follow each other in a row. */
+/* How many samples follow each other in a row, from sample `first` on. */
 static int run_length(const e3d_batch *batch, int first)
 {
     int end = first + 1;

@@ -1,22 +1,16 @@
-/* resolve: tiles that nothing is drawn in are all background. A few of their rows are written between the batches of other tiles:
- * write-combining buffers drain while the core computes (a head on a background takes 7 % less time with two threads).
- */
+/* resolve: clears the tiles in which nothing is drawn. A few of their rows are written between the batches of other tiles, so
+ * that the write-combining buffers drain while the core computes (a head on a background takes 7 % less time with two threads). */
 #include "base/limits.h"
-#include "frame/geometry/bin.h"
 #include "frame/pass/plan.h"
 #include "frame/pass/prepared.h"
-#include "frame/pass/view.h"
 #include "frame/store/backdrop.h"
 #include "frame/store/blank.h"
 #include "frame/store/outputs.h"
 #include "frame/store/picture.h"
-#include "frame/store/queue.h"
-#include "frame/store/store.h"
-#include "frame/store/tile_state.h"
 
 enum { SOME_ROWS = 8 }; /* of samples */
 
-/* Looks at a few tiles for the next blank one; whether there may be more. */
+/* Looks at a few tiles for the next blank one; returns whether there may be more. */
 static int find_blank(const e3d_view *view, const e3d_bins *bins, e3d_blank_state *state)
 {
     enum { TILES = 8 };
@@ -33,7 +27,7 @@ static int find_blank(const e3d_view *view, const e3d_bins *bins, e3d_blank_stat
     return 1;
 }
 
-/* At most SOME_ROWS rows of a tile that are all background. */
+/* Clears at most SOME_ROWS rows of a tile that is all background. */
 static void clear(const e3d_store *store, const e3d_tile *tile)
 {
     uint8_t *color = store->pass->targets->color;

@@ -1,17 +1,14 @@
-/* resolve: the outputs beside colour. Those of a tile are gathered in the worker's memory, then go to the pictures row by row. */
+/* resolve: the outputs other than colour. They are gathered for a tile in the worker's memory, and then go to the pictures row
+ * by row. */
 #include <math.h>
 
-#include "base/limits.h"
 #include "e3d.h"
-#include "kernels/types/visible.h"
 #include "frame/pass/plan.h"
-#include "frame/pass/view.h"
 #include "frame/store/backdrop.h"
 #include "frame/store/outputs.h"
 #include "frame/store/picture.h"
-#include "frame/store/store.h"
 
-/* How many words a pixel of each output has, and the word that all of them hold in the background. */
+/* The number of words that a pixel of each output has, and the background's word, which all of them hold. */
 static const struct {
     int channels;
     union {
@@ -21,8 +18,7 @@ static const struct {
     } background;
 } KINDS[E3D_OUTPUTS] = {
 #define KIND(output, name, type, channels, background, ...) {channels, {.as_##type = background}},
-    E3D_EACH_OUTPUT(KIND)
-};
+    E3D_EACH_OUTPUT(KIND)};
 
 enum { PLACES = E3D_TILE_SAMPLES + E3D_PAD };
 
@@ -32,7 +28,7 @@ void e3d_outputs_prepare(const e3d_targets *targets, e3d_store *out)
 {
     out->words = 0;
     for (int k = 0; k < E3D_OUTPUTS; k++) {
-        void *target = k == E3D_OUTPUT_COLOR ? NULL : e3d_targets_get(targets, k); /* which others resolve */
+        void *target = k == E3D_OUTPUT_COLOR ? NULL : e3d_targets_get(targets, k); /* another function resolves the colour */
         out->outputs[k] = (e3d_output){target, out->words};
         out->words += target ? (size_t)KINDS[k].channels * PLACES : 0;
     }
@@ -111,7 +107,7 @@ void e3d_outputs_blank(const e3d_store *store, const e3d_tile *tile)
     if (has_radiance(store))
         blank_radiance(store, tile);
     for (int k = 0; k < E3D_OUTPUTS; k++) {
-        int32_t row[4 * E3D_TILE]; /* as many channels as any has */
+        int32_t row[4 * E3D_TILE]; /* room for the most channels that an output has */
         if (!store->outputs[k].target || (k == E3D_OUTPUT_RADIANCE && has_radiance(store)))
             continue;
         for (int i = 0; i < KINDS[k].channels * E3D_TILE; i++)

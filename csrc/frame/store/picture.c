@@ -1,19 +1,18 @@
-/* A tile's rows to a picture of the caller's, and back. */
+/* Copies a tile's rows to a picture of the caller's, and back. */
 #include <string.h>
 
-#include "kernels/types/samples.h"
-#include "frame/pass/prepared.h"
-#include "frame/pass/view.h"
 #include "frame/store/picture.h"
+#include "kernels/types/samples.h"
 
-/* Whether a picture's lines aren't in this core's caches anyway: it is large, or another core wrote them last. */
+/* Whether a picture's cache lines aren't in this core's caches anyway: it is large, or another core wrote them last. */
 static int is_far(const e3d_prepared *pass, size_t bytes)
 {
-    enum { LARGE = 1 << 20, SHARED = 1 << 18 };
+    enum { LARGE = 1 << 20,
+           SHARED = 1 << 18 };
     return bytes >= (pass->threads > 1 ? SHARED : LARGE);
 }
 
-/* A tile's place in a picture, in bytes: to its first pixel, of one of its rows, and from each row to the next. */
+/* A tile's place in a picture, in bytes: the offset of its first pixel, the size of a row, and the distance of rows. */
 typedef struct place {
     size_t start, bytes, pitch;
     int rows;

@@ -1,5 +1,5 @@
-/* Which thread draws which tile: a part of the picture is each thread's own, in each frame, so that the textures that show there
- * stay in its core's caches. Who is done draws what others have left. */
+/* Assigns tiles to threads. In each frame a thread has the same part of the picture, so that the textures that show there stay
+ * in its core's caches. A thread that is done takes tiles that others have left. */
 #include "frame/store/queue.h"
 
 void e3d_queue_tiles(e3d_queue *queue, int64_t tiles)
@@ -14,8 +14,8 @@ void e3d_queue_tiles(e3d_queue *queue, int64_t tiles)
         }
 }
 
-/* Takes a sixteenth of what a share has left at a time: an atomic operation waits until all non-temporal stores before it are
- * written. */
+/* Takes a sixteenth of what is left of a share, so that there are few atomic operations: each waits until all earlier
+ * non-temporal stores are written. */
 static int take_more(e3d_queue *queue, int thread, e3d_to_do what)
 {
     enum { PARTS = 16 };

@@ -1,18 +1,12 @@
-/* resolve: the tile's colours to the caller's picture, averaged where there are several samples (R33-R36). */
+/* resolve: writes the tile's colours to the caller's picture; several samples are averaged (R33-R36). */
 #include "base/limits.h"
 #include "data/srgb_tables.h"
 #include "e3d.h"
-#include "kernels/types/samples.h"
-#include "kernels/types/shading.h"
-#include "kernels/types/visible.h"
 #include "frame/pass/plan.h"
-#include "frame/pass/prepared.h"
-#include "frame/pass/view.h"
 #include "frame/store/backdrop.h"
 #include "frame/store/outputs.h"
 #include "frame/store/picture.h"
 #include "frame/store/resolve.h"
-#include "frame/store/store.h"
 
 static uint32_t encode_one(const e3d_prepared *pass, const float color[3], float alpha)
 {
@@ -85,7 +79,7 @@ void e3d_resolve_again(const e3d_store *store, const e3d_tile *tile, e3d_store_m
         e3d_read_tile(store->pass, tile, store->pass->targets->color, sizeof(uint32_t), memory->rgba, E3D_TILE * sizeof(uint32_t));
 }
 
-/* A sample's colour, clamped, and whether it counts; or the pixel that it is. */
+/* Sets a sample's colour, clamped, and whether it counts; or the pixel, with one sample a pixel. */
 static void set_sample(e3d_store_memory *memory, int at, const float sample[4], uint32_t rgba)
 {
     if (!memory->sampled) {
@@ -147,7 +141,7 @@ void e3d_resolve_wire_samples(const e3d_store *store, const int32_t *counts, con
                 planes[k][y * E3D_TILE + x] = store->line.sample[k];
 }
 
-/* The pixels of one sample or several each, row by row, to where pixels of one sample are. */
+/* Averages the samples of pixels, row by row; with one sample a pixel, copies them. */
 static void average(const e3d_store *store, const e3d_tile *tile, e3d_store_memory *memory)
 {
     const e3d_prepared *pass = store->pass;

@@ -1,6 +1,5 @@
-/* What the stages of the store share: a pass's outputs and background, and a thread's pixels. */
-#ifndef E3D_STORE_H
-#define E3D_STORE_H
+/* The data that the stages of the store share: a pass's outputs and background, and a thread's pixels. */
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -13,7 +12,7 @@
 #include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
 
-/* What is drawn in one colour: a sample of it and whether it counts (e3d_samples), and a pixel of nothing else. */
+/* Something drawn in one colour: its sample and whether that counts (e3d_samples), and the pixel of nothing else. */
 typedef struct e3d_ink {
     float sample[4];
     uint32_t rgba;
@@ -28,29 +27,29 @@ typedef struct e3d_background {
 
 typedef struct e3d_output {
     void *target; /* or NULL */
-    size_t first; /* word in e3d_store_memory */
+    size_t first; /* its first word in e3d_store_memory */
 } e3d_output;
 
 /* Constant for a pass. */
 typedef struct e3d_store {
     const e3d_prepared *pass;
     e3d_output outputs[E3D_OUTPUTS]; /* by kind */
-    size_t words;                    /* of all outputs, in a thread's memory */
+    size_t words;                    /* the words of all outputs in a thread's memory */
     e3d_background background;
     e3d_ink line;
-    const uint32_t (*gradient)[E3D_DITHER]; /* of each row of pixels; NULL where none shows */
+    const uint32_t (*gradient)[E3D_DITHER]; /* the gradient's codes for each row of pixels; NULL: there is none */
 } e3d_store;
 
 /* A thread's memory: the pixels of one tile. */
 typedef struct e3d_store_memory {
     e3d_tile tile;                             /* that is drawn */
-    uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD]; /* of one sample a pixel */
-    e3d_samples samples;                       /* of several, or with what is laid over them */
-    int sampled;                               /* whether the tile's colours go there */
-    e3d_array words;                           /* int32_t or float: one output beside colour after the other */
+    uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD]; /* the pixels, with one sample each */
+    e3d_samples samples;                       /* the samples, if a pixel has several, or if something is blended over it */
+    int sampled;                               /* whether the tile's colours go to `samples` */
+    e3d_array words;                           /* int32_t or float: the outputs other than colour, one after the other */
 } e3d_store_memory;
 
-/* R33 of a pixel whose samples are alike. */
+/* R33 for a pixel whose samples are alike. */
 static inline float e3d_mean_of(float value, int samples)
 {
     float sum = 0.0f;
@@ -58,5 +57,3 @@ static inline float e3d_mean_of(float value, int samples)
         sum = sum + value;
     return sum * (1.0f / (float)samples);
 }
-
-#endif

@@ -1,21 +1,20 @@
-/* What has become of each tile of a frame so far. docs/rasteriser.md has a table of what may happen in which state. */
-#ifndef E3D_TILE_STATE_H
-#define E3D_TILE_STATE_H
+/* The state of each tile of a frame. docs/rasteriser.md has a table of what may happen in which state. */
+#pragma once
 
 #include <stdatomic.h>
 #include <stdint.h>
 
 typedef enum e3d_tile_state {
     E3D_TILE_UNTOUCHED = 0, /* nothing is drawn there */
-    E3D_TILE_KEPT,          /* earlier rounds drew there: depths and IDs are kept for the next one */
+    E3D_TILE_KEPT,          /* earlier rounds drew there: its depths and IDs are kept for the next round */
     E3D_TILE_DRAWN,         /* its pixels are written */
-    E3D_TILE_CLEARED,       /* the same, all background */
+    E3D_TILE_CLEARED,       /* its pixels are written, and all of them are background */
 } e3d_tile_state;
 
-/* One thread at a time changes a tile's state, while others look whether it is untouched. */
+/* One thread at a time changes a tile's state; others may look whether it is untouched. */
 typedef struct e3d_tile_progress {
     _Atomic(int32_t) state; /* e3d_tile_state */
-    int32_t shaded;         /* samples, when it was drawn */
+    int32_t shaded;         /* how many samples were shaded when it was drawn */
 } e3d_tile_progress;
 
 static inline e3d_tile_state e3d_tile_state_of(const e3d_tile_progress *tile)
@@ -27,5 +26,3 @@ static inline void e3d_tile_set_state(e3d_tile_progress *tile, e3d_tile_state st
 {
     atomic_store_explicit(&tile->state, (int32_t)state, memory_order_relaxed);
 }
-
-#endif

@@ -1,4 +1,5 @@
-/* raster and shade, blended records: fragments are kept, sorted sample by sample, and laid over the colours there (R83, R84). */
+/* raster and shade, blended records: the layers of samples are kept, sorted sample by sample, and blended over the colours there
+ * (R83, R84). */
 #include <string.h>
 
 #include "base/always_inline.h"
@@ -21,8 +22,6 @@
 #include "frame/store/outputs.h"
 #include "frame/tile/a_buffer.h"
 #include "frame/tile/alpha_test.h"
-#include "frame/tile/job.h"
-#include "frame/tile/memory.h"
 #include "frame/tile/piece.h"
 
 void e3d_a_buffer_free(e3d_a_buffer *f)
@@ -41,10 +40,11 @@ void *e3d_radiance_of(const e3d_tile_job *job)
 
 /* ---- what is kept ---- */
 
-/* Room for so many fragments of so many IDs, and where what shading finds of those from `first` on goes; 0 when memory is out. */
+/* Makes room for layers and their IDs; *to is where shading puts the colours of the layers from `first` on. Returns 0 when
+ * memory is out. */
 static int reserve(const e3d_tile_job *job, size_t first, size_t count, size_t ids, e3d_shaded_list *to)
 {
-    e3d_a_buffer *f = &job->memory->alpha.fragments;
+    e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     int transmits = job->in->pass->draws->any_transmits, lights = e3d_radiance_of(job) != NULL;
     if (!e3d_array_reserve(&f->z, count, sizeof(float)) || !e3d_array_reserve(&f->sample, count, sizeof(int32_t)) ||
         !e3d_array_reserve(&f->of, count, sizeof(int32_t)) || !e3d_array_reserve(&f->ids, ids, sizeof(int32_t)) ||
@@ -62,12 +62,12 @@ static int reserve(const e3d_tile_job *job, size_t first, size_t count, size_t i
 int e3d_a_buffer_keep(const e3d_tile_job *job)
 {
     const e3d_shown *shown = &job->memory->shade.shown;
-    e3d_a_buffer *f = &job->memory->alpha.fragments;
+    e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     size_t first = f->z.count, count = (size_t)shown->count, ids = f->ids.count;
     e3d_shaded_list to = {0};
     if (!count)
         return 1;
-    if (!reserve(job, first, first + count, ids + (size_t)shown->pieces, &to) || !e3d_alpha_shade(job, E3D_SINK_A_BUFFER, to))
+    if (!reserve(job, first, first + count, ids + (size_t)shown->primitives, &to) || !e3d_alpha_shade(job, E3D_SINK_A_BUFFER, to))
         return 0;
     if (job->in->pass->pattern)
         memcpy((uint32_t *)f->cover.data + first, job->memory->multisample->alpha.cover, count * sizeof(uint32_t));
@@ -77,16 +77,16 @@ int e3d_a_buffer_keep(const e3d_tile_job *job)
         ((int32_t *)f->sample.data)[first + n] = shown->sample[n] & (E3D_TILE_SAMPLES - 1);
         ((int32_t *)f->of.data)[first + n] = shown->of[n] + (int32_t)ids;
     }
-    for (int32_t p = 0; p < shown->pieces; p++)
-        ((int32_t *)f->ids.data)[ids + (size_t)p] = (int32_t)shown->piece[p].id;
+    for (int32_t p = 0; p < shown->primitives; p++)
+        ((int32_t *)f->ids.data)[ids + (size_t)p] = (int32_t)shown->primitive[p].id;
     f->z.count = first + count;
-    f->ids.count = ids + (size_t)shown->pieces;
+    f->ids.count = ids + (size_t)shown->primitives;
     return 1;
 }
 
 /* ---- their order ---- */
 
-/* The bits of a depth as an integer that is greater the farther it is; -0 is 0. */
+/* The bits of a depth as an integer that grows with the depth; -0 becomes 0. */
 static int32_t depth_key(float z)
 {
     float positive = z + 0.0f;
@@ -95,7 +95,8 @@ static int32_t depth_key(float z)
     return bits < 0 ? bits ^ 0x7FFFFFFF : bits;
 }
 
-/* Lists the fragments by sample: the last ones first, since they come roughly from near to far. `cover`: only those that cover `plane`, or NULL. */
+/* Lists the layers by sample, the last ones first, since they come roughly from near to far. With `cover`, only layers that
+ * cover `plane` are listed. */
 static ALWAYS_INLINE void list_covering(e3d_a_buffer *f, const uint32_t *cover, int plane)
 {
     size_t count = f->z.count;
@@ -108,7 +109,7 @@ static ALWAYS_INLINE void list_covering(e3d_a_buffer *f, const uint32_t *cover, 
         if (!cover || cover[n] >> plane & 1)
             first[sample[n]]++;
     for (int s = 0; s < E3D_TILE_SAMPLES; s++)
-        first[s] = at += first[s]; /* so far where those of the next one begin */
+        first[s] = at += first[s]; /* here: the end of sample s, where the next one begins */
     for (size_t n = 0; n < count; n++) {
         if (cover && !(cover[n] >> plane & 1))
             continue;
@@ -132,7 +133,7 @@ static int list_by_sample(e3d_a_buffer *f, const uint32_t *cover, int plane)
     return 1;
 }
 
-/* Whether fragment a is laid before b: it is farther, or later in order (R83). */
+/* Whether layer a is blended before layer b: it is farther, or later in order (R83). */
 static int is_before(const e3d_record_table *table, const e3d_a_buffer *f, uint32_t a, uint32_t b)
 {
     const float *z = f->z.data;
@@ -142,7 +143,7 @@ static int is_before(const e3d_record_table *table, const e3d_a_buffer *f, uint3
     return e3d_id_comes_first(table, ids[of[b]], ids[of[a]]);
 }
 
-/* Lets an element sink to its place in a heap, whose first is laid last. */
+/* Lets an element sink to its place in a heap; the heap's top is blended last. */
 static void sink(const e3d_record_table *table, const e3d_a_buffer *f, uint32_t *heap, uint32_t at, uint32_t count)
 {
     uint32_t sinking = heap[at];
@@ -156,7 +157,8 @@ static void sink(const e3d_record_table *table, const e3d_a_buffer *f, uint32_t 
     heap[at] = sinking;
 }
 
-/* Sorts the fragments of a sample in the order in which they are laid: a heap, since a sample may have any number of them. */
+/* Sorts a sample's layers in the order in which they are blended. It is a heap sort, since a sample may have any number of
+ * layers. */
 static void sort_sample(const e3d_record_table *table, const e3d_a_buffer *f, uint32_t *which, uint32_t count)
 {
     for (uint32_t at = count / 2; at-- > 0;)
@@ -169,7 +171,7 @@ static void sort_sample(const e3d_record_table *table, const e3d_a_buffer *f, ui
     }
 }
 
-/* Lays the fragments of one sample, which are sorted, over its colour (R84). */
+/* Blends the sorted layers of one sample over its colour (R84). */
 static void blend_sample(const e3d_alpha_layers *layers, int32_t sample, const uint32_t *which, uint32_t count, e3d_samples *samples)
 {
     float over[4] = {samples->color[0][sample], samples->color[1][sample], samples->color[2][sample], samples->counts[sample]};
@@ -182,7 +184,7 @@ static void blend_sample(const e3d_alpha_layers *layers, int32_t sample, const u
         e3d_lay_light(layers, which, (int)count, sample);
 }
 
-/* The nearest fragment of a sample that shows (a face that a wireframe leaves out does), of those that are sorted. */
+/* Finds the nearest of a sample's sorted layers that shows; a face that a wireframe leaves out counts. */
 static void find_front(e3d_a_buffer *f, int32_t sample, const uint32_t *which, uint32_t count)
 {
     const float (*colors)[4] = (const float (*)[4])f->color.data;
@@ -196,10 +198,10 @@ static void find_front(e3d_a_buffer *f, int32_t sample, const uint32_t *which, u
     }
 }
 
-/* Blends samples one by one: those that the kernel leaves, or, where the nearest fragments are asked for, all. */
+/* Blends one sample: one that the kernel left, or any if the nearest layers are asked for. */
 static void blend_slowly(const e3d_tile_job *job, const e3d_alpha_layers *layers, int32_t sample, e3d_samples *samples)
 {
-    e3d_a_buffer *f = &job->memory->alpha.fragments;
+    e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     uint32_t *which = (uint32_t *)f->which.data + f->first[sample], count = f->first[sample + 1] - f->first[sample];
     if (!count)
         return;
@@ -211,7 +213,7 @@ static void blend_slowly(const e3d_tile_job *job, const e3d_alpha_layers *layers
 
 static e3d_alpha_layers layers_of(const e3d_tile_job *job)
 {
-    const e3d_a_buffer *f = &job->memory->alpha.fragments;
+    const e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     float (*lit)[3] = e3d_radiance_of(job);
     return (e3d_alpha_layers){.first = f->first,
                               .depth = f->depth.data,
@@ -223,10 +225,10 @@ static e3d_alpha_layers layers_of(const e3d_tile_job *job)
                               .axis = job->in->pass->frame->samples_axis};
 }
 
-/* Blends the fragments that cover a plane (list_covering) into its samples. */
+/* Blends the layers that cover a plane (list_covering) into its samples. */
 static int blend_plane(const e3d_tile_job *job, const uint32_t *cover, int plane, e3d_samples *samples)
 {
-    e3d_a_buffer *f = &job->memory->alpha.fragments;
+    e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     if (!list_by_sample(f, cover, plane))
         return 0;
     const e3d_alpha_layers layers = layers_of(job);
@@ -241,10 +243,10 @@ static int blend_plane(const e3d_tile_job *job, const uint32_t *cover, int plane
     return 1;
 }
 
-/* The depths of the fragments that cover a plane, in it. */
+/* Finds the depths that layers have in a plane. */
 static void find_depths(const e3d_tile_job *job, int plane)
 {
-    e3d_a_buffer *f = &job->memory->alpha.fragments;
+    e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     const uint32_t *cover = f->cover.data;
     const int32_t *sample = f->sample.data, *of = f->of.data, *ids = f->ids.data;
     int32_t last = -1;
@@ -262,7 +264,7 @@ static void find_depths(const e3d_tile_job *job, int plane)
 
 int e3d_a_buffer_blend(const e3d_tile_job *job)
 {
-    const e3d_a_buffer *f = &job->memory->alpha.fragments;
+    const e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     const e3d_sample_pattern *pattern = job->in->pass->pattern;
     if (!f->z.count)
         return 1;
@@ -278,7 +280,7 @@ int e3d_a_buffer_blend(const e3d_tile_job *job)
 
 void e3d_a_buffer_lay(const e3d_tile_job *job)
 {
-    const e3d_a_buffer *f = &job->memory->alpha.fragments;
+    const e3d_a_buffer *f = &job->memory->alpha.a_buffer;
     const e3d_alpha_layers layers = layers_of(job);
     for (uint32_t n = 0; n < f->z.count; n++)
         for (uint32_t left = ((const uint32_t *)f->cover.data)[n]; left; left &= left - 1)

@@ -1,8 +1,6 @@
-/* raster, records with alpha: their samples are listed, their alphas found, and what shows of masked ones joins the visible surface.
- *
- * Which samples they show is known late, so that they hide no block and no cluster. With multisampling each is found once in a pixel,
- * for all samples that it covers there (R108).
- */
+/* raster, records with alpha: lists their samples, finds the alphas, and adds what masked records show to the visible surface.
+ * Which samples they cover is known late, so they hide no block and no cluster. With multisampling an alpha is found once for a
+ * pixel, for all samples that the record covers there (R108). */
 #include "base/grow.h"
 #include "base/limits.h"
 #include "data/sample_patterns.h"
@@ -12,19 +10,15 @@
 #include "kernels/types/records.h"
 #include "kernels/types/shown.h"
 #include "kernels/types/vertices.h"
-#include "kernels/types/visible.h"
 #include "frame/geometry/bin.h"
 #include "frame/geometry/records.h"
 #include "frame/pass/plan.h"
 #include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
 #include "frame/shade/alpha_batch.h"
-#include "frame/shade/job.h"
 #include "frame/shade/shade.h"
 #include "frame/shade/surface.h"
 #include "frame/tile/alpha_test.h"
-#include "frame/tile/job.h"
-#include "frame/tile/memory.h"
 #include "frame/tile/piece.h"
 
 /* ---- lists ---- */
@@ -35,14 +29,14 @@ static void empty(const e3d_tile_job *job)
     job->memory->shade.shown.pattern = job->in->pass->pattern;
 }
 
-/* Of the pixels of planes; 0 when memory is out. */
+/* Begins a list of pixels in planes; 0 when memory is out. */
 static int begin_planes(const e3d_tile_job *job, int depths)
 {
     const e3d_sample_pattern *pattern = job->in->pass->pattern;
     e3d_multisample_memory *memory = job->memory->multisample;
     if (!e3d_array_reserve(&memory->covers, E3D_SHOWN_ROOM + 2 * E3D_PAD, sizeof(int32_t)))
         return 0;
-    memory->alpha = (e3d_planes_list){.shown = &job->memory->shade.shown, .cover = memory->covers.data, .pattern = pattern};
+    memory->alpha = (e3d_msaa_list){.shown = &job->memory->shade.shown, .cover = memory->covers.data, .pattern = pattern};
     for (int s = 0; s < pattern->count; s++) {
         memory->alpha.limit[s] = depths ? job->visible[s].z : job->memory->marks.bound;
         memory->alpha.kept[s] = job->visible[s].id;
@@ -50,7 +44,7 @@ static int begin_planes(const e3d_tile_job *job, int depths)
     return 1;
 }
 
-/* Where the last record in order shows, depths hide nothing. */
+/* Begins a list. If the last record in order shows, depths hide nothing. */
 int e3d_alpha_begin(const e3d_tile_job *job, int all)
 {
     e3d_alpha_memory *memory = &job->memory->alpha;
@@ -79,7 +73,7 @@ int e3d_alpha_piece(const e3d_tile_job *job, uint32_t id, e3d_piece *piece)
 /* A record in the planes of a tile. */
 typedef struct plane_pieces {
     e3d_piece of[E3D_MOST_MSAA_SAMPLES];
-    uint32_t live; /* those that it may show in: a bit each */
+    uint32_t live; /* the planes in which it may show: a bit each */
 } plane_pieces;
 
 static void find_planes(const e3d_tile_job *job, uint32_t id, plane_pieces *out)
@@ -103,7 +97,8 @@ int e3d_alpha_add(const e3d_tile_job *job, const e3d_piece *piece, e3d_alpha_act
     if (pass->pattern && !planes.live)
         return 1;
     for (;;) {
-        rest.y0 = pass->pattern ? pass->kernels->cover_planes(planes.of, planes.live, rest.y0, rest.y1, table, &job->memory->multisample->alpha)
+        rest.y0 = pass->pattern ? pass->kernels->cover_msaa(planes.of, planes.live, rest.y0, rest.y1, table,
+                                                            &job->memory->multisample->alpha)
                                 : pass->kernels->raster_alpha(&rest, table, &job->memory->alpha.list);
         if (rest.y0 > rest.y1)
             return 1;
@@ -117,7 +112,7 @@ int e3d_alpha_shade(const e3d_tile_job *job, e3d_sink sink, e3d_shaded_list to)
 {
     e3d_shade_out out = job->shades;
     to.alpha = job->memory->alpha.alpha;
-    to.piece = -1;
+    to.primitive = -1;
     out.sink = sink;
     out.list = &to;
     return e3d_shade_shown(job->in->shade, &job->tile, &out);
@@ -175,18 +170,19 @@ static int act_on(const e3d_tile_job *job, sample_action act)
     const e3d_shade_memory *shade = &job->memory->shade;
     if (!e3d_alpha_shade(job, E3D_SINK_ALPHA_TEST, (e3d_shaded_list){0}))
         return 0;
-    const e3d_visible_primitive *pieces = shade->pieces.data;
-    for (int32_t p = 0; p < shade->shown.pieces; p++) {
-        const e3d_material *material = ((const e3d_bucket *)shade->buckets.data)[pieces[p].bucket].material;
+    const e3d_visible_primitive *primitives = shade->primitives.data;
+    for (int32_t p = 0; p < shade->shown.primitives; p++) {
+        const e3d_material *material = ((const e3d_bucket *)shade->buckets.data)[primitives[p].bucket].material;
         if (job->in->pass->pattern)
-            act_on_planes(job, &pieces[p], shade->shown.piece[p].id, material, act);
+            act_on_planes(job, &primitives[p], shade->shown.primitive[p].id, material, act);
         else
-            act_on_samples(job, &pieces[p], shade->shown.piece[p].id, e3d_alpha_cutoff(material), act);
+            act_on_samples(job, &primitives[p], shade->shown.primitive[p].id, e3d_alpha_cutoff(material), act);
     }
     return 1;
 }
 
-/* A sample shows a record if that wins there (R16): the list was made when less was kept. Sorted records are numbered as they are drawn. */
+/* Lets a sample show a record if that wins there (R16): other records may have been drawn since the list was made. Sorted
+ * records have IDs in the order of drawing. */
 static void show(const e3d_tile_job *job, e3d_visible_tile *plane, int32_t id, int32_t sample, float z)
 {
     int32_t kept = plane->id[sample];
@@ -212,11 +208,11 @@ static int count_list(const e3d_tile_job *job) { return act_on(job, count); }
 
 /* ---- masked records ---- */
 
-static int add_block(const e3d_tile_job *job, const e3d_bin_block *block, e3d_alpha_action action)
+static int add_link(const e3d_tile_job *job, const e3d_bin_link *link, e3d_alpha_action action)
 {
     e3d_piece piece;
-    for (uint32_t i = 0; i < block->count; i++)
-        if (e3d_alpha_piece(job, block->id[i], &piece) && !e3d_alpha_add(job, &piece, action))
+    for (uint32_t i = 0; i < link->count; i++)
+        if (e3d_alpha_piece(job, link->id[i], &piece) && !e3d_alpha_add(job, &piece, action))
             return 0;
     return 1;
 }
@@ -228,15 +224,16 @@ static int visit_masked(const e3d_tile_job *job, int all, e3d_alpha_action actio
         return 0;
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
-        const e3d_bin_block *block = e3d_first_alpha(set, E3D_ALPHA_MASKED, job->number);
-        for (; block; block = e3d_next_alpha(set, E3D_ALPHA_MASKED, block))
-            if (!add_block(job, block, action))
+        const e3d_bin_link *link = e3d_first_alpha(set, E3D_ALPHA_MASKED, job->number);
+        for (; link; link = e3d_next_alpha(set, E3D_ALPHA_MASKED, link))
+            if (!add_link(job, link, action))
                 return 0;
     }
     return !job->memory->shade.shown.count || action(job);
 }
 
-/* With multisampling all that a record covers is listed, hidden or not: it decides where in a pixel the alpha is found (R105). */
+/* With multisampling all samples that a record covers are listed, hidden or not: they decide where in a pixel the alpha is found
+ * (R105). */
 int e3d_alpha_cut(const e3d_tile_job *job) { return !job->masked || visit_masked(job, job->in->pass->pattern != NULL, show_list); }
 
 int e3d_alpha_count(const e3d_tile_job *job) { return !job->masked || visit_masked(job, 1, count_list); }

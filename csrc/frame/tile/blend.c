@@ -1,8 +1,9 @@
-/* raster and shade, blended records: a tile's records by groups that share no depth (R83, R84).
+/* raster and shade, blended records: a tile's records overlap by overlap (R83, R84). An overlap is a set of
+ * records whose depths may interleave; no two overlaps share a depth.
  *
  * In:  the tile's visible surface and its colours; the records of the blended bins.
- * Out: the colours with these records laid over them, and the nearest fragment of each sample, if that is asked for.
- * Always: groups come from far to near, so that only the fragments of one are sorted, and only where a sample has several.
+ * Out: the colours with these records laid over them, and the nearest layer of each sample, if that is asked for.
+ * Always: overlaps come from far to near, so that only the layers of one are sorted, and only where a sample has several.
  */
 #include <float.h>
 #include <math.h>
@@ -24,19 +25,18 @@
 #include "frame/tile/a_buffer.h"
 #include "frame/tile/alpha_test.h"
 #include "frame/tile/blend.h"
-#include "frame/tile/job.h"
 #include "frame/tile/memory.h"
 #include "frame/tile/piece.h"
 
-enum { MOST_FRAGMENTS = 1 << 17 }; /* of rows that are done together, as far as can be foreseen */
+enum { MOST_LAYERS = 1 << 17 }; /* roughly the most layers of the rows that are done together */
 
 void e3d_alpha_free(e3d_alpha_memory *memory)
 {
     e3d_array_free(&memory->pieces);
     e3d_array_free(&memory->sorted);
     e3d_array_free(&memory->ranges);
-    e3d_array_free(&memory->groups);
-    e3d_a_buffer_free(&memory->fragments);
+    e3d_array_free(&memory->overlaps);
+    e3d_a_buffer_free(&memory->a_buffer);
 }
 
 /* ---- the records of a tile ---- */
@@ -48,7 +48,7 @@ typedef struct depth_range {
 
 static int is_tame(float v) { return v < 0x1p100f && v > -0x1p100f; }
 
-/* z is monotone along both axes, so its values at the corners of the box bound it, unless a step overflows. */
+/* Depth is monotone along both axes, so that its values at the corners of the box bound it, unless a step overflows. */
 static depth_range range_of(const e3d_piece *p)
 {
     if (!is_tame(p->z0) || !is_tame(p->gx) || !is_tame(p->gy))
@@ -57,30 +57,31 @@ static depth_range range_of(const e3d_piece *p)
     return (depth_range){e3d_piece_depth(p, x, y), e3d_piece_depth(p, p->x0 + p->x1 - x, p->y0 + p->y1 - y)};
 }
 
-/* Adds a record that shows in the tile, nearer than the far plane. */
+/* Adds a record if it shows in the tile, nearer than the far plane. */
 static void add_piece(const e3d_tile_job *job, uint32_t id, e3d_alpha_memory *memory)
 {
     e3d_piece *piece = (e3d_piece *)memory->pieces.data + memory->pieces.count;
     if (!e3d_alpha_piece(job, id, piece))
         return;
-    depth_range range = job->in->pass->pattern ? (depth_range){0.0f, 0.0f} : range_of(piece); /* with multisampling, all are one group */
+    /* With multisampling, all records are one overlap */
+    depth_range range = job->in->pass->pattern ? (depth_range){0.0f, 0.0f} : range_of(piece);
     if (range.near > 1.0f)
         return;
     range.far = range.far < 1.0f ? range.far : 1.0f; /* R15 */
     ((depth_range *)memory->ranges.data)[memory->pieces.count++] = range;
 }
 
-/* The records of a block; 0 when memory is out. */
-static int add_block(const e3d_tile_job *job, const e3d_bin_block *block, e3d_alpha_memory *memory)
+/* Adds the records of a link; 0 when memory is out. */
+static int add_link(const e3d_tile_job *job, const e3d_bin_link *link, e3d_alpha_memory *memory)
 {
     const e3d_record_table *table = &job->in->bins->tables[E3D_SET_SCENE];
-    size_t room = memory->pieces.count + block->count;
+    size_t room = memory->pieces.count + link->count;
     if (!e3d_array_reserve(&memory->pieces, room, sizeof(e3d_piece)) || !e3d_array_reserve(&memory->ranges, room, sizeof(depth_range)))
         return 0;
-    for (uint32_t i = 0; i < block->count; i++)
-        __builtin_prefetch(e3d_record_at(table, block->id[i]));
-    for (uint32_t i = 0; i < block->count; i++)
-        add_piece(job, block->id[i], memory);
+    for (uint32_t i = 0; i < link->count; i++)
+        __builtin_prefetch(e3d_record_at(table, link->id[i]));
+    for (uint32_t i = 0; i < link->count; i++)
+        add_piece(job, link->id[i], memory);
     return 1;
 }
 
@@ -91,17 +92,17 @@ static int find_pieces(const e3d_tile_job *job)
     memory->pieces.count = 0;
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
-        const e3d_bin_block *block = e3d_first_alpha(set, E3D_ALPHA_BLENDED, job->number);
-        for (; block; block = e3d_next_alpha(set, E3D_ALPHA_BLENDED, block))
-            if (!add_block(job, block, memory))
+        const e3d_bin_link *link = e3d_first_alpha(set, E3D_ALPHA_BLENDED, job->number);
+        for (; link; link = e3d_next_alpha(set, E3D_ALPHA_BLENDED, link))
+            if (!add_link(job, link, memory))
                 return 0;
     }
     return 1;
 }
 
-/* ---- groups ---- */
+/* ---- overlaps ---- */
 
-/* The slices that the depths of a tile's records are cut into. */
+/* The depths of a tile's records, cut into slices. */
 typedef struct slicing {
     float near, scale;
 } slicing;
@@ -122,71 +123,71 @@ static slicing slicing_of(const depth_range *ranges, size_t count)
     return (slicing){near, far - near > 0x1p-60f ? (float)E3D_ALPHA_SLICES / (far - near) : 0.0f};
 }
 
-/* Numbers groups from near to far: a slice begins one where no record reaches over from the slice before. Returns how many there are;
- * of each record its group, of each group how many records it has. */
-static int32_t find_groups(const depth_range *ranges, size_t count, int32_t *group, int32_t records[E3D_ALPHA_SLICES])
+/* Numbers overlaps from near to far: a slice begins one if no record reaches into it from the slice before. Returns how many
+ * there are, the overlap of each record, and the number of records in each overlap. */
+static int32_t find_overlaps(const depth_range *ranges, size_t count, int32_t *overlap, int32_t records[E3D_ALPHA_SLICES])
 {
     const slicing s = slicing_of(ranges, count);
-    int32_t begun[E3D_ALPHA_SLICES] = {0}, done[E3D_ALPHA_SLICES] = {0}, of[E3D_ALPHA_SLICES], groups = 0, open = 0;
+    int32_t begun[E3D_ALPHA_SLICES] = {0}, done[E3D_ALPHA_SLICES] = {0}, of[E3D_ALPHA_SLICES], overlaps = 0, open = 0;
     for (size_t i = 0; i < count; i++) {
-        group[i] = slice_of(&s, ranges[i].near);
-        begun[group[i]]++;
+        overlap[i] = slice_of(&s, ranges[i].near);
+        begun[overlap[i]]++;
         done[slice_of(&s, ranges[i].far)]++;
     }
     for (int32_t k = 0; k < E3D_ALPHA_SLICES; k++) {
         if (!open && begun[k])
-            records[groups++] = 0;
-        of[k] = groups - 1;
+            records[overlaps++] = 0;
+        of[k] = overlaps - 1;
         open += begun[k] - done[k];
     }
     for (size_t i = 0; i < count; i++) {
-        group[i] = of[group[i]];
-        records[group[i]]++;
+        overlap[i] = of[overlap[i]];
+        records[overlap[i]]++;
     }
-    return groups;
+    return overlaps;
 }
 
-/* Sorts the records by their groups, the farthest first; returns how many groups there are, or -1 when memory is out. */
+/* Sorts the records by overlap, the farthest first; returns how many overlaps there are, or -1 when memory is out. */
 static int32_t sort_pieces(e3d_alpha_memory *memory, int32_t records[E3D_ALPHA_SLICES])
 {
     size_t count = memory->pieces.count;
     int32_t next[E3D_ALPHA_SLICES];
-    if (!e3d_array_reserve(&memory->sorted, count, sizeof(e3d_piece)) || !e3d_array_reserve(&memory->groups, count, sizeof(int32_t)))
+    if (!e3d_array_reserve(&memory->sorted, count, sizeof(e3d_piece)) || !e3d_array_reserve(&memory->overlaps, count, sizeof(int32_t)))
         return -1;
     const e3d_piece *pieces = memory->pieces.data;
-    int32_t *group = memory->groups.data, groups = find_groups(memory->ranges.data, count, group, records), at = 0;
-    for (int32_t g = groups - 1; g >= 0; g--) {
+    int32_t *overlap = memory->overlaps.data, overlaps = find_overlaps(memory->ranges.data, count, overlap, records), at = 0;
+    for (int32_t g = overlaps - 1; g >= 0; g--) {
         next[g] = at;
         at += records[g];
     }
-    for (size_t i = 0; i < count && groups > 1; i++)
-        ((e3d_piece *)memory->sorted.data)[next[group[i]]++] = pieces[i];
-    return groups;
+    for (size_t i = 0; i < count && overlaps > 1; i++)
+        ((e3d_piece *)memory->sorted.data)[next[overlap[i]]++] = pieces[i];
+    return overlaps;
 }
 
-/* ---- a group ---- */
+/* ---- an overlap ---- */
 
-/* How many rows are done together, so that their fragments are not too many. */
+/* How many rows are done together, so that they don't have too many layers. */
 static int32_t rows_of(const e3d_piece *pieces, int32_t count)
 {
     int64_t most = 0;
     for (int32_t i = 0; i < count; i++)
         most += (int64_t)(pieces[i].x1 - pieces[i].x0 + 1) * (pieces[i].y1 - pieces[i].y0 + 1);
-    int64_t rows = most <= MOST_FRAGMENTS ? E3D_TILE : (int64_t)E3D_TILE * MOST_FRAGMENTS / most;
+    int64_t rows = most <= MOST_LAYERS ? E3D_TILE : (int64_t)E3D_TILE * MOST_LAYERS / most;
     return rows < 1 ? 1 : (int32_t)rows;
 }
 
-/* Whether fragments must be kept even where each sample has one. */
+/* Whether layers must be kept even if no sample has two. */
 static int keeps_all(const e3d_tile_job *job)
 {
     return job->in->pass->pattern || e3d_plans(job->in->pass, E3D_PLAN_FRONT) || e3d_radiance_of(job);
 }
 
-/* Rows y .. end - 1 of records whose depths may interleave. Where no sample is met twice, there is nothing to sort. */
+/* Blends rows y .. end - 1 of an overlap's records. If no sample is met twice, there is nothing to sort. */
 static int blend_rows(const e3d_tile_job *job, const e3d_piece *pieces, int32_t count, int32_t y, int32_t end)
 {
     e3d_alpha_memory *memory = &job->memory->alpha;
-    e3d_a_buffer_clear(&memory->fragments);
+    e3d_a_buffer_clear(&memory->a_buffer);
     if (!e3d_alpha_begin(job, 0))
         return 0;
     for (int32_t i = 0; i < count; i++) {
@@ -196,12 +197,12 @@ static int blend_rows(const e3d_tile_job *job, const e3d_piece *pieces, int32_t 
         if (rows.y0 <= rows.y1 && !e3d_alpha_add(job, &rows, e3d_a_buffer_keep))
             return 0;
     }
-    if (!memory->fragments.z.count && !memory->list.met && !keeps_all(job))
+    if (!memory->a_buffer.z.count && !memory->list.met && !keeps_all(job))
         return !job->memory->shade.shown.count || e3d_alpha_shade(job, E3D_SINK_SAMPLES, (e3d_shaded_list){0});
     return e3d_a_buffer_keep(job) && e3d_a_buffer_blend(job);
 }
 
-static int blend_group(const e3d_tile_job *job, const e3d_piece *pieces, int32_t count)
+static int blend_overlap(const e3d_tile_job *job, const e3d_piece *pieces, int32_t count)
 {
     int32_t rows = rows_of(pieces, count);
     for (int32_t y = 0; y < E3D_TILE; y += rows)
@@ -211,15 +212,15 @@ static int blend_group(const e3d_tile_job *job, const e3d_piece *pieces, int32_t
 }
 
 /* From far to near. */
-static int blend_groups(const e3d_tile_job *job)
+static int blend_overlaps(const e3d_tile_job *job)
 {
     e3d_alpha_memory *memory = &job->memory->alpha;
-    int32_t records[E3D_ALPHA_SLICES], groups = sort_pieces(memory, records);
-    const e3d_piece *pieces = groups > 1 ? memory->sorted.data : memory->pieces.data;
-    if (groups < 0)
+    int32_t records[E3D_ALPHA_SLICES], overlaps = sort_pieces(memory, records);
+    const e3d_piece *pieces = overlaps > 1 ? memory->sorted.data : memory->pieces.data;
+    if (overlaps < 0)
         return 0;
-    for (int32_t g = groups - 1; g >= 0; g--) {
-        if (!blend_group(job, pieces, records[g]))
+    for (int32_t g = overlaps - 1; g >= 0; g--) {
+        if (!blend_overlap(job, pieces, records[g]))
             return 0;
         pieces += records[g];
     }
@@ -228,12 +229,12 @@ static int blend_groups(const e3d_tile_job *job)
 
 /* ---- records that are sorted already ---- */
 
-/* The list is of one record: leaves out what it covers before the record that is kept in order; how much is left. */
+/* The list holds one record's samples. Removes those where the visible record comes later in order; returns how many are left. */
 static int32_t leave_later(const e3d_tile_job *job)
 {
     float *z = job->memory->alpha.z;
     e3d_shown *shown = &job->memory->shade.shown;
-    int32_t left = 0, id = (int32_t)shown->piece[0].id;
+    int32_t left = 0, id = (int32_t)shown->primitive[0].id;
     for (int32_t n = 0; n < shown->count; n++) {
         int32_t sample = shown->sample[n];
         shown->sample[left] = sample;
@@ -243,12 +244,12 @@ static int32_t leave_later(const e3d_tile_job *job)
     return shown->count = left;
 }
 
-/* The same with multisampling, sample by sample of each pixel. */
+/* The same with multisampling, for each sample of each pixel. */
 static int32_t leave_later_in_planes(const e3d_tile_job *job)
 {
     int32_t *covers = job->memory->multisample->alpha.cover;
     e3d_shown *shown = &job->memory->shade.shown;
-    int32_t left = 0, id = (int32_t)shown->piece[0].id;
+    int32_t left = 0, id = (int32_t)shown->primitive[0].id;
     for (int32_t n = 0; n < shown->count; n++) {
         int32_t pixel = shown->sample[n] & (E3D_TILE_SAMPLES - 1);
         uint32_t cover = 0;
@@ -262,7 +263,7 @@ static int32_t leave_later_in_planes(const e3d_tile_job *job)
     return shown->count = left;
 }
 
-/* What the list of one record adds lies over what its samples show. */
+/* Blends the listed record over the samples that it is later than. */
 static int lay_later(const e3d_tile_job *job)
 {
     const e3d_sample_pattern *pattern = job->in->pass->pattern;
@@ -270,7 +271,7 @@ static int lay_later(const e3d_tile_job *job)
         return 1;
     if (!keeps_all(job))
         return e3d_alpha_shade(job, E3D_SINK_SAMPLES, (e3d_shaded_list){0});
-    e3d_a_buffer_clear(&job->memory->alpha.fragments);
+    e3d_a_buffer_clear(&job->memory->alpha.a_buffer);
     if (!e3d_a_buffer_keep(job))
         return 0;
     if (!pattern)
@@ -289,12 +290,12 @@ static int blend_sequence(const e3d_tile_job *job)
     return 1;
 }
 
-/* ---- the nearest fragments ---- */
+/* ---- the nearest layers ---- */
 
-/* Shades the outputs of the samples that a fragment is in front of. */
+/* Shades the outputs of the samples whose nearest surface is a layer. */
 static int shade_front(const e3d_tile_job *job)
 {
-    const int32_t *front = job->memory->alpha.fragments.front_id;
+    const int32_t *front = job->memory->alpha.a_buffer.front_id;
     e3d_runs_memory *runs = &job->memory->shade.runs;
     int32_t count = 0;
     if (!e3d_plans(job->in->pass, E3D_PLAN_OUTPUTS))
@@ -313,7 +314,7 @@ static int shade_front(const e3d_tile_job *job)
 
 void e3d_alpha_front(const e3d_tile_job *job)
 {
-    const e3d_a_buffer *buffer = &job->memory->alpha.fragments;
+    const e3d_a_buffer *buffer = &job->memory->alpha.a_buffer;
     if (!job->blended || !e3d_plans(job->in->pass, E3D_PLAN_FRONT))
         return;
     for (int32_t s = 0; s < E3D_TILE_SAMPLES; s++)
@@ -323,7 +324,7 @@ void e3d_alpha_front(const e3d_tile_job *job)
         }
 }
 
-/* R123: where sums are too great for a number. Beyond the picture nothing may have been written. */
+/* R123: replaces sums that overflowed. Beyond the picture nothing may have been written. */
 static void leave_finite(const e3d_tile_job *job, float *radiance)
 {
     int axis = job->in->pass->frame->samples_axis;
@@ -334,14 +335,14 @@ static void leave_finite(const e3d_tile_job *job, float *radiance)
 
 int e3d_alpha_blend(const e3d_tile_job *job)
 {
-    e3d_a_buffer *buffer = &job->memory->alpha.fragments;
+    e3d_a_buffer *buffer = &job->memory->alpha.a_buffer;
     if (!job->blended)
         return 1;
     if (e3d_plans(job->in->pass, E3D_PLAN_FRONT))
         memset(buffer->front_id, 0xFF, sizeof buffer->front_id); /* E3D_NO_SLOT */
     if (!find_pieces(job))
         return 0;
-    int done = e3d_plans(job->in->pass, E3D_PLAN_SORTS) ? blend_sequence(job) : blend_groups(job);
+    int done = e3d_plans(job->in->pass, E3D_PLAN_SORTS) ? blend_sequence(job) : blend_overlaps(job);
     if (e3d_radiance_of(job))
         leave_finite(job, e3d_radiance_of(job));
     return done && (!e3d_plans(job->in->pass, E3D_PLAN_FRONT) || shade_front(job));

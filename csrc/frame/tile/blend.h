@@ -1,12 +1,9 @@
-/* What is laid over the samples of a tile: blended records, sorted by depth. */
-#ifndef E3D_TILE_BLEND_H
-#define E3D_TILE_BLEND_H
+/* Blends records, sorted by depth, over the samples of a tile. */
+#pragma once
 
 #include "frame/tile/job.h"
 
-/* Lays blended records over the tile's samples, which are shaded; 0 when memory is out. */
+/* Blends records over the tile's shaded samples; 0 when memory is out. */
 int e3d_alpha_blend(const e3d_tile_job *job);
-/* The depths of the nearest fragments become those of the visible surface. */
+/* Replaces the visible surface's depths and IDs by those of the nearest layers. */
 void e3d_alpha_front(const e3d_tile_job *job);
-
-#endif

@@ -1,6 +1,5 @@
-/* What threads draw tiles of, and the tile that one of them draws. */
-#ifndef E3D_TILE_JOB_H
-#define E3D_TILE_JOB_H
+/* The input of drawing tiles, and the tile that a thread draws. */
+#pragma once
 
 #include <stdint.h>
 
@@ -15,7 +14,7 @@
 #include "frame/store/tile_state.h"
 #include "frame/tile/memory.h"
 
-/* What is asked between tiles whether to stop; `ask` may be NULL. */
+/* Called between tiles to ask whether to stop; `ask` may be NULL. */
 typedef struct e3d_poll {
     int (*ask)(void *user);
     void *user;
@@ -26,14 +25,14 @@ typedef struct e3d_tiles_in {
     const e3d_bins *bins;
     const e3d_shade_in *shade;
     e3d_poll poll;
-    int finishes; /* another round follows, which asks for the tiles' depths */
+    int finishes; /* not 0: another round follows, which needs the tiles' depths */
 } e3d_tiles_in;
 
 typedef struct e3d_tiles_out {
     e3d_tile_memory *of[E3D_MAX_THREADS];
     e3d_queue queue;
     e3d_tile_progress *progress; /* of each tile */
-    e3d_visible_tile *kept;      /* NULL: there is one round */
+    e3d_visible_tile *kept;      /* the kept tiles; NULL: there is one round */
     e3d_tile_depths *depths;
 } e3d_tiles_out;
 
@@ -42,19 +41,17 @@ typedef struct e3d_tile_job {
     const e3d_tiles_in *in;
     e3d_tiles_out *out;
     e3d_tile_memory *memory; /* the thread's, */
-    e3d_shade_out shades;    /* and what of it shading writes */
+    e3d_shade_out shades;    /* the part of it that shading writes */
     e3d_visible_tile *visible; /* with multisampling one for each sample */
     e3d_tile tile;
-    int plane; /* with multisampling: the sample whose plane is meant, where one is */
+    int plane; /* with multisampling: the sample whose plane is drawn */
     int64_t number;
     e3d_tile_state state; /* before this */
-    int masked, blended;  /* whether it has such records */
+    int masked, blended;  /* whether it has masked records, and blended ones */
 } e3d_tile_job;
 
-/* A tile that is kept, or the first of its planes. */
+/* A kept tile, or the first of its planes. */
 static inline e3d_visible_tile *e3d_kept_tile(const e3d_prepared *pass, const e3d_tiles_out *out, int64_t number)
 {
     return &out->kept[pass->pattern ? number * pass->pattern->count : number];
 }
-
-#endif

@@ -1,14 +1,11 @@
-/* raster over several rounds: a tile's visible surface is kept, and its farthest depths are noted, which hide clusters of the next
- * round.
- */
+/* raster over several rounds: keeps a tile's visible surface, and notes its farthest depths, which hide clusters of the next
+ * round. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
-#include "base/grow.h"
 #include "base/large_pages.h"
 #include "base/pool.h"
-#include "kernels/types/visible.h"
 #include "frame/cull/depths.h"
 #include "frame/geometry/bin.h"
 #include "frame/geometry/records.h"
@@ -16,7 +13,6 @@
 #include "frame/pass/view.h"
 #include "frame/store/queue.h"
 #include "frame/store/tile_state.h"
-#include "frame/tile/job.h"
 #include "frame/tile/kept.h"
 #include "frame/tile/memory.h"
 #include "frame/tile/visible.h"

@@ -1,6 +1,5 @@
 /* The tiles that are kept over the rounds of a pass. */
-#ifndef E3D_KEPT_H
-#define E3D_KEPT_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -16,11 +15,9 @@ typedef struct e3d_kept_memory {
 } e3d_kept_memory;
 
 void e3d_kept_free(e3d_kept_memory *kept);
-/* Makes room for so many tiles, and touches it; 0 when memory is out. */
+/* Makes room for so many tiles, and touches its pages; 0 when memory is out. */
 int e3d_kept_prepare(e3d_kept_memory *kept, int64_t tiles);
-/* From now on tiles are kept, of so many planes each, which hide nothing yet; 0 when memory is out. */
+/* Begins to keep tiles, of so many planes each; at first they hide nothing. Returns 0 when memory is out. */
 int e3d_kept_begin(e3d_kept_memory *kept, int64_t tiles, int32_t planes, e3d_tiles_out *out);
-/* Adds what the bins hold to the kept tiles, and notes their depths. */
+/* Adds the bins' records and fragments to the kept tiles, and notes their depths. */
 void e3d_keep_tiles(const e3d_tiles_in *in, e3d_tiles_out *out);
-
-#endif

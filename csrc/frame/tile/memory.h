@@ -1,6 +1,5 @@
-/* A thread's memory, of one tile: what each stage keeps for that long, and all of it. */
-#ifndef E3D_TILE_MEMORY_H
-#define E3D_TILE_MEMORY_H
+/* A thread's memory for one tile: the parts that the stages keep, and all of it. */
+#pragma once
 
 #include <stdint.h>
 
@@ -16,45 +15,47 @@
 #include "frame/store/blank.h"
 #include "frame/store/store.h"
 
-/* Of slots: the ID and order (uint32_t) of the record in each. */
+/* The record in each slot: its ID and its order (uint32_t). */
 typedef struct e3d_slots_state {
     e3d_array ids, orders;
 } e3d_slots_state;
 
-/* What is counted or marked beside the visible surface, sample by sample. */
+/* Counts and limits of samples besides the visible surface. */
 typedef struct e3d_marks_memory {
     float bound[E3D_TILE_SAMPLES + E3D_PAD];      /* E3D_BEYOND_FAR everywhere */
-    float edge_limit[E3D_TILE_SAMPLES + E3D_PAD]; /* what an edge's depth must be less than */
-    int32_t count[E3D_TILE_SAMPLES + E3D_PAD];    /* overdraw, then edges */
+    float edge_limit[E3D_TILE_SAMPLES + E3D_PAD]; /* an edge shows if its depth is less */
+    int32_t count[E3D_TILE_SAMPLES + E3D_PAD];    /* how many faces there are, or edges */
 } e3d_marks_memory;
 
 enum { E3D_ALPHA_SLICES = 512 };
 
-/* Fragments in front of what is kept, one after the other. With multisampling, one is of all samples that its record covers in a pixel. */
+/* Layers in front of the visible surface, in any order. With multisampling, one layer stands for all samples that its record
+ * covers in a pixel. */
 typedef struct e3d_a_buffer {
-    e3d_array z;       /* float; with multisampling, in the plane that is blended */
+    e3d_array z;       /* float; with multisampling, the depth in the plane that is blended */
     e3d_array cover;   /* with multisampling: uint32_t, a bit for each sample of the pixel */
-    e3d_array sample;  /* int32_t: of the tile, or the pixel */
-    e3d_array of;      /* int32_t: the number of its ID, of which there are fewer */
+    e3d_array sample;  /* int32_t: the sample of the tile, or the pixel */
+    e3d_array of;      /* int32_t: the number of its ID; many layers share one */
     e3d_array ids;     /* int32_t */
     e3d_array color;   /* float[4]: clamped, with alpha (e3d_shaded_list.color) */
-    e3d_array through; /* float[4], where light passes through some material */
-    e3d_array light;   /* float[4], where radiance is asked for */
-    e3d_array depth, which;               /* sorted by sample: int32_t, greater is farther; uint32_t, the number of the fragment */
-    uint32_t first[E3D_TILE_SAMPLES + 1]; /* in these, of each sample */
-    uint16_t left[E3D_TILE_SAMPLES];      /* samples that are not sorted yet */
-    float front_z[E3D_TILE_SAMPLES];      /* of the nearest fragment, */
+    e3d_array through; /* float[4], if light passes through some material */
+    e3d_array light;   /* float[4], if radiance is asked for */
+    e3d_array depth, which;               /* sorted by sample: int32_t, greater is farther; uint32_t, the number of the layer */
+    uint32_t first[E3D_TILE_SAMPLES + 1]; /* where each sample's layers begin in these */
+    uint16_t left[E3D_TILE_SAMPLES];      /* samples that are not blended yet */
+    float front_z[E3D_TILE_SAMPLES];      /* of the nearest layer */
     int32_t front_id[E3D_TILE_SAMPLES];   /* or E3D_NO_SLOT */
 } e3d_a_buffer;
 
-/* Of records with alpha. */
+/* The memory for records with alpha. */
 typedef struct e3d_alpha_memory {
-    float z[E3D_SHOWN_ROOM + 2 * E3D_PAD]; /* of each entry of the list (e3d_shade_memory.shown) */
+    float z[E3D_SHOWN_ROOM + 2 * E3D_PAD]; /* for each entry of the list (e3d_shade_memory.shown) */
     float alpha[E3D_SHOWN_ROOM];
     e3d_alpha_list list;
-    e3d_array pieces, sorted;              /* e3d_piece of the blended records: as they are listed; by group, the farthest first */
-    e3d_array ranges, groups;              /* of each piece its depths (float[2]), and its group (int32_t) */
-    e3d_a_buffer fragments;
+    /* e3d_piece, the blended records: as they are listed; by overlap, the farthest first */
+    e3d_array pieces, sorted;
+    e3d_array ranges, overlaps;            /* for each piece its depths (float[2]), and the number of its overlap (int32_t) */
+    e3d_a_buffer a_buffer;
 } e3d_alpha_memory;
 
 /* Pixels that are averaged, and where they go. */
@@ -66,38 +67,38 @@ typedef struct e3d_average {
     uint32_t rgba[E3D_TILE_SAMPLES + E3D_PAD];
 } e3d_average;
 
-/* With multisampling. Planes and colours of samples are as many as a pixel has samples. */
+/* The memory for multisampling. A pixel has as many planes, and colours of samples, as it has samples. */
 typedef struct e3d_multisample_memory {
     int32_t samples_room;
     e3d_visible_tile *planes;
-    e3d_samples *samples; /* where more shows in samples than what they keep */
+    e3d_samples *samples; /* the colours of samples, if something is blended or drawn over them */
     uint64_t mixed[E3D_TILE];
     e3d_mixed_list list;
     e3d_average average;
-    e3d_planes_list alpha; /* of records with alpha, */
-    e3d_array covers;      /* and what it holds: int32_t */
+    e3d_msaa_list alpha; /* the list of records with alpha */
+    e3d_array covers;      /* int32_t: its covers */
 } e3d_multisample_memory;
 
-/* Of spans, and what was found of them lately. */
+/* The memory of spans, and whether they paid lately. */
 typedef struct e3d_spans_memory {
     _Alignas(64) e3d_cover cover;
     _Alignas(64) e3d_layers layers;
-    int32_t without, left; /* how many tiles go without spans since these did not pay, and how many of these are left */
+    int32_t without, left; /* how many tiles go without spans after they did not pay, and how many of these are left */
 } e3d_spans_memory;
 
 /* The sum. */
 typedef struct e3d_tile_memory {
-    e3d_visible_tile visible; /* where tiles aren't kept over several rounds */
+    e3d_visible_tile visible; /* used if tiles aren't kept over several rounds */
     e3d_marks_memory marks;
     e3d_store_memory pixels;
     e3d_shade_memory shade;
     e3d_spans_memory spans;
     e3d_slots_state slots;
     e3d_alpha_memory alpha;
-    e3d_multisample_memory *multisample; /* or NULL: it hasn't been asked for */
+    e3d_multisample_memory *multisample; /* NULL until it is asked for */
     e3d_blank_state blank;
     int64_t ns_raster, ns_shade, ns_resolve; /* of all tiles */
-    int64_t lap;                             /* when the last stage of a tile ended (e3d_lap) */
+    int64_t lap;                             /* when the tile's last stage ended (e3d_lap) */
 } e3d_tile_memory;
 
 /* Adds to a stage's time what has passed since the thread's last lap. */
@@ -107,5 +108,3 @@ static inline void e3d_lap(e3d_tile_memory *memory, int64_t *stage_ns)
     *stage_ns += now - memory->lap;
     memory->lap = now;
 }
-
-#endif

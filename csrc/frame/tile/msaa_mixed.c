@@ -1,10 +1,8 @@
-/* shade with multisampling, mixed pixels: each surface that shows in a pixel is shaded once (R105), and the colours of the samples are
- * averaged (R106).
- *
- * In:  the planes of a tile, and which of its pixels are meant.
- * Out: pixels, or the colours of samples that more is laid over.
- * Always: lists are of at most as many colours as a tile has samples; pixels of a full one are done before the next begins.
- */
+/* shade with multisampling, mixed pixels: shades each surface that shows in a pixel once (R105), and averages the colours of the
+ * samples (R106).
+ * In: the planes of a tile, and which of its pixels to shade.
+ * Out: pixels, or the colours of samples if something is drawn over them.
+ * Always: a list has at most as many colours as a tile has samples; the pixels of a full list are done before the next begins. */
 #include <math.h>
 #include <string.h>
 
@@ -25,13 +23,12 @@
 #include "frame/store/backdrop.h"
 #include "frame/store/store.h"
 #include "frame/tile/alpha_test.h"
-#include "frame/tile/job.h"
 #include "frame/tile/memory.h"
 #include "frame/tile/msaa_mixed.h"
 
 /* ---- what is listed ---- */
 
-/* What a sample shows of what it keeps: faces of a wireframe without them show the background. */
+/* The ID that a sample shows: if a wireframe leaves out faces, these show the background. */
 static int32_t shown_id(const e3d_tile_job *job, int32_t id, int only_edges)
 {
     if (!only_edges || id < 0)
@@ -39,7 +36,7 @@ static int32_t shown_id(const e3d_tile_job *job, int32_t id, int only_edges)
     return e3d_record_at(&job->in->bins->tables[E3D_SET_SCENE], (uint32_t)id)->meta & E3D_RECORD_FACE ? E3D_NO_SLOT : id;
 }
 
-/* The colour of the background behind a pixel: its number. */
+/* The number of the background's colour behind a pixel. */
 static int32_t background_of(const e3d_tile_job *job, int32_t pixel, e3d_mixed_list *list)
 {
     if (!e3d_plans(job->in->pass, E3D_PLAN_BACKDROP))
@@ -50,7 +47,7 @@ static int32_t background_of(const e3d_tile_job *job, int32_t pixel, e3d_mixed_l
     return number;
 }
 
-/* Lists a pixel: a colour for each piece that shows in it, at the first sample that shows it. */
+/* Lists a pixel: one colour for each primitive that shows in it, found at the first sample that shows it. */
 static int32_t list_pixel(const e3d_tile_job *job, int32_t at, int only_edges, e3d_run *runs, int32_t count, e3d_mixed_list *list)
 {
     const e3d_visible_tile *planes = job->visible;
@@ -72,7 +69,7 @@ static int32_t list_pixel(const e3d_tile_job *job, int32_t at, int only_edges, e
     return count;
 }
 
-/* Lists pixels from `first` on, as far as there is room; the pixel that comes next. */
+/* Lists pixels from `first` on while there is room; returns the next pixel. */
 static int32_t list_pixels(const e3d_tile_job *job, int32_t first, e3d_run *runs, int32_t *count, e3d_mixed_list *list)
 {
     const e3d_prepared *pass = job->in->pass;
@@ -89,7 +86,7 @@ static int32_t list_pixels(const e3d_tile_job *job, int32_t first, e3d_run *runs
     return first;
 }
 
-/* Sorts what is to be shaded by piece; `length` of a run is the number of its colour here. */
+/* Sorts the listed colours by the primitives that they are shaded from; here a run's `length` is the number of its colour. */
 static void show(const e3d_tile_job *job, int32_t count, e3d_mixed_list *list)
 {
     e3d_runs_memory *memory = &job->memory->shade.runs;
@@ -106,7 +103,7 @@ static void show(const e3d_tile_job *job, int32_t count, e3d_mixed_list *list)
 
 /* ---- what becomes of it ---- */
 
-/* R106: in pairs, then pairs of these, until one is left. */
+/* R106: adds colours in pairs, then these sums in pairs, until one is left. */
 static inline float4 sum_of(float4 color[E3D_MOST_MSAA_SAMPLES], int32_t samples)
 {
     for (; samples > 1; samples /= 2)
@@ -115,7 +112,8 @@ static inline float4 sum_of(float4 color[E3D_MOST_MSAA_SAMPLES], int32_t samples
     return color[0];
 }
 
-/* R33, R85: a pixel of such sums is to be encoded. Where all samples are opaque, as mostly, 1 over the sum of their alphas is `share`. */
+/* R33, R85: adds a pixel to be encoded, by the sum of its colours. If all samples are opaque, as mostly, 1 over the sum of their
+ * alphas is `share`. */
 static inline void add_average(const e3d_store *store, int32_t pixel, float4 sum, float share, e3d_average *out)
 {
     int32_t n = out->count++;
@@ -152,7 +150,7 @@ static void average_list(const e3d_tile_job *job, int32_t first, int32_t end)
     encode_averages(job);
 }
 
-/* Leaves the colours in the samples. */
+/* Keeps the colours in the samples. */
 static void keep_list(const e3d_tile_job *job, int32_t first, int32_t end)
 {
     const e3d_mixed_list *list = &job->memory->multisample->list;
@@ -167,7 +165,7 @@ static void keep_list(const e3d_tile_job *job, int32_t first, int32_t end)
         }
 }
 
-/* The pixels whose bits are set, row by row. */
+/* Lists and shades the pixels whose bits are set, row by row. */
 static void take_pixels(const e3d_tile_job *job, e3d_mixed_list *list)
 {
     list->pixels = 0;

@@ -1,8 +1,6 @@
-/* raster with multisampling: a tile's records to the planes of its samples; pixels in which all samples show the same are shaded as with one
- * sample, the others piece by piece (msaa_mixed.c).
- *
- * In pixels whose samples all have one colour the average is that colour to the bit (R106), so these are encoded at once.
- */
+/* raster with multisampling: draws a tile's records into the planes of its samples. A pixel whose samples all show the same is
+ * shaded as with one sample; other pixels are mixed (msaa_mixed.c). If all samples of a pixel have one colour, their average is
+ * that colour to the bit (R106), so that it is encoded at once. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,8 +22,6 @@
 #include "frame/store/tile_state.h"
 #include "frame/tile/alpha_test.h"
 #include "frame/tile/blend.h"
-#include "frame/tile/job.h"
-#include "frame/tile/memory.h"
 #include "frame/tile/msaa_mixed.h"
 #include "frame/tile/multisample.h"
 #include "frame/tile/piece.h"
@@ -58,7 +54,7 @@ int e3d_multisample_reserve(e3d_multisample_memory **memory, int32_t samples)
     m->samples = e3d_large_memory((size_t)samples * sizeof *m->samples);
     if (!m->planes || !m->samples)
         return 0;
-    memset(m->planes, 0, (size_t)samples * sizeof *m->planes); /* padding is read, never used */
+    memset(m->planes, 0, (size_t)samples * sizeof *m->planes); /* padding is read, but never used */
     memset(m->samples, 0, (size_t)samples * sizeof *m->samples);
     m->samples_room = samples;
     return 1;
@@ -66,16 +62,16 @@ int e3d_multisample_reserve(e3d_multisample_memory **memory, int32_t samples)
 
 /* ---- the planes ---- */
 
-/* Where the last record in order shows, record after record; each keeps its ID. */
-static void overwrite_block(const e3d_tile_job *job, const e3d_bin_block *block)
+/* Draws record after record, if the last one in order shows; each keeps its ID. */
+static void overwrite_link(const e3d_tile_job *job, const e3d_bin_link *link)
 {
     const e3d_prepared *pass = job->in->pass;
-    for (uint32_t i = 0; i < block->count; i++) {
-        const e3d_record *record = e3d_record_at(&job->in->bins->tables[E3D_SET_SCENE], block->id[i]);
+    for (uint32_t i = 0; i < link->count; i++) {
+        const e3d_record *record = e3d_record_at(&job->in->bins->tables[E3D_SET_SCENE], link->id[i]);
         for (int s = 0; s < pass->pattern->count; s++) {
             e3d_tile_buffers buffers = {job->visible[s].z, job->visible[s].id, NULL};
             e3d_piece piece;
-            if (e3d_piece_in_plane(pass, s, record, &job->tile, block->id[i], &piece))
+            if (e3d_piece_in_plane(pass, s, record, &job->tile, link->id[i], &piece))
                 pass->kernels->raster_overwrite(&piece, &buffers);
         }
     }
@@ -88,9 +84,9 @@ static void overwrite_planes(const e3d_tile_job *job)
         e3d_visible_empty(&job->visible[s]);
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
-        const e3d_bin_block *block = e3d_first_records(set, 0, job->number);
-        for (; block; block = e3d_bin_block_at(set, block->next))
-            overwrite_block(job, block);
+        const e3d_bin_link *link = e3d_first_records(set, 0, job->number);
+        for (; link; link = e3d_bin_link_at(set, link->next))
+            overwrite_link(job, link);
     }
 }
 
@@ -107,19 +103,21 @@ static void draw_planes(const e3d_tile_job *job, int settle)
     if (job->in->finishes)
         e3d_note_depths(pass->kernels, pass->pattern->count, job->visible, &job->out->depths[job->number]);
     if (settle)
-        pass->kernels->planes_settle(job->visible, pass->pattern, &job->in->bins->tables[E3D_SET_SCENE]);
+        pass->kernels->msaa_settle(job->visible, pass->pattern, &job->in->bins->tables[E3D_SET_SCENE]);
 }
 
 /* ---- pixels ---- */
 
 static uint64_t columns_inside(const e3d_tile *tile) { return ~(uint64_t)0 >> (E3D_TILE - tile->width); }
 
-/* Parts the pixels: `mixed` ones, and the others, whose IDs go to the thread's own plane; whether some of these show nothing. */
+/* Splits the pixels into mixed ones and others. The others' IDs go to the thread's own plane; returns whether some of them show
+ * nothing. */
 static int split(const e3d_tile_job *job)
 {
     uint64_t *mixed = job->memory->multisample->mixed;
     const e3d_prepared *pass = job->in->pass;
-    int gaps = pass->kernels->planes_split(job->visible, pass->pattern->count, job->tile.width, job->tile.height, mixed, &job->memory->visible);
+    int gaps = pass->kernels->msaa_split(job->visible, pass->pattern->count, job->tile.width, job->tile.height, mixed,
+                                         &job->memory->visible);
     for (int y = 0; y < E3D_TILE; y++)
         mixed[y] = y < job->tile.height ? mixed[y] & columns_inside(&job->tile) : 0;
     return gaps;

@@ -1,6 +1,5 @@
-/* Tiles of several samples a pixel, of which each surface is shaded once (R103-R108). */
-#ifndef E3D_MULTISAMPLE_H
-#define E3D_MULTISAMPLE_H
+/* Tiles of several samples a pixel; each surface is shaded once (R103-R108). */
+#pragma once
 
 #include <stdint.h>
 
@@ -11,9 +10,7 @@
 int e3d_multisample_reserve(e3d_multisample_memory **memory, int32_t samples);
 void e3d_multisample_free(e3d_multisample_memory *memory);
 
-/* These return 0 when memory is out. */
+/* These functions return 0 when memory is out. */
 
 /* Draws a tile to its pixels. */
 int e3d_multisample_draw(const e3d_tile_job *job);
-
-#endif

@@ -1,6 +1,5 @@
-/* A record as it lies in one tile. */
-#ifndef E3D_TILE_PIECE_H
-#define E3D_TILE_PIECE_H
+/* A piece: a record in one tile. */
+#pragma once
 
 #include <stdint.h>
 
@@ -12,7 +11,7 @@
 #include "frame/pass/prepared.h"
 #include "frame/pass/view.h"
 
-/* The box of a record, and the base of its planes. */
+/* Finds the box of a record, and the base of its planes. */
 static inline void e3d_piece_box(const e3d_viewport *viewport, const e3d_record *record, const e3d_tile *tile, e3d_piece *piece)
 {
     e3d_box box = e3d_sample_box(record->x, record->y, viewport);
@@ -35,7 +34,7 @@ static inline void e3d_piece_rest(const e3d_record *record, uint32_t slot, e3d_p
     piece->order = record->order;
 }
 
-/* 0 if an edge rejects the whole tile. */
+/* Finds a record's piece in a tile; 0 if an edge rejects the whole tile. */
 static inline int e3d_piece_in_tile(const e3d_viewport *viewport, const e3d_record *record, const e3d_tile *tile, uint32_t slot,
                                     e3d_piece *piece)
 {
@@ -47,7 +46,7 @@ static inline int e3d_piece_in_tile(const e3d_viewport *viewport, const e3d_reco
     return 1;
 }
 
-/* R14 at a sample of the tile. */
+/* R14: the depth at a sample of the tile. */
 static inline float e3d_piece_depth(const e3d_piece *p, int32_t x, int32_t y)
 {
     float z = (p->z0 + (float)(x - p->base_x) * p->gx) + (float)(y - p->base_y) * p->gy;
@@ -55,7 +54,7 @@ static inline float e3d_piece_depth(const e3d_piece *p, int32_t x, int32_t y)
     return z < p->zmax ? z : p->zmax;
 }
 
-/* The same as e3d_piece_in_tile with multisampling, in the plane of a sample (R104). Its box is filled in in any case. */
+/* The same with multisampling, in the plane of a sample (R104). The box is found in any case. */
 static inline int e3d_piece_in_plane(const e3d_prepared *pass, int sample, const e3d_record *record, const e3d_tile *tile, uint32_t slot,
                                      e3d_piece *piece)
 {
@@ -69,5 +68,3 @@ static inline int e3d_piece_in_plane(const e3d_prepared *pass, int sample, const
             return 0;
     return 1;
 }
-
-#endif

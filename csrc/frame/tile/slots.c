@@ -1,17 +1,9 @@
-/* raster, record by record: each record has a slot, in the order of the bins, and samples keep the slot of the one that shows.
- *
- * Where the last record in order shows (R16), where records are shaded at once, and where they are counted or are edges.
- */
+/* raster, record by record: each record has a slot, in the order of the bins, and a sample keeps the slot of the record that
+ * shows. This way is taken if the last record in order shows (R16), if records are shaded at once, and for counts and edges. */
 #include <math.h>
 
 #include "base/grow.h"
 #include "base/limits.h"
-#include "kernels/coverage.h"
-#include "kernels/types/records.h"
-#include "kernels/types/samples.h"
-#include "kernels/types/shown.h"
-#include "kernels/types/vertices.h"
-#include "kernels/types/visible.h"
 #include "frame/geometry/bin.h"
 #include "frame/geometry/lines.h"
 #include "frame/geometry/records.h"
@@ -19,11 +11,14 @@
 #include "frame/shade/shade.h"
 #include "frame/store/resolve.h"
 #include "frame/tile/alpha_test.h"
-#include "frame/tile/job.h"
-#include "frame/tile/memory.h"
 #include "frame/tile/piece.h"
 #include "frame/tile/slots.h"
 #include "frame/tile/visible.h"
+#include "kernels/coverage.h"
+#include "kernels/types/records.h"
+#include "kernels/types/samples.h"
+#include "kernels/types/vertices.h"
+#include "kernels/types/visible.h"
 
 void e3d_marks_init(e3d_marks_memory *marks)
 {
@@ -41,7 +36,7 @@ void e3d_slots_free(e3d_slots_state *slots)
 
 typedef int (*piece_action)(const e3d_tile_job *job, const e3d_piece *piece);
 
-/* The next free slot is this record's. */
+/* Gives a record the next free slot. */
 static int add_slot(e3d_slots_state *slots, uint32_t id, uint32_t order)
 {
     size_t n = slots->ids.count;
@@ -58,7 +53,7 @@ static const e3d_record *record_of(const e3d_tile_job *job, int which, uint32_t 
     return e3d_record_at(&job->in->bins->tables[which], ((const uint32_t *)job->memory->slots.ids.data)[slot]);
 }
 
-/* In the tile, or in the plane of it that the job is about. */
+/* Finds the piece in the tile, or in the plane that the job names. */
 static int find_piece(const e3d_tile_job *job, const e3d_record *record, uint32_t slot, e3d_piece *piece)
 {
     const e3d_prepared *pass = job->in->pass;
@@ -66,15 +61,15 @@ static int find_piece(const e3d_tile_job *job, const e3d_record *record, uint32_
                          : e3d_piece_in_tile(&pass->view->viewport, record, &job->tile, slot, piece);
 }
 
-static int visit_block(const e3d_tile_job *job, int which, const e3d_bin_block *block, piece_action action)
+static int visit_link(const e3d_tile_job *job, int which, const e3d_bin_link *link, piece_action action)
 {
     e3d_slots_state *slots = &job->memory->slots;
-    for (uint32_t i = 0; i < block->count; i++) {
-        const e3d_record *record = e3d_record_at(&job->in->bins->tables[which], block->id[i]);
+    for (uint32_t i = 0; i < link->count; i++) {
+        const e3d_record *record = e3d_record_at(&job->in->bins->tables[which], link->id[i]);
         e3d_piece piece;
         if (!find_piece(job, record, (uint32_t)slots->ids.count, &piece))
             continue;
-        if (!add_slot(slots, block->id[i], record->order) || !action(job, &piece))
+        if (!add_slot(slots, link->id[i], record->order) || !action(job, &piece))
             return 0;
     }
     return 1;
@@ -86,9 +81,9 @@ static int visit_bins(const e3d_tile_job *job, int which, piece_action action)
     job->memory->slots.ids.count = 0;
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[which];
-        const e3d_bin_block *block = e3d_first_records(set, 0, job->number);
-        for (; block; block = e3d_bin_block_at(set, block->next))
-            if (!visit_block(job, which, block, action))
+        const e3d_bin_link *link = e3d_first_records(set, 0, job->number);
+        for (; link; link = e3d_bin_link_at(set, link->next))
+            if (!visit_link(job, which, link, action))
                 return 0;
     }
     return 1;
@@ -119,7 +114,7 @@ static int act_count(const e3d_tile_job *job, const e3d_piece *piece)
     return 1;
 }
 
-/* R36: an edge may lie behind the kept depth by the slope of that piece over the line's reach. */
+/* R36: an edge may lie behind the kept depth by the slope of its piece times the line's reach. */
 static void find_edge_limits(const e3d_tile_job *job)
 {
     e3d_marks_memory *marks = &job->memory->marks;
@@ -151,7 +146,7 @@ static int act_mark(const e3d_tile_job *job, const e3d_piece *piece)
     return 1;
 }
 
-/* The runs of one slot in a box, owned by its record. */
+/* Finds the runs of one slot in a box; their owner is the slot's record. */
 static int32_t runs_of_slot(const e3d_tile_job *job, int32_t slot, const e3d_box *box)
 {
     e3d_run *runs = job->memory->shade.runs.rows;
@@ -167,7 +162,7 @@ static int32_t runs_of_slot(const e3d_tile_job *job, int32_t slot, const e3d_box
     return count;
 }
 
-/* Forward shading: whatever the piece just won is shaded at once. */
+/* Forward shading: shades at once the samples that a piece has just won. */
 static int act_forward(const e3d_tile_job *job, const e3d_piece *piece)
 {
     act_visible(job, piece);
@@ -224,7 +219,7 @@ int e3d_slots_mark(const e3d_tile_job *job)
     if (!counts && !edges)
         return 1;
     if (e3d_plans(pass, E3D_PLAN_EDGE_DEPTHS))
-        find_edge_limits(job); /* while the slots are the scene's */
+        find_edge_limits(job); /* while the slots are still the scene's */
     if (counts) {
         clear_marks(marks);
         if (!visit_bins(job, E3D_SET_SCENE, act_count) || !e3d_alpha_count(job))

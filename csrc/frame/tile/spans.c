@@ -1,42 +1,36 @@
-/* raster without depths: few records of a tile are mostly neighbours that don't meet, and all that they cover shows; where some meet,
- * most lie clearly behind others.
- */
+/* raster without depths, for tiles of few records: these are mostly neighbours that don't meet, and show in full. Where some
+ * meet, most lie clearly behind others. */
 #include <string.h>
 
 #include "base/limits.h"
-#include "kernels/kernels.h"
-#include "kernels/types/fragments.h"
-#include "kernels/types/shown.h"
-#include "kernels/types/visible.h"
-#include "frame/geometry/bin.h"
 #include "frame/geometry/records.h"
-#include "frame/pass/view.h"
 #include "frame/shade/runs.h"
-#include "frame/tile/memory.h"
 #include "frame/tile/spans.h"
+#include "kernels/types/fragments.h"
+#include "kernels/types/visible.h"
 
-/* Whether a tile has few records, and no fragments. Of many not all bins are looked through. */
+/* Whether a tile has few records, and no fragments. It stops as soon as there are too many. */
 static int are_few(const e3d_bins *bins, int64_t tile)
 {
     uint32_t count = 0;
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
-        if (e3d_first_block(&bins->of[t]->fragments.chains, 0, tile) != E3D_NO_BLOCK)
+        if (e3d_first_link(&bins->of[t]->fragments.chains, 0, tile) != E3D_NO_LINK)
             return 0;
-        for (const e3d_bin_block *block = e3d_first_records(set, 0, tile); block; block = e3d_bin_block_at(set, block->next))
-            if ((count += block->count) > E3D_MOST_COVERING)
+        for (const e3d_bin_link *link = e3d_first_records(set, 0, tile); link; link = e3d_bin_link_at(set, link->next))
+            if ((count += link->count) > E3D_MOST_COVERING)
                 return 0;
     }
     return 1;
 }
 
-/* Finds what the records of a tile's bins cover, and lists all of it; 0 where that is too much. */
+/* Finds the samples that the records of a tile's bins cover, and lists all of them; 0 if there are too many. */
 static int cover_records(const e3d_kernels *kernels, const e3d_bins *bins, int64_t tile, e3d_tile_memory *memory)
 {
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
-        for (const e3d_bin_block *block = e3d_first_records(set, 0, tile); block; block = e3d_bin_block_at(set, block->next))
-            if (!kernels->cover_records(&memory->spans.cover, &bins->tables[E3D_SET_SCENE], block->id, (int)block->count,
+        for (const e3d_bin_link *link = e3d_first_records(set, 0, tile); link; link = e3d_bin_link_at(set, link->next))
+            if (!kernels->cover_records(&memory->spans.cover, &bins->tables[E3D_SET_SCENE], link->id, (int)link->count,
                                         &memory->shade.shown))
                 return 0;
     }
@@ -64,7 +58,7 @@ static int meet(const e3d_cover *cover)
     return twice != 0;
 }
 
-/* Sorts records by their nearest depths. None is negative, so their bits compare as they do. */
+/* Sorts records by their nearest depths. None is negative, so that their bits sort in the same order. */
 static void sort_by_depth(e3d_tile_memory *memory, const uint16_t *numbers, int count, uint16_t *sorted)
 {
     for (int i = 0; i < count; i++) {
@@ -76,7 +70,7 @@ static void sort_by_depth(e3d_tile_memory *memory, const uint16_t *numbers, int 
         sorted[i] = runs[i].sample;
 }
 
-/* Makes the list of what shows where records meet; 0 where depths of all samples are found sooner. */
+/* Lists what shows where records meet; 0 if a depth buffer would be faster. */
 static int show_met(const e3d_kernels *kernels, const e3d_record_table *table, e3d_tile_memory *memory)
 {
     uint16_t numbers[E3D_MOST_COVERING];
@@ -86,11 +80,12 @@ static int show_met(const e3d_kernels *kernels, const e3d_record_table *table, e
     return kernels->show_layers(&memory->spans.cover, table, numbers, count, &memory->spans.layers, &memory->shade.shown);
 }
 
-/* Tiles that follow each other are alike: where spans did not pay, more and more of them go without. */
+/* Neighbouring tiles are alike: each time that spans don't pay, more tiles go without them. */
 static void judge(e3d_spans_memory *trial, int pays)
 {
     enum { MOST = 15 };
-    trial->without = pays ? 0 : 2 * trial->without + 1 < MOST ? 2 * trial->without + 1 : MOST;
+    trial->without = pays ? 0 : 2 * trial->without + 1 < MOST ? 2 * trial->without + 1
+                                                              : MOST;
     trial->left = trial->without;
 }
 

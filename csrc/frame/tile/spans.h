@@ -1,6 +1,5 @@
-/* What shows of few records, found without depths. */
-#ifndef E3D_SPANS_H
-#define E3D_SPANS_H
+/* Finds what shows of few records without depths. */
+#pragma once
 
 #include <stdint.h>
 
@@ -10,9 +9,7 @@
 #include "frame/pass/view.h"
 #include "frame/tile/memory.h"
 
-/* Makes the list of what shows of few records; 0 where they are too large for that, or meet too much. */
+/* Lists what shows of few records; 0 if they are too large, or meet too much. */
 int e3d_show_spans(const e3d_kernels *kernels, const e3d_bins *bins, const e3d_tile *tile, int64_t number, e3d_tile_memory *out);
-/* Whether they left no gap. */
+/* Whether the records left no gap. */
 int e3d_spans_cover_all(const e3d_cover *cover);
-
-#endif

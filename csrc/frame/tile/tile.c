@@ -1,14 +1,10 @@
-/* raster, shade and resolve: one tile after another, each by one thread from first to last. */
+/* raster, shade and resolve: draws one tile after another; one thread does all stages of a tile. */
 #include <stdatomic.h>
 
 #include "base/clock.h"
 #include "base/limits.h"
 #include "base/machine.h"
 #include "base/pool.h"
-#include "e3d.h"
-#include "kernels/kernels.h"
-#include "kernels/types/shown.h"
-#include "kernels/types/visible.h"
 #include "frame/cull/depths.h"
 #include "frame/geometry/bin.h"
 #include "frame/geometry/records.h"
@@ -23,33 +19,35 @@
 #include "frame/store/tile_state.h"
 #include "frame/tile/alpha_test.h"
 #include "frame/tile/blend.h"
-#include "frame/tile/job.h"
 #include "frame/tile/memory.h"
 #include "frame/tile/multisample.h"
 #include "frame/tile/slots.h"
 #include "frame/tile/spans.h"
 #include "frame/tile/tile.h"
 #include "frame/tile/visible.h"
+#include "kernels/kernels.h"
+#include "kernels/types/shown.h"
+#include "kernels/types/visible.h"
 
-/* Whether the tile's pixels are written, but for what the last round added. Those of several samples are averages by now, and so all of
- * them are shaded once more. */
+/* Whether an earlier round drew this tile, and only the last round's primitives are new. With several samples a pixel, the
+ * pixels are averages already, so that all of them are shaded again. */
 static int is_again(const e3d_tile_job *job) { return job->state == E3D_TILE_DRAWN && job->in->pass->frame->samples_axis == 1; }
 
 /* ---- stages of a tile ---- */
 
-/* The runs of what shows in the tile, and whether there are gaps between them; how many. */
+/* Finds the runs of what shows in the tile, and whether there are gaps between them; returns how many. */
 static int32_t find_runs(const e3d_tile_job *job, int *gaps)
 {
     return job->in->pass->kernels->find_runs(job->visible, job->tile.width, job->tile.height, job->memory->shade.runs.rows, gaps);
 }
 
-/* Whether shading leaves an output as it was: where layers are counted, no sample gets a colour, nor has it radiance. */
+/* Whether shading writes no colours and no radiance, since layers are counted. */
 static int leaves_outputs(const e3d_prepared *pass)
 {
     return (pass->targets->color || pass->targets->radiance) && !e3d_plans(pass, E3D_PLAN_COLORS);
 }
 
-/* Fills the tile with what its samples are before they are shaded; nothing is filled where all of them will be. */
+/* Fills the tile with its background before it is shaded; `all`: every sample will be shaded, so nothing is filled. */
 static void begin(const e3d_tile_job *job, int all)
 {
     const e3d_store *store = job->in->shade->store;
@@ -64,10 +62,10 @@ static int shade_runs(const e3d_tile_job *job, int32_t count)
     return e3d_shade_runs(job->in->shade, &job->tile, count, &job->shades);
 }
 
-/* What a tile's records with alpha need: depths and IDs of all samples, and colours to lay others over. */
+/* Whether the tile has records with alpha; they need depths and IDs of all samples, and colours to be blended over. */
 static int has_alpha(const e3d_tile_job *job) { return job->masked || job->blended; }
 
-/* Slots become IDs, before anything else shows: samples of records with alpha keep these. */
+/* Replaces slots by IDs, which samples of records with alpha keep. */
 static void name_samples(const e3d_tile_job *job)
 {
     int32_t *id = job->visible->id;
@@ -76,7 +74,7 @@ static void name_samples(const e3d_tile_job *job)
             id[i] = ((const int32_t *)job->memory->slots.ids.data)[id[i]];
 }
 
-/* Piece after piece, each with a slot of its own: forward shading, and where the last in order wins. */
+/* Draws piece after piece, each with a slot: for forward shading, and if the last one in order wins. */
 static int draw_pieces(const e3d_tile_job *job)
 {
     e3d_tile_memory *memory = job->memory;
@@ -103,17 +101,17 @@ static int draw_pieces(const e3d_tile_job *job)
     return 1;
 }
 
-/* Whether the last round drew what owns a run, a record or a cluster of fragments. */
+/* Whether the last round drew the owner of a run: a record, or a cluster of fragments. */
 static int is_from_last_round(const e3d_bins *bins, uint32_t id)
 {
     int bits = bins->tables[E3D_SET_SCENE].bits;
-    const e3d_geometry_state *state = bins->of[id & ((1u << bits) - 1)];
+    const e3d_geometry_memory *state = bins->of[id & ((1u << bits) - 1)];
     uint32_t number = (id & (E3D_FRAGMENT_ID - 1)) >> bits;
     return id & E3D_FRAGMENT_ID ? number / E3D_CLUSTER_TRIANGLES >= state->fragments.earlier_drawn
                                 : number >= state->sets[E3D_SET_SCENE].earlier_records;
 }
 
-/* Only the runs that are not shaded yet; the others' samples are counted. */
+/* Removes the runs that are shaded already, and counts their samples. */
 static int32_t leave_out_shaded(const e3d_tile_job *job, int32_t count)
 {
     e3d_run *runs = job->memory->shade.runs.rows;
@@ -126,20 +124,22 @@ static int32_t leave_out_shaded(const e3d_tile_job *job, int32_t count)
     return left;
 }
 
-enum { FEW_PIECES = 64, MANY_RECORDS = 768, MOSTLY = 4 }; /* in a tile */
+enum { FEW_PIECES = 64,
+       MANY_RECORDS = 768,
+       MOSTLY = 4 }; /* in a tile */
 
-/* Whether samples are found where pieces lie: the bins must hold all of them, and few records be wide or hidden. */
+/* Whether samples are listed piece by piece: the bins must hold all of the tile, and few records may be wide or hidden. */
 static int shows_pieces(const e3d_tile_job *job)
 {
     if (!e3d_plans(job->in->pass, E3D_PLAN_LISTS) || job->state == E3D_TILE_KEPT || job->state == E3D_TILE_DRAWN ||
         has_alpha(job))
         return 0;
     e3d_entries in = e3d_count_entries(job->in->bins, job->number);
-    uint32_t most = job->out->kept ? in.fragments / MOSTLY : MANY_RECORDS; /* kept: where things hide each other */
+    uint32_t most = job->out->kept ? in.fragments / MOSTLY : MANY_RECORDS; /* tiles are kept where much is hidden */
     return in.records <= most && in.records + in.fragments >= FEW_PIECES;
 }
 
-/* No ID beyond the viewport, where whole blocks and vectors are written, too. */
+/* Removes IDs beyond the viewport, where whole blocks and vectors are written, too. */
 static void clear_outside(const e3d_tile_job *job)
 {
     int32_t *id = job->visible->id;
@@ -167,7 +167,7 @@ static int shade_visible(const e3d_tile_job *job)
     return shade_runs(job, is_again(job) ? leave_out_shaded(job, count) : count);
 }
 
-/* Tries to find without depths what shows of few records. */
+/* Tries to find what shows of few records without depths. */
 static int shows_spans(const e3d_tile_job *job)
 {
     const e3d_prepared *pass = job->in->pass;
@@ -232,7 +232,7 @@ static int draw_visible(const e3d_tile_job *job)
     return found;
 }
 
-/* To pixels, or samples that become pixels. */
+/* Draws a tile to pixels, or to samples that become pixels. */
 static int draw_samples(const e3d_tile_job *job)
 {
     int drawn = e3d_plans(job->in->pass, E3D_PLAN_SLOTS) ? draw_pieces(job) : draw_visible(job);
@@ -254,7 +254,7 @@ static int draw_job(const e3d_tile_job *job)
 
 /* ---- all tiles ---- */
 
-/* Where the tile's visible surface is: the first plane of it. */
+/* The tile's visible surface; with multisampling, that of the first plane. */
 static e3d_visible_tile *visible_of(const e3d_prepared *pass, const e3d_tiles_out *out, e3d_tile_memory *memory, int64_t number, e3d_tile_state state)
 {
     if (state == E3D_TILE_KEPT)
@@ -262,13 +262,13 @@ static e3d_visible_tile *visible_of(const e3d_prepared *pass, const e3d_tiles_ou
     return pass->pattern ? memory->multisample->planes : &memory->visible;
 }
 
-/* 0 when memory is out. */
+/* Draws a tile; 0 when memory is out. */
 static int draw_tile(const e3d_tiles_in *in, e3d_tiles_out *out, e3d_tile_memory *memory, int64_t number)
 {
     e3d_tile_progress *progress = &out->progress[number];
     const e3d_tile_state state = e3d_tile_state_of(progress);
     if (state != E3D_TILE_KEPT && !e3d_has_bins(in->bins, number))
-        return 1; /* it is cleared, or drawn as it should be */
+        return 1; /* it is cleared, or fully drawn already */
     const int blended = e3d_has_alpha(in->bins, E3D_ALPHA_BLENDED, number);
     const e3d_tile_job job = {.in = in,
                               .out = out,
@@ -286,7 +286,7 @@ static int draw_tile(const e3d_tiles_in *in, e3d_tiles_out *out, e3d_tile_memory
     if (!draw_job(&job))
         return 0;
     int64_t shaded = memory->shade.shaded - before;
-    memory->shade.shaded -= progress->shaded; /* of a tile that is drawn twice, the second time counts */
+    memory->shade.shaded -= progress->shaded; /* if a tile is drawn twice, only the second time counts */
     progress->shaded = (int32_t)shaded;
     e3d_tile_set_state(progress, E3D_TILE_DRAWN);
     return 1;
@@ -297,17 +297,17 @@ typedef struct tiles_job {
     const e3d_tiles_in *in;
     e3d_tiles_out *out;
     int64_t last_poll;
-    atomic_int status; /* e3d_status: what isn't E3D_OK stops all */
+    atomic_int status; /* e3d_status: the first one that isn't E3D_OK stops all threads */
 } tiles_job;
 
-/* The first reason stands. */
+/* Stops all threads; the first reason stays. */
 static void stop(tiles_job *job, e3d_status reason)
 {
     int none = E3D_OK;
     atomic_compare_exchange_strong(&job->status, &none, (int)reason);
 }
 
-/* The calling thread asks at most every 20 ms; who is asked may look less often. */
+/* The calling thread polls at most every 20 ms; the callback itself may look less often. */
 static void poll(tiles_job *job, int64_t now)
 {
     const e3d_poll *poll = &job->in->poll;

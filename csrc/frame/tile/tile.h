@@ -1,11 +1,8 @@
-/* The tiles of a picture, one after the other. */
-#ifndef E3D_TILE_H
-#define E3D_TILE_H
+/* Draws the tiles of a picture, one after the other. */
+#pragma once
 
 #include "e3d.h"
 #include "frame/tile/job.h"
 
-/* Draws all tiles that something is in, and clears the others, until memory is out or the poll says stop. */
+/* Draws all tiles that hold anything, and clears the others, until memory is out or the poll says stop. */
 e3d_status e3d_tiles(const e3d_tiles_in *in, e3d_tiles_out *out);
-
-#endif

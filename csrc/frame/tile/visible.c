@@ -1,14 +1,8 @@
-/* raster, the visible surface: a tile's records and fragments to the IDs that its samples keep. */
+/* raster, the visible surface: draws a tile's records and fragments; each sample keeps an ID. */
 #include "base/always_inline.h"
 #include "base/limits.h"
-#include "kernels/kernels.h"
 #include "kernels/types/fragments.h"
-#include "kernels/types/shown.h"
-#include "kernels/types/visible.h"
-#include "frame/geometry/bin.h"
 #include "frame/geometry/records.h"
-#include "frame/pass/prepared.h"
-#include "frame/pass/view.h"
 #include "frame/tile/visible.h"
 
 enum { FETCHED = 16 };
@@ -34,18 +28,18 @@ void e3d_visible_empty(e3d_visible_tile *visible)
     visible->noted = 0;
 }
 
-/* The first records of a block are in no near cache when they are drawn. */
-static ALWAYS_INLINE void fetch_records(const e3d_record_table *table, const e3d_bin_block *block)
+/* Prefetches the first records of a link, which are in no near cache. */
+static ALWAYS_INLINE void fetch_records(const e3d_record_table *table, const e3d_bin_link *link)
 {
-    for (uint32_t i = 0; i < FETCHED && i < block->count; i++)
-        __builtin_prefetch(e3d_record_at(table, block->id[i]));
+    for (uint32_t i = 0; i < FETCHED && i < link->count; i++)
+        __builtin_prefetch(e3d_record_at(table, link->id[i]));
 }
 
-/* The next block of each thread in turn: all of them list records from near to far. */
+/* Draws the next link of each thread in turn: all threads list records from near to far. */
 static void draw_records(const e3d_prepared *pass, const e3d_bins *bins, int64_t tile_number, int earlier, e3d_visible_tile *out)
 {
     const e3d_record_table *table = &bins->tables[E3D_SET_SCENE];
-    const e3d_bin_block *next[E3D_MAX_THREADS];
+    const e3d_bin_link *next[E3D_MAX_THREADS];
     int32_t left = bins->threads;
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *set = &bins->of[t]->sets[E3D_SET_SCENE];
@@ -56,37 +50,37 @@ static void draw_records(const e3d_prepared *pass, const e3d_bins *bins, int64_t
         for (int32_t t = 0; t < bins->threads; t++) {
             if (!next[t])
                 continue;
-            const e3d_bin_block *block = next[t];
-            next[t] = e3d_bin_block_at(&bins->of[t]->sets[E3D_SET_SCENE], block->next);
+            const e3d_bin_link *link = next[t];
+            next[t] = e3d_bin_link_at(&bins->of[t]->sets[E3D_SET_SCENE], link->next);
             if (next[t])
                 fetch_records(table, next[t]);
             if (pass->pattern)
-                pass->kernels->raster_planes(out, pass->pattern, table, block->id, (int)block->count);
+                pass->kernels->raster_msaa(out, pass->pattern, table, link->id, (int)link->count);
             else
-                pass->kernels->raster_visible(out, table, block->id, (int)block->count);
+                pass->kernels->raster_visible(out, table, link->id, (int)link->count);
             left += next[t] != NULL;
         }
     }
 }
 
-/* Blocks are in no cache when they are read first. */
-static ALWAYS_INLINE void fetch_block(const e3d_fragment_block *block)
+/* Prefetches a link, which is in no cache. */
+static ALWAYS_INLINE void fetch_link(const e3d_fragment_link *link)
 {
     enum { LINE = 64 };
-    for (size_t at = 0; at < sizeof *block; at += LINE)
-        __builtin_prefetch((const char *)block + at);
+    for (size_t at = 0; at < sizeof *link; at += LINE)
+        __builtin_prefetch((const char *)link + at);
 }
 
 static void draw_fragments(const e3d_kernels *kernels, const e3d_bins *bins, int64_t tile_number, int earlier, e3d_visible_tile *out)
 {
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_fragment_set *set = &bins->of[t]->fragments;
-        const e3d_fragment_block *block = e3d_first_fragments(set, earlier, tile_number), *next;
-        for (; block; block = next) {
-            next = e3d_fragment_block_at(set, block->next);
+        const e3d_fragment_link *link = e3d_first_fragments(set, earlier, tile_number), *next;
+        for (; link; link = next) {
+            next = e3d_fragment_link_at(set, link->next);
             if (next)
-                fetch_block(next);
-            kernels->raster_fragments(out, &bins->tables[E3D_SET_SCENE], block);
+                fetch_link(next);
+            kernels->raster_fragments(out, &bins->tables[E3D_SET_SCENE], link);
         }
     }
 }
@@ -106,11 +100,11 @@ void e3d_visible_show(const e3d_kernels *kernels, const e3d_bins *bins, int64_t 
     for (int32_t t = 0; t < bins->threads; t++) {
         const e3d_record_set *records = &bins->of[t]->sets[E3D_SET_SCENE];
         const e3d_fragment_set *fragments = &bins->of[t]->fragments;
-        const e3d_bin_block *block = e3d_first_records(records, 0, tile_number);
-        for (; block; block = e3d_bin_block_at(records, block->next))
-            kernels->show_records(visible, &bins->tables[E3D_SET_SCENE], block->id, (int)block->count, out);
-        const e3d_fragment_block *small = e3d_first_fragments(fragments, 0, tile_number);
-        for (; small; small = e3d_fragment_block_at(fragments, small->next))
+        const e3d_bin_link *link = e3d_first_records(records, 0, tile_number);
+        for (; link; link = e3d_bin_link_at(records, link->next))
+            kernels->show_records(visible, &bins->tables[E3D_SET_SCENE], link->id, (int)link->count, out);
+        const e3d_fragment_link *small = e3d_first_fragments(fragments, 0, tile_number);
+        for (; small; small = e3d_fragment_link_at(fragments, small->next))
             kernels->show_fragments(visible, small, out);
     }
 }

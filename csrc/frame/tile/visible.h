@@ -1,6 +1,5 @@
-/* The visible surface of a tile by record ID, for whatever shades it afterwards. */
-#ifndef E3D_VISIBLE_H
-#define E3D_VISIBLE_H
+/* The visible surface of a tile, by record IDs; shading comes afterwards. */
+#pragma once
 
 #include <stdint.h>
 
@@ -12,12 +11,11 @@
 #include "frame/pass/view.h"
 
 void e3d_visible_clear(e3d_visible_tile *visible, const e3d_tile *tile);
-/* The same for what writes sample by sample, and knows of no blocks. */
+/* The same for callers that write sample by sample, and know no blocks. */
 void e3d_visible_empty(e3d_visible_tile *visible);
-/* Draws what is in a tile's bins, with multisampling into all planes; `earlier`: first what was in them when the tile was finished. */
+/* Draws what is in a tile's bins; with multisampling, into all planes. `earlier`: begins with the bins of the round that
+ * finished the tile. */
 void e3d_visible_draw(const e3d_prepared *pass, const e3d_bins *bins, int64_t tile_number, int earlier, e3d_visible_tile *out);
-/* Makes the list of what shows, where the tile's bins hold all of it. */
+/* Lists what shows, if the tile's bins hold all of it. */
 void e3d_visible_show(const e3d_kernels *kernels, const e3d_bins *bins, int64_t tile_number, const e3d_visible_tile *visible,
                       e3d_shown *out);
-
-#endif

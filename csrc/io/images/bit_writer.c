@@ -1,7 +1,5 @@
-/* A growing list of bytes that takes bits, the first bit lowest.
- *
- * Always: after an allocation failed, nothing more is written and `failed` says so.
- */
+/* A growing list of bytes to which bits are written, the first bit lowest.
+ * Always: after an allocation failed, nothing more is written, and `failed` is set. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -17,7 +17,7 @@
 
 #define MIN_MATCH 4
 #define MAX_MATCH 258
-#define LONG_MATCH 16    /* of longer ones only the ends are entered in the table */
+#define LONG_MATCH 16    /* of longer matches only the ends are entered in the table */
 
 #define LITERALS 256
 #define END_OF_BLOCK 256
@@ -29,8 +29,8 @@
 struct deflater {
     bit_writer *out;
     size_t filled;  /* bytes in the buffer; those before `pending` are compressed */
-    size_t pending; /* where the block begins that is being made */
-    uint32_t base;  /* stream position of buffer[0], plus a window: 0 is never a place in reach */
+    size_t pending; /* where the block that is being made begins */
+    uint32_t base;  /* the stream position of buffer[0], plus a window, so that 0 is never a place in reach */
     uint32_t token_count;
     uint32_t tokens[DEFLATE_MAX_TOKENS]; /* a literal, or length << 16 | distance */
     uint32_t literal_frequency[LENGTH_SYMBOLS];
@@ -39,7 +39,7 @@ struct deflater {
     uint8_t buffer[DEFLATE_ROOM];
 };
 
-/* A symbol, and what distinguishes the values that share it. */
+/* A symbol, and the extra bits that distinguish the values sharing it. */
 typedef struct symbol_bits {
     uint32_t symbol;
     uint32_t extra;
@@ -80,7 +80,7 @@ static symbol_bits distance_symbol(uint32_t distance)
 
 /* Blocks */
 
-/* The lengths of both codes as one list, with repeats told by the symbols 16 to 18. */
+/* The lengths of both codes as one list, in which the symbols 16 to 18 stand for repeats. */
 typedef struct code_lengths {
     int32_t literal_count, distance_count, item_count;
     uint8_t item[LENGTH_SYMBOLS + DISTANCE_SYMBOLS];
@@ -90,12 +90,13 @@ typedef struct code_lengths {
     int32_t written; /* lengths of `code` that are written, in ORDER */
 } code_lengths;
 
-static const uint8_t ORDER[CODE_LENGTH_SYMBOLS] = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
-                                                   11, 4,  12, 3, 13, 2, 14, 1, 15};
+static const uint8_t ORDER[CODE_LENGTH_SYMBOLS] = {16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15};
 
 static uint32_t repeat_bits(uint32_t item)
 {
+// clang-format off
     return item < 16 ? 0 : item == 16 ? 2 : item == 17 ? 3 : 7;
+// clang-format on
 }
 
 static void add_item(code_lengths *lengths, uint32_t item, uint32_t extra)
@@ -105,7 +106,7 @@ static void add_item(code_lengths *lengths, uint32_t item, uint32_t extra)
     lengths->frequency[item]++;
 }
 
-/* Adds a length that stands `run` times in a row. */
+/* Adds a length that occurs `run` times in a row. */
 static void add_run(code_lengths *lengths, uint32_t length, uint32_t run)
 {
     if (length != 0) {
@@ -113,9 +114,11 @@ static void add_run(code_lengths *lengths, uint32_t length, uint32_t run)
         run--;
     }
     while (run >= 3) {
+// clang-format off
         const uint32_t most = length != 0 ? 6 : run > 10 ? 138 : 10;
         const uint32_t step = run < most ? run : most;
         const uint32_t item = length != 0 ? 16 : most == 10 ? 17 : 18;
+// clang-format on
         add_item(lengths, item, step - (item == 18 ? 11 : 3));
         run -= step;
     }
@@ -164,7 +167,7 @@ static uint64_t coded_bits(const deflater *d, const code_lengths *lengths,
         bits += lengths->code.length[lengths->item[k]] + repeat_bits(lengths->item[k]);
     }
     for (uint32_t symbol = 0; symbol < LENGTH_SYMBOLS; symbol++) {
-        const uint32_t number = symbol - LITERALS - 1; /* 28 groups, four to an extra bit */
+        const uint32_t number = symbol - LITERALS - 1; /* there are 28 groups, four to each number of extra bits */
         const uint32_t extra = symbol < LITERALS + 9 || number == 28 ? 0 : number / 4 - 1;
         bits += (uint64_t)d->literal_frequency[symbol] * (literals->length[symbol] + extra);
     }
@@ -229,7 +232,7 @@ static void write_stored(bit_writer *out, const uint8_t *bytes, size_t count, bo
     } while (count > 0);
 }
 
-/* Writes the tokens so far, which stand for the bytes from `pending` to `end`. */
+/* Writes the tokens so far, for the bytes from `pending` to `end`. */
 static void end_block(deflater *d, size_t end, bool is_last)
 {
     huffman_code literals, distances;
@@ -282,7 +285,7 @@ static void enter(deflater *d, size_t at)
     d->places[hash(read_four(d->buffer + at))] = d->base + (uint32_t)at;
 }
 
-/* The length of the match at `at`, which is entered; 0 if there is none. */
+/* Enters the bytes at `at` in the table; returns the length of the match there, or 0. */
 static uint32_t find_match(deflater *d, size_t at, uint32_t limit, uint32_t *distance)
 {
     const uint8_t *here = d->buffer + at;
@@ -297,7 +300,7 @@ static uint32_t find_match(deflater *d, size_t at, uint32_t limit, uint32_t *dis
     return common_length(here, here - back, limit);
 }
 
-/* Turns the buffer from `pending` to its end into blocks; of the last one, only the tokens. */
+/* Turns the buffer from `pending` to its end into blocks; for the last block it only makes the tokens. */
 static void compress(deflater *d)
 {
     const size_t end = d->filled;

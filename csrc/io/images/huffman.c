@@ -1,10 +1,7 @@
 /* Prefix codes of least length, limited to a number of bits.
- *
- * In:  how often each symbol occurs.
- * Out: lengths and bits of the canonical code.
- * Always: integers, and ties go by the symbol's number: the same frequencies give the same code.
- * Sources: van Leeuwen 1976 (two queues); ITU-T T.81, K.2 (limiting the length); RFC 1951, 3.2.2.
- */
+ * In: how often each symbol occurs. Out: lengths and bits of the canonical code.
+ * Always: integers; ties go by the symbol's number, so that the same frequencies give the same code.
+ * Sources: van Leeuwen 1976 (two queues); ITU-T T.81, K.2 (limiting the length); RFC 1951, 3.2.2. */
 #include "huffman.h"
 
 #include <stdlib.h>
@@ -20,7 +17,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The symbols that occur, rarest first: frequency and symbol in one number. */
+/* Sorts the symbols that occur, the rarest first; a word holds frequency and symbol. */
 static int32_t sort_symbols(uint32_t *sorted, const uint32_t *frequency, int32_t count)
 {
     int32_t used = 0;
@@ -42,7 +39,7 @@ static int32_t sort_symbols(uint32_t *sorted, const uint32_t *frequency, int32_t
 static void count_depths(const uint32_t *sorted, int32_t used, int32_t *at_depth)
 {
     uint32_t weight[HUFFMAN_MAX_SYMBOLS];
-    int32_t parent[2 * HUFFMAN_MAX_SYMBOLS]; /* leaves, then the trees in the order they are made */
+    int32_t parent[2 * HUFFMAN_MAX_SYMBOLS]; /* leaves, and then the trees in the order in which they are made */
     int32_t depth[HUFFMAN_MAX_SYMBOLS];
     int32_t leaf = 0;
     int32_t tree = 0;
@@ -69,8 +66,8 @@ static void count_depths(const uint32_t *sorted, int32_t used, int32_t *at_depth
     }
 }
 
-/* Lifts leaves that lie too deep: a pair's sibling takes the pair's place one level up, and the
- * other goes beside a leaf that is moved one level down. */
+/* Lifts leaves that lie too deep: a pair's sibling takes the pair's place one level up, and the other one goes beside a leaf,
+ * which moves one level down. */
 static void limit_depths(int32_t *at_depth, int32_t limit)
 {
     for (int32_t deep = HUFFMAN_MAX_SYMBOLS - 1; deep > limit; deep--) {

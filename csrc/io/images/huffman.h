@@ -1,6 +1,5 @@
 /* Prefix codes for DEFLATE: how long each symbol's code is, and its bits. */
-#ifndef E3D_HUFFMAN_H
-#define E3D_HUFFMAN_H
+#pragma once
 
 #include <stdint.h>
 
@@ -13,9 +12,6 @@ typedef struct huffman_code {
     uint8_t length[HUFFMAN_MAX_SYMBOLS]; /* 0 for symbols that do not occur */
 } huffman_code;
 
-/* Makes the code of `count` symbols that occur `frequency` times, none longer than `limit` bits.
- * Two symbols at least get a code, because some decoders refuse an alphabet of one. Frequencies
- * add up to less than 2^23. */
+/* Makes the code of `count` symbols that occur `frequency` times, none longer than `limit` bits. At least two symbols get a
+ * code, because some decoders refuse an alphabet of one. Frequencies add up to less than 2^23. */
 void huffman_make(huffman_code *code, const uint32_t *frequency, int32_t count, int32_t limit);
-
-#endif

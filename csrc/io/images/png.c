@@ -15,13 +15,16 @@
 
 #define RGBA 4 /* bytes of a pixel of 8 bits a channel */
 #define ADLER_MODULUS 65521u
-#define ADLER_SUMMANDS 5552 /* bytes until the sums could overflow 32 bits */
+#define ADLER_SUMMANDS 5552 /* the most bytes before the sums could overflow 32 bits */
 #define CRC_POLYNOMIAL 0xEDB88320u
 
-typedef enum filter { SUB = 1, UP = 2, AVERAGE = 3, PAETH = 4 } filter;
+typedef enum filter { SUB = 1,
+                      UP = 2,
+                      AVERAGE = 3,
+                      PAETH = 4 } filter;
 
-/* Filters. A pixel has 1 to 8 bytes, which the compiler knows where it matters. So many bytes of zero
- * stand before a row, so that every byte has a left neighbour. */
+/* Filters. A pixel has 1 to 8 bytes, a constant for the compiler where that matters. So many zeros precede a row, so that
+ * every byte has a left neighbour. */
 
 static inline uint8_t paeth(int16_t left, int16_t up, int16_t corner)
 {
@@ -51,7 +54,7 @@ static ALWAYS_INLINE uint8_t difference(const uint8_t *row, const uint8_t *above
     }
 }
 
-/* The sum of the differences' sizes, each as a signed byte. */
+/* The sum of the differences' magnitudes, each as a signed byte. */
 static ALWAYS_INLINE uint32_t cost_of(const uint8_t *row, const uint8_t *above, size_t count, int pixel, filter type)
 {
     uint32_t sum = 0;
@@ -138,7 +141,7 @@ static uint32_t adler(uint32_t sums, const uint8_t *bytes, size_t count)
 }
 
 typedef struct crc_table {
-    uint32_t of_byte[4][256]; /* then of the byte and one, two, three bytes of zero behind it */
+    uint32_t of_byte[4][256]; /* the checksum of a byte followed by no, one, two or three zeros */
 } crc_table;
 
 static void make_crc_table(crc_table *table)
@@ -210,8 +213,8 @@ static void end_chunk(bit_writer *out, size_t start, const crc_table *table)
 static void write_header(bit_writer *out, int32_t width, int32_t height, int channels, int bits, const crc_table *table)
 {
     static const uint8_t signature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-    static const uint8_t color_types[] = {0, 4, 2, 6}; /* grey, with alpha, RGB, RGBA */
-    /* Compressed and filtered as always; not interlaced. */
+    static const uint8_t color_types[] = {0, 4, 2, 6}; /* by channels: grey, grey with alpha, RGB, RGBA */
+    /* compression and filter of the only kind there is; not interlaced */
     const uint8_t form[] = {(uint8_t)bits, color_types[channels - 1], 0, 0, 0};
     writer_bytes(out, signature, sizeof signature);
     const size_t start = begin_chunk(out, "IHDR");
@@ -221,7 +224,7 @@ static void write_header(bit_writer *out, int32_t width, int32_t height, int cha
     end_chunk(out, start, table);
 }
 
-/* The filtered rows, compressed; `rows` is room for two rows that begin with a pixel of zero. */
+/* Writes the filtered rows, compressed; `rows` has room for two rows that begin with a pixel of zero. */
 static void write_rows(bit_writer *out, const uint8_t *pixels, size_t count, int32_t height,
                        ptrdiff_t stride, int pixel, uint8_t *rows)
 {

@@ -22,7 +22,7 @@ static bool fail(reader *r, e3d_rgbe_fault fault)
 
 static bool has(reader *r, size_t count) { return r->length - r->at >= count || fail(r, E3D_RGBE_CUT_SHORT); }
 
-/* One channel of a line: runs (head > 128) of one byte, and stretches of bytes as they are. */
+/* Reads one channel of a line: runs (head > 128) of one byte, and stretches of literal bytes. */
 static bool read_channel(reader *r, size_t width, uint8_t *to)
 {
     for (size_t x = 0; x < width;) {
@@ -41,7 +41,7 @@ static bool read_channel(reader *r, size_t width, uint8_t *to)
     return true;
 }
 
-/* Pixels as they are; 1, 1, 1, n repeats the last one n times, and further ones right behind it 256 n times, and so on. */
+/* Reads literal pixels; 1, 1, 1, n repeats the last pixel n times, and another one right behind it 256 n times, and so on. */
 static bool read_pixels(reader *r, size_t width, uint8_t *to)
 {
     int shift = 0;

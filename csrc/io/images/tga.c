@@ -39,7 +39,7 @@ size_t e3d_tga_unpack(const uint8_t *data, size_t length, int32_t pixel_bytes, u
         } else {
             if (wanted > available) {
                 wanted = available;
-                length = 0; /* ends the loop: the data is cut short */
+                length = 0; /* ends the loop, since the data is cut short */
             }
             memcpy(pixels + done * size, data + position, wanted * size);
             position += wanted * size;

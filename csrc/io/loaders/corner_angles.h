@@ -1,6 +1,5 @@
 /* Vectors in double precision, and angles without libm, whose last bit differs from machine to machine. */
-#ifndef E3D_CORNER_ANGLES_H
-#define E3D_CORNER_ANGLES_H
+#pragma once
 
 #include <math.h>
 #include <stddef.h>
@@ -29,5 +28,3 @@ static inline double arc_cosine(double x)
     const double angle = sqrt(1 - size) * polynomial;
     return x < 0 ? PI - angle : angle;
 }
-
-#endif

@@ -18,17 +18,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where more triangles than two share an edge, each is compared with so many that follow it. */
+/* If more than two triangles share an edge, each is compared with so many that follow it. */
 #define COMPARED 8
 /* Lists of up to this many are sorted by insertion. */
 #define SHORT 48
 
-/* What a triangle brings: its unit normal, 0 without area, and its angles. */
+/* What a triangle contributes: its unit normal (0 without area), and its angles. */
 typedef struct facet {
     float normal[3], angles[3];
 } facet;
 
-/* An edge at a place, of the corner of that number in the list of the place. */
+/* An edge at a place; its corner is numbered in the place's list. */
 typedef struct spoke {
     int32_t end;     /* the place where it ends */
     int32_t corner;
@@ -36,13 +36,13 @@ typedef struct spoke {
     uint8_t hidden;  /* whether it is the diagonal of a polygon */
 } spoke;
 
-/* A corner's fan, as a tree of corners; whether it is turned against its parent. */
+/* A corner's fan, as a tree of corners; and whether the corner is turned against its parent. */
 typedef struct member {
     int32_t parent;
     uint8_t turned;
 } member;
 
-/* A corner by the vertex that it needs. */
+/* A corner, sorted by the vertex that it needs. */
 typedef struct claim {
     int32_t vertex, fan, corner;
     uint8_t turned;
@@ -58,7 +58,7 @@ typedef struct work {
     claim *claims;
     double (*sums)[3];
     e3d_creases *made;
-    size_t room; /* of made->sources and of normals behind the first */
+    size_t room; /* the room of made->sources, and of the added normals */
 } work;
 
 static vector position_at(const e3d_creased_surface *s, int32_t vertex)
@@ -103,7 +103,7 @@ static void list_corners(work *w)
     size_t total = 0;
     for (size_t place = 0; place < s->place_count; place++) {
         const size_t count = ends[place];
-        ends[place] = total; /* where it begins, until its corners are there */
+        ends[place] = total; /* where the list begins, until its corners are filled in */
         total += count;
     }
     for (size_t c = 0; c < corners; c++)
@@ -136,13 +136,13 @@ static int compare_claims(const void *one, const void *other)
 
 E3D_DEFINE_SHORT_SORT(sort_claims, claim, compare_claims, SHORT)
 
-/* The first corner of a member's fan, and whether it is turned against that. */
+/* Finds the root of a member's fan, and whether the member is turned against it. */
 static member root_of(member *members, int32_t corner)
 {
     member found = {corner, 0};
     while (members[found.parent].parent != found.parent) {
         member *const m = &members[found.parent], *const above = &members[m->parent];
-        if (above->parent != m->parent) { /* halve the way for who comes next */
+        if (above->parent != m->parent) { /* path halving: the next search is shorter */
             m->turned ^= above->turned;
             m->parent = above->parent;
         }
@@ -152,7 +152,7 @@ static member root_of(member *members, int32_t corner)
     return found;
 }
 
-/* Makes two corners of one fan; the lower root stays. */
+/* Joins two corners' fans; the lower root stays. */
 static void join(member *members, int32_t one, int32_t other, uint8_t turned)
 {
     member a = root_of(members, one), b = root_of(members, other);
@@ -179,7 +179,7 @@ static void compare(work *w, const int32_t *list, const spoke *one, const spoke 
 
 static int has_area(const facet *f) { return f->normal[0] != 0 || f->normal[1] != 0 || f->normal[2] != 0; }
 
-/* Finds the edges at a place, of triangles that have an area. */
+/* Finds the edges at a place whose triangles have an area. */
 static size_t find_spokes(work *w, const int32_t *list, size_t count)
 {
     const e3d_creased_surface *const s = w->surface;
@@ -196,7 +196,7 @@ static size_t find_spokes(work *w, const int32_t *list, size_t count)
     return spokes;
 }
 
-/* Finds the fans of a place and what their triangles add up to, at the first corner of each. */
+/* Finds the fans of a place, and sums up their triangles at the first corner of each fan. */
 static void find_fans(work *w, const int32_t *list, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -251,7 +251,7 @@ static void put_normal(const work *w, size_t vertex, const claim *c)
 static int split(work *w, const int32_t *list, size_t count)
 {
     const e3d_creased_surface *const s = w->surface;
-    int32_t whole = -1; /* the first fan of triangles that have an area: others hide in it */
+    int32_t whole = -1; /* the first fan of triangles with an area; corners without one join it */
     for (size_t i = 0; i < count && whole < 0; i++)
         if (has_area(facet_at(w, list, (int32_t)i)))
             whole = root_of(w->members, (int32_t)i).parent;
@@ -294,7 +294,7 @@ static int allocate(work *w)
     return w->facets && w->starts && w->corners && made->faces && made->normals;
 }
 
-/* Room for what is found of one place at a time. */
+/* Makes room for the data of one place. */
 static int allocate_place(work *w)
 {
     size_t most = 1;

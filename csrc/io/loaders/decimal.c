@@ -12,19 +12,17 @@
 
 typedef unsigned __int128 wide;
 
-#define POWER_OF_FIVE 27 /* the greatest that 63 bits hold */
-/* Points halfway between two doubles have at most 767 digits: of more it only matters whether any is
- * not zero. */
+#define POWER_OF_FIVE 27 /* the greatest power that 63 bits hold */
+/* Points halfway between two doubles have at most 767 digits. Of further digits it only matters whether any is not zero. */
 #define MOST_DIGITS 768
-/* Value bits that a quotient has at least. */
+/* A quotient has at least so many value bits. */
 #define QUOTIENT_BITS 66
-/* 10^769, or 5^(343 + 769) and a quotient, in 64 bits each, and one for what multiplying carries. */
+/* Room for 10^769, or for 5^(343 + 769) and a quotient, in 64 bits each, and one more for the carry. */
 #define LIMBS 44
 
 const double e3d_powers_of_ten[E3D_EXACT_POWER + 1] = {
-    1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
-};
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11,
+    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 typedef struct integer {
     uint64_t limb[LIMBS]; /* lowest first; the highest is not zero */
@@ -36,10 +34,9 @@ static const uint64_t powers_of_five[POWER_OF_FIVE + 1] = {
     244140625u, 1220703125u, 6103515625u, 30517578125u, 152587890625u, 762939453125u,
     3814697265625u, 19073486328125u, 95367431640625u, 476837158203125u, 2384185791015625u,
     11920928955078125u, 59604644775390625u, 298023223876953125u, 1490116119384765625u,
-    7450580596923828125u,
-};
+    7450580596923828125u};
 
-/* (mantissa + a little more, if `sticky`) * 2^exponent as a double; the mantissa's top bit is set. */
+/* Rounds (mantissa + a little more, if `sticky`) * 2^exponent to a double; the mantissa's top bit is set. */
 static double rounded(uint64_t mantissa, bool sticky, int64_t exponent)
 {
     const int64_t leading = exponent + 63;
@@ -52,7 +49,7 @@ static double rounded(uint64_t mantissa, bool sticky, int64_t exponent)
     const uint64_t rest = drop == 64 ? mantissa : mantissa & (2 * half - 1);
     uint64_t bits = drop == 64 ? 0 : mantissa >> drop;
     bits += rest > half || (rest == half && (sticky || (bits & 1)));
-    /* The leading bit adds one to the exponent, as does what rounding carries over. */
+    /* The leading bit adds one to the exponent, and so does a carry from rounding. */
     if (leading >= -1022)
         bits += (uint64_t)(leading + 1022) << 52;
     double value;
@@ -98,7 +95,7 @@ static void shift_limbs(integer *n, int limbs)
     n->count += limbs;
 }
 
-/* Returns n * 2^exponent, and a little more if `sticky`, as a double. */
+/* Returns n * 2^exponent as a double; `sticky`: plus a little more. */
 static double integer_value(const integer *n, bool sticky, int64_t exponent)
 {
     const int top = n->count - 1, shift = __builtin_clzll(n->limb[top]);
@@ -157,7 +154,7 @@ double e3d_decimal_value(uint64_t digits, int64_t exponent)
         return integer_value(&n, false, exponent);
     }
     const uint64_t divisor = powers_of_five[-exponent];
-    /* Both with their top bit set, the quotient has 63 or 64 bits. */
+    /* With both top bits set, the quotient has 63 or 64 bits. */
     const int shift = __builtin_clzll(digits), divisor_shift = __builtin_clzll(divisor);
     const wide dividend = (wide)(digits << shift) << 63;
     const uint64_t quotient = (uint64_t)(dividend / (divisor << divisor_shift));
@@ -227,7 +224,7 @@ static bool is_word(const uint8_t *text, size_t length, const char *word)
     return true;
 }
 
-/* Leaves out the parentheses that newer libraries of Microsoft put behind nan, such as nan(ind). */
+/* The length without the parentheses that newer Microsoft libraries write behind nan, as in nan(ind). */
 static size_t plain_length(const uint8_t *text, size_t length)
 {
     const uint8_t *const parenthesis = length ? memchr(text, '(', length) : NULL;

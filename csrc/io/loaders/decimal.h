@@ -1,19 +1,16 @@
 /* Decimal text to the nearest double, ties to even: the value that Python's float() gives.
- *
- * In:  text that a byte which is part of no number (such as a line feed) ends.
- * Out: the value, and where the number ends. The locale plays no part.
- * Always: nothing behind that byte is read. Up to 19 digits with a small exponent are read here;
- *      everything else takes e3d_decimal_value(). Source of the fast path: W. D. Clinger, "How to
- *      read floating point numbers accurately", 1990.
- */
-#ifndef E3D_DECIMAL_H
-#define E3D_DECIMAL_H
+ * In: text that is ended by a byte that is part of no number (such as a line feed). Out: the value, and where the number
+ * ends. The locale plays no part.
+ * Always: nothing behind that byte is read.
+ * Up to 19 digits with a small exponent are read here; everything else is read by e3d_decimal_value(). Source of the fast
+ * path: W. D. Clinger, "How to read floating point numbers accurately", 1990. */
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#define E3D_DECIMAL_DIGITS 19 /* of any value so long, 64 bits hold all */
+#define E3D_DECIMAL_DIGITS 19 /* 64 bits hold any number of so many digits */
 #define E3D_EXACT_POWER 22    /* the greatest power of ten that is a double */
 #define E3D_EXACT_INTEGER (UINT64_C(1) << 53)
 
@@ -73,5 +70,3 @@ static inline const uint8_t *e3d_decimal_read(const uint8_t *at, double *value)
     *value = negative ? -size : size;
     return at;
 }
-
-#endif

@@ -71,7 +71,7 @@ static void begin(e3d_ears *e, int32_t count)
 
 static inline bool are_same(e3d_point a, e3d_point b) { return a.x == b.x && a.y == b.y; }
 
-/* Whether a reflex corner lies in the triangle, or (if strict) on its border; those looked at are counted. */
+/* Whether a reflex corner lies in the triangle or (if strict) on its border. Each test is counted. */
 static bool holds_corner(const e3d_ears *e, triangle t, bool strict, int64_t *tests)
 {
     const e3d_point a = e->points[t.a], b = e->points[t.b], c = e->points[t.c];
@@ -96,7 +96,7 @@ static int32_t *put(int32_t *triangles, triangle t)
     return triangles + 3;
 }
 
-/* Cuts the corners that are left as a fan. */
+/* Cuts the remaining corners as a fan. */
 static void put_fan(const e3d_ears *e, int32_t corner, int32_t left, int32_t *triangles)
 {
     int32_t second = e->after[corner];
@@ -133,14 +133,14 @@ void e3d_clip_ears(e3d_ears *ears, int32_t count, int64_t *tests, int32_t *trian
         const bool is_ear = (strict ? size > 0 : size >= 0) && !holds_corner(ears, t, strict, tests);
         if (!is_ear && failures <= 2 * (int64_t)left) {
             failures++;
-            /* No proper ear left: flat corners and points on an ear's border are accepted then. */
+            /* If no proper ear is left, flat corners are accepted, and points on an ear's border. */
             strict = failures <= left;
             corner = t.c;
             continue;
         }
         triangles = put(triangles, t);
         cut_off(ears, t);
-        /* To go on behind the next corner spreads the ears round instead of making one long fan. */
+        /* Continuing behind the next corner spreads the ears, instead of making one long fan. */
         corner = ears->after[t.c];
         left--;
         failures = 0;

@@ -1,10 +1,8 @@
-/* Edges: of the sides of triangles those that are edges of the model, each once.
- *
- * In:  faces, whose indices are in range, perhaps the points that their vertices are, perhaps which sides are wanted.
- * Out: for each side whether it is the first that shows its edge.
- * Always: time grows with the number of sides, whatever they are: sides are listed by their lesser point, then each list marks
- *      the greater ones that it has met.
- */
+/* Edges: finds which sides of triangles are edges of the model, each edge once.
+ * In: faces, whose indices are in range; perhaps the points of their vertices; perhaps which sides are wanted. Out: for each
+ * side whether it is the first one of its edge.
+ * Always: time grows with the number of sides, whatever they are: sides are listed by their lesser point, and each list marks
+ * the greater points that it has met. */
 #include <stdlib.h>
 
 #include "e3d_surfaces.h"
@@ -26,7 +24,7 @@ static int find_side(const e3d_sides *s, size_t number, side *out)
     return a != b && (!s->wanted || s->wanted[number]);
 }
 
-/* Finds where the list of each point ends, one behind the other; the lists are then filled from their ends. */
+/* Finds where the list of each point ends; the lists follow each other, and are filled from their ends. */
 static size_t count_sides(const e3d_sides *s, uint32_t *ends)
 {
     size_t count = 0;
@@ -46,7 +44,7 @@ typedef struct listed {
     uint32_t number; /* of the side */
 } listed;
 
-/* The last sides come first, so that each list begins with its first side. */
+/* Lists the last sides first, so that each list begins with its first side. */
 static void list_sides(const e3d_sides *s, uint32_t *ends, listed *lists)
 {
     side at;

@@ -1,10 +1,8 @@
-/* Whether triangles enclose a volume, their fronts outside.
- *
- * In:  positions, triangles, the place of each vertex. Out: yes or no.
- * They do if each side is run along as often one way as the other, and each of the parts that hang together by sides has a
- * positive volume. A triangle that has two corners at one place has no area and does not count.
- * Volumes are sums in double precision, from the middle of the first triangle, in the order of the triangles.
- */
+/* Finds whether triangles enclose a volume, with their fronts outside.
+ * In: positions, triangles, the place of each vertex. Out: yes or no.
+ * They do if each side is run along equally often in both directions, and each connected part has a positive volume. A
+ * triangle with two corners at one place has no area, and does not count. Volumes are sums in double precision, from the
+ * middle of the first triangle, in the order of the triangles. */
 #include "e3d_surfaces.h"
 
 #include "base/fpenv.h"
@@ -26,8 +24,8 @@ typedef struct work {
     const e3d_creased_surface *surface;
     size_t *starts;   /* [place_count + 2] */
     side *sides;      /* [3 * face_count] */
-    int32_t *parents; /* [face_count] a part as a tree of triangles */
-    double *volumes;  /* [face_count] six times that of a part, at its root */
+    int32_t *parents; /* [face_count] the parts, as trees of triangles */
+    double *volumes;  /* [face_count] six times a part's volume, at its root */
 } work;
 
 static int32_t place_of(const e3d_creased_surface *s, int32_t vertex) { return s->places ? s->places[vertex] : vertex; }
@@ -82,7 +80,7 @@ static int32_t root_of(int32_t *parents, int32_t face)
     return face;
 }
 
-/* Joins the triangles of each side; false if one is not run along as often both ways. */
+/* Joins the triangles of each side; false if one isn't run along equally often in both directions. */
 static bool join_sides(work *w)
 {
     for (size_t place = 0; place < w->surface->place_count; place++) {

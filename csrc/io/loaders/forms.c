@@ -9,7 +9,7 @@
 #include "base/grow.h"
 #include "number_text.h"
 
-/* A line, as far as its pattern was followed. */
+/* A line, as far as it follows a pattern. */
 typedef struct match {
     const uint8_t *at;
     double numbers[E3D_FORM_WIDTH];
@@ -17,7 +17,7 @@ typedef struct match {
     bool is_whole;
 } match;
 
-/* Returns what stands behind a whole number of a few digits; NULL if there is none. */
+/* Returns what follows a whole number of a few digits; NULL if there is none. */
 static const uint8_t *read_whole(const uint8_t *at, size_t *value)
 {
     const uint8_t *const start = at;
@@ -27,7 +27,7 @@ static const uint8_t *read_whole(const uint8_t *at, size_t *value)
     return at == start || e3d_is_digit(*at) || (*start == '0' && at - start > 1) ? NULL : at;
 }
 
-/* Reads what a sign of the pattern stands for; false if something else is there. */
+/* Reads what a character of the pattern stands for; false if something else is there. */
 static bool read_item(const e3d_form_text *text, size_t form, char sign, match *m)
 {
     size_t whole = 0;
@@ -56,13 +56,16 @@ static void fill(const e3d_form *form, match *m)
         m->numbers[m->count++] = form->missing;
 }
 
-/* Follows a form's pattern from m->at on; false if the line has another. */
+/* Follows a form's pattern from m->at on; false if the line doesn't fit. */
 static bool follow(const e3d_form_text *text, size_t number, const uint8_t *end, match *m)
 {
     const e3d_form *const form = &text->forms[number];
     for (const char *sign = form->pattern; *sign; sign++) {
         switch (*sign) {
-        case '%': case '@': case '?': case '#':
+        case '%':
+        case '@':
+        case '?':
+        case '#':
             m->at = e3d_skip_blanks(m->at, end);
             if (m->at == end || !read_item(text, number, *sign, m))
                 return false;
@@ -115,7 +118,7 @@ static bool add_mark(e3d_form_text *text, e3d_mark mark)
     return true;
 }
 
-/* Finds the form of the line that begins at m->at, and its numbers; form_count if it has none. */
+/* Finds the form of the line that begins at m->at, and its numbers; form_count if there is none. */
 static size_t find_form(const e3d_form_text *text, const uint8_t *end, match *m)
 {
     const uint8_t *const start = m->at;

@@ -24,18 +24,18 @@ typedef struct stream {
     const uint8_t *at, *end;
     size_t stride;
     int version;
-    const uint8_t *modes; /* [stride / CHANNEL], of version 1 */
-    uint8_t last[E3D_MESHOPT_MAX_STRIDE]; /* the element before */
+    const uint8_t *modes; /* [stride / CHANNEL], in version 1 */
+    uint8_t last[E3D_MESHOPT_MAX_STRIDE]; /* the previous element */
 } stream;
 
-/* Bits of a delta by what its group says: of version 0, and of control modes 0 and 1. */
+/* The bits of a delta, by the mode of its group: for version 0, and for control modes 0 and 1. */
 static const uint8_t bits_of[3][4] = {{0, 2, 4, 8}, {0, 1, 2, 4}, {1, 2, 4, 8}};
 
 static inline size_t left(const stream *s) { return (size_t)(s->end - s->at); }
 
 static uint8_t packed_delta(const uint8_t *packed, int k, int bits)
 {
-    if (bits == 1) /* the first one stands in the lowest bit; of wider ones in the highest */
+    if (bits == 1) /* one-bit deltas start at the lowest bit, wider ones at the highest */
         return packed[k / 8] >> k % 8 & 1;
     const int in_byte = 8 / bits;
     return (uint8_t)(packed[k / in_byte] >> (in_byte - 1 - k % in_byte) * bits & ((1 << bits) - 1));
@@ -67,7 +67,7 @@ static bool take_group(stream *s, int bits, uint8_t *deltas)
     return true;
 }
 
-/* The deltas of one byte of `count` elements; `deltas` has room for whole groups. */
+/* Reads the deltas of one byte of `count` elements; `deltas` has room for whole groups. */
 static bool take_deltas(stream *s, int control, size_t count, uint8_t *deltas)
 {
     if (s->version == 1 && control == CONTROL_ZERO) {
@@ -143,7 +143,7 @@ static bool take_block(stream *s, size_t count, uint8_t *to)
     return true;
 }
 
-/* Finds the tail; false where there is none, or where it says what no decoder knows. */
+/* Finds the tail; false if there is none, or if it has unknown modes. */
 static bool begin(stream *s, const uint8_t *bytes, size_t size)
 {
     if (size == 0 || (bytes[0] != 0xA0 && bytes[0] != 0xA1))

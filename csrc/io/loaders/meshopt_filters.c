@@ -1,8 +1,6 @@
-/* Filters of meshopt: unit vectors, quaternions, floats and colours from what packs better.
- *
- * In:  elements as they were packed. Out: what they stand for, in their place; the written order of operations in
- * float32, so that each has the same bytes on every machine.
- */
+/* Filters of meshopt: decodes unit vectors, quaternions, floats and colours that were packed for better compression.
+ * In: packed elements. Out: their values, in place. The order of float32 operations is written out, so that every machine
+ * gives the same bytes. */
 #include "e3d_meshopt.h"
 
 #include <math.h>
@@ -12,7 +10,7 @@ enum { MAX_EXPONENT = 100 };
 
 static int32_t rounded(float v) { return (int32_t)(v + (v >= 0.0f ? 0.5f : -0.5f)); }
 
-/* Keeps damaged elements in the range of their type. */
+/* Clamps damaged elements to the range of their type. */
 static int32_t limited(float v, int32_t low, int32_t high)
 {
     if (!(v > (float)low))

@@ -1,7 +1,5 @@
-/* Indices of meshopt: triangles by the edges and vertices that came last, or indices as deltas.
- *
- * In:  a stream, the count and size of its indices. Out: the indices, little-endian.
- */
+/* Indices of meshopt: triangles coded by the latest edges and vertices, or indices coded as deltas.
+ * In: a stream, the count and size of its indices. Out: the indices, little-endian. */
 #include "e3d_meshopt.h"
 
 enum { FIFO = 16,
@@ -20,7 +18,7 @@ typedef struct stream {
     uint32_t next, last;
     edge edges[FIFO];
     uint32_t vertices[FIFO];
-    size_t edge_count, vertex_count; /* that were ever pushed */
+    size_t edge_count, vertex_count; /* how many were ever pushed */
 } stream;
 
 static uint32_t take_byte(stream *s)
@@ -29,7 +27,7 @@ static uint32_t take_byte(stream *s)
     return s->bad ? 0 : *s->at++;
 }
 
-/* A number of 1 to 5 bytes of 7 bits, the lowest first. */
+/* A number of 1 to 5 bytes of 7 bits each, the lowest first. */
 static uint32_t take_number(stream *s)
 {
     uint32_t number = 0;

@@ -60,7 +60,7 @@ static bool are_in_range(const int32_t *indices, size_t count, size_t limit)
     return true;
 }
 
-/* Adds the sums of a block to those of all, and makes them zero again. */
+/* Adds the sums of a block to the total, and sets them to zero. */
 static void add_block(const int32_t *groups, size_t corners, double *block, double *sums)
 {
     for (size_t i = 0; i < corners; i++)

@@ -1,8 +1,6 @@
-/* Lists among numbers that were read from text: a length, and so many items behind it.
- *
- * In:  numbers as e3d_read_numbers() gives them. Out: where rows of lists stand, their items, indices.
- * Always: a number is a length or an index only if it is whole and in range; NaN is neither.
- */
+/* Lists among numbers that were read from text: a length, and then so many items.
+ * In: numbers as from e3d_read_numbers(). Out: where the rows of lists begin, their items, indices.
+ * Always: a number is a length or an index only if it is whole and in range; NaN is neither. */
 #include "e3d_numbers.h"
 
 #include <math.h>

@@ -1,8 +1,6 @@
-/* Words and numbers of a text whose last byte is a blank or ends a line, so that no number has to ask where the text
- * ends.
- */
-#ifndef E3D_NUMBER_TEXT_H
-#define E3D_NUMBER_TEXT_H
+/* Words and numbers of a text whose last byte is a blank or ends a line, so that reading a number needs no test for the end
+ * of the text. */
+#pragma once
 
 #include "decimal.h"
 
@@ -11,7 +9,7 @@ static inline bool e3d_is_gap(uint8_t byte) { return byte <= ' ' && (UINT64_C(0x
 
 static inline bool e3d_ends_line(uint8_t byte) { return byte == '\n' || byte == '\r'; }
 
-/* Returns what stands behind the blanks of a line. */
+/* Skips the blanks of a line. */
 static inline const uint8_t *e3d_skip_blanks(const uint8_t *at, const uint8_t *end)
 {
     while (at < end && e3d_is_gap(*at) && !e3d_ends_line(*at))
@@ -26,8 +24,8 @@ static inline const uint8_t *e3d_line_end(const uint8_t *at, const uint8_t *end)
     return at;
 }
 
-/* Returns what stands behind a number that a gap ends, or `other` (a gap, if there is none); NULL if there is no
- * such number. */
+/* Reads a number that a gap or `other` ends (`other` is a gap if there is none); returns what follows it, or NULL if there is
+ * no such number. */
 static inline const uint8_t *e3d_read_number(const uint8_t *at, uint8_t other, double *value)
 {
     const uint8_t *last = e3d_decimal_read(at, value);
@@ -37,5 +35,3 @@ static inline const uint8_t *e3d_read_number(const uint8_t *at, uint8_t other, d
         last++;
     return e3d_decimal_word(at, (size_t)(last - at), value) ? last : NULL;
 }
-
-#endif

@@ -11,9 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BLOCK 128 /* bytes: so few that a byte can count their words */
+#define BLOCK 128 /* bytes, few enough that a byte can count their words */
 
-/* Counts words: there are no more numbers than these. */
+/* Counts words; the text has no more numbers than these. */
 static size_t count_words(const uint8_t *bytes, size_t size)
 {
     size_t words = 0;
@@ -48,7 +48,7 @@ static bool is_comment(const uint8_t *at, const uint8_t *end, e3d_comments comme
            (begins_with(at, end, "comment") || begins_with(at, end, "obj_info"));
 }
 
-/* Reads one line, adding its numbers; returns its end, or the word that is no number with *is_sound false. */
+/* Reads one line and adds its numbers. Returns its end, or the word that is no number, with *is_sound false. */
 static const uint8_t *read_line(const uint8_t *at, const uint8_t *end, e3d_comments comments, e3d_numbers *found,
                                 bool *is_sound)
 {

@@ -20,7 +20,7 @@ static inline uint64_t read_integer(const uint8_t *bytes, size_t size, bool is_b
     return integer;
 }
 
-/* The length of a list: false if it is negative. */
+/* Reads the length of a list; false if it is negative. */
 static inline bool read_length(const uint8_t *bytes, const e3d_ply_list *list, bool is_big_endian,
                                uint64_t *length)
 {

@@ -14,22 +14,22 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A corner counts as reflex if it turns back by more than this share of the polygon's area: flat corners, and
- * those bent by rounding, are left to the fan. */
+/* A corner counts as reflex if it turns back by more than this share of the polygon's area. Flat corners, and those that
+ * rounding bent, are left to the fan. */
 #define FLAT 1e-9
-/* Polygons of more corners are cut as fans, whatever they look like. */
+/* Polygons of more corners are cut as fans, whatever their shape. */
 #define MOST_CORNERS (1 << 18)
 
 typedef struct vector {
     double axis[3];
 } vector;
 
-/* One polygon, and room for the largest. */
+/* One polygon, with room for the largest. */
 typedef struct outline {
     int32_t count;
     vector *corners;
     vector area;     /* Newell's area vector, twice the area long */
-    int32_t reflex;  /* the first corner that turns against it; -1 if it is convex */
+    int32_t reflex;  /* the first corner that turns the other way; -1 if the polygon is convex */
     e3d_ears ears;
 } outline;
 
@@ -110,7 +110,7 @@ static void put_fan(int32_t count, int32_t start, int32_t *triangles)
     }
 }
 
-/* Cuts the polygon whose first corner has that number; false if it was cut as a fan for want of time. */
+/* Cuts the polygon whose first corner has that number; false if no tests were left and it was cut as a fan. */
 static bool cut(const e3d_polygons *polygons, size_t first, outline *o, int64_t *tests, int32_t *triangles)
 {
     put_fan(o->count, 0, triangles);
@@ -129,7 +129,7 @@ static bool cut(const e3d_polygons *polygons, size_t first, outline *o, int64_t 
     return *tests > 0;
 }
 
-/* Counts the corners from that of the whole file on, and tells which edges are the polygon's. */
+/* Numbers the corners from the first one of the whole file, and finds which edges are the polygon's own. */
 static bool place_triangles(int32_t count, size_t first, int32_t *triangles, uint8_t *visible)
 {
     bool all = true;
@@ -160,7 +160,7 @@ static bool are_sound(const e3d_polygons *polygons)
     return all;
 }
 
-/* Takes one block of memory for an outline, which begins with `corners`; false if memory is out. */
+/* Allocates one block of memory for an outline, which begins with `corners`; false if memory is out. */
 static bool make_room(const e3d_polygons *polygons, outline *o)
 {
     size_t most = 3;

@@ -7,7 +7,8 @@
  */
 #include "io/loaders/row_table.h"
 
-enum { PERIOD = 6, WIDTH = 3 };
+enum { PERIOD = 6,
+       WIDTH = 3 };
 
 static inline const uint8_t *corner_at(const uint8_t *corners, size_t stride, unsigned k)
 {
@@ -19,7 +20,7 @@ static inline uint32_t half_hash(const e3d_row_numbers *t, const uint8_t *corner
     return e3d_half_of(e3d_hash_row(corner, WIDTH, t->zero, t->seeds));
 }
 
-/* Hashes the corners that were missed two facets before. */
+/* Hashes the corners that were not guessed in the two facets before. */
 static ALWAYS_INLINE void hash_missed(const e3d_row_numbers *t, const uint8_t *corners, size_t stride, size_t count,
                                       unsigned missed, uint32_t *halves)
 {
@@ -41,7 +42,8 @@ static inline bool same_bits(const uint8_t *a, const uint8_t *b)
     return !((two[0] ^ two[1]) | (third[0] ^ third[1]));
 }
 
-/* Returns a corner's number if it grew, from the corner two facets before, by as much as that one's did; or -1. */
+/* Guesses a corner's number: it grew as much from the corner two facets before as that one's did. Returns -1 if the guess is
+ * wrong. */
 static ALWAYS_INLINE int32_t guess(const uint8_t *rows, size_t known, const uint8_t *corner, const int32_t *number)
 {
     const uint32_t next = 2 * (uint32_t)number[-PERIOD] - (uint32_t)number[-2 * PERIOD];
@@ -58,7 +60,7 @@ size_t e3d_number_regular(e3d_row_numbers *numbered, const uint8_t *corners, siz
 {
     uint32_t halves[E3D_ROW_BLOCK];
     e3d_row_numbers here = *numbered, *const t = &here;
-    const uint8_t *const rows = t->rows; /* stay where they are: there is room */
+    const uint8_t *const rows = t->rows; /* the rows do not move, since there is room */
     const unsigned hashed = *missed;
     size_t known = t->count, misses = 0, k = 0;
     hash_missed(t, corners, stride, count, hashed, halves);

@@ -14,7 +14,8 @@
 #define BITS 8
 
 typedef struct word {
-    uint64_t seen, again; /* which bits any row has, and which rows that found all of theirs */
+    /* Seen: Bloom-filter bits that any row has set; again: bits of rows that found all of theirs set, and may be repeats */
+    uint64_t seen, again;
 } word;
 
 typedef struct map {
@@ -28,7 +29,7 @@ static inline word *word_of(const map *m, uint32_t hash) { return &m->words[(uin
 
 static inline uint64_t bits_of(uint32_t hash) { return UINT64_C(1) << hash % 64 | UINT64_C(1) << hash / 64 % 64; }
 
-/* Hashes rows, one behind another, and marks them; inlined for each width. */
+/* Hashes consecutive rows, and marks them; inlined for each width. */
 static ALWAYS_INLINE void mark_block(map *m, const uint8_t *row, size_t stride, size_t count, size_t width,
                                      uint32_t zero, e3d_row_seeds seeds, uint32_t *hashes)
 {
@@ -58,7 +59,7 @@ static void mark_rows(map *m, const e3d_rows *rows)
     }
 }
 
-/* Puts the numbers of the rows that share their bit into the place of the hashes; returns how many. */
+/* Replaces the hashes by the numbers of the rows that share their bits; returns how many there are. */
 static size_t find_suspects(const map *m, size_t rows)
 {
     size_t count = 0;

@@ -4,8 +4,7 @@
  *      two rows are equal: all bits are, but that of floats -0 equals 0.
  * The hash multiplies words by words and folds the product, as wyhash does; two numbers drawn at random begin it.
  */
-#ifndef E3D_LOADERS_ROW_HASH_H
-#define E3D_LOADERS_ROW_HASH_H
+#pragma once
 
 #include "base/always_inline.h"
 #include "e3d_rows.h"
@@ -25,7 +24,7 @@ typedef struct e3d_row_seeds {
 /* The rows that are still to be read. */
 typedef struct e3d_row_reader {
     const uint8_t *row;
-    size_t in_record; /* rows of the record that were read */
+    size_t in_record; /* how many rows of the record were read */
     const e3d_rows *rows;
 } e3d_row_reader;
 
@@ -46,7 +45,7 @@ static inline const uint8_t *e3d_next_row(e3d_row_reader *in, size_t width)
     return row;
 }
 
-/* Reads up to four words, with zeros behind them; those that are `zero` become 0. */
+/* Reads up to four words, followed by zeros; words that equal `zero` become 0. */
 static inline e3d_pairs e3d_plain_words(const uint8_t *words, size_t count, uint32_t zero)
 {
     uint64_t low = 0, high = 0;
@@ -57,7 +56,7 @@ static inline e3d_pairs e3d_plain_words(const uint8_t *words, size_t count, uint
     return (e3d_pairs)(given & ~(e3d_words)(given == zeros));
 }
 
-/* Returns the word that equals 0; 0 itself if there is no other. */
+/* The word that counts as equal to 0: -0 for floats, and else 0 itself. */
 static inline uint32_t e3d_zero_of(bool are_floats) { return are_floats ? MINUS_ZERO : 0; }
 
 static inline uint64_t e3d_hash_row(const uint8_t *row, size_t width, uint32_t zero, e3d_row_seeds seeds)
@@ -71,7 +70,7 @@ static inline uint64_t e3d_hash_row(const uint8_t *row, size_t width, uint32_t z
     return hash;
 }
 
-/* Whether two rows that differ in their bits differ in more than the sign of zeros. */
+/* Whether two rows whose bits differ differ in more than the sign of zeros. */
 static inline bool e3d_same_but_zeros(const uint8_t *a, const uint8_t *b, size_t width, uint32_t zero)
 {
     uint64_t differs = 0;
@@ -83,10 +82,8 @@ static inline bool e3d_same_but_zeros(const uint8_t *a, const uint8_t *b, size_t
     return !differs;
 }
 
-/* Most equal rows are found to be so without a look at zeros. */
+/* Most equal rows have equal bits, so that zeros need not be looked at. */
 static inline bool e3d_same_rows(const uint8_t *a, const uint8_t *b, size_t width, uint32_t zero)
 {
     return !memcmp(a, b, width * WORD) || e3d_same_but_zeros(a, b, width, zero);
 }
-
-#endif

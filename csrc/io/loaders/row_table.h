@@ -4,16 +4,15 @@
  * the first that is looked at. Below its number a place has bits of the row's hash, so that other rows are hardly ever
  * read for nothing.
  */
-#ifndef E3D_LOADERS_ROW_TABLE_H
-#define E3D_LOADERS_ROW_TABLE_H
+#pragma once
 
 #include "io/loaders/row_hash.h"
 
-/* Rows that are looked for together: at least twice those of two facets. */
+/* So many rows are looked up together: at least twice those of two facets. */
 #ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
 #define E3D_ROW_BLOCK 192
 #else
-#define E3D_ROW_BLOCK 12 /* a few hundred bytes fill several */
+#define E3D_ROW_BLOCK 12 /* small, so that a few hundred bytes fill several blocks */
 #endif
 
 /* A place is 0 if it is empty; else a number + 1, and in the `tag_bits` below it the lowest of half a hash, whose highest
@@ -23,11 +22,11 @@ struct e3d_row_numbers {
     uint32_t *places;
     size_t size; /* places */
     int tag_bits;
-    uint8_t *rows; /* [count * width] words of those that differ */
+    uint8_t *rows; /* [count * width] the words of the distinct rows */
     size_t room;   /* rows */
     size_t width;  /* words of a row */
     size_t count;  /* numbers */
-    size_t taken;  /* rows that were numbered */
+    size_t taken;  /* how many rows were numbered */
     uint32_t zero;
     e3d_row_seeds seeds;
 };
@@ -70,10 +69,8 @@ static ALWAYS_INLINE uint32_t e3d_number_row(e3d_row_numbers *t, const uint8_t *
     }
 }
 
-/* Numbers the corners of facets, three floats each, that go on as those before them: regular_facets.c. `numbers` follow
- * those of four facets at least; there is room for `count` new ones, up to E3D_ROW_BLOCK. Returns how many went on so.
- * `missed`: a bit for each corner of two facets that did not, 0 in the beginning. */
+/* Numbers the corners of facets, three floats each, that continue regularly: regular_facets.c. The numbers of at least four
+ * facets precede `numbers`; there is room for `count` new ones, up to E3D_ROW_BLOCK. Returns how many corners continued
+ * regularly. `missed`: a bit for each corner of two facets that did not; 0 at first. */
 size_t e3d_number_regular(e3d_row_numbers *numbered, const uint8_t *corners, size_t stride, size_t count,
                           int32_t *numbers, unsigned *missed);
-
-#endif

@@ -16,23 +16,23 @@
 #include <time.h>
 
 #define BLOCK E3D_ROW_BLOCK
-/* Places for each number: where a table begins or grows, and at least (but in tables of MOST_PLACES). */
+/* Places for each number, when a table begins or grows, and at least (except in tables of MOST_PLACES). */
 #define PLENTY 8
 #define LEAST 4
 #ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
 #define FEWEST_PLACES ((size_t)1024)
 #define MOST_TAG_BITS 31
-#else /* a few hundred bytes make it grow, and rows share their tags */
+#else /* small, so that a few hundred bytes make it grow, and rows share their tags */
 #define FEWEST_PLACES ((size_t)64)
 #define MOST_TAG_BITS 2
 #endif
 #define MOST_PLACES ((size_t)1 << 32)
-/* Blocks after which numbers are guessed again. */
+/* After so many blocks, numbers are guessed again. */
 #define TRY_EVERY 32
 
 typedef e3d_row_numbers table;
 
-/* Whether half the guesses came true in the last block, and which did not in its last two facets. */
+/* Whether half of the guesses in the last block were right, and which were wrong in its last two facets. */
 typedef struct guesses {
     bool come_true;
     unsigned missed;
@@ -48,7 +48,7 @@ e3d_row_seeds e3d_random_seeds(void)
     return seeds;
 }
 
-/* Returns how many bits of a place no number needs, in a table of so many places. */
+/* Returns how many bits of a place numbers do not use, in a table of so many places. */
 static int tag_bits_of(size_t places)
 {
     const int bits = places < MOST_PLACES ? __builtin_clz((uint32_t)(places / LEAST)) : 0;
@@ -67,7 +67,7 @@ static bool empty_places(table *t, size_t size)
     return t->places;
 }
 
-/* Makes room so that `wanted` numbers leave enough places empty. */
+/* Makes room, so that `wanted` numbers leave enough places empty. */
 static bool reserve_places(table *t, size_t wanted)
 {
     if (t->places && (wanted * LEAST <= t->size || t->size == MOST_PLACES))
@@ -117,7 +117,7 @@ static ALWAYS_INLINE void number_block(table *numbered, e3d_row_reader in, size_
     numbered->count = t.count;
 }
 
-/* Does the same for the corners of facets, which take turns without a count. */
+/* The same for the corners of facets, of which there are always three. */
 static void number_facets(table *numbered, const uint8_t *facets, size_t stride, size_t count, int32_t *numbers)
 {
     uint32_t halves[BLOCK];
@@ -139,7 +139,7 @@ static void number_facets(table *numbered, const uint8_t *facets, size_t stride,
     numbered->count = t.count;
 }
 
-/* Numbers rows from one on, up to BLOCK, for which there is room. */
+/* Numbers rows from one on, up to BLOCK; there is room for them. */
 static void number_next(table *t, const e3d_rows *rows, size_t row, size_t count, int32_t *numbers)
 {
     const e3d_row_reader in = e3d_read_rows_from(rows, row);
@@ -159,7 +159,7 @@ static bool reserve(table *t, size_t more)
     return reserve_places(t, t->count + more) && reserve_rows(t, t->count + more);
 }
 
-/* Makes a table for so many numbers, which grows; false if memory is out. */
+/* Makes a table that can grow, for so many numbers; false if memory is out. */
 static bool begin_table(table *t, size_t width, bool are_floats, size_t numbers)
 {
     *t = (table){.seeds = e3d_random_seeds(), .width = width, .zero = e3d_zero_of(are_floats)};
@@ -181,14 +181,14 @@ static size_t block_at(const e3d_rows *rows, size_t row)
 e3d_row_numbers *e3d_row_numbers_begin(size_t width, bool are_floats, size_t expected)
 {
     table *const t = malloc(sizeof *t);
-    /* Corners of triangles meet in six, most often. */
+    /* Mostly six triangles meet at a corner. */
     if (t && begin_table(t, width, are_floats, expected / 6))
         return t;
     e3d_row_numbers_free(t);
     return NULL;
 }
 
-/* Numbers the next block, by guesses if half of them came true in the last one, or if it is time to try. */
+/* Numbers the next block: by guesses if half of them were right in the last one, or if it is time to try. */
 static bool number_regularly(table *t, const e3d_rows *rows, size_t row, size_t count, int32_t *numbers, guesses *g)
 {
     if (row / BLOCK % TRY_EVERY == 1)

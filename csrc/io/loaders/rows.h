@@ -1,12 +1,9 @@
 /* Rows that are equal, among few. */
-#ifndef E3D_LOADERS_ROWS_H
-#define E3D_LOADERS_ROWS_H
+#pragma once
 
 #include "io/loaders/row_hash.h"
 
 e3d_row_seeds e3d_random_seeds(void);
 
-/* Whether two rows are equal, of rows that are few: each that differs takes memory. As e3d_rows_repeat(). */
+/* Whether two rows are equal; for few rows, since each distinct one takes memory. Like e3d_rows_repeat(). */
 int e3d_few_rows_repeat(const e3d_rows *rows);
-
-#endif

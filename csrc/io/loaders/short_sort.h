@@ -1,11 +1,10 @@
-/* Sorting of many short lists: by insertion up to so many items, which qsort's calls would take longer for. */
-#ifndef E3D_SHORT_SORT_H
-#define E3D_SHORT_SORT_H
+/* Sorting many short lists: by insertion up to so many items, for which the calls of qsort would take longer. */
+#pragma once
 
 #include <stddef.h>
 #include <stdlib.h>
 
-/* Defines a function that sorts items of a type, by a function such as qsort takes. */
+/* Defines a function that sorts items of a type, with a comparison as for qsort. */
 #define E3D_DEFINE_SHORT_SORT(name, type, compare, most) \
     static void name(type *items, size_t count) \
     { \
@@ -21,5 +20,3 @@
             items[k] = one; \
         } \
     }
-
-#endif

@@ -1,4 +1,4 @@
-/* Tangents: which way is right in the image that a surface wears, corner by corner.
+/* Tangents: for each corner, the direction on the surface in which its texture's u grows.
  *
  * In:  triangles whose vertices have positions, normals and texture coordinates.
  * Out: groups of corners that share a tangent, and the tangents, with 1 or -1 for whether up is left or right of them.
@@ -14,7 +14,7 @@
 #include "e3d_surfaces.h"
 #include "io/loaders/corner_angles.h"
 
-/* A triangle: the direction of its image's right, of length 1 or 0; which way it turns the image, 0 as long as that is open. */
+/* A triangle: the direction to the right in its image, of length 1 or 0; and the way it turns the image, 0 while that is open. */
 typedef struct turned {
     vector right;
     int turn;
@@ -28,14 +28,14 @@ static vector vector_at(const float *rows, int32_t row)
 
 static vector scaled(vector v, double factor) { return (vector){v.x * factor, v.y * factor, v.z * factor}; }
 
-/* Of length 1; what has no usable length becomes 0. */
+/* Normalises; a vector without a usable length becomes 0. */
 static vector unit(vector v)
 {
     double length = length_of(v);
     return length > 0 && isfinite(length) ? scaled(v, 1 / length) : (vector){0, 0, 0};
 }
 
-/* Without its part along n. */
+/* Removes the part along n. */
 static vector flattened(vector v, vector n) { return minus(v, scaled(n, dot(n, v))); }
 
 static turned find_turn(const e3d_mapped_surface *s, const int32_t corners[3])
@@ -53,11 +53,11 @@ static turned find_turn(const e3d_mapped_surface *s, const int32_t corners[3])
 
 /* ---- neighbours ---- */
 
-/* Side k of a triangle, from corner k to the next, by the points of its ends. */
+/* Side k of a triangle, from corner k to the next one, by the points at its ends. */
 typedef struct sorted_side {
     int32_t lesser, greater;
     uint32_t number; /* 3 * triangle + k */
-    int32_t is_up;   /* it goes from the lesser to the greater */
+    int32_t is_up;   /* it goes from the lesser point to the greater */
 } sorted_side;
 
 static int compare_sides(const void *a, const void *b)
@@ -101,7 +101,7 @@ static void pair_sides(const sorted_side *sides, size_t count, uint32_t *other)
     }
 }
 
-/* Triangles that don't tell take after a neighbour that does; the first may decide. */
+/* A triangle of unknown turn takes that of a neighbour; the first triangle decides if none is known. */
 static void spread_turns(const uint32_t *other, turned *faces, size_t count, uint32_t *queue)
 {
     size_t last = 0;

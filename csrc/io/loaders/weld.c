@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Corners of one position of which each is compared with all. */
+/* Up to so many corners of one position are each compared with all. */
 #define FEW 24
 
 typedef struct corner {
@@ -56,8 +56,7 @@ static void number_corners(corner *corners, size_t count, int32_t position, vert
     }
 }
 
-/* starts[p + 1] becomes the end of position p's corners in the order of positions; 0 if one is out of
- * range. */
+/* Fills starts[p + 1] with the end of position p's corners, in the order of positions; 0 if one is out of range. */
 static bool count_corners(const int32_t *positions, size_t corners, size_t position_count,
                           uint32_t *starts)
 {

@@ -9,13 +9,14 @@
 #include <string.h>
 
 #define FRACTION_BITS 23
-#define BIAS 150 /* of the exponent of the last bit */
+#define BIAS 150 /* the bias of the last bit's exponent */
 #define LEAST_POWER (-31)
-/* Others are written with an exponent. */
+/* Smaller numbers are written with an exponent. */
 #define LEAST_POSITIONAL 1e-4
 #define MOST_POSITIONAL 1e6
 
 /* 10^k / 2^floor(log2(10^k)) * 2^63, rounded up, for k from -31 on. */
+// clang-format off
 static const uint64_t powers[] = {
     UINT64_C(0x81CEB32C4B43FCF5), UINT64_C(0xA2425FF75E14FC32), UINT64_C(0xCAD2F7F5359A3B3F), UINT64_C(0xFD87B5F28300CA0E),
     UINT64_C(0x9E74D1B791E07E49), UINT64_C(0xC612062576589DDB), UINT64_C(0xF79687AED3EEC552), UINT64_C(0x9ABE14CD44753B53),
@@ -38,6 +39,7 @@ static const uint64_t powers[] = {
     UINT64_C(0x92EFD1B8D0CF37BF), UINT64_C(0xB7ABC627050305AE), UINT64_C(0xE596B7B0C643C71A), UINT64_C(0x8F7E32CE7BEA5C70),
     UINT64_C(0xB35DBF821AE4F38C),
 };
+// clang-format on
 
 /* A decimal: digits * 10^exponent. */
 typedef struct decimal {
@@ -45,7 +47,7 @@ typedef struct decimal {
     int32_t exponent;
 } decimal;
 
-/* The product shifted down, odd if anything but zeros was cut off. */
+/* Shifts the product down; the result is odd if any bit that was cut off is set. */
 static inline uint32_t round_to_odd(uint64_t power, uint32_t factor)
 {
     const unsigned __int128 product = (unsigned __int128)power * factor;
@@ -59,7 +61,7 @@ static decimal shortest(uint32_t fraction, uint32_t biased)
     if (q <= 0 && q > -24 && (bits & ((UINT32_C(1) << -q) - 1)) == 0)
         return (decimal){bits >> -q, 0};
     const uint32_t is_odd = bits & 1, is_power_of_two = fraction == 0 && biased > 1;
-    /* floor(log10(2^q)), and of 3/4 of it below a power of two, where the gap is half as wide. */
+    /* floor(log10(2^q)); below a power of two, floor(log10(3/4 * 2^q)), since the gap is half as wide there. */
     const int32_t k = (q * 1262611 - (is_power_of_two ? 524031 : 0)) >> 22;
     const int32_t shift = q + ((-k * 1741647) >> 19) + 1;
     const uint64_t power = powers[-k - LEAST_POWER];
@@ -86,7 +88,7 @@ static size_t write_word(const char *word, uint8_t *text)
     return strlen(word);
 }
 
-/* "d.ddde+XX" of `count` digits, the first of which stands for 10^power. */
+/* Writes "d.ddde+XX" with `count` digits, the first of which stands for 10^power. */
 static size_t write_scientific(const uint8_t *digits, size_t count, int32_t power, uint8_t *text)
 {
     uint8_t *at = text;
@@ -104,7 +106,7 @@ static size_t write_scientific(const uint8_t *digits, size_t count, int32_t powe
     return (size_t)(at - text);
 }
 
-/* `places` digits stand before the point; if none, as many zeros behind it, up to three. */
+/* Writes `places` digits before the point. If there are none, up to three zeros follow the point. */
 static size_t write_positional(const uint8_t *digits, size_t count, int32_t places, uint8_t *text)
 {
     if (places <= 0) {

@@ -1,12 +1,10 @@
 /* Rows of numbers as lines of text.
- *
- * In:  arrays of numbers, and what stands between them. Out: bytes, and where lines end.
- */
+ * In: arrays of numbers, and the text between them. Out: bytes, and where lines end. */
 #include "e3d_writers.h"
 
 #include <string.h>
 
-/* Few bytes, most often one. */
+/* Copies a few bytes, most often one. */
 static inline uint8_t *put(uint8_t *at, const uint8_t *bytes, size_t count)
 {
     for (size_t i = 0; i < count; i++)

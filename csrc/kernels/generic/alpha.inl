@@ -1,6 +1,6 @@
-/* alpha: what records with alpha cover in front of what shows (R83), their alphas (R80), and their colours over a tile's (R84). */
-#ifndef E3D_KERNELS_ALPHA_INL
-#define E3D_KERNELS_ALPHA_INL
+/* alpha: lists the samples that records with alpha cover in front of the visible surface (R83), finds their alphas (R80), and
+ * blends their colours over a tile's (R84). */
+#pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -24,7 +24,7 @@
 
 /* ---- samples ---- */
 
-/* The lanes of equal depth in which a piece comes before what is kept. */
+/* Of lanes with equal depth, those in which a piece comes before the visible record. */
 static uint32_t __attribute__((noinline, cold)) alpha_ties(uint32_t equal, const int32_t *kept, const e3d_piece *p, const e3d_record_table *table)
 {
     uint32_t won = 0;
@@ -37,7 +37,7 @@ static uint32_t __attribute__((noinline, cold)) alpha_ties(uint32_t equal, const
     return won;
 }
 
-/* Where a list goes on. */
+/* The end of a list, where it goes on. */
 typedef struct alpha_end {
     const e3d_record_table *table;
     e3d_alpha_list *list;
@@ -45,7 +45,7 @@ typedef struct alpha_end {
     float *z;
 } alpha_end;
 
-/* Lists the samples of one vector from (x, y) on, whose `inside` lanes are covered at these depths. */
+/* Lists the samples of one vector from (x, y) on; `inside` are the covered lanes, with these depths. */
 static ALWAYS_INLINE void alpha_vector(const e3d_piece *p, int32_t x, int32_t y, vmask inside, vf32 z, alpha_end *end)
 {
     int32_t at = y * E3D_TILE + x;
@@ -62,7 +62,7 @@ static ALWAYS_INLINE void alpha_vector(const e3d_piece *p, int32_t x, int32_t y,
     end->sample += count;
 }
 
-/* R12 and R14 of a column of vectors, that rows share. */
+/* The parts of R12 and R14 for a column of vectors that its rows share. */
 typedef struct alpha_column {
     vi32 e[3]; /* at row 0 of the tile */
     vmask own; /* lanes in the box */
@@ -86,7 +86,7 @@ static ALWAYS_INLINE vmask alpha_inside(const e3d_piece *p, const alpha_column *
     return v_mand(v_gti(e, v_seti(-1)), column->own);
 }
 
-/* Rows y to last - 1 of a box that is one vector wide: what its columns share is found once. */
+/* Lists rows y to last - 1 of a box that is one vector wide; what its rows share is found once. */
 static ALWAYS_INLINE void alpha_narrow(const e3d_piece *p, const raster_constants *c, int32_t y, int32_t last, alpha_end *end)
 {
     alpha_column column = alpha_column_of(p, c, p->x0);
@@ -102,20 +102,20 @@ static ALWAYS_INLINE void alpha_row(const e3d_piece *p, const raster_constants *
     }
 }
 
-/* How many rows of a piece from y on there surely is room for. */
+/* How many rows of a piece, from y on, surely fit the list. */
 static ALWAYS_INLINE int32_t alpha_rows(const e3d_piece *p, int32_t y, int32_t room)
 {
     int32_t rows = p->y1 - y + 1, width = p->x1 - p->x0 + 1;
     return rows * width <= room ? rows : room / width;
 }
 
-/* Lists the rows of a piece for which there is room, as a piece of the list; returns the row that comes next. */
+/* Lists the rows of a piece that fit, as a primitive of the list; returns the next row. */
 static int32_t kernel_raster_alpha(const e3d_piece *piece, const e3d_record_table *table, e3d_alpha_list *out)
 {
-    const e3d_piece own = *piece, *p = &own; /* which no store can change */
+    const e3d_piece own = *piece, *p = &own; /* a copy, which no store can change */
     e3d_shown *shown = out->shown;
     const int32_t first = shown->count;
-    const raster_constants c = {v_setf(p->z0),   v_setf(p->gx),   v_setf(p->gy),
+    const raster_constants c = {v_setf(p->z0), v_setf(p->gx), v_setf(p->gy),
                                 v_setf(p->zmin), v_setf(p->zmax), v_seti((int32_t)p->slot)};
     alpha_end end = {table, out, shown->sample + first, out->z + first};
     int32_t y = p->y0, next;
@@ -130,9 +130,9 @@ static int32_t kernel_raster_alpha(const e3d_piece *piece, const e3d_record_tabl
     }
     int32_t count = (int32_t)(end.sample - shown->sample);
     for (int32_t i = first; i < count; i += V_LANES)
-        v_storei(shown->of + i, v_seti(shown->pieces));
-    shown->piece[shown->pieces] = (e3d_shown_piece){p->slot, first};
-    shown->pieces += count > first;
+        v_storei(shown->of + i, v_seti(shown->primitives));
+    shown->primitive[shown->primitives] = (e3d_shown_primitive){p->slot, first};
+    shown->primitives += count > first;
     shown->count = count;
     return y;
 }
@@ -147,7 +147,7 @@ static ALWAYS_INLINE void alpha_filter(texture_plan *plan, int filter, int bits,
         v_storef(batch->alpha + i, v_mul(alpha_read(plan, filter, bits, i), v_setf(scale)));
 }
 
-/* What filters give where all alphas are 255: their weights add up. */
+/* The result of a filter if all alphas are 255, whose weights add up to a constant. */
 static inline float alpha_of_opaque(const e3d_texture_view *view)
 {
     if (view->channel_bits == 16)
@@ -206,7 +206,7 @@ static void kernel_alpha(e3d_batch *batch, const e3d_surfaces *surfaces, const e
 
 /* ---- composition ---- */
 
-/* R84, of one vector: over[3] is the sum of alphas. */
+/* R84 for one vector: over[3] is the sum of alphas. */
 static ALWAYS_INLINE void alpha_over(const vf32 color[3], vf32 alpha, vf32 over[4])
 {
     vf32 rest = v_sub(v_setf(1.0f), alpha);
@@ -215,7 +215,7 @@ static ALWAYS_INLINE void alpha_over(const vf32 color[3], vf32 alpha, vf32 over[
     over[3] = v_add(alpha, v_mul(over[3], rest));
 }
 
-/* R135, of one vector. */
+/* R135 for one vector. */
 static ALWAYS_INLINE void alpha_over_through(const vf32 color[3], vf32 alpha, const vf32 through[3], vf32 over[4])
 {
     vf32 one = v_setf(1.0f), whole = v_sub(one, alpha), rest[3];
@@ -228,7 +228,7 @@ static ALWAYS_INLINE void alpha_over_through(const vf32 color[3], vf32 alpha, co
     over[3] = v_self(v_ge(most, v_setf(E3D_LEAST_ALPHA)), v_max(over[3], most), over[3]);
 }
 
-/* Lays a batch over samples; `through`: NULL, or the shares of light that pass. */
+/* Blends a batch over samples; `through`: NULL, or the shares of light that pass. */
 static ALWAYS_INLINE void alpha_lay_batch(const e3d_batch *batch, const e3d_lane_array *through, e3d_samples *samples)
 {
     float *const planes[4] = {samples->color[0], samples->color[1], samples->color[2], samples->counts};
@@ -262,17 +262,17 @@ static ALWAYS_INLINE void alpha_lay_batch(const e3d_batch *batch, const e3d_lane
 
 static void kernel_lay(const e3d_batch *batch, e3d_samples *samples) { alpha_lay_batch(batch, NULL, samples); }
 
-static void kernel_lay_through(const e3d_batch *batch, const e3d_map_batch *maps, e3d_samples *samples)
+static void kernel_lay_through(const e3d_batch *batch, const e3d_texture_batch *maps, e3d_samples *samples)
 {
     alpha_lay_batch(batch, maps->through, samples);
 }
 
 /* ---- sorting ---- */
 
-enum { ALPHA_MOST = 64 }; /* that are sorted here */
+enum { ALPHA_MOST = 64 }; /* samples with more layers are sorted elsewhere */
 
-/* Puts the numbers of a sample's layers in order, the farthest first: the rank of each is how many are farther, which no branch
- * has to foresee. 0 if some are equally far. */
+/* Sorts the numbers of a sample's layers, the farthest first. A layer's rank is the number of farther ones, which is found
+ * without branches. Returns 0 if two are equally far. */
 static ALWAYS_INLINE int alpha_sort(const e3d_alpha_layers *layers, uint32_t first, int count, uint32_t order[ALPHA_MOST])
 {
     const int32_t *depth = layers->depth + first;
@@ -316,5 +316,3 @@ static int kernel_blend(const e3d_alpha_layers *layers, e3d_samples *samples, ui
     }
     return listed;
 }
-
-#endif

@@ -1,6 +1,5 @@
-/* occlusion: how much of the light from all around something near is in the way of, pixel by pixel (R125-R128). */
-#ifndef E3D_KERNELS_OCCLUSION_INL
-#define E3D_KERNELS_OCCLUSION_INL
+/* occlusion: finds for each pixel how much ambient light near surfaces block (R125-R128). */
+#pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -10,10 +9,10 @@
 
 enum { OCCLUSION_MIDDLE = E3D_OCCLUSION_FILTER };
 
-/* What a pixel shows: its place, and the normal (g, h, -w), which isn't of unit length. */
+/* The surface in a pixel: its place, and its normal (g, h, -w), which isn't of unit length. */
 typedef struct occlusion_lanes {
-    vf32 x, y, depth, m, ray[2]; /* x, y: the pixel's; ray: X and Y of R125 */
-    vf32 g, h, w, length2;       /* length2: of the normal */
+    vf32 x, y, depth, m, ray[2]; /* x, y: of the pixel; ray: X and Y of R125 */
+    vf32 g, h, w, length2;       /* length2: the squared length of the normal */
     vf32 over_length2;
 } occlusion_lanes;
 
@@ -21,7 +20,7 @@ static ALWAYS_INLINE vf32 occlusion_scale(vf32 depth, int is_perspective) { retu
 
 static ALWAYS_INLINE vf32 occlusion_abs(vf32 v) { return v_asf(v_andi(v_asi(v), v_seti(0x7FFFFFFF))); }
 
-/* R125: where all that lies on a plane is affine. */
+/* R125: nearness, which is affine over a plane on the screen. */
 static void kernel_nearness(const float *depth, int count, int is_perspective, float *out)
 {
     vf32 zero = v_setf(0.0f), one = v_setf(1.0f);
@@ -33,7 +32,7 @@ static void kernel_nearness(const float *depth, int count, int is_perspective, f
     }
 }
 
-/* R126: how nearness changes from pixel to pixel, towards whichever neighbour it changes less to. */
+/* R126: the change of nearness from pixel to pixel, towards the neighbour to which it changes less. */
 static ALWAYS_INLINE vf32 occlusion_change(vf32 before, vf32 here, vf32 behind)
 {
     vf32 zero = v_setf(0.0f), none = v_setf(E3D_OCCLUSION_NO_CHANGE), back = v_sub(here, before), on = v_sub(behind, here);
@@ -67,10 +66,10 @@ static ALWAYS_INLINE occlusion_lanes occlusion_surface(const e3d_occlusion_plan 
     return at;
 }
 
-/* Vectors are worked on side by side, in short steps: one after the other, most operations would wait for those before. */
+/* Vectors are interleaved in short steps, since within one vector most operations would wait for those before. */
 enum { OCCLUSION_SIDE = 2 };
 
-/* What a pixel sees at one place: how far that is to the right and down at a depth of 1, and its depth. */
+/* What a pixel sees at one place: the offset to the right and down at a depth of 1, and the depth. */
 typedef struct occlusion_place {
     vf32 right, down, depth;
 } occlusion_place;
@@ -85,7 +84,8 @@ static ALWAYS_INLINE occlusion_place occlusion_look(const e3d_depth_picture *p, 
                              v_asf(v_gatheri(p->depth, v_addi(v_muli(row, v_seti(p->width)), column)))};
 }
 
-/* R127: the square of the sine by which what shows at a place stands above the surface, and how much it counts at its distance. */
+/* R127: the squared sine of the angle by which a place stands above the surface, and its weight, which falls with the
+ * distance. */
 static ALWAYS_INLINE vf32 occlusion_rise(const e3d_occlusion_plan *plan, const occlusion_lanes *at, const occlusion_place *place,
                                          int is_perspective, vf32 *counts)
 {
@@ -103,7 +103,7 @@ static ALWAYS_INLINE vf32 occlusion_rise(const e3d_occlusion_plan *plan, const o
     return v_self(v_eq(depth, zero), zero, v_min(one, v_sub(rise, v_setf(E3D_OCCLUSION_SLACK))));
 }
 
-/* R127: the share of light from the direction's side that is hidden below a horizon. */
+/* R127: the share of light on one side of the direction that a horizon hides. */
 static ALWAYS_INLINE vf32 occlusion_share(const e3d_occlusion_pattern *pattern, int lane, const occlusion_lanes *at, vf32 horizon,
                                           int is_perspective)
 {
@@ -122,7 +122,7 @@ static ALWAYS_INLINE vf32 occlusion_share(const e3d_occlusion_pattern *pattern, 
     return v_min(v_max(v_mul(v_add(v_mul(facing, s2), v_mul(along, arc)), scale), zero), v_setf(E3D_OCCLUSION_MOST));
 }
 
-/* R127: what pixels see at their places. */
+/* R127: finds what pixels see at their places. */
 static ALWAYS_INLINE void occlusion_look_around(const e3d_occlusion_plan *plan, const e3d_occlusion_pattern *pattern, int x, int side,
                                                 const occlusion_lanes *at, const vf32 *near, int is_perspective,
                                                 occlusion_place out[][OCCLUSION_SIDE])
@@ -142,7 +142,7 @@ static ALWAYS_INLINE void occlusion_look_around(const e3d_occlusion_plan *plan, 
         }
 }
 
-/* R127: how far the horizon rises from place to place, each as much as it counts. */
+/* R127: raises the horizon from place to place, by the weight of each. */
 static ALWAYS_INLINE void occlusion_horizon(const e3d_occlusion_plan *plan, int side, const occlusion_lanes *at,
                                             occlusion_place places[][OCCLUSION_SIDE], int is_perspective, vf32 *sum)
 {
@@ -153,11 +153,12 @@ static ALWAYS_INLINE void occlusion_horizon(const e3d_occlusion_plan *plan, int 
         for (int j = 0; j < side; j++) {
             vf32 counts, rise = occlusion_rise(plan, &at[j], &places[tap][j], is_perspective, &counts);
             sum[j] = v_add(sum[j], v_mul(v_max(v_sub(rise, horizon[j]), zero), counts));
-            horizon[j] = v_max(v_self(v_gt(counts, zero), rise, zero), horizon[j]); /* what is too far in front hides nothing behind it */
+            /* What lies too far in front hides nothing behind it */
+            horizon[j] = v_max(v_self(v_gt(counts, zero), rise, zero), horizon[j]);
         }
 }
 
-/* Pixels x and so on of a row. */
+/* Finds the occlusion of pixels x and so on of a row. */
 static ALWAYS_INLINE void occlusion_some(const e3d_occlusion_plan *plan, const e3d_occlusion_rows *rows, int x, int side, float *out,
                                          int is_perspective)
 {
@@ -207,7 +208,7 @@ static void kernel_occlusion(const e3d_occlusion_plan *plan, const e3d_occlusion
 
 /* ---- the filter (R128) ---- */
 
-/* Where nothing shows in the middle, the mean is never used; where nothing is hidden of any pixel, it is 0. */
+/* Whether the mean is needed: it is never used if nothing shows in the middle, and is 0 if no pixel has anything hidden. */
 static ALWAYS_INLINE int occlusion_has_some(vf32 near, const vf32 share[E3D_OCCLUSION_SPAN])
 {
     vf32 most = share[0];
@@ -218,7 +219,7 @@ static ALWAYS_INLINE int occlusion_has_some(vf32 near, const vf32 share[E3D_OCCL
     return v_any(v_gt(most, v_setf(0.0f)));
 }
 
-/* The mean of nine pixels in a row or column, as far as each lies on the middle one's surface. */
+/* The mean over nine pixels of a row or column, each weighted by how well it lies on the middle one's surface. */
 static ALWAYS_INLINE vf32 occlusion_mean(const e3d_occlusion_plan *plan, const vf32 near[E3D_OCCLUSION_SPAN], const vf32 share[E3D_OCCLUSION_SPAN], int is_perspective)
 {
     vf32 zero = v_setf(0.0f), one = v_setf(1.0f), here = near[OCCLUSION_MIDDLE], over_step = v_setf(plan->over_step);
@@ -284,5 +285,3 @@ static void kernel_occlusion_down(const e3d_occlusion_plan *plan, const e3d_occl
     else
         occlusion_means_down(plan, rows, out, 0);
 }
-
-#endif

@@ -1,13 +1,14 @@
-/* Vectors over the rows of a block of 8 x 8 samples. Up to eight lanes lie in one row; of sixteen, eight lie in an even row and
- * eight in the next. With rows of eight lanes, as AVX2 has them, a fill from back to front took AVX-512 3.1 instead of 2.4 ms.
- */
-#ifndef E3D_KERNELS_BLOCK_ROWS_INL
-#define E3D_KERNELS_BLOCK_ROWS_INL
+/* Vectors over the rows of a block of 8 x 8 samples. Up to eight lanes lie in one row; of sixteen lanes, eight lie in an even
+ * row and eight in the next. With one row of eight lanes, as in AVX2, a fill from back to front took AVX-512 3.1 instead of
+ * 2.4 ms. */
+#pragma once
 
 #include "base/limits.h"
 
-enum { ROW_LANES = V_LANES < 8 ? V_LANES : 8, ROWS = V_LANES / ROW_LANES };
-enum { ROW_SHIFT = ROW_LANES == 8 ? 3 : ROW_LANES == 4 ? 2 : 0 };
+enum { ROW_LANES = V_LANES < 8 ? V_LANES : 8,
+       ROWS = V_LANES / ROW_LANES };
+enum { ROW_SHIFT = ROW_LANES == 8 ? 3 : ROW_LANES == 4 ? 2
+                                                       : 0 };
 
 static inline vi32 rows_x(void) { return ROWS > 1 ? v_andi(v_iota(), v_seti(ROW_LANES - 1)) : v_iota(); }
 static inline vi32 rows_y(void) { return ROWS > 1 ? v_shr(v_iota(), 3) : v_seti(0); }
@@ -31,7 +32,5 @@ static inline vf32 rows_loadf(const float *p) { return v_loadf(p); }
 static inline void rows_storef(float *p, vf32 a) { v_storef(p, a); }
 #endif
 
-/* How far a lane's sample lies behind the vector's first, in the tile. */
+/* The offset of a lane's sample from the vector's first, in the tile. */
 static inline int rows_sample(int lane) { return lane / ROW_LANES * E3D_TILE + lane % ROW_LANES; }
-
-#endif

@@ -1,8 +1,6 @@
-/* bloom: rows of its pyramid (R124). What is plain C here has no order to keep but that of each element, so that compilers make
- * vectors of it.
- */
-#ifndef E3D_KERNELS_BLOOM_INL
-#define E3D_KERNELS_BLOOM_INL
+/* bloom: rows of its pyramid (R124). The parts in plain C have no order of operations beyond that of each element, so that
+ * compilers vectorise them. */
+#pragma once
 
 #include <string.h>
 
@@ -15,7 +13,7 @@ static ALWAYS_INLINE vf32 bloom_above(const float *light)
     return v_min(v_max(v_sub(v_loadf(light), v_setf(1.0f)), v_setf(0.0f)), v_setf(E3D_MOST_BLOOM));
 }
 
-/* One vector; the channels of pixels follow each other. Returns it. */
+/* Does one vector, and returns it; the channels of a pixel follow each other. */
 static ALWAYS_INLINE vf32 bloom_bright_vector(const float *const rows[4], int i, float *out)
 {
     vf32 outer = v_add(bloom_above(rows[0] + i), bloom_above(rows[3] + i));
@@ -27,7 +25,7 @@ static ALWAYS_INLINE vf32 bloom_bright_vector(const float *const rows[4], int i,
 
 static ALWAYS_INLINE float bloom_filter(float a, float b, float c, float d) { return ((a + d) + (b + c) * 3.0f) * 0.125f; }
 
-/* The last ones of a row, behind which nothing may be read. */
+/* Does the last ones of a row, behind which nothing may be read. */
 static vf32 bloom_bright_rest(const float *const rows[4], int first, int end, float *out)
 {
     float room[4][V_LANES] = {{0}}, done[V_LANES];
@@ -68,7 +66,8 @@ static void kernel_bloom_rows(const float *const rows[4], int count, float *rest
 
 static void kernel_bloom_halve(const float *restrict row, int width, float *restrict out)
 {
-    int half = (width + 1) / 2, last = width - 1, inner = (width - 1) / 2; /* up to where no neighbour is beyond the end */
+    /* Inner: up to here no neighbour lies beyond the end */
+    int half = (width + 1) / 2, last = width - 1, inner = (width - 1) / 2;
     out[0] = bloom_filter(row[0], row[0], row[last < 1 ? last : 1], row[last < 2 ? last : 2]);
     for (int x = 1; x < inner; x++)
         out[x] = bloom_filter(row[2 * x - 1], row[2 * x], row[2 * x + 1], row[2 * x + 2]);
@@ -86,7 +85,7 @@ static void kernel_bloom_mix(const float *restrict near, const float *restrict f
 
 static ALWAYS_INLINE void bloom_put(float value, int add, float *out) { *out = add ? *out + value : value; }
 
-/* Whether it adds is a constant for the compiler. */
+/* Inlined for each `add`, so that the compiler sees a constant. */
 static ALWAYS_INLINE void bloom_widen(const float *restrict row, int width, int add, float *restrict out)
 {
     int half = (width + 1) / 2, pairs = width / 2;
@@ -126,12 +125,10 @@ static void kernel_bloom_lay(const float *const glow[3], float scale, const floa
         int lanes = count - x < V_LANES ? count - x : V_LANES;
         const vf32 light[3] = {v_loadf(glow[0] + x), v_loadf(glow[1] + x), v_loadf(glow[2] + x)};
         vf32 most = v_max(v_max(light[0], light[1]), light[2]);
-        if (!v_any(v_gt(most, v_setf(0.0f)))) /* codes that are decoded come back */
+        if (!v_any(v_gt(most, v_setf(0.0f)))) /* without glow, codes would decode and encode to themselves */
             continue;
         memcpy(pixels, rgba + x, sizeof *pixels * (size_t)lanes);
         v_storei(pixels, bloom_lay_vector(&curve, light, v_setf(scale), decode, srgb, v_loadi(pixels)));
         memcpy(rgba + x, pixels, sizeof *pixels * (size_t)lanes);
     }
 }
-
-#endif

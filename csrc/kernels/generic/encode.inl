@@ -1,22 +1,22 @@
 /* encode: colours, clamped to [0, 1] (R33), to 8 bits (R34). */
-#ifndef E3D_KERNELS_ENCODE_INL
-#define E3D_KERNELS_ENCODE_INL
+#pragma once
 
 #include "base/always_inline.h"
 #include "data/encode_tables.h"
 
 static inline vf32 encode_clamp(vf32 v) { return v_min(v_max(v, v_setf(0.0f)), v_setf(1.0f)); }
 
-/* The codes of one vector of colours, which are not clamped yet. */
+/* The codes of one vector of colours, which need not be clamped. */
 static ALWAYS_INLINE vi32 encode_linear(const vf32 color[3])
 {
     vi32 code[3];
     for (int k = 0; k < 3; k++)
-        code[k] = v_rint(v_mul(v_setf(255.0f), v_min(v_setf(1.0f), color[k]))); /* a NaN: INT32_MIN, which v_rgba takes as 0 */
+        /* NaN becomes INT32_MIN, which v_rgba takes as 0 */
+        code[k] = v_rint(v_mul(v_setf(255.0f), v_min(v_setf(1.0f), color[k])));
     return v_rgba(code);
 }
 
-/* The number of thresholds <= v, found on the curve of encode_tables.h. */
+/* The number of thresholds <= v, found by the curve of encode_tables.h. */
 static ALWAYS_INLINE vi32 encode_srgb(const vcurve *curve, const vf32 color[3])
 {
     vi32 place[3];
@@ -46,5 +46,3 @@ static void kernel_encode(const float *red, const float *green, const float *blu
         v_storei(rgba + i, encode_vector(&curve, color, srgb));
     }
 }
-
-#endif

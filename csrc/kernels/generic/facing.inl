@@ -7,8 +7,7 @@
  * height on the screen: each corner moves along the edge between the two others. Both are divided by the length of an edge here.
  * Cones after Shirmun and Abi-Ezzi (1993).
  */
-#ifndef E3D_KERNELS_FACING_INL
-#define E3D_KERNELS_FACING_INL
+#pragma once
 
 #include <math.h>
 #include <stddef.h>
@@ -20,16 +19,17 @@
 #include "kernels/generic/setup.inl"
 
 typedef struct facing_cones {
-    vf32 centre[3], reach; /* centre of the box; a distance from the origin that no vertex exceeds */
+    vf32 centre[3], reach; /* the centre of the box; no vertex is farther from the origin than `reach` */
     vf32 axis[3], cosine, altitude, radius;
 } facing_cones;
 
 static inline vf32 facing_abs(vf32 a) { return v_asf(v_andi(v_asi(a), v_seti(0x7FFFFFFF))); }
 
-/* Loads clusters; lanes past the last one repeat the first. */
+/* Loads clusters; lanes beyond the last one repeat the first. */
 static inline facing_cones facing_load(const e3d_cluster *clusters, int count)
 {
-    enum { HALF = 8, LO = offsetof(e3d_cluster, lo) / 4 };
+    enum { HALF = 8,
+           LO = offsetof(e3d_cluster, lo) / 4 };
     _Static_assert(LO == 4 && sizeof(e3d_cluster) == 64, "a cluster's numbers are the last twelve of sixteen words");
     const void *first[V_LANES], *second[V_LANES];
     vi32 w[2 * HALF];
@@ -52,8 +52,8 @@ static inline facing_cones facing_load(const e3d_cluster *clusters, int count)
     return c;
 }
 
-/* A lower bound of the eye's distance from the planes of each cluster's faces, on the side `sign`; returns the lanes where it is
- * positive. */
+/* A lower bound of the eye's distance from the planes of each cluster's faces, on the side `sign`; returns the lanes in which
+ * it is positive. */
 static inline vmask facing_distance(const facing_cones *c, const float eye[3], float sign, vf32 *distance)
 {
     vf32 along = v_setf(0), square = v_setf(0), places = v_setf(0), zero = v_setf(0);
@@ -70,8 +70,8 @@ static inline vmask facing_distance(const facing_cones *c, const float eye[3], f
     return v_mand(v_gt(c->altitude, zero), v_gt(*distance, zero));
 }
 
-/* One clip coordinate of a cluster's vertices: its value at the box's centre, how far the others may be from that, and how much of
- * this is rounding. */
+/* One clip coordinate of a cluster's vertices: its value at the box's centre, the greatest deviation from that, and the part
+ * of the deviation that is rounding. */
 typedef struct facing_coordinate {
     vf32 middle, spread, slack;
 } facing_coordinate;
@@ -84,16 +84,16 @@ static inline facing_coordinate facing_coordinate_of(const float row[4], float l
     return (facing_coordinate){middle, v_add(v_mul(v_setf(1.001f * length), c->radius), slack), slack};
 }
 
-/* The largest |x| / w (or |y| / w) that is within the guard band and within twice the picture. */
+/* The greatest |x| / w (or |y| / w) within both the guard band and twice the picture. */
 static inline float facing_within(float guard) { return guard > 2 ? 2 : 0.999f * guard; }
 
-/* A cluster on the screen: the least and the greatest w; the largest |x| and |y| in NDC; how far a corner may be moved by
- * snapping, by the roundings from NDC to the screen (9 * 2^-24 of the scale) and by those of the clip coordinates. */
+/* A cluster on the screen: the least and the greatest w, the greatest |x| and |y| in NDC, and how far a corner may move: by
+ * snapping, by the roundings from NDC to the screen (9 * 2^-24 of the scale), and by those of the clip coordinates. */
 typedef struct facing_screen {
     vf32 least, most, right, up, moved;
 } facing_screen;
 
-/* Returns the lanes in which nothing is clipped (R7), and all is within twice the picture. */
+/* Returns the lanes in which nothing is clipped (R7) and everything lies within twice the picture. */
 static inline vmask facing_screen_of(const facing_cones *c, const e3d_facing *f, const float clip[16], const e3d_viewport *viewport,
                                      facing_screen *out)
 {
@@ -110,7 +110,7 @@ static inline vmask facing_screen_of(const facing_cones *c, const e3d_facing *f,
     return v_mand(v_mand(apart, inside), v_gt(v_sub(z.middle, z.spread), v_mul(v_setf(-0.999f), least)));
 }
 
-/* Returns the lanes whose triangles' areas exceed what moved corners can change. What overflows is not sure. */
+/* Returns the lanes whose triangles' areas exceed any change by moved corners. A lane that overflows is not among them. */
 static inline vmask facing_is_sure(const facing_cones *c, const e3d_facing *f, const facing_screen *s, const e3d_viewport *viewport,
                                    vf32 distance)
 {
@@ -151,5 +151,3 @@ static uint32_t kernel_face_away(const e3d_cluster *clusters, int count, const e
         away |= facing_away(clusters + i, count - i, f, drop, clip, viewport) << i;
     return away;
 }
-
-#endif

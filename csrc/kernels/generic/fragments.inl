@@ -1,11 +1,7 @@
-/* fragments: the samples that small triangles cover, with their depths (R9, R10, R12-R14), a vector of triangles at a time, then a
- * vector of samples, then tile by tile.
- *
- * Stages are short loops over a batch. One loop from corners to tiles would not fit the out-of-order window: iterations would not
- * overlap, and a city from above took 5 % longer.
- */
-#ifndef E3D_KERNELS_FRAGMENTS_INL
-#define E3D_KERNELS_FRAGMENTS_INL
+/* fragments: finds the samples that small triangles cover, with their depths (R9, R10, R12-R14): a vector of triangles at a
+ * time, then a vector of samples, then tile by tile. The stages are short loops over a batch. A single loop from corners to
+ * tiles would not fit the out-of-order window: iterations would not overlap, and a city from above took 5 % longer. */
+#pragma once
 
 #include <string.h>
 
@@ -33,7 +29,7 @@ static inline void fragment_add_each(const e3d_vertices *v, const uint8_t *indic
     }
 }
 
-/* Looks the vertices of a vector of triangles up in tables; lanes past the last triangle hold anything. */
+/* Looks up the vertices of a vector of triangles in tables; lanes beyond the last triangle hold anything. */
 static inline void fragment_add_vectors(const e3d_vertices *v, const uint8_t *indices, uint64_t triangles, int32_t first, int bits,
                                         e3d_small_triangles *to)
 {
@@ -57,7 +53,7 @@ static inline void fragment_add_vectors(const e3d_vertices *v, const uint8_t *in
     to->count += count;
 }
 
-/* Vectors are faster only where the tables lie in registers; a look-up there needs no valid index either. */
+/* Vectors are faster only if the tables lie in registers; a lookup there needs no valid index, either. */
 static void kernel_add_small(const e3d_vertices *v, const uint8_t *indices, uint64_t triangles, int32_t first, int bits,
                              e3d_small_triangles *to)
 {
@@ -69,7 +65,8 @@ static void kernel_add_small(const e3d_vertices *v, const uint8_t *indices, uint
 
 /* ---- which triangles cover samples ---- */
 
-/* Appends the lanes of `bits` of one vector to a list. It may be the list they come from, if that has no more than was read. */
+/* Appends the lanes of `bits` of one vector to a list. This may be the list that they come from, if that is no longer than
+ * what was read. */
 static inline void fragment_move(const e3d_small_triangles *from, int first, uint32_t bits, e3d_small_triangles *to)
 {
     int at = to->count;
@@ -81,7 +78,8 @@ static inline void fragment_move(const e3d_small_triangles *from, int first, uin
     to->count += v_pack(to->id + at, v_loadi(from->id + first), bits);
 }
 
-/* Sorts a vector of triangles: tiny ones (2 x 2 samples) that cover something to the front, with their cover, others to `wide`. */
+/* Sorts a vector of triangles: tiny ones (2 x 2 samples) that cover a sample go to the front, with their cover; others go to
+ * `wide`. */
 static inline void fragment_sort(e3d_small_triangles *triangles, int first, int left, const e3d_viewport *viewport,
                                  uint8_t *covers, e3d_small_triangles *wide)
 {
@@ -102,8 +100,10 @@ static inline void fragment_sort(e3d_small_triangles *triangles, int first, int 
 
 /* ---- vectors of triangles, and which samples they cover ---- */
 
-/* A vector of triangles, and their covered samples. A place is a byte: the triangle's lane, and the column and row in its box. */
-enum { FRAGMENT_COLUMN = 4, FRAGMENT_ROW = 6 };
+/* A vector of triangles, and the places of their covered samples. A place is a byte: the triangle's lane, and the column and
+ * row in its box. */
+enum { FRAGMENT_COLUMN = 4,
+       FRAGMENT_ROW = 6 };
 typedef struct fragment_vector {
     vi32 x, y, id; /* first sample of the box */
     record_plane plane;
@@ -138,7 +138,7 @@ static inline uint32_t fragment_begin(const e3d_small_triangles *triangles, int 
     return v_bits(finite) & setup_tail(triangles->count - first);
 }
 
-/* The place of a sample. Places are listed triangle after triangle, so that shading meets each triangle once. */
+/* The place of a sample. Places are listed triangle by triangle, so that shading meets each triangle once. */
 static inline vi32 fragment_place(vi32 lane, vi32 column, vi32 row)
 {
     return v_ori(lane, v_ori(v_shl(column, FRAGMENT_COLUMN), v_shl(row, FRAGMENT_ROW)));
@@ -232,10 +232,11 @@ static inline int fragment_wide(const e3d_small_triangles *triangles, const e3d_
 
 /* ---- fragments, not yet sorted by tile ---- */
 
-enum { FRAGMENT_MANY = 512, FRAGMENT_ROOM = FRAGMENT_MANY + V_LANES * E3D_SMALL * E3D_SMALL + E3D_PAD };
+enum { FRAGMENT_MANY = 512,
+       FRAGMENT_ROOM = FRAGMENT_MANY + V_LANES * E3D_SMALL * E3D_SMALL + E3D_PAD };
 typedef struct fragment_buffer {
     float z[FRAGMENT_ROOM];
-    int32_t id[FRAGMENT_ROOM], at[FRAGMENT_ROOM]; /* number of the tile * E3D_TILE_SAMPLES + sample in it */
+    int32_t id[FRAGMENT_ROOM], at[FRAGMENT_ROOM]; /* at: number of the tile * E3D_TILE_SAMPLES + sample in it */
     int count;
 } fragment_buffer;
 
@@ -260,43 +261,44 @@ static inline void fragment_make(const fragment_vector *v, vi32 place, int count
 
 /* ---- to their tiles ---- */
 
-/* The tile's last block, or a new one, with room for a vector. */
-static inline e3d_fragment_block *fragment_block(e3d_fragment_bins *out, int32_t tile)
+/* Returns the tile's last link, or a new one, with room for a vector. */
+static inline e3d_fragment_link *fragment_link(e3d_fragment_bins *out, int32_t tile)
 {
     e3d_bin *bin = &out->bins[tile];
-    if (bin->last != E3D_NO_BLOCK && out->blocks[bin->last].count <= E3D_BLOCK_FRAGMENTS - V_LANES)
-        return &out->blocks[bin->last];
-    e3d_fragment_block *block = &out->blocks[out->count];
-    for (size_t at = 0; at < sizeof *block; at += 64) /* it is in no cache yet, and would be fetched line by line as it fills */
-        __builtin_prefetch((const char *)block + at, 1);
-    block->next = E3D_NO_BLOCK;
-    block->count = 0;
-    *(bin->last == E3D_NO_BLOCK ? &bin->first : &out->blocks[bin->last].next) = out->count;
+    if (bin->last != E3D_NO_LINK && out->links[bin->last].count <= E3D_BLOCK_FRAGMENTS - V_LANES)
+        return &out->links[bin->last];
+    e3d_fragment_link *link = &out->links[out->count];
+    /* Prefetched for writing, since it is in no cache and would be fetched line by line as it fills */
+    for (size_t at = 0; at < sizeof *link; at += 64)
+        __builtin_prefetch((const char *)link + at, 1);
+    link->next = E3D_NO_LINK;
+    link->count = 0;
+    *(bin->last == E3D_NO_LINK ? &bin->first : &out->links[bin->last].next) = out->count;
     bin->last = out->count++;
-    return block;
+    return link;
 }
 
-/* Moves the fragments of one tile, in the vectors from `first` on, to its list, and takes them out of `left`. */
+/* Moves the fragments of one tile, in the vectors from `first` on, to its list, and removes them from `left`. */
 static inline void fragment_bin(const fragment_buffer *from, int first, int32_t tile, uint32_t *left, e3d_fragment_bins *out)
 {
-    e3d_fragment_block *block = fragment_block(out, tile);
-    uint32_t count = block->count;
+    e3d_fragment_link *link = fragment_link(out, tile);
+    uint32_t count = link->count;
     for (int i = first; i * V_LANES < from->count; i++) {
         vi32 at = v_loadi(from->at + i * V_LANES);
         uint32_t here = left[i] & v_bits(v_eqi(v_shr(at, 2 * E3D_TILE_SHIFT), v_seti(tile)));
         if (!here)
             continue;
         if (count > E3D_BLOCK_FRAGMENTS - V_LANES) {
-            block->count = count;
-            block = fragment_block(out, tile);
+            link->count = count;
+            link = fragment_link(out, tile);
             count = 0;
         }
-        v_pack(block->z + count, v_asi(v_loadf(from->z + i * V_LANES)), here);
-        v_pack(block->id + count, v_loadi(from->id + i * V_LANES), here);
-        count += (uint32_t)v_pack16(block->sample + count, v_andi(at, v_seti(E3D_TILE_SAMPLES - 1)), here);
+        v_pack(link->z + count, v_asi(v_loadf(from->z + i * V_LANES)), here);
+        v_pack(link->id + count, v_loadi(from->id + i * V_LANES), here);
+        count += (uint32_t)v_pack16(link->sample + count, v_andi(at, v_seti(E3D_TILE_SAMPLES - 1)), here);
         left[i] &= ~here;
     }
-    block->count = count;
+    link->count = count;
 }
 
 static inline void fragment_bin_all(fragment_buffer *from, e3d_fragment_bins *out)
@@ -315,7 +317,7 @@ static inline void fragment_bin_all(fragment_buffer *from, e3d_fragment_bins *ou
 
 /* ---- all ---- */
 
-/* Makes fragments of vectors of triangles, and sorts them by tile whenever there are many. */
+/* Makes fragments of vectors of triangles, and sorts them by tile whenever many have gathered. */
 static inline void fragment_finish(const fragment_vector *vectors, int triangles, int32_t tiles_x, fragment_buffer *buffer,
                                    e3d_fragment_bins *out)
 {
@@ -344,5 +346,3 @@ static void kernel_fragments(e3d_small_triangles *triangles, const e3d_viewport 
     fragment_bin_all(&buffer, out);
     triangles->count = 0;
 }
-
-#endif

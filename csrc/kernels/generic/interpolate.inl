@@ -1,10 +1,7 @@
-/* interpolate: attributes of a batch of samples (R19-R26).
- *
- * Samples come in the order of their surfaces, so the surfaces of one vector lie side by side: each of their numbers is one load
- * and one permutation, or one broadcast where all samples are of one surface, rather than a gather.
- */
-#ifndef E3D_KERNELS_INTERPOLATE_INL
-#define E3D_KERNELS_INTERPOLATE_INL
+/* interpolate: attributes of a batch of samples (R19-R26). Samples come in the order of their surfaces, so that the surfaces
+ * of one vector are neighbours: each of their numbers is one load and one permutation (or one broadcast, if all samples are
+ * of one surface) rather than a gather. */
+#pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -42,7 +39,7 @@ static ALWAYS_INLINE vf32 interpolate_offset(const int32_t *offsets, vi32 number
     return v_mul(v_float(v_gatheri(offsets, number)), v_setf(1.0f / E3D_SUBPIXEL));
 }
 
-/* R105: at the centre, where none of the weights is negative there, else at the sample of that number. */
+/* R105: interpolates at the pixel's centre if no weight is negative there, else at the given sample. */
 static ALWAYS_INLINE void interpolate_placed(e3d_batch *batch, int i, const e3d_surfaces *s, const element_lanes *lanes, int same,
                                              weight_lanes *out)
 {
@@ -71,7 +68,7 @@ static ALWAYS_INLINE void interpolate_placed(e3d_batch *batch, int i, const e3d_
         out->w[k] = v_max(out->w[k], v_setf(k ? 0.0f : E3D_LEAST_WEIGHT));
 }
 
-/* The weighted sum of one component, whose values at the three corners are in `rows`. */
+/* The weighted sum of one component; `rows` holds its values at the three corners. */
 static ALWAYS_INLINE vf32 weighted_sum(const e3d_surface_floats rows[3], const element_lanes *lanes, int same, const vf32 w[3])
 {
     vf32 corner[3];
@@ -79,7 +76,7 @@ static ALWAYS_INLINE vf32 weighted_sum(const e3d_surface_floats rows[3], const e
     return dot_three(w, corner);
 }
 
-/* R22: makes v a unit vector; one without a usable length becomes 0 or NaN. */
+/* R22: normalises v; without a usable length it becomes 0 or NaN. */
 static inline void unit_length(vf32 v[3])
 {
     vf32 length2 = v_max(v_setf(E3D_LEAST_LENGTH2), dot_three(v, v)); /* a NaN stays one */
@@ -90,14 +87,14 @@ static inline void unit_length(vf32 v[3])
 
 /* ---- stages: each over all vectors of a batch ---- */
 
-/* One vector of samples: its first, the surfaces that it picks from, and whether all samples are of one surface. */
+/* One vector of samples: its first sample, the surfaces that it picks from, and whether all samples are of one surface. */
 typedef struct sample_vector {
     int i, same;
     element_lanes elements;
     const e3d_surfaces *s;
 } sample_vector;
 
-/* Runs a stage, whose argument is `how`, over a batch. It is inlined twice, so that `same` is a constant in one of the copies. */
+/* Runs `stage` with the argument `how` over a batch. It is inlined twice, so that `same` is a constant in one of the copies. */
 static ALWAYS_INLINE void each_vector(e3d_batch *batch, const e3d_surfaces *surfaces,
                                       void (*stage)(e3d_batch *, const sample_vector *, const void *), const void *how)
 {
@@ -129,7 +126,7 @@ static ALWAYS_INLINE void keep_weights(e3d_batch *batch, int i, const weight_lan
     v_storef(batch->r + i, weights->r);
 }
 
-/* R26: the bits of a float are its logarithm, straight between powers of two. */
+/* R26: the bits of a float are its logarithm, linear between powers of two. */
 static ALWAYS_INLINE vi32 level_of(const e3d_surface_floats slopes[2][3], const weight_lanes *weights, const sample_vector *v)
 {
     vf32 along[2], down[2], r2 = v_mul(weights->r, weights->r);
@@ -167,7 +164,7 @@ static ALWAYS_INLINE void find_middle(e3d_batch *batch, const sample_vector *v)
     }
 }
 
-/* Divisions and roots have a long latency, so r is only found if something needs it. */
+/* Interpolates a vector. r is found only if something needs it, since divisions and roots have a long latency. */
 static ALWAYS_INLINE void interpolate_vector(e3d_batch *batch, const sample_vector *v, int wanted, int placed)
 {
     weight_lanes weights = {.r = v_setf(0.0f)};
@@ -213,7 +210,7 @@ static void kernel_interpolate(e3d_batch *batch, const e3d_surfaces *surfaces, i
         each_vector(batch, surfaces, stage_interpolate, &wanted);
 }
 
-/* R24: color *= tint, or base * tint where a base is given. */
+/* R24: color *= tint, or base * tint if a base is given. */
 static ALWAYS_INLINE void tint_vector(e3d_batch *batch, const sample_vector *v, int c, const float *base, vf32 tint)
 {
     vf32 color = base ? v_setf(base[c]) : v_loadf(batch->color[c] + v->i);
@@ -235,7 +232,7 @@ static ALWAYS_INLINE void stage_instance_color(e3d_batch *batch, const sample_ve
         tint_vector(batch, v, c, base, take(v->s->instance_color[c], &v->elements, v->same));
 }
 
-/* Tints the colours of a batch, or those of a constant base, which are not written yet. */
+/* Tints the colours of a batch, or a constant base that isn't written yet. */
 static inline void tint_all(e3d_batch *batch, const e3d_surfaces *surfaces, int by_vertex, int by_instance, const float *base)
 {
     if (by_vertex)
@@ -252,7 +249,7 @@ static void kernel_tint(e3d_batch *batch, const e3d_surfaces *surfaces, int by_v
 /* R27 */
 static inline vf32 log2_poly(vf32 q)
 {
-    static const float c[7] = {0x1.c5507p-2f,  -0x1.1d270ep-2f, 0x1.99e72p-3f, -0x1.2cc076p-3f,
+    static const float c[7] = {0x1.c5507p-2f, -0x1.1d270ep-2f, 0x1.99e72p-3f, -0x1.2cc076p-3f,
                                0x1.823526p-4f, -0x1.5a65f6p-5f, 0x1.2b619ap-7f};
     vi32 bits = v_asi(q);
     vf32 exponent = v_float(v_subi(v_shr(bits, 23), v_seti(127)));
@@ -277,5 +274,3 @@ static inline vf32 exp2_poly(vf32 y)
     vf32 fraction = v_add(v_add(one, f), v_mul(v_mul(f, v_sub(f, one)), sum));
     return v_mul(fraction, v_asf(v_shl(v_addi(whole, v_seti(127)), 23)));
 }
-
-#endif

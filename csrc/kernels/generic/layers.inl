@@ -4,8 +4,7 @@
  * the next one is closed: it hides whatever follows. One that reaches farther is open: where it shares samples with the next one,
  * their depths are compared there. So no tile of few records of the textured head needs a depth buffer: 6 % less time.
  */
-#ifndef E3D_KERNELS_LAYERS_INL
-#define E3D_KERNELS_LAYERS_INL
+#pragma once
 
 #include <string.h>
 
@@ -15,12 +14,12 @@
 #include "kernels/generic/visible.inl"
 #include "kernels/generic/spans.inl"
 
-enum { LAYERS_CONTESTED = 512 }; /* samples: comparing more than these takes longer than a depth buffer */
+enum { LAYERS_CONTESTED = 512 }; /* samples: comparing more of them takes longer than a depth buffer */
 
 /* The samples that are left to a record, by row: [y] is row y of the tile. */
 static inline uint64_t *layers_left(e3d_layers *layers, const e3d_covering *c) { return layers->left + c->at - c->y0; }
 
-/* Closes a record: the samples that are left to it hide what follows. */
+/* Closes a record: the samples that are left to it hide later records. */
 static inline void layers_hide(e3d_layers *layers, const e3d_covering *c)
 {
     const int32_t *left = (const int32_t *)(layers->left + c->at);
@@ -44,7 +43,7 @@ static inline void layers_close(e3d_layers *layers, const e3d_cover *cover, floa
     layers->opened = open;
 }
 
-/* The samples of a row that two records share and in which the first is in front (R16). */
+/* The samples of a row that two records share and in which the first one is in front (R16). */
 static inline uint64_t layers_nearer(const e3d_covering *a, const e3d_covering *b, uint64_t both, int32_t y, const e3d_cover *cover,
                                      const e3d_record_table *table)
 {
@@ -59,7 +58,7 @@ static inline uint64_t layers_nearer(const e3d_covering *a, const e3d_covering *
     return nearer;
 }
 
-/* Leaves each sample that a new record shares with an open one to one of the two, by depth. */
+/* Gives each sample that a new record shares with an open one to the nearer of the two. */
 static inline void layers_contest(e3d_layers *layers, const e3d_covering *c, const e3d_cover *cover, const e3d_record_table *table)
 {
     uint64_t *left = layers_left(layers, c);
@@ -80,7 +79,7 @@ static inline void layers_contest(e3d_layers *layers, const e3d_covering *c, con
     }
 }
 
-/* Adds the samples of a row, as runs of the piece that comes next. */
+/* Adds the samples of a row, as runs of the next primitive. */
 static inline void layers_add_row(uint64_t left, int32_t y, e3d_shown *out)
 {
     while (left) {
@@ -88,7 +87,7 @@ static inline void layers_add_row(uint64_t left, int32_t y, e3d_shown *out)
         uint64_t gap = ~(left >> x);
         int32_t length = gap ? __builtin_ctzll(gap) : E3D_TILE;
         out->sample[out->count] = (y * E3D_TILE + x) | length << E3D_RUN_LENGTH;
-        out->of[out->count++] = out->pieces;
+        out->of[out->count++] = out->primitives;
         left &= left + ((uint64_t)1 << x);
     }
 }
@@ -102,12 +101,12 @@ static inline void layers_show(e3d_layers *layers, const e3d_covering *c, e3d_sh
     spans_name(c->id, first, out);
 }
 
-/* A record's samples: those that closed records hide, those that are left to it, and those of these that others have, too. */
+/* A record's samples: those that closed records hide, those that are left to it, and of these those that others cover, too. */
 typedef struct layers_state {
     vi32 hidden, left, doubt;
 } layers_state;
 
-/* Takes V_LANES rows of a record, but for the samples that closed records hide. */
+/* Takes V_LANES rows of a record, without the samples that closed records hide. */
 static inline void layers_note(vi32 spans, int32_t y, int32_t at, e3d_layers *layers, layers_state *state)
 {
     int32_t *left = (int32_t *)(layers->left + at), *covered = (int32_t *)(layers->covered + y);
@@ -158,7 +157,7 @@ static inline void layers_begin(e3d_layers *layers)
 static int kernel_show_layers(const e3d_cover *cover, const e3d_record_table *table, const uint16_t *numbers, int count,
                               e3d_layers *layers, e3d_shown *out)
 {
-    int32_t runs = out->count, pieces = out->pieces;
+    int32_t runs = out->count, primitives = out->primitives;
     float near = 0.0f;
     layers_begin(layers);
     for (int i = 0; i < count; i++) {
@@ -170,11 +169,9 @@ static int kernel_show_layers(const e3d_cover *cover, const e3d_record_table *ta
     }
     if (!layers->taken)
         return 1;
-    out->count = runs; /* a later record took samples of one that was listed already: list all anew */
-    out->pieces = pieces;
+    out->count = runs; /* a later record took samples of one that was listed already: list everything again */
+    out->primitives = primitives;
     for (int i = 0; i < count; i++)
         layers_show(layers, &cover->record[numbers[i]], out);
     return 1;
 }
-
-#endif

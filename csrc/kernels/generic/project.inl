@@ -1,6 +1,5 @@
-/* project: the corners on the screen of visible pieces that have no record (R3, R8, R9), a vector of pieces at a time. */
-#ifndef E3D_KERNELS_PROJECT_INL
-#define E3D_KERNELS_PROJECT_INL
+/* project: finds the corners on the screen of visible primitives that have no record (R3, R8, R9), a vector of them at a time. */
+#pragma once
 
 #include "kernels/types/shading.h"
 #include "kernels/types/vertices.h"
@@ -49,5 +48,3 @@ static void kernel_project(e3d_surfaces *s, const e3d_viewport *viewport)
         project_keep(chosen, s->back + n, v_seli(v_eqi(exchanged, mirrored), one, zero));
     }
 }
-
-#endif

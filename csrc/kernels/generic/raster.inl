@@ -1,15 +1,15 @@
-/* raster: the samples of a tile that a piece covers, and its depth there (R12, R14-R17).
- *
- * Four uses of one loop: depth test, overwrite, count, mark. A piece is drawn in strips: columns of unaligned vectors.
- */
-#ifndef E3D_KERNELS_RASTER_INL
-#define E3D_KERNELS_RASTER_INL
+/* raster: finds the samples of a tile that a piece covers, and its depths there (R12, R14-R17). One loop has four uses: depth
+ * test, overwrite, count, mark. A piece is drawn in strips, which are columns of unaligned vectors. */
+#pragma once
 
 #include "base/limits.h"
 #include "kernels/kernels.h"
 #include "kernels/types/visible.h"
 
-enum { RASTER_DEPTH, RASTER_OVERWRITE, RASTER_COUNT, RASTER_MARK };
+enum { RASTER_DEPTH,
+       RASTER_OVERWRITE,
+       RASTER_COUNT,
+       RASTER_MARK };
 enum { RASTER_BLOCK = 8 };
 
 typedef struct raster_constants {
@@ -17,7 +17,7 @@ typedef struct raster_constants {
     vi32 slot;
 } raster_constants;
 
-/* R14, the part that a column of vectors shares. */
+/* The part of R14 that a column of vectors shares. */
 static inline vf32 raster_column(const raster_constants *c, int32_t from)
 {
     vf32 dx = v_float(v_addi(v_iota(), v_seti(from)));
@@ -30,7 +30,7 @@ static inline vf32 raster_z(const raster_constants *c, vf32 column, int32_t dy)
     return v_min(v_max(z, c->zmin), c->zmax);
 }
 
-/* The lanes of equal depth in which this piece comes first (R16). */
+/* Of lanes with equal depth, those in which this piece comes first (R16). */
 static inline uint32_t raster_ties(uint32_t equal, const int32_t *slot, const e3d_piece *piece,
                                    const e3d_tile_buffers *tile)
 {
@@ -106,10 +106,10 @@ static inline void raster_strip(int use, const e3d_piece *p, int x, const raster
     }
 }
 
-/* Draws strips from the box's first column on, or as far to the right as the tile allows. */
+/* Draws strips from the box's first column on; the last strip begins where the tile still holds a vector. */
 static inline void raster_piece(int use, const e3d_piece *p, const e3d_tile_buffers *tile)
 {
-    raster_constants c = {v_setf(p->z0),   v_setf(p->gx),   v_setf(p->gy),
+    raster_constants c = {v_setf(p->z0), v_setf(p->gx), v_setf(p->gy),
                           v_setf(p->zmin), v_setf(p->zmax), v_seti((int32_t)p->slot)};
     int strips = (p->x1 - p->x0) / V_LANES + 1, most = E3D_TILE - strips * V_LANES;
     int x = p->x0 < most ? p->x0 : most;
@@ -117,15 +117,13 @@ static inline void raster_piece(int use, const e3d_piece *p, const e3d_tile_buff
         raster_strip(use, p, x + i * V_LANES, &c, tile);
 }
 
-#define RASTER_KERNEL(name, use)                                                            \
-    static void kernel_raster_##name(const e3d_piece *piece, const e3d_tile_buffers *tile)  \
-    {                                                                                       \
-        raster_piece(use, piece, tile);                                                     \
+#define RASTER_KERNEL(name, use) \
+    static void kernel_raster_##name(const e3d_piece *piece, const e3d_tile_buffers *tile) \
+    { \
+        raster_piece(use, piece, tile); \
     }
 
 RASTER_KERNEL(depth, RASTER_DEPTH)
 RASTER_KERNEL(overwrite, RASTER_OVERWRITE)
 RASTER_KERNEL(count, RASTER_COUNT)
 RASTER_KERNEL(mark, RASTER_MARK)
-
-#endif

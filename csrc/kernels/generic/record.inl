@@ -1,9 +1,6 @@
-/* setup, second half: the records of a cluster's triangles that may show (R9, R10, R12, R13), a vector at a time.
- *
- * Products of snapped coordinates stay below 2^53, so double vectors give what 64-bit integers and scalar doubles do.
- */
-#ifndef E3D_KERNELS_RECORD_INL
-#define E3D_KERNELS_RECORD_INL
+/* setup, second half: makes records of a cluster's triangles that may show (R9, R10, R12, R13), a vector at a time. Products
+ * of snapped coordinates stay below 2^53, so double vectors give the results of 64-bit integers and of scalar doubles. */
+#pragma once
 
 #include <string.h>
 
@@ -13,7 +10,7 @@
 #include "kernels/types/vertices.h"
 #include "kernels/generic/setup.inl"
 
-/* Three corners of each lane's triangle; after R9 they turn the way that makes the area positive. */
+/* Three corners of each lane's triangle; after R9 their order makes the area positive. */
 typedef struct record_corners {
     vi32 x[3], y[3];
     vf32 zn[3], iw[3];
@@ -77,7 +74,7 @@ typedef struct record_plane {
     vf32 z0, gx, gy, zmin, zmax;
 } record_plane;
 
-/* R13, for corners that turn the right way; `finite` gets the lanes whose plane is finite. */
+/* R13 for corners in the order of a positive area; `finite` gets the lanes whose plane is finite. */
 static inline record_plane record_plane_of(const record_corners *c, setup_span across, setup_span down,
                                            vmask *finite)
 {
@@ -101,11 +98,11 @@ static inline record_plane record_plane_of(const record_corners *c, setup_span a
                       v_min(v_min(c->zn[0], c->zn[1]), c->zn[2]),
                       v_max(v_max(c->zn[0], c->zn[1]), c->zn[2])};
     vf32 none = v_add(v_sub(p.z0, p.z0), v_add(v_sub(p.gx, p.gx), v_sub(p.gy, p.gy)));
-    *finite = v_eq(none, v_setf(0.0f)); /* v - v is 0 for finite v, NaN for the others */
+    *finite = v_eq(none, v_setf(0.0f)); /* v - v is 0 for finite v, and NaN for others */
     return p;
 }
 
-/* Edge function k (R12) at a sample, not negative inside; `sign` is all ones in the lanes that turn the other way. */
+/* Edge function k (R12) at a sample, not negative inside; `sign` is all ones in lanes whose corners were exchanged. */
 typedef struct record_edge {
     vi32 a, b, c;
 } record_edge;
@@ -143,14 +140,14 @@ static inline vi32 record_cover(const vi32 x[3], const vi32 y[3], setup_span acr
     return v_andi(cover, v_seli(v_eqi(down.first, down.last), v_seti(3), v_seti(15)));
 }
 
-/* The triangles that get a record; tiny ones that cover nothing are left out. */
+/* The triangles that get a record. Tiny ones that cover nothing are left out. */
 typedef struct record_list {
     uint8_t triangles[E3D_CLUSTER_TRIANGLES + E3D_PAD];
-    uint8_t cover[E3D_CLUSTER_TRIANGLES + E3D_PAD]; /* of the tiny ones, else 0 */
+    uint8_t cover[E3D_CLUSTER_TRIANGLES + E3D_PAD]; /* covers of tiny triangles; 0 for others */
     int count;
 } record_list;
 
-/* Lists all triangles, where tiny ones are not told from the others. */
+/* Lists all triangles, if tiny ones are not treated apart. */
 static inline void record_list_all(const e3d_record_request *q, record_list *list)
 {
     memcpy(list->triangles, q->triangles, (size_t)q->count + E3D_PAD);
@@ -158,7 +155,7 @@ static inline void record_list_all(const e3d_record_request *q, record_list *lis
     list->count = q->count;
 }
 
-/* Lists a vector's triangles, but for tiny ones that cover nothing. */
+/* Lists a vector's triangles, without tiny ones that cover nothing. */
 static inline void record_try(const e3d_record_request *q, int first, record_list *list)
 {
     vi32 x[3], y[3];
@@ -188,11 +185,11 @@ static inline void record_list_some(const e3d_record_request *q, record_list *li
     list->count = 0;
     for (int i = 0; i < q->count; i += V_LANES)
         record_try(q, i, list);
-    memset(list->triangles + list->count, 0, E3D_PAD); /* padding: whole vectors are read */
+    memset(list->triangles + list->count, 0, E3D_PAD); /* padding, since whole vectors are read */
     memset(list->cover + list->count, 0, E3D_PAD);
 }
 
-/* Flags of a record, with the cover of a tiny one. */
+/* The flags of records, with the covers of tiny ones. */
 static inline vi32 record_meta(vi32 cover, vmask back, vmask swapped)
 {
     vi32 zero = v_seti(0), meta = v_seti(E3D_RECORD_FACE);
@@ -202,18 +199,18 @@ static inline vi32 record_meta(vi32 cover, vmask back, vmask swapped)
     return v_ori(meta, v_shl(cover, E3D_RECORD_SHIFT));
 }
 
-/* The tiles of the boxes: row << 16 | column of the first and of the last. */
-static inline void record_spans(setup_span across, setup_span down, e3d_tile_span *out)
+/* The tiles of the boxes: row << 16 | column, of the first tile and of the last. */
+static inline void record_spans(setup_span across, setup_span down, e3d_tile_rect *out)
 {
     int32_t first[V_LANES], last[V_LANES];
     v_storei(first, v_ori(v_sra(across.first, E3D_TILE_SHIFT), v_shl(v_sra(down.first, E3D_TILE_SHIFT), 16)));
     v_storei(last, v_ori(v_sra(across.last, E3D_TILE_SHIFT), v_shl(v_sra(down.last, E3D_TILE_SHIFT), 16)));
     for (int lane = 0; lane < V_LANES; lane++)
-        out[lane] = (e3d_tile_span){(uint32_t)first[lane], (uint32_t)last[lane]};
+        out[lane] = (e3d_tile_rect){(uint32_t)first[lane], (uint32_t)last[lane]};
 }
 
 /* Moves the records to keep to the front, in place; mostly these are all. Returns how many. */
-static inline int record_keep(uint32_t keep, e3d_record *records, e3d_tile_span *spans)
+static inline int record_keep(uint32_t keep, e3d_record *records, e3d_tile_rect *spans)
 {
     int made = 0, all = v_count(keep);
     for (uint32_t left = keep >> all ? keep : 0; left; left &= left - 1, made++) {
@@ -224,9 +221,9 @@ static inline int record_keep(uint32_t keep, e3d_record *records, e3d_tile_span 
     return all;
 }
 
-/* The records of one vector of triangles; how many. */
+/* Makes the records of one vector of triangles; returns how many. */
 static inline int record_vector(const e3d_record_request *q, const record_list *list, int first, e3d_record *out,
-                                e3d_tile_span *spans)
+                                e3d_tile_rect *spans)
 {
     const uint8_t *triangles = list->triangles + first;
     int count = list->count - first;
@@ -248,7 +245,7 @@ static inline int record_vector(const e3d_record_request *q, const record_list *
     drop = v_mor(drop, v_mor(v_gti(across.first, across.last), v_gti(down.first, down.last)));
     vmask finite;
     record_plane p = record_plane_of(&c, across, down, &finite);
-    vmask back = q->mirrored ? swapped : v_mnot(swapped); /* front faces turn the other way, Y being down */
+    vmask back = q->mirrored ? swapped : v_mnot(swapped); /* front faces have the other sign, since Y points down */
     vi32 meta = record_meta(v_loadu8(list->cover + first), back, swapped);
     uint32_t keep = v_bits(v_mandnot(finite, drop)) & setup_tail(count);
     const vi32 words[16] = {c.x[0], c.x[1], c.x[2], c.y[0], c.y[1], c.y[2], v_asi(p.z0), v_asi(p.gx),
@@ -259,7 +256,7 @@ static inline int record_vector(const e3d_record_request *q, const record_list *
     return record_keep(keep, out, spans);
 }
 
-static int kernel_record(const e3d_record_request *q, e3d_record *out, e3d_tile_span *spans)
+static int kernel_record(const e3d_record_request *q, e3d_record *out, e3d_tile_rect *spans)
 {
 #ifdef E3D_NARROW_TABLE
     if (q->count <= V_LANES / 2)
@@ -275,5 +272,3 @@ static int kernel_record(const e3d_record_request *q, e3d_record *out, e3d_tile_
         made += record_vector(q, &list, i, out + made, spans + made);
     return made;
 }
-
-#endif

@@ -1,8 +1,6 @@
-/* runs: neighbouring samples of a row with the same slot or ID, found, and spread over batches, a vector at a time. Where a whole
- * row of blocks is noted, no sample is looked at: its eight rows are alike.
- */
-#ifndef E3D_KERNELS_RUNS_INL
-#define E3D_KERNELS_RUNS_INL
+/* runs: finds neighbouring samples of a row with the same slot or ID, and spreads them over batches, a vector at a time. If a
+ * whole row of blocks is noted, no sample is read: its eight rows are alike. */
+#pragma once
 
 #include "base/limits.h"
 #include "kernels/types/shading.h"
@@ -11,7 +9,7 @@
 #include "kernels/generic/raster.inl"
 #include "kernels/generic/visible.inl"
 
-/* Bit x: sample x differs from sample x + 1, or is the row's last. */
+/* Bit x is set if sample x differs from sample x + 1, or is the row's last. */
 static inline uint64_t runs_ends(const int32_t *row, int width)
 {
     uint64_t ends = 0;
@@ -23,7 +21,7 @@ static inline uint64_t runs_ends(const int32_t *row, int width)
     return (ends & (last - 1)) | last;
 }
 
-/* Bit b: all blocks of the row that b is in are noted. */
+/* Bit b is set if all blocks in the row of block b are noted. */
 static inline uint64_t runs_noted(uint64_t noted)
 {
     for (int step = 1; step < VISIBLE_BLOCKS; step *= 2)
@@ -31,7 +29,7 @@ static inline uint64_t runs_noted(uint64_t noted)
     return (noted & 0x0101010101010101) * 0xFF;
 }
 
-/* Finds the runs of a row of blocks that are all noted: its rows of samples are alike. */
+/* Finds the runs of a row of blocks that are all noted, whose eight rows are alike. */
 static inline int runs_of_blocks(const int32_t *ids, int width, int rows, int sample, e3d_run *out, int32_t *owners)
 {
     int count = 0;
@@ -51,8 +49,8 @@ static inline int runs_of_blocks(const int32_t *ids, int width, int rows, int sa
     return rows * count;
 }
 
-/* Finds the runs of at most a block's rows. How many a row has is often mispredicted, so the ends of all rows are found first:
- * after a misprediction they are there already. Inside the spheres, 303 instead of 349 us a frame. */
+/* Finds the runs of at most a block's rows. Their number is often mispredicted, so the ends of all rows are found first:
+ * after a misprediction they are known already. Inside the spheres this takes 303 instead of 349 us a frame. */
 static inline int runs_of_rows(const int32_t *row, int width, int rows, int sample, e3d_run *out, int32_t *owners)
 {
     uint64_t ends_of[RASTER_BLOCK];
@@ -79,7 +77,7 @@ static inline int runs_of_rows(const int32_t *row, int width, int rows, int samp
 static int kernel_find_runs(e3d_visible_tile *tile, int width, int height, e3d_run *out, int *gaps)
 {
     uint64_t noted = runs_noted(tile->noted);
-    int32_t owners = 0; /* the OR of all owners: its sign bit tells of gaps */
+    int32_t owners = 0; /* the OR of all owners: its sign bit is set if there is a gap */
     int count = 0;
     for (uint64_t left = tile->noted & ~noted; left; left &= left - 1)
         visible_unfold_ids(tile, __builtin_ctzll(left));
@@ -101,15 +99,15 @@ static inline void batch_pad(e3d_batch *batch, int count)
     batch->count = count;
 }
 
-/* Spreads long runs, each by itself in whole vectors, which may go past its end. */
-static inline int runs_take_long(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
+/* Spreads long runs one by one in whole vectors, which may reach beyond a run's end. */
+static inline int runs_take_long(const e3d_shown *shown, int first, int count, int32_t primitive, e3d_batch *batch)
 {
     int n = batch->count, r = first;
     for (; r < first + count; r++) {
         int32_t run = shown->sample[r], length = run >> E3D_RUN_LENGTH;
         if (n + length > E3D_BATCH)
             break;
-        vi32 at = v_addi(v_seti(run & (E3D_TILE_SAMPLES - 1)), v_iota()), surface = v_seti(shown->of[r] - piece);
+        vi32 at = v_addi(v_seti(run & (E3D_TILE_SAMPLES - 1)), v_iota()), surface = v_seti(shown->of[r] - primitive);
         for (int i = n; i < n + length; i += V_LANES, at = v_addi(at, v_seti(V_LANES))) {
             v_storei(batch->sample + i, at);
             v_storei(batch->surface + i, surface);
@@ -120,12 +118,13 @@ static inline int runs_take_long(const e3d_shown *shown, int first, int count, i
     return r - first;
 }
 
-/* A run as one word that all its samples share: its surface, and how far its first sample is from its place among the new samples,
- * plus RUN_BEFORE, which keeps it positive. */
-enum { RUN_SURFACE = 16, RUN_BEFORE = E3D_BATCH };
+/* A run as one word, which all its samples share: its surface, and the distance from its place among the new samples to its
+ * first sample. RUN_BEFORE keeps that positive. */
+enum { RUN_SURFACE = 16,
+       RUN_BEFORE = E3D_BATCH };
 
 /* Writes `count` new samples from place `first` on, each vector once. Their words are the running sums of batch->steps, which
- * become 0 again. */
+ * are reset to 0. */
 static inline void runs_add_up(int first, int count, e3d_batch *batch)
 {
     vi32 before = v_seti(0), last = v_seti(count - 1 - RUN_BEFORE), place = v_subi(v_iota(), v_seti(RUN_BEFORE));
@@ -139,9 +138,9 @@ static inline void runs_add_up(int first, int count, e3d_batch *batch)
     }
 }
 
-/* Spreads short runs: where one begins, its word minus the one before is noted; then every vector is written once. Overlapping
- * stores would take longer: 2 % of the head with AVX2, 4 % with AVX-512. */
-static inline int runs_take_short(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
+/* Spreads short runs: at the place where a run begins, the difference to the word before is stored; then every vector is
+ * written once. Overlapping stores would take longer: 2 % of the head with AVX2, 4 % with AVX-512. */
+static inline int runs_take_short(const e3d_shown *shown, int first, int count, int32_t primitive, e3d_batch *batch)
 {
     int room = E3D_BATCH - batch->count, n = 0, r = first;
     int32_t before = 0;
@@ -149,7 +148,7 @@ static inline int runs_take_short(const e3d_shown *shown, int first, int count, 
         int32_t run = shown->sample[r], length = run >> E3D_RUN_LENGTH;
         if (n + length > room)
             break;
-        int32_t word = (shown->of[r] - piece) * (1 << RUN_SURFACE) + (run & (E3D_TILE_SAMPLES - 1)) - n + RUN_BEFORE;
+        int32_t word = (shown->of[r] - primitive) * (1 << RUN_SURFACE) + (run & (E3D_TILE_SAMPLES - 1)) - n + RUN_BEFORE;
         batch->steps[n] = word - before;
         before = word;
         n += length;
@@ -160,12 +159,11 @@ static inline int runs_take_short(const e3d_shown *shown, int first, int count, 
     return r - first;
 }
 
-enum { RUNS_LONG = 2 * E3D_TILE }; /* if a tile has at most so many runs, they are long */
+/* A tile of at most so many runs has on average 32 samples a run or more: they are copied one by one */
+enum { RUNS_LONG = 2 * E3D_TILE };
 
-static int kernel_take_runs(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
+static int kernel_take_runs(const e3d_shown *shown, int first, int count, int32_t primitive, e3d_batch *batch)
 {
-    return shown->count <= RUNS_LONG ? runs_take_long(shown, first, count, piece, batch)
-                                     : runs_take_short(shown, first, count, piece, batch);
+    return shown->count <= RUNS_LONG ? runs_take_long(shown, first, count, primitive, batch)
+                                     : runs_take_short(shown, first, count, primitive, batch);
 }
-
-#endif

@@ -1,6 +1,5 @@
-/* samples: several a pixel, whose colours are kept until the tile is drawn, and averaged then (R33, R34). */
-#ifndef E3D_KERNELS_SAMPLES_INL
-#define E3D_KERNELS_SAMPLES_INL
+/* samples: keeps the colours of several samples a pixel until the tile is drawn, and averages them then (R33, R34). */
+#pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -8,14 +7,14 @@
 #include "kernels/types/shading.h"
 #include "kernels/generic/encode.inl"
 
-/* Whether a vector's samples are neighbours in a row, one after the other. */
+/* Whether a vector's samples are neighbours in a row, in order. */
 static ALWAYS_INLINE int samples_are_neighbours(const int32_t *sample)
 {
     vi32 row = v_addi(v_seti(sample[0]), v_iota());
     return !v_any(v_mnot(v_eqi(v_loadi(sample), row)));
 }
 
-/* Keeps the colours of the first `lanes` samples of a vector, or of all where lanes past the batch's end repeat the last
+/* Stores the colours of the first `lanes` samples of a vector, or of all if the lanes beyond the batch's end repeat the last
  * sample. */
 static ALWAYS_INLINE void samples_keep(const int32_t *sample, const vf32 color[3], int lanes, e3d_samples *samples)
 {
@@ -43,7 +42,7 @@ static void kernel_keep(const e3d_batch *batch, e3d_samples *samples)
     }
 }
 
-/* Splits a row of samples into the first ones of each pixel, the second ones, and so on. */
+/* Splits a row of samples: the first one of each pixel, the second one, and so on. */
 static ALWAYS_INLINE void samples_columns(const float *row, int axis, vf32 column[4])
 {
     vf32 even[2], odd[2];
@@ -100,5 +99,3 @@ static void kernel_average(const e3d_samples *samples, int axis, int row, int wi
     else
         samples_average(samples, 4, row, width, background, srgb, rgba);
 }
-
-#endif

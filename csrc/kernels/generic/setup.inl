@@ -1,9 +1,6 @@
-/* setup: which triangles of a cluster may show (R4-R7, R9, R10), a vector of triangles at a time.
- *
- * Conservative where 32 bits do not hold the area: such a triangle stays, and record.inl or frame/geometry/setup.c decides.
- */
-#ifndef E3D_KERNELS_SETUP_INL
-#define E3D_KERNELS_SETUP_INL
+/* setup: finds the triangles of a cluster that may show (R4-R7, R9, R10), a vector of triangles at a time. It is
+ * conservative: a triangle whose area 32 bits don't hold stays, and record.inl or frame/geometry/setup.c decides. */
+#pragma once
 
 #include "base/limits.h"
 #include "data/sample_patterns.h"
@@ -15,7 +12,7 @@ static inline vi32 setup_fetch(const int32_t *table, const uint8_t *indices, int
     return v_gatheri(table, v_loadu8(indices + i));
 }
 
-/* First and last sample of each lane's box along one axis (R10, R104). */
+/* The first and the last sample of each lane's box along one axis (R10, R104). */
 typedef struct setup_span {
     vi32 first, last;
 } setup_span;
@@ -29,7 +26,7 @@ static inline setup_span setup_samples(vi32 lo, vi32 hi, int32_t size, int32_t r
 static inline vi32 setup_least(const vi32 v[3]) { return v_mini(v_mini(v[0], v[1]), v[2]); }
 static inline vi32 setup_most(const vi32 v[3]) { return v_maxi(v_maxi(v[0], v[1]), v[2]); }
 
-/* The same of three corners. */
+/* The span of three corners. */
 static inline setup_span setup_box(const vi32 v[3], int32_t size, int32_t reach)
 {
     return setup_samples(setup_least(v), setup_most(v), size, reach);
@@ -58,7 +55,7 @@ static inline vmask setup_narrow(setup_span s, int32_t samples)
     return v_mnot(v_gti(v_subi(s.last, s.first), v_seti(samples - 1)));
 }
 
-/* Lanes whose box lies between the samples, whichever of a pixel (R104). Of micro-triangles that is the fate of many. */
+/* Lanes whose box lies between the samples of all pixels (R104), as the boxes of many micro-triangles do. */
 static inline vmask setup_between(vi32 xlo, vi32 xhi, vi32 ylo, vi32 yhi, const e3d_sample_pattern *pattern)
 {
     vi32 between = v_seti(-1);
@@ -70,7 +67,7 @@ static inline vmask setup_between(vi32 xlo, vi32 xhi, vi32 ylo, vi32 yhi, const 
     return v_negi(between);
 }
 
-/* Lanes that miss: their box has no sample, or they face the wrong way and 32 bits hold the area; lanes that are small. */
+/* Lanes that miss: their box has no sample, or they face the wrong way and 32 bits hold the area. And lanes that are small. */
 typedef struct setup_boxes {
     vmask miss, small;
 } setup_boxes;
@@ -89,13 +86,13 @@ static inline setup_boxes setup_boxes_of(const vi32 x[3], const vi32 y[3], int c
     return (setup_boxes){v_mor(empty, v_mandnot(setup_culled(setup_area(x, y), cull), wide)), v_mandnot(narrow, large)};
 }
 
-/* A bit for each lane that still has an element. */
+/* A bit for each lane that has an element left. */
 static inline uint32_t setup_tail(int left)
 {
     return (uint32_t)((1ull << (left < V_LANES ? left : V_LANES)) - 1);
 }
 
-/* Lanes that are drawn as they are, or clipped, as far as outcodes tell (R4-R7). */
+/* Lanes that are drawn as they are, and lanes that are clipped, as far as outcodes decide (R4-R7). */
 typedef struct setup_fate {
     vmask draw, clip;
 } setup_fate;
@@ -118,12 +115,13 @@ static inline setup_fate setup_fate_of(const e3d_vertices *v, const uint8_t *ind
 /* ---- close together: both coordinates in one word ---- */
 
 enum {
-    SETUP_WINDOW = 32000,        /* its side in 1/256 sample: with what R10 adds, distances still fit 16 bits */
-    SETUP_BACK = 16384 - 256     /* whole samples from its corner to the first vertex, so that sample centres stay where they are */
+    SETUP_WINDOW = 32000,        /* the window's side in 1/256 sample: with the margin of R10, distances still fit 16 bits */
+    /* From the window's corner to the first vertex, in whole samples, so that sample centres keep their places */
+    SETUP_BACK = 16384 - 256
 };
 
-/* Packs the vertices, relative to the corner of a window, into words: x in the lower half, y in the upper one. 0 if the window
- * doesn't hold all of them. */
+/* Packs the vertices, relative to the corner of a window, into words: x in the lower half, y in the upper one. Returns 0 if
+ * the window doesn't hold all of them. */
 static inline int setup_pack_vertices(const e3d_vertices *v, int32_t *out)
 {
     vi32 left = v_seti((v->sx[0] & -256) - SETUP_BACK), top = v_seti((v->sy[0] & -256) - SETUP_BACK), outside = v_seti(0);
@@ -174,7 +172,8 @@ static inline setup_boxes setup_boxes_near(const vi32 p[3], int cull, const e3d_
     return (setup_boxes){v_mor(empty, setup_culled(area, cull)), v_mnot(setup_negative(spare))};
 }
 
-/* With both coordinates in a word: half the look-ups, half the arithmetic. 0 if the vertices are too far apart for that. */
+/* Tests triangles with both coordinates in a word: half the lookups and half the arithmetic. Returns 0 if the vertices are
+ * too far apart for that. */
 static inline int setup_near(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull, const e3d_viewport *viewport,
                              uint64_t *draw, uint64_t *small)
 {
@@ -197,7 +196,7 @@ static inline int setup_near(const e3d_vertices *v, const uint8_t *indices, int 
     return 1;
 }
 
-/* With coordinates of 32 bits; returns the triangles to be clipped. */
+/* Tests triangles with coordinates of 32 bits; returns those to be clipped. */
 static inline uint64_t setup_far(const e3d_vertices *v, const uint8_t *indices, int triangles, int cull,
                                  const e3d_viewport *viewport, uint64_t *draw, uint64_t *small)
 {
@@ -233,7 +232,5 @@ static int kernel_setup(const e3d_vertices *v, const uint8_t *indices, int trian
         clip = setup_far(v, indices, triangles, cull, viewport, &draw, &small);
     small &= fragments ? draw & asked : 0;
     *out = (e3d_survivors){draw & asked & ~small, small, clip & asked};
-    return __builtin_popcountll((draw | clip) & asked); /* one instruction here, but not in the baseline */
+    return __builtin_popcountll((draw | clip) & asked); /* one instruction with this ISA, but not in the baseline */
 }
-
-#endif

@@ -1,10 +1,7 @@
-/* shown: the samples of a tile that show its records and fragments, primitive after primitive; and from there to batches.
- *
- * The samples of a record lie in its box, where those with its ID are packed, and the fragments of a triangle follow each other:
- * so nothing has to be sorted.
- */
-#ifndef E3D_KERNELS_SHOWN_INL
-#define E3D_KERNELS_SHOWN_INL
+/* shown: lists the samples of a tile that show its records and fragments, primitive after primitive; and makes batches of
+ * them. A record's samples lie in its box, where those with its ID are packed; the fragments of a triangle follow each other.
+ * So nothing has to be sorted. */
+#pragma once
 
 #include "base/limits.h"
 #include "kernels/types/fragments.h"
@@ -19,28 +16,28 @@
 #include "kernels/generic/visible_records.inl"
 #include "kernels/generic/runs.inl"
 
-/* The end of the list: where the next sample goes, and the next piece. */
+/* The end of the list: the places of the next sample and the next primitive. */
 typedef struct shown_end {
-    int32_t count, piece;
+    int32_t count, primitive;
 } shown_end;
 
-enum { SHOWN_FEW = 2 * E3D_PAD }; /* so many samples of a piece are numbered without a loop, however many there are */
+enum { SHOWN_FEW = 2 * E3D_PAD }; /* so many samples of a primitive are numbered without a loop, however many it has */
 
-/* Makes a piece of the samples from `end->count` up to `last`, which show an ID; if there are none, there is no piece. */
+/* Makes a primitive of the samples from `end->count` up to `last`, which show an ID; without samples there is no primitive. */
 static inline void shown_name(uint32_t id, int32_t last, shown_end *end, e3d_shown *out)
 {
     int32_t first = end->count;
-    vi32 piece = v_seti(end->piece);
+    vi32 primitive = v_seti(end->primitive);
     for (int i = 0; i < SHOWN_FEW; i += V_LANES)
-        v_storei(out->of + first + i, piece);
+        v_storei(out->of + first + i, primitive);
     for (int32_t i = first + SHOWN_FEW; i < last; i += V_LANES)
-        v_storei(out->of + i, piece);
-    out->piece[end->piece] = (e3d_shown_piece){id, first};
-    end->piece += last > first;
+        v_storei(out->of + i, primitive);
+    out->primitive[end->primitive] = (e3d_shown_primitive){id, first};
+    end->primitive += last > first;
     end->count = last;
 }
 
-/* Stores the samples `at` + lane of some lanes of one row, which mostly are neighbours or none; returns how many. */
+/* Stores the samples `at` + lane for some lanes of one row, which mostly are neighbours or none; returns how many. */
 static inline int shown_in_row(int32_t at, uint32_t lanes, int32_t *out)
 {
     int first = __builtin_ctz(lanes | 1u << (V_LANES - 1));
@@ -59,7 +56,8 @@ static inline int shown_in_row(int32_t at, uint32_t lanes, int32_t *out)
 enum { SHOWN_VECTORS = RECORDS_FEW }; /* V_LANES boxes of RECORDS_FEW / V_LANES vectors each */
 typedef struct shown_vectors {
     int32_t count;
-    int32_t first[SHOWN_VECTORS + E3D_PAD], lane[SHOWN_VECTORS + E3D_PAD]; /* its first sample, and the lane of its record */
+    /* The vector's first sample, and the lane of its record */
+    int32_t first[SHOWN_VECTORS + E3D_PAD], lane[SHOWN_VECTORS + E3D_PAD];
 } shown_vectors;
 
 static inline void shown_list(const records_lanes *in, int lane, shown_vectors *list)
@@ -79,7 +77,7 @@ static inline void shown_list(const records_lanes *in, int lane, shown_vectors *
     }
 }
 
-/* Lists the samples that show records with small boxes, those of some lanes. */
+/* Lists the samples that show records with small boxes, for some lanes. */
 static inline void shown_strips(const records_lanes *in, uint32_t lanes, const uint32_t *ids, const e3d_visible_tile *tile, shown_end *end,
                                 e3d_shown *out)
 {
@@ -104,7 +102,7 @@ static inline void shown_strips(const records_lanes *in, uint32_t lanes, const u
 
 /* ---- larger boxes ---- */
 
-/* The blocks of its box that may show a record: neither noted for another nor nearer everywhere. */
+/* The blocks of a record's box that may show it: neither noted for another record nor nearer everywhere. */
 static inline uint64_t shown_blocks(const records_lanes *in, int lane, const e3d_record *r, int32_t id, const e3d_visible_tile *tile)
 {
     uint64_t own = 0, blocks = records_met(in, lane) & ~records_behind(r->zmin, tile);
@@ -145,7 +143,7 @@ static void kernel_show_records(const e3d_visible_tile *tile, const e3d_record_t
 {
     const e3d_record *r[V_LANES];
     records_lanes in;
-    shown_end end = {out->count, out->pieces};
+    shown_end end = {out->count, out->primitives};
     for (int i = 0; i < count; i += V_LANES) {
         uint32_t all = setup_tail(records_take(table, ids + i, count - i, r));
         shown_boxes(r, tile, &in);
@@ -160,59 +158,57 @@ static void kernel_show_records(const e3d_visible_tile *tile, const e3d_record_t
         }
     }
     out->count = end.count;
-    out->pieces = end.piece;
+    out->primitives = end.primitive;
 }
 
 /* ---- fragments ---- */
 
-/* Finds the fragments that show first, since they may be few, and without a branch, since which ones show is unpredictable. */
-static void kernel_show_fragments(const e3d_visible_tile *tile, const e3d_fragment_block *b, e3d_shown *out)
+/* First finds the fragments that show, since they may be few; without a branch, since which ones show is unpredictable. */
+static void kernel_show_fragments(const e3d_visible_tile *tile, const e3d_fragment_link *b, e3d_shown *out)
 {
     uint8_t shown[E3D_BLOCK_FRAGMENTS];
-    int32_t n = out->count, pieces = out->pieces, last = pieces ? (int32_t)out->piece[pieces - 1].id : E3D_NO_SLOT, count = 0;
+    int32_t n = out->count, primitives = out->primitives, last = primitives ? (int32_t)out->primitive[primitives - 1].id : E3D_NO_SLOT, count = 0;
     for (uint32_t i = 0; i < b->count; i++) {
         shown[count] = (uint8_t)i;
         count += tile->id[b->sample[i]] == b->id[i];
     }
     for (int32_t k = 0; k < count; k++, n++) {
         int32_t id = b->id[shown[k]];
-        out->piece[pieces] = (e3d_shown_piece){(uint32_t)id, n};
-        pieces += id != last;
+        out->primitive[primitives] = (e3d_shown_primitive){(uint32_t)id, n};
+        primitives += id != last;
         last = id;
         out->sample[n] = b->sample[shown[k]];
-        out->of[n] = pieces - 1;
+        out->of[n] = primitives - 1;
     }
     out->count = n;
-    out->pieces = pieces;
+    out->primitives = primitives;
 }
 
 /* ---- to batches ---- */
 
-static int kernel_take_shown(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
+static int kernel_take_shown(const e3d_shown *shown, int first, int count, int32_t primitive, e3d_batch *batch)
 {
     int n = batch->count, some = count < E3D_BATCH - n ? count : E3D_BATCH - n;
     for (int i = 0; i < some; i += V_LANES) {
         v_storei(batch->sample + n + i, v_loadi(shown->sample + first + i));
-        v_storei(batch->surface + n + i, v_subi(v_loadi(shown->of + first + i), v_seti(piece)));
+        v_storei(batch->surface + n + i, v_subi(v_loadi(shown->of + first + i), v_seti(primitive)));
     }
     batch_pad(batch, n + some);
     return some;
 }
 
-/* Pixels with the numbers of R105. */
-static int kernel_take_placed(const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch)
+/* Takes pixels with the sample numbers of R105. */
+static int kernel_take_placed(const e3d_shown *shown, int first, int count, int32_t primitive, e3d_batch *batch)
 {
     int n = batch->count, some = count < E3D_BATCH - n ? count : E3D_BATCH - n;
     for (int i = 0; i < some; i += V_LANES) {
         vi32 sample = v_loadi(shown->sample + first + i);
         v_storei(batch->sample + n + i, v_andi(sample, v_seti(E3D_TILE_SAMPLES - 1)));
         v_storei(batch->number + n + i, v_shr(sample, E3D_SHOWN_NUMBER));
-        v_storei(batch->surface + n + i, v_subi(v_loadi(shown->of + first + i), v_seti(piece)));
+        v_storei(batch->surface + n + i, v_subi(v_loadi(shown->of + first + i), v_seti(primitive)));
     }
     batch_pad(batch, n + some);
     for (int pad = 0; pad < E3D_PAD; pad += V_LANES)
         v_storei(batch->number + n + some + pad, v_seti(batch->number[n + some - 1]));
     return some;
 }
-
-#endif

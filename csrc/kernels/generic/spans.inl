@@ -6,8 +6,7 @@
  * the tile. (n + 1/2) / |a| is more than 2^-16 away from whole numbers, and within the tile two roundings move it by 2^-17 at
  * most: its floor is that of n / |a|.
  */
-#ifndef E3D_KERNELS_SPANS_INL
-#define E3D_KERNELS_SPANS_INL
+#pragma once
 
 #include "base/limits.h"
 #include "kernels/types/records.h"
@@ -29,7 +28,7 @@ typedef struct spans_lanes {
     int32_t y0[V_LANES], y1[V_LANES];
 } spans_lanes;
 
-/* The lanes whose records are too large, or may reach beyond the far plane. */
+/* Lanes whose records are too large, or may reach beyond the far plane. */
 static inline uint32_t spans_refused(const e3d_record *const r[V_LANES])
 {
     vi32 corners[8];
@@ -92,8 +91,8 @@ static inline vi32 spans_of_rows(const spans_lanes *in, int lane, int32_t y, con
 static inline vi32 spans_first(vi32 spans) { return v_andi(spans, v_seti(E3D_TILE - 1)); }
 static inline vi32 spans_length(vi32 spans) { return v_shr(spans, E3D_RUN_LENGTH); }
 
-/* Marks the samples of V_LANES spans: in `twice` those that are in `once` already, then all in `once`. Rows of a bit a sample are
- * 64 bits, so V_LANES of them are two vectors. */
+/* Marks the samples of V_LANES spans: adds to `twice` those that are in `once` already, and then all to `once`. A row has a
+ * bit a sample, so V_LANES rows are two vectors. */
 static inline void spans_mark(vi32 spans, uint64_t *once_rows, uint64_t *twice_rows)
 {
     int32_t *once = (int32_t *)once_rows, *twice = (int32_t *)twice_rows;
@@ -104,7 +103,7 @@ static inline void spans_mark(vi32 spans, uint64_t *once_rows, uint64_t *twice_r
     }
 }
 
-/* The marked samples that lie in the spans, all rows OR'ed; 0 where there is none. */
+/* The marked samples that lie in the spans, as the OR of all rows; 0 if there is none. */
 static inline vi32 spans_marked(vi32 spans, const uint64_t *rows)
 {
     const int32_t *words = (const int32_t *)rows;
@@ -112,18 +111,18 @@ static inline vi32 spans_marked(vi32 spans, const uint64_t *rows)
     return v_ori(low, v_andi(v_loadi(words + V_LANES), v_span(spans_first(spans), spans_length(spans), 1)));
 }
 
-/* Appends the spans that aren't empty, as runs of the piece that comes next. */
+/* Appends the spans that aren't empty, as runs of the next primitive. */
 static inline void spans_add(vi32 spans, e3d_shown *out)
 {
-    v_storei(out->of + out->count, v_seti(out->pieces));
+    v_storei(out->of + out->count, v_seti(out->primitives));
     out->count += v_pack(out->sample + out->count, spans, v_bits(v_gti(spans_length(spans), v_seti(0))));
 }
 
-/* Makes a piece of the runs from `first` on, if there are any. */
+/* Makes a primitive of the runs from `first` on, if there are any. */
 static inline void spans_name(uint32_t id, int32_t first, e3d_shown *out)
 {
-    out->piece[out->pieces] = (e3d_shown_piece){id, first};
-    out->pieces += out->count > first;
+    out->primitive[out->primitives] = (e3d_shown_primitive){id, first};
+    out->primitives += out->count > first;
 }
 
 /* Adds a record: its spans, the samples that it covers, and its runs. */
@@ -200,5 +199,3 @@ static int kernel_show_alone(const e3d_cover *cover, e3d_shown *out, uint16_t *r
     }
     return left;
 }
-
-#endif

@@ -1,12 +1,11 @@
-/* stream: rows of pixels to the picture, which this core won't read again. */
-#ifndef E3D_KERNELS_STREAM_INL
-#define E3D_KERNELS_STREAM_INL
+/* stream: writes rows of pixels to the picture, which this core won't read again. */
+#pragma once
 
 #include "base/machine.h"
 #include "kernels/types/samples.h"
 
-/* Non-temporal stores: plain ones would first read each line from memory, which took 0.4 to 0.7 ms of a frame of 1920 x 1080. Rows
- * that aren't whole vectors are written 16 bytes at a time, or through the caches. */
+/* Uses non-temporal stores: plain ones would first read each line from memory, which took 0.4 to 0.7 ms of a frame of 1920 x
+ * 1080. Rows that aren't whole vectors are written 16 bytes at a time, or through the caches. */
 static void kernel_stream(const e3d_pixel_rows *rows)
 {
     char *to = rows->to;
@@ -19,5 +18,3 @@ static void kernel_stream(const e3d_pixel_rows *rows)
             v_streami(to + at, v_loadi(from + at));
     }
 }
-
-#endif

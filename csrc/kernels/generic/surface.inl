@@ -1,12 +1,11 @@
-/* surface: what visible pieces bring to their samples, a vector of pieces at a time (R3, R18, R25). */
-#ifndef E3D_KERNELS_SURFACE_INL
-#define E3D_KERNELS_SURFACE_INL
+/* surface: finds the planes and attributes of visible primitives, a vector of them at a time (R3, R18, R25). */
+#pragma once
 
 #include "kernels/types/shading.h"
 
 /* ---- barycentric planes (R18) ---- */
 
-/* Edges and distances are integers, whose products stay below 2^53: doubles hold them exactly until they are divided. */
+/* Edges and distances are integers whose products stay below 2^53, so that doubles hold them exactly until they are divided. */
 typedef struct plane_numbers {
     vi32 a[3], b[3];   /* of the edges */
     vi32 dx[3], dy[3]; /* from corner (k + 1) % 3 to the base's centre */
@@ -40,7 +39,7 @@ static inline plane_numbers surface_edges(e3d_surfaces *s, int n, int tile_x, in
     return e;
 }
 
-/* Finds the planes of one half of a vector, whose doubles fill two: plane[row][k][half]. */
+/* Finds the planes of half a vector, since a vector of doubles holds half as many: plane[row][k][half]. */
 static inline void surface_half(const plane_numbers *e, const vf32 iw[3], int half, vf64 plane[3][3][V_HALVES])
 {
     vf64 one = v_setd(1.0), a[3], b[3];
@@ -78,15 +77,15 @@ static inline void surface_planes(e3d_surfaces *s, int n, int tile_x, int tile_y
 
 /* ---- vertices to world space (R3) ---- */
 
-/* The elements of arrays that the lanes of one vector take. Their numbers rise by at most 1 from lane to lane: either all are the
- * same, or they are picked from the vector that begins with `first`. */
+/* The elements of arrays that the lanes of one vector take. Their numbers rise by at most 1 from lane to lane: either all are
+ * the same, or they are picked from the vector that begins at `first`. */
 typedef struct element_lanes {
     int first, same;
     vpick pick;
 } element_lanes;
 
-/* Where that vector begins. One that is as long as a cache line takes more than twice as long to load if it is split across two,
- * so it begins at a line, as arrays do, unless it would end too early. */
+/* Where that vector begins. A vector as long as a cache line takes more than twice as long to load if it is split across two
+ * lines. So it begins at a line, as arrays do, unless it would end too early. */
 static inline int lanes_first(int first, int last)
 {
     enum { LINE = 16 };
@@ -100,8 +99,8 @@ static inline element_lanes lanes_of(const int32_t *elements)
     return (element_lanes){from, first == last, v_picker(v_subi(v_loadi(elements), v_seti(from)))};
 }
 
-/* The surfaces from a vector's first on: one address, from which all arrays are at constant offsets, so that the compiler need not
- * keep and spill a pointer for each. */
+/* The surfaces from a vector's first one on: a single address, from which all arrays are at constant offsets, so that the
+ * compiler need not keep and spill a pointer for each. */
 static inline const e3d_surfaces *surfaces_from(const e3d_surfaces *s, const element_lanes *lanes)
 {
     return (const e3d_surfaces *)((const float *)s + lanes->first);
@@ -131,7 +130,7 @@ static inline void cross_three(const vf32 a[3], const vf32 b[3], vf32 out[3])
     }
 }
 
-/* R22: negates the normals of faces that look away, and leaves no -0. */
+/* R22: negates the normals of faces that look away, without making -0. */
 static inline void surface_turn(e3d_surfaces *s, int vertices, int n)
 {
     vmask front = v_eqi(v_loadi(s->back + n), v_seti(0));
@@ -171,7 +170,7 @@ static inline void surface_load(const e3d_surface_floats rows[3], int n, vf32 ou
         out[k] = v_loadf(rows[k] + n);
 }
 
-/* Of one coordinate, by its values at the corners. */
+/* Finds the slopes of one coordinate from its values at the corners. */
 static inline void slopes_of(const e3d_surfaces *s, const e3d_surface_floats corners[3], float texels, e3d_surface_floats slope[3], int n)
 {
     vf32 plane[3][3], sum[3], a[3], corner[3], size = v_setf(texels);
@@ -210,5 +209,3 @@ static void kernel_surface(e3d_surfaces *s, int tile_x, int tile_y, int wanted)
             surface_slopes(s, n);
     }
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* tone: fog over colours, and tone mapping (R117-R121). */
-#ifndef E3D_KERNELS_TONE_INL
-#define E3D_KERNELS_TONE_INL
+#pragma once
 
 #include "base/always_inline.h"
 #include "data/tone_tables.h"
@@ -19,44 +18,44 @@ static ALWAYS_INLINE void tone_multiply(const float matrix[3][3], const vf32 v[3
                          v_mul(v_setf(matrix[row][2]), v[2]));
 }
 
-/* Mappers work on several vectors side by side, in short steps: one after the other, most operations would wait for those before. */
+/* Mappers interleave several vectors in short steps, since within one vector most operations would wait for those before. */
 enum { TONE_SIDE = 4 };
 
-/* Of `side` vectors, a constant for the compiler: channel by channel. */
+/* The colours of `side` vectors, channel by channel; `side` is a constant for the compiler. */
 typedef vf32 tone_colors[TONE_SIDE][3];
 
 #define TONE_EACH(side, j) for (int j = 0; j < side; j++)
 
 static ALWAYS_INLINE void tone_load(float *const planes[3], int at, int side, tone_colors out)
 {
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         for (int k = 0; k < 3; k++)
             out[j][k] = v_loadf(planes[k] + at + j * V_LANES);
 }
 
 static ALWAYS_INLINE void tone_store(float *const planes[3], int at, int side, tone_colors color)
 {
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         for (int k = 0; k < 3; k++)
             v_storef(planes[k] + at + j * V_LANES, encode_clamp(color[j][k]));
 }
 
 static ALWAYS_INLINE void tone_limit_all(int side, tone_colors color)
 {
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         for (int k = 0; k < 3; k++)
             color[j][k] = tone_limit(color[j][k]);
 }
 
 static ALWAYS_INLINE void tone_multiply_all(const float matrix[3][3], int side, tone_colors color)
 {
-    TONE_EACH(side, j) {
+    TONE_EACH (side, j) {
         const vf32 v[3] = {color[j][0], color[j][1], color[j][2]};
         tone_multiply(matrix, v, color[j]);
     }
 }
 
-/* R118: what is left of dark colours; returns the greatest channel. */
+/* R118: takes the toe from dark colours; returns the greatest channel. */
 static ALWAYS_INLINE vf32 tone_neutral_dark(vf32 color[3])
 {
     vf32 least = v_min(v_min(color[0], color[1]), color[2]);
@@ -67,28 +66,28 @@ static ALWAYS_INLINE vf32 tone_neutral_dark(vf32 color[3])
     return v_max(v_max(color[0], color[1]), color[2]);
 }
 
-/* Where no lane is bright, nothing is divided. */
+/* R118. If no lane is bright, nothing is divided. */
 static ALWAYS_INLINE void tone_neutral(int side, tone_colors color)
 {
     vf32 peak[TONE_SIDE], lower[TONE_SIDE], scale[TONE_SIDE], whiter[TONE_SIDE], one = v_setf(1.0f), start = v_setf(0.76f), most;
     vmask bright[TONE_SIDE];
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         peak[j] = tone_neutral_dark(color[j]);
     most = peak[0];
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         most = v_max(most, peak[j]);
     if (!v_any(v_mnot(v_lt(most, start))))
         return;
-    TONE_EACH(side, j) {
+    TONE_EACH (side, j) {
         bright[j] = v_mnot(v_lt(peak[j], start));
         peak[j] = v_max(peak[j], start); /* in the other lanes any number will do */
         lower[j] = v_sub(one, v_div(v_setf(0.0576f), v_sub(peak[j], v_setf(0.52f))));
     }
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         scale[j] = v_div(lower[j], peak[j]);
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         whiter[j] = v_sub(one, v_div(one, v_add(v_mul(v_setf(0.15f), v_sub(peak[j], lower[j])), one)));
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         for (int k = 0; k < 3; k++) {
             vf32 scaled = v_mul(color[j][k], scale[j]);
             color[j][k] = v_self(bright[j], v_add(scaled, v_mul(v_sub(lower[j], scaled), whiter[j])), color[j][k]);
@@ -99,7 +98,7 @@ static ALWAYS_INLINE void tone_neutral(int side, tone_colors color)
 static ALWAYS_INLINE void tone_aces(int side, tone_colors color)
 {
     tone_multiply_all(E3D_ACES_IN, side, color);
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         for (int k = 0; k < 3; k++) {
             vf32 v = color[j][k], a = v_sub(v_mul(v, v_add(v, v_setf(0.0245786f))), v_setf(0.000090537f));
             vf32 b = v_add(v_mul(v, v_add(v_mul(v_setf(0.983729f), v), v_setf(0.432951f))), v_setf(0.238081f));
@@ -108,10 +107,10 @@ static ALWAYS_INLINE void tone_aces(int side, tone_colors color)
     tone_multiply_all(E3D_ACES_OUT, side, color);
 }
 
-/* R119: the first matrix, and the limits of the curve. */
+/* R119: applies the first matrix, and the limits of the curve. */
 static ALWAYS_INLINE void tone_agx_in(vf32 c[3])
 {
-    const float(*in)[3] = E3D_AGX_IN;
+    const float (*in)[3] = E3D_AGX_IN;
     const vf32 v[3] = {v_add(v_add(c[0], v_mul(v_setf(in[0][1]), c[1])), v_mul(v_setf(in[0][2]), c[2])),
                        v_add(v_add(v_mul(v_setf(in[1][0]), c[0]), c[1]), v_mul(v_setf(in[1][2]), c[2])),
                        v_add(v_add(v_mul(v_setf(in[2][0]), c[0]), v_mul(v_setf(in[2][1]), c[1])), c[2])};
@@ -119,12 +118,12 @@ static ALWAYS_INLINE void tone_agx_in(vf32 c[3])
         c[k] = v_min(v_max(v[k], v_setf(E3D_AGX_LEAST[k])), v_setf(E3D_AGX_MOST[k]));
 }
 
-/* Stops from the middle of the curve. */
+/* Finds the stops from the middle of the curve. */
 static ALWAYS_INLINE void tone_agx_stops(int side, tone_colors v)
 {
     tone_colors m, sum;
-#define TONE_STEP(step)              \
-    TONE_EACH(side, j)               \
+#define TONE_STEP(step) \
+    TONE_EACH (side, j) \
         for (int k = 0; k < 3; k++) \
             step;
     TONE_STEP(m[j][k] = v_asf(v_ori(v_andi(v_asi(v[j][k]), v_seti(0x7FFFFF)), v_seti(0x3F800000))))
@@ -144,11 +143,11 @@ static ALWAYS_INLINE void tone_agx_curve(int side, tone_colors v)
     TONE_STEP(v[j][k] = sum[j][k])
 }
 
-/* To the power of 2.2. */
+/* Raises to the power of 2.2. */
 static ALWAYS_INLINE void tone_agx_power(int side, tone_colors v)
 {
     tone_colors root;
-    TONE_EACH(side, j) {
+    TONE_EACH (side, j) {
         vf32 sum = v_add(v_mul(v_setf(E3D_AGX_OUT[0]), v[j][0]), v_mul(v_setf(E3D_AGX_OUT[1]), v[j][1]));
         sum = v_add(sum, v_mul(v_setf(E3D_AGX_OUT[2]), v[j][2]));
         for (int k = 0; k < 3; k++)
@@ -162,7 +161,7 @@ static ALWAYS_INLINE void tone_agx_power(int side, tone_colors v)
 
 static ALWAYS_INLINE void tone_agx(int side, tone_colors color)
 {
-    TONE_EACH(side, j)
+    TONE_EACH (side, j)
         tone_agx_in(color[j]);
     tone_agx_stops(side, color);
     tone_agx_curve(side, color);
@@ -170,7 +169,7 @@ static ALWAYS_INLINE void tone_agx(int side, tone_colors color)
     tone_multiply_all(E3D_AGX_SRGB, side, color);
 }
 
-/* The mapping is a constant for the compiler, too. */
+/* Maps some vectors; the mapping is a constant for the compiler, too. */
 static ALWAYS_INLINE void tone_some(e3d_tone_mapping mapping, float *const planes[3], int at, int side)
 {
     tone_colors color;
@@ -221,7 +220,7 @@ static ALWAYS_INLINE vf32 fog_share(const e3d_fog_view *fog, const float *const 
     return v_sub(one, exp2_poly(v_mul(v_mul(u, u), v_setf(E3D_MINUS_LOG2_E))));
 }
 
-/* The kind is a constant for the compiler. */
+/* Blends fog over planes of colours; the kind is a constant for the compiler. */
 static ALWAYS_INLINE void fog_planes(const e3d_fog_view *fog, const float *const position[3], int count, float *const color[3],
                                      e3d_fog_kind kind)
 {
@@ -241,5 +240,3 @@ static void kernel_fog(const e3d_fog_view *fog, const float *const position[3], 
     else
         fog_planes(fog, position, count, color, E3D_FOG_EXPONENTIAL);
 }
-
-#endif

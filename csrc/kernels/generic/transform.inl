@@ -1,10 +1,7 @@
-/* transform: object space to clip space to the snapped screen (R3, R5, R8), a vector of vertices at a time.
- *
- * Coordinates that only a clipped triangle would use may be far outside: they are clamped before the
- * conversion to integers, which changes none that is used.
- */
-#ifndef E3D_KERNELS_TRANSFORM_INL
-#define E3D_KERNELS_TRANSFORM_INL
+/* transform: object space to clip space to the snapped screen (R3, R5, R8), a vector of vertices at a time. Coordinates that
+ * only a clipped triangle would use may be far outside: they are clamped before the conversion to integers, which changes no
+ * coordinate that is used. */
+#pragma once
 
 #include "base/limits.h"
 #include "kernels/types/vertices.h"
@@ -20,7 +17,7 @@ static inline vi32 transform_code(vf32 x, vf32 y, vf32 z, vf32 w, const e3d_view
     vf32 gx = v_mul(v_setf(viewport->guard_x), w), gy = v_mul(v_setf(viewport->guard_y), w);
     vmask guard = v_mor(v_mor(v_gt(x, gx), v_lt(x, v_sub(zero, gx))),
                         v_mor(v_gt(y, gy), v_lt(y, v_sub(zero, gy))));
-    /* v - v is 0 for finite v, NaN for the others. */
+    /* v - v is 0 for finite v, and NaN for others. */
     vf32 none = v_add(v_add(v_sub(x, x), v_sub(y, y)), v_add(v_sub(z, z), v_sub(w, w)));
     vi32 code = transform_flag(v_lt(z, negative_w), E3D_NEAR);
     code = v_ori(code, transform_flag(v_gt(z, w), E3D_FAR));
@@ -40,7 +37,7 @@ static inline vi32 transform_snap(vf32 v)
     return v_rint(v_min(low, v_setf(most)));
 }
 
-/* Screen coordinates and outcodes of the clip coordinates of one vector; returns the outcodes. */
+/* Finds screen coordinates and outcodes from the clip coordinates of one vector; returns the outcodes. */
 static inline vi32 transform_finish(vf32 x, vf32 y, vf32 z, vf32 w, const e3d_viewport *viewport,
                                     e3d_vertices *out, int i)
 {
@@ -67,15 +64,15 @@ static inline vf32 transform_row(const float *m, vf32 x, vf32 y, vf32 z)
     return v_add(v_add(sum, v_mul(v_setf(m[2]), z)), v_setf(m[3]));
 }
 
-/* Padding repeats a vertex, so that it adds no bits. */
+/* Pads with a copy of a vertex, so that the padding adds no outcode bits. */
 static inline void transform_end(vi32 codes, int count, e3d_vertices *out)
 {
     out->count = count;
     out->special = v_any(v_mnot(v_eqi(codes, v_seti(0))));
 }
 
-/* Transforms vertices in the frustum: they need no outcodes, and no coordinates for clipping. 0 if one isn't finite, or is too
- * near. */
+/* Transforms vertices in the frustum, which need neither outcodes nor coordinates for clipping. Returns 0 if one isn't
+ * finite, or is too near. */
 static inline int transform_inside(const float *positions, int stride, int count, const float matrix[16],
                                    const e3d_viewport *viewport, e3d_vertices *restrict out)
 {
@@ -122,5 +119,3 @@ static void kernel_take_clip(const float *positions, int stride, int count,
                                               v_loadf(positions + 3 * stride + i), viewport, out, i));
     transform_end(codes, count, out);
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* ui: rows of a triangle or rectangle of the user interface, blended over the picture (R40-R42). */
-#ifndef E3D_KERNELS_UI_INL
-#define E3D_KERNELS_UI_INL
+#pragma once
 
 #include "base/always_inline.h"
 #include "e3d_canvas.h"
@@ -12,7 +11,7 @@ typedef struct ui_pixels {
     vi32 rb, ga;
 } ui_pixels;
 
-/* Where the texel and the colour of a pixel come from. */
+/* The sources of a pixel's texel and colour. */
 typedef enum ui_source {
     UI_FILL,     /* both constant, and opaque */
     UI_SOLID,    /* both constant, not opaque */
@@ -24,7 +23,7 @@ typedef enum ui_source {
     UI_SHOWN     /* the same, opaque, the colour white: the texels as they are */
 } ui_source;
 
-/* A vector of pixels: its first one, and where that is. */
+/* A vector of pixels: its first pixel, and the address of that. */
 typedef struct ui_place {
     uint8_t *to;
     int32_t x, y;
@@ -37,7 +36,7 @@ static inline ui_pixels ui_split(vi32 rgba)
 }
 static inline vi32 ui_join(ui_pixels p) { return v_ori(p.rb, v_shl(p.ga, 8)); }
 
-/* over255 of numbers up to 255 * 255: (n + n / 256) / 256 with n + 128 for n. */
+/* over255 for numbers up to 255 * 255: (n + n / 256) / 256 with n + 128 for n. */
 static inline vi32 ui_over255(vi32 n)
 {
     n = v_add16(n, v_seti(0x00800080));
@@ -76,10 +75,10 @@ static ALWAYS_INLINE ui_pixels ui_colors(const e3d_ui_shape *shape, vf32 dx, vf3
     return (ui_pixels){v_ori(c[0], v_shl(c[2], 16)), v_ori(c[1], v_shl(c[3], 16))};
 }
 
-/* What alphas that aren't looked at are replaced by. */
+/* The alpha bits that replace alphas which are ignored. */
 static inline vi32 ui_opaque(const e3d_ui_texture *t) { return v_seti(t->format == E3D_UI_RGBX8 ? (int32_t)E3D_UI_ALPHA : 0); }
 
-/* Texels at these places, of A8 from one byte each. */
+/* Texels at these places; an A8 texel has one byte. */
 static ALWAYS_INLINE vi32 ui_fetch(const e3d_ui_texture *texture, vi32 column, vi32 row)
 {
     if (texture->format != E3D_UI_A8)
@@ -91,7 +90,7 @@ static ALWAYS_INLINE vi32 ui_fetch(const e3d_ui_texture *texture, vi32 column, v
     return v_loadi(alpha);
 }
 
-/* R41: two texels, the second weighs `weight` of 256. */
+/* R41: blends two texels; the second has the weight `weight` of 256. */
 static inline ui_pixels ui_mix(ui_pixels a, ui_pixels b, vi32 weight)
 {
     vi32 to = v_ori(weight, v_shl(weight, 16)), from = v_sub16(v_seti(0x01000100), to), half = v_seti(0x00800080);
@@ -100,7 +99,7 @@ static inline ui_pixels ui_mix(ui_pixels a, ui_pixels b, vi32 weight)
         v_shr16(v_add16(v_add16(v_mul16(a.ga, from), v_mul16(b.ga, to)), half), 8)};
 }
 
-/* The two texels of a coordinate along an axis of `count` texels, and the second one's weight. */
+/* The two texels of a coordinate along an axis of `count` texels, and the weight of the second one. */
 static inline void ui_neighbours(vf32 t, int32_t count, vi32 *first, vi32 *second, vi32 *weight)
 {
     vi32 p = v_subi(v_rint(t), v_seti(128)), i = v_sra(p, 8);
@@ -125,8 +124,7 @@ static ALWAYS_INLINE ui_pixels ui_texels(const e3d_ui_shape *shape, vf32 dx, vf3
     return ui_mix(upper, lower, fy);
 }
 
-/* A texel a pixel, of glyphs its alpha. Some lanes of a vector that isn't whole may be beside the texture: those take what is at its
- * sides. */
+/* Reads a texel a pixel, or a glyph's alpha. Lanes of the last vector that lie beside the texture read the texels at its side. */
 static ALWAYS_INLINE vi32 ui_copied(const e3d_ui_shape *shape, ui_source kind, ui_place at)
 {
     const e3d_ui_texture *t = shape->texture;
@@ -156,7 +154,7 @@ static ALWAYS_INLINE ui_pixels ui_sources(const e3d_ui_shape *shape, ui_source k
     return ui_product(texel, color);
 }
 
-/* White of some alphas times a colour is that colour of other alphas. */
+/* Blends a glyph: white with an alpha, times a colour, is that colour with another alpha. */
 static ALWAYS_INLINE vi32 ui_glyph_over(const e3d_ui_shape *shape, ui_place at)
 {
     ui_pixels color = ui_split(v_seti((int32_t)shape->rgba));
@@ -165,7 +163,8 @@ static ALWAYS_INLINE vi32 ui_glyph_over(const e3d_ui_shape *shape, ui_place at)
     return ui_blend(color, alpha, v_loadi(at.to));
 }
 
-/* Pixels whose alphas are all 255, as most are, need no blending; those of UI_SOLID never are, or they were UI_FILL. */
+/* Blends pixels. If all alphas of a vector are 255, as in most, no blending is needed; for UI_SOLID they never are, or it
+ * would be UI_FILL. */
 static ALWAYS_INLINE vi32 ui_over(const e3d_ui_shape *shape, ui_source kind, ui_place at)
 {
     if (kind == UI_SHOWN)
@@ -179,7 +178,8 @@ static ALWAYS_INLINE vi32 ui_over(const e3d_ui_shape *shape, ui_source kind, ui_
     return ui_blend(over, alpha, v_loadi(at.to));
 }
 
-/* The last pixels of a row, or few of them: a vector that holds them and is in the picture's row; the rest stays. */
+/* Draws the last pixels of a row, or a row of few: it writes a vector inside the picture's row that holds them, and leaves
+ * the other pixels as they are. */
 static ALWAYS_INLINE void ui_rest(const e3d_ui_shape *shape, ui_source kind, ui_place at, int count, int32_t width)
 {
     int32_t back = at.x + V_LANES > width ? at.x + V_LANES - width : 0;
@@ -190,15 +190,15 @@ static ALWAYS_INLINE void ui_rest(const e3d_ui_shape *shape, ui_source kind, ui_
     v_storei(at.to, v_seli(inside, ui_over(shape, kind, at), v_loadi(at.to)));
 }
 
-/* Long rows of vectors that lie across two cache lines each would take twice as long: pixels before the first aligned one. */
+/* The number of pixels before the first aligned one. In long rows, vectors that each lie across two cache lines would take
+ * twice as long. */
 static inline int ui_unaligned(ui_place at, int32_t right)
 {
     size_t beyond = (uintptr_t)at.to % sizeof(vi32) / 4;
     return right - at.x > 8 * V_LANES && beyond != 0 ? V_LANES - (int)beyond : 0;
 }
 
-/* It has a shape and a texture of its own, which no store to the picture changes as far as a compiler knows: what is constant then
- * stays in registers. */
+/* Draws with copies of shape and texture, which no store to the picture can change, so that their constants stay in registers. */
 static ALWAYS_INLINE void ui_draw(const e3d_canvas *picture, const e3d_ui_shape *given, const e3d_ui_rows *rows, ui_source kind)
 {
     const e3d_ui_texture texture = *given->texture;
@@ -237,5 +237,3 @@ static void kernel_ui(const e3d_canvas *picture, const e3d_ui_shape *shape, cons
     else
         ui_draw(picture, shape, rows, UI_BOTH);
 }
-
-#endif

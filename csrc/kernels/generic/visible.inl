@@ -5,8 +5,7 @@
  * three roundings, each monotone), so its values at a block's corners bound it exactly. Ties go to the first in order, so
  * the order in which records arrive changes nothing.
  */
-#ifndef E3D_KERNELS_VISIBLE_INL
-#define E3D_KERNELS_VISIBLE_INL
+#pragma once
 
 #include "base/limits.h"
 #include "kernels/kernels.h"
@@ -30,7 +29,7 @@ static inline int32_t visible_min3(const int32_t v[3])
     return least < v[2] ? least : v[2];
 }
 
-/* First column or row of the sample box, in the viewport (R10). */
+/* The first column or row of the sample box, in the viewport (R10). */
 static inline int32_t visible_first(const int32_t v[3])
 {
     int32_t first = (visible_min3(v) + 127) >> 8;
@@ -52,8 +51,8 @@ static inline float visible_depth(const visible_plane *p, int32_t x, int32_t y)
 
 /* ---- samples ---- */
 
-/* Whether a record comes before the kept one in R16: by order, then by ID, since one worker makes the pieces of a primitive one
- * after the other. */
+/* Whether a record comes before the visible one by R16: by order, and then by ID, since one worker makes all pieces of a
+ * primitive in sequence. */
 static inline int visible_comes_first(const e3d_record *r, int32_t id, int32_t kept, const e3d_record_table *table)
 {
     if (kept < 0)
@@ -62,7 +61,7 @@ static inline int visible_comes_first(const e3d_record *r, int32_t id, int32_t k
     return r->order < order || (r->order == order && id < kept);
 }
 
-/* Resolves lanes of equal depth. The depth is stored, too: of 0 and -0 it takes the winner's sign. */
+/* Resolves lanes of equal depth. The depth is stored, too, since of 0 and -0 it takes the winner's sign. */
 static inline void visible_ties(uint32_t equal, vf32 z, float *depth, int32_t *kept, const e3d_record *r, int32_t id,
                                 const e3d_record_table *table)
 {
@@ -77,10 +76,10 @@ static inline void visible_ties(uint32_t equal, vf32 z, float *depth, int32_t *k
     }
 }
 
-/* R12: no edge function is negative. (`> -1` is one comparison; `not < 0` would need another instruction to invert the mask.) */
+/* R12: no edge function is negative. (`> -1` is one comparison; `not < 0` would need an instruction more to invert the mask.) */
 static inline vmask visible_inside(const vi32 e[3]) { return v_gti(v_ori(v_ori(e[0], e[1]), e[2]), v_seti(-1)); }
 
-/* R14, the part that a column of vectors shares. */
+/* The part of R14 that a column of vectors shares. */
 static inline vf32 visible_column(const raster_constants *c, int32_t from)
 {
     return v_add(c->z0, v_mul(v_float(v_addi(rows_x(), v_seti(from))), c->gx));
@@ -92,8 +91,8 @@ static inline vf32 visible_z(const raster_constants *c, vf32 column, int32_t dy)
     return v_min(v_max(z, c->zmin), c->zmax);
 }
 
-/* Writes one vector of samples, `inside` of which are covered. There are no early outs: whether any lane is covered, or passes, is
- * mispredicted half of the time, and to write lanes back as they are takes less (7 % of the bunny). */
+/* Writes one vector of samples, `inside` of which are covered. It has no early outs: whether any lane is covered, or passes,
+ * is mispredicted half of the time, and writing unchanged lanes back is cheaper (7 % of the bunny). */
 static inline void visible_write(vmask inside, vf32 z, size_t at, const e3d_record *r, int32_t id,
                                  e3d_visible_tile *tile, const e3d_record_table *table)
 {
@@ -158,7 +157,7 @@ static inline void visible_columns(const e3d_visible_tile *tile, int block, floa
             far = v_max(far, rows_loadf(z + y * E3D_TILE + x));
         v_storef(lanes + x, far);
     }
-    for (int x = 0; x < RASTER_BLOCK; x++) /* of one row of lanes, or two */
+    for (int x = 0; x < RASTER_BLOCK; x++) /* over one row of lanes, or two */
         columns[x] = visible_farther(lanes[x], lanes[x + RASTER_BLOCK * (ROWS - 1)]);
 }
 
@@ -191,14 +190,14 @@ static inline int visible_hides(const e3d_visible_tile *tile, int block, float n
     return !v_any(v_mnot(v_gt(v_setf(near), far)));
 }
 
-/* A vector of blocks: the edge functions at each one's first sample, and the record's nearest depth in it. */
+/* A vector of blocks: the edge functions at each block's first sample, and the record's nearest depth in it. */
 typedef struct visible_corners {
     int32_t e[3][V_LANES];
     float near[V_LANES];
 } visible_corners;
 
-/* Draws a record into a block that it covers in part, or whose depths overlap its own. A fresh block shows nothing yet, and is
- * written without being read. */
+/* Draws a record into a block that it covers in part, or whose depths overlap the record's. A fresh block shows nothing yet,
+ * and is written without being read. */
 static inline void visible_block(const e3d_piece *p, const raster_constants *c, int block, int fresh, const visible_corners *corners,
                                  const e3d_record *r, e3d_visible_tile *tile, const e3d_record_table *table)
 {
@@ -225,7 +224,7 @@ static inline void visible_block(const e3d_piece *p, const raster_constants *c, 
     }
 }
 
-/* Depths nearest to and farthest from the viewer, in a vector of blocks. */
+/* The nearest and the farthest depth in each block of a vector. */
 typedef struct visible_range {
     vf32 near, far;
 } visible_range;
@@ -246,7 +245,7 @@ static inline visible_range visible_range_of(const e3d_piece *p, const raster_co
         visible_corner(c, v_addi(dx, v_seti(last - near_x)), v_addi(dy, v_seti(last - near_y)))};
 }
 
-/* Whether no step of R14 can overflow: else the depths at a block's corners bound nothing. */
+/* Whether no step of R14 can overflow; otherwise the depths at a block's corners bound nothing. */
 static inline int visible_is_tame(const e3d_piece *p)
 {
     const float most = 0x1p100f;
@@ -283,7 +282,7 @@ static inline vmask visible_lanes(uint32_t bits)
     return v_mnot(v_eqi(chosen, v_seti(0)));
 }
 
-/* Notes blocks that the record covers whole, nearer than all that is there. */
+/* Notes blocks that the record covers whole, nearer than everything there. */
 static inline void visible_note(uint32_t blocks, int first, const visible_range *range, vi32 id, e3d_visible_tile *tile)
 {
     vmask lanes = visible_lanes(blocks);
@@ -294,7 +293,7 @@ static inline void visible_note(uint32_t blocks, int first, const visible_range 
     tile->stale &= ~((uint64_t)blocks << first);
 }
 
-/* Measures stale blocks; returns those that hide the record. */
+/* Measures stale blocks; returns the blocks that hide the record. */
 static inline uint32_t visible_behind(uint32_t blocks, int first, const float near[V_LANES], e3d_visible_tile *tile)
 {
     uint32_t behind = 0;
@@ -310,7 +309,7 @@ static inline uint32_t visible_behind(uint32_t blocks, int first, const float ne
 
 /* Draws a record into one vector of blocks. */
 static inline void visible_blocks(const e3d_piece *p, const raster_constants *c, int first, int tame,
-                               const e3d_record *r, e3d_visible_tile *tile, const e3d_record_table *table)
+                                  const e3d_record *r, e3d_visible_tile *tile, const e3d_record_table *table)
 {
     int32_t top = first / VISIBLE_BLOCKS * RASTER_BLOCK, left = first % VISIBLE_BLOCKS * RASTER_BLOCK;
     vi32 x = v_addi(v_seti(left), v_shl(rows_x(), 3)), y = v_addi(v_seti(top), v_shl(rows_y(), 3));
@@ -330,7 +329,8 @@ static inline void visible_blocks(const e3d_piece *p, const raster_constants *c,
         return;
     v_storef(corners.near, range.near);
     uint32_t noted = rest & (uint32_t)(tile->noted >> first), fresh = noted & v_bits(v_negi(v_loadi(tile->noted_id + first)));
-    uint32_t unsure = rest & (uint32_t)(tile->stale >> first) & v_bits(v_gt(range.near, zmin)); /* others can't be behind zmax */
+    /* Blocks that aren't stale can't be behind zmax */
+    uint32_t unsure = rest & (uint32_t)(tile->stale >> first) & v_bits(v_gt(range.near, zmin));
     rest &= ~visible_behind(unsure, first, corners.near, tile);
     zmin = v_loadf(tile->zmin + first);
     v_storef(tile->zmin + first, v_self(visible_lanes(rest), v_min(range.near, zmin), zmin));
@@ -344,7 +344,7 @@ static inline void visible_blocks(const e3d_piece *p, const raster_constants *c,
         visible_block(p, c, first + __builtin_ctz(some), 0, &corners, r, tile, table);
 }
 
-/* Draws a record block by block, over the rows of blocks that its box meets. */
+/* Draws a record block by block, over the rows of blocks that its box touches. */
 static inline void visible_wide(const e3d_piece *p, const raster_constants *c, const e3d_record *r,
                                 e3d_visible_tile *tile, const e3d_record_table *table)
 {
@@ -372,7 +372,7 @@ static int __attribute__((noinline, cold)) fragment_comes_first(int32_t id, int3
 }
 
 /* Keeps the nearer of each two depths without a branch, since which one it is is unpredictable. */
-static void kernel_raster_fragments(e3d_visible_tile *tile, const e3d_record_table *table, const e3d_fragment_block *b)
+static void kernel_raster_fragments(e3d_visible_tile *tile, const e3d_record_table *table, const e3d_fragment_link *b)
 {
     uint64_t met = 0;
     float near = E3D_BEYOND_FAR;
@@ -423,5 +423,3 @@ static void kernel_raster_measure(e3d_visible_tile *tile, float columns[][E3D_BL
     }
 #endif
 }
-
-#endif

@@ -1,8 +1,6 @@
-/* raster, the records of a tile to its visible surface: the boxes and edges of a vector of records at a time (R10, R12), then
- * record after record (R14-R16).
- */
-#ifndef E3D_KERNELS_VISIBLE_RECORDS_INL
-#define E3D_KERNELS_VISIBLE_RECORDS_INL
+/* raster: draws the records of a tile into its visible surface. It finds the boxes and edges of a vector of records at a time
+ * (R10, R12), and then draws record after record (R14-R16). */
+#pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -18,14 +16,16 @@
 /* ---- a vector of records in a tile ---- */
 
 enum { RECORDS_DOWN = 16 }; /* the bit position of the row (or its step) in a word of row << 16 | column */
-enum { RECORDS_FEW = 1024 }; /* samples in strips: up to these, show_records looks at all, which takes less than choosing blocks */
-enum { RECORDS_WIDER = 3 }; /* rows are bounded if more than one record of so many is as wide as a block */
-enum { RECORDS_SIDE = 127 }; /* samples a side of what is drawn in strips: steps of edges fit 16 bits, twice the area 31 */
+/* Of records with at most so many samples, drawn in strips, show_records looks at all samples, which is cheaper than choosing
+ * blocks */
+enum { RECORDS_FEW = 1024 };
+enum { RECORDS_WIDER = 3 }; /* rows are bounded if more than one record in so many is as wide as a block */
+enum { RECORDS_SIDE = 127 }; /* the longest side of records drawn in strips: steps of edges fit 16 bits, twice the area 31 */
 enum { RECORDS_STRIPS = E3D_TILE / ROW_LANES };
 
-/* A vector of records, one a lane, relative to the tile: the box of samples; the edge functions at the tile's first sample, their
- * steps by sample (down << 16 | along) and from vector to vector (down); the first vector of the strips, and how many strips
- * follow the first. */
+/* A vector of records, one a lane, relative to the tile: the box of samples; the edge functions at the tile's first sample;
+ * their steps from sample to sample (down << 16 | along) and from vector to vector (down); the first vector of the strips,
+ * and how many strips follow the first. */
 typedef struct records_lanes {
     uint32_t x0[V_LANES], y0[V_LANES], x1[V_LANES], y1[V_LANES];
     int32_t e[3][V_LANES], steps[3][V_LANES], down[3][V_LANES];
@@ -36,14 +36,15 @@ typedef struct records_lanes {
     uint32_t from[RECORDS_STRIPS][V_LANES];
     float row[RECORDS_STRIPS][V_LANES];
     int32_t vectors[RECORDS_STRIPS][V_LANES];
-    /* A bit a lane: no side is longer than RECORDS_SIDE; if so, at most RECORDS_FEW samples; if so, narrower than a block. */
+    /* A bit a lane: no side is longer than RECORDS_SIDE; of these, at most RECORDS_FEW samples; of these, narrower than a
+     * block. */
     uint32_t small, few, narrow;
 } records_lanes;
 
 static inline vi32 records_in_tile(vi32 sample) { return v_maxi(v_mini(sample, v_seti(E3D_TILE - 1)), v_seti(0)); }
 
-/* R12: an edge function at the tile's first sample. It is found at the box's first sample, where 32 bits hold it, and moved from
- * there. */
+/* R12: an edge function at the tile's first sample. It is found at the box's first sample, where 32 bits hold it, and moved
+ * from there. */
 static inline record_edge records_edge_of(const vi32 x[3], const vi32 y[3], int k, vi32 x0, vi32 y0, vi32 tile_x, vi32 tile_y)
 {
     vi32 half = v_seti(128);
@@ -60,7 +61,7 @@ static inline void records_keep_edge(const record_edge *e, int k, records_lanes 
     v_storei(out->steps[k], v_ori(v_andi(e->a, v_seti(0xFFFF)), v_shl(e->b, RECORDS_DOWN)));
 }
 
-/* R10, R104. Strips start at the box's first column, or as far to the right as the tile allows. */
+/* R10, R104: finds boxes. Strips start at the box's first column, or where the tile still holds a vector. */
 static ALWAYS_INLINE void records_boxes(const vi32 x[3], const vi32 y[3], const e3d_visible_tile *tile, int32_t reach, vi32 first[2],
                                         records_lanes *out)
 {
@@ -85,10 +86,10 @@ static ALWAYS_INLINE void records_boxes(const vi32 x[3], const vi32 y[3], const 
     v_storef(out->dy, v_float(v_subi(start_y, base_y)));
 }
 
-/* An edge in a strip: `most` is its greatest value in row 0, and most * rows the row where that becomes 0 (rows = -1 / b). If b >
- * 0 the rows from there on may be covered (`from`), if b < 0 those up to there (`to`). */
+/* An edge in a strip: `most` is its greatest value in row 0, and most * rows the row in which that becomes 0 (rows = -1 / b).
+ * If b > 0, the rows from there on may be covered (`from`); if b < 0, those up to there (`to`). */
 typedef struct records_bound {
-    vi32 most, step; /* from a strip to the next */
+    vi32 most, step; /* step: from a strip to the next */
     vf32 rows;
     vmask from, to;
 } records_bound;
@@ -100,8 +101,8 @@ static inline records_bound records_bound_of(const record_edge *e, vi32 start_x)
                            v_div(v_setf(-1), v_float(e->b)), v_gti(e->b, zero), v_gti(zero, e->b)};
 }
 
-/* Narrows the rows first .. last of a strip by an edge. In a tile four roundings move its zero by less than 2^-15 of a row: `room`
- * is more. */
+/* Narrows the rows first .. last of a strip by an edge. In a tile four roundings move its zero by less than 2^-15 of a row;
+ * `room` is more. */
 static inline void records_clip(const records_bound *b, vf32 *first, vf32 *last)
 {
     const float room = 1.0f / 64;
@@ -110,8 +111,8 @@ static inline void records_clip(const records_bound *b, vf32 *first, vf32 *last)
     *last = v_self(b->to, v_min(v_add(row, v_setf(room)), *last), *last);
 }
 
-/* Finds the rows that each strip may cover. Where few records are wider than a block, these are all rows of the box: to bound them
- * would take longer than it saves. */
+/* Finds the rows that each strip may cover. If few records are wider than a block, these are all rows of the box, since
+ * finding bounds would take longer than it saves. */
 static inline void records_rows(const record_edge e[3], records_lanes *out)
 {
     records_bound bounds[3];
@@ -150,8 +151,8 @@ static inline void records_find(const e3d_record *const r[V_LANES], const e3d_vi
     records_rows(e, out);
 }
 
-/* Takes the first vector of `count` records, and prefetches the next; returns how many there are. Lanes past the last repeat the
- * first. */
+/* Takes the first vector of `count` records, and prefetches the next; returns how many there are. Lanes beyond the last one
+ * repeat the first. */
 static inline int records_take(const e3d_record_table *table, const uint32_t *ids, int count, const e3d_record *r[V_LANES])
 {
     int some = count < V_LANES ? count : V_LANES;
@@ -164,7 +165,7 @@ static inline int records_take(const e3d_record_table *table, const uint32_t *id
 
 /* ---- what is touched ---- */
 
-/* The blocks that a box of samples meets. */
+/* The blocks that a box of samples touches. */
 static inline uint64_t records_met(const records_lanes *in, int lane)
 {
     const uint64_t left_column = 0x0101010101010101;
@@ -204,7 +205,7 @@ static inline void records_strips(const records_lanes *in, int lane, const e3d_r
                                   const e3d_record_table *table)
 {
     raster_constants c = {v_setf(r->z0), v_setf(r->gx), v_setf(r->gy), v_setf(r->zmin), v_setf(r->zmax), v_seti(id)};
-    vf32 along = v_add(v_float(rows_x()), v_setf(in->dx[lane])); /* whole numbers: sums are exact */
+    vf32 along = v_add(v_float(rows_x()), v_setf(in->dx[lane])); /* whole numbers, so sums are exact */
     for (int s = 0; s <= in->strips[lane]; s++) {
         size_t i = records_sample(in->from[s][lane]);
         vi32 at = v_addi(v_seti((int32_t)in->from[s][lane]), v_ori(rows_x(), v_shl(rows_y(), RECORDS_DOWN)));
@@ -256,7 +257,10 @@ static inline void records_tiny(const e3d_record *r, int32_t id, e3d_visible_til
 static inline void records_wide(const records_lanes *in, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *tile,
                                 const e3d_record_table *table)
 {
-    e3d_piece p = {.x0 = (int32_t)in->x0[lane], .y0 = (int32_t)in->y0[lane], .x1 = (int32_t)in->x1[lane], .y1 = (int32_t)in->y1[lane],
+    e3d_piece p = {.x0 = (int32_t)in->x0[lane],
+                   .y0 = (int32_t)in->y0[lane],
+                   .x1 = (int32_t)in->x1[lane],
+                   .y1 = (int32_t)in->y1[lane],
                    .slot = (uint32_t)id};
     for (int k = 0; k < 3; k++)
         if (!e3d_piece_edge(r, k, tile->x, tile->y, &p))
@@ -270,7 +274,8 @@ static inline void records_wide(const records_lanes *in, int lane, const e3d_rec
     visible_wide(&p, &c, r, tile, table);
 }
 
-/* Draws a record, unless what is there hides it: by the zmax of the blocks that it meets, or by the samples of its strips. */
+/* Draws a record, unless the visible surface hides it: by the zmax of the blocks that it touches, or by the samples of its
+ * strips. */
 static inline void records_draw(const records_lanes *in, int lane, const e3d_record *r, int32_t id, uint64_t open,
                                 records_touched *touched, e3d_visible_tile *tile, const e3d_record_table *table)
 {
@@ -290,11 +295,12 @@ static inline void records_draw(const records_lanes *in, int lane, const e3d_rec
     records_strips(in, lane, r, id, tile, table);
 }
 
-/* Whether records seem to come from far to near, and to be large: the last is nearer than the first, and reaches farther than a
- * tile from its first corner. */
+/* Whether records seem to come from far to near, and to be large: the last one is nearer than the first, and reaches farther
+ * than a tile from its first corner. */
 static inline int records_approach(const e3d_record *first, const e3d_record *last)
 {
-    const uint32_t side = 256 * E3D_TILE; /* a power of two, so that the OR of sums reaches 2 * side exactly if one does */
+    /* A power of two, so that the OR of sums reaches 2 * side exactly if one of them does */
+    const uint32_t side = 256 * E3D_TILE;
     uint32_t reach = 0;
     for (int k = 1; k < 3; k++)
         reach |= ((uint32_t)(last->x[k] - last->x[0]) + side) | ((uint32_t)(last->y[k] - last->y[0]) + side);
@@ -307,7 +313,8 @@ static void __attribute__((noinline, cold)) records_turn(const uint32_t *ids, in
         out[i] = ids[count - 1 - i];
 }
 
-/* The next vector of records, r, of the `count` that are left; returns their IDs, which are turned where records come from far to near. */
+/* The next vector of records, r, of the `count` that are left. Returns their IDs, in reverse order if records come from far
+ * to near. */
 static ALWAYS_INLINE const uint32_t *records_next(const e3d_record_table *table, const uint32_t *ids, int count, uint32_t turned[V_LANES],
                                                   const e3d_record *r[V_LANES])
 {
@@ -327,7 +334,8 @@ static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table
     uint32_t turned[V_LANES];
     records_lanes in;
     records_touched touched = {0, E3D_BEYOND_FAR};
-    uint64_t open = ~records_behind(1.0f, tile); /* where little is hidden, most blocks that are met: their zmax needs no look */
+    /* Where little is hidden, that is most blocks, and their zmax isn't read again */
+    uint64_t open = ~records_behind(1.0f, tile);
     for (int i = 0; i < count; i += V_LANES) {
         int some = count - i < V_LANES ? count - i : V_LANES;
         const uint32_t *id = records_next(table, ids + i, count - i, turned, r);
@@ -340,5 +348,3 @@ static void kernel_raster_visible(e3d_visible_tile *tile, const e3d_record_table
     }
     records_tell(&touched, tile);
 }
-
-#endif

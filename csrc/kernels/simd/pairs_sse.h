@@ -1,10 +1,7 @@
-/* Numbers from here and there and channels in a pixel, by loads of their own and shuffles (SSE4.1 and up): what the words
- * v_quads8, v_rows16, v_rgba and v_curve_rgba are made of.
- *
- * Gathers are seldom faster, and much slower on some processors.
- */
-#ifndef E3D_PAIRS_SSE_H
-#define E3D_PAIRS_SSE_H
+/* Loads numbers from scattered places, and channels of pixels, by single loads and shuffles (SSE4.1 and up): the words
+ * v_quads8, v_rows16, v_rgba and v_curve_rgba are made of these. Gathers are seldom faster, and much slower on some
+ * processors. */
+#pragma once
 
 #include <immintrin.h>
 #include <stdint.h>
@@ -40,7 +37,8 @@ static inline void floats_four(const float *base, const int32_t *at, __m128 *fir
     *second = _mm_shuffle_ps(a, b, PAIRS_ODD);
 }
 
-/* Compares four floats from `at` on and the fours below them, whose rows are `pitch` floats apart: a bit each, where it is no less. */
+/* Compares four floats from `at` on, and the fours below them in rows `pitch` floats apart, with a number: a bit each, set if
+ * the float is no less. */
 static inline int32_t floats_sixteen(const float *at, intptr_t pitch, float least)
 {
     __m128 least4 = _mm_set1_ps(least), row[4];
@@ -51,19 +49,19 @@ static inline int32_t floats_sixteen(const float *at, intptr_t pitch, float leas
     return _mm_movemask_epi8(_mm_packs_epi16(upper, lower));
 }
 
-/* Shuffles two pairs of pixels, of the upper and the lower row, to each channel's bytes side by side. */
+/* The shuffle of two pairs of pixels, of the upper and the lower row, that makes each channel's bytes neighbours. */
 static inline __m128i pairs_quad(void)
 {
     return _mm_setr_epi8(0, 8, 4, 12, 1, 9, 5, 13, 2, 10, 6, 14, 3, 11, 7, 15);
 }
 
-/* Shuffles each channel's bytes to four pixels. */
+/* The shuffle of each channel's bytes to four pixels. */
 static inline __m128i pairs_pixels(void)
 {
     return _mm_setr_epi8(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
 }
 
-/* Shuffles the upper bytes of each lane's two words to its bytes `at` and, where that is 0, 1. */
+/* The shuffle that moves the upper bytes of each lane's two words to its byte `at`; where that is 0, to bytes 0 and 1. */
 static inline __m128i pairs_second(int at)
 {
     return at == 0 ? _mm_setr_epi8(1, 3, -1, -1, 5, 7, -1, -1, 9, 11, -1, -1, 13, 15, -1, -1)
@@ -82,10 +80,8 @@ static inline __m128i pairs_one(const void *texels, uint64_t at)
     return _mm_loadu_si128((const __m128i *)((const char *)texels + 8 * at));
 }
 
-/* Shuffles such a pair to left and right of each channel side by side. */
+/* The shuffle of such a pair that makes left and right of each channel neighbours. */
 static inline __m128i pairs_halves(void)
 {
     return _mm_setr_epi8(0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 12, 13, 6, 7, 14, 15);
 }
-
-#endif

@@ -1,11 +1,10 @@
-/* Words for eight records of eight words at a time: columns in, rows out, and back (AVX2 and up). */
-#ifndef E3D_ROWS_AVX2_H
-#define E3D_ROWS_AVX2_H
+/* Words for eight records of eight words at a time (AVX2 and up): columns to rows, and back. */
+#pragma once
 
 #include <immintrin.h>
 #include <stdint.h>
 
-/* Lane l of vector c becomes lane c of vector l. */
+/* Transposes: lane l of vector c becomes lane c of vector l. */
 static inline void rows_turn8(const __m256i c[8], __m256i out[8])
 {
     __m256i a[8], b[8];
@@ -25,7 +24,7 @@ static inline void rows_turn8(const __m256i c[8], __m256i out[8])
     }
 }
 
-/* Lane l of column c goes to out[stride * l + c]. */
+/* Writes lane l of column c to out[stride * l + c]. */
 static inline void rows_store8(const __m256i c[8], int32_t *out, int stride)
 {
     __m256i row[8];
@@ -34,7 +33,7 @@ static inline void rows_store8(const __m256i c[8], int32_t *out, int stride)
         _mm256_storeu_si256((__m256i *)(out + stride * l), row[l]);
 }
 
-/* Eight words of eight rows; word c of row l to lane l of column c. */
+/* Loads eight words of eight rows: word c of row l becomes lane l of column c. */
 static inline void rows_load8(const void *const row[8], __m256i c[8])
 {
     __m256i a[8];
@@ -42,5 +41,3 @@ static inline void rows_load8(const void *const row[8], __m256i c[8])
         a[l] = _mm256_loadu_si256((const __m256i *)row[l]);
     rows_turn8(a, c);
 }
-
-#endif

@@ -1,14 +1,13 @@
 /* The vector words for AVX2: eight lanes. vec_1.h says what each means. */
-#ifndef E3D_VEC_AVX2_H
-#define E3D_VEC_AVX2_H
+#pragma once
 
 #include <immintrin.h>
 #include <stdint.h>
 
 #include "base/always_inline.h"
-#include "kernels/simd/rows_avx2.h"
 #include "kernels/simd/pack_sse.h"
 #include "kernels/simd/pairs_sse.h"
+#include "kernels/simd/rows_avx2.h"
 
 #define V_LANES 8
 
@@ -132,4 +131,3 @@ static inline void v_load_pairs(const float *base, const int32_t *at, vf32 *firs
     *first = _mm256_set_m128(a[1], a[0]);
     *second = _mm256_set_m128(b[1], b[0]);
 }
-#endif

@@ -1,13 +1,12 @@
 /* The vector words for AVX-512 (F, CD, BW, DQ, VL): sixteen lanes. vec_1.h says what each means. */
-#ifndef E3D_VEC_AVX512_H
-#define E3D_VEC_AVX512_H
+#pragma once
 
 #include <immintrin.h>
 #include <stdint.h>
 
 #include "base/always_inline.h"
-#include "kernels/simd/rows_avx2.h"
 #include "kernels/simd/pairs_sse.h"
+#include "kernels/simd/rows_avx2.h"
 
 #define V_LANES 16
 
@@ -20,12 +19,13 @@ typedef __m512d vf64;
 #define MMW(op) _mm512_##op##_si512
 static inline __m512i quarters(__m128i a) { return _mm512_broadcast_i32x4(a); }
 static inline vf32 v_asf(vi32 a) { return _mm512_castsi512_ps(a); }
-/* Vectors are loaded by halves and joined once: on processors that work on halves, that takes half as long as by quarters. */
+/* Vectors are loaded by halves and joined once: on processors that work on halves, this takes half as long as by quarters. */
 static inline vi32 halves_join(__m256i low, __m256i high) { return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1); }
 static inline __m128i pairs_low(const void *texels, int32_t at) {
     return _mm_loadl_epi64((const __m128i *)((const char *)texels + 4 * (intptr_t)at));
 }
-/* The texels of two lanes, four apart, and those below, by masked broadcasts: more units do loads and blends than shuffles. */
+/* Loads the texels of two lanes, four apart, and those below, by masked broadcasts: more units do loads and blends than
+ * shuffles. */
 static inline __m256i quads_two(const void *texels, const void *below, const int32_t *at) {
     __m256i two = _mm256_castsi128_si256(pairs_low(texels, at[0]));
     two = _mm256_mask_broadcastq_epi64(two, 2, pairs_low(below, at[0]));
@@ -46,7 +46,7 @@ static inline vi32 v_onebit(void) { return _mm512_sllv_epi32(_mm512_set1_epi32(1
 static ALWAYS_INLINE __mmask16 run_of(const int32_t *at, int lane, vi32 row) {
     return _mm512_cmpeq_epi32_mask(row, _mm512_set1_epi32(at[lane] - lane));
 }
-/* Most vectors have at most two runs, and two masked stores write both; a loop over runs would be mispredicted at its end. */
+/* Most vectors have at most two runs, which two masked stores write; a loop over runs would be mispredicted at its end. */
 static ALWAYS_INLINE int v_store_runs(uint32_t *base, const int32_t *at, vi32 a) {
     __m512i row = _mm512_sub_epi32(v_loadi(at), v_iota());
     __mmask16 first = run_of(at, 0, row), last = run_of(at, 15, row);
@@ -56,7 +56,7 @@ static ALWAYS_INLINE int v_store_runs(uint32_t *base, const int32_t *at, vi32 a)
     _mm512_mask_storeu_epi32(base + at[15] - 15, last, a);
     return 1;
 }
-/* Load and store lanes 0-7 and 8-15 by themselves. */
+/* These load and store lanes 0-7 and 8-15 separately. */
 static inline vi32 v_load_halves(const void *low, const void *high) {
     return halves_join(_mm256_loadu_si256((const __m256i *)low), _mm256_loadu_si256((const __m256i *)high));
 }
@@ -70,14 +70,14 @@ static inline vi32 v_loadu8(const uint8_t *p) {
 static inline vi32 v_gatheri(const void *base, vi32 i) {
     return _mm512_i32gather_epi32(i, base, 4);
 }
-/* One register holds all of them: a shuffle of 16-bit words brings each lane the two bytes among which its own is. */
+/* One register holds all bytes: a shuffle of 16-bit words brings each lane the two bytes that contain its own. */
 static inline vi32 v_lookup8(const uint8_t bytes[64], vi32 i) {
     __m512i two = _mm512_permutexvar_epi16(_mm512_srli_epi32(i, 1), _mm512_loadu_si512(bytes));
     __m512i shift = _mm512_slli_epi32(_mm512_and_si512(i, _mm512_set1_epi32(1)), 3);
     return _mm512_and_si512(_mm512_srlv_epi32(two, shift), _mm512_set1_epi32(255));
 }
 
-/* Up to 128 numbers fit eight registers, where they are found faster than by a gather. */
+/* Up to 128 numbers fit eight registers; looking them up there is faster than a gather. */
 typedef struct vtable {
     int quarters; /* of 32 numbers */
     __m512i part[8];
@@ -200,7 +200,7 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
     *odd = _mm512_permutex2var_ps(a, _mm512_add_epi32(first, _mm512_set1_epi32(1)), b);
 }
 
-/* Four registers hold the curve as 16-bit words, so one shuffle looks up two places of each lane. */
+/* Four registers hold the curve as 16-bit words, so that one shuffle looks up two places of each lane. */
 typedef struct vcurve {
     __m512i base[2], rise[2];
 } vcurve;
@@ -258,4 +258,3 @@ static inline void v_load_pairs(const float *base, const int32_t *at, vf32 *firs
     *first = quarters_join(a);
     *second = quarters_join(b);
 }
-#endif

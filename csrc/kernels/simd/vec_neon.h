@@ -1,10 +1,7 @@
-/* The vector words for NEON, as every AArch64 has it: four lanes. vec_1.h says what each means.
- *
- * Minimum and maximum are a comparison and a choice, as those of NEON treat zeros and NaN otherwise. Its conversions keep to the nearest
- * number that fits, where v_rint gives INT32_MIN.
- */
-#ifndef E3D_VEC_NEON_H
-#define E3D_VEC_NEON_H
+/* The vector words for NEON, which every AArch64 has: four lanes. vec_1.h says what each means. Minimum and maximum are a
+ * comparison and a selection, since NEON's own treat zeros and NaN differently. NEON's conversions saturate, where v_rint
+ * gives INT32_MIN. */
+#pragma once
 
 #include <arm_neon.h>
 #include <stdint.h>
@@ -29,7 +26,7 @@ static inline vf32 v_loadf(const float *p) { return vld1q_f32(p); }
 static inline vi32 v_loadi(const void *p) { return vld1q_s32((const int32_t *)p); }
 static inline void v_storef(float *p, vf32 a) { vst1q_f32(p, a); }
 static inline void v_storei(void *p, vi32 a) { vst1q_s32((int32_t *)p, a); }
-static inline void v_streami(void *p, vi32 a) { v_storei(p, a); } /* no intrinsic passes the caches */
+static inline void v_streami(void *p, vi32 a) { v_storei(p, a); } /* no intrinsic bypasses the caches */
 static inline vi32 v_loadu8(const uint8_t *p) {
     uint32_t four;
     memcpy(&four, p, 4);
@@ -39,7 +36,7 @@ static inline vi32 v_gatheri(const void *base, vi32 i) {
     const int32_t *b = (const int32_t *)base;
     return four_numbers(b[vgetq_lane_s32(i, 0)], b[vgetq_lane_s32(i, 1)], b[vgetq_lane_s32(i, 2)], b[vgetq_lane_s32(i, 3)]);
 }
-/* Four registers hold all bytes; where an index's byte has all bits set, it finds 0. */
+/* Four registers hold all bytes; an index whose byte has all bits set finds 0. */
 static inline vi32 v_lookup8(const uint8_t bytes[64], vi32 i) {
     return vreinterpretq_s32_u8(vqtbl4q_u8(vld1q_u8_x4(bytes), vreinterpretq_u8_s32(vorrq_s32(i, v_seti(~255)))));
 }
@@ -55,13 +52,13 @@ static inline vmask v_lt(vf32 a, vf32 b) { return vcltq_f32(a, b); }
 static inline vmask v_gt(vf32 a, vf32 b) { return vcgtq_f32(a, b); }
 static inline vmask v_ge(vf32 a, vf32 b) { return vcgeq_f32(a, b); }
 static inline vmask v_eq(vf32 a, vf32 b) { return vceqq_f32(a, b); }
-/* The other lanes become NaN, of which comparisons are false: two words about the same lanes share that. */
+/* Makes the other lanes NaN, for which comparisons are false. Two words about the same lanes share this. */
 static inline vf32 or_nan(vmask m, vf32 a) { return vreinterpretq_f32_u32(vornq_u32(vreinterpretq_u32_f32(a), m)); }
 static inline vmask v_lt_in(vmask m, vf32 a, vf32 b) { return vcltq_f32(or_nan(m, a), b); }
 static inline vmask v_eq_in(vmask m, vf32 a, vf32 b) { return vceqq_f32(or_nan(m, a), b); }
 
-/* Sums and products of signed numbers wrap around as those of unsigned ones do: arm_neon.h writes them as operators of C, by which
- * signed ones must not. */
+/* Sums and products of signed numbers are those of unsigned ones, which wrap around: arm_neon.h writes them as operators of
+ * C, in which signed ones must not overflow. */
 static inline uint32x4_t words(vi32 a) { return vreinterpretq_u32_s32(a); }
 static inline vi32 of_words(uint32x4_t a) { return vreinterpretq_s32_u32(a); }
 static inline vi32 v_addi(vi32 a, vi32 b) { return of_words(vaddq_u32(words(a), words(b))); }
@@ -100,7 +97,7 @@ static inline vi32 v_madd8(vi32 a, vi32 b) {
     int16x8_t sum = vmulq_s16(first, vshrq_n_s16(vshlq_n_s16(halves(b), 8), 8));
     return of_halves(vmlaq_s16(sum, second, vshrq_n_s16(halves(b), 8)));
 }
-/* Operators, as the shifts of NEON by a constant take neither a variable nor 0. */
+/* Operators of C, since NEON's shifts by a constant take neither a variable nor 0. */
 #define v_sra16(a, n) of_halves(halves(a) >> (n))
 #define v_shr16(a, n) vreinterpretq_s32_u16(vreinterpretq_u16_s32(a) >> (n))
 #define v_shl(a, n) vreinterpretq_s32_u32(vreinterpretq_u32_s32(a) << (n))
@@ -170,7 +167,7 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     }
 }
 
-/* A shift by a negative number goes to the right, and one by all 64 bits leaves none. */
+/* A shift by a negative number goes to the right, and a shift by all 64 bits leaves none. */
 static inline vi32 v_span(vi32 at, vi32 length, int h) {
     int64x2_t place = h ? vmovl_high_s32(at) : vmovl_s32(vget_low_s32(at));
     int64x2_t count = h ? vmovl_high_s32(length) : vmovl_s32(vget_low_s32(length));
@@ -214,7 +211,7 @@ static inline void v_load_pairs(const float *base, const int32_t *at, vf32 *firs
     v_split(vcombine_f32(vld1_f32(base + at[0]), vld1_f32(base + at[1])), vcombine_f32(vld1_f32(base + at[2]), vld1_f32(base + at[3])), first, second);
 }
 
-/* Compares four floats from `at` on and the fours below them: a byte each, which has one bit set, or none. */
+/* Compares four floats from `at` on, and the fours below them: a byte each, with one bit set or none. */
 static inline uint8x16_t floats_sixteen(const float *at, intptr_t pitch, vf32 least) {
     static const uint8_t bit[16] = {1, 2, 4, 8, 16, 32, 64, 128, 1, 2, 4, 8, 16, 32, 64, 128};
     uint16x8_t row[4];
@@ -223,7 +220,7 @@ static inline uint8x16_t floats_sixteen(const float *at, intptr_t pitch, vf32 le
     uint8x16_t upper = vreinterpretq_u8_u16(vuzp1q_u16(row[0], row[1])), lower = vreinterpretq_u8_u16(vuzp1q_u16(row[2], row[3]));
     return vandq_u8(vuzp1q_u8(upper, lower), vld1q_u8(bit));
 }
-/* Sums of neighbours, three times: eight bytes become one, and sixteen a lane's number. */
+/* Adds neighbours three times: eight bytes become one, and sixteen become a lane's number. */
 static ALWAYS_INLINE vi32 v_ge16(const float *base, int32_t pitch, vi32 at, vf32 least) {
     uint8x16_t a = floats_sixteen(base + vgetq_lane_s32(at, 0), pitch, vdupq_laneq_f32(least, 0));
     uint8x16_t b = floats_sixteen(base + vgetq_lane_s32(at, 1), pitch, vdupq_laneq_f32(least, 1));
@@ -243,7 +240,7 @@ static inline vi32 curve_fetch(const int32_t *pieces, const int32_t *at) {
 static inline vi32 curve_rise(vi32 piece, vi32 along) { return v_shr(v_muli(v_andi(piece, v_seti(0xFFFF)), along), 16); }
 #include "kernels/simd/tables_memory.h"
 
-/* Red, green and blue of four lanes, which have them side by side, to a vector each. */
+/* Separates red, green and blue of four lanes into a vector each. */
 static ALWAYS_INLINE void channels_apart(const uint8x16_t q[4], const uint8_t order[16], vi32 out[3]) {
     vi32 lane[4], channel[4];
     uint8x16_t places = vld1q_u8(order);
@@ -261,7 +258,7 @@ static ALWAYS_INLINE void v_quads8(const void *texels, const void *below, const 
         q[i] = vcombine_u8(vld1_u8(upper + 4 * (intptr_t)at[i]), vld1_u8(lower + 4 * (intptr_t)at[i]));
     channels_apart(q, order, out);
 }
-/* Weights are 2^7 of them, since vqrdmulhq_s16 shifts products by 15. */
+/* Weights are multiplied by 2^7, since vqrdmulhq_s16 shifts products by 15. */
 static ALWAYS_INLINE void v_rows16(const void *texels, const int32_t *top, const int32_t *bottom, vi32 weight, vi32 out[3]) {
     static const uint8_t order[16] = {0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 12, 13, 6, 7, 14, 15};
     const int16_t *t = (const int16_t *)texels;
@@ -273,5 +270,3 @@ static ALWAYS_INLINE void v_rows16(const void *texels, const int32_t *top, const
     }
     channels_apart(q, order, out);
 }
-
-#endif

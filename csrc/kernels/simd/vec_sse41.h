@@ -1,6 +1,5 @@
 /* The vector words for SSE4.1: four lanes. vec_1.h says what each means. */
-#ifndef E3D_VEC_SSE41_H
-#define E3D_VEC_SSE41_H
+#pragma once
 
 #include <smmintrin.h>
 #include <stdint.h>
@@ -93,7 +92,7 @@ static inline void v_store_rows(const vi32 c[16], int32_t *out) {
     }
 }
 
-/* SSE4.1 shifts all lanes of a vector by one number, so each word has a vector of its own. */
+/* SSE4.1 shifts all lanes of a vector by one number, so each word is shifted in a vector of its own. */
 static inline __m128i span_one(int32_t at, int32_t length) {
     __m128i ones = _mm_srl_epi64(_mm_set1_epi64x(-1), _mm_cvtsi32_si128(64 - length));
     return _mm_sll_epi64(ones, _mm_cvtsi32_si128(at));
@@ -127,4 +126,3 @@ static inline void v_split(vf32 a, vf32 b, vf32 *even, vf32 *odd) {
 static inline void v_load_pairs(const float *base, const int32_t *at, vf32 *first, vf32 *second) {
     floats_four(base, at, first, second);
 }
-#endif

@@ -1,8 +1,6 @@
-/* The vector words that SSE4.1 and AVX2 share beyond words_x86.h: a mask is a vector whose lanes are all ones or 0, and tables lie in
- * memory. Whoever includes it has v_iota, rows_pairs and curve_fetch, too.
- */
-#ifndef E3D_WORDS_NARROW_H
-#define E3D_WORDS_NARROW_H
+/* The vector words that SSE4.1 and AVX2 share beyond words_x86.h: a mask is a vector whose lanes are all ones or 0, and
+ * tables lie in memory. A file that includes this one has v_iota, rows_pairs and curve_fetch, too. */
+#pragma once
 
 #include "kernels/simd/words_x86.h"
 
@@ -34,5 +32,3 @@ static ALWAYS_INLINE void v_rows16(const void *texels, const int32_t *top, const
 
 static inline vi32 curve_rise(vi32 piece, vi32 along) { return MM(mulhi_epu16)(piece, along); }
 #include "kernels/simd/tables_memory.h"
-
-#endif

@@ -3,8 +3,7 @@
  * Whoever includes it has the types, V_LANES, MM(op), which names an instruction for its vectors, MMW(op), which names one for
  * whole registers, inserted_lanes (lanes by inserts, as what was just stored one by one cannot be loaded at once), v_asf, quarters (a register of copies of one of 16 bytes) and quads_apart.
  */
-#ifndef E3D_WORDS_X86_H
-#define E3D_WORDS_X86_H
+#pragma once
 
 static inline vf32 v_setf(float a) { return MM(set1_ps)(a); }
 static inline vi32 v_seti(int32_t a) { return MM(set1_epi32)(a); }
@@ -14,7 +13,7 @@ static inline void v_storef(float *p, vf32 a) { MM(storeu_ps)(p, a); }
 static inline void v_storei(void *p, vi32 a) { MMW(storeu)((vi32 *)p, a); }
 static inline void v_streami(void *p, vi32 a) { MMW(stream)((vi32 *)p, a); }
 
-/* As vec_1.h says it, by loads of four floats. */
+/* As in vec_1.h, by loads of four floats. */
 static ALWAYS_INLINE vi32 v_ge16(const float *base, int32_t pitch, vi32 at, vf32 least)
 {
     int32_t places[V_LANES], bits[V_LANES];
@@ -71,7 +70,8 @@ static inline vi32 v_rgba(const vi32 c[3]) {
     vi32 low = MM(packs_epi32)(c[0], c[1]), high = MM(packs_epi32)(c[2], v_seti(255));
     return MM(shuffle_epi8)(MM(packus_epi16)(low, high), quarters(pairs_pixels()));
 }
-/* Lane 4 n + i is in quarter n of vector i, its red, green and blue side by side: to a vector each. Unpacking works within quarters. */
+/* Separates red, green and blue, which lane 4 n + i has side by side in quarter n of vector i, into a vector each. Unpacking
+ * works within quarters. */
 static ALWAYS_INLINE void channels_apart(const vi32 q[4], vi32 out[3]) {
     vi32 low01 = MM(unpacklo_epi32)(q[0], q[1]), low23 = MM(unpacklo_epi32)(q[2], q[3]);
     vi32 high01 = MM(unpackhi_epi32)(q[0], q[1]), high23 = MM(unpackhi_epi32)(q[2], q[3]);
@@ -86,7 +86,7 @@ static ALWAYS_INLINE void v_quads8(const void *texels, const void *below, const 
     channels_apart(q, out);
 }
 
-/* The weights of lanes 4 n + i in quarter n of vector i, for each of a pair's channels: 2^7 of them, for pmulhrsw. */
+/* The weights of lanes 4 n + i in quarter n of vector i, for each channel of a pair, multiplied by 2^7 for pmulhrsw. */
 static ALWAYS_INLINE void rows_weights(vi32 weight, vi32 each[4]) {
     vi32 twice = v_ori(v_shl(weight, 7), v_shl(weight, 23));
     each[0] = MM(shuffle_epi32)(twice, 0x00);
@@ -97,5 +97,3 @@ static ALWAYS_INLINE void rows_weights(vi32 weight, vi32 each[4]) {
 static inline vi32 rows_blend(vi32 upper, vi32 lower, vi32 weight) {
     return v_add16(upper, MM(mulhrs_epi16)(v_sub16(lower, upper), weight));
 }
-
-#endif

@@ -1,6 +1,5 @@
-/* What records with alpha cover in a tile, before anything is known of their alpha. */
-#ifndef E3D_KERNELS_ALPHA_H
-#define E3D_KERNELS_ALPHA_H
+/* The list of samples that records with alpha cover in a tile, before their alphas are known. */
+#pragma once
 
 #include <stdint.h>
 
@@ -8,38 +7,39 @@
 #include "data/sample_patterns.h"
 #include "kernels/types/shown.h"
 
-/* The list of their samples, and beside it their depths. A sample may be in it several times. */
+/* A list of samples, with their depths. A sample may be in it several times. */
 typedef struct e3d_alpha_list {
-    const float *limit;  /* of each sample of the tile: they must be nearer, */
-    const int32_t *kept; /* or as near and come before what has this ID (R16) */
+    const float *limit;  /* for each sample of the tile: listed samples are nearer, */
+    const int32_t *kept; /* or as near, and come before the record of this ID (R16) */
     e3d_shown *shown;
     float *z; /* of each entry; E3D_PAD more are written */
-    uint64_t once[E3D_TILE]; /* row by row a bit a sample: it is in the list */
-    uint64_t met;            /* not 0: a sample came again */
+    uint64_t once[E3D_TILE]; /* for each row a bit a sample: it is in the list */
+    uint64_t met;            /* not 0: a sample was listed again */
 } e3d_alpha_list;
 
-/* The same with multisampling: an entry is a pixel (e3d_shown.pattern), and what it covers of its samples: a bit each. */
-typedef struct e3d_planes_list {
+/* The same with multisampling: an entry is a pixel (e3d_shown.pattern), and its covered samples: a bit each. */
+typedef struct e3d_msaa_list {
     const e3d_sample_pattern *pattern;
-    const float *limit[E3D_MOST_MSAA_SAMPLES]; /* as above, of each plane */
+    const float *limit[E3D_MOST_MSAA_SAMPLES]; /* as above, for each plane */
     const int32_t *kept[E3D_MOST_MSAA_SAMPLES];
     e3d_shown *shown;
     int32_t *cover; /* of each entry; E3D_PAD more are written */
-} e3d_planes_list;
+} e3d_msaa_list;
 
-/* What blended records add to the samples of a tile, sample after sample: to sample s those from first[s] to first[s + 1] - 1. */
+/* The layers that blended records add to a tile, sample after sample: sample s has those from first[s] to first[s + 1] - 1. */
 typedef struct e3d_alpha_layers {
     const uint32_t *first;
     const int32_t *depth;  /* greater is farther; E3D_PAD more are read */
-    const uint32_t *which; /* the number of a colour */
+    const uint32_t *which; /* the number of each layer's colour */
     const float (*color)[4]; /* clamped, and alpha */
-    const float (*through)[4]; /* NULL, or of each colour: the shares of light that pass, and 1; 0 of what only has alpha */
-    const float (*light)[4];   /* NULL, or of each colour: its radiance, finite, and alpha */
-    float (*lit)[3];           /* the radiance of the tile's pixels, E3D_TILE to a row, over which that is laid; */
-    int axis;                  /* in the one sample of a pixel's axis x axis that stands for it */
+    /* NULL, or for each colour the shares of light that pass, and 1; the 1 is 0 if it only has alpha */
+    const float (*through)[4];
+    const float (*light)[4];   /* NULL, or for each colour its radiance, finite, and alpha */
+    float (*lit)[3];           /* the radiance of the tile's pixels, E3D_TILE to a row, over which that is blended, */
+    int axis;                  /* for the one sample that stands for a pixel of axis x axis samples */
 } e3d_alpha_layers;
 
-/* R84: lays a colour, which is clamped and followed by its alpha, over a sample; over[3] is the sum of alphas. */
+/* R84: blends a clamped colour, followed by its alpha, over a sample; over[3] is the sum of alphas. */
 static inline void e3d_lay_layer(const float color[4], float over[4])
 {
     float a = color[3] >= E3D_LEAST_ALPHA ? color[3] : 0.0f, rest = 1.0f - a;
@@ -48,7 +48,7 @@ static inline void e3d_lay_layer(const float color[4], float over[4])
         over[k] = whole[k] * a + over[k] * rest;
 }
 
-/* R135: likewise of what shares of light pass through. */
+/* R135: the same for a colour through which shares of light pass. */
 static inline void e3d_lay_transmitting(const float color[4], const float through[3], float over[4])
 {
     float a = color[3] >= E3D_LEAST_ALPHA ? color[3] : 0.0f, rest[3];
@@ -73,7 +73,7 @@ static inline void e3d_lay_any(const float color[4], const float through[4], flo
         e3d_lay_layer(color, over);
 }
 
-/* R123: lays the light of a sample's layers over the radiance of its pixel, if it stands for one. */
+/* R123: blends the radiance of a sample's layers over that of its pixel, if the sample stands for the pixel. */
 static inline void e3d_lay_light(const e3d_alpha_layers *layers, const uint32_t *order, int count, int sample)
 {
     int x = sample % E3D_TILE, y = sample / E3D_TILE, axis = layers->axis;
@@ -87,5 +87,3 @@ static inline void e3d_lay_light(const e3d_alpha_layers *layers, const uint32_t 
             over[k] = light[k] * a + over[k] * (through && through[3] != 0.0f ? rest + a * through[k] : rest);
     }
 }
-
-#endif

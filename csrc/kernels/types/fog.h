@@ -1,15 +1,12 @@
 /* Fog as an eye sees it. */
-#ifndef E3D_KERNELS_FOG_H
-#define E3D_KERNELS_FOG_H
+#pragma once
 
 #include "e3d.h"
 
 typedef struct e3d_fog_view {
     e3d_fog_kind kind;
-    float row[4]; /* of view_from_world: depth is 0 - z */
+    float row[4]; /* the row of view_from_world for which depth is 0 - z */
     float color[3];
     float near, scale; /* linear: scale is 1 over the range of depths */
     float density;     /* exponential */
 } e3d_fog_view;
-
-#endif

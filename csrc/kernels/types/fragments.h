@@ -1,6 +1,5 @@
 /* Small triangles, and the fragments that they become. */
-#ifndef E3D_KERNELS_FRAGMENTS_H
-#define E3D_KERNELS_FRAGMENTS_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -8,10 +7,11 @@
 #include "base/limits.h"
 #include "kernels/types/records.h"
 
-enum { E3D_SMALLS = 4 * E3D_CLUSTER_TRIANGLES, E3D_MOST_FRAGMENTS = E3D_SMALLS * E3D_SMALL * E3D_SMALL };
+enum { E3D_SMALLS = 4 * E3D_CLUSTER_TRIANGLES,
+       E3D_MOST_FRAGMENTS = E3D_SMALLS * E3D_SMALL * E3D_SMALL };
 
-/* Micro-triangles of several clusters that wait to become fragments: each has an area, and a sample in its box. Every array fills
- * whole cache lines, so that no vector is split across two. */
+/* Micro-triangles of several clusters that wait to become fragments: each has an area, and a sample in its box. Every array
+ * fills whole cache lines, so that no vector is split across two. */
 typedef int32_t e3d_small_words[E3D_SMALLS + E3D_PAD];
 typedef struct e3d_small_triangles {
     e3d_small_words x[3], y[3], id;
@@ -19,37 +19,36 @@ typedef struct e3d_small_triangles {
     int32_t count;
 } e3d_small_triangles;
 
-/* A chain of blocks: the numbers of the first and the last, or E3D_NO_BLOCK twice. */
-enum { E3D_NO_BLOCK = 0xFFFFFFFFu };
+/* A chain of links: the numbers of the first and the last, or E3D_NO_LINK twice. */
+enum { E3D_NO_LINK = 0xFFFFFFFFu };
 typedef struct e3d_bin {
     uint32_t first, last;
 } e3d_bin;
 
-/* Fragments of one tile, in the order in which they were made. Kernels store whole vectors, so a block is full once it has less
- * room than one. */
+/* Fragments of one tile, in the order in which they were made. Kernels store whole vectors, so a link is full when less than
+ * a vector is left. */
 enum { E3D_BLOCK_FRAGMENTS = 127 };
-typedef struct e3d_fragment_block {
+typedef struct e3d_fragment_link {
     uint32_t next, count;
     float z[E3D_BLOCK_FRAGMENTS];
     int32_t id[E3D_BLOCK_FRAGMENTS];
     uint16_t sample[E3D_BLOCK_FRAGMENTS];
-} e3d_fragment_block;
+} e3d_fragment_link;
 
-_Static_assert(sizeof(e3d_fragment_block) % 64 == 0, "blocks are whole cache lines");
+_Static_assert(sizeof(e3d_fragment_link) % 64 == 0, "links are whole cache lines");
 
-/* The blocks in use, and a bin for each tile. The caller has made room for the blocks that E3D_SMALLS triangles may need
- * (e3d_fragment_blocks_most). */
+/* The links in use, and a bin for each tile. The caller makes room for the links that E3D_SMALLS triangles may need
+ * (e3d_fragment_links_most). */
 typedef struct e3d_fragment_bins {
-    e3d_fragment_block *blocks;
+    e3d_fragment_link *links;
     e3d_bin *bins;
     uint32_t count;
-    int32_t fragments, triangles; /* how many were made, and of how many triangles */
+    int32_t fragments, triangles; /* how many fragments were made, and of how many triangles */
 } e3d_fragment_bins;
 
-/* The most new blocks for the fragments of E3D_SMALLS triangles: one begun in each tile that they can reach, and full ones. */
-static inline size_t e3d_fragment_blocks_most(size_t tiles)
+/* The most new links for the fragments of E3D_SMALLS triangles: one that is begun in each tile that they can reach, and full
+ * ones. */
+static inline size_t e3d_fragment_links_most(size_t tiles)
 {
     return (tiles < E3D_MOST_FRAGMENTS ? tiles : E3D_MOST_FRAGMENTS) + E3D_MOST_FRAGMENTS / (E3D_BLOCK_FRAGMENTS - E3D_PAD);
 }
-
-#endif

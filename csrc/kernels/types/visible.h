@@ -1,14 +1,13 @@
-/* What raster works on: pieces in a tile, records by their IDs, the visible surface. */
-#ifndef E3D_KERNELS_VISIBLE_H
-#define E3D_KERNELS_VISIBLE_H
+/* The data of raster: pieces in a tile, records by their IDs, the visible surface. */
+#pragma once
 
 #include <stdint.h>
 
 #include "base/limits.h"
 #include "kernels/types/records.h"
 
-/* A piece in one tile. e, a, b are its edge functions at the tile's first sample, floor(E / 256) with the top-left rule included;
- * an edge with the whole tile on its inner side is all 0. */
+/* A piece in one tile. e, a, b are its edge functions at the tile's first sample, floor(E / 256) with the top-left rule
+ * included. An edge with the whole tile on its inner side is all 0. */
 typedef struct e3d_piece {
     int32_t e[3], a[3], b[3];
     int32_t x0, y0, x1, y1;  /* its box in the tile, inclusive */
@@ -19,18 +18,18 @@ typedef struct e3d_piece {
 
 enum { E3D_NO_SLOT = -1 };
 
-/* The depth of an empty sample: z is less than it exactly when z <= 1 (R15). */
+/* The depth of an empty sample: z is below it exactly if z <= 1 (R15). */
 #define E3D_BEYOND_FAR 0x1.000002p0f
 
-/* A cluster of one instance that has fragments: what their IDs lead to. */
+/* A cluster of one instance that has fragments; their IDs lead to it. */
 typedef struct e3d_drawn_cluster {
     const int32_t *faces; /* the face of each of its triangles */
-    uint32_t order;       /* of the instance's first face */
+    uint32_t order;       /* the order of the instance's first face */
     int32_t instance, draw; /* their numbers in the frame */
     int32_t mirrored;
 } e3d_drawn_cluster;
 
-/* Where IDs lead to. Record n of worker w has the ID n << bits | w; triangle t of its drawn cluster n has the ID
+/* The tables that IDs lead to. Record n of worker w has the ID n << bits | w; triangle t of its drawn cluster n has the ID
  * E3D_FRAGMENT_ID | (64 * n + t) << bits | w. */
 typedef struct e3d_record_table {
     const e3d_record *const *records;
@@ -62,7 +61,7 @@ static inline uint32_t e3d_order_at(const e3d_record_table *table, uint32_t id)
     return drawn->order + (uint32_t)drawn->faces[triangle];
 }
 
-/* Whether an ID comes before what is kept, where both are as near (R16). */
+/* Whether an ID comes before the visible one, if both are equally near (R16). */
 static inline int e3d_id_comes_first(const e3d_record_table *table, int32_t id, int32_t kept)
 {
     uint32_t order = e3d_order_at(table, (uint32_t)id), other = e3d_order_at(table, (uint32_t)kept);
@@ -81,7 +80,7 @@ typedef struct e3d_visible_tile {
     int32_t noted_id[E3D_TILE_BLOCKS];
     uint64_t noted, stale;
     int32_t x, y; /* first sample */
-    int32_t unused[10]; /* padding: the next tile of an array, or plane of a tile, begins at a cache line, too */
+    int32_t unused[10]; /* padding, so that the next tile of an array, or plane of a tile, begins at a cache line, too */
 } e3d_visible_tile;
 
 _Static_assert(sizeof(e3d_visible_tile) % 64 == 0, "tiles are whole lines of the cache");
@@ -91,5 +90,3 @@ typedef struct e3d_tile_buffers {
     int32_t *slot;          /* or counts, or marks */
     const uint32_t *orders; /* the order of each slot, for ties of depth */
 } e3d_tile_buffers;
-
-#endif

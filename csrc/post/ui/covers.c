@@ -1,9 +1,6 @@
-/* Covers: a user interface draws windows over backgrounds over backgrounds; of these only the last ones need drawing.
- *
- * In:  the large opaque rectangles of a list; then boxes.
- * Out: the parts of a box that stay visible.
- * Always: pixels of the picture are the same as without.
- */
+/* Covers: a user interface draws windows over backgrounds over backgrounds, of which only the last ones need to be drawn.
+ * In: the large opaque rectangles of a list; then boxes. Out: the parts of a box that stay visible.
+ * Always: the picture's pixels are the same as without covers. */
 #include "post/ui/covers.h"
 
 void ui_covers_add(ui_covers *covers, ui_box box, uint64_t order)
@@ -24,7 +21,7 @@ typedef struct ui_search {
     const void *what;
 } ui_search;
 
-/* Covers before number `from` don't hide anything of the box. */
+/* Draws the visible parts of a box, where covers before number `from` hide nothing of it. */
 static void draw_around(const ui_search *search, ui_box box, int from)
 {
     if (ui_is_empty(box))

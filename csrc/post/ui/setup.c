@@ -1,9 +1,7 @@
-/* Setup: snapped corners, and the planes along which texels and colours are found (R38-R40).
- *
- * In:  vertices, and the texture.
- * Out: a shape for the kernel; where the texel or the colour is the same everywhere, it is found here, once.
- * Always: finite planes: coordinates and uvs are clamped first.
- */
+/* Setup: snaps corners, and finds the planes of texels and colours (R38-R40).
+ * In: vertices, and the texture. Out: a shape for the kernel. If the texel or the colour is the same everywhere, it is found
+ * here, once.
+ * Always: planes are finite, since coordinates and uvs are clamped first. */
 #include "post/ui/setup.h"
 
 #include <math.h>
@@ -31,7 +29,7 @@ ui_corner ui_snap(const e3d_ui_vertex *vertex) { return (ui_corner){snap(vertex-
 
 int ui_is_finite(const e3d_ui_vertex *vertex) { return isfinite(vertex->x) && isfinite(vertex->y); }
 
-/* Whether two coordinates snap to one place, which most need no snapping to tell; the first one is finite. */
+/* Whether two coordinates snap to one place, which mostly shows without snapping; the first one is finite. */
 static int same_place(float a, float b) { return a == b || (isfinite(b) && snap(a) == snap(b)); }
 
 static int same_color(const e3d_ui_vertex *a, const e3d_ui_vertex *b) { return memcmp(a->rgba, b->rgba, sizeof a->rgba) == 0; }
@@ -78,7 +76,7 @@ static int32_t channel_at(const e3d_ui_texture *t, int32_t column, int32_t row, 
 
 static int32_t mix(int32_t a, int32_t b, int32_t weight) { return (a * (256 - weight) + b * weight + 128) >> 8; }
 
-/* R41 along an axis: the two texels and the second one's weight. */
+/* R41 along an axis: the two texels, and the second one's weight. */
 static void neighbours(float t, const e3d_ui_texture *texture, int32_t count, int32_t at[2], int32_t *weight)
 {
     t = clamp(t, 0.0f, 256.0f * (float)count);
@@ -110,7 +108,7 @@ static uint32_t constant_texel(const e3d_ui_texture *t, float u, float v)
     return texel;
 }
 
-/* What of the planes is the same everywhere. `color` is that of any corner. */
+/* Finds the constants of a shape. `color` is the colour of any corner. */
 static int finish(e3d_ui_shape *shape, const uint8_t color[4])
 {
     shape->color_is_constant = 1;
@@ -153,7 +151,7 @@ int ui_triangle_shape(const ui_corner c[3], const e3d_ui_texture *texture, ui_bo
     return finish(shape, c[0].vertex->rgba);
 }
 
-/* Whether texels follow each other as pixels do, in the middle of each; then `first` is that of the base. */
+/* Whether texels follow each other like pixels, each hit in its middle; `first` is then the base's texel. */
 static int steps_by_texels(float at_base, float step, int32_t *first)
 {
     int is_whole = step == 256.0f && fabsf(at_base) < 0x1p22f && at_base == (float)(int32_t)at_base;
@@ -162,7 +160,7 @@ static int steps_by_texels(float at_base, float step, int32_t *first)
     return is_whole && (place & 255) == TEXEL_MIDDLE;
 }
 
-/* Looks whether each pixel that may change has a texel of its own; weights of 0 then blend nothing. */
+/* Finds out whether each pixel that may change has a texel of its own; then blending by weights is not needed. */
 static void find_copy(e3d_ui_shape *shape, ui_box drawn)
 {
     int32_t column, row;

@@ -37,7 +37,7 @@ void ui_edges_begin(ui_edges *edges, const ui_corner corners[3], int32_t first)
     }
 }
 
-/* Fills in a side of the rows that the edge bounds. Which rows carry can't be predicted, so that no branch decides it. */
+/* Fills in one side of the rows that the edge bounds. Which rows carry is unpredictable, so there is no branch on it. */
 static void follow(ui_edge *edge, int64_t left, int64_t right, e3d_ui_rows *rows)
 {
     ui_edge e = *edge;

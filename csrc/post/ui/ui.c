@@ -1,9 +1,6 @@
-/* The user interface: checks a list, then draws its triangles one after the other (R37).
- *
- * In:  a picture and a list, of any values.
- * Out: the picture; nothing of it if the list is refused.
- * Always: no index, texture or pixel beyond its array is read or written.
- */
+/* The user interface: checks a list, and then draws its triangles in order (R37).
+ * In: a picture and a list, of any values. Out: the picture, which is unchanged if the list is refused.
+ * Always: no index, texture or pixel beyond its array is read or written. */
 #include "e3d_ui.h"
 
 #include <math.h>
@@ -69,14 +66,14 @@ static int list_is_valid(const e3d_ui_list *list)
     return 1;
 }
 
-/* What a picture is drawn with. */
+/* The target of drawing: picture, kernels and covers. */
 typedef struct ui_target {
     const e3d_canvas *picture;
     const e3d_kernels *kernels;
     ui_covers covers;
 } ui_target;
 
-/* A command, its triangle at `at`, and where that stands among all. */
+/* A command, its triangle at `at`, and the number of that triangle among all. */
 typedef struct ui_item {
     const e3d_ui_list *list;
     const e3d_ui_command *command;
@@ -84,13 +81,13 @@ typedef struct ui_item {
     uint64_t order;
 } ui_item;
 
-/* A triangle, or the first one of two that are a rectangle; vertices 0 and 2 are opposite then. */
+/* A triangle, or the first one of two that form a rectangle; then vertices 0 and 2 are opposite. */
 typedef struct ui_figure {
     int is_rectangle;
     const e3d_ui_vertex *vertices[3];
 } ui_figure;
 
-/* What draws the parts of a shape that show. */
+/* The argument of the function that draws the visible parts of a shape. */
 typedef struct ui_painting {
     const ui_target *target;
     const e3d_ui_shape *shape;
@@ -147,7 +144,7 @@ static void draw_box(const void *what, ui_box part)
     }
 }
 
-/* The shape of a rectangle, and what of it may change. 0 if that is nothing. */
+/* Finds the shape of a rectangle, and the part of it that may change; 0 if that is empty. */
 static int rectangle_shape(const ui_figure *figure, const ui_item *item, const ui_target *target, ui_box *drawn,
                            e3d_ui_shape *shape)
 {
@@ -162,7 +159,7 @@ static const e3d_ui_vertex *vertex_at(const ui_item *item, uint32_t at)
     return &item->list->vertices[item->command->first_vertex + index_at(item->list, at)];
 }
 
-/* Whether the triangle and the next one have the indices (a, b, c) and (a, c, d). */
+/* Whether this triangle and the next one have the indices (a, b, c) and (a, c, d). */
 static int is_pair(const ui_item *item)
 {
     uint32_t at = item->at;
@@ -182,7 +179,7 @@ static ui_figure figure_of(const ui_item *item)
     return figure;
 }
 
-/* Goes over all triangles, in order. */
+/* Visits all triangles in order. */
 static void each_figure(const e3d_ui_list *list, ui_target *target,
                         void (*visit)(const ui_item *item, const ui_figure *figure, ui_target *target))
 {
@@ -199,7 +196,7 @@ static void each_figure(const e3d_ui_list *list, ui_target *target,
     }
 }
 
-/* Whether a rectangle can be a cover: of glyphs, which most are, no more is found out before they are drawn. */
+/* Whether a rectangle is large enough for a cover. Glyphs, which most rectangles are, need no further test. */
 static int is_large(const ui_figure *figure)
 {
     const e3d_ui_vertex *a = figure->vertices[0], *c = figure->vertices[2];
@@ -225,7 +222,7 @@ static void draw_figure(const ui_item *item, const ui_figure *figure, ui_target 
     if (!rectangle_shape(figure, item, target, &drawn, &shape))
         return;
     const ui_painting painting = {target, &shape};
-    /* What is small is drawn sooner than covers are looked through. */
+    /* Drawing something small is faster than looking through the covers. */
     if (ui_pixels_of(drawn) < UI_LEAST_COVER)
         draw_box(&painting, drawn);
     else

@@ -1,10 +1,8 @@
-/* Ambient occlusion: a picture of depths to the share of light from all around that reaches each pixel.
- *
- * In:  depths, 0 where nothing shows; how far away things count.
- * Out: visibility in [0, 1], one value a pixel.
- * Rules: R125 (places), R126 (normals and directions), R127 (shares), R128 (filter). Sources: Jimenez et al. 2016 (slices through the
- *      line of sight, and the integral over one), Bavoil and Sainz 2009 (places and directions that differ from pixel to pixel).
- */
+/* Ambient occlusion: from a picture of depths, the share of light from all around that reaches each pixel.
+ * In: depths, 0 where nothing shows; the radius within which things count. Out: visibility in [0, 1], one value a pixel.
+ * Rules: R125 (places), R126 (normals and directions), R127 (shares), R128 (filter).
+ * Sources: Jimenez et al. 2016 (slices through the line of sight, and the integral over one), Bavoil and Sainz 2009 (places
+ * and directions that differ from pixel to pixel). */
 #include "reference/post/ambient_occlusion.h"
 
 #include "base/fpenv.h"
@@ -14,11 +12,11 @@
 enum { SPAN = E3D_OCCLUSION_SPAN,
        MIDDLE = E3D_OCCLUSION_FILTER };
 
-/* What a pixel shows. */
+/* The surface that a pixel shows. */
 typedef struct pixel {
     int32_t x, y;
     float depth, m, ray[2];
-    float normal[3], length2; /* the normal isn't of unit length, and points towards the viewer */
+    float normal[3], length2; /* the normal points towards the viewer; it isn't of unit length */
 } pixel;
 
 static float depth_at(const e3d_depth_picture *p, int32_t x, int32_t y)
@@ -46,7 +44,7 @@ static float change_of(float before, float here, float behind)
     return back_size >= on_size ? on : back;
 }
 
-/* R126: from the change of nearness, the slope of depth. */
+/* R126: the slope of depth, from the change of nearness. */
 static float slope(const e3d_depth_picture *p, float change, float step, float depth)
 {
     return p->is_perspective ? (change * (-1.0f / step)) * depth : change * (1.0f / step);
@@ -69,7 +67,7 @@ static pixel pixel_at(const e3d_depth_picture *p, int32_t x, int32_t y)
     return at;
 }
 
-/* R127: of the place that many pixels away, and how much it counts. */
+/* R127: how far the surface that many pixels away rises, and its weight. */
 static float rise(const e3d_depth_picture *p, const pixel *at, float away, const float step[2], float radius, float *counts)
 {
     int32_t x = ref_rint(ref_min(ref_max((float)at->x + away * step[0], 0.0f), (float)(p->width - 1)));
@@ -88,7 +86,7 @@ static float rise(const e3d_depth_picture *p, const pixel *at, float away, const
     return ref_min(1.0f, sine2 - E3D_OCCLUSION_SLACK);
 }
 
-/* R127: what is hidden of the light from one side below a horizon, whose squared sine is given. */
+/* R127: the share of light from one side that a horizon hides; the horizon is given by its squared sine. */
 static float hidden_share(const e3d_depth_picture *p, const pixel *at, const float side[2], float horizon)
 {
     float along = at->normal[0] * side[0] + at->normal[1] * side[1], ray2 = 1.0f, rest = 1.0f;
@@ -122,7 +120,7 @@ static float share_at(const e3d_depth_picture *p, int32_t x, int32_t y, float ra
         float t = ((float)tap + shift) * (1.0f / E3D_OCCLUSION_TAPS);
         float counts, next = rise(p, &at, reach * (t * t) + 1.0f, step, radius, &counts);
         sum = sum + ref_max(next - horizon, 0.0f) * counts;
-        horizon = ref_max(counts > 0.0f ? next : 0.0f, horizon); /* what is too far in front hides nothing behind it */
+        horizon = ref_max(counts > 0.0f ? next : 0.0f, horizon); /* what lies too far in front hides nothing behind it */
     }
     return sum > 0.0f ? hidden_share(p, &at, side, sum) : 0.0f;
 }

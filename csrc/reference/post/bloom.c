@@ -33,7 +33,7 @@ static float column(const bloom_image *image, int32_t x, int32_t y, int c)
     return filter(at(image, x, 2 * y - 1, c), at(image, x, 2 * y, c), at(image, x, 2 * y + 1, c), at(image, x, 2 * y + 2, c));
 }
 
-/* What a pixel of the next level is made of. */
+/* A pixel of the next level, half the size. */
 static float halved(const bloom_image *image, int32_t x, int32_t y, int c)
 {
     return filter(column(image, 2 * x > 0 ? 2 * x - 1 : 0, y, c), column(image, 2 * x, y, c), column(image, 2 * x + 1, y, c),
@@ -47,7 +47,7 @@ static float rows_mixed(const bloom_image *image, int32_t x, int32_t y, int c)
     return at(image, x, y / 2, c) * 0.75f + at(image, x, neighbour(y), c) * 0.25f;
 }
 
-/* A level where the one before has its pixel (x, y). */
+/* A level at pixel (x, y) of the level before, which has twice the size. */
 static float doubled(const bloom_image *image, int32_t x, int32_t y, int c)
 {
     return rows_mixed(image, x / 2, y, c) * 0.75f + rows_mixed(image, neighbour(x), y, c) * 0.25f;

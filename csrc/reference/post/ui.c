@@ -1,9 +1,6 @@
-/* The user interface's triangles again, a pixel at a time, from section 11 of docs/exactness alone.
- *
- * In:  a picture and a list whose counts, sizes and indices csrc/post/ui/ui.c has checked.
- * Out: the picture's pixels.
- * Rules: R37 (order), R38 (positions), R39 (rectangles), R12 (coverage), R40 (planes), R41 (texels), R42 (blending).
- */
+/* The user interface's triangles, drawn a pixel at a time, from section 11 of docs/exactness alone.
+ * In: a picture, and a list whose counts, sizes and indices csrc/post/ui/ui.c has checked. Out: the picture's pixels.
+ * Rules: R37 (order), R38 (positions), R39 (rectangles), R12 (coverage), R40 (planes), R41 (texels), R42 (blending). */
 #include "reference/post/ui.h"
 
 #include <math.h>
@@ -16,7 +13,7 @@ enum { U,
        RED,
        PLANES = RED + 4 };
 
-/* A corner: its place in 1/256 pixel, and the values of all planes. */
+/* A corner: its place in 1/256 pixel, and the values of all planes there. */
 typedef struct corner {
     int64_t x, y;
     double value[PLANES];
@@ -33,7 +30,7 @@ typedef struct box {
 typedef struct shape {
     int is_rectangle;
     corner corners[3];
-    box pixels; /* of the shape that are in the picture */
+    box pixels; /* the shape's pixels that are in the picture */
     plane planes[PLANES];
 } shape;
 
@@ -69,7 +66,7 @@ static int64_t greatest(int64_t a, int64_t b) { return a > b ? a : b; }
 /* floor(n / 256) */
 static int64_t floor_256(int64_t n) { return n >= 0 ? n / 256 : -((255 - n) / 256); }
 
-/* R10's box, clipped to the picture. */
+/* The box of R10, clipped to the picture. */
 static box box_of(const corner corners[3], const e3d_canvas *picture)
 {
     int64_t x0 = corners[0].x, x1 = x0, y0 = corners[0].y, y1 = y0;
@@ -221,7 +218,7 @@ static void draw_triangle(const e3d_ui_vertex *const vertices[3], const e3d_ui_c
 
 static int same_color(const e3d_ui_vertex *a, const e3d_ui_vertex *b) { return memcmp(a->rgba, b->rgba, 4) == 0; }
 
-/* R39: whether index `at` begins two triangles that are one rectangle. */
+/* R39: whether two triangles that form one rectangle begin at index `at`. */
 static int begins_rectangle(const e3d_ui_list *list, const e3d_ui_command *command, uint32_t at)
 {
     if (at + 6 > command->first_index + command->index_count)

@@ -1,9 +1,7 @@
 /* The layers of the grid: ground faces sampled at the cells' centres, then sorted from below upward.
- *
- * In:  meshes, one after another. Out: samples in any order, and by e3d_navigation_sort the layers.
- * Always: a cell's layers are at least the headroom apart; of two that are nearer the upper stays, and of two at
- *      the same height the one that was given first.
- */
+ * In: meshes, one after another. Out: samples in any order, and by e3d_navigation_sort the layers.
+ * Always: a cell's layers are at least the headroom apart. Of two nearer ones the upper stays, and of two at the same height
+ * the one that was given first. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,9 +9,9 @@
 #include "base/fpenv.h"
 #include "scene/navigation/navigation.h"
 
-/* Heights nearer than this are one surface: two triangles that share an edge over a cell's centre. */
+/* Heights nearer than this are one surface, such as two triangles whose common edge passes over a cell's centre. */
 #define SAME_HEIGHT 1e-4f
-/* A centre on an edge belongs to both triangles, whichever way rounding goes. */
+/* A centre on an edge belongs to both triangles, whatever the rounding. */
 #define EDGE_SLACK 1e-9
 
 e3d_status e3d_navigation_create(const e3d_navigation_desc *desc, e3d_navigation **out)
@@ -72,7 +70,7 @@ int e3d_navigation_triangle(const e3d_navigation *grid, const e3d_navigation_mes
     n[1] = e[0][2] * e[1][0] - e[0][0] * e[1][2];
     n[2] = e[0][0] * e[1][1] - e[0][1] * e[1][0];
     double length = sqrt((n[0] * n[0] + n[1] * n[1]) + n[2] * n[2]);
-    if (!(length > 0.0) || !isfinite(length)) /* NaN and infinity come through the products */
+    if (!(length > 0.0) || !isfinite(length)) /* NaN and infinity show up in the products */
         return 0;
     out->is_ground = n[1] >= grid->desc.min_normal_y * length && n[1] > 0.0;
     out->kind = mesh->kinds[mesh->material_ids[number]];
@@ -83,8 +81,10 @@ void e3d_navigation_span(double low, double high, double start, double cell, int
                          int32_t *last)
 {
     double a = ceil((low - start) / cell) - 1.0, b = floor((high - start) / cell);
-    *first = a < 0.0 ? 0 : a > count ? count : (int32_t)a;
-    *last = b < 0.0 ? -1 : b > count - 1 ? count - 1 : (int32_t)b;
+    *first = a < 0.0 ? 0 : a > count ? count
+                                     : (int32_t)a;
+    *last = b < 0.0 ? -1 : b > count - 1 ? count - 1
+                                         : (int32_t)b;
 }
 
 static int add_sample(e3d_navigation *grid, sample added)
@@ -103,7 +103,7 @@ static int add_sample(e3d_navigation *grid, sample added)
     return 1;
 }
 
-/* Samples a ground triangle at every centre that it covers, its edges included. */
+/* Samples a ground triangle at every centre that it covers, edges included. */
 static int sample_triangle(e3d_navigation *grid, const triangle *t)
 {
     const e3d_navigation_desc *d = &grid->desc;
@@ -148,7 +148,7 @@ e3d_status e3d_navigation_add_ground(e3d_navigation *grid, const e3d_navigation_
 
 enum { RUN = 16 };
 
-/* From below upward, equal heights in their order. */
+/* Sorts from below upward; equal heights keep their order. */
 static void sort_run(sample *samples, int64_t count)
 {
     for (int64_t k = 1; k < count; k++) {
@@ -160,7 +160,7 @@ static void sort_run(sample *samples, int64_t count)
     }
 }
 
-/* Two sorted runs, one behind the other. */
+/* Merges two sorted runs, one behind the other. */
 static void merge_runs(const sample *from, int64_t first, int64_t second, sample *to)
 {
     int64_t a = 0, b = first, end = first + second;
@@ -170,7 +170,8 @@ static void merge_runs(const sample *from, int64_t first, int64_t second, sample
     memcpy(to + (first - a), from + b, (size_t)(end - b) * sizeof *to);
 }
 
-/* Sorts one cell's samples, mostly few, with room for as many beside them; returns where they are then. */
+/* Sorts one cell's samples, which are few in most cells. `beside` has room for as many. Returns the array that then holds
+ * them. */
 static sample *sort_cell(sample *samples, int64_t count, sample *beside)
 {
     for (int64_t k = 0; k < count; k += RUN)
@@ -187,7 +188,7 @@ static sample *sort_cell(sample *samples, int64_t count, sample *beside)
     return samples;
 }
 
-/* How many samples each cell has, behind its place in `starts`; of the fullest, how many. */
+/* Counts each cell's samples into `starts`, one place further; returns the greatest count. */
 static int64_t count_samples(e3d_navigation *grid)
 {
     int32_t most = 0;
@@ -198,7 +199,7 @@ static int64_t count_samples(e3d_navigation *grid)
     return most;
 }
 
-/* Appends to the layers what can be stood on of one cell's sorted samples. */
+/* Appends to the layers those of one cell's sorted samples that one can stand on. */
 static void keep_layers(e3d_navigation *grid, const sample *samples, int64_t count)
 {
     int64_t above = 0;
@@ -219,7 +220,7 @@ static void keep_layers(e3d_navigation *grid, const sample *samples, int64_t cou
             grid->lowest = fminf(grid->lowest, samples[k].height - rise);
             grid->highest = fmaxf(grid->highest, samples[k].height + rise);
         }
-        k = above - 1; /* what lies at the same height */
+        k = above - 1; /* samples at the same height */
     }
 }
 
@@ -268,6 +269,6 @@ e3d_status e3d_navigation_sort(e3d_navigation *grid)
 
 void e3d_navigation_get_view(const e3d_navigation *grid, e3d_navigation_view *view)
 {
-    *view = (e3d_navigation_view){grid->starts,  grid->height,   grid->slope_x,
+    *view = (e3d_navigation_view){grid->starts, grid->height, grid->slope_x,
                                   grid->slope_z, grid->walkable, grid->layers};
 }

@@ -1,6 +1,5 @@
-/* What the files of navigation share: the grid, and a triangle in the world. */
-#ifndef E3D_NAVIGATION_PRIVATE_H
-#define E3D_NAVIGATION_PRIVATE_H
+/* The data that the files of navigation share: the grid, and a triangle in the world. */
+#pragma once
 
 #include "e3d_navigation.h"
 
@@ -26,15 +25,13 @@ typedef struct triangle {
     double low[3], high[3];
     double normal[3]; /* not of unit length */
     int is_ground;
-    uint8_t kind; /* E3D_SURFACE_… of its material */
+    uint8_t kind; /* E3D_SURFACE_... of its material */
 } triangle;
 
-/* Whether face `number` of a mesh is finite and has an area; if so, where it is. */
+/* Finds the corners of face `number` of a mesh; 0 if it is not finite or has no area. */
 int e3d_navigation_triangle(const e3d_navigation *grid, const e3d_navigation_mesh *mesh, int64_t number,
                             triangle *out);
 
-/* The cells that [low, high] touches, at their edges included; first > last where there are none. */
+/* The cells that [low, high] touches, edges included; first > last if there are none. */
 void e3d_navigation_span(double low, double high, double start, double cell, int32_t count, int32_t *first,
                          int32_t *last);
-
-#endif

@@ -10,8 +10,8 @@
 #include "base/fpenv.h"
 #include "scene/navigation/navigation.h"
 
-/* A triangle cut by four planes has at most seven corners; rounding may fold one that is very long, so that it
- * crosses a plane again. What would go beyond the room is left out. */
+/* A triangle cut by four planes has at most seven corners. Rounding may fold a very long one, so that it crosses a plane
+ * again; corners that don't fit are left out. */
 enum { ROOM = 16 };
 
 typedef struct polygon {

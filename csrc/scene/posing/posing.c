@@ -1,7 +1,5 @@
-/* posing: many meshes at once, shared out over threads.
- *
- * Small meshes are posed whole by one thread, in its caches. The vertices of a large one are shared out, then its clusters.
- */
+/* posing: poses many meshes at once on several threads. A small mesh is posed whole by one thread, in its caches. Of a large
+ * one, first the vertices are shared out, and then its clusters. */
 #include "e3d_posing.h"
 
 #include "base/fpenv.h"
@@ -18,7 +16,7 @@ typedef struct sharing {
 
 static float *own(const e3d_mesh *posed, const float *array)
 {
-    return array ? posed->blocks[1] + (array - posed->blocks[1]) : NULL;
+    return array ? posed->slabs[1] + (array - posed->slabs[1]) : NULL;
 }
 
 static int is_small(const e3d_pose_job *job) { return job->rest->mesh->desc.vertices <= SMALL; }

@@ -1,8 +1,6 @@
-/* refit: clusters, groups and boxes of a posed mesh, after its vertices moved.
- *
- * In:  positions of the vertices, which vertices a cluster was made from.
- * Out: the clusters' positions and boxes; boxes of groups and of the mesh; normals of faces (R75).
- */
+/* refit: updates the clusters, groups and boxes of a posed mesh after its vertices moved.
+ * In: positions of the vertices, and the vertices that each cluster was made from. Out: the clusters' positions and boxes;
+ * boxes of groups and of the mesh; normals of faces (R75). */
 #include <math.h>
 #include <string.h>
 
@@ -28,7 +26,7 @@ static void bound_slowly(e3d_cluster *c)
     c->any_finite = (uint8_t)any;
 }
 
-/* Box and positions in one pass; where one isn't finite, the box is found vertex by vertex. */
+/* Finds box and positions in one pass; if one isn't finite, the box is found vertex by vertex. */
 static void refit_cluster(const int32_t *members, const float *positions, e3d_cluster *c, float *out)
 {
     float4 lo[3], hi[3], none = splat(0), row[4], column[3];
@@ -46,7 +44,7 @@ static void refit_cluster(const int32_t *members, const float *positions, e3d_cl
         }
     }
     c->any_finite = 1;
-    c->altitude = 0; /* no cone: to find one takes as long as all the rest, and setup drops what faces away in less */
+    c->altitude = 0; /* no cone: finding one takes as long as everything else, and setup drops backfaces faster */
     for (int k = 0; k < 3; k++) {
         c->lo[k] = least_lane(lo[k]);
         c->hi[k] = -least_lane(-hi[k]);
@@ -59,7 +57,7 @@ void e3d_refit_clusters(const e3d_rest *rest, e3d_mesh *posed, int32_t first, in
 {
     for (int32_t i = first; i < first + count; i++) {
         e3d_cluster *c = &posed->clusters[i];
-        float *out = posed->blocks[0] + (c->positions - posed->blocks[0]);
+        float *out = posed->slabs[0] + (c->positions - posed->slabs[0]);
         refit_cluster(rest->members + rest->member_starts[i], posed->desc.positions, c, out);
     }
 }
@@ -81,7 +79,7 @@ static void refit_groups(e3d_mesh *posed)
     }
 }
 
-/* Unit, along the cross product of two edges; f64, rounded once; 0 where there is no direction. */
+/* The unit vector along the cross product of two edges, in f64, rounded once; 0 if there is no direction. */
 static void face_normal(const float *positions, const int32_t face[3], float out[3])
 {
     double p[3][3], a[3], b[3];
@@ -103,7 +101,7 @@ void e3d_refit_mesh(e3d_mesh *posed, double box[E3D_POSED_BOX])
     refit_groups(posed);
     e3d_mesh_bound(posed);
     for (int32_t f = 0; posed->desc.face_normals && f < posed->desc.faces_count; f++) {
-        float *own = posed->blocks[1] + (posed->desc.face_normals - posed->blocks[1]);
+        float *own = posed->slabs[1] + (posed->desc.face_normals - posed->slabs[1]);
         face_normal(posed->desc.positions, posed->desc.faces + 3 * (size_t)f, own + 3 * (size_t)f);
     }
     for (int k = 0; k < 3; k++) {

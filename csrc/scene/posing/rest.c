@@ -1,16 +1,13 @@
-/* rest: what moves the vertices of a mesh, laid out for posing, and meshes that are posed.
- *
- * In:  a mesh, joints and weights of its vertices, morph targets.
- * Out: of each vertex the joints whose weight is not 0; of each cluster the vertices that it was made from; meshes with memory
- *      of their own for what posing writes.
- */
+/* rest: lays out, for posing, what moves the vertices of a mesh, and makes posed meshes.
+ * In: a mesh, joints and weights of its vertices, morph targets. Out: for each vertex the joints whose weight is not 0; for
+ * each cluster the vertices that it was made from; meshes with memory of their own for what posing writes. */
 #include "scene/posing/rest.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum { INDEX_FLOATS = 3 * E3D_CLUSTER_TRIANGLES / 4,
-       PAD = 4 /* vectors of four are read where a position begins */ };
+       PAD = 4 /* positions are read as vectors of four */ };
 
 static int take_influences(e3d_rest *rest)
 {
@@ -38,7 +35,7 @@ static int take_influences(e3d_rest *rest)
     return 1;
 }
 
-/* A cluster's vertices are found again by the corners of its triangles; padding repeats the first. */
+/* Finds a cluster's vertices in the mesh by the corners of its triangles; padding repeats the first one. */
 static void list_members(const e3d_mesh *mesh, const e3d_cluster *c, int32_t *members)
 {
     const uint8_t *indices = e3d_cluster_indices(c, 3);
@@ -113,7 +110,7 @@ static float *new_floats(size_t count)
     return block;
 }
 
-/* Clusters keep their indices, which follow their positions. */
+/* Places the clusters' positions in memory of their own; their indices, which follow, stay the same. */
 static void place_clusters(const e3d_mesh *mesh, e3d_mesh *posed, float *data)
 {
     memcpy(posed->clusters, mesh->clusters, (size_t)mesh->cluster_count * sizeof *mesh->clusters);
@@ -140,16 +137,16 @@ e3d_status e3d_posed_create(const e3d_rest *rest, int face_normals, e3d_mesh **o
     posed->borrows_faces = 1;
     posed->clusters = malloc(((size_t)mesh->cluster_count + 1) * sizeof *posed->clusters);
     posed->groups = malloc(((size_t)mesh->group_count + 1) * sizeof *posed->groups);
-    posed->blocks = calloc(2, sizeof *posed->blocks);
-    posed->block_count = 2;
+    posed->slabs = calloc(2, sizeof *posed->slabs);
+    posed->slab_count = 2;
     float *clusters = new_floats(rest->cluster_floats);
     float *own = new_floats(3 * vertices + PAD + normals + tangents + (face_normals ? 3 * faces : 0));
-    if (posed->blocks) {
-        posed->blocks[0] = clusters;
-        posed->blocks[1] = own;
+    if (posed->slabs) {
+        posed->slabs[0] = clusters;
+        posed->slabs[1] = own;
     }
-    if (!posed->clusters || !posed->groups || !posed->blocks || !clusters || !own) {
-        if (!posed->blocks) {
+    if (!posed->clusters || !posed->groups || !posed->slabs || !clusters || !own) {
+        if (!posed->slabs) {
             free(clusters);
             free(own);
         }

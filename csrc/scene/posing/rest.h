@@ -1,6 +1,5 @@
-/* What a mesh at rest keeps for posing. Private to csrc/scene/posing. */
-#ifndef E3D_REST_H
-#define E3D_REST_H
+/* The data that a mesh at rest keeps for posing. Private to csrc/scene/posing. */
+#pragma once
 
 #include "data/mesh/mesh.h"
 #include "e3d_posing.h"
@@ -8,7 +7,7 @@
 /* A joint that moves a vertex. */
 typedef struct e3d_influence {
     float weight;
-    int32_t matrix; /* where the joint's matrix begins, in floats */
+    int32_t matrix; /* the offset of the joint's matrix, in floats */
 } e3d_influence;
 
 struct e3d_rest {
@@ -19,19 +18,17 @@ struct e3d_rest {
     e3d_influence *influences; /* those that are not 0, vertex after vertex */
     size_t *member_starts;     /* (clusters,) where the members of each cluster begin */
     int32_t *members;          /* the mesh's vertex for each vertex of a cluster */
-    size_t cluster_floats;     /* what the clusters' positions and indices take */
+    size_t cluster_floats;     /* the room for the clusters' positions and indices, in floats */
 };
 
-/* Arrays of all vertices that posing writes; normals and tangents may be NULL. */
+/* The arrays of all vertices that posing writes; normals and tangents may be NULL. */
 typedef struct e3d_posed_arrays {
     float *positions, *normals, *tangents;
 } e3d_posed_arrays;
 
 /* Poses vertices first … first + count - 1. */
 void e3d_pose_vertices(const e3d_pose_job *job, int32_t first, int32_t count, const e3d_posed_arrays *out);
-/* Brings the positions of some clusters and their boxes up to date with those of the vertices. */
+/* Updates the positions and boxes of some clusters from the vertices' positions. */
 void e3d_refit_clusters(const e3d_rest *rest, e3d_mesh *posed, int32_t first, int32_t count);
-/* Then the boxes of groups and of the mesh, and normals of faces, if it has them. */
+/* Then updates the boxes of groups and of the mesh, and the normals of faces if it has them. */
 void e3d_refit_mesh(e3d_mesh *posed, double box[E3D_POSED_BOX]);
-
-#endif

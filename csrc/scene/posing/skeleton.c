@@ -1,4 +1,4 @@
-/* skeleton: the matrices of a skin's joints, from the poses of nodes (R70). f64, each number rounded once. */
+/* skeleton: finds the matrices of a skin's joints from the poses of nodes (R70), in f64, with each number rounded once. */
 #include <string.h>
 
 #include "base/fpenv.h"

@@ -1,16 +1,13 @@
-/* vertices: morph targets, then joints, for a run of vertices (R71 to R74).
- *
- * In:  positions, normals and tangents at rest, weights of targets, matrices of joints.
- * Out: positions, normals and tangents.
- * Always: a vertex at a time, its four columns side by side in vectors of four, which have the same bits on every processor;
- *      lane 3 means nothing.
- */
+/* vertices: applies morph targets, then joints, to a run of vertices (R71 to R74).
+ * In: positions, normals and tangents at rest, weights of targets, matrices of joints. Out: positions, normals and tangents.
+ * Always: one vertex at a time, its four columns in vectors of four, which have the same bits on every processor; lane 3
+ * means nothing. */
 #include <string.h>
 
 #include "base/vectors.h"
 #include "scene/posing/rest.h"
 
-enum { RUN = 128 }; /* vertices whose morphed rows stay in the first cache */
+enum { RUN = 128 }; /* so many vertices that their morphed rows stay in the first-level cache */
 
 #define TURNED(v) LANES(v, v, 1, 2, 0, 3)
 
@@ -47,7 +44,7 @@ static inline void store3(float *out, float4 v)
     out[2] = v[2];
 }
 
-/* Rows of vertices; the last one's fourth lane is not written. */
+/* Stores rows of vertices; the last one's fourth lane is not written. */
 static inline void store_rows(float *out, const float4 row[4], int count)
 {
     for (int i = 0; i < count - 1; i++)
@@ -55,7 +52,7 @@ static inline void store_rows(float *out, const float4 row[4], int count)
     store3(out + 3 * (count - 1), row[count - 1]);
 }
 
-/* Unit length, as in R22. */
+/* Normalises, as in R22. */
 static inline void make_unit(float4 row[4])
 {
     float4 column[3], least = splat(0x1p-126f);
@@ -66,7 +63,7 @@ static inline void make_unit(float4 row[4])
         row[i] = row[i] * splat(factor[i]);
 }
 
-/* The blend of the matrices that move a vertex (R72). */
+/* Blends the matrices that move a vertex (R72). */
 static inline void blend(const e3d_influence *at, const e3d_influence *end, const float *matrices, float4 m[4])
 {
     const float *matrix = matrices + at->matrix;
@@ -81,7 +78,7 @@ static inline void blend(const e3d_influence *at, const e3d_influence *end, cons
     }
 }
 
-/* Four vertices at a time, or what is left: positions by the matrix, normals by its cofactors (R73, R74). */
+/* Transforms four vertices at a time, or the rest: positions by the matrix, normals by its cofactors (R73, R74). */
 static inline void skin_four(const e3d_rest *rest, const float *matrices, int32_t first, int count, const float *p,
                              const float *n, float *positions, float *normals)
 {
@@ -125,7 +122,7 @@ static void unit_rows(const float *from, int32_t count, float *out)
     }
 }
 
-/* Tangents by the upper left of the matrix, made unit; the sign of the bitangent stays (R74). */
+/* Transforms tangents by the upper left part of the matrix, and normalises them; the sign of the bitangent stays (R74). */
 static void skin_tangents(const e3d_rest *rest, const float *matrices, int32_t first, int32_t count, const float *from, float *out)
 {
     for (int32_t v = 0; v < count; v += 4) {

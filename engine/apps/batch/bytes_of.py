@@ -1,4 +1,4 @@
-"""What a script wants written beside its picture, as bytes.
+"""The bytes that a script wants written beside its picture.
 
 In: an end of a name, and an array, bytes, a text, or values of JSON's types. Out: the end with an
 extension, and the bytes of the file.

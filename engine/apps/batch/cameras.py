@@ -1,4 +1,4 @@
-"""How tasks say from where one looks.
+"""The cameras of tasks.
 
 In: a number, or an object of JSON with one of three sets of members; angles in degrees. Out: a
 camera and its pose. Near and far planes enclose the scene where nothing else is said.
@@ -163,7 +163,7 @@ def _framed(
 
 
 def _lens(said: Mapping[str, Any], scene: Scene, pose: NDArray[np.float64]) -> Camera:
-    """What projects, with planes around the scene."""
+    """Make the projection, with planes around the scene."""
     low, high = scene.bounds
     radius = _SLACK * float(linalg.length((high - low) * 0.5)) or 1.0
     away = float(linalg.dot(pose[:3, 3] - (low + high) * 0.5, pose[:3, 2]))

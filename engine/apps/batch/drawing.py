@@ -69,7 +69,7 @@ class How(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """What became of a task.
+    """The result of a task.
 
     Attributes
     ----------

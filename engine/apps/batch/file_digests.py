@@ -1,4 +1,4 @@
-"""What the files hold that a picture follows from.
+"""Digests of the files that a picture depends on.
 
 In: paths, as they are read. Out: a hash of each file's bytes, found once for as long as the file
 stays as it is.

@@ -32,7 +32,7 @@ KEPT = 16
 
 
 class Held(NamedTuple):
-    """What is kept of a file.
+    """A loaded file, as it is kept.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class Held(NamedTuple):
 
 
 class LoadedFiles:
-    """What one process, or one thread of it, keeps loaded."""
+    """The files that one process, or one thread of it, keeps loaded."""
 
     def __init__(self) -> None:
         self._resources = Resources()
@@ -63,7 +63,7 @@ class LoadedFiles:
         return self._shared("texture", self._resources.load_texture, path, options)
 
     def scene(self, path: str, root: str | None = None) -> Scene:
-        """Return a scene of its own of what a file holds, with the meshes that are loaded."""
+        """Return a new scene of a file's contents, with the meshes that are loaded already."""
         path = os.path.realpath(path)
         key = "scene", path, root, self.out
         held = self._kept.get(key)
@@ -119,7 +119,7 @@ def _found(path: str) -> Iterator[dict[str, str | None]]:
 
 
 def _versions(document: Document) -> tuple:
-    """What is another once somebody has changed a mesh of a document."""
+    """Return versions that differ once somebody has changed a mesh of a document."""
     meshes = [mesh for _, mesh, _ in document.objects]
     if document.tree is not None:
         meshes += [part.mesh for record in document.tree.meshes for part in record.parts]
@@ -193,7 +193,7 @@ def load_texture(path: str | os.PathLike[str], **options: Any) -> Texture:
 
 
 def _files() -> LoadedFiles:
-    """Those of the picture that is drawn; outside of a batch, where scripts are tried, others."""
+    """Return the files of the picture that is drawn; others, where scripts are tried alone."""
     files = _current.get()
     if files is None:
         files = LoadedFiles()

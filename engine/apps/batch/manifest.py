@@ -29,7 +29,7 @@ _MOST = 10_000_000  # tasks
 
 
 class Manifest(NamedTuple):
-    """What a manifest holds.
+    """The contents of a manifest.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Which member of an object is wrong: so that a manifest can name its place.
+"""Names the member of an object that is wrong, so that a manifest can tell its place.
 
 In: what checks a value that has members, such as a task's camera. Out: errors that tell their way
 down to the member at fault.

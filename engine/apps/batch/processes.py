@@ -172,7 +172,7 @@ class _Worker:
         return self.process
 
     def _result(self, process: subprocess.Popen) -> tuple[bool, Any]:
-        """What the process returns; it is ended if that takes too long."""
+        """Return the process's result; the process is ended if that takes too long."""
         if self._limit is None:
             return receive(process.stdout)
         has_answered, is_over = threading.Event(), threading.Event()

@@ -1,4 +1,4 @@
-"""What tells that a picture is there: a record of what it was made from and of what was written.
+"""Records of finished pictures: what each was made from, and which files were written.
 
 In: a task, its files. Out: ``.batch/NAME.json``, written together with the files and after them: a
 picture with a record is whole. A picture is done if its record has the task's key, and files and
@@ -75,7 +75,7 @@ _DIGEST = shapes.sound_text
 
 
 def _record(said: shapes.Shape) -> shapes.Shape:
-    """The shape of records of pictures of which a writer says something of this shape."""
+    """Return the shape of records whose writer adds data of this shape."""
     return shapes.members(
         {
             "key": shapes.text,

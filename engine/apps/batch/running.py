@@ -252,7 +252,7 @@ class _Run:
 
 
 class _Notes:
-    """What is kept of the pictures that are there, in their order; to be gone through often."""
+    """Notes on the finished pictures, in their order; they are walked through often."""
 
     def __init__(self, tasks: Sequence[Task], how: How) -> None:
         self._tasks, self._how = tasks, how
@@ -278,7 +278,7 @@ def _finish(tasks: Sequence[Task], how: How) -> str:
     hashes = {p: _digest(f"{how.out}/{p}") for p in whole}
     for _, record in notes.records():
         files = record["files"].items()
-        # What is not there is within one of the files of the whole.
+        # A file that is not there lies within one of the listed files.
         hashes.update((p, digest) for p, digest in files if os.path.exists(f"{how.out}/{p}"))
     return write_sums(how.out, hashes.items())
 

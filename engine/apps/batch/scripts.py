@@ -30,7 +30,7 @@ class ScriptError(Engine3DError, RuntimeError):
 
 
 class Said(NamedTuple):
-    """What a script says of its picture.
+    """The data that a script reports of its picture.
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ class Scripts:
         generator: Generator,
         note: Callable[[str], None],
     ) -> Said:
-        """Call a script's function; ``note`` gets the script and what of its folder it imports.
+        """Call a script's function; ``note`` gets the script and its folder's modules it imports.
 
         Raises
         ------

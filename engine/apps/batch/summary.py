@@ -1,4 +1,4 @@
-"""What became of a batch.
+"""The summary of a batch.
 
 In: outcomes, one by one. Out: counts, the failures by name, a hash of everything that was written.
 """
@@ -35,7 +35,7 @@ class Failure(NamedTuple):
 
 @dataclass
 class Summary:
-    """What became of a batch.
+    """The summary of a batch.
 
     Attributes
     ----------

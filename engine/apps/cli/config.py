@@ -18,7 +18,7 @@ from . import suggestions
 from .options.scene_options import OF_MODELS
 from .usage import UsageError
 
-# What says where to look, or ends the program, stands on the command line.
+# Options that say where to look, or that end the program, belong on the command line.
 _NOT_HERE = frozenset({"config", "no-config", "define", "help"})
 _LARGEST = 1 << 20  # bytes
 _ENTRY = frozenset({"files", "options"})
@@ -177,7 +177,7 @@ def _set(command: argparse.ArgumentParser, action: argparse.Action, value) -> No
 
 
 def _parsed(command: argparse.ArgumentParser, action: argparse.Action, text: str):
-    """What a word on the command line would become."""
+    """Return the value that a word on the command line would have."""
     try:
         value = command._get_value(action, text)
         command._check_value(action, value)

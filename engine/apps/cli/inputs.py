@@ -1,4 +1,4 @@
-"""Where a command reads its model from: a file, or standard input.
+"""The input of a command: a file, or standard input.
 
 In: what was given as MODEL. Out: a path, or a binary file object, as `engine3d.loaders` take them.
 """

@@ -1,4 +1,4 @@
-"""Several pictures, drawn one after the other, of which one that fails does not stop the others.
+"""Draws several pictures one after the other; if one fails, the others are still drawn.
 
 In: jobs, and what draws one. Out: lines on standard error: what went wrong, and how many there are.
 """

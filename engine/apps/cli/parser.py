@@ -39,7 +39,7 @@ def parse(arguments: list[str]) -> argparse.Namespace:
 
 def _parsed(arguments: list[str], parser: Parser) -> argparse.Namespace:
     args, unknown = parser.parse_known_args(join_values(arguments))
-    # Of positional arguments with options between them argparse takes only the first ones.
+    # With options between positional arguments, argparse takes only the first of these.
     files = getattr(args, "models", None) or getattr(args, "pictures", None)
     if files and not any(_is_option(argument) for argument in unknown):
         files += unknown

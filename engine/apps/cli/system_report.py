@@ -63,7 +63,7 @@ def describe_system() -> dict:
 
 
 def _requirements() -> tuple[list[str], dict[str, list[str]]]:
-    """What engine3d needs, and what each of its extras does, by the installed metadata."""
+    """Return the requirements, and the purpose of each extra, by the installed metadata."""
     needed: list[str] = []
     extras: dict[str, list[str]] = {}
     try:
@@ -117,7 +117,7 @@ def _processor() -> dict:
 
 
 def _backends() -> dict:
-    """What draws by default; where the environment asks for what is refused, why."""
+    """Return the default backend; if the environment asks for one that is refused, why."""
     names = {number: name for name, number in rasterizer.BACKENDS.items()}
     auto = _told(lambda: names[resolve_backend()])
     threads = _told(lambda: resolve_threads() or usable_processors())
@@ -170,7 +170,7 @@ def _environment() -> dict:
 
 
 def _warnings(packages: dict[str, str | None]) -> list[str]:
-    """What is known to be wrong with packages that are installed."""
+    """Return the known problems of installed packages."""
     found = [f"{name} is missing: pip install {name}" for name, v in packages.items() if v is None]
     pillow = packages.get("pillow")
     if pillow and tuple(map(int, re.findall(r"\d+", pillow)[:3])) < SAFE_PILLOW:

@@ -1,4 +1,4 @@
-"""What ``--verbose`` prints on standard error: what was loaded and drawn, and how long it took."""
+"""The report of ``--verbose`` on standard error: what was loaded and drawn, in which time."""
 
 from __future__ import annotations
 

@@ -114,7 +114,7 @@ def has_shapes(folder: str, names: Iterable[str | None]) -> bool:
 
 
 def _info_of(path: str) -> dict[str, float] | None:
-    """What is known of a shape, either of whose files this is; None if one of them is not whole."""
+    """Return the known numbers of a shape, from either of its files; None if one is not whole."""
     stem = os.path.splitext(path)[0]
     stamps = file_stamp(f"{stem}.json"), file_stamp(f"{stem}.ply")
     return None if None in stamps else _checked_info(stem, stamps)

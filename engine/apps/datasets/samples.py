@@ -1,4 +1,4 @@
-"""What a writer of data sets gets of one picture: the frame, and the scene that it shows.
+"""The input of a writer of data sets for one picture: the frame, and the scene that it shows.
 
 In: a scene as it was drawn, and which of its nodes are things of which category. Out: a `Sample`;
 masks of what shows of each thing, and boxes around masks.
@@ -87,7 +87,7 @@ class Sample:
 
 @dataclass(frozen=True)
 class Thing:
-    """Something to be found in a picture.
+    """A thing that can be found in a picture.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a thing would show alone, within the picture and around it.
+"""Amodal masks: the pixels that a thing would show alone, within the picture and around it.
 
 In: a thing, and the picture that it is in. Out: its mask as if nothing were in front of it, at the
 same samples, and how many pixels its silhouette has, on a canvas of three times the size.
@@ -20,7 +20,7 @@ from .samples import Sample, Thing, box_of
 
 
 class Silhouette(NamedTuple):
-    """What a thing would show alone.
+    """The amodal mask of a thing: its pixels if nothing else were there.
 
     Attributes
     ----------

@@ -123,6 +123,6 @@ def _packed(path: str) -> str:
 
 @functools.lru_cache(4)
 def _members(path: str, written: int) -> dict[str, tuple[int, int]]:
-    """Where in a tar file each of its members begins, and how long it is."""
+    """Return where each member of a tar file begins, and how long it is."""
     with tarfile.open(path) as tar:
         return {entry.name: (entry.offset_data, entry.size) for entry in tar}

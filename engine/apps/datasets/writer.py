@@ -1,4 +1,4 @@
-"""What all writers of data sets have in common.
+"""The base of all writers of data sets.
 
 In: a `Sample`. Out: the files that belong to that picture alone, and a note of it in JSON's types,
 from whichever process drew it; at the end, from all notes in the order of the data set, the files
@@ -24,7 +24,7 @@ from .samples import Sample
 
 
 class Note(NamedTuple):
-    """What is kept of a picture until the data set is whole.
+    """The notes on a picture that are kept until the data set is whole.
 
     Attributes
     ----------

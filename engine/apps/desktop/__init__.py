@@ -1,1 +1,1 @@
-"""What the programs of a desktop share: the user's folders, the files that were opened lately."""
+"""Shared by desktop programs: the user's folders, and the files that were opened lately."""

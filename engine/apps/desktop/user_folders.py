@@ -1,4 +1,4 @@
-"""Where programs keep what outlives them: in the user's folders, as each system has them.
+"""The user's folders in which programs keep lasting data, as each system has them.
 
 Windows and macOS have folders of their own; everywhere else it is the XDG Base Directory
 Specification (freedesktop.org, 2021).

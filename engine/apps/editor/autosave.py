@@ -1,4 +1,4 @@
-"""What is not saved yet, kept for the case of a crash.
+"""Saves a copy of unsaved work, in case of a crash.
 
 In: a document, now and then. Out: a copy of its scene in the user's cache folder, at most a minute
 old, which the next editor finds if this one ended without a word. A copy belongs to the process
@@ -167,7 +167,7 @@ def _is_locked(path: Path) -> bool:
 
 
 def _saying(path: Path) -> tuple[str | None, float] | None:
-    """What the first line of a copy says: which document it is of, and when it was made.
+    """Return the first line of a copy: which document it is of, and when it was made.
 
     None for a copy that cannot be read, of which a warning tells.
     """

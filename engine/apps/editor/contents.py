@@ -1,4 +1,4 @@
-"""What a mesh, material, texture, light or camera holds, and how to put it back.
+"""Takes and restores the contents of a mesh, material, texture, light or camera.
 
 In: things. Out: their attributes, with lists and dicts of their own; arrays are not copied, since
 nobody can write to them. What follows from the rest is left out.

@@ -1,4 +1,4 @@
-"""What is edited: a scene with its resources, its file, what was done to it, and what is selected.
+"""The document of the editor: a scene with its resources, file, history and selection.
 
 In: commands. Out: a scene that they changed, a console that tells so. Panels show what is here and
 keep nothing of their own that matters.
@@ -165,7 +165,7 @@ class SceneDocument:
 
     @property
     def animator(self) -> Animator:
-        """What moves the scene's nodes; one that moves nothing yet where the scene had none."""
+        """The animator of the scene's nodes; it moves nothing yet if the scene had none."""
         if self.scene.animator is None:
             self.scene.animator = Animator(self.scene)
         return self.scene.animator

@@ -1,4 +1,4 @@
-"""Where a drag of the gizmo takes a pose: exactly along, around or by what its handles stand for.
+"""The pose to which a drag of the gizmo goes: exact steps along or around its handles.
 
 In: the pose at the beginning of the drag, the one that the gizmo made of it in single precision, a
 step. Out: a pose in double precision. Axes that are nearly those of the world, or of the node, are

@@ -29,7 +29,7 @@ from .thumbnails import shrunk
 LARGEST = 8 << 20
 #: How many pictures are kept.
 MOST = 64
-#: What a process of its own reads, which takes seconds.
+#: Formats that a process of its own reads, which takes seconds.
 _SLOW = frozenset({"trimesh", "step", "iges"})
 
 

@@ -106,7 +106,7 @@ class Hierarchy:
 
     @property
     def search(self) -> str:
-        """What names must hold, in whatever case; "" shows all that is open.
+        """The text that names must contain, in any case; "" shows everything that is open.
 
         What is found is shown with all that is above it, whether that is open or not.
         """
@@ -175,7 +175,7 @@ class Hierarchy:
         return is_open
 
     def _matches(self, key: tuple[int, int]) -> bytes | None:
-        """Which slots the search finds; None without a search."""
+        """Return the slots that the search finds; None without a search."""
         text = self._search
         if not text:
             return None

@@ -1,4 +1,4 @@
-"""What was done, in order, to be undone and done again.
+"""The history: commands in order, to be undone and redone.
 
 In: commands. Out: the same commands, backwards and forwards. A step that was undone and followed by
 another is forgotten.

@@ -1,4 +1,4 @@
-"""What the mouse points at in a picture: node, triangle, material; what a rectangle holds.
+"""Finds what is under the mouse (node, triangle, material), and the nodes in a rectangle.
 
 In: a frame that a renderer drew, and pixels. Out: nodes of the scene. Lights and cameras show
 nothing: they are found by where they stand in the picture.
@@ -19,7 +19,7 @@ from ...rendering.frame import Frame
 
 
 class Pick(NamedTuple):
-    """What a pixel shows.
+    """The node, triangle and material that a pixel shows.
 
     Attributes
     ----------

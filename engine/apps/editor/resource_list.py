@@ -48,7 +48,7 @@ class Entry(NamedTuple):
 
 
 class ResourceList:
-    """What a scene is made of.
+    """The list of a scene's resources.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ class ResourceList:
         return users_of(self._scene, thing)
 
     def _found_versions(self) -> tuple:
-        """What is another once an entry changed, came or went."""
+        """Return versions that differ once an entry changed, came or went."""
         things = (entry.thing for entry in self._entries)
         names = tuple((id(thing), thing.version, thing.name) for thing in things)
         return (

@@ -161,7 +161,7 @@ def _hold(node, name: str, obj: Any, collider: Any) -> None:
 
 
 def _reachable(held: list[tuple]) -> Iterator[Any]:
-    """What nodes hold, and what that is made of, each once."""
+    """Return the things that nodes hold, and the resources of these, each once."""
     todo: list[Any] = [thing for _, obj, collider in held for thing in (obj, collider)]
     seen: set[int] = set()
     while todo:

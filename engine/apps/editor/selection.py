@@ -1,4 +1,4 @@
-"""Which nodes are selected, in the order in which they were.
+"""The selected nodes, in the order of selection.
 
 In: nodes. Out: the selected ones that are still in the scene. The last one is the active one, whose
 properties panels show.

@@ -1,4 +1,4 @@
-"""What a user does in a window, as small values: keys, mouse, dropped files, the window itself.
+"""The user's input in a window, as small values: keys, mouse, dropped files, the window itself.
 
 `engine3d.Window` hands them out; SDL's own structures stay behind it. Keys carry both what they
 type and where they are. Events compare and match by their values::

@@ -1,4 +1,4 @@
-"""What the fixture ``golden`` hands to a test: a call compares a picture with the golden one.
+"""The fixture ``golden``: calling it compares a picture with the golden one.
 
 In:  what the test drew. Out: nothing, or an `AssertionError` that says what differs and where both
      pictures are; a `Result` in any case. The hash is compared first; only where it differs is the
@@ -27,7 +27,7 @@ from .results import CHANGED, NEW, PASSED, TWO_PICTURES, UPDATED, Result
 
 @dataclass
 class Place:
-    """Where the golden pictures of a test are.
+    """The place of a test's golden pictures.
 
     Attributes
     ----------

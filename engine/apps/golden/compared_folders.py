@@ -32,7 +32,7 @@ _AT_ONCE = 16  # pairs of a thread, between two steps of the progress that is sh
 
 @dataclass(frozen=True)
 class Rules:
-    """What is allowed to differ; nothing, unless it is said.
+    """The differences that are allowed; none by default.
 
     Attributes
     ----------
@@ -59,7 +59,7 @@ class Rules:
 
 @dataclass(frozen=True)
 class Pair:
-    """Two files to compare, one of which may not be there.
+    """Two files to compare; one of them may be missing.
 
     Attributes
     ----------

@@ -147,7 +147,7 @@ def _different(a: np.ndarray, b: np.ndarray, tolerance: float) -> tuple[np.ndarr
         bits = f"u{a.dtype.itemsize}"
         unlike = distance > tolerance if tolerance else _bits(a, bits) != _bits(b, bits)
     else:
-        # Of 64 bits, the distance may be rounded; the comparison is not.
+        # The distance of 64-bit numbers may be rounded; the comparison is exact.
         wide = np.int32 if a.dtype.itemsize < 4 and a.dtype.kind != "b" else np.float64
         distance = np.abs(a.astype(wide) - b.astype(wide))
         unlike = distance > tolerance if tolerance else a != b

@@ -1,4 +1,4 @@
-"""What is left of a failure: what was drawn, and where it differs, as PNG files to look at.
+"""The files of a failure: the picture, and where it differs, as PNG files to look at.
 
 In:  a `Result` and its pixels. Out: two files in a folder outside of the tree; their paths are in
      the result.

@@ -1,4 +1,4 @@
-"""What tests hand over, as one array of pixels.
+"""Turns what tests hand over into one array of pixels.
 
 In:  a `Frame`, a `Canvas`, an image of Pillow's, an array, or the path of an image file.
 Out: an (H, W) or (H, W, C) array, C from 1 to 4, the top row first.

@@ -15,7 +15,8 @@ from ...errors import InvalidArgumentError
 SUFFIX = ".png"
 MAX_LENGTH = 120  # of a part in bytes, which leaves room for what comes behind it
 _TEST = re.compile(r"(?P<function>\w+)(?:\[(?P<case>.*)\])?", re.S)
-# What no system reads in a way of its own. A name may neither begin nor end with a dot or a space.
+# Matches all but the characters that every system allows. A name may neither begin nor end with
+# a dot or a space.
 _ODD = re.compile(r"[^\w.+=,@ -]")
 _RESERVED = re.compile(r"(?:con|prn|aux|nul|com\d|lpt\d)(?:\..*)?", re.I | re.S)
 

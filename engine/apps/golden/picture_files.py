@@ -25,7 +25,7 @@ _AS_THEY_ARE = ("L", "LA", "RGB", "RGBA", "I", "F")
 
 @dataclass(frozen=True)
 class Picture:
-    """What an image file holds: one array a frame, one frame if it is no animation."""
+    """The contents of an image file: an array for each frame; one frame if it is no animation."""
 
     frames: list[np.ndarray]
 

@@ -1,4 +1,4 @@
-"""What pytest loads: the fixture ``golden``, its options, and what is said at the end of a run.
+"""The pytest plugin: the fixture ``golden``, its options, and the report at the end of a run.
 
 In:  tests that ask for ``golden``. Out: lines in the summary, properties for JUnit, a report and
      JSON where they are asked for. Each process of pytest-xdist sends its results along with the

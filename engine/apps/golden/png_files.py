@@ -64,7 +64,7 @@ def is_deep(file: bytes) -> bool:
 
 
 def read_deep(file: bytes) -> np.ndarray:
-    """Return the (H, W, 2 to 4) uint16 pixels of a file of which `is_deep` is true.
+    """Return the (H, W, 2 to 4) uint16 pixels of a file for which `is_deep` is true.
 
     Pillow unpacks the same data twice: once as the upper bytes, once as the lower ones.
     """

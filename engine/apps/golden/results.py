@@ -1,4 +1,4 @@
-"""What came of comparing one picture: values that go from process to process, and to JSON."""
+"""The result of comparing one picture: values that go from process to process, and to JSON."""
 
 from __future__ import annotations
 

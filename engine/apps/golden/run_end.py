@@ -70,7 +70,7 @@ def two_pictures(results: list[Result]) -> list[str]:
     """Return the names that were written with two different pictures, by two processes."""
     digests: dict[str, set[str]] = {}
     for result in results:
-        # What passed within its allowances has been compared, and may differ.
+        # A picture that passed within its allowances has been compared, and may differ.
         if result.status == UPDATED or (result.status == PASSED and not result.total):
             digests.setdefault(result.name, set()).add(result.digest)
     updated = {result.name for result in results if result.status == UPDATED}

@@ -1,4 +1,4 @@
-"""What is known of a run of tests: a few lists, which cost nothing where no test has pictures."""
+"""The state of a test run: a few lists, which cost nothing if no test has pictures."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def file_of(node: str) -> str:
 
 
 class Run:
-    """What is known of a run.
+    """The state of a test run.
 
     Attributes
     ----------

@@ -82,7 +82,7 @@ class Lamps:
         order = np.argsort(distances, kind="stable")
         if self.count < len(self._lamps):
             dark = min(dark, float(distances[order[self.count]]))
-        # In the lamps' own order: what shines is a function of the eye alone, not of its way there.
+        # In the lamps' own order, so that the lit ones depend on the eye alone, not on its path.
         nearest = np.sort(order[: self.count])
         shining = nearest.tolist()
         if shining != self._shining:

@@ -39,7 +39,7 @@ class Skyline:
         ]
 
     def _add(self, mesh: Mesh) -> None:
-        """Raise the squares of each triangle's corners to its highest one."""
+        """Raise the squares under each triangle's corners to its highest corner."""
         squares = np.floor(mesh.positions[:, [0, 2]] / np.float32(PITCH)).astype(np.int64)
         squares = np.ravel_multi_index(tuple((squares - self._low).T), self._heights.shape)
         heights = mesh.positions[:, 1][mesh.faces].max(axis=1).astype(np.float64)

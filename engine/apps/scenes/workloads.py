@@ -1,4 +1,4 @@
-"""What the benchmark draws: scenes made here, each with a camera that moves by a hair a frame.
+"""The scenes of the benchmark; each has a camera that moves by a hair a frame.
 
 In:  a name of `SCENES`, and whether the picture is plain.
 Out: a `Workload`. The plain picture is what every renderer can draw alike: 8-bit values as they

@@ -23,7 +23,7 @@ _PITCH = 9
 
 
 class CutNode(NamedTuple):
-    """What is cut of a node: pixels that show it, and square units, None where it is open."""
+    """The cut of a node: pixels that show it, and its area, None where it is open."""
 
     node: int
     pixels: int
@@ -58,7 +58,7 @@ def find_caps(
     areas = [area_of(outline.segments, plane) for outline in outlines]
     gaps = [gaps_of(outline.segments) for outline in outlines]
     ids = np.full((rectangle.height, rectangle.width), -1, np.int64)
-    # What lies within something else is painted over it.
+    # An outline within another one is painted over it.
     for number in sorted(range(len(outlines)), key=lambda k: -areas[k]):
         if gaps[number] is not None:
             closed = np.concatenate([outlines[number].segments, gaps[number]])

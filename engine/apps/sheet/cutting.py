@@ -1,4 +1,4 @@
-"""Where the plane of a section goes through meshes: the outlines of what is cut, and their areas.
+"""Cuts meshes at the plane of a section: outlines of the cut, and their areas.
 
 In: nodes, a plane across an axis. Out: for each node the directed segments in which the plane meets
 its faces, and from them the pixels inside. Every edge that crosses the plane gives one point, found
@@ -46,7 +46,7 @@ class Plane(NamedTuple):
 
 
 class Outline(NamedTuple):
-    """What is cut of a node.
+    """The outline of a node's cut.
 
     Attributes
     ----------
@@ -113,7 +113,7 @@ def _cut(points: np.ndarray, faces: np.ndarray, plane: Plane) -> np.ndarray:
 
 
 def _crossings(points: np.ndarray, heights: np.ndarray, a: np.ndarray, b: np.ndarray):
-    """Where edges cross the plane; each is gone along from its lower end to its upper one."""
+    """Return where edges cross the plane; each goes from its lower end to its upper one."""
     swapped = heights[a] >= 0.0
     low, high = np.where(swapped, b, a), np.where(swapped, a, b)
     share = heights[low] / (heights[low] - heights[high])

@@ -26,7 +26,7 @@ _ROOM = 2.0  # pixels by which boxes are enlarged: wide lines and points reach b
 
 
 class AloneScene:
-    """A scene of the same meshes at the same places, of which any may be hidden.
+    """A scene of the same meshes at the same places, any of which may be hidden.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Where the panels of a sheet are, and the scale that fits all of them.
+"""The layout of a sheet: places of its panels, and the scale that fits all of them.
 
 In: how far each view reaches in world units, the room in pixels. Out: a rectangle for each, and
 pixels per unit. A column is as wide as its widest view needs, a row as high as its highest, so that
@@ -137,12 +137,12 @@ def _largest_scale(needs: list[float], total: int, least: int, pad: int) -> floa
 
 
 def _fair(count: int, total: int, least: int) -> int:
-    """What a panel has at least: more on large sheets."""
+    """Return the least size of a panel; it grows with the sheet."""
     return max(least, total // (4 * count))
 
 
 def _sides(needs: list[float], scale: float, total: int, least: int, pad: int) -> list[int]:
-    """Where panels begin and end; they share alike what is left over."""
+    """Return where panels begin and end; they share the remaining space equally."""
     taken = _taken(needs, scale, _fair(len(needs), total, least), pad)
     rest = (total - sum(taken)) / len(taken)
     ends, place = [0], 0.0

@@ -1,4 +1,4 @@
-"""What is written and drawn round panels: dimensions, axes, titles, a scale.
+"""Text and lines around panels: dimensions, axes, titles, a scale.
 
 In: a canvas over the sheet, rectangles, lengths. Out: the same pixels, drawn on.
 """

@@ -1,4 +1,4 @@
-"""What a sheet shows, opened: files, meshes and scenes alike.
+"""Opens what a sheet shows: files, meshes and scenes alike.
 
 In: what the caller gives. Out: a `ViewedScene`.
 """

@@ -218,7 +218,7 @@ class _Page:
 
 
 def _reaches(specs, extents) -> list[Reach]:
-    """What each view asks of the layout, in world units."""
+    """Return the reach that each view needs of the layout, in world units."""
     reaches = []
     for spec, extent in zip(specs, extents, strict=True):
         share = 1.0 if spec.to_scale else _SHARE

@@ -81,7 +81,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a view goes on the sheet, and how large it is drawn; see `Panel`."""
+    """The place of a view on the sheet, and the size at which it is drawn; see `Panel`."""
 
     spec: ViewSpec
     rectangle: Rectangle

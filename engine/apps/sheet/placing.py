@@ -54,7 +54,7 @@ def find_extent(support: SupportFunction, center: np.ndarray, axes: np.ndarray) 
     for row, step in zip(rows, half, strict=True):
         middle += row * step
     size = np.maximum(high - low, 0.0)
-    # What rounding leaves of something flat is no size.
+    # A size that is only rounding counts as 0.
     size[size < 1e-12 * float(size.max())] = 0.0
     return Extent(axes, middle, (float(size[0]), float(size[1]), float(size[2])))
 

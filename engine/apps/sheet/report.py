@@ -44,7 +44,7 @@ def _text(value: Any, margin: str) -> str:
 
 
 class ModelReport:
-    """What is told of one model.
+    """The report on one model.
 
     Parameters
     ----------

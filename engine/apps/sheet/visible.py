@@ -1,4 +1,4 @@
-"""What shows in a panel: pixels and boxes of nodes, materials and parts, and what hides them.
+"""The visible part of a panel: pixels and boxes of nodes, materials and parts, and their occluders.
 
 In: the IDs of the panel's pixels. Out: plain records. All of it is counting, the same everywhere.
 """
@@ -103,7 +103,7 @@ def joined(shown: list[Shown], key: int) -> Shown | None:
 
 
 def mesh_of_node(node: Node) -> Mesh | None:
-    """Return the mesh that a node draws, of which frames show IDs."""
+    """Return the mesh that a node draws; frames show its IDs."""
     thing = node.object
     if isinstance(thing, InstancedMesh):
         thing = thing.mesh

@@ -42,7 +42,7 @@ _SIXEL = b"4"
 
 
 class Answers(NamedTuple):
-    """What a terminal can do.
+    """The capabilities of a terminal.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a terminal sends, as events: keys, the mouse, whether the terminal has the focus.
+"""Turns a terminal's input into events: keys, the mouse, the terminal's focus.
 
 In: bytes, which whoever is at the other end of the line chooses: sequences that are unknown, or
 longer than any that is known, are passed over. Out: values of `engine3d.events`. Terminals say when

@@ -43,7 +43,7 @@ def encode(pixels: np.ndarray) -> bytes:
 
 
 def _band(rows: np.ndarray, filled: int) -> bytes:
-    """Return six rows, of which the first ``filled`` count: a line for each colour in them."""
+    """Return six rows, the first ``filled`` of which count: a line for each colour in them."""
     rows = rows[:filled]
     colors, places = np.unique(rows, return_inverse=True)
     places = places.reshape(rows.shape)

@@ -1,4 +1,4 @@
-"""What the keys do, one function an action; `keymap` says which key calls which.
+"""The actions of keys, a function each; `keymap` says which key calls which.
 
 Every function takes the `Viewer` and a step: 1, or -1 with Shift, for the actions that go round a
 list of choices.

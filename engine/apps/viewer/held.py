@@ -1,4 +1,4 @@
-"""Which keys and buttons are down, and where the mouse is: the sum of the events so far."""
+"""The keys and buttons that are down, and the mouse's position: the sum of the events so far."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which key does what: the one list that the loop obeys and the help overlay prints.
+"""The keymap: the one list of keys that the loop obeys and the help overlay prints.
 
 A key is named by what it types ("W"), the way SDL names it; walking keys are read by position and
 live in `fps`. Digits also answer by position, for keyboards that type them with Shift.

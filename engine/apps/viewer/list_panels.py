@@ -62,7 +62,7 @@ class Panel:
         raise NotImplementedError
 
     def heads(self, left_out: int) -> list[str]:
-        """Return the lines above the rows, of which some may not fit."""
+        """Return the lines above the rows; some of them may not fit."""
         return [self.title + (f"  ({len(self.rows())}, wheel: more)" if left_out else "")]
 
     def draw(self, canvas, scale: int, theme: Theme) -> None:

@@ -1,4 +1,4 @@
-"""What the viewer says at the bottom of its window: for a moment, or until a trouble is over."""
+"""Messages at the bottom of the viewer's window: for a moment, or until a problem is over."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the mouse does in the viewer: drags orbit, pan and zoom; clicks select; the wheel zooms.
+"""The mouse in the viewer: drags orbit, pan and zoom; clicks select; the wheel zooms.
 
 In: events of the mouse. Out: calls of the orbit or the walking controller, and of the viewer. A
 press becomes a drag when the mouse has gone some pixels; otherwise it was a click.

@@ -22,7 +22,7 @@ ZOOM_KEYS = {"+": 1, "=": 1, "Keypad +": 1, "-": -1, "Keypad -": -1}
 
 
 class PictureView:
-    """Which part of a picture shows.
+    """The part of a picture that shows.
 
     Parameters
     ----------

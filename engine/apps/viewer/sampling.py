@@ -18,7 +18,7 @@ REST_SECONDS = 0.15
 SURE = 0.75
 #: Frames by which the time is judged; the shortest counts, as others were disturbed.
 JUDGED = 3
-#: How many times longer `AT_REST` samples take than one, before it is known.
+#: The time of `AT_REST` samples over that of one, until it is measured.
 USUAL_RATIO = 3.0
 
 

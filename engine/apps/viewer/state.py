@@ -1,4 +1,4 @@
-"""What a viewer shows, and how: the state that its keys, mouse, lists and files change.
+"""The viewer's state: what it shows, and how. Its keys, mouse, lists and files change it.
 
 In: what the user wants. Out: the same state, of which the loop (`viewer.Viewer`) draws a frame
 whenever `redraw` was called.

@@ -249,7 +249,7 @@ class Window:
 
     @property
     def mouse(self) -> tuple[int, int] | None:
-        """Where the mouse is, in pixels of the picture; None outside the window."""
+        """The mouse's position in pixels of the picture; None outside the window."""
         return self._held.mouse
 
     @checks_types

@@ -176,9 +176,9 @@ class _Part:
             mode = status.st_mode
             self._mode = stat.S_IMODE(mode) & 0o777 if stat.S_ISREG(mode) else None
         folder, name = os.path.split(self._target)
-        # Some letters of the name, which take at most 128 of the 255 bytes that a name may have.
+        # Some letters of the name: at most 128 of the 255 bytes that a name may have.
         self._temporary = os.path.join(folder, f".{name[:32]}.{os.urandom(8).hex()}.part")
-        # What replaces a private file is private from the beginning.
+        # A file that replaces a private one is private from the beginning.
         mode = 0o666 if self._mode is None else 0o600
         flags = READ_WRITE | os.O_CREAT | os.O_EXCL
         self.file = os.fdopen(os.open(self._temporary, flags, mode), "wb")

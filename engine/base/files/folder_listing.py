@@ -1,4 +1,4 @@
-"""What a folder holds, as a file dialog shows it.
+"""The contents of a folder, as a file dialog shows them.
 
 In: a path, extensions, a text. Out: its folders, then its files. Nothing is opened or followed; a
 folder that cannot be read is an empty one with a reason.
@@ -38,7 +38,7 @@ class Item(NamedTuple):
 
 
 class Listing(NamedTuple):
-    """What a folder holds.
+    """The contents of a folder.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What tells whether a file is another than it was, without reading it where that can be helped.
+"""Stamps: tell whether a file changed, without reading it if possible.
 
 In: paths. Out: stamps, and whether a file was written between two of them: size, time of writing or
 place on the disk differ then, or the time of the last change of any kind does, which no program can
@@ -20,7 +20,7 @@ _STEP = 2 * 10**9  # nanoseconds; FAT has the longest step
 
 
 class FileStamp(NamedTuple):
-    """What the system tells of a file; times in nanoseconds."""
+    """The system's data on a file; times are in nanoseconds."""
 
     size: int
     inode: int

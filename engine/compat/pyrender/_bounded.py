@@ -1,4 +1,4 @@
-"""What follows from bounds: primitives, meshes and scenes of pyrender have it alike."""
+"""Properties that follow from bounds, which primitives, meshes and scenes of pyrender share."""
 
 from __future__ import annotations
 

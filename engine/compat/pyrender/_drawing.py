@@ -113,7 +113,7 @@ class _Pass:
         return color, depth
 
     def _samples(self) -> tuple[int, int]:
-        """How many a pixel has, and the place where its depth is."""
+        """Return how many samples a pixel has, and the place where its depth is."""
         moves = settings.samples > 1 and settings.depth_place == "pyrender"
         if self._shading == _native.PLAIN:
             return 1, _native.CENTRE
@@ -233,7 +233,7 @@ class _Pass:
 
 
 class _Group:
-    """What is seen, and then draws that lie over it."""
+    """A group of drawing steps: what is seen, and then the draws that lie over it."""
 
     def __init__(self) -> None:
         self.visible: list[Placed] = []

@@ -1,4 +1,4 @@
-"""What primitives and textures are for the core, made once for each.
+"""The primitives and textures of the core, made once for each of pyrender's.
 
 In: primitives and textures as programs gave them. Out: handles that stay with these until their
 arrays change.

@@ -1,4 +1,4 @@
-"""Which triangle shows where: what the engine's renderer finds out for a picture.
+"""Finds which triangle shows at each place of a picture, by the engine's renderer.
 
 In: primitives with their places, and a camera's matrix. Out: IDs of what shows at each pixel's
 centre and at its samples. Nodes and meshes stay from picture to picture.

@@ -66,7 +66,7 @@ def _checked_mode(value) -> str:
 
 
 class Material(Named, abc.ABC):
-    """What all materials have.
+    """The base of all materials.
 
     Parameters
     ----------

@@ -151,7 +151,7 @@ def _look_of(mesh, smooth: bool, material: Material | None):
 
 
 def _material_of(material) -> MetallicRoughnessMaterial | None:
-    """What a material of trimesh is here; None for those that are unknown."""
+    """Return the material for one of trimesh; None for unknown kinds."""
     if isinstance(material, MetallicRoughnessMaterial):
         return material
     if hasattr(material, "baseColorFactor"):

@@ -11,7 +11,7 @@ from .constants import GLTF, BufFlags
 from .material import Material, MetallicRoughnessMaterial
 from .utils import format_color_array
 
-#: What vertices carry: name, columns, and what an error says.
+#: The attributes of vertices: name, columns, and what an error calls them.
 _ATTRIBUTES = {
     "normals": (3, "Incorrect normals shape"),
     "tangents": (4, "Incorrect tangent shape"),

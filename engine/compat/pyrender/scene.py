@@ -199,7 +199,7 @@ class Scene(Bounded, Named):
         return node
 
     def get_nodes(self, node=None, name=None, obj=None, obj_name=None) -> set[Node]:
-        """Return the nodes of which all that is given is true.
+        """Return the nodes that fit all that is given.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""What can be chosen of this module, beyond what pyrender lets one choose.
+"""Settings of this module that pyrender does not have.
 
 Each setting is read whenever a picture is drawn, and may be set by an environment variable before
 the module is imported.

@@ -1,4 +1,4 @@
-"""Which level to draw: the coarsest whose error is small on the screen, without flicker.
+"""Chooses the level to draw: the coarsest whose error is small on the screen, without flicker.
 
 In: a camera, distances, errors in the units of the things. Out: the numbers of levels.
 """

@@ -36,7 +36,7 @@ _SEARCH = 96  # directions along each side of the octahedron that are tried for 
 
 
 class Impostor(Closed):
-    """What stands for a mesh where it is small on the screen.
+    """A picture that replaces a mesh where it is small on the screen.
 
     Parameters
     ----------
@@ -191,7 +191,7 @@ def _axes(direction: np.ndarray) -> np.ndarray:
 def _pictures(
     mesh: Mesh, directions: np.ndarray, center: np.ndarray, radius: float, texels: int
 ) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-    """Of each direction: colours (N, N, 3) linear, normals (N, N, 3), mask (N, N) bool."""
+    """Return, for each direction, colours (N, N, 3) linear, normals (N, N, 3), mask (N, N) bool."""
     scene = Scene()
     scene.add(mesh)
     radius = max(radius, 1e-12)
@@ -221,7 +221,7 @@ def _summed(pixels: np.ndarray) -> np.ndarray:
 
 
 def _filled(color: np.ndarray, mask: np.ndarray) -> np.ndarray:
-    """A picture as texels with a border; beyond the mask, the colours next to it go on."""
+    """Return a picture as texels with a border; the colours at the mask's edge go on beyond it."""
     side = len(mask) + 2 * _BORDER
     known = np.zeros((side, side), bool)
     known[_BORDER:-_BORDER, _BORDER:-_BORDER] = mask
@@ -242,7 +242,7 @@ def _filled(color: np.ndarray, mask: np.ndarray) -> np.ndarray:
 
 
 def _rectangles(mask: np.ndarray) -> list[tuple[int, int, int, int]]:
-    """The mask as rectangles (left, top, right, bottom), none of which leaves its cell."""
+    """Return the mask as rectangles (left, top, right, bottom), each within one cell."""
     side = len(mask) // _CELLS
     found = []
     for top in range(0, len(mask), side):

@@ -70,7 +70,7 @@ def simplify(mesh: Mesh, ratio: float) -> tuple[Mesh, float]:
 
 
 def _equal_vertices(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """A number for each vertex, the same for those that are equal in all, and the first of each."""
+    """Return a number for each vertex, which equal vertices share, and the first one of each."""
     columns = [mesh.positions]
     columns += [mesh.normals] if mesh.has_normals else []
     columns += attributes_of(mesh).values()

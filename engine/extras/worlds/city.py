@@ -50,7 +50,7 @@ DISTRICT = 4
 #: Rings of meadows round the city.
 _MEADOWS = 1
 _FEWEST_A_TILE = 1_500
-#: What coarser districts leave out or move, in metres.
+#: The sizes up to which coarser districts leave things out or move them, in metres.
 _TOLERANCES = (0.3, 1.5)
 #: By the kind of tile: what makes a table of buildings, counts their quads, and adds them.
 _BUILDINGS: tuple[tuple[int, Callable[..., Any], Callable[..., Any], Callable[..., Any]], ...] = (
@@ -167,7 +167,7 @@ def city(triangles: int = 1_000_000, seed: int = 0) -> World:
 
 
 class _Ground:
-    """Which tiles are city and which meadow, and the trees that make up the number."""
+    """The ground: which tiles are city and which meadow, and the trees that complete the number."""
 
     def __init__(self, seed: int, triangles: int) -> None:
         self.seed = seed

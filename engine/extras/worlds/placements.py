@@ -1,4 +1,4 @@
-"""Where the small things stand on each kind of tile.
+"""The places of small things on each kind of tile.
 
 In: a seed, tiles' coordinates and kinds. Out: for each template, the tiles and the places
 (x, y, z, scale, cosine, sine of the turn) of all that stand there. Functions of the seed and the

@@ -1,4 +1,4 @@
-"""What stands on each tile of the city: kinds of blocks, houses, towers, as tables of numbers.
+"""The plan of the city: blocks, houses and towers on each tile, as tables of numbers.
 
 In: a seed and the tiles' coordinates (i, j), which count pitches of `PITCH` metres from the middle.
 Out: kinds, and tables of houses and towers. Everything is a function of the seed and of (i, j)
@@ -34,7 +34,7 @@ _FIXED = {
     (0, 0): HOUSES,
     (0, 1): TOWERS,
 }
-#: Side of the squares of tiles of which each has a middle where towers stand.
+#: Side of the squares of tiles, each of which has towers in its middle.
 _QUARTER = 11
 _TOWER_REACH = 3.0
 

@@ -184,7 +184,7 @@ def _add_roofs(patch: Patchwork, sections: _Sections, style: np.ndarray, stone: 
 
 
 def _add_crowns(patch: Patchwork, towers: Towers) -> None:
-    """What stands on the highest roof: machines, and a mast."""
+    """Add the crowns of the highest roofs: machines, and a mast."""
     second = _second(towers)
     foot = np.where(_style(towers) == _GRID, GROUND, _LOBBY)
     foot = foot + np.where(_style(towers) == _GRID, STOREY, _FLOOR) * towers.storeys

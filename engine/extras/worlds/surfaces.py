@@ -1,4 +1,4 @@
-"""What a city is made of: its materials by name, and the textures that they wear.
+"""The surfaces of a city: its materials by name, and their textures.
 
 In: nothing. Out: `materials`, made anew for each mesh list but sharing textures, and the numbers
 and sizes that the geometry needs. Textures are computed from integer hashes in float64, element by
@@ -210,7 +210,7 @@ def _sash(
 
 
 def _reflection() -> np.ndarray:
-    """What glass shows: a bright sky above, dark houses below, curtains at the sides."""
+    """Return the reflection in glass: bright sky above, dark houses below, curtains beside."""
     y, x = np.mgrid[0:_SIDE, 0:_SIDE] / (_SIDE - 1.0)
     slant = y + 0.35 * x
     level = np.where(slant < 0.62, 0.56 - 0.25 * slant, 0.20 + 0.05 * slant)

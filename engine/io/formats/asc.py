@@ -94,7 +94,7 @@ class _Parser:
         self._name = ""
         self._mesh: MeshRecord | None = None
         self._item: LightRecord | CameraRecord | None = None
-        # What lines about faces say, for each text; and the line last warned of, and its place.
+        # By text, what lines about faces mean; and the line last warned of, and its place.
         self._materials: dict[bytes, int] = {}
         self._groups: dict[bytes, int] = {}
         self._warned = 1, 0
@@ -214,7 +214,7 @@ class _Parser:
                 known[text] if (text := self._text[start:end]) in known else read(text, start)
                 for start, end in places
             ]
-            # What comes before the first face is said of none.
+            # A statement before the first face applies to no face.
             has_face = chosen["rows"] > 0
             mesh.said[form] = chosen["rows"][has_face] - 1, np.array(said, np.int64)[has_face]
 

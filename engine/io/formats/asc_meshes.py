@@ -16,7 +16,7 @@ from ..reading.documents import DocumentObject
 from ..reading.far_coordinates import moved_near
 from ..reading.smoothing import FLAT, fill_normals
 
-# What takes up most of a file, as native.FormReader reads it: the same, of a whole line.
+# The form of most lines of a file, as native.FormReader reads it; it fits a whole line.
 _VERTEX_FORM = b"Vertex #_:_X:%_Y:%_Z:%|_U:%_V:%"
 _FACE_FORM = b"Face #_:_A:@_B:@_C:@|_AB:?_BC:?_CA:?"
 _MARKS = (b"Material:", b"Smoothing:")

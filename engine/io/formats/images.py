@@ -29,7 +29,8 @@ if TYPE_CHECKING:
 # More pixels than this are refused before anything is decoded; as RGBA they take 683 MiB. Assign
 # another value to change it (beyond this one, which is Pillow's, Image.MAX_IMAGE_PIXELS as well).
 MAX_PIXELS = 178_956_970
-# The images of one model may together have MAX_PIXELS, and so many for each byte of their files.
+# A guard against decompression bombs: all images of a model have at most MAX_PIXELS, and at most
+# so many pixels for each byte of their files.
 PIXELS_PER_BYTE = 10
 # Pixels that are converted at a time.
 _STRIP = 1 << 20
@@ -223,7 +224,7 @@ _FORMATS = (
     ("tiff", "TIFF", (".tif", ".tiff"), "TIFF", starts_with(b"II*\0", b"MM\0*")),
     ("ppm", "Portable pixmap", (".ppm", ".pgm", ".pbm"), "PPM", _is_ppm),
 )
-# What Pillow may open, whatever a file claims to be.
+# The formats that Pillow may open, whatever a file claims to be.
 PILLOW_FORMATS = [pillow_name for _, _, _, pillow_name, _ in _FORMATS]
 
 READERS = tuple(

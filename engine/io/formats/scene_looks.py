@@ -1,4 +1,4 @@
-"""What the things of a scene's file look like: its environments, textures and materials.
+"""The looks of a scene file: its environments, textures and materials.
 
 In: entries of the file's lists. Out: environments, textures and materials, or an error that names
 the place. What cannot be read is told of, and something keeps its place.

@@ -1,4 +1,4 @@
-"""The tree of a scene's file: which node is below which, where nodes stand, what of them shows.
+"""The tree of a scene file: parents, poses, and which nodes are shown.
 
 In: nodes as they stand in JSON, or a `SceneRecord`. Out: links, poses, meshes in the world.
 """

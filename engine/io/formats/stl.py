@@ -46,7 +46,7 @@ _SNIFFED = 4096
 
 
 class _Facets(NamedTuple):
-    """What a file holds.
+    """The contents of a file.
 
     Attributes
     ----------
@@ -274,7 +274,7 @@ def _groups(solids: list[tuple[str, int]], facets: np.ndarray) -> list[tuple[str
 
 
 def _part(whole: Mesh, chosen: np.ndarray, name: str) -> Mesh:
-    """Some triangles of a mesh with the vertices that they use."""
+    """Return some triangles of a mesh, with the vertices that they use."""
     used, faces = np.unique(whole.faces[chosen], return_inverse=True)
     visible = whole.edge_visible
     return Mesh(

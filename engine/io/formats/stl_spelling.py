@@ -45,7 +45,7 @@ def usual_spelling(text: bytes) -> Spelling:
     """Return a text with each keyword at the beginning of a line, spelt as usual."""
     text, left_out = _OTHER.subn(b"", text)
     kinds = [match.lastgroup for match in _KEYWORD.finditer(text)]
-    # Where ends of loops are missing, those of facets do.
+    # Where ends of loops are missing, ends of facets are missing, too.
     closing = "loop" if kinds.count("loop") >= kinds.count("end") else "end"
     words: dict[str | None, bytes] = {
         "facet": b"\nfacet normal ",

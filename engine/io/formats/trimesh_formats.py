@@ -25,9 +25,9 @@ from ..reading.sources import Source
 from ..reading.warning_list import WarningList
 from ..reading.zip_archives import ZIP, ZipArchive
 
-# What trimesh reads by itself, and what it reads with further packages.
+# The formats that trimesh reads by itself, and with further packages.
 _EXTENSIONS = (".xyz", ".dxf", ".dae", ".zae", ".3dxml", ".xaml")
-# What files of a kind begin with, if anything.
+# The first bytes of files of a kind, if they are known.
 _BEGINNINGS = {
     **dict.fromkeys(("3dxml", "zae"), ZIP),
     **dict.fromkeys(("dae", "xaml"), b"<"),
@@ -124,7 +124,7 @@ def _said(warnings: WarningList) -> Iterator[None]:
 
 
 def _check_beginning(source: Source, kind: str) -> None:
-    """Refuse what is no such file at all: trimesh would find fault with something else."""
+    """Refuse files that are not of the format; trimesh's own errors would mislead."""
     head = source.head(64)
     is_marked = head.startswith(_BYTE_ORDER_MARKS) and kind in ("dae", "xaml")
     if not is_marked and not head.lstrip().startswith(_BEGINNINGS.get(kind, b"")):

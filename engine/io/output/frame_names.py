@@ -19,7 +19,7 @@ FRAME_NUMBER = re.compile(
 
 
 class Place(NamedTuple):
-    """Where a number goes into a name.
+    """The place of a number in a name.
 
     Attributes
     ----------
@@ -34,7 +34,7 @@ class Place(NamedTuple):
 
 
 class FrameName(str):
-    """A name of files, of which it is known whether numbers go into it.
+    """The name of files; it is known whether numbers go into it.
 
     Attributes
     ----------

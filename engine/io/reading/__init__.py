@@ -1,1 +1,1 @@
-"""What readers share: sources, documents, limits, meshes being put together."""
+"""Shared by readers: sources, documents, limits, meshes being put together."""

@@ -70,7 +70,7 @@ class Triangles:
 
 
 class Geometry(NamedTuple):
-    """What one mesh is made of: lists, and elements that refer to them.
+    """The data of one mesh: lists, and elements that refer to them.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a reader makes of a file: objects with their meshes, lights, cameras and counts.
+"""Documents, which readers make of files: objects with their meshes, lights, cameras and counts.
 
 These are plain records in the file's own coordinates. Nothing here knows about scenes: whoever
 builds one decides what becomes of the lights and cameras.
@@ -158,7 +158,7 @@ class MeshRecord:
 
 @dataclass(frozen=True, eq=False)
 class SkinRecord:
-    """What bends a mesh.
+    """The skin that bends a mesh.
 
     The vertex of a skinned mesh stands at the sum over its joints of
     ``weight * world(joint) @ inverse_bind @ position``; where the node of the mesh stands changes
@@ -255,7 +255,7 @@ class ClipRecord:
 
 @dataclass(frozen=True, eq=False)
 class LensRecord:
-    """What a node's camera sees; it stands where its node stands.
+    """The camera of a node; it stands where its node stands.
 
     Attributes
     ----------

@@ -23,7 +23,7 @@ _NO_CORNERS = np.zeros(0, np.intp)
 
 @dataclass
 class IndexedGeometry:
-    """What a mesh is made of.
+    """The data of a mesh.
 
     Attributes
     ----------
@@ -114,7 +114,7 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
 
 
 def _chosen(geometry: IndexedGeometry, vertices: np.ndarray | None) -> dict[str, np.ndarray]:
-    """What some vertices carry beside positions, as parameters of a mesh; None chooses all."""
+    """Return the attributes of some vertices besides positions, as parameters of a mesh."""
     given = {name: getattr(geometry, name) for name in ("normals", *vertex_attributes(Mesh))}
     return {name: _rows(array, vertices) for name, array in given.items() if array is not None}
 

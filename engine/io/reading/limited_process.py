@@ -28,7 +28,7 @@ MAX_MEMORY_RATIO = 40
 # Seconds of processor time: for any file, and for each megabyte of it.
 MAX_SECONDS_BASE = 10
 MAX_SECONDS_PER_MEGABYTE = 4
-# So many times as long may it take by the clock, where other work goes on.
+# By the clock it may take so many times as long, since other work may go on.
 _PATIENCE = 10
 _START = "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer); {}"
 _RUN = "from engine3d.io.reading.limited_process import main; main()"
@@ -82,7 +82,7 @@ def in_limited_process(
 
 
 def _answer(request: bytes, seconds: float) -> tuple[bytes, int | None]:
-    """What the process wrote, and its exit status; None if it had to be ended."""
+    """Return the output of the process, and its exit status; None if it had to be ended."""
     process = subprocess.Popen(
         # Isolated: nothing in the current folder or the environment is imported.
         [sys.executable, "-I", "-c", _START.format(_RUN)],

@@ -21,7 +21,7 @@ _ENCODINGS = (
 )
 _FILE_URL = re.compile(r"file:(?://(?:localhost(?=/))?)?", re.IGNORECASE)
 _DRIVE = re.compile(r"[A-Za-z]:")
-# Of a long path so many of the last parts are looked for.
+# So many last parts of a long path are looked for.
 _MOST_PARTS = 8
 
 
@@ -71,7 +71,7 @@ def _plain(name: str) -> str:
 
 
 def _in_other_encodings(name: str) -> Iterator[str]:
-    """What a name was meant to be that was no UTF-8 and was read as Latin-1."""
+    """Return what a name may have meant that isn't UTF-8 and was read as Latin-1."""
     try:
         letters = name.encode("latin-1")
     except UnicodeEncodeError:

@@ -139,7 +139,7 @@ def whole_mesh(document: Document, source: Source, format: str | None) -> Mesh:
 
 
 def parts_of(document: Document, source: Source, format: str | None) -> dict[tuple[str, int], Mesh]:
-    """Return the meshes of a document, each of which knows which part of the file it is.
+    """Return the meshes of a document; each knows which part of the file it is.
 
     A part is named by the object's name, and how many of that name stand before it.
     """
@@ -241,7 +241,7 @@ def document_of(source: Source, format: str | None, *, split: bool) -> Document:
     with _memory_of(source):
         reader = find_reader(source, "mesh", format)
     source.progress(0.0)
-    # What is beyond the range of numbers becomes infinite, and is dealt with as such.
+    # Numbers out of range become infinite, and are treated as such.
     with _faults_of(source), np.errstate(all="ignore"), images_of_one_model():
         document = reader.read(source, split=split)
         document.warnings.extend(extent_warnings(document))

@@ -12,13 +12,13 @@ import numpy as np
 
 from ..._native import loaders as native
 
-# What the C runtimes of Microsoft's compilers write for values that are not numbers.
+# What Microsoft's C runtimes write for values that are not numbers.
 _MICROSOFT = re.compile(rb"([+-]?)(?:\d\.#(INF|IND|QNAN|SNAN|QNB)\d*|nan\([a-z]*\))", re.IGNORECASE)
 _WORD = re.compile(rb"\S+")
 
 
 class NotANumberError(ValueError):
-    """Something else than a number stands in a text.
+    """A text has something other than a number.
 
     Attributes
     ----------

@@ -52,7 +52,7 @@ class OpenFile:
                 with self._file as file:
                     file.seek(0)
                     data = read_bytes(file.readinto, self.size)
-                    # Some files (of /proc, say) are longer than they say.
+                    # Some files, such as those of /proc, are longer than their size says.
                     self._data = data + file.readall()
             except (OSError, ValueError) as error:
                 raise unreadable(self._path, error) from error

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 # A file's meshes may hold so many numbers, and its nodes may repeat so many vertices, and besides
 # as many as it has bytes. Assign another value to change it.
 MAX_REPEATED = 1 << 20
-# So far the last row of a pose is from 0 0 0 1 where float32 has rounded it.
+# The last row of a pose may differ so much from 0 0 0 1 after rounding to float32.
 _ROUNDING = 1e-5
 _LAST_ROW = (0.0, 0.0, 0.0, 1.0)
 

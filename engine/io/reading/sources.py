@@ -40,7 +40,7 @@ READING = READ | AT_ONCE
 _GZIP = b"\x1f\x8b\x08"
 _GZIP_WINDOW = 16 + 15
 _CHUNK = 1 << 20
-# What is behind the end of a member is copied once for each: a file may have very many.
+# The bytes behind the end of a member are copied once for each: a file may have very many.
 _PACKED_PIECE = 1 << 14
 # Files below this many bytes are read at once.
 _LARGE = 4 << 20
@@ -108,7 +108,7 @@ class Source(NamedTuple):
         return self.content[:count]
 
     def read_into(self, array: np.ndarray, start: int) -> None:
-        """Fill an array with the bytes from ``start`` on, all of which are inside."""
+        """Fill an array with the bytes from ``start`` on, which are all inside."""
         view = array.reshape(-1).view(np.uint8).data
         if isinstance(self.content, OpenFile) and not self.content.is_whole:
             self.content.read_into(view, start)
@@ -116,7 +116,7 @@ class Source(NamedTuple):
             view[:] = memoryview(self.data)[start : start + len(view)]
 
     def pieces(self, start: int, stride: int, rows: int) -> Iterator[tuple[int, memoryview]]:
-        """Go along rows of ``stride`` bytes from ``start`` on, all of which are inside.
+        """Walk along rows of ``stride`` bytes from ``start`` on, which are all inside.
 
         Yields the number of a row, and the bytes of some rows from there on: all of them if the
         file is in memory. A view holds until the next one comes.

@@ -1,4 +1,4 @@
-"""What files say of their materials and the engine does not draw, told once for each kind.
+"""Properties of materials that the engine does not draw, reported once for each kind.
 
 In: for each material in use, the kinds of such things that it has. Out: one warning a kind, with
 the number of materials.

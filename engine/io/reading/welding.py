@@ -13,7 +13,7 @@ from ..._native import loaders as native
 
 
 def number_rows(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Number rows, equal ones alike.
+    """Number rows; equal rows get the same number.
 
     Parameters
     ----------

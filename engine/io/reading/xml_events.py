@@ -1,4 +1,4 @@
-"""XML, element by element, of which nothing expands.
+"""Reads XML element by element; nothing expands.
 
 In: bytes, piece by piece. Out: calls for each beginning and end of an element. A document type,
 with which entities would come, is refused, and so is what is nested deeper than formats need.
@@ -19,7 +19,7 @@ Attributes = dict[str, str]
 
 
 class XmlFault(ValueError):
-    """What is wrong with an element; `read_xml` adds where it stands."""
+    """An error in an element; `read_xml` adds its place."""
 
 
 def read_xml(

@@ -23,7 +23,7 @@ _PIECE = 1 << 16
 _MOST_SAID = 100
 # Ways to pack that packages do not allow; messages name them.
 _PACKINGS = {9: "Deflate64", 12: "BZIP2", 14: "LZMA", 93: "Zstandard", 95: "XZ"}
-# What the library raises of damaged or unusual archives: the last two of encrypted ones and others.
+# Errors that the library raises for damaged or unusual archives; the last two for encrypted ones.
 _FAULTS = (
     zipfile.BadZipFile,
     zlib.error,
@@ -119,7 +119,7 @@ class ZipArchive:
 
 
 def _said(error: Exception) -> str:
-    """What the library says, on a line; it may quote much of the archive."""
+    """Return the library's message on one line; it may quote much of the archive."""
     text = " ".join(str(error).split()) or type(error).__name__
     return printable(text if len(text) <= _MOST_SAID else text[:_MOST_SAID] + "...")
 

@@ -1,4 +1,4 @@
-"""What nodes hold besides meshes, as scene files name it: kinds of lights and cameras.
+"""The objects of nodes besides meshes, as scene files name them: kinds of lights and cameras.
 
 In: a light or camera, or a kind with values. Out: the values that differ from those by default, or
 the object. The values are the parameters of the class, so that files follow what a class gets.

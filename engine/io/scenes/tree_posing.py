@@ -1,4 +1,4 @@
-"""Where the nodes of a tree stand, and the shapes of its meshes at rest.
+"""The poses of a tree's nodes, and the shapes of its meshes at rest.
 
 In: a `TreeRecord`. Out: matrices and vertices in float64, single operations in the written order,
 so that they have the same bits on every machine. At rest, morph targets have the weights that node
@@ -197,7 +197,7 @@ def _times(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
 
 
 def _cofactors(matrices: np.ndarray) -> np.ndarray:
-    """What turns normals as the upper 3x3 turns points, (V, 3, 3)."""
+    """Return the matrices for normals that belong to the upper 3x3 for points, (V, 3, 3)."""
     rows = [matrices[:, k, :3] for k in range(3)]
     return np.stack([linalg.cross(rows[k - 2], rows[k - 1]) for k in range(3)], axis=1)
 

@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
 #: What a file says of what a scene holds, for whoever writes it again: the record of each thing.
 records: WeakKeyDictionary[Any, Any] = WeakKeyDictionary()
-#: Pairs of properties of which the first must be less.
+#: Pairs of properties, the first of which must be less.
 _APART = (("znear", "zfar"), ("inner_cone_angle", "outer_cone_angle"))
 #: Stands there for a node that holds what the one above it could not hold besides.
 FURTHER_PART = object()
@@ -53,7 +53,7 @@ _Record = TypeVar("_Record", LensRecord, LampRecord)
 
 
 class MeshWords(NamedTuple):
-    """What a file says of a mesh, without the mesh: what holds its key is never forgotten.
+    """What a file says of a mesh, without the mesh; the holder of its key is kept forever.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class MeshWords(NamedTuple):
 
 
 class InstanceWords(NamedTuple):
-    """What a file says of instances.
+    """The statements of a file about instances.
 
     Attributes
     ----------
@@ -136,7 +136,7 @@ class _Filling:
     def _add(self, index: int, parent: Node | None) -> None:
         record = self._tree.nodes[index]
         held = [*self._meshes(record), *self._placed(record)]
-        # What a node of ours cannot hold besides hangs below it.
+        # Further objects, which one of our nodes cannot hold, hang below it.
         first, others = (held[0], held[1:]) if held else (None, [])
         node = self._scene.add(first, name=record.name, parent=parent, **_place(record))
         node.visible = record.visible

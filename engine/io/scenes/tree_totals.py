@@ -1,4 +1,4 @@
-"""What the shown scene of a tree comes to: its triangles, and the box around it at rest.
+"""The totals of a tree's shown scene: its triangles, and the box around it at rest.
 
 In: a `TreeRecord`. Out: numbers. What is hidden does not count.
 """

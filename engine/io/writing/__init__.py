@@ -1,1 +1,1 @@
-"""What writers share: names, side files, losses."""
+"""Shared by writers: names, side files, losses."""

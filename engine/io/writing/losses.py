@@ -1,4 +1,4 @@
-"""What of a mesh a format cannot hold, in the words of warnings."""
+"""Names, in the words of warnings, what of a mesh a format cannot hold."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def lost_of_materials(mesh: Mesh, unwritten: dict[str, list[str]]) -> list[str]:
 
 
 def lost_of_reading(texture: Texture) -> list[str]:
-    """Return what of how a texture is read only files of engine3d's own hold."""
+    """Return the settings of reading a texture that only engine3d's own files hold."""
     usual = {"anisotropy": 1, "lod_bias": 0.0}
     return [name for name, value in usual.items() if getattr(texture, name) != value]
 

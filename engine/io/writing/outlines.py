@@ -77,7 +77,7 @@ def polygon_outlines(mesh: Mesh, states: np.ndarray | None = None) -> Outlines:
 
 
 def _mixed(states: np.ndarray | None, first: np.ndarray) -> np.ndarray:
-    """Which polygons have triangles of different states."""
+    """Return which polygons have triangles of different states."""
     if states is None:
         return np.zeros(len(first), bool)
     differs = np.r_[False, (states[1:] != states[:-1]).any(axis=1)]
@@ -86,7 +86,7 @@ def _mixed(states: np.ndarray | None, first: np.ndarray) -> np.ndarray:
 
 
 def _fans(faces: np.ndarray, visible: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Which faces are part of a whole fan, and the number of each face's run."""
+    """Return which faces are part of a whole fan, and the number of each face's run."""
     goes_on = (faces[1:, 0] == faces[:-1, 0]) & (faces[1:, 1] == faces[:-1, 2])
     goes_on &= ~visible[1:, 0] & ~visible[:-1, 2]
     starts = np.r_[True, ~goes_on]

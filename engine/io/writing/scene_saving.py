@@ -261,7 +261,7 @@ class _Writing:
         return entry
 
     def _named(self, origin: FileOrigin | PrimitiveOrigin) -> dict[str, Any] | None:
-        """What names a mesh; None if it is to be written as arrays."""
+        """Return the name for a mesh; None if it is to be written as arrays."""
         if isinstance(origin, PrimitiveOrigin):
             return {"primitive": origin.name, "arguments": origin.arguments}
         file = self._relative(origin.path, origin.is_missing)

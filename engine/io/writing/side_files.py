@@ -14,7 +14,7 @@ from ..reading.sources import read_source
 from .written_names import linkable_stem
 
 LIBRARY_MARK = b"# written by engine3d\n"
-# As much of an old library is looked through for the images that it names.
+# So much of an old library is searched for the images that it names.
 _MOST_READ = 1 << 22
 
 
@@ -44,7 +44,7 @@ class SideFiles:
 
     @property
     def usual_library(self) -> str:
-        """Where the library would be if nobody else's file had that name."""
+        """Return the library's usual path, whether or not another file has that name."""
         return os.path.join(self._folder, f"{self._stem}.mtl")
 
     def next_image(self) -> str:

@@ -11,7 +11,7 @@ import os
 import re
 from collections.abc import Iterable
 
-# As many changed names are told one by one.
+# So many changed names are reported one by one.
 _MOST_TOLD = 5
 
 

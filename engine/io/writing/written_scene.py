@@ -131,7 +131,7 @@ class _Making:
         return found
 
     def _below(self, row: _Row) -> list[_Row]:
-        """What hangs below a node of the file, its turned light behind all others."""
+        """Return the children of a node of the file; its turned light comes last."""
         if not isinstance(row, Node):
             return []
         below: list[_Row] = [child for child in row.children if child not in self._folded]
@@ -283,7 +283,7 @@ class _Making:
         return ClipRecord(clip.name, clip.duration, tuple(channels), extras, tuple(properties))
 
     def _property(self, channel: PropertyChannel, clip: str) -> list[PropertyRecord]:
-        """How a property changes; nothing, which is told, of what is not in the file."""
+        """Return how a property changes; nothing, with a warning, if the file lacks it."""
         thing, numbers = channel.target, self._numbers
         if isinstance(thing, Node):
             kind, number = "node", self._row.get(self._folded.get(thing, thing))

@@ -1,4 +1,4 @@
-"""What the built-in environments are made of: directions of pixels, soft shapes, boxes.
+"""The parts of built-in environments: directions of pixels, soft shapes, boxes.
 
 Only IEEE additions, multiplications, divisions and square roots are used, and the project's own
 sine and cosine, so that the pictures have the same bytes on every machine.

@@ -1,4 +1,4 @@
-"""The sky by day: how bright and of which colour it is, by where the sun stands and how hazy it is.
+"""The sky by day: its brightness and colour, from the sun's position and the haze.
 
 In: the direction towards the sun, and the turbidity of the air. Out: the picture of the sky over
 bare ground, and the light of the sun itself. Source: Preetham, Shirley and Smits, "A practical
@@ -54,7 +54,7 @@ _ZENITH_Y = (
     (0.15346, -0.26756, 0.06670, 0.26688),
 )
 _SRGB = ((3.2406, -1.5372, -0.4986), (-0.9689, 1.8758, 0.0415), (0.0557, -0.2040, 1.0570))
-# Of 650, 550 and 450 nm, in micrometres: to the powers of -4.08 and -1.3.
+# At 650, 550 and 450 nm: the wavelengths in micrometres to the powers of -4.08 and -1.3.
 _RAYLEIGH = (5.798471, 11.463579, 25.995187)
 _AEROSOL = (1.750704, 2.175347, 2.823734)
 _GROUND = (0.20, 0.175, 0.14)  # what it reflects
@@ -105,7 +105,7 @@ def pixels(
 
 
 def sunlight(sun: tuple[float, float, float], turbidity: float) -> tuple[float, float, float]:
-    """Return what of the sun arrives where it faces it: irradiance, in red, green and blue."""
+    """Return the irradiance of the sun on a surface that faces it, in red, green and blue."""
     degrees = math.degrees(_from_zenith(sun))
     air = 1.0 / (sun[1] + 0.15 * _power(93.885 - degrees, -1.253))
     beta = 0.04608 * turbidity - 0.04586
@@ -158,7 +158,7 @@ def _distribution(row: tuple[float, ...], up: Any, cosine: Any, gamma: Any) -> A
 def _ground(
     sun: tuple[float, float, float], turbidity: float, light: tuple[float, float, float]
 ) -> list[float]:
-    """What bare ground shows: of the sun, and of the sky, which some directions stand for."""
+    """Return the radiance of bare ground, lit by the sun and by some directions of the sky."""
     sky = _sky_of(sun, turbidity)
     total, weights = [0.0, 0.0, 0.0], 0.0
     for elevation in (0.1, 0.3, 0.5, 0.7, 0.9, 1.1, 1.3, 1.5):

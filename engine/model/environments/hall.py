@@ -24,7 +24,7 @@ _PLASTER, _WOOD, _CEILING_COLOR = (0.78, 0.66, 0.5), (0.44, 0.27, 0.14), (0.72, 
 
 
 class _Hit(NamedTuple):
-    """Where the rays meet the room, and which wall it is there."""
+    """The points where rays meet the room, and the walls there."""
 
     x: Floats
     y: Floats
@@ -86,7 +86,7 @@ def _lamps(hit: _Hit) -> Floats:
 
 
 def _sunlit(hit: _Hit) -> Floats:
-    """Where sun falls through the windows onto the floor, leaning towards the far end."""
+    """Return where the sun falls through the windows onto the floor, slanting to the far end."""
     slope = _HALF_WIDTH - hit.x  # from the wall
     height = _FLOOR + slope * 0.9  # at which the sun passed through the wall
     off = _from_middle(hit.z + 0.45 * slope)

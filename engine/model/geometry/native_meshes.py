@@ -61,6 +61,6 @@ def make_native_mesh(
 
 
 def _core_name(name: str, array: np.ndarray) -> str:
-    """What the core calls an attribute: by its type as well, where it may have several."""
+    """Return the core's name of an attribute; it includes the type if there may be several."""
     kind = "u8" if array.dtype == np.uint8 else "f32"
     return name if name in VERTEX_ATTRIBUTES else f"{name}_{kind}"

@@ -102,7 +102,7 @@ def has_own_materials(mesh: Mesh, came: Came) -> bool:
 
 
 def _held(material: Material) -> dict[str, Any]:
-    """What a material holds; of its textures, what these hold."""
+    """Return what a material holds, with the contents of its textures."""
     held = {key: value for key, value in vars(material).items() if key != "version"}
     held["extras"] = kept(held["extras"]) if held["extras"] else {}  # may be changed in place
     for slot in TEXTURE_SLOTS:

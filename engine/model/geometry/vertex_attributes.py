@@ -1,4 +1,4 @@
-"""What vertices carry beside positions and normals: attributes of `Mesh`, each listed there once.
+"""The attributes of vertices besides positions and normals, each of `Mesh`'s listed there once.
 
 In: a type of meshes, or a mesh. Out: what is known of each attribute, or its arrays. Whatever
 copies, joins or draws meshes takes all of them. The core lists them in csrc/include/e3d_mesh.h.

@@ -1,1 +1,1 @@
-"""What surfaces look like: materials, textures, and how colours are given and shown."""
+"""The looks of surfaces: materials, textures, and how colours are given and shown."""

@@ -1,4 +1,4 @@
-"""What a surface is made of: the numbers and the textures that shading reads.
+"""The material of a surface: the numbers and the textures that shading reads.
 
 A `Material` is plain data, with the fields of glTF 2.0. Colours are kept as they were given (floats
 are linear light, 8-bit integers sRGB; see `colors`) and become linear when the renderer reads

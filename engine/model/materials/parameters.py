@@ -46,7 +46,7 @@ Class = TypeVar("Class", bound=type)
 
 
 class Kind(NamedTuple):
-    """What values a parameter takes.
+    """The kind of values that a parameter takes.
 
     Attributes
     ----------

@@ -254,7 +254,7 @@ class PlacedTexture:
 
     @property
     def matrix(self) -> NDArray[np.float64]:
-        """What places coordinates whose origin is at the bottom left: (2, 3) float64."""
+        """The matrix that places coordinates whose origin is at the bottom left: (2, 3) float64."""
         (sx, sy), (tx, ty) = self.scale, self.offset
         c, s = cos(self.rotation), sin(self.rotation)
         return np.array([[sx * c, -(sy * s), sy * s + tx], [sx * s, sy * c, 1 - sy * c - ty]])

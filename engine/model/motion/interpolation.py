@@ -46,7 +46,7 @@ class Turns(NamedTuple):
 
 
 def turns(a: np.ndarray, b: np.ndarray) -> Turns:
-    """Return the ways from rotations to others: (N, 4) quaternions of any length but zero."""
+    """Return the turns from rotations to others: (N, 4) quaternions of any length but zero."""
     a, b = unit(a), unit(b)
     cosines = _dot(a, b)
     b = np.where((cosines < 0.0)[:, np.newaxis], -b, b)

@@ -17,7 +17,7 @@ INTERPOLATIONS = get_args(Interpolation)
 
 
 class Keyed(Closed):
-    """What has keys, as channels have them; who makes one checks them."""
+    """A thing with keys, as channels have them; whoever makes one checks the keys."""
 
     _interpolation: Interpolation
     _times: NDArray[np.float64]

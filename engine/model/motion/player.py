@@ -1,4 +1,4 @@
-"""What plays clips: it moves the nodes of a scene to where clips have them at a time.
+"""Plays clips: moves the nodes of a scene to their poses at a time.
 
 In: clips, and the time. Out: translations, rotations, scales and morph weights of nodes, and other
 properties. What they are depends on the clips that play and their times alone, never on the frames

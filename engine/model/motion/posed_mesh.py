@@ -109,7 +109,7 @@ def _same(some: dict[str, Any], others: dict[str, Any]) -> bool:
 
 
 def _rest_of(mesh: Mesh, arrays: dict[str, Any]) -> NativeRest:
-    """What is known of a mesh at rest; shared by all that pose it."""
+    """Return the data of a mesh at rest, which all meshes posed from it share."""
     made_of, rest = _rests.get(mesh, ({}, None))
     if rest is None or not _same(arrays, made_of):
         native = make_native_mesh(arrays, 0, _movers_of(arrays))

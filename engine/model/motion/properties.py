@@ -29,7 +29,7 @@ _WIDEST = math.pi - 1e-6
 
 
 class Range(NamedTuple):
-    """What a property may be.
+    """The values that a property may have.
 
     Attributes
     ----------

@@ -16,7 +16,7 @@ WORLD = -2  # the joints have no node above them all
 
 
 class Skeleton(NamedTuple):
-    """What C needs to find the matrices of a skin's joints.
+    """The data from which C finds the matrices of a skin's joints.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Where one can stand: the walkable surfaces of meshes, on a grid of square cells.
+"""The walkable surfaces of meshes, on a grid of square cells.
 
 In: meshes with named materials, Y up. Out: for each cell its layers (ground, a bridge over it, …),
 from below upward, in arrays that never change. C finds the layers (`csrc/scene/navigation/`).

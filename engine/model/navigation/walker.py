@@ -139,7 +139,7 @@ class Walker(Closed):
         return True
 
     def _ground(self, x: float, z: float) -> float:
-        """How high the ground that the feet are on would be at a point near by."""
+        """Return the height at a point near by of the ground under the feet."""
         column, row = _cell(self.grid, self.x, self.z)
         return self.grid._height(self._layer, row, column, x, z)
 

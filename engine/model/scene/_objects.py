@@ -1,4 +1,4 @@
-"""What the nodes of a scene draw: each mesh and each set of instances once, under a number.
+"""The objects of a scene's nodes: each mesh and each set of instances once, under a number.
 
 In: objects, as nodes come and go. Out: their numbers, and their boxes in object space, renewed when
 an object changed. A number is used again only after ``version`` has grown. What a change costs
@@ -61,7 +61,7 @@ class ObjectTable:
 
     @property
     def shapes(self) -> NativeShapes:
-        """What the objects are to rays; told when a ray first asks."""
+        """The shapes of objects for rays; they are set when a ray first asks."""
         shapes = self._shapes
         if shapes is None:
             shapes = self._shapes = NativeShapes(len(self.objects))

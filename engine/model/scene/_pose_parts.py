@@ -1,4 +1,4 @@
-"""What is read of a part of a node's pose: an array that adds up, and cannot be changed in place.
+"""A part of a node's pose as it is read: an array for sums that cannot be changed in place.
 
 ``node.translation += step`` moves the node: the sum is another array, which is assigned. What would
 change a part of the array alone, and so nothing of the node, is an error that says what to do.

@@ -1,4 +1,4 @@
-"""The nodes of a scene whose meshes are bent, and what of them has to be posed anew.
+"""The nodes of a scene whose meshes are bent, and which of them must be posed again.
 
 In: nodes with skins or weights of morph targets. Out: posed meshes, which the scene's arrays draw
 instead of the meshes at rest, and their boxes. What did not move is not posed again.

@@ -1,4 +1,4 @@
-"""What one may ask a scene: what rays meet, what a pixel shows, which colliders are where."""
+"""Queries of a scene: what rays meet, what a pixel shows, which colliders are where."""
 
 from __future__ import annotations
 

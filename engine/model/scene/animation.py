@@ -143,7 +143,7 @@ class Animator(Clock):
 
     def _move(self, eye: np.ndarray | None = None) -> None:
         if self._moving is None or self._moving.removals != self._scene.data.removals:
-            # What only an animator remembers is gone for good.
+            # Spins that only an animator remembers are gone for good.
             self._spins = [spin for spin in self._spins if spin.node is not None]
             self._tracks = [track for track in self._tracks if track.node is not None]
             self._moving = _Moving(self._scene, self._spins, self._tracks)
@@ -154,7 +154,7 @@ class Animator(Clock):
             moving.tracks[number].move(self.time)
 
     def _due(self, rows: np.ndarray, eye: np.ndarray | None) -> np.ndarray:
-        """Which of the nodes in some slots move this time, by number."""
+        """Return which of the nodes in some slots move this time, by number."""
         if eye is None or math.isinf(self._full_rate_distance):
             return np.arange(len(rows))
         self._scene.data.update()
@@ -224,7 +224,7 @@ class Spin(_Described):
 
 
 class _Moving:
-    """What of all that is described moves nodes which are in the scene."""
+    """The descriptions of motion whose nodes are in the scene."""
 
     def __init__(self, scene: Scene, spins: list[Spin], tracks: list[Track]) -> None:
         self.removals = scene.data.removals  # grows also where a node comes back

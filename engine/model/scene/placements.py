@@ -1,4 +1,4 @@
-"""Where nodes are below their parents, kept so that putting them back gives the same bits.
+"""The poses of nodes below their parents, kept so that restoring them gives the same bits.
 
 In: nodes of a scene. Out: their poses, and rotation and scale where the pose follows from these to
 the bit: a rotation that was given is then the same again, which the matrix alone does not tell.

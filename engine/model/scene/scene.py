@@ -309,5 +309,5 @@ def _take_animations(
 
 
 def _unfound(node: object) -> str:
-    """What a caller gave for a node: mostly what `Scene.find` returns of an unknown name."""
+    """Return what was given for a node: mostly the result of `Scene.find` for an unknown name."""
     return "None, which find() returns of an unknown name" if node is None else shown(node)

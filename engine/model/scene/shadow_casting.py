@@ -1,4 +1,4 @@
-"""What all lights say of their shadows, in three.js's words."""
+"""The shadow parameters of all lights, in three.js's words."""
 
 from __future__ import annotations
 

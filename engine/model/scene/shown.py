@@ -1,4 +1,4 @@
-"""What a node shows, as it is bent now, and where.
+"""The object that a node shows, as it is bent now, and its pose.
 
 In: a node whose scene is up to date. Out: a mesh and its world pose. For rays, colliders and all
 others that look at vertices.

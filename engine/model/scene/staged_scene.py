@@ -45,7 +45,7 @@ class StagedScene(Surroundings):
         self.data = StagedData(scene.data, self.beside.data)
 
     def __getattr__(self, name: str) -> Any:
-        """What was not assigned is as the scene has it."""
+        """Return the scene's own value of anything that was not assigned."""
         if name[1:] not in SCENE_VALUES:
             raise AttributeError(f"a StagedScene has no {name}")
         return getattr(self.scene, name)

@@ -1,4 +1,4 @@
-"""What a scene looks like besides its nodes: background, light from all around, fog, exposure.
+"""The surroundings of a scene: background, light from all around, fog, exposure.
 
 In: values, at any time. Out: the same, checked.
 """

@@ -1,4 +1,4 @@
-"""What the nodes of scenes use: meshes, materials, textures, and how many nodes each.
+"""The resources of scenes: meshes, materials, textures, and how many nodes use each.
 
 In: scenes. Out: counts. Nodes that share an object are counted together, so that a scene of tens of
 thousands of nodes costs what its different objects cost.
@@ -29,21 +29,21 @@ def uses_in(scenes: Iterable[Scene]) -> dict[Any, int]:
         drawn = columns["object"][(columns["flags"] & ALIVE != 0) & (columns["object"] >= 0)]
         counts = np.bincount(drawn, minlength=len(scene.data.objects.objects)).tolist()
         for obj, count in zip(scene.data.objects.objects, counts, strict=False):
-            for thing in made_of(obj):
+            for thing in resources_of(obj):
                 uses[thing] = uses.get(thing, 0) + count
     return uses
 
 
 def users_of(scene: Scene, thing: Any) -> tuple[Node, ...]:
     """Return the nodes that use a mesh, material or texture, in the order of the scene."""
-    numbers = {n for n, obj in enumerate(scene.data.objects.objects) if thing in made_of(obj)}
+    numbers = {n for n, obj in enumerate(scene.data.objects.objects) if thing in resources_of(obj)}
     arrays = scene.data.arrays
     rows = np.flatnonzero(np.isin(arrays.columns["object"][: arrays.count], list(numbers)))
     nodes = (arrays.nodes[row] for row in rows.tolist())
     return tuple(node for node in nodes if node is not None)
 
 
-def made_of(obj: Any) -> dict[Any, None]:
+def resources_of(obj: Any) -> dict[Any, None]:
     """Return the mesh, materials and textures that an object of a node is made of, each once."""
     mesh = obj.mesh if isinstance(obj, (InstancedMesh, PosedMesh)) else obj
     if not isinstance(mesh, Mesh):

@@ -1,1 +1,1 @@
-"""What is where in a scene: rays and picking. Trees of boxes in C do the searching."""
+"""Rays and picking in a scene. Trees of boxes in C do the searching."""

@@ -1,4 +1,4 @@
-"""What meshes and instances are to rays: trees of boxes, made when a ray first meets them.
+"""The shapes of meshes and instances for rays: trees of boxes, made when a ray first meets them.
 
 In: `Mesh`, `InstancedMesh`. Out: native trees, made anew when arrays are others, forgotten with
 the object.
@@ -52,7 +52,7 @@ def way_to_face(
 
 
 def tell(shapes: NativeShapes, number: int, obj: Any) -> None:
-    """Tell the shape of a scene's object, as it is at one moment."""
+    """Pass the shape of a scene's object to the core, as it is at one moment."""
     mesh, poses, tree = as_shown(obj), None, None
     if isinstance(obj, InstancedMesh):
         mesh, (tree, poses) = obj.mesh, instance_tree(obj)

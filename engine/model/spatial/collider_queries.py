@@ -1,4 +1,4 @@
-"""Which colliders of a scene a box, a sphere or a ray meets.
+"""Finds the colliders of a scene that a box, a sphere or a ray meets.
 
 In: queries in world space. Out: the nodes whose colliders are met, in the order in which the nodes
 were added. A tree of the colliders' boxes finds those that may be met; then everything is float64,
@@ -228,7 +228,7 @@ def raycast_colliders(
 
 
 def _into_boxes(boxes: np.ndarray, origin: Any, direction: Any) -> np.ndarray:
-    """Where a ray enters boxes (N, 2, 3): 0 from inside, infinite where it does not."""
+    """Return where a ray enters boxes (N, 2, 3): 0 from inside, infinite if it misses."""
     with np.errstate(divide="ignore", invalid="ignore"):
         ways = (boxes - origin) / direction
     along = direction != 0.0
@@ -241,7 +241,7 @@ def _into_boxes(boxes: np.ndarray, origin: Any, direction: Any) -> np.ndarray:
 def _into_spheres(
     centers: np.ndarray, radii: np.ndarray, origin: Any, direction: Any
 ) -> np.ndarray:
-    """Where a ray of unit length enters spheres: 0 from inside, infinite where it does not."""
+    """Return where a unit ray enters spheres: 0 from inside, infinite if it misses."""
     away = centers - origin
     along = linalg.dot(away, direction)
     beside = linalg.dot(away, away) - along * along

@@ -1,4 +1,4 @@
-"""Which meshes surely show their fronts only: those that enclose a volume, seen from outside.
+"""Finds closed meshes, which surely show only fronts: they enclose a volume, seen from outside.
 
 In: meshes. Out: whether their backs show through holes alone, and where these are: who looks into
 them is found by csrc/scene/apertures.c. A mesh with alpha shows its inside through itself, and one

@@ -127,7 +127,7 @@ class DrawList:
             self.renewals += 1
         self._posed = posed
 
-    def open_windows(self, data: AnyData, view: View, size: tuple[int, int]) -> int | None:
+    def open_apertures(self, data: AnyData, view: View, size: tuple[int, int]) -> int | None:
         """Let backs show where the camera may look into holes of meshes that enclose a volume.
 
         Elsewhere they may be left out, of materials that do not show both sides anyway.
@@ -142,13 +142,13 @@ class DrawList:
         Returns
         -------
         count : int or None
-            How many windows there are; None if backs may show anywhere, because the near plane may
-            cut such a mesh or no mesh encloses a volume.
+            How many apertures there are; None if backs may show anywhere, because the near plane
+            may cut such a mesh or no mesh encloses a volume.
         """
         if not self._closed:
             return None
         arrays = data.arrays
-        return self.native.open_windows(
+        return self.native.open_apertures(
             arrays.count, arrays.columns, view.clip_from_world, view.view_from_world, *size
         )
 
@@ -307,7 +307,7 @@ def _mesh_of(obj: Drawn) -> Mesh:
 
 
 def _needs_of(mesh: Mesh, needs: MeshNeeds, normals: Normals) -> MeshNeeds:
-    """Which arrays of this mesh are read, once its materials' flat shading is known."""
+    """Return which arrays of this mesh are read, given its materials' flat shading."""
     smooth, flat = needs.vertex_normals, needs.face_normals
     if normals == "auto":
         flat = flat and any(material.flat_shading for material in mesh.materials)

@@ -1,4 +1,4 @@
-"""Which meshes are the glowing parts of lamps: they let the light of their lamp pass.
+"""Finds the meshes that are the glowing parts of lamps: they let their lamp's light pass.
 
 In: a scene that is up to date, a point or spot light of it. Out: the slots of nodes that cast no
 shadow of this light, though they cast those of others.

@@ -36,13 +36,13 @@ class MaterialList:
     def __init__(self, native: NativeDrawList, color_space: ColorSpace, watch: Watch) -> None:
         self._native, self._color_space, self._watch = native, color_space, watch
         self.untextured: frozenset[Material] = frozenset()
-        # Where they are, as whose, and whether both sides show anyway.
+        # For each material its places, their owners, and whether both sides show anyway.
         self._places: dict[Material, list[tuple[int, int, bool]]] = {}
-        # Which normals they asked for, and whether nothing shows through them.
+        # Which normals materials asked for, and whether they are opaque.
         self._traits: dict[Material, tuple[bool, bool]] = {}
         self._textured: dict[Material, set[Texture]] = {}
         self._users: dict[Texture, set[Material]] = {}
-        # Where materials begin, by their ids, and whether both sides show anyway.
+        # Where lists of materials begin, by their ids, and whether both sides show anyway.
         self._bases: dict[tuple[tuple[int, ...], bool], int] = {}
 
     def base_of(self, materials: list[Material], both: bool) -> int:
@@ -98,5 +98,5 @@ class MaterialList:
 
 
 def _traits_of(material: Material) -> tuple[bool, bool]:
-    """What of a material decides how meshes with it are listed."""
+    """Return the traits of a material that decide how its meshes are listed."""
     return material.flat_shading, material.alpha_mode == "opaque"

@@ -29,7 +29,7 @@ from ...model.materials.textures import Texture
 
 
 class MeshNeeds(NamedTuple):
-    """Which of a mesh's derived arrays a picture reads."""
+    """The derived arrays of a mesh that a picture reads."""
 
     vertex_normals: bool = False
     face_normals: bool = False

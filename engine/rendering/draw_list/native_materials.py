@@ -23,7 +23,7 @@ from .native_handles import is_new, native_texture
 _SMALLEST_SHININESS = 1e-3  # the core wants an exponent above 0; this one shows as 0 would
 _LEAST_LEFT = 2.0**-126  # of light that is absorbed: its logarithm is finite
 _LARGE = 512 * 512  # pixels of a texture whose levels take as long as starting a thread, and longer
-# What the core calls as `Material` does is the same number, or the same colour.
+# Parameters with the same name in the core have the same number, or the same colour, there.
 _SAME = [name for name in PHYSICAL_NUMBERS if name in PARAMETERS]
 _SAME_NUMBERS = [name for name in _SAME if PARAMETERS[name].kind.width == 1]
 _SAME_COLORS = [name for name in _SAME if PARAMETERS[name].kind.width == 3]
@@ -134,5 +134,5 @@ def _physical(material: Material, color_space: ColorSpace) -> dict[str, Any]:
 
 
 def _absorption(left: float, depth: float) -> float:
-    """Log2 of what a unit leaves of light of which ``left`` is there after ``depth``."""
+    """Return log2 of the share of light left after a unit, if ``left`` is there after ``depth``."""
     return min(0.0, math.log2(max(left, _LEAST_LEFT)) / depth)

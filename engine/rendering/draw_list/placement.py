@@ -1,4 +1,4 @@
-"""Where what is listed is drawn: the nodes that may show, at the poses that they have now.
+"""Places the listed nodes: those that may show, at the poses that they have now.
 
 In: the arrays of a scene's nodes, and what the picture leaves out. Out: the draws of a
 `NativeDrawList`, placed by C.
@@ -16,7 +16,7 @@ from .._memo import Memo
 
 
 class Placing(NamedTuple):
-    """How a picture's nodes are selected and drawn."""
+    """The selection and the cameras of a picture's nodes."""
 
     frustum: np.ndarray | None = None  # clip_from_world: what is outside is left out
     marks: float = 0.0  # how far lines and points reach beyond, as a share of half the image
@@ -63,7 +63,7 @@ class Placement:
         """
         frustum, marks, flat, batching = placing
         how = 1.0 + marks if has_marks else 1.0, flat, batching
-        # What is assigned after the update shows in the next frame.
+        # Changes after the update show in the next frame.
         moved = self._placed.differs(arrays, arrays.updated)
         if not moved and self._frustum is frustum and self._how == how:
             return

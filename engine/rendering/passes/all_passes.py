@@ -37,7 +37,7 @@ PASSES: tuple[type[Pass], ...] = (
 
 
 class Plan(NamedTuple):
-    """What pictures of the same options, outputs and size have in common."""
+    """The plan that pictures of the same options, outputs and size share."""
 
     passes: list[Pass]
     listed: tuple[str, ...]  # outputs that draw lists are made for

@@ -1,4 +1,4 @@
-"""Ambient occlusion: what of the light from all around reaches each pixel of a picture.
+"""Ambient occlusion: the share of light from all around that reaches each pixel.
 
 In: depths of what the picture shows, at one sample a pixel, and its view. Out: a share of light for
 each pixel, which the core multiplies ambient light by (docs/exactness, section 21).
@@ -24,7 +24,7 @@ RADIUS_SHARE = 0.1
 
 
 class PixelRays(NamedTuple):
-    """Where pixels look: R125 in docs/exactness."""
+    """The rays of pixels: R125 in docs/exactness."""
 
     across: tuple[float, float]
     down: tuple[float, float]
@@ -57,7 +57,7 @@ def radius_of(options: RenderOptions, bounds: NDArray[np.float64]) -> float:
 
 
 def view_scale(view: View) -> float:
-    """How long a length of the world is in view space, where the camera's pose is scaled."""
+    """Return the length in view space of a unit of the world, if the camera's pose is scaled."""
     return float(linalg.length(view.view_from_world[2, :3]))
 
 

@@ -1,4 +1,4 @@
-"""What a pass is: one step of a picture, such as its maps of shadows, its colours or their glow.
+"""The protocol of passes; a pass is one step of a picture, such as shadow maps, colours or glow.
 
 In: a picture as far as earlier passes have it. Out: what the pass writes. all_passes.py lists them
 in their order, and gives each the arrays that it declares.
@@ -24,7 +24,7 @@ from ..options import RenderOptions
 
 
 class Tools(NamedTuple):
-    """What the passes of one renderer share; 0 threads are all."""
+    """The tools that the passes of one renderer share; 0 threads are all."""
 
     native: NativeRenderer
     draw_list: DrawList

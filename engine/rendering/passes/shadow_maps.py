@@ -57,7 +57,7 @@ class _LightMaps:
 
 
 class _Drawn:
-    """What a map was drawn of: first the moment of the scene, then the nodes themselves.
+    """The state that a map was drawn from: the moment of the scene, then the nodes themselves.
 
     And by which comparisons it is looked up, if its ranges are found.
     """

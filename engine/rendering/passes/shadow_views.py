@@ -119,7 +119,7 @@ def _view_of(axes: Axes, position: Numbers) -> NDArray[np.float64]:
 
 
 class _Square(NamedTuple):
-    """What a map shows: texels in a unit of the world, and where its middle is, in texels."""
+    """The square that a map shows: texels in a unit of the world, and the place of its middle."""
 
     scale: float
     column: int
@@ -171,7 +171,7 @@ def _unproject(
 
 
 def _at_depth(line: list[NDArray[np.float64]], depth: float) -> NDArray[np.float64]:
-    """The point of a line through two points that is so deep in view space."""
+    """Return the point at a depth in view space on the line through two points."""
     first, second = line
     share = (-depth - first[2]) / (second[2] - first[2])
     return first + (second - first) * share

@@ -1,1 +1,1 @@
-"""What is drawn over a picture: axes, grids, labels, scales, counts."""
+"""Overlays on a picture: axes, grids, labels, scales, counts."""

@@ -1,4 +1,4 @@
-"""What culling works with, drawn over the picture: boxes, the tree of boxes, a frustum.
+"""The lines of culling over a picture: boxes, the tree of boxes, a frustum.
 
 In: a scene, a camera, a frame of the same view. Out: lines on the frame, whatever is before them.
 """

@@ -1,4 +1,4 @@
-"""How much of a scene a frame had to draw: nodes, clusters and triangles, stage by stage.
+"""The counts of a frame: nodes, clusters and triangles, stage by stage.
 
 In: `Frame.stats`. Out: a table and a sentence for the overlay, a line for the log.
 """

@@ -1,4 +1,4 @@
-"""What the last frames took: for the title and for the statistics.
+"""The times of the last frames, for the title and for the statistics.
 
 In: for each frame, how long it took to draw and until it was shown. Out: means over the frames of
 the last moment. Frames from before a rest don't count: they tell nothing of what is shown now.

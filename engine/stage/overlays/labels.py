@@ -1,4 +1,4 @@
-"""What is written over a picture: the numbers of the grid, the bar of numbers, axes, metadata.
+"""Text over a picture: the numbers of the grid, the bar of numbers, axes, metadata.
 
 In: a frame and what it shows. Out: the same frame.
 """

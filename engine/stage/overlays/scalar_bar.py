@@ -71,7 +71,7 @@ def place_bar(width: int, height: int, bar: ScalarBar, scale: int = 1) -> BarPla
 
 
 def _edges(width: int, height: int, scale: int) -> tuple[int, int, int]:
-    """How thick a bar is, and the width of padding and margin."""
+    """Return the thickness of a bar, and the widths of padding and margin."""
     unit = min(width, height) // _UNITS
     return max(unit, _FINEST * scale), min(max(unit, 2), PADDING), min(max(unit, 3), MARGIN)
 

@@ -1,4 +1,4 @@
-"""What the user has selected: told in a corner, and outlined in the picture.
+"""The selection: named in a corner, and outlined in the picture.
 
 In: a `RayHit`, and frames that hold object and instance IDs. Out: lines of text; the same pixels,
 with an outline round what shows of the selected object.

@@ -17,7 +17,7 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class FirstView:
-    """Where to look from; what is left open shows all of the model.
+    """The first view of a model; what isn't given is chosen so that all of it shows.
 
     Attributes
     ----------

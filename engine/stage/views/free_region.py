@@ -1,4 +1,4 @@
-"""What a picture has left for the model, beside a bar at its right or at its bottom.
+"""The free part of a picture, beside a bar at its right or at its bottom.
 
 In: which part is taken, and how a view sees. Out: views that show the model in the rest. Planes of
 the frustum that lie unevenly about the line of sight become even ones by a shear along it, so what

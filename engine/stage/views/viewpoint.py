@@ -140,7 +140,7 @@ class Viewpoint:
         axes = self.rotation().T
         support, slopes = support_of_points(points), self._slopes(aspect)
         edges = frustum_reach(support, axes, middle, *slopes)
-        # What a step of the target upward is on the screen, and towards the camera.
+        # A step of the target upward, as it moves on the screen and towards the camera.
         rise, approach = _dot(up, axes[1]), _dot(up, axes[2])
         half = _dot(high - low, np.abs(up)) / 2
         height = max(-half, min(half, edges.y / rise)) if rise > STEEPEST else 0.0
@@ -154,7 +154,7 @@ class Viewpoint:
         self.distance = FRAMING_MARGIN * max(distance - height * approach, parallel) or 1.0
 
     def frame_beside(self, points: np.ndarray, aspect: float, taken: Taken) -> None:
-        """As `frame`, in what is left; the target stays on the axis that views turn about."""
+        """Like `frame`, in the free part; the target stays on the axis that views turn about."""
         if taken == NOTHING:
             self.frame(points, aspect)
             return
@@ -206,7 +206,7 @@ class Viewpoint:
     def _sides(
         self, support: SupportFunction, center: np.ndarray
     ) -> tuple[float, float, float, float]:
-        """How far something reaches to the right, left, top and bottom of ``center``."""
+        """Return the extents to the right, left, top and bottom of ``center``."""
         right, up, _ = self.rotation().T
         directions = np.array([right, -right, up, -up])
         return tuple((support(directions) - linalg.dot(directions, center)).tolist())
@@ -220,7 +220,7 @@ class Viewpoint:
         if ahead + sphere.radius <= 0.0:
             return False
         for aside, slope in ((abs(float(right)), slopes[0]), (abs(float(up)), slopes[1])):
-            # How far the sphere's middle is beyond the side of the frustum.
+            # The distance of the sphere's middle outside the frustum's side.
             if aside - ahead * slope > sphere.radius * math.sqrt(1.0 + slope * slope):
                 return False
         return sphere.radius > SMALLEST * slopes[1] * max(ahead, sphere.radius)

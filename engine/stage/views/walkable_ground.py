@@ -28,7 +28,7 @@ MOST_CELLS = 1500
 
 
 class Ground(NamedTuple):
-    """Where one walks.
+    """The ground that one walks on.
 
     Attributes
     ----------

@@ -3,11 +3,8 @@
  * In:  a stream of random numbers.
  * Out: the hash of a picture with bloom; whether every backend and thread count gave it.
  */
-#ifndef E3D_DRIVER_BLOOM_SCENE_H
-#define E3D_DRIVER_BLOOM_SCENE_H
+#pragma once
 
 #include "check/driver/compare.h"
 
 outcome compare_bloom(random_stream r, const run_plan *plan, const char *title);
-
-#endif

@@ -10,7 +10,10 @@
 
 #include "e3d_canvas.h"
 
-enum { BESIDE = 3, CANVAS_BYTES = 4 * CANVAS_SIDE * (CANVAS_SIDE + BESIDE), SHAPES = 4, UNTOUCHED = 0x5A };
+enum { BESIDE = 3,
+       CANVAS_BYTES = 4 * CANVAS_SIDE * (CANVAS_SIDE + BESIDE),
+       SHAPES = 4,
+       UNTOUCHED = 0x5A };
 
 static const double HOSTILE[] = {0.0, -1e-300, 0.5, 1e9, -3e9, 1e300, INFINITY, -INFINITY, NAN};
 

@@ -4,14 +4,12 @@
  * Out: the hash of the framebuffer; whether both triangle fills gave it, and no byte beside a row
  *      was touched.
  */
-#ifndef E3D_DRIVER_CANVAS_SCENE_H
-#define E3D_DRIVER_CANVAS_SCENE_H
+#pragma once
 
 #include "check/driver/compare.h"
 
-enum { CANVAS_SIDE = 80, CANVAS_CALLS = 40 };
+enum { CANVAS_SIDE = 80,
+       CANVAS_CALLS = 40 };
 
 /* Up to so many pixels wide and high, with so many calls. */
 outcome compare_canvas(random_stream r, int32_t most_side, int calls, const char *title);
-
-#endif

@@ -7,7 +7,10 @@
 #include "e3d_scene.h"
 
 /* Enough for several tasks of an update, and for a tree that is built by several threads. */
-enum { MOST_NODES = 6000, WORDS = MOST_NODES / 64 + 1, OBJECTS = 2, ROUNDS = 3 };
+enum { MOST_NODES = 6000,
+       WORDS = MOST_NODES / 64 + 1,
+       OBJECTS = 2,
+       ROUNDS = 3 };
 
 static const double OBJECT_BOXES[OBJECTS][E3D_OBJECT_BOX] = {{-1, -1, -1, 1, 1, 1, 1, 1, 1}, {-2, -1, 0, 1, 1, 3, 2, 1, 3}};
 
@@ -21,11 +24,23 @@ typedef struct nodes {
 
 static e3d_graph empty_graph(nodes *n)
 {
-    return (e3d_graph){.parent = n->words[0], .first_child = n->words[1], .last_child = n->words[2], .next = n->words[3],
-                       .previous = n->words[4], .object = n->words[5], .id = n->words[6], .changed = n->words[7],
-                       .stack = n->words[8], .flags = n->flags, .pose = n->numbers[0], .rotation = n->numbers[12],
-                       .scale = n->numbers[16], .world = n->numbers[19], .bounds = n->numbers[31],
-                       .pose_version = n->versions[0], .world_version = n->versions[1]};
+    return (e3d_graph){.parent = n->words[0],
+                       .first_child = n->words[1],
+                       .last_child = n->words[2],
+                       .next = n->words[3],
+                       .previous = n->words[4],
+                       .object = n->words[5],
+                       .id = n->words[6],
+                       .changed = n->words[7],
+                       .stack = n->words[8],
+                       .flags = n->flags,
+                       .pose = n->numbers[0],
+                       .rotation = n->numbers[12],
+                       .scale = n->numbers[16],
+                       .world = n->numbers[19],
+                       .bounds = n->numbers[31],
+                       .pose_version = n->versions[0],
+                       .world_version = n->versions[1]};
 }
 
 static void move_some(e3d_graph *g, random_stream *r)

@@ -3,11 +3,8 @@
  * In:  a stream of random numbers.
  * Out: the hash of world poses, boxes and what a search of the tree finds; whether every thread count gave it.
  */
-#ifndef E3D_DRIVER_GRAPH_SCENE_H
-#define E3D_DRIVER_GRAPH_SCENE_H
+#pragma once
 
 #include "check/driver/compare.h"
 
 outcome compare_graph(random_stream r, const run_plan *plan, const char *title);
-
-#endif

@@ -3,11 +3,8 @@
  * In:  a stream of random numbers.
  * Out: the hash of their ambient visibility; whether every backend and thread count gave it, and no NaN.
  */
-#ifndef E3D_DRIVER_OCCLUSION_SCENE_H
-#define E3D_DRIVER_OCCLUSION_SCENE_H
+#pragma once
 
 #include "check/driver/compare.h"
 
 outcome compare_occlusion(random_stream r, const run_plan *plan, const char *title);
-
-#endif

@@ -3,11 +3,8 @@
  * In:  a stream of random numbers.
  * Out: the hash of their colours and depths; whether every thread count gave it.
  */
-#ifndef E3D_DRIVER_PYRENDER_SCENE_H
-#define E3D_DRIVER_PYRENDER_SCENE_H
+#pragma once
 
 #include "check/driver/compare.h"
 
 outcome compare_pyrender(random_stream r, const run_plan *plan, const char *title);
-
-#endif

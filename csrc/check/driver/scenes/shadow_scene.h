@@ -1,11 +1,8 @@
 /* Random shadows for the lights of a scene. */
-#ifndef E3D_DRIVER_SHADOW_SCENE_H
-#define E3D_DRIVER_SHADOW_SCENE_H
+#pragma once
 
 #include "check/driver/random.h"
 #include "check/driver/scenes.h"
 
 /* Gives most lights exact shadows, or maps, which show anything, and lets some draws receive no shadows. */
 void scene_add_shadows(scene *s, random_stream *r);
-
-#endif

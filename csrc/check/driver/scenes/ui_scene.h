@@ -3,11 +3,8 @@
  * In:  a stream of random numbers.
  * Out: the hash of the picture; whether every backend gave it, and no byte beside a row was touched.
  */
-#ifndef E3D_DRIVER_UI_SCENE_H
-#define E3D_DRIVER_UI_SCENE_H
+#pragma once
 
 #include "check/driver/compare.h"
 
 outcome compare_ui(random_stream r, const run_plan *plan, const char *title);
-
-#endif

@@ -12,8 +12,8 @@
 #include <string.h>
 
 /* These statements change nothing that is drawn here. */
-static const char *const ignored[] = {"lod",      "shadow_obj", "trace_obj", "bevel",
-                                      "c_interp", "d_interp",   "vp",        "mg"};
+static const char *const ignored[] = {"lod", "shadow_obj", "trace_obj", "bevel",
+                                      "c_interp", "d_interp", "vp", "mg"};
 
 static bool is_word(const uint8_t *at, const uint8_t *end, const char *word)
 {
@@ -21,7 +21,7 @@ static bool is_word(const uint8_t *at, const uint8_t *end, const char *word)
     return (size_t)(end - at) == length && memcmp(at, word, length) == 0;
 }
 
-/* What `s` sets: 0 for off; -1 if it is no number. */
+/* The value of `s`: 0 for off; -1 if it is no number. */
 static int32_t smoothing_group(const uint8_t *at, const uint8_t *end)
 {
     end = obj_word_end(at, end);
@@ -31,7 +31,7 @@ static int32_t smoothing_group(const uint8_t *at, const uint8_t *end)
         return 1;
     const bool negative = *at == '-';
     int64_t number = 0;
-    /* Groups are small; what stands behind ten characters is left alone. */
+    /* Groups are small numbers; anything behind ten characters is ignored. */
     const uint8_t *const last = end - at > 10 ? at + 10 : end;
     at += negative || *at == '+';
     if (at == last)
@@ -41,7 +41,8 @@ static int32_t smoothing_group(const uint8_t *at, const uint8_t *end)
             return -1;
         number = number * 10 + (*at - '0');
     }
-    return negative ? 0 : number > INT32_MAX ? INT32_MAX : (int32_t)number;
+    return negative ? 0 : number > INT32_MAX ? INT32_MAX
+                                             : (int32_t)number;
 }
 
 static bool add_setter(e3d_obj *obj, e3d_obj_setter_kind kind, const obj_line *line,
@@ -70,7 +71,7 @@ static bool add_setter(e3d_obj *obj, e3d_obj_setter_kind kind, const obj_line *l
     return true;
 }
 
-/* Reads the statements of anything but numbers and indices. */
+/* Reads statements other than numbers and indices. */
 static bool read_other(e3d_obj *obj, const obj_line *line, const uint8_t *keyword_end)
 {
     const uint8_t *keyword = line->at, *end = line->end;

@@ -1,14 +1,12 @@
-/* The checks that need the whole of an OBJ file: indices against the lists.
- *
- * In:  elements as they were read. Out: their arrays. A vertex that does not exist is an error; a texture
- *      coordinate or a normal that does not exist is noted and left out, as are normals without a direction.
- * Where a corner stands is looked up in the file once more, since hardly any file has a wrong one.
- */
+/* Checks that need the whole OBJ file: indices against the lists.
+ * In: elements as they were read. Out: their arrays. A vertex that does not exist is an error. A texture coordinate or a
+ * normal that does not exist is noted and left out, and so are normals without a direction. The place of a bad corner is
+ * looked up in the file again, since hardly any file has one. */
 #include "obj_reader.h"
 
 #include <math.h>
 
-/* Normals whose largest component is outside have no direction that floats could tell. */
+/* A normal whose largest component is not larger has no direction that floats could hold. */
 #define SHORTEST 1e-15
 #define LONGEST 1e15
 
@@ -37,7 +35,7 @@ static bool find_corner(e3d_obj *obj, obj_element_kind kind, size_t corner, e3d_
     return kept || (!found && obj_fail(obj, E3D_OBJ_NO_MEMORY));
 }
 
-/* Takes out the indices of a list that do not exist, and notes them. */
+/* Removes indices of a list that do not exist, and notes them. */
 static bool check_list(e3d_obj *obj, obj_element_kind kind, e3d_obj_list list, int32_t *indices,
                        e3d_obj_note *note)
 {

@@ -1,17 +1,14 @@
 /* Faces, lines and points of an OBJ file: corners `v`, `v/vt`, `v//vn` and `v/vt/vn`.
- *
- * In:  a line behind its keyword. Out: one element more, its indices from 0: OBJ_NONE where a part is left
- *      out, OBJ_OUTSIDE or too large where there is no such vertex. obj_check.c finds out at the end, because
- *      the vertices may follow.
- */
+ * In: a line behind its keyword. Out: one more element with indices from 0: OBJ_NONE where a part is left out, OBJ_OUTSIDE or
+ * too large where there is no such vertex. obj_check.c tests them at the end, because vertices may follow. */
 #include "io/loaders/decimal.h"
 #include "obj_reader.h"
 
 /* More digits than this cannot be an index of anything. */
 #define MOST_DIGITS 18
 
-/* Reads one part of a corner; NULL if it is neither empty nor an integer. Negative indices count back from
- * the `total` rows that stand before. */
+/* Reads one part of a corner; NULL if it is neither empty nor an integer. Negative indices count back from the `total` rows
+ * so far. */
 static inline const uint8_t *read_index(const uint8_t *at, size_t total, int32_t *index)
 {
     const bool negative = *at == '-';
@@ -48,7 +45,7 @@ static inline const uint8_t *read_corner(const uint8_t *at, const size_t totals[
     return at && e3d_is_gap(*at) && corner[E3D_OBJ_V] != OBJ_NONE ? at : NULL;
 }
 
-/* Says what is wrong with a corner. */
+/* Sets the error that describes a bad corner. */
 static bool fail_at_corner(e3d_obj *obj, const obj_line *line, const uint8_t *word)
 {
     const uint8_t *const end = obj_word_end(word, line->end);
@@ -76,7 +73,7 @@ static bool fail_at_corner(e3d_obj *obj, const obj_line *line, const uint8_t *wo
     return obj_fail_at(obj, error, word, end);
 }
 
-/* Makes room for more corners, and in a list that begins now sets those so far to none. */
+/* Makes room for more corners. A list that begins now gets "none" for all corners so far. */
 static bool reserve(e3d_obj *obj, obj_elements *elements, e3d_obj_list list, size_t wanted)
 {
     e3d_array *indices = &elements->indices[list];
@@ -108,7 +105,7 @@ bool obj_read_corners(e3d_obj *obj, obj_element_kind kind, const obj_line *line)
 {
     obj_elements *elements = &obj->reader->elements[kind];
     const size_t first = elements->corners;
-    /* A corner takes a byte, and a blank parts it from the next. */
+    /* A corner takes a byte, and a blank separates it from the next one. */
     const size_t wanted = first + (size_t)(line->end - line->at) / 2 + 1;
     if (wanted > OBJ_MOST || elements->sizes.count == OBJ_MOST)
         return obj_fail(obj, E3D_OBJ_TOO_LARGE);

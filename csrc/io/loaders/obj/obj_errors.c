@@ -1,7 +1,5 @@
-/* What is wrong with an OBJ file, and the words that errors, notes and setters hold.
- *
- * In:  a problem, or a word of the file. Out: the error in the e3d_obj; the word in `names`.
- */
+/* The errors of an OBJ file, and the words that errors, notes and setters refer to.
+ * In: a problem, or a word of the file. Out: the error in the e3d_obj; the word in `names`. */
 #include "obj_reader.h"
 
 #include <string.h>

@@ -1,9 +1,6 @@
-/* Lines of an OBJ file: see obj_lines.h.
- *
- * A '\' at the end of a line continues it, but not that of a comment (a path, say), nor one that is half
- * of a character of two bytes. A '#' begins a comment where a word would begin; within a word, too, in
- * statements of numbers, but for numbers such as 1.#QNAN: names may hold one.
- */
+/* Lines of an OBJ file: see obj_lines.h. A '\' at the end of a line continues it; but not in a comment (it may end a path),
+ * nor as the second byte of a two-byte character. A '#' begins a comment where a word would begin. In statements of numbers
+ * it does so within a word, too, except in numbers such as 1.#QNAN; names may hold one. */
 #include "obj_lines.h"
 
 #include <string.h>
@@ -27,7 +24,7 @@ static bool is_special(uint8_t byte)
     return byte == '\n' || byte == '\r' || byte == '#' || byte == '\\';
 }
 
-/* Finds the first byte that ends a line or asks for a closer look. */
+/* Finds the first byte that ends a line or needs a closer look. */
 static const uint8_t *find_special(const uint8_t *at, const uint8_t *end)
 {
     for (; end - at >= 16; at += 16) {
@@ -58,7 +55,7 @@ static const uint8_t *behind_line_end(const uint8_t *at, const uint8_t *end)
     return at + (at[0] == '\r' && end - at > 1 && at[1] == '\n' ? 2 : 1);
 }
 
-/* Finds where the comment of a joined line begins, or the end of the line. */
+/* Finds the comment of a joined line, or the end of the line. */
 static const uint8_t *find_comment(const uint8_t *start, const uint8_t *end)
 {
     const uint8_t *sign = memchr(start, '#', (size_t)(end - start));
@@ -84,7 +81,7 @@ static bool append(e3d_array *scratch, const uint8_t *bytes, size_t size)
     return true;
 }
 
-/* The length of the UTF-8 character that a byte beyond ASCII begins; 0 if it begins none. */
+/* The length of the UTF-8 character that begins with a byte beyond ASCII; 0 if none does. */
 static size_t utf8_length(uint8_t byte)
 {
     if (byte >= 0xF0)
@@ -94,8 +91,8 @@ static size_t utf8_length(uint8_t byte)
     return byte >= 0xC2 ? 2 : 0;
 }
 
-/* Whether the byte at `at` is the second one of a character: in Shift-JIS, GBK and Big5 it may be a '\'.
- * The bytes beyond ASCII before it then are no UTF-8. */
+/* Whether the byte at `at` is the second one of a character: in Shift-JIS, GBK and Big5 that may be a '\'. The bytes beyond
+ * ASCII before it are then not UTF-8. */
 static bool ends_character(const uint8_t *start, const uint8_t *at)
 {
     const uint8_t *first = at;
@@ -113,7 +110,7 @@ static bool ends_character(const uint8_t *start, const uint8_t *at)
     return false;
 }
 
-/* Copies a line, and those that continue it, to `scratch`. */
+/* Copies a line, and the lines that continue it, to `scratch`. */
 static obj_step join_line(obj_lines *lines, obj_line *line)
 {
     e3d_array *scratch = &lines->scratch;

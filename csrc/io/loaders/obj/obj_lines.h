@@ -5,8 +5,7 @@
  * Always: a plain line is given where it stands. A '\' or a '#', and a last line that nothing ends, are
  *      copied to `scratch`, which holds one line at a time.
  */
-#ifndef E3D_OBJ_LINES_H
-#define E3D_OBJ_LINES_H
+#pragma once
 
 #include "base/grow.h"
 #include "io/loaders/number_text.h"
@@ -17,18 +16,23 @@
 
 typedef struct obj_lines {
     const uint8_t *next, *end;
-    size_t number; /* of the line at `next`, from 1 */
+    size_t number; /* the number of the line at `next`, from 1 */
     e3d_array scratch;
 } obj_lines;
 
 typedef struct obj_line {
     const uint8_t *at, *end;
-    size_t number; /* of the line in which its first word stands */
+    size_t number; /* the number of the line that holds its first word */
 } obj_line;
 
-typedef enum obj_step { OBJ_LINE, OBJ_NO_MORE_LINES, OBJ_LINES_NO_MEMORY } obj_step;
+typedef enum obj_step { OBJ_LINE,
+                        OBJ_NO_MORE_LINES,
+                        OBJ_LINES_NO_MEMORY } obj_step;
 
-typedef enum obj_element_kind { OBJ_FACES, OBJ_LINES, OBJ_POINTS, OBJ_ELEMENT_KINDS } obj_element_kind;
+typedef enum obj_element_kind { OBJ_FACES,
+                                OBJ_LINES,
+                                OBJ_POINTS,
+                                OBJ_ELEMENT_KINDS } obj_element_kind;
 
 void obj_lines_begin(obj_lines *lines, const uint8_t *bytes, size_t size);
 obj_step obj_next_line(obj_lines *lines, obj_line *line);
@@ -47,7 +51,7 @@ static inline const uint8_t *obj_word_end(const uint8_t *at, const uint8_t *end)
     return at;
 }
 
-/* Whether a line, whose blanks are skipped, begins with a keyword of two letters, or of one where `second` is 0. */
+/* Whether a line, behind its blanks, begins with a keyword of two letters, or of one if `second` is 0. */
 static inline bool obj_begins(const obj_line *line, char first, char second)
 {
     const uint8_t *at = line->at;
@@ -55,7 +59,7 @@ static inline bool obj_begins(const obj_line *line, char first, char second)
                                               : e3d_is_gap(at[1]));
 }
 
-/* The elements that a line holds, with line->at behind the keyword; OBJ_ELEMENT_KINDS for none. */
+/* The kind of elements on a line, with line->at moved behind the keyword; OBJ_ELEMENT_KINDS for none. */
 static inline obj_element_kind obj_elements_of(obj_line *line)
 {
     line->at = obj_skip_gaps(line->at, line->end);
@@ -69,5 +73,3 @@ static inline obj_element_kind obj_elements_of(obj_line *line)
         line->at = obj_word_end(line->at, line->end);
     return kind;
 }
-
-#endif

@@ -42,15 +42,14 @@ static bool read_numbers(e3d_obj *obj, e3d_obj_list list, const obj_line *line,
     return true;
 }
 
-/* Adds the colour of a vertex. One without, or with one that is not finite, has NaN for its red; one
- * without alpha, NaN there. */
+/* Adds the colour of a vertex. If it has none, or one that is not finite, its red is NaN; if it has no alpha, that is NaN. */
 static bool add_color(e3d_obj *obj, const double *numbers, size_t count)
 {
     e3d_array *colors = &obj->reader->colors;
     const size_t vertex = obj->counts[E3D_OBJ_V];
     if (!e3d_array_reserve(colors, vertex + 1, 4 * sizeof(double)))
         return obj_fail(obj, E3D_OBJ_NO_MEMORY);
-    double(*rows)[4] = colors->data;
+    double (*rows)[4] = colors->data;
     for (; colors->count <= vertex; colors->count++)
         rows[colors->count][0] = NAN;
     if (count < WITH_COLOR)
@@ -99,7 +98,8 @@ bool obj_read_row(e3d_obj *obj, e3d_obj_list list, const obj_line *line)
 static uint8_t color_byte(double value, double scale)
 {
     const double scaled = value * scale;
-    return (uint8_t)(scaled <= 0 ? 0 : scaled >= 255 ? 255 : scaled + 0.5);
+    return (uint8_t)(scaled <= 0 ? 0 : scaled >= 255 ? 255
+                                                     : scaled + 0.5);
 }
 
 bool obj_convert_colors(e3d_obj *obj)
@@ -107,7 +107,7 @@ bool obj_convert_colors(e3d_obj *obj)
     e3d_array *colors = &obj->reader->colors;
     if (!colors->data)
         return true;
-    const double(*rows)[4] = colors->data;
+    const double (*rows)[4] = colors->data;
     /* Alphas have a range of their own. */
     double largest = 0, largest_alpha = 0;
     for (size_t i = 0; i < colors->count; i++) {

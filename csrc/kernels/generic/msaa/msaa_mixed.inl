@@ -1,6 +1,6 @@
-/* raster with multisampling: which surfaces show in pixels whose samples don't all show the same (R105), a vector of pixels at a time. */
-#ifndef E3D_KERNELS_MIXED_INL
-#define E3D_KERNELS_MIXED_INL
+/* raster with multisampling: finds the surfaces in mixed pixels, whose samples don't all show the same (R105), a vector of
+ * pixels at a time. */
+#pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -10,19 +10,19 @@
 #include "kernels/types/visible.h"
 #include "kernels/generic/setup.inl"
 
-/* Adds a colour that is to be shaded for each lane whose bit is set: that of this ID, at this sample; `number`: the colour's, which stands
- * in the run's length. */
+/* Adds a colour to shade for each lane whose bit is set: it is found for this ID, at this sample. `number` is the colour's,
+ * which is kept as the run's length. */
 static ALWAYS_INLINE int mixed_add(vi32 id, vi32 sample, vi32 number, uint32_t bits, e3d_run *out)
 {
     int32_t owner[V_LANES], rest[V_LANES];
     int count = v_pack(owner, id, bits);
     v_pack(rest, v_ori(sample, v_shl(number, 16)), bits);
-    v_store_pairs(out, v_loadi(owner), v_loadi(rest)); /* a run's sample and length are one word */
+    v_store_pairs(out, v_loadi(owner), v_loadi(rest)); /* a run's sample and length share a word */
     return count;
 }
 
-/* Lists a vector of pixels: a colour for each ID that shows in one, at the first sample that shows it. Which samples show the same is
- * unpredictable: nothing branches on it. */
+/* Lists a vector of pixels: a colour for each ID that shows in a pixel, at the first sample that shows it. Which samples show
+ * the same is unpredictable, so there is no branch on it. */
 static ALWAYS_INLINE int mixed_vector(const e3d_visible_tile *planes, int samples, int first, e3d_run *runs, int count, e3d_mixed_list *list)
 {
     vi32 pixel = v_loadi(list->pixel + first), id[E3D_MOST_MSAA_SAMPLES], number[E3D_MOST_MSAA_SAMPLES];
@@ -53,5 +53,3 @@ static int kernel_list_mixed(const e3d_visible_tile *planes, int samples, int fi
     list->colors = count;
     return first < list->pixels ? first : list->pixels;
 }
-
-#endif

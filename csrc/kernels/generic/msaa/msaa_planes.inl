@@ -1,6 +1,5 @@
-/* raster with multisampling: small records, in strips, and what is done with all planes of a tile. */
-#ifndef E3D_KERNELS_PLANES_INL
-#define E3D_KERNELS_PLANES_INL
+/* raster with multisampling: draws small records in strips, and does what concerns all planes of a tile. */
+#pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -18,15 +17,15 @@
 
 /* ---- small records, in strips ---- */
 
-/* A vector of records, whose edge functions stand here for each plane. */
-typedef struct planes_lanes {
+/* A vector of records, with their edge functions in each plane. */
+typedef struct msaa_lanes {
     records_lanes in;
     int32_t e[E3D_MOST_MSAA_SAMPLES][3][V_LANES];
-} planes_lanes;
+} msaa_lanes;
 
 /* Finds an edge function in each plane; returns where it is greatest. */
-static inline record_edge planes_edge(const vi32 corners[6], int k, const vi32 first[2], const e3d_visible_tile *planes,
-                                      const e3d_sample_pattern *pattern, planes_lanes *out)
+static inline record_edge msaa_edge(const vi32 corners[6], int k, const vi32 first[2], const e3d_visible_tile *planes,
+                                    const e3d_sample_pattern *pattern, msaa_lanes *out)
 {
     vi32 half = v_seti(128);
     vi32 px = v_addi(v_shl(v_addi(first[0], v_seti(planes->x)), 8), half), py = v_addi(v_shl(v_addi(first[1], v_seti(planes->y)), 8), half);
@@ -42,30 +41,32 @@ static inline record_edge planes_edge(const vi32 corners[6], int k, const vi32 f
     return e;
 }
 
-static inline void planes_find(const e3d_record *const r[V_LANES], const e3d_visible_tile *planes, const e3d_sample_pattern *pattern,
-                               planes_lanes *out)
+static inline void msaa_find(const e3d_record *const r[V_LANES], const e3d_visible_tile *planes,
+                             const e3d_sample_pattern *pattern,
+                             msaa_lanes *out)
 {
     vi32 corners[8], first[2];
     record_edge e[3];
     v_load_rows((const void *const *)r, corners);
     records_boxes(corners, corners + 3, planes, pattern->reach, first, &out->in);
     for (int k = 0; k < 3; k++) {
-        e[k] = planes_edge(corners, k, first, planes, pattern, out);
+        e[k] = msaa_edge(corners, k, first, planes, pattern, out);
         records_keep_edge(&e[k], k, &out->in);
     }
     records_rows(e, &out->in);
 }
 
 /* Draws a record in strips, as records_strips does, in all planes side by side. */
-static ALWAYS_INLINE void planes_strips_of(const planes_lanes *lanes, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *planes,
-                                           const e3d_sample_pattern *pattern, const e3d_record_table *table, int count)
+static ALWAYS_INLINE void msaa_strips_of(const msaa_lanes *lanes, int lane, const e3d_record *r, int32_t id,
+                                         e3d_visible_tile *planes,
+                                         const e3d_sample_pattern *pattern, const e3d_record_table *table, int count)
 {
     const records_lanes *in = &lanes->in;
-    planes_strip shared = {.zmin = v_setf(r->zmin), .zmax = v_setf(r->zmax)};
+    msaa_strip shared = {.zmin = v_setf(r->zmin), .zmax = v_setf(r->zmax)};
     vf32 gx = v_setf(r->gx), gy = v_setf(r->gy);
     vf32 along = v_add(v_float(rows_x()), v_setf(in->dx[lane])), z0[E3D_MOST_MSAA_SAMPLES];
     for (int s = 0; s < count; s++)
-        z0[s] = v_setf(planes_z0(r, pattern, s));
+        z0[s] = v_setf(msaa_z0(r, pattern, s));
     for (int strip = 0; strip <= in->strips[lane]; strip++) {
         size_t i = records_sample(in->from[strip][lane]);
         vi32 at = v_addi(v_seti((int32_t)in->from[strip][lane]), v_ori(rows_x(), v_shl(rows_y(), RECORDS_DOWN)));
@@ -82,81 +83,82 @@ static ALWAYS_INLINE void planes_strips_of(const planes_lanes *lanes, int lane, 
         }
         for (int32_t left = in->vectors[strip][lane]; left > 0; left--, i += ROWS * E3D_TILE) {
             vf32 below = v_mul(row, gy);
-            planes_all(&shared, e, column, below, i, r, id, planes, table, count);
+            msaa_all(&shared, e, column, below, i, r, id, planes, table, count);
             row = v_add(row, v_setf(ROWS));
         }
         along = v_add(along, v_setf(ROW_LANES));
     }
 }
 
-/* Four samples are the common number: a constant for the compiler. */
-static void planes_strips(const planes_lanes *lanes, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *planes,
-                          const e3d_sample_pattern *pattern, const e3d_record_table *table)
+/* Mostly there are four samples, which is then a constant for the compiler. */
+static void msaa_strips(const msaa_lanes *lanes, int lane, const e3d_record *r, int32_t id, e3d_visible_tile *planes,
+                        const e3d_sample_pattern *pattern, const e3d_record_table *table)
 {
     if (pattern->count == 4)
-        planes_strips_of(lanes, lane, r, id, planes, pattern, table, 4);
+        msaa_strips_of(lanes, lane, r, id, planes, pattern, table, 4);
     else
-        planes_strips_of(lanes, lane, r, id, planes, pattern, table, pattern->count);
+        msaa_strips_of(lanes, lane, r, id, planes, pattern, table, pattern->count);
 }
 
-/* Draws a record, unless what is there hides it (see records_draw). */
-static inline void planes_draw(planes_lanes *lanes, int lane, const e3d_record *r, int32_t id, uint64_t open, records_touched *touched,
-                               e3d_visible_tile *planes, const e3d_sample_pattern *pattern, const e3d_record_table *table)
+/* Draws a record, unless the visible surface hides it (see records_draw). */
+static inline void msaa_draw(msaa_lanes *lanes, int lane, const e3d_record *r, int32_t id, uint64_t open,
+                             records_touched *touched,
+                             e3d_visible_tile *planes, const e3d_sample_pattern *pattern, const e3d_record_table *table)
 {
     const records_lanes *in = &lanes->in;
     uint64_t met = records_met(in, lane);
-    int strips = in->few >> lane & 1; /* of what is larger, whole blocks need not be written in each plane */
+    int strips = in->few >> lane & 1; /* for larger ones, blocks need not be written in each plane */
     if (!(strips && met & open) && !(met & ~records_behind(r->zmin, planes)))
         return;
     if (!strips) {
         records_tell(touched, planes);
-        planes_wide(in, lane, r, id, planes, pattern, table);
+        msaa_wide(in, lane, r, id, planes, pattern, table);
         return;
     }
     for (uint64_t left = met & planes->noted; left; left &= left - 1)
-        planes_unfold(planes, pattern, table, __builtin_ctzll(left));
+        msaa_unfold(planes, pattern, table, __builtin_ctzll(left));
     touched->met |= met;
     touched->near = r->zmin < touched->near ? r->zmin : touched->near;
-    planes_strips(lanes, lane, r, id, planes, pattern, table);
+    msaa_strips(lanes, lane, r, id, planes, pattern, table);
 }
 
-static void kernel_raster_planes(e3d_visible_tile *planes, const e3d_sample_pattern *pattern, const e3d_record_table *table,
-                                 const uint32_t *ids, int count)
+static void kernel_raster_msaa(e3d_visible_tile *planes, const e3d_sample_pattern *pattern, const e3d_record_table *table,
+                               const uint32_t *ids, int count)
 {
     const e3d_record *r[V_LANES];
     uint32_t turned[V_LANES];
-    planes_lanes lanes;
+    msaa_lanes lanes;
     records_touched touched = {0, E3D_BEYOND_FAR};
     uint64_t open = ~records_behind(1.0f, planes);
     for (int i = 0; i < count; i += V_LANES) {
         int some = count - i < V_LANES ? count - i : V_LANES;
         const uint32_t *id = records_next(table, ids + i, count - i, turned, r);
-        planes_find(r, planes, pattern, &lanes);
+        msaa_find(r, planes, pattern, &lanes);
         for (int l = 0; l < some; l++)
-            planes_draw(&lanes, l, r[l], (int32_t)id[l], open, &touched, planes, pattern, table);
+            msaa_draw(&lanes, l, r[l], (int32_t)id[l], open, &touched, planes, pattern, table);
     }
     records_tell(&touched, planes);
 }
 
 /* ---- all planes of a tile ---- */
 
-static void kernel_planes_settle(e3d_visible_tile *planes, const e3d_sample_pattern *pattern, const e3d_record_table *table)
+static void kernel_msaa_settle(e3d_visible_tile *planes, const e3d_sample_pattern *pattern, const e3d_record_table *table)
 {
     for (uint64_t left = planes->noted; left; left &= left - 1)
-        planes_unfold(planes, pattern, table, __builtin_ctzll(left));
+        msaa_unfold(planes, pattern, table, __builtin_ctzll(left));
 }
 
-static void kernel_planes_measure(e3d_visible_tile *planes, int count, float columns[][E3D_BLOCK])
+static void kernel_msaa_measure(e3d_visible_tile *planes, int count, float columns[][E3D_BLOCK])
 {
     for (uint64_t left = ~planes->noted; left; left &= left - 1) {
         int block = __builtin_ctzll(left);
-        planes_columns(planes, count, block, columns[block]);
+        msaa_columns(planes, count, block, columns[block]);
         visible_bound(planes, block, columns[block]);
     }
 }
 
-/* The pixels of a row that don't show the same in all planes, a bit each, and the IDs of those that do. */
-static inline uint64_t planes_row(const e3d_visible_tile *planes, int count, int row, int32_t *shared)
+/* The mixed pixels of a row, a bit each; `shared` gets the IDs of the others. */
+static inline uint64_t msaa_row(const e3d_visible_tile *planes, int count, int row, int32_t *shared)
 {
     uint64_t mixed = 0;
     for (int x = 0; x < E3D_TILE; x += V_LANES) {
@@ -170,8 +172,8 @@ static inline uint64_t planes_row(const e3d_visible_tile *planes, int count, int
     return mixed;
 }
 
-/* Bits of a row of blocks, spread over the pixels of a row. */
-static inline uint64_t planes_spread(uint64_t blocks)
+/* Spreads the bits of a row of blocks over the pixels of a row. */
+static inline uint64_t msaa_spread(uint64_t blocks)
 {
     uint64_t pixels = 0;
     for (int b = 0; b < VISIBLE_BLOCKS; b++)
@@ -179,8 +181,8 @@ static inline uint64_t planes_spread(uint64_t blocks)
     return pixels;
 }
 
-/* A bit for each pixel of a row that shows nothing in all planes. */
-static inline uint64_t planes_gaps(const int32_t *shared)
+/* The pixels of a row that show nothing in any plane, a bit each. */
+static inline uint64_t msaa_gaps(const int32_t *shared)
 {
     uint64_t gaps = 0;
     for (int x = 0; x < E3D_TILE; x += V_LANES)
@@ -188,8 +190,8 @@ static inline uint64_t planes_gaps(const int32_t *shared)
     return gaps;
 }
 
-static int kernel_planes_split(const e3d_visible_tile *planes, int count, int width, int height, uint64_t mixed[E3D_TILE],
-                               e3d_visible_tile *shared)
+static int kernel_msaa_split(const e3d_visible_tile *planes, int count, int width, int height, uint64_t mixed[E3D_TILE],
+                             e3d_visible_tile *shared)
 {
     uint64_t gaps = 0, empty = 0, inside = ~(uint64_t)0 >> (E3D_TILE - width);
     shared->noted = planes->noted;
@@ -201,15 +203,13 @@ static int kernel_planes_split(const e3d_visible_tile *planes, int count, int wi
     empty &= planes->noted;
     for (int row = 0; row < height; row++) {
         int first = row / RASTER_BLOCK * VISIBLE_BLOCKS;
-        uint64_t noted = planes_spread(planes->noted >> first & 0xFF);
-        gaps |= planes_spread(empty >> first & 0xFF) & inside;
+        uint64_t noted = msaa_spread(planes->noted >> first & 0xFF);
+        gaps |= msaa_spread(empty >> first & 0xFF) & inside;
         mixed[row] = 0;
         if (noted == ~(uint64_t)0)
             continue;
-        mixed[row] = planes_row(planes, count, row, shared->id + row * E3D_TILE) & ~noted & inside;
-        gaps |= planes_gaps(shared->id + row * E3D_TILE) & ~noted & ~mixed[row] & inside;
+        mixed[row] = msaa_row(planes, count, row, shared->id + row * E3D_TILE) & ~noted & inside;
+        gaps |= msaa_gaps(shared->id + row * E3D_TILE) & ~noted & ~mixed[row] & inside;
     }
     return gaps != 0;
 }
-
-#endif

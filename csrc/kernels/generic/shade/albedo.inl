@@ -1,6 +1,5 @@
-/* albedo: what rough surfaces reflect of light that is 1 all around, from a table (R64). */
-#ifndef E3D_KERNELS_ALBEDO_INL
-#define E3D_KERNELS_ALBEDO_INL
+/* albedo: looks up in a table the share of light that rough surfaces reflect if it is 1 all around (R64). */
+#pragma once
 
 #include "base/always_inline.h"
 #include "e3d.h"
@@ -45,5 +44,3 @@ static void kernel_albedo(e3d_dfg kind, const float *roughness, const float *cos
         v_storef(out + i, albedo_of(kind, &at));
     }
 }
-
-#endif

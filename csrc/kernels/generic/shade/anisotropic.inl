@@ -1,10 +1,7 @@
-/* anisotropic: textures whose samples stretch over several texels, read at several places each (R110-R113).
- *
- * In:  a batch with its weights, the slopes of its surfaces, and coordinates. Out: texels, as those of texture.inl.
- * All lanes of a vector read as many probes as the one that needs most.
- */
-#ifndef E3D_KERNELS_ANISOTROPIC_INL
-#define E3D_KERNELS_ANISOTROPIC_INL
+/* anisotropic: reads textures whose samples stretch over several texels at several places each (R110-R113).
+ * In: a batch with its weights, the slopes of its surfaces, and coordinates. Out: texels, as those of texture.inl.
+ * All lanes of a vector read as many probes as the lane that needs most. */
+#pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -15,13 +12,13 @@
 #include "kernels/generic/shade/texture.inl"
 #include "kernels/generic/shade/texel_alpha.inl"
 
-_Static_assert(E3D_MAX_ANISOTROPY * V_LANES <= E3D_BATCH, "a plan has places for all probes of a vector");
+_Static_assert(E3D_MAX_ANISOTROPY *V_LANES <= E3D_BATCH, "a plan has places for all probes of a vector");
 
-/* R111 and R112 of one vector. */
+/* The probes of one vector, by R111 and R112. */
 typedef struct probe_lanes {
     vf32 step[2];
     vi32 number, lod; /* number: of probes */
-    int most;         /* the largest of these numbers */
+    int most;         /* the greatest number of probes of any lane */
 } probe_lanes;
 
 static ALWAYS_INLINE vf32 probe_limit(vf32 texels)
@@ -31,9 +28,9 @@ static ALWAYS_INLINE vf32 probe_limit(vf32 texels)
 
 static ALWAYS_INLINE vf32 probe_abs(vf32 v) { return v_asf(v_andi(v_asi(v), v_seti(0x7FFFFFFF))); }
 
-/* R111: the axes of the footprint, the minor one at least a texel. */
+/* R111: the axes of the footprint; the minor one is at least a texel. */
 typedef struct ellipse_lanes {
-    vf32 longest2, longest, shortest; /* longest2: its square */
+    vf32 longest2, longest, shortest; /* longest2: the square of longest */
     vf32 difference, across, root;    /* D, B and R */
 } ellipse_lanes;
 
@@ -64,7 +61,7 @@ static ALWAYS_INLINE void ellipse_direction(const ellipse_lanes *e, vf32 out[2])
     out[1] = v_mul(y, inverse);
 }
 
-/* What the probes of a batch are found by. */
+/* The input from which the probes of a batch are found. */
 typedef struct probe_source {
     const e3d_batch *batch; /* its samples, and r */
     const e3d_surfaces *surfaces;
@@ -80,7 +77,7 @@ static inline probe_source probes_from(const e3d_batch *batch, const e3d_surface
     return (probe_source){batch, surfaces, slopes, u, v, {1.0f / size[0], 1.0f / size[1]}};
 }
 
-/* R25, times 1 / s^2. */
+/* R25: the changes of coordinates, times 1 / s^2. */
 static ALWAYS_INLINE void changes_of(const probe_source *from, int i, vf32 along[2], vf32 down[2])
 {
     element_lanes lanes = lanes_of(from->batch->surface + i);
@@ -102,7 +99,7 @@ static ALWAYS_INLINE void changes_of(const probe_source *from, int i, vf32 along
     }
 }
 
-/* Where no lane has more than one probe, nothing is asked of the axis. */
+/* Finds the probes of a vector. If no lane has more than one, the axis is not needed. */
 static ALWAYS_INLINE probe_lanes probes_of(const texture_plan *plan, const probe_source *from, int i)
 {
     vf32 along[2], down[2], one = v_setf(1.0f), share = one;
@@ -158,15 +155,15 @@ static ALWAYS_INLINE vf32 probes_alpha(const texture_plan *plan, vi32 number, in
     return most > 1 ? v_div(sum, v_float(number)) : sum;
 }
 
-/* Where texels go, times `scale`: three channels, alpha, or all four. */
+/* The arrays for texels, times `scale`: three channels, alpha, or all four. */
 typedef struct probe_target {
     const float *scale;
     e3d_lane_array *colors; /* or NULL */
     float *alphas;          /* or NULL */
 } probe_target;
 
-/* Some vectors of a batch whose places are found: as many as a plan has room for, so that texels are on their way while others
- * are asked for. */
+/* Some vectors of a batch whose places are found: as many as a plan has room for, so that texels are fetched while later
+ * places are found. */
 typedef struct probe_stretch {
     int first, end, places;
     int32_t number[E3D_BATCH + E3D_PAD];
@@ -222,5 +219,3 @@ static void kernel_texture(e3d_batch *batch, const e3d_surfaces *surfaces, const
         texture_color(&plan, batch);
     }
 }
-
-#endif

@@ -1,6 +1,5 @@
-/* anisotropy: a lobe that is rougher along one direction (R136-R138). */
-#ifndef E3D_KERNELS_ANISOTROPY_INL
-#define E3D_KERNELS_ANISOTROPY_INL
+/* anisotropy: a lobe that is rougher along one direction than across it (R136-R138). */
+#pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -9,14 +8,14 @@
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/shade/texture_slots.inl"
 
-/* The directions of the lobe, rougher along t. */
+/* The directions of the lobe, which is rougher along t. */
 typedef struct stretch_lanes {
     vf32 t[3], b[3], strength;
-    vf32 along, across, product; /* alphas along t and along b */
-    vf32 root;                   /* of Smith's term of the view */
+    vf32 along, across, product; /* the alphas along t and along b */
+    vf32 root;                   /* the root in Smith's term of the view */
 } stretch_lanes;
 
-/* A direction along the surface, where nothing tells one. */
+/* Finds any direction along the surface, if nothing defines one. */
 static inline void stretch_anywhere(const vf32 n[3], vf32 out[3])
 {
     vf32 one = v_setf(1.0f), zero = v_setf(0.0f), x = v_self(v_gt(n[0], zero), n[0], v_sub(zero, n[0]));
@@ -27,15 +26,16 @@ static inline void stretch_anywhere(const vf32 n[3], vf32 out[3])
 }
 
 /* R136 */
-static inline void stretch_directions(const e3d_map_batch *m, const e3d_stretch_map *map, const vf32 n[3], int i, stretch_lanes *out)
+static inline void stretch_directions(const e3d_texture_batch *m, const e3d_anisotropy_texture *texture, const vf32 n[3], int i,
+                                      stretch_lanes *out)
 {
     vf32 one = v_setf(1.0f), zero = v_setf(0.0f), two = v_setf(2.0f), x = one, y = zero, tangent[3], normal[3], b[3];
-    vf32 strength = v_setf(map->strength), cosine = v_setf(map->turn[0]), sine = v_setf(map->turn[1]);
-    if (map->texels) {
-        vf32 unit = v_setf(map->unit);
-        x = v_sub(v_mul(v_mul(v_loadf(map->texels[0] + i), unit), two), one);
-        y = v_sub(v_mul(v_mul(v_loadf(map->texels[1] + i), unit), two), one);
-        strength = v_mul(v_loadf(map->texels[2] + i), v_mul(strength, unit));
+    vf32 strength = v_setf(texture->strength), cosine = v_setf(texture->turn[0]), sine = v_setf(texture->turn[1]);
+    if (texture->texels) {
+        vf32 unit = v_setf(texture->unit);
+        x = v_sub(v_mul(v_mul(v_loadf(texture->texels[0] + i), unit), two), one);
+        y = v_sub(v_mul(v_mul(v_loadf(texture->texels[1] + i), unit), two), one);
+        strength = v_mul(v_loadf(texture->texels[2] + i), v_mul(strength, unit));
     }
     vf32 along = v_sub(v_mul(cosine, x), v_mul(sine, y)), across = v_add(v_mul(sine, x), v_mul(cosine, y));
     for (int c = 0; c < 3; c++) {
@@ -66,10 +66,11 @@ static ALWAYS_INLINE vf32 stretch_smith(const stretch_lanes *s, const vf32 direc
     return v_sqrt(v_add(v_add(v_mul(x, x), v_mul(y, y)), v_mul(cosine, cosine)));
 }
 
-static inline void stretch_begin(const e3d_map_batch *m, const e3d_stretch_map *map, const vf32 n[3], const vf32 view[3], vf32 nv,
+static inline void stretch_begin(const e3d_texture_batch *m, const e3d_anisotropy_texture *texture, const vf32 n[3],
+                                 const vf32 view[3], vf32 nv,
                                  vf32 roughness, int i, stretch_lanes *out)
 {
-    stretch_directions(m, map, n, i, out);
+    stretch_directions(m, texture, n, i, out);
     out->across = v_mul(roughness, roughness);
     out->along = v_add(out->across, v_mul(v_sub(v_setf(1.0f), out->across), v_mul(out->strength, out->strength)));
     out->product = v_mul(out->along, out->across);
@@ -98,5 +99,3 @@ static inline void stretch_bend(const stretch_lanes *s, const vf32 normal[3], co
         out[c] = v_add(p[c], v_mul(v_sub(normal[c], p[c]), k4));
     unit_length(out);
 }
-
-#endif

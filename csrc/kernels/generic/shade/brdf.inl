@@ -1,6 +1,5 @@
-/* model: physically based materials at the samples of a vector (R49, R134, R141). */
-#ifndef E3D_KERNELS_MODEL_INL
-#define E3D_KERNELS_MODEL_INL
+/* BRDF: physically based materials at the samples of a vector (R49, R134, R141). */
+#pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -14,9 +13,9 @@
 #include "kernels/generic/shade/anisotropy.inl"
 #include "kernels/generic/shade/iridescence.inl"
 
-/* Vectors that are shaded side by side. Each step is a loop over them: a processor looks ahead some hundred operations, and one vector
- * has a thousand, of which most wait for roots and quotients of its own. */
-enum { MODEL_VECTORS = 4 };
+/* So many vectors are interleaved, since each step loops over them. One vector has a chain of some thousand operations with
+ * roots and quotients, of which a processor sees only a few hundred at once. */
+enum { BRDF_VECTORS = 4 };
 
 /* A lobe of GGX about a normal. */
 typedef struct lobe_lanes {
@@ -24,20 +23,20 @@ typedef struct lobe_lanes {
     vf32 nv, roughness, A, root;
 } lobe_lanes;
 
-/* What one vector of a batch is, and light on it so far. Whatever the batch has already is read there again: loads cost less than
- * stores. */
-typedef struct model_lanes {
+/* One vector of a batch: its surface, and the light on it so far. What the batch holds is read again there, since loads cost
+ * less than stores. */
+typedef struct brdf_lanes {
     vf32 view[3];
     lobe_lanes base, coat;
     vf32 metallic, top, diffuse[3], f0[3];
-    vf32 rise, f_rise[3]; /* what Schlick's term adds at a grazing angle: to top, to f0 */
+    vf32 rise, f_rise[3]; /* what Schlick's term adds at a grazing angle: to `top`, to `f0` */
     vf32 sheen_power; /* 1 / alpha of the sheen */
-    vf32 transmission, rest; /* rest: 1 less it (R134) */
+    vf32 transmission, rest; /* rest: 1 - transmission (R134) */
     stretch_lanes stretch;
-    vf32 film_share, film[3], film_top; /* R141: what a film reflects of all, and the most of what is no metal */
+    vf32 film_share, film[3], film_top; /* R141: what a film reflects of each channel, and the greatest of that without metal */
     vf32 other_f0[3], metal_f0[3];
     vf32 direct[3], coat_light[3], fuzz[3];
-} model_lanes;
+} brdf_lanes;
 
 static ALWAYS_INLINE void load_three(const e3d_lane_array *lanes, int i, vf32 out[3])
 {
@@ -45,9 +44,9 @@ static ALWAYS_INLINE void load_three(const e3d_lane_array *lanes, int i, vf32 ou
         out[k] = v_loadf(lanes[k] + i);
 }
 
-static ALWAYS_INLINE const e3d_lane_array *coat_normals(const e3d_map_batch *m, const e3d_surface_model *model)
+static ALWAYS_INLINE const e3d_lane_array *coat_normals(const e3d_texture_batch *m, const e3d_brdf *brdf)
 {
-    return model->coat_is_mapped ? m->coat_normal : m->shading_normal;
+    return brdf->coat_is_mapped ? m->coat_normal : m->shading_normal;
 }
 
 static ALWAYS_INLINE void lobe_begin(const vf32 normal[3], const vf32 view[3], vf32 roughness, lobe_lanes *lobe)
@@ -61,7 +60,7 @@ static ALWAYS_INLINE void lobe_begin(const vf32 normal[3], const vf32 view[3], v
     lobe->root = v_sqrt(v_add(lobe->A, v_mul(v_sub(one, lobe->A), v_mul(lobe->nv, lobe->nv))));
 }
 
-static ALWAYS_INLINE void model_view(const e3d_lighting *lighting, const e3d_batch *batch, int i, model_lanes *at)
+static ALWAYS_INLINE void brdf_view(const e3d_lighting *lighting, const e3d_batch *batch, int i, brdf_lanes *at)
 {
     for (int k = 0; k < 3; k++) {
         vf32 eye = v_setf(lighting->eye[k]);
@@ -71,28 +70,28 @@ static ALWAYS_INLINE void model_view(const e3d_lighting *lighting, const e3d_bat
         unit_length(at->view);
 }
 
-static ALWAYS_INLINE vf32 model_reflectance(const e3d_surface_model *model, int k, int i)
+static ALWAYS_INLINE vf32 brdf_reflectance(const e3d_brdf *brdf, int k, int i)
 {
-    return v_mul(v_min(varying_at(&model->reflectance[k], i), v_setf(1.0f)), varying_at(&model->specular, i));
+    return v_mul(v_min(varying_at(&brdf->reflectance[k], i), v_setf(1.0f)), varying_at(&brdf->specular, i));
 }
 
-static ALWAYS_INLINE vf32 usable_sheen_roughness(const e3d_surface_model *model, int i)
+static ALWAYS_INLINE vf32 usable_sheen_roughness(const e3d_brdf *brdf, int i)
 {
-    return v_min(v_max(varying_at(&model->sheen_roughness, i), v_setf(E3D_LEAST_SHEEN_ROUGHNESS)), v_setf(1.0f));
+    return v_min(v_max(varying_at(&brdf->sheen_roughness, i), v_setf(E3D_LEAST_SHEEN_ROUGHNESS)), v_setf(1.0f));
 }
 
-static ALWAYS_INLINE void model_begin(const e3d_batch *batch, const e3d_map_batch *m, const e3d_surface_model *model,
-                                      const e3d_lighting *lighting, int has_coat, int has_sheen, int i, model_lanes *at)
+static ALWAYS_INLINE void brdf_begin(const e3d_batch *batch, const e3d_texture_batch *m, const e3d_brdf *brdf,
+                                     const e3d_lighting *lighting, int has_coat, int has_sheen, int i, brdf_lanes *at)
 {
-    vf32 one = v_setf(1.0f), normal[3], albedo[3], f[3], specular = varying_at(&model->specular, i);
+    vf32 one = v_setf(1.0f), normal[3], albedo[3], f[3], specular = varying_at(&brdf->specular, i);
     load_three(batch->normal, i, normal);
     load_three(batch->color, i, albedo);
-    model_view(lighting, batch, i, at);
-    lobe_begin(normal, at->view, varying_at(&model->roughness, i), &at->base);
-    at->metallic = varying_at(&model->metallic, i);
+    brdf_view(lighting, batch, i, at);
+    lobe_begin(normal, at->view, varying_at(&brdf->roughness, i), &at->base);
+    at->metallic = varying_at(&brdf->metallic, i);
     vf32 rest = v_sub(one, at->metallic), f90 = v_add(specular, v_mul(v_sub(one, specular), at->metallic));
     for (int k = 0; k < 3; k++) {
-        f[k] = model_reflectance(model, k, i);
+        f[k] = brdf_reflectance(brdf, k, i);
         vf32 f0 = v_add(f[k], v_mul(v_sub(albedo[k], f[k]), at->metallic));
         at->f0[k] = f0;
         at->f_rise[k] = v_sub(f90, f0);
@@ -101,56 +100,55 @@ static ALWAYS_INLINE void model_begin(const e3d_batch *batch, const e3d_map_batc
     at->top = v_max(v_max(f[0], f[1]), f[2]);
     at->rise = v_sub(specular, at->top);
     if (has_coat) {
-        load_three(coat_normals(m, model), i, normal);
-        lobe_begin(normal, at->view, varying_at(&model->coat_roughness, i), &at->coat);
+        load_three(coat_normals(m, brdf), i, normal);
+        lobe_begin(normal, at->view, varying_at(&brdf->coat_roughness, i), &at->coat);
     }
     if (has_sheen) {
-        vf32 rough = usable_sheen_roughness(model, i);
+        vf32 rough = usable_sheen_roughness(brdf, i);
         at->sheen_power = v_div(one, v_mul(rough, rough));
     }
 }
 
 /* ---- what few materials have ---- */
 
-/* R134: what passes is not scattered. */
-static ALWAYS_INLINE void model_transmission(const e3d_surface_model *model, int i, model_lanes *at)
+/* R134: light that passes is not scattered. */
+static ALWAYS_INLINE void brdf_transmission(const e3d_brdf *brdf, int i, brdf_lanes *at)
 {
-    at->transmission = varying_at(&model->transmission, i);
+    at->transmission = varying_at(&brdf->transmission, i);
     at->rest = v_sub(v_setf(1.0f), at->transmission);
     for (int k = 0; k < 3; k++)
         at->diffuse[k] = v_mul(at->diffuse[k], at->rest);
 }
 
 /* R141 */
-static inline void model_film(const e3d_batch *batch, const e3d_surface_model *model, int i, model_lanes *at)
+static inline void brdf_iridescence(const e3d_batch *batch, const e3d_brdf *brdf, int i, brdf_lanes *at)
 {
     vf32 other[3], metal[3], zero = v_setf(0.0f), cosine = v_min(at->base.nv, v_setf(1.0f));
     load_three(batch->color, i, at->metal_f0);
     for (int k = 0; k < 3; k++)
-        at->other_f0[k] = model_reflectance(model, k, i);
-    vf32 thickness = v_add(v_setf(model->film_least), varying_at(&model->film, i));
-    if (!model->film.lanes)
-        thickness = v_setf(model->film.factor);
-    at->film_share = v_self(v_gt(thickness, zero), varying_at(&model->iridescence, i), zero);
-    film_reflect(cosine, model->film_ior, thickness, at->other_f0, other);
-    film_reflect(cosine, model->film_ior, thickness, at->metal_f0, metal);
+        at->other_f0[k] = brdf_reflectance(brdf, k, i);
+    vf32 thickness = v_add(v_setf(brdf->iridescence_thickness_least), varying_at(&brdf->iridescence_thickness, i));
+    if (!brdf->iridescence_thickness.lanes)
+        thickness = v_setf(brdf->iridescence_thickness.factor);
+    at->film_share = v_self(v_gt(thickness, zero), varying_at(&brdf->iridescence, i), zero);
+    iridescence_reflect(cosine, brdf->iridescence_ior, thickness, at->other_f0, other);
+    iridescence_reflect(cosine, brdf->iridescence_ior, thickness, at->metal_f0, metal);
     for (int k = 0; k < 3; k++)
         at->film[k] = v_add(other[k], v_mul(v_sub(metal[k], other[k]), at->metallic));
     at->film_top = v_max(v_max(other[0], other[1]), other[2]);
-    film_mix_f0(cosine, other, at->film_share, at->other_f0);
-    film_mix_f0(cosine, metal, at->film_share, at->metal_f0);
+    iridescence_mix_f0(cosine, other, at->film_share, at->other_f0);
+    iridescence_mix_f0(cosine, metal, at->film_share, at->metal_f0);
 }
 
-static ALWAYS_INLINE void model_rare(const e3d_batch *batch, const e3d_map_batch *m, const e3d_surface_model *model, int i, model_lanes *at)
+static ALWAYS_INLINE void brdf_rare(const e3d_batch *batch, const e3d_texture_batch *m, const e3d_brdf *brdf, int i,
+                                    brdf_lanes *at)
 {
     vf32 normal[3];
     load_three(batch->normal, i, normal);
-    if (model->transmits)
-        model_transmission(model, i, at);
-    if (model->anisotropic)
-        stretch_begin(m, &model->stretch, normal, at->view, at->base.nv, at->base.roughness, i, &at->stretch);
-    if (model->iridescent)
-        model_film(batch, model, i, at);
+    if (brdf->transmits)
+        brdf_transmission(brdf, i, at);
+    if (brdf->anisotropic)
+        stretch_begin(m, &brdf->stretch, normal, at->view, at->base.nv, at->base.roughness, i, &at->stretch);
+    if (brdf->iridescent)
+        brdf_iridescence(batch, brdf, i, at);
 }
-
-#endif

@@ -1,6 +1,5 @@
-/* model_lights: lights on physically based materials, and what comes from all around (R50-R55, R138). */
-#ifndef E3D_KERNELS_MODEL_LIGHTS_INL
-#define E3D_KERNELS_MODEL_LIGHTS_INL
+/* Lights on physically based materials, and light from all around (R50-R55, R138). */
+#pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -17,7 +16,7 @@
 #include "kernels/generic/shade/anisotropy.inl"
 #include "kernels/generic/shade/brdf.inl"
 
-/* A light at a sample, in terms of h = l + v. */
+/* A light at a sample, by the half vector h = l + v. */
 typedef struct half_lanes {
     vf32 h[3], square;
 } half_lanes;
@@ -49,7 +48,7 @@ static inline vf32 pow_poly(vf32 x, vf32 n)
 }
 
 /* R53: D times V. */
-static inline vf32 sheen_reflect(const model_lanes *at, const vf32 normal[3], const half_lanes *h, vf32 nl)
+static inline vf32 sheen_reflect(const brdf_lanes *at, const vf32 normal[3], const half_lanes *h, vf32 nl)
 {
     vf32 k[3], one = v_setf(1.0f), nv = v_min(at->base.nv, one);
     cross_three(normal, h->h, k);
@@ -59,14 +58,15 @@ static inline vf32 sheen_reflect(const model_lanes *at, const vf32 normal[3], co
     return v_mul(d, v_div(one, v));
 }
 
-/* A light on one vector: towards it, in which lanes it adds something, and what R51 calls att, e, d and w5. */
+/* A light on one vector: the direction to it, the lanes in which it adds light, and att, e, d and w5 of R51. */
 typedef struct light_lanes {
     vf32 l[3], nl, attenuation, e, d, w5;
     vmask lit;
 } light_lanes;
 
-/* Towards a light, and what of it arrives; 0 where no lane gets any. */
-static ALWAYS_INLINE int model_meet(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, int has_coat, light_lanes *on)
+/* Finds the direction to a light, and the share of it that arrives; 0 if no lane gets any. */
+static ALWAYS_INLINE int brdf_meet(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, int has_coat,
+                                   light_lanes *on)
 {
     const e3d_light *light = &lighting->lights[n];
     vf32 position[3], normal[3], l[3], attenuation = v_setf(1.0f), zero = v_setf(0.0f);
@@ -95,16 +95,18 @@ static ALWAYS_INLINE int model_meet(const e3d_lighting *lighting, int n, const e
     return v_any(lit);
 }
 
-static ALWAYS_INLINE void model_add_coat(const e3d_light *light, const vf32 normal[3], const light_lanes *on, const half_lanes *h, model_lanes *at)
+static ALWAYS_INLINE void brdf_add_coat(const e3d_light *light, const vf32 normal[3], const light_lanes *on,
+                                        const half_lanes *h, brdf_lanes *at)
 {
     vf32 nl = dot_three(normal, on->l);
     vmask lit = v_mand(on->lit, v_gt(nl, v_setf(0.0f)));
     light_sum(at->coat_light, light->lux, v_mul(lobe_reflect(&at->coat, normal, h, nl), v_mul(on->attenuation, nl)), &lit);
 }
 
-/* What it shines like: all that R51 has but once for all channels. coat: the coat's normals, or NULL. */
-static ALWAYS_INLINE void model_shine(const e3d_light *light, const e3d_batch *batch, int i, const e3d_lane_array *coat, int has_sheen,
-                                      const e3d_surface_model *rare, model_lanes *at, light_lanes *on)
+/* Finds the specular terms of R51 that all channels share. coat: the coat's normals, or NULL. */
+static ALWAYS_INLINE void brdf_shine(const e3d_light *light, const e3d_batch *batch, int i, const e3d_lane_array *coat,
+                                     int has_sheen,
+                                     const e3d_brdf *rare, brdf_lanes *at, light_lanes *on)
 {
     vf32 normal[3], one = v_setf(1.0f), zero = v_setf(0.0f), nl = on->nl, d;
     half_lanes h;
@@ -122,11 +124,11 @@ static ALWAYS_INLINE void model_shine(const e3d_light *light, const e3d_batch *b
         light_sum(at->fuzz, light->lux, v_mul(sheen_reflect(at, normal, &h, nl), on->e), &on->lit);
     if (coat) {
         load_three(coat, i, normal);
-        model_add_coat(light, normal, on, &h, at);
+        brdf_add_coat(light, normal, on, &h, at);
     }
 }
 
-static ALWAYS_INLINE void model_add(const e3d_light *light, const e3d_surface_model *rare, const light_lanes *on, model_lanes *at)
+static ALWAYS_INLINE void brdf_add(const e3d_light *light, const e3d_brdf *rare, const light_lanes *on, brdf_lanes *at)
 {
     vf32 top = v_add(at->top, v_mul(at->rise, on->w5));
     if (rare && rare->iridescent)
@@ -141,22 +143,22 @@ static ALWAYS_INLINE void model_add(const e3d_light *light, const e3d_surface_mo
     }
 }
 
-/* R51 of one light on vectors from i on. rare: NULL, or the model with what few materials have. */
-static ALWAYS_INLINE void model_add_light(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, int count,
-                                          const e3d_lane_array *coat, int has_sheen, const e3d_surface_model *rare,
-                                          model_lanes at[MODEL_VECTORS])
+/* R51: adds one light to vectors from i on. rare: NULL, or the BRDF if it has what few materials have. */
+static ALWAYS_INLINE void brdf_add_light(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, int count,
+                                         const e3d_lane_array *coat, int has_sheen, const e3d_brdf *rare,
+                                         brdf_lanes at[BRDF_VECTORS])
 {
     const e3d_light *light = &lighting->lights[n];
-    light_lanes on[MODEL_VECTORS];
-    int lit[MODEL_VECTORS + 1], lit_count = 0;
+    light_lanes on[BRDF_VECTORS];
+    int lit[BRDF_VECTORS + 1], lit_count = 0;
     for (int s = 0; s < count; s++) {
         lit[lit_count] = s;
-        lit_count += model_meet(lighting, n, batch, i + s * V_LANES, coat != NULL, &on[s]);
+        lit_count += brdf_meet(lighting, n, batch, i + s * V_LANES, coat != NULL, &on[s]);
     }
     for (int s = 0; s < lit_count; s++)
-        model_shine(light, batch, i + lit[s] * V_LANES, coat, has_sheen, rare, &at[lit[s]], &on[lit[s]]);
+        brdf_shine(light, batch, i + lit[s] * V_LANES, coat, has_sheen, rare, &at[lit[s]], &on[lit[s]]);
     for (int s = 0; s < lit_count; s++)
-        model_add(light, rare, &on[lit[s]], &at[lit[s]]);
+        brdf_add(light, rare, &on[lit[s]], &at[lit[s]]);
 }
 
 /* ---- light from all around (R54, R55, R138) ---- */
@@ -184,7 +186,8 @@ static ALWAYS_INLINE void around_radiance(const e3d_lighting *lighting, const en
         out[k] = v_add(out[k], more[k]);
 }
 
-/* R55: a lobe under light that is 1 all around: once is what it reflects once, twice a factor of what it reflects more often. */
+/* R55: a lobe under light that is 1 all around. once: the share that it reflects once; twice: a factor for light reflected
+ * more often. */
 typedef struct scatter_lanes {
     vf32 once, twice, q;
 } scatter_lanes;
@@ -197,8 +200,9 @@ static ALWAYS_INLINE scatter_lanes around_scatter(vf32 f0, vf32 f90, vf32 a, vf3
 }
 
 /* R138: the radiance that the base mirrors. */
-static ALWAYS_INLINE void around_base(const e3d_lighting *lighting, const environment_plan *plan, const vf32 normal[3], const model_lanes *at,
-                                      const e3d_surface_model *rare, vf32 out[3])
+static ALWAYS_INLINE void around_base(const e3d_lighting *lighting, const environment_plan *plan, const vf32 normal[3],
+                                      const brdf_lanes *at,
+                                      const e3d_brdf *rare, vf32 out[3])
 {
     if (!rare || !rare->anisotropic) {
         around_radiance(lighting, plan, normal, &at->base, at->view, out);
@@ -217,9 +221,9 @@ typedef struct around_lanes {
     vf32 irradiance[3], radiance[3], a, b;
 } around_lanes;
 
-/* In steps over vectors from i on, as lights are added. */
+/* Finds light from all around for vectors from i on, interleaved as for lights. */
 static ALWAYS_INLINE void around_find(const e3d_lighting *lighting, const environment_plan *plan, const e3d_batch *batch, int i, int count,
-                                      const e3d_surface_model *rare, const model_lanes at[MODEL_VECTORS], around_lanes out[MODEL_VECTORS])
+                                      const e3d_brdf *rare, const brdf_lanes at[BRDF_VECTORS], around_lanes out[BRDF_VECTORS])
 {
     vf32 normal[3];
     for (int s = 0; s < count; s++)
@@ -238,20 +242,20 @@ static ALWAYS_INLINE void around_find(const e3d_lighting *lighting, const enviro
     }
 }
 
-/* R55. through: what passes of light behind (R134). */
-static ALWAYS_INLINE void around_indirect(const e3d_batch *batch, const e3d_surface_model *model, const e3d_surface_model *rare, int i,
-                                          const model_lanes *at, const around_lanes *around, vf32 through[3], vf32 out[3])
+/* R55. through: the share of the light behind that passes (R134). */
+static ALWAYS_INLINE void around_indirect(const e3d_batch *batch, const e3d_brdf *brdf, const e3d_brdf *rare, int i,
+                                          const brdf_lanes *at, const around_lanes *around, vf32 through[3], vf32 out[3])
 {
     const vf32 *radiance = around->radiance, *irradiance = around->irradiance;
-    vf32 one = v_setf(1.0f), a = around->a, b = around->b, rest = v_sub(one, v_add(a, b)), specular = varying_at(&model->specular, i);
-    scatter_lanes other = around_scatter(model_reflectance(model, 0, i), specular, a, b, rest);
+    vf32 one = v_setf(1.0f), a = around->a, b = around->b, rest = v_sub(one, v_add(a, b)), specular = varying_at(&brdf->specular, i);
+    scatter_lanes other = around_scatter(brdf_reflectance(brdf, 0, i), specular, a, b, rest);
     for (int k = 0; k < 3; k++) {
         vf32 albedo = v_loadf(batch->color[k] + i);
         scatter_lanes metal = around_scatter(rare && rare->iridescent ? at->metal_f0[k] : albedo, one, a, b, rest);
         if (rare && rare->iridescent)
             other = around_scatter(at->other_f0[k], specular, a, b, rest);
-        else if (!model->is_grey)
-            other = around_scatter(model_reflectance(model, k, i), specular, a, b, rest);
+        else if (!brdf->is_grey)
+            other = around_scatter(brdf_reflectance(brdf, k, i), specular, a, b, rest);
         vf32 r = v_div(one, v_mul(metal.q, other.q));
         vf32 zt = v_mul(v_mul(metal.twice, v_mul(r, other.q)), rest), zd = v_mul(v_mul(other.twice, v_mul(r, metal.q)), rest);
         vf32 t = v_add(v_mul(radiance[k], metal.once), v_mul(irradiance[k], zt));
@@ -265,5 +269,3 @@ static ALWAYS_INLINE void around_indirect(const e3d_batch *batch, const e3d_surf
         out[k] = v_add(d, v_mul(v_sub(t, d), at->metallic));
     }
 }
-
-#endif

@@ -1,8 +1,6 @@
-/* environment: light from directions (R60-R63). Lanes are anywhere on the cube: each loads two texels side by side at a time, which
- * v_load_rows turns into channels.
- */
-#ifndef E3D_KERNELS_ENVIRONMENT_INL
-#define E3D_KERNELS_ENVIRONMENT_INL
+/* environment: light from directions (R60-R63). Lanes lie anywhere on the cube: each loads two neighbouring texels at a time,
+ * which v_load_rows turns into channels. */
+#pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -11,7 +9,7 @@
 
 enum { ENVIRONMENT_LAST = E3D_ENVIRONMENT_LEVELS - 1 };
 
-/* An environment's levels as tables, to look up by lane. */
+/* An environment's levels as tables, indexed by lane. */
 typedef struct environment_plan {
     const e3d_environment_light *light;
     const float *texels;
@@ -29,7 +27,7 @@ static inline void environment_begin(const e3d_environment_light *light, environ
     }
 }
 
-/* A place on the cube: coordinates in [-1, 1]. */
+/* A point on the cube: its face, and coordinates in [-1, 1]. */
 typedef struct environment_place {
     vi32 face;
     vf32 p, q;
@@ -37,7 +35,7 @@ typedef struct environment_place {
 
 static inline vf32 environment_abs(vf32 v) { return v_asf(v_andi(v_asi(v), v_seti(0x7FFFFFFF))); }
 
-/* 1 where the coordinate is negative. */
+/* 1 if the coordinate is negative, else 0. */
 static inline vi32 environment_side(vmask negative) { return v_seli(negative, v_seti(1), v_seti(0)); }
 
 static ALWAYS_INLINE environment_place environment_find(const environment_plan *plan, const vf32 d[3])
@@ -59,7 +57,7 @@ static ALWAYS_INLINE environment_place environment_find(const environment_plan *
     return at;
 }
 
-/* Where a coordinate of a level lies: its texel, border included, and the weight of the next. */
+/* Finds the texel of a coordinate in a level, counted with the border, and the weight of the next texel. */
 static ALWAYS_INLINE vi32 environment_texel(vf32 p, vf32 half, vf32 *weight)
 {
     vf32 least = v_setf(0.5f), middle = v_add(half, least);
@@ -71,7 +69,7 @@ static ALWAYS_INLINE vi32 environment_texel(vf32 p, vf32 half, vf32 *weight)
 
 static inline vf32 environment_mix(vf32 a, vf32 b, vf32 weight) { return v_add(a, v_mul(v_sub(b, a), weight)); }
 
-/* R61: start and pitch are those of each lane's level. */
+/* R61: samples a level; start and pitch are those of each lane's level. */
 static ALWAYS_INLINE void environment_level(const environment_plan *plan, const environment_place *at, vi32 start, vi32 pitch, vf32 out[3])
 {
     vf32 half = v_mul(v_float(v_subi(pitch, v_seti(2))), v_setf(0.5f)), f, g;
@@ -93,7 +91,7 @@ static ALWAYS_INLINE void environment_level(const environment_plan *plan, const 
     }
 }
 
-/* One level of all lanes. */
+/* Finds the starts of one level for all lanes. */
 static ALWAYS_INLINE void environment_at(const environment_plan *plan, const environment_place *at, int level, vf32 out[3])
 {
     environment_level(plan, at, v_seti(plan->start[level]), v_seti(plan->pitch[level]), out);
@@ -105,7 +103,7 @@ static ALWAYS_INLINE void environment_scale(const environment_plan *plan, vf32 c
         color[k] = v_mul(color[k], v_setf(plan->light->intensity));
 }
 
-/* R62 along directions of any length. */
+/* R62 for directions of any length. */
 static ALWAYS_INLINE void environment_radiance(const environment_plan *plan, const vf32 direction[3], vf32 level, vf32 out[3])
 {
     environment_place at = environment_find(plan, direction);
@@ -118,8 +116,8 @@ static ALWAYS_INLINE void environment_radiance(const environment_plan *plan, con
     environment_scale(plan, out);
 }
 
-/* The same for one level of all lanes, as a material without a texture of roughness has it: where it is a whole number, one
- * look-up is left out. */
+/* The same if all lanes have one level, as for a material without a roughness texture. If the level is a whole number, one
+ * lookup is left out. */
 static ALWAYS_INLINE void environment_radiance_at(const environment_plan *plan, const vf32 direction[3], float level, vf32 out[3])
 {
     float l = level > 0.0f ? level : 0.0f;
@@ -127,7 +125,7 @@ static ALWAYS_INLINE void environment_radiance_at(const environment_plan *plan, 
     int fine = (int)l < ENVIRONMENT_LAST - 1 ? (int)l : ENVIRONMENT_LAST - 1;
     environment_place at = environment_find(plan, direction);
     environment_at(plan, &at, fine, out);
-    if (l > (float)fine) { /* else nothing is added to numbers that are finite and not below 0 */
+    if (l > (float)fine) { /* otherwise nothing would be added to numbers that are finite and not below 0 */
         vf32 weight = v_setf(l - (float)fine), coarser[3];
         environment_at(plan, &at, fine + 1, coarser);
         for (int k = 0; k < 3; k++)
@@ -136,13 +134,13 @@ static ALWAYS_INLINE void environment_radiance_at(const environment_plan *plan, 
     environment_scale(plan, out);
 }
 
-/* What surfaces of that roughness mirror along these directions. */
+/* The light that surfaces of that roughness mirror along these directions. */
 static ALWAYS_INLINE void environment_specular(const environment_plan *plan, const vf32 direction[3], vf32 roughness, vf32 out[3])
 {
     environment_radiance(plan, direction, v_mul(roughness, v_setf((float)ENVIRONMENT_LAST)), out);
 }
 
-/* Irradiance / pi: what white surfaces that are rough all over show at these normals. */
+/* Irradiance / pi at these normals: the light that white surfaces of roughness 1 show. */
 static ALWAYS_INLINE void environment_irradiance(const environment_plan *plan, const vf32 normal[3], vf32 out[3])
 {
     environment_place at = environment_find(plan, normal);
@@ -193,5 +191,3 @@ static void kernel_backdrop(const e3d_backdrop *backdrop, int x, int y, int coun
             v_storef(color[k] + i, out[k]);
     }
 }
-
-#endif

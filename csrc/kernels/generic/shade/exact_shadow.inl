@@ -1,8 +1,6 @@
-/* hidden: which lights that cast exact shadows are hidden from samples (R98-R102). A sample's own cell of each level of a light's grid
- * holds all casters that R99 may take: whether x lies within a box is asked of rounded numbers, and cells are found by steps that never
- * turn order round. */
-#ifndef E3D_KERNELS_HIDDEN_INL
-#define E3D_KERNELS_HIDDEN_INL
+/* exact shadows: finds which lights are hidden from samples (R98-R102). A sample's cell, in each level of a light's grid,
+ * holds all casters that R99 may find: both sides compare the same rounded numbers, and cells are found by monotone steps. */
+#pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -14,9 +12,9 @@
 
 /* ---- planes of surfaces (R100) ---- */
 
-static ALWAYS_INLINE vf32 hidden_abs(vf32 a) { return v_asf(v_andi(v_asi(a), v_seti(INT32_MAX))); }
+static ALWAYS_INLINE vf32 exact_abs(vf32 a) { return v_asf(v_andi(v_asi(a), v_seti(INT32_MAX))); }
 
-static ALWAYS_INLINE void hidden_edges(const e3d_surfaces *s, int n, vf32 e[3], vf32 f[3], vf32 most[3], vf32 sum[3])
+static ALWAYS_INLINE void exact_edges(const e3d_surfaces *s, int n, vf32 e[3], vf32 f[3], vf32 most[3], vf32 sum[3])
 {
     for (int c = 0; c < 3; c++) {
         vf32 corner[3];
@@ -24,22 +22,22 @@ static ALWAYS_INLINE void hidden_edges(const e3d_surfaces *s, int n, vf32 e[3], 
             corner[v] = v_loadf(s->position[c][v] + n);
         e[c] = v_sub(corner[1], corner[0]);
         f[c] = v_sub(corner[2], corner[0]);
-        most[c] = v_max(v_max(hidden_abs(corner[0]), hidden_abs(corner[1])), hidden_abs(corner[2]));
-        sum[c] = v_add(hidden_abs(e[c]), hidden_abs(f[c]));
+        most[c] = v_max(v_max(exact_abs(corner[0]), exact_abs(corner[1])), exact_abs(corner[2]));
+        sum[c] = v_add(exact_abs(e[c]), exact_abs(f[c]));
     }
 }
 
-static ALWAYS_INLINE void hidden_plane(const e3d_surfaces *s, int n, e3d_receivers *out)
+static ALWAYS_INLINE void exact_plane(const e3d_surfaces *s, int n, e3d_receivers *out)
 {
     vf32 e[3], f[3], most[3], sum[3], m[3], limit[3], share = v_setf(E3D_PLANE_SLACK);
-    hidden_edges(s, n, e, f, most, sum);
+    exact_edges(s, n, e, f, most, sum);
     for (int c = 0; c < 3; c++)
         m[c] = v_sub(v_mul(e[(c + 1) % 3], f[(c + 2) % 3]), v_mul(e[(c + 2) % 3], f[(c + 1) % 3]));
-    vf32 i = v_div(v_setf(1.0f), v_max(v_max(hidden_abs(m[0]), hidden_abs(m[1])), hidden_abs(m[2])));
+    vf32 i = v_div(v_setf(1.0f), v_max(v_max(exact_abs(m[0]), exact_abs(m[1])), exact_abs(m[2])));
     for (int c = 0; c < 3; c++) {
         int c1 = (c + 1) % 3, c2 = (c + 2) % 3;
         vf32 normal = v_mul(m[c], i), slack = v_add(v_mul(most[c1], sum[c2]), v_mul(most[c2], sum[c1]));
-        limit[c] = v_mul(hidden_abs(normal), most[c]);
+        limit[c] = v_mul(exact_abs(normal), most[c]);
         v_storef(out->normal[c] + n, normal);
         v_storef(out->slack[c] + n, v_mul(v_mul(slack, i), share));
     }
@@ -49,26 +47,26 @@ static ALWAYS_INLINE void hidden_plane(const e3d_surfaces *s, int n, e3d_receive
 static void kernel_receivers(const e3d_surfaces *surfaces, e3d_receivers *out)
 {
     for (int n = 0; n < surfaces->count; n += V_LANES)
-        hidden_plane(surfaces, n, out);
+        exact_plane(surfaces, n, out);
 }
 
 /* ---- a vector of samples and one light ---- */
 
-typedef struct hidden_lanes {
+typedef struct exact_lanes {
     const e3d_caster_index *index;
     const float (*corners)[9]; /* of the light */
-    int x, y, z;               /* where those of the face begin */
+    int x, y, z;               /* where x, y and z of the face begin in a caster's corners */
     int is_point;
-    float sign;            /* of z; of point lights */
-    vf32 place[2], far;    /* x and y, or slopes, and z of R98 */
+    float sign;            /* of z, for point lights */
+    vf32 place[2], far;    /* x and y of R98, or slopes; and z */
     vf32 position[3], normal[3], slack[3], limit; /* the plane of R100, turned to the light */
     vi32 surface;
-    vf32 towards[3]; /* the light, of any length */
+    vf32 towards[3]; /* the direction to the light, of any length */
     int has_plane;
     const e3d_receivers *receivers;
-} hidden_lanes;
+} exact_lanes;
 
-static ALWAYS_INLINE vf32 hidden_pick(const float *from, const int32_t *at)
+static ALWAYS_INLINE vf32 exact_pick(const float *from, const int32_t *at)
 {
     float lanes[V_LANES];
     for (int lane = 0; lane < V_LANES; lane++)
@@ -76,16 +74,16 @@ static ALWAYS_INLINE vf32 hidden_pick(const float *from, const int32_t *at)
     return v_loadf(lanes);
 }
 
-/* Fetches the samples' planes, which many never need. */
-static void hidden_fetch_planes(hidden_lanes *at)
+/* Fetches the samples' planes, which many samples never need. */
+static void exact_fetch_planes(exact_lanes *at)
 {
     int32_t surface[V_LANES];
     v_storei(surface, at->surface);
     for (int c = 0; c < 3; c++) {
-        at->normal[c] = hidden_pick(at->receivers->normal[c], surface);
-        at->slack[c] = hidden_pick(at->receivers->slack[c], surface);
+        at->normal[c] = exact_pick(at->receivers->normal[c], surface);
+        at->slack[c] = exact_pick(at->receivers->slack[c], surface);
     }
-    at->limit = hidden_pick(at->receivers->limit, surface);
+    at->limit = exact_pick(at->receivers->limit, surface);
     vmask away = v_lt(dot_three(at->normal, at->towards), v_setf(0.0f));
     for (int c = 0; c < 3; c++)
         at->normal[c] = v_self(away, v_sub(v_setf(0.0f), at->normal[c]), at->normal[c]);
@@ -93,7 +91,7 @@ static void hidden_fetch_planes(hidden_lanes *at)
 }
 
 /* R99: A and B of the corners. */
-static ALWAYS_INLINE void hidden_corners(const hidden_lanes *at, const float *caster, int is_point, vf32 a[3], vf32 b[3])
+static ALWAYS_INLINE void exact_corners(const exact_lanes *at, const float *caster, int is_point, vf32 a[3], vf32 b[3])
 {
     for (int k = 0; k < 3; k++) {
         vf32 x = at->place[0], y = at->place[1];
@@ -107,17 +105,17 @@ static ALWAYS_INLINE void hidden_corners(const hidden_lanes *at, const float *ca
     }
 }
 
-static ALWAYS_INLINE vmask hidden_spans(const vf32 a[3])
+static ALWAYS_INLINE vmask exact_spans(const vf32 a[3])
 {
     vf32 zero = v_setf(0.0f), low = v_min(v_min(a[0], a[1]), a[2]), high = v_max(v_max(a[0], a[1]), a[2]);
     return v_mand(v_ge(zero, low), v_ge(high, zero));
 }
 
 /* R99: the lanes whose ray goes through the caster, and the weights of its corners. */
-static ALWAYS_INLINE vmask hidden_inside(const hidden_lanes *at, const float *caster, int is_point, vmask lanes, vf32 weight[3])
+static ALWAYS_INLINE vmask exact_inside(const exact_lanes *at, const float *caster, int is_point, vmask lanes, vf32 weight[3])
 {
     vf32 a[3], b[3], zero = v_setf(0.0f);
-    hidden_corners(at, caster, is_point, a, b);
+    exact_corners(at, caster, is_point, a, b);
     for (int k = 0; k < 3; k++) {
         int i = (k + 2) % 3, j = (k + 1) % 3;
         weight[k] = v_sub(v_mul(a[i], b[j]), v_mul(b[i], a[j]));
@@ -127,22 +125,22 @@ static ALWAYS_INLINE vmask hidden_inside(const hidden_lanes *at, const float *ca
     lanes = v_mand(lanes, v_mor(above, below));
     if (!v_any(lanes))
         return lanes;
-    return v_mand(lanes, v_mand(hidden_spans(a), hidden_spans(b)));
+    return v_mand(lanes, v_mand(exact_spans(a), exact_spans(b)));
 }
 
-/* R101: the lanes of these where the hit is above the sample's plane and before the light. */
-static vmask hidden_above(hidden_lanes *at, uint32_t number, vmask lanes, vf32 weight[3])
+/* R101: of these lanes, those where the hit is above the sample's plane and before the light. */
+static vmask exact_above(exact_lanes *at, uint32_t number, vmask lanes, vf32 weight[3])
 {
     const float *world = at->index->world[number], *caster = at->corners[number];
     vf32 zero = v_setf(0.0f), det = v_add(v_add(weight[0], weight[1]), weight[2]), height[3], z[3];
     if (!at->has_plane)
-        hidden_fetch_planes(at);
+        exact_fetch_planes(at);
     vf32 r = v_div(v_setf(1.0f), det);
     for (int k = 0; k < 3; k++) {
         vf32 d[3], size[3];
         for (int c = 0; c < 3; c++) {
             d[c] = v_sub(v_setf(world[3 * k + c]), at->position[c]);
-            size[c] = hidden_abs(d[c]);
+            size[c] = exact_abs(d[c]);
         }
         height[k] = v_sub(dot_three(at->normal, d), dot_three(at->slack, size));
         weight[k] = v_mul(weight[k], r);
@@ -153,8 +151,8 @@ static vmask hidden_above(hidden_lanes *at, uint32_t number, vmask lanes, vf32 w
     return at->is_point ? v_mand(lanes, v_gt(dot_three(weight, z), zero)) : lanes;
 }
 
-/* R101: the lanes of these where the caster has no hole. */
-static vmask __attribute__((noinline)) hidden_solid(const hidden_lanes *at, uint32_t number, vmask lanes, const vf32 weight[3])
+/* R101: of these lanes, those where the caster has no hole. */
+static vmask __attribute__((noinline)) exact_solid(const exact_lanes *at, uint32_t number, vmask lanes, const vf32 weight[3])
 {
     float weights[3][V_LANES];
     int32_t solid[V_LANES];
@@ -170,8 +168,9 @@ static vmask __attribute__((noinline)) hidden_solid(const hidden_lanes *at, uint
 
 /* ---- grids ---- */
 
-/* The lanes of these that a caster of the cell hides. */
-static ALWAYS_INLINE vmask hidden_in_cell(hidden_lanes *at, const e3d_caster_box *box, const e3d_caster_box *end, int is_point, vmask lanes)
+/* Of these lanes, those that a caster of the cell hides. */
+static ALWAYS_INLINE vmask exact_in_cell(exact_lanes *at, const e3d_caster_box *box, const e3d_caster_box *end, int is_point,
+                                         vmask lanes)
 {
     vmask open = lanes;
     for (; box < end; box++) {
@@ -183,12 +182,12 @@ static ALWAYS_INLINE vmask hidden_in_cell(hidden_lanes *at, const e3d_caster_box
         if (!v_any(under))
             continue;
         vf32 weight[3];
-        under = hidden_inside(at, at->corners[box->caster], is_point, under, weight);
+        under = exact_inside(at, at->corners[box->caster], is_point, under, weight);
         if (!v_any(under))
             continue;
-        under = hidden_above(at, box->caster, under, weight);
+        under = exact_above(at, box->caster, under, weight);
         if (at->index->may_be_open[box->caster] && v_any(under))
-            under = hidden_solid(at, box->caster, under, weight);
+            under = exact_solid(at, box->caster, under, weight);
         open = v_mandnot(open, under);
         if (!v_any(open))
             break;
@@ -196,26 +195,27 @@ static ALWAYS_INLINE vmask hidden_in_cell(hidden_lanes *at, const e3d_caster_box
     return v_mandnot(lanes, open);
 }
 
-static ALWAYS_INLINE vi32 hidden_column(const e3d_caster_grid *grid, vf32 x, int axis)
+static ALWAYS_INLINE vi32 exact_column(const e3d_caster_grid *grid, vf32 x, int axis)
 {
     vf32 at = v_mul(v_sub(x, v_setf(grid->low[axis])), v_setf(grid->scale[axis]));
     float last = (float)((1 << (grid->levels - 1)) - 1);
     return v_trunc(v_min(v_max(at, v_setf(0.0f)), v_setf(last)));
 }
 
-/* A cell, and the lanes in it. */
-typedef struct hidden_cell {
+/* A cell, and the lanes whose samples lie in it. */
+typedef struct exact_cell {
     uint32_t first, end;
     vmask lanes;
-} hidden_cell;
+} exact_cell;
 
-static ALWAYS_INLINE const uint32_t *hidden_start(const e3d_caster_grid *grid, int level, int32_t column, int32_t row)
+static ALWAYS_INLINE const uint32_t *exact_start(const e3d_caster_grid *grid, int level, int32_t column, int32_t row)
 {
     return grid->starts[level] + ((size_t)row << (grid->levels - 1 - level)) + column;
 }
 
-/* Finds the cells of a level that lanes are in, and asks for their boxes: they come from anywhere in memory. */
-static ALWAYS_INLINE int hidden_cells(const e3d_caster_grid *grid, int level, vf32 finest_column, vf32 finest_row, vmask lanes, hidden_cell *out)
+/* Finds the cells of a level in which lanes lie, and prefetches their boxes, which lie anywhere in memory. */
+static ALWAYS_INLINE int exact_cells(const e3d_caster_grid *grid, int level, vf32 finest_column, vf32 finest_row, vmask lanes,
+                                     exact_cell *out)
 {
     int count = 0;
     int32_t columns[V_LANES], rows[V_LANES];
@@ -226,8 +226,8 @@ static ALWAYS_INLINE int hidden_cells(const e3d_caster_grid *grid, int level, vf
     for (vmask left = lanes; v_any(left);) {
         int lane = __builtin_ctz(v_bits(left));
         vmask here = v_mand(left, v_mand(v_eqi(column, v_seti(columns[lane])), v_eqi(row, v_seti(rows[lane]))));
-        const uint32_t *start = hidden_start(grid, level, columns[lane], rows[lane]);
-        out[count] = (hidden_cell){start[0], start[1], here};
+        const uint32_t *start = exact_start(grid, level, columns[lane], rows[lane]);
+        out[count] = (exact_cell){start[0], start[1], here};
         count += start[0] < start[1];
         __builtin_prefetch(grid->boxes + start[0]);
         left = v_mandnot(left, here);
@@ -235,8 +235,8 @@ static ALWAYS_INLINE int hidden_cells(const e3d_caster_grid *grid, int level, vf
     return count;
 }
 
-/* Asks for the starts of the fine cells while casters of the coarse ones are tested. */
-static ALWAYS_INLINE void hidden_fetch_starts(const e3d_caster_grid *grid, vf32 column, vf32 row, uint32_t lanes)
+/* Prefetches the starts of the fine cells while casters of the coarse cells are tested. */
+static ALWAYS_INLINE void exact_fetch_starts(const e3d_caster_grid *grid, vf32 column, vf32 row, uint32_t lanes)
 {
     enum { FINE_LEVELS = 3 };
     int32_t columns[V_LANES], rows[V_LANES];
@@ -245,13 +245,13 @@ static ALWAYS_INLINE void hidden_fetch_starts(const e3d_caster_grid *grid, vf32 
     for (; lanes; lanes &= lanes - 1) {
         int lane = __builtin_ctz(lanes);
         for (int level = 0; level < FINE_LEVELS && level < grid->levels; level++)
-            __builtin_prefetch(hidden_start(grid, level, columns[lane] >> level, rows[lane] >> level));
+            __builtin_prefetch(exact_start(grid, level, columns[lane] >> level, rows[lane] >> level));
     }
 }
 
-/* The lanes of these that a caster of the grid hides: of each level, the coarsest first, since what is large
- * hides most, cell by cell of those that lanes are in. */
-static ALWAYS_INLINE vmask hidden_in_grid(hidden_lanes *at, const e3d_caster_grid *grid, int is_point, vmask lanes)
+/* Of these lanes, those that a caster of the grid hides. Levels are tested from the coarsest, since large casters hide most,
+ * and in each level only cells with lanes in them. */
+static ALWAYS_INLINE vmask exact_in_grid(exact_lanes *at, const e3d_caster_grid *grid, int is_point, vmask lanes)
 {
     if (!grid->levels)
         return v_mandnot(lanes, lanes);
@@ -259,20 +259,21 @@ static ALWAYS_INLINE vmask hidden_in_grid(hidden_lanes *at, const e3d_caster_gri
     for (int axis = 0; axis < 2; axis++)
         within = v_mand(within, v_mand(v_ge(at->place[axis], v_setf(grid->low[axis])), v_ge(v_setf(grid->high[axis]), at->place[axis])));
     vmask open = within;
-    vf32 column = v_float(hidden_column(grid, at->place[0], 0)), row = v_float(hidden_column(grid, at->place[1], 1));
-    hidden_fetch_starts(grid, column, row, v_bits(open));
+    vf32 column = v_float(exact_column(grid, at->place[0], 0)), row = v_float(exact_column(grid, at->place[1], 1));
+    exact_fetch_starts(grid, column, row, v_bits(open));
     for (int level = grid->levels - 1; level >= 0 && v_any(open); level--) {
-        hidden_cell cells[V_LANES];
-        int count = grid->filled >> level & 1 ? hidden_cells(grid, level, column, row, open, cells) : 0;
+        exact_cell cells[V_LANES];
+        int count = grid->filled >> level & 1 ? exact_cells(grid, level, column, row, open, cells) : 0;
         for (int c = 0; c < count; c++)
-            open = v_mandnot(open, hidden_in_cell(at, grid->boxes + cells[c].first, grid->boxes + cells[c].end, is_point, cells[c].lanes));
+            open = v_mandnot(open, exact_in_cell(at, grid->boxes + cells[c].first, grid->boxes + cells[c].end, is_point,
+                                                 cells[c].lanes));
     }
     return v_mandnot(within, open);
 }
 
 /* ---- lights ---- */
 
-static vmask hidden_directional(hidden_lanes *at, const e3d_caster_light *caster_light, const e3d_light *light, vmask lanes)
+static vmask exact_directional(exact_lanes *at, const e3d_caster_light *caster_light, const e3d_light *light, vmask lanes)
 {
     int k = caster_light->axis;
     for (int c = 0; c < 2; c++)
@@ -281,11 +282,12 @@ static vmask hidden_directional(hidden_lanes *at, const e3d_caster_light *caster
     at->is_point = 0;
     at->sign = 1.0f;
     at->x = 0, at->y = 3, at->z = 6;
-    return hidden_in_grid(at, &caster_light->grids[0], 0, lanes);
+    return exact_in_grid(at, &caster_light->grids[0], 0, lanes);
 }
 
-/* The lanes of these whose light comes through one face of the cube around it. */
-static ALWAYS_INLINE vmask hidden_through_face(hidden_lanes *at, const e3d_caster_light *caster_light, const vf32 d[3], int face, vmask lanes)
+/* Of these lanes, those that a caster hides through one face of the cube around the light. */
+static ALWAYS_INLINE vmask exact_through_face(exact_lanes *at, const e3d_caster_light *caster_light, const vf32 d[3], int face,
+                                              vmask lanes)
 {
     int k = face / 2, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
     vf32 z = face & 1 ? v_sub(v_setf(0.0f), d[k]) : d[k];
@@ -295,15 +297,15 @@ static ALWAYS_INLINE vmask hidden_through_face(hidden_lanes *at, const e3d_caste
     at->is_point = 1;
     at->sign = face & 1 ? -1.0f : 1.0f;
     at->x = 3 * k1, at->y = 3 * k2, at->z = 3 * k;
-    return hidden_in_grid(at, &caster_light->grids[face], 1, lanes);
+    return exact_in_grid(at, &caster_light->grids[face], 1, lanes);
 }
 
-static vmask hidden_point(hidden_lanes *at, const e3d_caster_light *caster_light, vmask lanes)
+static vmask exact_point(exact_lanes *at, const e3d_caster_light *caster_light, vmask lanes)
 {
     vf32 d[3], size[3], zero = v_setf(0.0f);
     for (int c = 0; c < 3; c++) {
         d[c] = v_sub(zero, at->towards[c]);
-        size[c] = hidden_abs(d[c]);
+        size[c] = exact_abs(d[c]);
     }
     vmask along[3], hidden = v_mandnot(lanes, lanes);
     along[0] = v_mand(v_ge(size[0], size[1]), v_ge(size[0], size[2]));
@@ -313,13 +315,14 @@ static vmask hidden_point(hidden_lanes *at, const e3d_caster_light *caster_light
         vmask negative = v_lt(d[face / 2], zero), own = v_mand(lanes, along[face / 2]);
         own = face & 1 ? v_mand(own, negative) : v_mandnot(own, negative);
         if (v_any(own))
-            hidden = v_mor(hidden, hidden_through_face(at, caster_light, d, face, own));
+            hidden = v_mor(hidden, exact_through_face(at, caster_light, d, face, own));
     }
     return hidden;
 }
 
-/* The lanes that a light does not reach for things in between, of those where it would add anything. */
-static ALWAYS_INLINE vmask hidden_from(hidden_lanes *at, const e3d_lighting *lighting, const e3d_caster_light *caster_light, const vf32 normal[3])
+/* The lanes from which casters hide a light, among those where it would add light. */
+static ALWAYS_INLINE vmask exact_from(exact_lanes *at, const e3d_lighting *lighting, const e3d_caster_light *caster_light,
+                                      const vf32 normal[3])
 {
     const e3d_light *light = &lighting->lights[caster_light->number];
     int has_position = e3d_light_traits_of(light->kind).has_position;
@@ -336,13 +339,14 @@ static ALWAYS_INLINE vmask hidden_from(hidden_lanes *at, const e3d_lighting *lig
     lanes = v_mand(lanes, v_mand(v_gt(dot_three(normal, l), zero), v_gt(attenuation, zero)));
     if (!v_any(lanes))
         return lanes;
-    return has_position ? hidden_point(at, caster_light, lanes) : hidden_directional(at, caster_light, light, lanes);
+    return has_position ? exact_point(at, caster_light, lanes) : exact_directional(at, caster_light, light, lanes);
 }
 
-static void kernel_hide(e3d_batch *batch, const e3d_lighting *lighting, const e3d_caster_index *index, const e3d_receivers *receivers)
+static void kernel_exact_shadows(e3d_batch *batch, const e3d_lighting *lighting, const e3d_caster_index *index,
+                                 const e3d_receivers *receivers)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
-        hidden_lanes at = {.index = index, .receivers = receivers, .surface = v_loadi(batch->surface + i)};
+        exact_lanes at = {.index = index, .receivers = receivers, .surface = v_loadi(batch->surface + i)};
         vi32 hidden = v_seti(0);
         vf32 normal[3];
         for (int c = 0; c < 3; c++) {
@@ -351,11 +355,9 @@ static void kernel_hide(e3d_batch *batch, const e3d_lighting *lighting, const e3
         }
         for (int n = 0; n < index->light_count; n++) {
             at.corners = index->lights[n].corners;
-            vmask lanes = hidden_from(&at, lighting, &index->lights[n], normal);
+            vmask lanes = exact_from(&at, lighting, &index->lights[n], normal);
             hidden = v_seli(lanes, v_ori(hidden, v_seti((int32_t)(UINT32_C(1) << n))), hidden);
         }
-        v_storei(batch->hidden_lights + i, hidden);
+        v_storei(batch->shadowed_lights + i, hidden);
     }
 }
-
-#endif

@@ -1,6 +1,5 @@
-/* light: Lambert and Blinn-Phong (Blinn 1977) sums of a batch over all lights, in their order (R31). */
-#ifndef E3D_KERNELS_LIGHT_INL
-#define E3D_KERNELS_LIGHT_INL
+/* light: sums of Lambert and Blinn-Phong (Blinn 1977) for a batch over all lights, in their order (R31). */
+#pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -10,20 +9,20 @@
 #include "kernels/generic/interpolate.inl"
 #include "kernels/generic/shade/shadow.inl"
 
-/* One vector of lit samples. Where all light is grey, the first channel stands for all three. */
+/* One vector of lit samples. If all light is grey, the first channel stands for all three. */
 typedef struct lit_lanes {
     vf32 position[3], normal[3], view[3];
     vf32 energy[3], shine[3];
 } lit_lanes;
 
-/* R43: what of a light's range is left. */
+/* R43: the factor of a light's range. */
 static inline vf32 light_gltf_window(vf32 d2, float over_range2)
 {
     vf32 x = v_mul(d2, v_setf(over_range2)), one = v_setf(1.0f);
     return v_max(v_sub(one, v_mul(x, x)), v_setf(0.0f));
 }
 
-/* R43: how much of a spot light goes this way. */
+/* R43: the factor of a spot light's cone in this direction. */
 static inline vf32 light_cone(const e3d_light *light, const vf32 l[3])
 {
     const vf32 axis[3] = {v_setf(light->to_light[0]), v_setf(light->to_light[1]), v_setf(light->to_light[2])};
@@ -32,8 +31,8 @@ static inline vf32 light_cone(const e3d_light *light, const vf32 l[3])
     return v_mul(t, t);
 }
 
-/* Finds the unit vector towards a light that has a position and its attenuation, in the way of R51 if by_product; returns the lanes within
- * its range. */
+/* Finds the unit vector to a light that has a position, and its attenuation, by the formula of R51 if by_product; returns the
+ * lanes within its range. */
 static ALWAYS_INLINE vmask light_towards(const e3d_lighting *lighting, int n, const vf32 position[3], int by_product, vf32 l[3],
                                          vf32 *attenuation)
 {
@@ -59,7 +58,7 @@ static ALWAYS_INLINE vmask light_towards(const e3d_lighting *lighting, int n, co
     return near;
 }
 
-/* Adds color * amount to the sums, in the lanes `near`; NULL: in all. */
+/* Adds color * amount to the sums, in the lanes `near`; NULL: in all lanes. */
 static ALWAYS_INLINE void light_sum(vf32 sums[3], const float color[3], vf32 amount, const vmask *near)
 {
     for (int k = 0; k < 3; k++) {
@@ -82,7 +81,7 @@ static ALWAYS_INLINE void light_highlight(const e3d_light *light, const vf32 l[3
     light_sum(lit->shine, light->color, v_mul(attenuation, power), near);
 }
 
-/* Adds one light that comes from direction l (R31). */
+/* Adds one light from direction l (R31). */
 static ALWAYS_INLINE void light_from(const e3d_light *light, const vf32 l[3], vf32 attenuation, const vmask *near,
                                      float shininess, lit_lanes *lit)
 {
@@ -93,7 +92,7 @@ static ALWAYS_INLINE void light_from(const e3d_light *light, const vf32 l[3], vf
         light_highlight(light, l, facing, attenuation, near, shininess, lit);
 }
 
-/* R90: the attenuation of what of a light reaches samples; those that face away from it get none of it anyway. */
+/* R90: the attenuation times the share of a light that reaches samples. Samples that face away from it get no light anyway. */
 static ALWAYS_INLINE vf32 light_shadowed(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, const lit_lanes *lit,
                                          const vf32 l[3], vf32 attenuation)
 {
@@ -107,9 +106,11 @@ static ALWAYS_INLINE vf32 light_shadowed(const e3d_lighting *lighting, int n, co
     return v_mul(attenuation, light_reached(lighting, n, batch, i, lit->position, l));
 }
 
-/* What differs from sample to sample, which is a constant for the compiler: nothing that isn't the surface's; how much of lights reaches
- * samples; or the light from all around, too. */
-enum light_variety { LIGHT_ALIKE = 0, LIGHT_SHADOWED, LIGHT_VARIED };
+/* What varies from sample to sample besides the surface, as a constant for the compiler: nothing; the share of lights that
+ * arrives; or ambient light, too. */
+enum light_variety { LIGHT_ALIKE = 0,
+                     LIGHT_SHADOWED,
+                     LIGHT_VARIED };
 
 /* Adds a light to samples of the batch from i on. */
 static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, enum light_variety varied,
@@ -159,7 +160,7 @@ static inline int light_is_finite(const e3d_batch *batch, int i)
     return !v_any(v_mnot(v_eq(sum, zero)));
 }
 
-/* The box of the batch's positions; 0 where one isn't finite. */
+/* Finds the box of the batch's positions; 0 if one isn't finite. */
 static inline int light_bounds(const e3d_batch *batch, light_box *box)
 {
     for (int i = 0; i < batch->count; i += V_LANES)
@@ -185,7 +186,7 @@ static inline int light_bounds(const e3d_batch *batch, light_box *box)
     return 1;
 }
 
-/* The squared distance of R31 from a box: every rounding is monotonic, so none of the box's samples is nearer. */
+/* A lower bound of the squared distance of R31 from a box: each rounding is monotone, so no sample in the box is nearer. */
 static inline vf32 light_distance2(const e3d_lighting *lighting, int n, const light_box *box)
 {
     vf32 d[3];
@@ -197,8 +198,8 @@ static inline vf32 light_distance2(const e3d_lighting *lighting, int n, const li
     return dot_three(d, d);
 }
 
-/* Lists those of the lights first .. end - 1 that may reach the box (NULL: all); the others would add nothing. With 256 lights,
- * shading takes a ninth of the time. */
+/* Lists those of the lights first .. end - 1 that may reach the box (NULL: all). The others would add nothing. With 256
+ * lights, shading then takes a ninth of the time. */
 static inline int light_choose(const e3d_lighting *lighting, int first, int end, const light_box *box,
                                int32_t *chosen)
 {
@@ -217,10 +218,10 @@ static inline int light_choose(const e3d_lighting *lighting, int first, int end,
 
 /* ---- light from all around ---- */
 
-/* Whether it differs by direction (R130) or from pixel to pixel (R129). */
+/* Whether ambient light varies by direction (R130) or from pixel to pixel (R129). */
 static inline int ambient_varies(const e3d_lighting *lighting) { return lighting->ambient_terms != NULL || lighting->has_visibility; }
 
-/* R130: what white surfaces of these normals show of it. */
+/* R130: the ambient light that white surfaces of these normals show. */
 static ALWAYS_INLINE void ambient_light(const e3d_lighting *lighting, const vf32 n[3], vf32 out[3])
 {
     for (int k = 0; k < 3; k++)
@@ -243,10 +244,10 @@ static ALWAYS_INLINE void ambient_light(const e3d_lighting *lighting, const vf32
 static inline enum light_variety light_varies(const e3d_lighting *lighting)
 {
     return ambient_varies(lighting) ? LIGHT_VARIED : lighting->shadows ? LIGHT_SHADOWED
-                                                                        : LIGHT_ALIKE;
+                                                                       : LIGHT_ALIKE;
 }
 
-/* Loads one vector, which only the ambient light lights yet: the same everywhere, unless it is varied. */
+/* Loads one vector, lit only by ambient light so far; that is the same everywhere, unless it varies. */
 static ALWAYS_INLINE lit_lanes light_begin(const e3d_batch *batch, int i, const e3d_lighting *lighting, enum light_variety varied,
                                            float shininess)
 {
@@ -272,7 +273,7 @@ static inline vf32 light_clamp(const e3d_lighting *lighting, vf32 energy)
     return v_min(v_max(energy, v_setf(lighting->clamp[0])), v_setf(lighting->clamp[1]));
 }
 
-/* Adds the chosen ones of the lights from `first` on. */
+/* Adds the chosen lights among those from `first` on. */
 static ALWAYS_INLINE void light_add(e3d_batch *batch, const e3d_lighting *lighting, int first, const int32_t *chosen, int count,
                                     enum light_variety varied, float shininess)
 {
@@ -312,7 +313,7 @@ static void kernel_light(e3d_batch *batch, const e3d_lighting *lighting, float s
             v_storef(batch->energy[k] + i, light_clamp(lighting, v_loadf(batch->energy[k] + i)));
 }
 
-/* R31, R44: color = ((color * energy + specular * shine) + emissive) * exposure; what is NULL is 0. */
+/* R31, R44: color = ((color * energy + specular * shine) + emissive) * exposure; NULL counts as 0. */
 static ALWAYS_INLINE void combine_vector(const vf32 energy[3], const vf32 shine[3], const float *specular,
                                          const float emissive[3], float exposure, vf32 color[3])
 {
@@ -341,5 +342,3 @@ static void kernel_combine(e3d_batch *batch, const float specular[3], const floa
             v_storef(batch->color[k] + i, color[k]);
     }
 }
-
-#endif

@@ -1,11 +1,10 @@
-/* lobe: what a rough mirror gathers of light from around (R68), for a block of texels at once. */
-#ifndef E3D_KERNELS_LOBE_INL
-#define E3D_KERNELS_LOBE_INL
+/* lobe: the light from all around that a rough mirror gathers (R68), for a block of texels at once. */
+#pragma once
 
 #include "base/always_inline.h"
 #include "kernels/types/lobe.h"
 
-/* With m = |n - l|^2: n.l = 1 - m/2, and 1 - (n.h)^2 = m/4, without loss of bits where l is near n. */
+/* With m = |n - l|^2: n.l = 1 - m/2 and 1 - (n.h)^2 = m/4, without loss of bits where l is near n. */
 static ALWAYS_INLINE vf32 lobe_share(const vf32 n[3], const e3d_cell_group *group, int cell, vf32 square, vf32 rest)
 {
     vf32 x = v_sub(n[0], v_setf(group->direction[0][cell])), y = v_sub(n[1], v_setf(group->direction[1][cell])),
@@ -33,5 +32,3 @@ static void kernel_lobe(const e3d_cell_group *group, e3d_lobe_block *block)
             v_storef(block->sums[k] + i, sums[k]);
     }
 }
-
-#endif

@@ -1,8 +1,6 @@
-/* shadow: how much of a light reaches samples, by the maps that were drawn from it (R91-R94). Sources: Williams 1978 (maps); Reeves,
- * Salesin and Cook 1987 (comparisons, then a mean).
- */
-#ifndef E3D_KERNELS_SHADOW_INL
-#define E3D_KERNELS_SHADOW_INL
+/* shadow: finds how much of a light reaches samples, by the shadow maps that were drawn from it (R91-R94). Sources: Williams
+ * 1978 (maps); Reeves, Salesin and Cook 1987 (the mean of comparisons). */
+#pragma once
 
 #include <stddef.h>
 
@@ -13,25 +11,26 @@
 #include "kernels/types/shading.h"
 #include "kernels/generic/surface.inl"
 
-/* Samples as their light sees them: how far to the right, down and ahead they are, and what one step along the normal adds to that. */
+/* Samples in the light's axes: right, down and ahead; and what one step along the normal adds to these. */
 typedef struct shadow_lanes {
     vf32 at[3], along[3], sine; /* sine: of the angle between the normal and the light */
 } shadow_lanes;
 
-/* Where samples are in the maps: column and row in texels, the depth to compare, which map it is, and which samples are in one. */
+/* Places in the shadow maps: column and row in texels, the depth to compare, the number of the map, and which samples are in
+ * one. */
 typedef struct shadow_place {
     vf32 x, y, depth;
     vi32 map;
     vmask inside;
 } shadow_place;
 
-/* R91: the sine of the angle at which light falls, of its cosine. */
+/* R91: the sine of the angle between light and normal, from its cosine. */
 static ALWAYS_INLINE vf32 shadow_sine(vf32 c)
 {
     return v_sqrt(v_max(v_sub(v_setf(1.0f), v_mul(c, c)), v_setf(0.0f)));
 }
 
-/* R91: how far a sample moves along its normal, of which a texel is so wide there. */
+/* R91: how far a sample moves along its normal; `texel` is the width of a texel there. */
 static ALWAYS_INLINE vf32 shadow_shift(const e3d_light_maps *shadow, vf32 texel, vf32 sine)
 {
     float reach = ((float)(shadow->step * (shadow->taps - 1)) * (1.0f / 512.0f) + 1.0f) * E3D_SHADOW_CORNER;
@@ -72,7 +71,7 @@ static ALWAYS_INLINE shadow_place shadow_place_cascades(const e3d_light_maps *sh
     return place;
 }
 
-/* Of what is so far to the right, down and ahead of a light that shines from a point. */
+/* Projects points, by their distances to the right, down and ahead, for a light that shines from a point. */
 static ALWAYS_INLINE void shadow_project(const e3d_light_maps *shadow, const e3d_shadow_map *map, const vf32 at[3], shadow_place *place)
 {
     vf32 scale = v_setf(map->scale), near = v_div(v_setf(1.0f), v_max(at[2], v_setf(0x1p-100f)));
@@ -95,7 +94,7 @@ static ALWAYS_INLINE shadow_place shadow_place_ahead(const e3d_light_maps *shado
 
 static ALWAYS_INLINE vf32 shadow_abs(vf32 a) { return v_asf(v_andi(v_asi(a), v_seti(0x7FFFFFFF))); }
 
-/* The face of the cube, and what is to its right, down and ahead; `at` and `along` are in the world's axes. */
+/* The face of the cube, and the distances to the right, down and ahead in it; `at` and `along` are in the world's axes. */
 static ALWAYS_INLINE shadow_place shadow_place_cube(const e3d_light_maps *shadow, const e3d_shadow_map *map, const shadow_lanes *s)
 {
     shadow_place place;
@@ -121,13 +120,13 @@ static ALWAYS_INLINE shadow_place shadow_place_cube(const e3d_light_maps *shadow
 
 /* ---- comparisons (R93) ---- */
 
-/* What of a weight a comparison leaves: 0 where the map shows something nearer. */
+/* The part of a weight that a comparison leaves: 0 if the map shows something nearer. */
 static ALWAYS_INLINE vi32 shadow_compare(const float *depths, vi32 at, vf32 depth, vi32 weight)
 {
     return v_seli(v_ge(v_asf(v_gatheri(depths, at)), depth), weight, v_seti(0));
 }
 
-/* Blends four comparisons about a place, in 1/256 texel. */
+/* Blends four comparisons around a place, in 1/256 texel. */
 static ALWAYS_INLINE vi32 shadow_tap(const e3d_light_maps *shadow, vi32 base, vi32 x, vi32 y, vf32 depth)
 {
     vi32 all = v_seti(256), fx = v_andi(x, v_seti(255)), fy = v_andi(y, v_seti(255)), gx = v_subi(all, fx), one = v_seti(1);
@@ -137,26 +136,26 @@ static ALWAYS_INLINE vi32 shadow_tap(const e3d_light_maps *shadow, vi32 base, vi
     return v_addi(v_muli(top, v_subi(all, fy)), v_muli(bottom, fy));
 }
 
-/* Weights of four columns or rows of comparisons: of all of a block's, or of those on one side of a larger block. */
+/* The weights of four columns or rows of comparisons: all of a block's, or those on one side of a larger block. */
 typedef struct shadow_weights {
     vi32 of[4];
 } shadow_weights;
 
-/* The first of them and the last share a tap's weight; those between have all of it. */
+/* The first and the last one share a tap's weight; those between have a whole one. */
 static ALWAYS_INLINE shadow_weights shadow_block_weights(vi32 fraction)
 {
     vi32 all = v_seti(256);
     return (shadow_weights){{v_subi(all, fraction), all, all, fraction}};
 }
 
-/* Of six columns or rows the first three, without the fourth, or the last three, without the one before them. */
+/* Of six columns or rows: the first three, without the fourth, or the last three, without the one before them. */
 static ALWAYS_INLINE shadow_weights shadow_half_weights(vi32 fraction, int last)
 {
     vi32 all = v_seti(256), none = v_seti(0);
     return last ? (shadow_weights){{none, all, all, fraction}} : (shadow_weights){{v_subi(all, fraction), all, all, none}};
 }
 
-/* The weights of those of sixteen comparisons whose bits are set. */
+/* The sum of weights of those of sixteen comparisons whose bits are set. */
 static ALWAYS_INLINE vi32 shadow_weigh(vi32 bits, const shadow_weights *x, const shadow_weights *y)
 {
     vi32 sum = v_seti(0), one = v_seti(1);
@@ -169,13 +168,13 @@ static ALWAYS_INLINE vi32 shadow_weigh(vi32 bits, const shadow_weights *x, const
     return sum;
 }
 
-/* What of the light sums of weights are. */
+/* The share of the light that a sum of weights stands for. */
 static ALWAYS_INLINE vf32 shadow_share(const e3d_light_maps *shadow, vi32 sum)
 {
     return v_div(v_float(sum), v_setf((float)(65536 * shadow->taps * shadow->taps)));
 }
 
-/* Taps that are a texel apart share the comparisons between them: 3 x 3 are sixteen comparisons. */
+/* Taps a texel apart share the comparisons between them: 3 x 3 taps are sixteen comparisons. */
 static ALWAYS_INLINE vf32 shadow_block(const e3d_light_maps *shadow, vi32 at, vi32 x, vi32 y, vf32 depth)
 {
     vi32 bits = v_ge16(shadow->depths, shadow->size, at, depth), all = v_seti(0xFFFF), low = v_seti(255);
@@ -205,8 +204,8 @@ static ALWAYS_INLINE vf32 shadow_large_block(const e3d_light_maps *shadow, vi32 
     return shadow_share(shadow, sum);
 }
 
-/* R93: the column or row of the first tap in 1/256 texel, which lanes outside of the maps have somewhere inside. What is limited before
- * it is rounded need not be limited then: both limits are integers, and inside of 0 and the size. */
+/* R93: the column or row of the first tap in 1/256 texel; lanes outside the maps get one inside. Limiting before rounding is
+ * enough, since both limits are integers between 0 and the size. */
 static ALWAYS_INLINE vi32 shadow_first(const e3d_light_maps *shadow, vf32 at, int32_t across)
 {
     int32_t least = 128 + across / 2, most = least + 256 * shadow->size - 257 - across;
@@ -245,7 +244,7 @@ static ALWAYS_INLINE vf32 shadow_blend(const e3d_light_maps *shadow, const shado
 
 /* ---- ranges (shadow_ranges.h) ---- */
 
-/* The code of a depth; a NaN, by which nothing is lit, has the greatest. */
+/* The code of a depth; NaN, which is lit by nothing, has the greatest code. */
 static ALWAYS_INLINE vi32 shadow_code(vf32 depth)
 {
     vf32 limit = v_setf((float)E3D_SHADOW_CODE_LIMIT);
@@ -253,7 +252,7 @@ static ALWAYS_INLINE vi32 shadow_code(vf32 depth)
     return v_trunc(v_max(scaled, v_sub(v_setf(0.0f), limit)));
 }
 
-/* Which samples are before all that they would be compared with, and which are behind it. */
+/* Samples that are before all depths that they would be compared with, and samples that are behind all of them. */
 typedef struct shadow_sides {
     vmask before, behind;
 } shadow_sides;
@@ -287,14 +286,14 @@ static ALWAYS_INLINE void shadow_turn(const e3d_light *light, const vf32 v[3], v
     }
 }
 
-/* Samples as a light sees them that has maps; `l` is towards it. */
+/* Samples in the axes of a light that has maps; `l` is the direction to it. */
 static ALWAYS_INLINE shadow_lanes shadow_lanes_of(const e3d_light *light, const vf32 position[3], const vf32 normal[3], const vf32 l[3])
 {
-    shadow_lanes s; /* not cleared first: what is written so cannot be loaded at once */
+    shadow_lanes s; /* not cleared first: bytes that were just written so cannot be loaded at once */
     vf32 p[3];
     int has_position = e3d_light_traits_of(light->kind).has_position;
     s.sine = shadow_sine(dot_three(normal, l));
-    for (int k = 0; k < 3; k++) /* minus 0 is the position itself: a copy would take longer */
+    for (int k = 0; k < 3; k++) /* subtracting 0 gives the position itself; a copy would take longer */
         p[k] = v_sub(position[k], v_setf(has_position ? light->position[k] : 0.0f));
     shadow_turn(light, p, s.at);
     shadow_turn(light, normal, s.along);
@@ -312,7 +311,7 @@ static ALWAYS_INLINE shadow_place shadow_place_of(const e3d_light *light, const 
     return shadow_place_ahead(shadow, maps, s);
 }
 
-/* R93 of the samples that are in a map; those of the others mean nothing. */
+/* R93 for the samples that are in a map; the results of others mean nothing. */
 static ALWAYS_INLINE vf32 shadow_share_of(const e3d_light_maps *shadow, const shadow_place *place)
 {
     shadow_taps taps = shadow_taps_of(shadow, place);
@@ -324,7 +323,7 @@ static ALWAYS_INLINE vf32 shadow_share_of(const e3d_light_maps *shadow, const sh
     return shadow_blend(shadow, &taps);
 }
 
-/* R91-R94 of a point or spot light that has maps; `l` is towards it. */
+/* R91-R94 for a point or spot light that has maps; `l` is the direction to it. */
 static __attribute__((noinline)) vf32 shadow_map_reached(const e3d_lighting *lighting, int n, const vf32 position[3], const vf32 normal[3],
                                                          const vf32 l[3])
 {
@@ -338,17 +337,17 @@ static __attribute__((noinline)) vf32 shadow_map_reached(const e3d_lighting *lig
 
 /* ---- directional lights: a whole batch at a time, so that no vector waits for the one before ---- */
 
-/* Where vectors of samples are in the maps. */
+/* The places of vectors of samples in the maps. */
 typedef struct shadow_batch {
     int32_t x[E3D_BATCH + E3D_PAD], y[E3D_BATCH + E3D_PAD], map[E3D_BATCH + E3D_PAD];
     float depth[E3D_BATCH + E3D_PAD];
-    int32_t block[E3D_BATCH + E3D_PAD], code[E3D_BATCH + E3D_PAD]; /* where there are ranges */
-    int32_t at[E3D_BATCH + E3D_PAD];    /* of each vector: its first sample in the batch, */
-    uint32_t bits[E3D_BATCH + E3D_PAD]; /* and a bit for each sample that counts: it is in a map and faces the light */
+    int32_t block[E3D_BATCH + E3D_PAD], code[E3D_BATCH + E3D_PAD]; /* used if there are ranges */
+    int32_t at[E3D_BATCH + E3D_PAD];    /* for each vector the place of its first sample in the batch */
+    uint32_t bits[E3D_BATCH + E3D_PAD]; /* for each vector a bit for each sample that is in a map and faces the light */
     int count;                          /* of vectors */
 } shadow_batch;
 
-/* Samples that are to be compared with texels, side by side; `at` is their place in the batch. */
+/* Samples that are to be compared with texels, packed; `at` is their place in the batch. */
 typedef struct shadow_open {
     int32_t x[E3D_BATCH + 2 * E3D_PAD], y[E3D_BATCH + 2 * E3D_PAD], map[E3D_BATCH + 2 * E3D_PAD], at[E3D_BATCH + 2 * E3D_PAD];
     float depth[E3D_BATCH + 2 * E3D_PAD];
@@ -361,13 +360,13 @@ static ALWAYS_INLINE void shadow_load(const e3d_lane_array *from, int i, vf32 ou
         out[k] = v_loadf(from[k] + i);
 }
 
-/* What follows of samples' normals alone: mostly of a whole batch, as it is of few faces. */
+/* Numbers that depend on samples' normals alone. Mostly a whole batch shares them, since it has few faces. */
 typedef struct shadow_normals {
     vf32 normal[3], along[3], sine, cosine;
-    vf32 moved[3]; /* of the first map: by how many columns, by how many rows and how far ahead R91 moves them */
+    vf32 moved[3]; /* for the first map: by how many columns and rows, and how far ahead R91 moves samples */
 } shadow_normals;
 
-/* Finds it, unless the normals are those of the vector before, to the bit. */
+/* Finds these numbers, unless the normals equal those of the vector before, to the bit. */
 static ALWAYS_INLINE void shadow_normals_at(const e3d_light *light, const e3d_shadow_map *map, const e3d_lane_array *from, int i,
                                             const vf32 l[3], shadow_normals *out)
 {
@@ -390,7 +389,7 @@ static ALWAYS_INLINE void shadow_normals_at(const e3d_light *light, const e3d_sh
         out->moved[k] = v_mul(out->moved[k], scale);
 }
 
-/* Of a light that has one map. */
+/* Finds places for a light that has one map. */
 static ALWAYS_INLINE shadow_place shadow_place_single(const e3d_light_maps *shadow, const e3d_shadow_map *map, const vf32 at[3],
                                                       const vf32 moved[3])
 {
@@ -417,12 +416,14 @@ static ALWAYS_INLINE void shadow_add_places(const e3d_light_maps *shadow, const 
     if (!shadow->ranges)
         return;
     v_storei(out->block + to, shadow_block_of(shadow, place->map, taps.x, taps.y));
-    v_storei(out->code + to, v_seli(counts, shadow_code(taps.depth), v_seti(E3D_SHADOW_CODE_NONE - 1))); /* the others are before all */
+    /* Any other depth counts as before all texels */
+    v_storei(out->code + to, v_seli(counts, shadow_code(taps.depth), v_seti(E3D_SHADOW_CODE_NONE - 1)));
     __builtin_prefetch(shadow->ranges + out->block[to]);
     __builtin_prefetch(shadow->ranges + out->block[to + V_LANES - 1]);
 }
 
-/* Where the samples of a batch are in the maps. Vectors that face away from the light are left out: they get none of it anyway. */
+/* Finds the places of a batch's samples in the maps. Vectors that face away from the light are left out, since they get no
+ * light anyway. */
 static ALWAYS_INLINE void shadow_find_batch(const e3d_light *light, const e3d_shadow_map *maps, const e3d_batch *batch, int mapped,
                                             shadow_batch *out)
 {
@@ -442,7 +443,7 @@ static ALWAYS_INLINE void shadow_find_batch(const e3d_light *light, const e3d_sh
         shadow_load(batch->position, i, position);
         shadow_turn(light, position, s.at);
         shadow_place place = light->shadow.maps.count == 1 ? shadow_place_single(&light->shadow.maps, maps, s.at, of.moved)
-                                                      : shadow_place_cascades(&light->shadow.maps, maps, &s);
+                                                           : shadow_place_cascades(&light->shadow.maps, maps, &s);
         shadow_add_places(&light->shadow.maps, &place, faces, i, out);
     }
 }
@@ -457,7 +458,7 @@ static ALWAYS_INLINE void shadow_add_open(const shadow_batch *places, int from, 
     v_pack(out->at + to, v_addi(v_iota(), v_seti(i)), bits);
 }
 
-/* What ranges tell: 1 and 0 where they do. The others are open. */
+/* Decides by ranges: 1 or 0. Samples for which they don't decide are open. */
 static ALWAYS_INLINE void shadow_find_sides(const e3d_light_maps *shadow, const shadow_batch *places, float *reached, shadow_open *open)
 {
     open->count = 0;
@@ -474,10 +475,10 @@ static ALWAYS_INLINE void shadow_find_sides(const e3d_light_maps *shadow, const 
     }
 }
 
-/* Compares those that are open. */
+/* Compares the open samples with texels. */
 static ALWAYS_INLINE void shadow_compare_open(const e3d_light_maps *shadow, shadow_open *open, float *reached)
 {
-    v_storei(open->x + open->count, v_seti(0)); /* a place for the rest of the last vector */
+    v_storei(open->x + open->count, v_seti(0)); /* zeros for the rest of the last vector */
     v_storei(open->y + open->count, v_seti(0));
     v_storei(open->map + open->count, v_seti(0));
     v_storef(open->depth + open->count, v_setf(0.0f));
@@ -491,11 +492,11 @@ static ALWAYS_INLINE void shadow_compare_open(const e3d_light_maps *shadow, shad
     }
 }
 
-/* R91-R94 of a directional light that has maps. */
+/* R91-R94 for a directional light that has maps. */
 static __attribute__((noinline)) void shadow_find_reached(const e3d_light *light, const e3d_shadow_map *maps, const e3d_batch *batch,
                                                           float *reached)
 {
-    const e3d_light of = *light; /* a copy, which no store changes: its numbers stay in registers */
+    const e3d_light of = *light; /* a copy, which no store can change, so that its numbers stay in registers */
     shadow_batch places;
     shadow_open open;
     if (batch->unmapped_normal)
@@ -508,7 +509,7 @@ static __attribute__((noinline)) void shadow_find_reached(const e3d_light *light
     shadow_compare_open(&of.shadow.maps, &open, reached);
 }
 
-/* The first directional lights that have maps: what of them reaches the samples of a batch. */
+/* Finds the shares of the first directional lights with maps that reach the samples of a batch. */
 static inline void shadow_suns(const e3d_lighting *lighting, e3d_batch *batch)
 {
     int found = 0;
@@ -523,7 +524,7 @@ static inline void shadow_suns(const e3d_lighting *lighting, e3d_batch *batch)
         batch->sun[found] = -1;
 }
 
-/* What of light n reaches the samples of a batch, if that is found; else NULL. */
+/* Returns the shares of light n that reach the samples of a batch, if they are found already; else NULL. */
 static ALWAYS_INLINE const float *shadow_found(const e3d_batch *batch, int n)
 {
     for (int k = 0; k < E3D_SUNS; k++)
@@ -532,13 +533,14 @@ static ALWAYS_INLINE const float *shadow_found(const e3d_batch *batch, int n)
     return NULL;
 }
 
-/* How much of light n, which has a shadow, reaches a vector of samples, from 0 to 1: those of the batch from i on, at these positions. */
+/* The share of light n, which has a shadow, that reaches a vector of samples, from 0 to 1: the batch's samples from i on, at
+ * these positions. */
 static ALWAYS_INLINE vf32 light_reached(const e3d_lighting *lighting, int n, const e3d_batch *batch, int i, const vf32 position[3],
                                         const vf32 l[3])
 {
     const e3d_light_shadow *shadow = &lighting->lights[n].shadow;
     if (shadow->kind == E3D_SHADOW_EXACT) {
-        vi32 hidden = v_andi(v_loadi(batch->hidden_lights + i), v_seti((int32_t)(UINT32_C(1) << shadow->exact)));
+        vi32 hidden = v_andi(v_loadi(batch->shadowed_lights + i), v_seti((int32_t)(UINT32_C(1) << shadow->exact)));
         return v_self(v_eqi(hidden, v_seti(0)), v_setf(1.0f), v_setf(0.0f));
     }
     const float *found = shadow_found(batch, n);
@@ -549,5 +551,3 @@ static ALWAYS_INLINE vf32 light_reached(const e3d_lighting *lighting, int n, con
     shadow_load(normals, i, normal);
     return shadow_map_reached(lighting, n, position, normal, l);
 }
-
-#endif

@@ -1,6 +1,5 @@
-/* texture: the fourth channel of texels, which only alphas and some maps read (R30). */
-#ifndef E3D_KERNELS_TEXEL_ALPHA_INL
-#define E3D_KERNELS_TEXEL_ALPHA_INL
+/* texture: reads the fourth channel of texels, which only alphas and some slots need (R30). */
+#pragma once
 
 #include "base/always_inline.h"
 #include "e3d.h"
@@ -9,10 +8,10 @@
 /* The alpha of one vector of texels of 16 bits. */
 static ALWAYS_INLINE vi32 alpha_of_16(const void *texels, vi32 at) { return v_shr(v_gatheri(texels, v_addi(v_addi(at, at), v_seti(1))), 16); }
 
-/* Of 8 bits, which are stored signed. */
+/* The alpha of one vector of texels of 8 bits, which are stored signed. */
 static ALWAYS_INLINE vi32 alpha_of_8(const void *texels, vi32 at) { return v_xori(v_shr(v_gatheri(texels, at), 24), v_seti(128)); }
 
-/* R30, of 15 bits: columns first. */
+/* R30 with 15 bits: columns are blended first. */
 static ALWAYS_INLINE vi32 alpha_between(vi32 upper, vi32 lower, vi32 down)
 {
     return v_addi(upper, v_sra(v_addi(v_muli(v_subi(lower, upper), down), v_seti(128)), 8));
@@ -48,5 +47,3 @@ static ALWAYS_INLINE vf32 alpha_read(const texture_plan *plan, int filter, int b
     vf32 b = alpha_mix(plan, bits, &plan->far, i);
     return v_add(a, v_mul(v_sub(b, a), v_mul(v_float(between), v_setf(0x1p-8f))));
 }
-
-#endif

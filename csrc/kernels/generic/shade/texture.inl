@@ -1,9 +1,6 @@
-/* texture: samples of one texture, filtered with 8-bit weights (R28-R30).
- *
- * Texels have a border (data/texture.c): the second of two neighbours always is the next in memory.
- */
-#ifndef E3D_KERNELS_TEXTURE_INL
-#define E3D_KERNELS_TEXTURE_INL
+/* texture: samples one texture, filtered with 8-bit weights (R28-R30). Texels have a border (data/texture.c), so the second
+ * of two neighbours is always the next one in memory. */
+#pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -24,8 +21,8 @@ static inline vf32 texture_wrap(vf32 s, int wrap)
     return v_self(v_gt(m, one), v_sub(v_setf(2.0f), m), m);
 }
 
-/* The two texels along one coordinate that a filter blends, in each lane's level: the column (row) of the first, counted with the
- * border, whose column is 0, and the weight of the second. */
+/* The two texels along one coordinate that a filter blends, in each lane's level: the column (row) of the first, counted with
+ * the border as column 0, and the weight of the second. */
 typedef struct texture_taps {
     vi32 first, weight;
 } texture_taps;
@@ -37,15 +34,15 @@ static inline texture_taps texture_linear(vf32 s, vf32 scale)
     return (texture_taps){v_sra(p, 8), v_andi(p, v_seti(255))};
 }
 
-/* Where a batch's samples fall: the number of the upper left texel, of 16-bit texels also of the lower left one, and the weights
- * of the right and of the lower texels. All places are found and prefetched before any texel is read: a loop of both would not fit
- * the out-of-order window. */
+/* The places of a batch's samples: the number of the upper left texel (with 16 bits, of the lower left one, too), and the
+ * weights of the right and of the lower texels. All places are found and prefetched before any texel is read: a single loop
+ * would not fit the out-of-order window. */
 typedef struct texture_places {
     int32_t top[E3D_BATCH + E3D_PAD], bottom[E3D_BATCH + E3D_PAD];
     int32_t across[E3D_BATCH + E3D_PAD], down[E3D_BATCH + E3D_PAD];
 } texture_places;
 
-/* The level of each lane: how many texels are before it, how many from row to row, and its size times 256. */
+/* The level of each lane: how many texels come before it, how many lie from row to row, and its size times 256. */
 typedef struct level_lanes {
     vi32 start, stride;
     vf32 scale[2];
@@ -54,7 +51,8 @@ typedef struct level_lanes {
 static ALWAYS_INLINE void texture_place(const level_lanes *level, int bits, vf32 s, vf32 t, texture_places *places, int i)
 {
     texture_taps x = texture_linear(s, level->scale[0]), y = texture_linear(t, level->scale[1]);
-    vi32 top = v_addi(v_addi(level->start, x.first), v_madd16(y.first, level->stride)); /* factors of 16 bits: E3D_MAX_TEXTURE_SIZE */
+    /* Factors fit 16 bits: E3D_MAX_TEXTURE_SIZE */
+    vi32 top = v_addi(v_addi(level->start, x.first), v_madd16(y.first, level->stride));
     v_storei(places->top + i, top);
     if (bits == 16)
         v_storei(places->bottom + i, v_addi(top, level->stride));
@@ -62,31 +60,33 @@ static ALWAYS_INLINE void texture_place(const level_lanes *level, int bits, vf32
     v_storei(places->down + i, y.weight);
 }
 
-/* Channels of one vector of texels, in units of e3d_texture_unit. */
+/* The channels of one vector of texels, in units of e3d_texture_unit. */
 typedef struct texel_lanes {
     vf32 c[3];
 } texel_lanes;
 
-/* Blends texels of 16 bits. They use 15, so that their differences have a sign: rows are blended first, to 15 bits again. */
+/* Blends texels of 16 bits. They use 15, so that their differences have a sign bit. Rows are blended first, to 15 bits again. */
 static ALWAYS_INLINE texel_lanes texture_mix16(const void *texels, const int32_t *top, const int32_t *bottom, vi32 across, vi32 down)
 {
     texel_lanes t;
-    vi32 rows[3], weights = v_addi(v_subi(v_shl(across, 16), across), v_seti(256)); /* 256 - across, across */
+    /* Both weights in a word: 256 - across, across */
+    vi32 rows[3], weights = v_addi(v_subi(v_shl(across, 16), across), v_seti(256));
     v_rows16(texels, top, bottom, down, rows);
     for (int k = 0; k < 3; k++)
         t.c[k] = v_float(v_madd16(rows[k], weights));
     return t;
 }
 
-/* Texels of 8 bits are stored signed, since v_madd8 and v_madd16 multiply signed bytes and halves: sums are shifted back. */
+/* Texels of 8 bits are stored signed, since v_madd8 and v_madd16 multiply signed bytes and halves; sums are shifted back. */
 
-/* Blends texels of 8 bits, whose rows are `stride` apart. Two rows side by side would save a load but take twice the memory: a
- * texture of 1024 x 1024 then no longer fits the second-level cache (0.49 instead of 0.43 ms for the head at 640 x 480). */
+/* Blends texels of 8 bits, whose rows are `stride` apart. Storing two rows side by side would save a load but take twice the
+ * memory: a texture of 1024 x 1024 would no longer fit the second-level cache (0.49 instead of 0.43 ms for the head at 640 x
+ * 480). */
 static ALWAYS_INLINE texel_lanes texture_mix8(const char *texels, int32_t stride, const int32_t *at, vi32 across, vi32 down)
 {
     texel_lanes t;
-    vi32 four[3], twice = v_madd16(down, v_seti(0x0101)); /* in both bytes of the lower half */
-    across = v_xori(v_ori(across, v_shl(across, 16)), v_seti(0x000000FF)); /* 255 - weight, weight */
+    vi32 four[3], twice = v_madd16(down, v_seti(0x0101)); /* the weight in both bytes of the lower half */
+    across = v_xori(v_ori(across, v_shl(across, 16)), v_seti(0x000000FF)); /* both weights in each half: 255 - weight, weight */
     down = v_xori(v_ori(twice, v_shl(twice, 16)), v_seti(0x00FF00FF));
     v_quads8(texels, texels + 4 * (intptr_t)stride, at, four);
     for (int k = 0; k < 3; k++)
@@ -94,7 +94,7 @@ static ALWAYS_INLINE texel_lanes texture_mix8(const char *texels, int32_t stride
     return t;
 }
 
-/* The levels of a texture as tables, to look up by lane. */
+/* The levels of a texture as tables, indexed by lane. */
 typedef struct texture_levels {
     int32_t start[E3D_MAX_LEVELS], stride[E3D_MAX_LEVELS];
     float scale[2][E3D_MAX_LEVELS];
@@ -115,11 +115,10 @@ static inline void texture_tabulate(const e3d_texture_view *view, texture_levels
 
 static inline level_lanes texture_one_level(const texture_levels *levels, int l)
 {
-    return (level_lanes){v_seti(levels->start[l]), v_seti(levels->stride[l]),
-                         {v_setf(levels->scale[0][l]), v_setf(levels->scale[1][l])}};
+    return (level_lanes){v_seti(levels->start[l]), v_seti(levels->stride[l]), {v_setf(levels->scale[0][l]), v_setf(levels->scale[1][l])}};
 }
 
-/* Looks up a number of each lane's level: in a register where a vector holds those of all levels, else by a gather. */
+/* Looks up a number of each lane's level: in a register if a vector holds all levels, else by a gather. */
 static inline vf32 level_number(const void *numbers, vi32 level)
 {
     return V_LANES >= E3D_MAX_LEVELS ? v_pick(numbers, v_picker(level)) : v_asf(v_gatheri(numbers, level));
@@ -130,8 +129,9 @@ static inline level_lanes texture_levels_of(const texture_levels *levels, vi32 l
 {
     if (!v_any(v_mnot(v_eqi(level, v_seti(guess)))))
         return texture_one_level(levels, guess);
-    return (level_lanes){v_asi(level_number(levels->start, level)), v_asi(level_number(levels->stride, level)),
-                         {level_number(levels->scale[0], level), level_number(levels->scale[1], level)}};
+    return (level_lanes){.start = v_asi(level_number(levels->start, level)),
+                         .stride = v_asi(level_number(levels->stride, level)),
+                         .scale = {level_number(levels->scale[0], level), level_number(levels->scale[1], level)}};
 }
 
 static inline vi32 texture_nearest_at(const e3d_level *level, vf32 s, vf32 t)
@@ -154,8 +154,9 @@ static inline texel_lanes texture_take(const void *texels, int bits, vi32 at)
     return (texel_lanes){{v_float(v_andi(first, low)), v_float(v_shr(first, 16)), v_float(v_andi(second, low))}};
 }
 
-/* The levels of a vector's samples, limited to the texture's. Lanes past the last sample may hold a level of an earlier batch,
- * whose texture had more: it would index past the table. Their coordinates need no limit, since they are wrapped. */
+/* Loads the levels of a vector's samples, limited to the texture's. Lanes beyond the last sample may hold a level of an
+ * earlier batch, whose texture had more; it would index beyond the table. Their coordinates need no limit, since they are
+ * wrapped. */
 static inline vi32 load_level(const int32_t *lod, int i, int level_count)
 {
     vi32 last = v_seti((level_count - 1) * 256);
@@ -164,12 +165,12 @@ static inline vi32 load_level(const int32_t *lod, int i, int level_count)
 
 /* ---- every filter in three steps: find all places, prefetch their texels, then read them ---- */
 
-/* What the first step finds for the others. */
+/* The results of the first step, for the others. */
 typedef struct texture_plan {
     const e3d_texture_view *view;
     float scale[3]; /* from texels to colours: the texture's unit times the material's colour */
     texture_levels levels;
-    _Alignas(64) texture_places near, far; /* far only where its weight isn't 0 */
+    _Alignas(64) texture_places near, far; /* far: only where its weight isn't 0 */
     _Alignas(64) int32_t lod[E3D_BATCH + E3D_PAD]; /* trilinear */
 } texture_plan;
 
@@ -181,8 +182,8 @@ static inline void texture_begin(texture_plan *plan, const e3d_texture_view *vie
     texture_tabulate(view, &plan->levels);
 }
 
-/* Finds the texels of one vector; only a trilinear filter reads lod. `filter` and `bits` are the view's, as constants where it
- * matters. */
+/* Finds the texels of one vector; only a trilinear filter reads lod. `filter` and `bits` are the view's, as constants where
+ * that matters. */
 static ALWAYS_INLINE void texture_find(texture_plan *plan, int filter, int bits, int i, vf32 u, vf32 v, vi32 lod)
 {
     const e3d_texture_view *view = plan->view;
@@ -210,7 +211,7 @@ static ALWAYS_INLINE void texture_find(texture_plan *plan, int filter, int bits,
     }
 }
 
-/* Where samples read a texture: their coordinates, and R26's lod. */
+/* Where samples read a texture: their coordinates, and lod of R26. */
 typedef struct texture_source {
     const float *u, *v;
     const int32_t *lod;
@@ -233,8 +234,8 @@ static ALWAYS_INLINE void texture_ask(const texture_plan *plan, int filter, int 
         __builtin_prefetch(texels + size * (bits == 8 ? top + plan->levels.stride[0] : places->bottom[i]));
 }
 
-/* Prefetches the texels of every fourth sample: neighbours mostly share a cache line. Without it a third of the time of a textured
- * model went into waiting for texels. */
+/* Prefetches the texels of every fourth sample, since neighbours mostly share a cache line. Without it, a third of the time
+ * of a textured model was spent waiting for texels. */
 static ALWAYS_INLINE void texture_ask_all(const texture_plan *plan, int filter, int bits, int count)
 {
     for (int i = 0; i < count; i += 4) {
@@ -244,7 +245,7 @@ static ALWAYS_INLINE void texture_ask_all(const texture_plan *plan, int filter, 
     }
 }
 
-/* Blends the texels of one vector. Textures of 8 bits have one level, whose stride is that of all lanes. */
+/* Blends the texels of one vector. Textures of 8 bits have one level, whose stride all lanes share. */
 static ALWAYS_INLINE texel_lanes texture_mix(const texture_plan *plan, int bits, const texture_places *places, int i)
 {
     const void *texels = plan->view->levels[0].texels;
@@ -283,8 +284,8 @@ static ALWAYS_INLINE void texture_filter(texture_plan *plan, int filter, int bit
     }
 }
 
-/* The loops know filter and texels of the usual textures as constants: of raw colours, and of sRGB with mip levels. The latter takes
- * 3 % off the head. */
+/* The loops know filter and texels of the usual textures as constants: raw colours, and sRGB with mip levels. The latter
+ * saves 3 % of the head. */
 static ALWAYS_INLINE void texture_color(texture_plan *plan, e3d_batch *batch)
 {
     const e3d_texture_view *view = plan->view;
@@ -295,5 +296,3 @@ static ALWAYS_INLINE void texture_color(texture_plan *plan, e3d_batch *batch)
     else
         texture_filter(plan, view->filter, view->channel_bits, batch);
 }
-
-#endif

@@ -1,6 +1,5 @@
-/* maps: the textures of a material on a batch, beside its base colour: coordinates, texels, tangents, mapped normals (R45-R48). */
-#ifndef E3D_KERNELS_MAPS_INL
-#define E3D_KERNELS_MAPS_INL
+/* The textures of a material on a batch, beside its base colour: coordinates, texels, tangents, mapped normals (R45-R48). */
+#pragma once
 
 #include "base/always_inline.h"
 #include "base/limits.h"
@@ -17,8 +16,8 @@
 
 static inline vf32 negate_if(vmask negative, vf32 v) { return v_self(negative, v_sub(v_setf(0.0f), v), v); }
 
-/* R47: of vertices, whose tangents are directions in object space. */
-static inline void map_vertex_tangents(const e3d_surfaces *matrices, const element_lanes *lanes, e3d_map_surfaces *m, int n)
+/* R47: tangents of vertices, which are directions in object space. */
+static inline void slot_vertex_tangents(const e3d_surfaces *matrices, const element_lanes *lanes, e3d_texture_surfaces *m, int n)
 {
     vf32 t[3][3]; /* [vertex][component] */
     for (int k = 0; k < 3; k++)
@@ -33,8 +32,8 @@ static inline void map_vertex_tangents(const e3d_surfaces *matrices, const eleme
     }
 }
 
-/* R47: of the face, by its corners in world space and their coordinates. */
-static inline void map_face_tangents(const e3d_surfaces *s, e3d_map_surfaces *m, int place, int n)
+/* R47: the tangent of a face, from its corners in world space and their coordinates. */
+static inline void slot_face_tangents(const e3d_surfaces *s, e3d_texture_surfaces *m, int place, int n)
 {
     vf32 u[3], v[3], p[3], zero = v_setf(0.0f);
     surface_load(m->uv[place][0], n, u);
@@ -52,7 +51,7 @@ static inline void map_face_tangents(const e3d_surfaces *s, e3d_map_surfaces *m,
 }
 
 /* Turns tangents of faces that look away, as normals are turned, and finds the signs of the bitangents. */
-static inline void map_turn(const e3d_surfaces *s, e3d_map_surfaces *m, int n)
+static inline void slot_turn(const e3d_surfaces *s, e3d_texture_surfaces *m, int n)
 {
     vmask front = v_eqi(v_loadi(s->back + n), v_seti(0)), round = v_mnot(v_eqi(v_loadi(m->turned_round + n), v_seti(0)));
     vf32 zero = v_setf(0.0f), sign = negate_if(round, v_loadf(m->sign + n));
@@ -64,38 +63,38 @@ static inline void map_turn(const e3d_surfaces *s, e3d_map_surfaces *m, int n)
         }
 }
 
-static inline void map_slopes(const e3d_surfaces *s, e3d_map_surfaces *m, int place, const float texels[2], int n)
+static inline void slot_slopes(const e3d_surfaces *s, e3d_texture_surfaces *m, int place, const float texels[2], int n)
 {
     for (int k = 0; k < 2; k++)
         slopes_of(s, m->uv[place][k], texels[k], m->slope[place][k], n);
 }
 
-static void kernel_map_surfaces(const e3d_surfaces *s, const e3d_maps *maps, e3d_map_surfaces *m)
+static void kernel_texture_surfaces(const e3d_surfaces *s, const e3d_read_textures *textures, e3d_texture_surfaces *m)
 {
     for (int n = 0; n < s->count; n += V_LANES) {
         element_lanes lanes = lanes_of(s->matrix + n);
-        for (int p = 0; p < maps->place_count; p++)
-            if (maps->places[p].has_level)
-                map_slopes(s, m, p, maps->places[p].texels, n);
-        if (maps->tangent_place < 0)
+        for (int p = 0; p < textures->place_count; p++)
+            if (textures->places[p].has_level)
+                slot_slopes(s, m, p, textures->places[p].texels, n);
+        if (textures->tangent_place < 0)
             continue;
-        if (maps->vertex_tangents)
-            map_vertex_tangents(surfaces_from(s, &lanes), &lanes, m, n);
+        if (textures->vertex_tangents)
+            slot_vertex_tangents(surfaces_from(s, &lanes), &lanes, m, n);
         else
-            map_face_tangents(s, m, maps->tangent_place, n);
-        map_turn(s, m, n);
+            slot_face_tangents(s, m, textures->tangent_place, n);
+        slot_turn(s, m, n);
     }
 }
 
 /* ---- what samples take of it ---- */
 
-typedef struct map_stage {
-    const e3d_maps *maps;
-    const e3d_map_surfaces *surfaces;
-    e3d_map_batch *out;
-} map_stage;
+typedef struct slot_stage {
+    const e3d_read_textures *textures;
+    const e3d_texture_surfaces *surfaces;
+    e3d_texture_batch *out;
+} slot_stage;
 
-static ALWAYS_INLINE weight_lanes map_weights(const e3d_batch *batch, const sample_vector *v)
+static ALWAYS_INLINE weight_lanes slot_weights(const e3d_batch *batch, const sample_vector *v)
 {
     weight_lanes weights;
     interpolate_base(v->s, &v->elements, v->same, v_loadi(batch->sample + v->i), &weights);
@@ -110,8 +109,8 @@ static ALWAYS_INLINE weight_lanes map_weights(const e3d_batch *batch, const samp
 }
 
 /* R47 */
-static ALWAYS_INLINE void map_tangent(const e3d_batch *batch, const e3d_map_surfaces *m, const weight_lanes *weights,
-                                      const sample_vector *v, e3d_map_batch *out)
+static ALWAYS_INLINE void slot_tangent(const e3d_batch *batch, const e3d_texture_surfaces *m, const weight_lanes *weights,
+                                       const sample_vector *v, e3d_texture_batch *out)
 {
     vf32 n[3], t[3];
     for (int c = 0; c < 3; c++) {
@@ -129,23 +128,24 @@ static ALWAYS_INLINE void map_tangent(const e3d_batch *batch, const e3d_map_surf
 
 static ALWAYS_INLINE void stage_maps(e3d_batch *batch, const sample_vector *v, const void *how)
 {
-    const map_stage *stage = how;
-    const e3d_maps *maps = stage->maps;
-    const e3d_map_surfaces *m = (const e3d_map_surfaces *)((const float *)stage->surfaces + v->elements.first);
-    weight_lanes weights = map_weights(batch, v);
-    for (int p = 0; p < maps->place_count; p++) {
+    const slot_stage *stage = how;
+    const e3d_read_textures *textures = stage->textures;
+    const e3d_texture_surfaces *m = (const e3d_texture_surfaces *)((const float *)stage->surfaces + v->elements.first);
+    weight_lanes weights = slot_weights(batch, v);
+    for (int p = 0; p < textures->place_count; p++) {
         interpolate_into(stage->out->uv[p], 2, m->uv[p], &weights, v);
-        if (maps->places[p].has_level)
+        if (textures->places[p].has_level)
             v_storei(stage->out->lod[p] + v->i, level_of(m->slope[p], &weights, v));
     }
-    if (maps->tangent_place >= 0)
-        map_tangent(batch, m, &weights, v, stage->out);
+    if (textures->tangent_place >= 0)
+        slot_tangent(batch, m, &weights, v, stage->out);
 }
 
 /* ---- texels ---- */
 
-/* Whether texels of two textures at one place have the same numbers and weights. (Probes of anisotropic ones aren't kept.) */
-static inline int maps_are_alike(const e3d_map *a, const e3d_map *b)
+/* Whether two textures at one place have texels with the same numbers and weights. (Probes of anisotropic textures aren't
+ * kept.) */
+static inline int textures_are_alike(const e3d_read_texture *a, const e3d_read_texture *b)
 {
     const e3d_texture_view *x = a->view, *y = b->view;
     return x->anisotropy == 1 && y->anisotropy == 1 && a->place == b->place && x->filter == y->filter && x->wrap[0] == y->wrap[0] && x->wrap[1] == y->wrap[1] &&
@@ -153,10 +153,11 @@ static inline int maps_are_alike(const e3d_map *a, const e3d_map *b)
            x->levels[0].width == y->levels[0].width && x->levels[0].height == y->levels[0].height;
 }
 
-static const float map_ones[3] = {1.0f, 1.0f, 1.0f};
+static const float slot_ones[3] = {1.0f, 1.0f, 1.0f};
 
-/* Reads a texture, whose places may be found already. */
-static ALWAYS_INLINE void map_filter(texture_plan *plan, int filter, int bits, int is_found, const texture_source *from, e3d_lane_array *out)
+/* Reads a texture; its places may be known already. */
+static ALWAYS_INLINE void slot_filter(texture_plan *plan, int filter, int bits, int is_found, const texture_source *from,
+                                      e3d_lane_array *out)
 {
     if (!is_found)
         texture_find_all(plan, filter, bits, from);
@@ -168,60 +169,64 @@ static ALWAYS_INLINE void map_filter(texture_plan *plan, int filter, int bits, i
     }
 }
 
-static inline void map_texture(texture_plan *plan, const e3d_map *map, int is_found, int count, e3d_map_batch *out, e3d_lane_array *texels)
+static inline void slot_texture(texture_plan *plan, const e3d_read_texture *texture, int is_found, int count,
+                                e3d_texture_batch *out, e3d_lane_array *texels)
 {
-    const texture_source from = {out->uv[map->place][0], out->uv[map->place][1], out->lod[map->place], count};
-    const e3d_texture_view *view = map->view;
+    const texture_source from = {out->uv[texture->place][0], out->uv[texture->place][1], out->lod[texture->place], count};
+    const e3d_texture_view *view = texture->view;
     if (!is_found)
-        texture_begin(plan, view, map_ones);
+        texture_begin(plan, view, slot_ones);
     plan->view = view;
     if (view->filter == E3D_TRILINEAR)
-        map_filter(plan, E3D_TRILINEAR, 16, is_found, &from, texels);
+        slot_filter(plan, E3D_TRILINEAR, 16, is_found, &from, texels);
     else if (view->filter == E3D_BILINEAR && view->channel_bits == 8)
-        map_filter(plan, E3D_BILINEAR, 8, is_found, &from, texels);
+        slot_filter(plan, E3D_BILINEAR, 8, is_found, &from, texels);
     else
-        map_filter(plan, view->filter, view->channel_bits, is_found, &from, texels);
-    for (int i = 0; i < count && map->has_alpha; i += V_LANES)
+        slot_filter(plan, view->filter, view->channel_bits, is_found, &from, texels);
+    for (int i = 0; i < count && texture->has_alpha; i += V_LANES)
         v_storef(texels[3] + i, alpha_read(plan, view->filter, view->channel_bits, i));
 }
 
-static inline void map_anisotropic(texture_plan *plan, const e3d_map *map, const e3d_batch *batch, const map_stage *stage, const e3d_surfaces *surfaces,
-                                   e3d_lane_array *texels)
+static inline void slot_anisotropic(texture_plan *plan, const e3d_read_texture *texture, const e3d_batch *batch,
+                                    const slot_stage *stage, const e3d_surfaces *surfaces,
+                                    e3d_lane_array *texels)
 {
-    e3d_lane_array *uv = stage->out->uv[map->place];
-    const probe_source from = probes_from(batch, surfaces, stage->surfaces->slope[map->place], uv[0], uv[1], map->view);
-    texture_begin(plan, map->view, map_ones);
-    const probe_target to = {map_ones, texels, map->has_alpha ? texels[3] : NULL};
+    e3d_lane_array *uv = stage->out->uv[texture->place];
+    const probe_source from = probes_from(batch, surfaces, stage->surfaces->slope[texture->place], uv[0], uv[1], texture->view);
+    texture_begin(plan, texture->view, slot_ones);
+    const probe_target to = {slot_ones, texels, texture->has_alpha ? texels[3] : NULL};
     anisotropic_read(plan, &from, &to);
 }
 
-/* Coordinates, tangents and texels of a batch, whose weights and normals are there. */
-static void kernel_maps(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_maps *maps, const e3d_map_surfaces *m, e3d_map_batch *out)
+/* Finds coordinates, tangents and texels of a batch whose weights and normals are known. */
+static void kernel_read_textures(e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_read_textures *textures,
+                                 const e3d_texture_surfaces *m, e3d_texture_batch *out)
 {
-    const map_stage stage = {maps, m, out};
+    const slot_stage stage = {textures, m, out};
     texture_plan plan;
     each_vector(batch, surfaces, stage_maps, &stage);
-    for (int k = 0; k < maps->count; k++) {
-        int is_found = k && maps_are_alike(&maps->maps[k - 1], &maps->maps[k]);
-        if (maps->maps[k].view->anisotropy > 1)
-            map_anisotropic(&plan, &maps->maps[k], batch, &stage, surfaces, out->texel[k]);
+    for (int k = 0; k < textures->count; k++) {
+        int is_found = k && textures_are_alike(&textures->read[k - 1], &textures->read[k]);
+        if (textures->read[k].view->anisotropy > 1)
+            slot_anisotropic(&plan, &textures->read[k], batch, &stage, surfaces, out->texel[k]);
         else
-            map_texture(&plan, &maps->maps[k], is_found, batch->count, out, out->texel[k]);
+            slot_texture(&plan, &textures->read[k], is_found, batch->count, out, out->texel[k]);
     }
 }
 
 /* ---- normals ---- */
 
-/* R48 of one vector. */
-static ALWAYS_INLINE void map_normal(const e3d_map_batch *m, const e3d_normal_map *map, int i, const vf32 n[3], vf32 out[3])
+/* R48 for one vector. */
+static ALWAYS_INLINE void map_normal(const e3d_texture_batch *m, const e3d_normal_texture *texture, int i, const vf32 n[3],
+                                     vf32 out[3])
 {
     vf32 t[3], b[3], two = v_setf(2.0f), one = v_setf(1.0f), along[3];
     for (int c = 0; c < 3; c++) {
         t[c] = v_loadf(m->tangent[c] + i);
-        along[c] = v_sub(v_mul(v_mul(v_loadf(map->texels[c] + i), v_setf(map->unit)), two), one);
+        along[c] = v_sub(v_mul(v_mul(v_loadf(texture->texels[c] + i), v_setf(texture->unit)), two), one);
     }
     for (int c = 0; c < 2; c++)
-        along[c] = v_mul(along[c], v_setf(map->scale));
+        along[c] = v_mul(along[c], v_setf(texture->scale));
     cross_three(n, t, b);
     vf32 sign = v_loadf(m->tangent[3] + i);
     for (int c = 0; c < 3; c++)
@@ -229,7 +234,8 @@ static ALWAYS_INLINE void map_normal(const e3d_map_batch *m, const e3d_normal_ma
     unit_length(out);
 }
 
-static void kernel_map_normals(e3d_batch *batch, const e3d_normal_map *surface, const e3d_normal_map *coat, e3d_map_batch *m)
+static void kernel_map_normals(e3d_batch *batch, const e3d_normal_texture *surface, const e3d_normal_texture *coat,
+                               e3d_texture_batch *m)
 {
     for (int i = 0; i < batch->count; i += V_LANES) {
         vf32 n[3], mapped[3];
@@ -257,11 +263,9 @@ static ALWAYS_INLINE vf32 varying_at(const e3d_varying *varying, int i)
     return varying->lanes ? v_mul(v_loadf(varying->lanes + i), factor) : factor;
 }
 
-/* Numbers of a batch. */
+/* Finds the numbers of a batch. */
 static void kernel_varying(const e3d_varying *varying, int count, float *out)
 {
     for (int i = 0; i < count; i += V_LANES)
         v_storef(out + i, varying_at(varying, i));
 }
-
-#endif

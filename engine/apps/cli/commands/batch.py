@@ -17,7 +17,7 @@ _SHOWN = 20  # failures that are listed
 def batch(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
     manifest = read_manifest(args.manifest)
-    # What scripts print is not what this command is there to print.
+    # The command's own output is not mixed with what scripts print.
     with _Progress(len(manifest.tasks)) as progress, contextlib.redirect_stdout(sys.stderr):
         summary = run(
             manifest.tasks,

@@ -53,7 +53,7 @@ def _thread_counts(args) -> list[int]:
 
 
 def _measure(args, cases) -> Iterator[dict]:
-    """Yield the rows, none of which takes more than its share of the time that is left."""
+    """Yield the rows; none takes more than its share of the remaining time."""
     cases = [(*case, threads) for case in cases for threads in _thread_counts(args)]
     end = time.perf_counter() + args.seconds
     made = None

@@ -59,13 +59,13 @@ def _mesh(model, how: dict, format: str | None, extension: str, options: dict):
 
 
 def _scene(model, how: dict, format: str | None, extension: str, options: dict):
-    """What saves all that a model holds: its nodes, cameras, lights, skins and animations."""
+    """Make the scene of a whole model: its nodes, cameras, lights, skins and animations."""
     scene = load_scene(model, **how)
     return lambda output: save_scene_as(scene, output, extension)
 
 
 def _output(args: argparse.Namespace) -> str:
-    """Where to write: OUT and ``-o`` are two ways to say it."""
+    """Return the output: OUT and ``-o`` are two ways to name it."""
     named = [name for name in (args.output, args.output_option) if name is not None]
     if not named:
         example = shlex.join([args.model, os.path.splitext(args.model)[0] + ".ply"])

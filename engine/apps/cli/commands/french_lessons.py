@@ -1,4 +1,4 @@
-"""What ``engine3d learn`` says in French: titles, captions and the keys.
+"""The French texts of ``engine3d learn``: titles, captions and the keys.
 
 A caption of a lesson holds numbers; in the texts below, {} stands for each of them, in their order.
 Captions are drawn: their font has glyphs for ASCII and the letters of French only.

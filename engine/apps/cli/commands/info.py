@@ -102,7 +102,7 @@ def describe(path, root: str | None = None) -> dict:
 
 
 def _of_tree(tree: TreeRecord) -> dict:
-    """What a file that holds a tree says of itself."""
+    """Return what a file says of its tree."""
     return {
         "triangles": triangle_count(tree),
         "bounds": rest_bounds(tree),

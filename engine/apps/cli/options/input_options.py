@@ -126,7 +126,7 @@ def _job(
 
 
 def _title(args: argparse.Namespace) -> str:
-    """What the variables of an output call the model."""
+    """Return the model's name for the variables of an output."""
     if not args.models:
         return args.scene or "default"
     return args.models[0] if len(args.models) == 1 else "multi_file"

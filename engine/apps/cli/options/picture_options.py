@@ -8,7 +8,7 @@ from ....choices import Backend, Samples
 from .. import values
 from ..usage import UsageError
 
-#: By look, the method and the samples of pictures and turntables of which neither is asked for.
+#: By look, the method and the samples of pictures and turntables, if neither is asked for.
 PICTURES = {"studio": ("msaa", 4), "plain": ("ssaa", 1)}
 #: The method of a window, whose samples follow the time (apps/viewer/sampling.py).
 WINDOW = "msaa"

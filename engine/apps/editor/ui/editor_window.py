@@ -73,7 +73,7 @@ class EditorWindow:
         io = imgui.get_io()
         io.config_flags |= imgui.ConfigFlags_.docking_enable
         io.config_flags |= imgui.ConfigFlags_.nav_enable_keyboard
-        # What a panel that failed has left open is closed: see `_draw_panel`.
+        # The windows that a failed panel left open are closed: see `_draw_panel`.
         io.config_error_recovery_enable_assert = False
         io.config_error_recovery_enable_debug_log = False
         io.config_windows_move_from_title_bar_only = True
@@ -273,7 +273,7 @@ class EditorWindow:
 
 
 def _recovery_state() -> imgui.internal.ErrorRecoveryState:
-    """What ImGui has begun so far, to be closed down to if something fails."""
+    """The stack of what ImGui has begun, to be closed if something fails."""
     state = imgui.internal.ErrorRecoveryState()
     imgui.internal.error_recovery_store_state(state)
     return state

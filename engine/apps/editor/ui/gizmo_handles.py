@@ -69,7 +69,7 @@ class GizmoHandles:
         return self._workspace.tools.snaps != imgui.get_io().key_ctrl
 
     def _manipulated(self, gizmo, pose: np.ndarray, size: tuple[int, int]) -> np.ndarray | None:
-        """Where the gizmo takes a pose, in single precision; None if it leaves it."""
+        """Return the gizmo's new pose, in single precision; None if it leaves the pose."""
         workspace = self._workspace
         view, bounds = workspace.view, workspace.bounds
         # Lights and cameras may stand before the near plane, which meshes decide.

@@ -1,4 +1,4 @@
-"""What a user does in a window, handed to Dear ImGui; and what ImGui asks of the window.
+"""Hands the user's input to Dear ImGui, and ImGui's requests to the window.
 
 In: events (`engine3d.events`). Out: ImGui's input; the pointer's shape, the clipboard.
 """

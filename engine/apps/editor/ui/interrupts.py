@@ -78,7 +78,7 @@ class Interrupts:
 
     @contextlib.contextmanager
     def stoppable(self, stops: Callable[[], bool]) -> Iterator[None]:
-        """Raise `KeyboardInterrupt` in what runs within once ``stops()`` is true."""
+        """Raise `KeyboardInterrupt` in the code within, once ``stops()`` is true."""
         if not self._before:  # nobody listens to signals
             yield
             return

@@ -1,4 +1,4 @@
-"""What is drawn over the scene on demand: where lights and cameras stand, boxes, frusta, normals.
+"""Overlays over the scene on demand: lights and cameras, boxes, frusta, normals.
 
 In: the frame that is shown, and the scene. Out: lines of ImGui's; nothing of it hides behind faces.
 """

@@ -1,4 +1,4 @@
-"""Where panels are, which of them are closed, by which steps tools snap: kept from time to time.
+"""The layout: places of panels, closed ones, and the steps of snapping; saved from time to time.
 
 In: the workspace, Dear ImGui's windows. Out: one file in ImGui's own format, in which the editor's
 settings are a section that ImGui passes over.
@@ -79,7 +79,7 @@ def place_panels(space: int, size: tuple[int, int]) -> None:
     """Give the panels their usual places."""
     builder = imgui.internal
     builder.dock_builder_remove_node(space)
-    # Numbers, as they are of two enumerations, whose sum Python before 3.11.4 cannot name.
+    # Plain numbers: members of two enumerations, whose sum Python before 3.11.4 cannot name.
     is_space = int(builder.DockNodeFlagsPrivate_.dock_space)
     is_seen_through = int(imgui.DockNodeFlags_.passthru_central_node)
     builder.dock_builder_add_node(space, is_space | is_seen_through)

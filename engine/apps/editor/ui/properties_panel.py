@@ -1,4 +1,4 @@
-"""What the active node is: name, pose, what it holds, its materials; all of it can be changed.
+"""The panel of the active node: its name, pose, object and materials, all of which can be changed.
 
 In: the selection. Out: commands; what the mouse drags is one step from press to release.
 """
@@ -38,7 +38,7 @@ _COLLIDERS = {
     "mesh": lambda mesh: MeshCollider(),
 }
 _KINDS = {BoxCollider: "box", SphereCollider: "sphere", MeshCollider: "mesh"}
-# Of lights, as far as a kind has them; of numbers how fast they are dragged.
+# For lights, the values of their kind; for numbers, how fast they are dragged.
 _SHADOWS = {False: "none", True: "map", "exact": "exact"}
 _LIGHT_COLORS = {"sky_color": "Sky", "ground_color": "Ground", "color": "Colour"}
 _LIGHT_NUMBERS = {
@@ -367,7 +367,7 @@ def _counts(row: Parameter, material: Material) -> bool:
 
 
 def _in_place(mesh: Mesh, number: int):
-    """What puts a material in place of one of a mesh's."""
+    """Return a command that replaces one of a mesh's materials."""
 
     def values(chosen: Material) -> dict[str, Any]:
         materials = list(mesh.materials)

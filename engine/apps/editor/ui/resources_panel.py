@@ -1,4 +1,4 @@
-"""What the scene is made of: meshes, materials and textures, with pictures, sizes, users.
+"""The panel of the scene's resources: meshes, materials and textures, with pictures, sizes, users.
 
 In: the workspace's resources. Out: rows, of which only those that show are laid out; a click
 selects the users.

@@ -1,4 +1,4 @@
-"""What menus, keys and panels do to the selection: each is one step that can be undone."""
+"""The actions of menus, keys and panels on the selection; each is one step that can be undone."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the panels share: the document, the camera, how the scene is shown.
+"""The workspace that the panels share: the document, the camera, how the scene is shown.
 
 In: what panels do. Out: the same for all panels. Nothing here draws.
 """

@@ -29,7 +29,7 @@ from .gltf_primitives import GltfPrimitives
 from .gltf_textures import GltfTextures
 from .gltf_vrm import facing_forward
 
-# What stands near the beginning of such a file, whichever of its lists comes first.
+# One of these stands near the beginning of such a file, whichever of its lists comes first.
 _WORDS = (b'"asset"', b'"accessors"', b'"bufferView"', b'"extensionsUsed"')
 
 

@@ -97,7 +97,7 @@ class GltfAccessors:
         is_all = isinstance(rows, slice)
         values = values[rows]
         self._buffers.count(values.size)
-        # Some exporters say it of floats, too, of which it means nothing.
+        # Some exporters set it for floats, too, for which it has no meaning.
         if not self._is_normalized(index) or values.dtype.kind == "f":
             return _copied(values) if is_all else values.astype(np.float32, copy=False)
         return np.maximum(values / np.float32(np.iinfo(values.dtype).max), np.float32(-1))
@@ -105,7 +105,7 @@ class GltfAccessors:
     def as_numbers(
         self, values: np.ndarray, index: int, rows: slice | np.ndarray = slice(None)
     ) -> np.ndarray:
-        """As `as_floats`, but integers that stand for themselves stay what they are."""
+        """Like `as_floats`, but integers that are not normalised stay integers."""
         if self._is_normalized(index):
             return self.as_floats(values, index, rows)
         values = values[rows]

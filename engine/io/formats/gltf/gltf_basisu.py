@@ -20,7 +20,7 @@ from ..images import check_image_size
 #: The extensions that name such images.
 READ = ("KHR_texture_basisu", "GOOGLE_texture_basis")
 _KTX2, _BASIS = b"\xabKTX 20\xbb\r\n\x1a\n", b"sB"
-# Of the header of a KTX2 file: width and height as words.
+# In the header of a KTX2 file: width and height as words.
 _SIZE_AT, _HEADER = 20, 80
 
 

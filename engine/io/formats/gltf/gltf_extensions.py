@@ -1,4 +1,4 @@
-"""What a glTF file needs or says that is not read.
+"""Extensions that a glTF file needs or uses and that are not read.
 
 In: a `GltfFile`. Out: an error for an extension that it cannot be read without; one warning for
 each other extension.
@@ -24,7 +24,7 @@ _MODULES = (
     *(gltf_textures, gltf_vrm),
 )
 READ = frozenset().union(*(module.READ for module in _MODULES))
-# What changes only how surfaces look or move: the rest of the file is right without it.
+# Extensions that change only how surfaces look or move; the rest of the file is right without.
 _OF_LOOKS = ("KHR_materials_", "KHR_xmp")
 
 
@@ -46,7 +46,7 @@ def check_extensions(file: GltfFile) -> None:
 
 
 def _of_materials(file: GltfFile) -> list[str]:
-    """What materials have, listed or not: files forget the list, and readers go by the material."""
+    """Return the extensions of materials, listed or not: files may forget the list."""
     return [
         name
         for index, material in enumerate(file.entries("materials"))

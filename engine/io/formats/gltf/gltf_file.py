@@ -26,7 +26,7 @@ _LISTS = (
     *("accessors", "animations", "bufferViews", "buffers", "cameras", "images", "materials"),
     *("meshes", "nodes", "samplers", "scenes", "skins", "textures"),
 )
-# Of these lists, whatever is no object is left out: a picture can do without.
+# Entries of these lists that are not objects are left out: a picture can do without them.
 _SPARE_LISTS = {"animations", "cameras", "images", "materials", "samplers", "skins", "textures"}
 _JSON, _BINARY = 0x4E4F534A, 0x004E4942
 _Key = TypeVar("_Key")

@@ -41,7 +41,7 @@ class Map(NamedTuple):
     beside_key: str = ""
 
 
-# What files mean that leave these out, where it is not what a `Material` is by default.
+# The defaults of files, where they differ from those of `Material`.
 _LEFT_OUT: dict[str, float | tuple[float, ...]]
 _LEFT_OUT = {"color": (1.0, 1.0, 1.0, 1.0), "metallic": 1.0, "roughness": 1.0}
 
@@ -288,7 +288,7 @@ class GltfMaterials:
     def _values(
         self, part: Entry, item: Numbers | Map, where: str, uv_sets: tuple[int, ...]
     ) -> dict[str, Any]:
-        """What one item says, as parameters of a material."""
+        """Return the values of one item, as parameters of a material."""
         if isinstance(item, Numbers):
             if isinstance(item.default, tuple):
                 return {item.field: self._file.numbers(part, item.key, where, item.default)}
@@ -325,7 +325,7 @@ def undrawn_kinds(material: Material) -> set[str]:
 
 
 def _from_glossiness(values: dict[str, Any], glossiness: float) -> dict[str, Any]:
-    """What a specular-glossiness material is as a metallic-roughness one."""
+    """Turn a specular-glossiness material into a metallic-roughness one."""
     found: dict[str, Any] = {"metallic": 0.0, "roughness": 1.0 - glossiness, "ior": 0.0}
     held: Texture | PlacedTexture | None = values.get("specular_color_texture")
     if held is not None:

@@ -30,7 +30,7 @@ from .gltf_file import DamagedError, Entry, GltfFile
 from .gltf_materials import GltfMaterials
 from .gltf_primitives import GltfPrimitives, Primitive
 
-# Of so many faces of a mesh that bends, tangents are found while it is read.
+# For meshes that bend, of up to so many faces, tangents are found while reading.
 MOST_BENDING = 1 << 17
 _MORPHS = ("positions", "normals", "tangents")
 _NO_MATERIAL = Material()
@@ -222,7 +222,7 @@ class GltfMeshes:
     ) -> list[MorphTarget]:
         """The morph targets of joined primitives: what only some change is 0 for the others."""
         found = []
-        # A primitive that has fewer stays as it is where the others move.
+        # A primitive with fewer targets does not move by the targets that it lacks.
         held = ([*p.morphs, *({},) * (len(names) - len(p.morphs))] for p in primitives)
         for name, *targets in zip(names, *held, strict=True):
             deltas = {}
@@ -248,7 +248,7 @@ class GltfMeshes:
 
 
 def _kind_of(primitive: Primitive) -> tuple[object, ...]:
-    """What primitives of one mesh have in common."""
+    """Return the kind that all primitives of a mesh share."""
     joints = 0 if primitive.joints is None else primitive.joints.shape[1]
     material = None if primitive.kind == "faces" else primitive.material
     # The materials of other sets of texture coordinates are others, of these one may be drawn.

@@ -111,7 +111,7 @@ def _later(
 
 
 class _Sampled(NamedTuple):
-    """What a sampler holds; ``is_later``: which times differ from the next one, None for all."""
+    """The data of a sampler; ``is_later``: which times differ from the next one, None for all."""
 
     times: np.ndarray
     values: np.ndarray
@@ -143,7 +143,7 @@ class _Clips:
                 self._shown_by.setdefault(node.mesh, []).append(index)
 
     def clip(self, entry: Entry, where: str) -> ClipRecord | None:
-        """Return a clip; None if none of its channels makes sense, each of which was told."""
+        """Return a clip; None if no channel is usable; each of these was reported."""
         file = self._file
         for name in ("channels", "samplers"):
             if name not in entry:
@@ -262,7 +262,7 @@ class _Clips:
         return (times, values) if is_later is None else (times[is_later], values[is_later])
 
     def _turning(self, values: np.ndarray, where: str) -> np.ndarray:
-        """Rotations of which none is the null quaternion."""
+        """Return rotations, none of which is the null quaternion."""
         keys = values if values.ndim == 2 else values[:, 1]
         is_none = ~keys.any(axis=1)
         if not is_none.any():

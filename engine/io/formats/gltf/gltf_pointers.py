@@ -1,4 +1,4 @@
-"""JSON pointers that KHR_animation_pointer names, and what of a tree each means.
+"""JSON pointers of KHR_animation_pointer, and the part of a tree that each means.
 
 In: a pointer. Out: the thing, its property and how many numbers that is; and the pointer of a
 property, for who writes one. Sources: Khronos, KHR_animation_pointer and "glTF 2.0 Asset Object
@@ -39,7 +39,7 @@ _LIGHT_LIST = f"extensions/{LIGHTS}/lights"
 
 
 class Target(NamedTuple):
-    """What a pointer means.
+    """The property that a pointer means.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class Target(NamedTuple):
 
 
 def _material_pointers() -> dict[str, tuple[str, int]]:
-    """What stands behind the number of a material -> its property, and how many numbers it is."""
+    """Return paths behind a material's number -> its property, and how many numbers."""
     found: dict[str, tuple[str, int]] = {}
     for part, items in PARTS.items():
         place = f"extensions/{part}/" if part.startswith("KHR") else f"{part}/" if part else ""

@@ -28,7 +28,7 @@ _POINTS, _LINES, _LOOP, _LINE_STRIP, _TRIANGLES, _STRIP, _FAN = range(7)
 READ = ("KHR_mesh_quantization",)
 # Each takes some kilobytes, or a part of a millisecond, however little the file says of it.
 _MAX_PRIMITIVES = 10_000
-# Of so few of all vertices a list is sorted; of more each is marked.
+# A list of so small a share of all vertices is sorted; of a larger one, each is marked.
 _FEW = 4
 _INFLUENCES = 4
 _WIDTHS = (1, 2, 3, 4)  # of attributes of the file's own
@@ -229,7 +229,7 @@ class GltfPrimitives:
         return np.where(usable > 0, np.concatenate(joints, axis=1), 0), usable
 
     def _morphs(self, vertices: _Vertices, entry: Entry, where: str) -> list[dict[str, np.ndarray]]:
-        """What each morph target adds; one that is damaged keeps its place, and adds nothing."""
+        """Return each morph target's deltas; a damaged one keeps its place, and adds nothing."""
         file = self._file
         targets = file.sound(f"{where}.targets", file.entries, "targets", entry, f"{where}.") or []
         found = []
@@ -280,7 +280,7 @@ def _primitives_of(file: GltfFile, entry: Entry, where: str) -> list[Entry]:
 
 
 class _Vertices:
-    """What the vertices of a primitive carry; ``rows`` are those that are asked for."""
+    """The attributes of a primitive's vertices; ``rows`` are the ones asked for."""
 
     def __init__(
         self,
@@ -370,7 +370,7 @@ class _Vertices:
         return self._accessors.as_numbers(values, self.attributes[name], self.rows)
 
     def deltas(self, index: int, where: str) -> np.ndarray:
-        """What a morph target adds to an attribute."""
+        """Return the deltas that a morph target adds to an attribute."""
 
         def make() -> np.ndarray:
             values = self._accessors.raw(index, where, 3)
@@ -393,7 +393,7 @@ class _Vertices:
 
 
 def _geometry_of(entry: Entry) -> str:
-    """What a primitive says, but for its materials: others of the same have the same arrays."""
+    """Return a primitive without its materials; equal ones share arrays."""
     extensions = entry.get("extensions")
     packing = extensions.get(DRACO) if isinstance(extensions, dict) else None
     keys = ("attributes", "indices", "mode", "targets")
@@ -435,7 +435,7 @@ def _with_alpha(values: np.ndarray) -> np.ndarray:
 
 
 def _usable(weights: np.ndarray) -> np.ndarray:
-    """Weights of which each row has one; the first joint moves what none does."""
+    """Return weights; the first joint moves the vertices that have none."""
     weights = np.where(np.isfinite(weights) & (weights > 0), weights, np.float32(0))
     weights[~weights.any(axis=1), 0] = 1
     return weights

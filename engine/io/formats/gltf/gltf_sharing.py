@@ -17,7 +17,7 @@ from ...._native.loaders import frozen
 
 
 class SharedArrays:
-    """What was made of accessors that several primitives name.
+    """Arrays that were made from accessors, for primitives that name the same ones.
 
     Parameters
     ----------

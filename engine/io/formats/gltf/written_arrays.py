@@ -18,7 +18,7 @@ _STEP = 4  # where arrays begin
 
 
 class GltfArrays:
-    """What a file holds in bytes.
+    """The binary data of a file.
 
     Attributes
     ----------

@@ -27,7 +27,7 @@ _FILTERS = {
     "trilinear": (_LINEAR, _LEVELS),
 }
 _TRANSFORM, _UNLIT = "KHR_texture_transform", "KHR_materials_unlit"
-# What images begin with -> their media type, and the extension that texture needs for them.
+# The first bytes of images -> their media type, and the extension that a texture needs for it.
 _IMAGES = (
     (b"\x89PNG\r\n\x1a\n", "image/png", None),
     (b"\xff\xd8\xff", "image/jpeg", None),
@@ -84,7 +84,7 @@ class GltfMaterialList:
         entry = self._entry(material)
         if not entry and is_implied(material):
             return -1
-        # Of a flat and a smooth one that are else the same, a file's meshes tell which is which.
+        # A flat and a smooth material that are equal otherwise are told apart by the file's meshes.
         words, flat = repr(entry), material.flat_shading
         if twins := self._twins.get((words, not flat)):
             return twins.pop()
@@ -120,7 +120,7 @@ class GltfMaterialList:
         return entry
 
     def _words(self, material: Material, item: Numbers | Map) -> dict[str, Any]:
-        """What the JSON says of one item; nothing where it is as by default."""
+        """Return the JSON of one item; nothing if it has the defaults."""
         if isinstance(item, Numbers):
             value = _value(material, item.field)
             return {} if value == item.default else {item.key: value}

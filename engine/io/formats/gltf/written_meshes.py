@@ -106,7 +106,7 @@ class GltfMeshList:
         return entry
 
     def _vertices(self, mesh: Mesh, rows: Any, faces: np.ndarray, *, flat: bool) -> dict[str, Any]:
-        """What some vertices carry, of which readers make use."""
+        """Return the attributes of some vertices that readers use."""
         arrays = {"POSITION": mesh.positions[rows]}
         # Faces without normals are flat; there is no other word for it.
         if not flat and (mesh.has_normals or len(mesh.faces)):
@@ -146,7 +146,7 @@ class GltfMeshList:
         return found
 
     def _target(self, target: Any, rows: Any, attributes: dict[str, int]) -> dict[str, int]:
-        """What a target adds to the attributes that there are."""
+        """Return what a target adds to the existing attributes."""
         held = {
             name: getattr(target, field) for field, name in _MORPHED.items() if name in attributes
         }

@@ -1,4 +1,4 @@
-"""What clips change besides poses, as a glTF file that is written names it: KHR_animation_pointer.
+"""Pointers for the properties that clips change besides poses, in a written glTF file.
 
 In: the clips of a `TreeRecord`, and the JSON of all else. Out: the targets of their channels; in
 the JSON, whatever these point to, which a file has to say though it is as by default.

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from ....choices import Wrap
 
 _UNDRAWN_NUMBERS = ("aniso", "anisor")
-# What is said of maps that are not drawn, by their keywords in lower case.
+# The warnings about maps that are not drawn, by their keywords in lower case.
 _UNDRAWN_MAPS = {
     "disp": "displacement",
     "map_disp": "displacement",
@@ -196,7 +196,7 @@ def _material(
         "texture": texture,
         "specular": _specular(values) if "Ks" in values else None,
         "shininess": max(values["Ns"], 0.0) if "Ns" in values else None,
-        # Where an image says what gives off light, all of it would be too much.
+        # With a map of emitted light, a constant besides would be too much.
         "emissive": None if "map_Ke" in maps else values.get("Ke"),
         "extras": extras or None,
         **physical_fields(values, maps, load, _scale_and_offset),

@@ -1,4 +1,4 @@
-"""What material libraries say of physically based materials and of normals.
+"""Physically based materials and normal maps of material libraries.
 
 In: the numbers of a material and its maps, and a way to load their images. Out: fields of
 `Material`. The statements are those of the common extension of MTL (Pr, Pm, Ps, Pc, Pcr, norm and
@@ -147,7 +147,7 @@ def _joined(rough: Texture | None, metal: Texture | None) -> np.ndarray:
 
 
 def _normal_fields(maps: dict[str, MapEntry], load: _Load) -> dict[str, Any]:
-    """Of all materials: a map of normals, or of heights."""
+    """Return the fields that all materials may have: a map of normals, or of heights."""
     held = _loaded(maps, _NORMALS, load)
     if held is not None:
         return {"normal_texture": held, "normal_scale": _strength(held[1])}

@@ -23,7 +23,7 @@ _KNOWN_MAPS |= {"map_Pr", "map_Pm", "map_Ps", "map_Pc", "map_Pcr", "map_ORM", "m
 _KNOWN_MAPS |= {"map_aniso", "map_anisor", "map_aat"}
 _KNOWN = sorted({"newmtl", *COLORS, *SCALARS, *_MAPS, *_KNOWN_MAPS}, reverse=True)
 _SPELLINGS = {keyword.lower(): keyword for keyword in _KNOWN} | {word: word for word in _KNOWN}
-# What other statements are called that say how a surface looks.
+# Other statements about how a surface looks.
 _LOOKS = re.compile(
     r"k[a-z]\w?|.*(?:colou?r|diffuse|specular|shin|gloss|albedo|ambient|emi|opacity|alpha|transp|tex|"
     r"map|image|metal|rough|normal|bump).*",
@@ -113,7 +113,7 @@ def parse_map(text: str) -> MapEntry:
             entry |= {key: values for key, values in behind.items() if values}
             last = start
             break
-    # As it was written: blanks in a name count.
+    # As written, since blanks in a name count.
     entry["name"] = _between(text, position, last)
     return entry
 

@@ -36,7 +36,7 @@ def read_obj(source: Source, split: bool = False) -> Document:
     cut = _cut(source, file, warnings)
     materials, material_ids = _materials(source, file, states, cut, warnings)
     triangles = _triangles(file.faces, cut, material_ids)
-    # What the file says of smoothing holds whatever the angle.
+    # The smoothing that the file gives holds whatever the angle.
     crease_angle = SMOOTH if states.has_smoothing else source.crease_angle
     normals = _fill_normals(file, triangles, states, crease_angle)
     parts = ObjParts(file, triangles, normals, states, materials, crease_angle, moves=split)
@@ -104,7 +104,7 @@ def _fill_normals(
     """Give the triangles the normals that they lack; returns what their indices refer to."""
     vertices = file.vertices
     if triangles.normals is None and not states.has_smoothing:
-        # What `fill_normals` comes to, without looking at each triangle.
+        # The result of `fill_normals`, without looking at each triangle.
         return None
     if triangles.normals is not None and triangles.normals.min(initial=0) >= 0:
         return vertices.normals

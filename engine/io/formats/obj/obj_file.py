@@ -62,7 +62,7 @@ class Elements(NamedTuple):
 
 @dataclass
 class ObjFile:
-    """What an OBJ file holds.
+    """The contents of an OBJ file.
 
     Attributes
     ----------

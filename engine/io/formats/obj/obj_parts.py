@@ -27,7 +27,7 @@ _MAX_GROUPS_OF_A_FACE = 16
 
 
 class ObjParts(NamedTuple):
-    """What an OBJ file holds.
+    """The contents of an OBJ file.
 
     Attributes
     ----------
@@ -121,7 +121,7 @@ class ObjParts(NamedTuple):
     def _object(
         self, name: str, chosen: slice, lines: Elements, points: Elements, starts: np.ndarray
     ) -> DocumentObject:
-        """Some triangles, lines and points that stand together."""
+        """Return some triangles, lines and points as one object."""
         geometry = Geometry(
             self.file.vertices,
             self.triangles.part(chosen),

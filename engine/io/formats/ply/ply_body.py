@@ -34,7 +34,7 @@ ListInRow = tuple[int, str, str]
 
 
 class WalkedRows(NamedTuple):
-    """Where the rows of an element stand.
+    """The places of an element's rows.
 
     Attributes
     ----------
@@ -176,7 +176,7 @@ class BinaryBody:
         return items
 
     def numbers(self, places: np.ndarray, code: str) -> np.ndarray:
-        """Return the numbers at ``places`` (any shape), all of which are inside."""
+        """Return the numbers at ``places`` (any shape), which are all inside."""
         if not len(places):
             return np.zeros(places.shape, code)
         # A view of all numbers that begin at any byte.

@@ -88,7 +88,7 @@ class PlyElement:
 
 @dataclass
 class PlyHeader:
-    """What a PLY file announces.
+    """The header of a PLY file.
 
     Attributes
     ----------

@@ -44,7 +44,7 @@ class PlyList(NamedTuple):
 
 
 class _Layout(NamedTuple):
-    """Where the numbers of an element stand.
+    """The places of an element's numbers.
 
     Attributes
     ----------

@@ -22,7 +22,7 @@ _UVS = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "textu
 
 
 class PlyVertices(NamedTuple):
-    """What a file says about its vertices.
+    """The vertices of a file.
 
     Attributes
     ----------

@@ -26,13 +26,13 @@ from ...reading.zip_archives import ZipArchive
 from .threemf_model import ModelPart, ObjectRecord
 from .threemf_properties import WHITE, Color, PropertyGroup
 
-# Of the layers of a triangle the first of these kinds is shown.
+# Of a triangle's layers, the first one of these kinds is shown.
 _LAYERS = ("texture", "color", "base")
 
 
 @dataclass
 class _Corners:
-    """What the corners of a mesh carry, filled triangle by triangle."""
+    """The attributes of a mesh's corners, filled triangle by triangle."""
 
     materials: np.ndarray
     colors: np.ndarray | None = None
@@ -96,7 +96,7 @@ class MeshBuilder:
     def _corners(
         self, record: ObjectRecord, count: int, materials: list[Material]
     ) -> _Corners | None:
-        """What the triangles of an object show; None where nothing says anything."""
+        """Return the attributes of an object's triangles; None if there are none."""
         if record.group < 0 and not record.properties:
             return None
         found = _Corners(np.zeros(count, np.int32))

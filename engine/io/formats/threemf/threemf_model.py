@@ -31,7 +31,7 @@ UNITS = {
     "meter": (1.0, "m"),
 }
 _MOST_INDEX = 2**31 - 1
-# What says nothing about how a model looks.
+# Elements that say nothing about how a model looks.
 _SILENT = frozenset({"metadata", "metadatagroup"})
 
 

@@ -106,7 +106,7 @@ class PropertyParser:
         return found
 
     def _sensible(self, read: Callable[..., Any], *words: Any, default: Any) -> Any:
-        """What a reader makes of words; the default, and a warning, where it makes no sense."""
+        """Return words converted by a reader; the default, with a warning, if it fails."""
         try:
             return read(*words)
         except XmlFault as fault:

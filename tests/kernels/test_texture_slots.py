@@ -11,9 +11,9 @@ from kernels.layouts import (
     BATCH,
     BATCH_RECORD,
     BATCH_SURFACES,
-    MAP_BATCH,
     PAD,
     SURFACES,
+    TEXTURE_BATCH,
     WANT_LEVEL,
     WANT_NORMAL,
     WANT_UV,
@@ -54,8 +54,8 @@ def face_tangents(surfaces, uv, back, round_too):
     return turned(back, tangents), turned(back, turned(round_too, sign))
 
 
-def map_surfaces_of(rng, surfaces, places):
-    made = record("map_surfaces")
+def texture_surfaces_of(rng, surfaces, places):
+    made = record("texture_surfaces")
     made["uv"][0, :places] = rng.uniform(-2, 2, made["uv"][0, :places].shape)
     made["uv"][0, 0] = surfaces["uv"]
     made["tangent"] = rng.uniform(-1, 1, made["tangent"].shape)
@@ -66,7 +66,7 @@ def map_surfaces_of(rng, surfaces, places):
 
 @all_backends
 @pytest.mark.parametrize("vertex_tangents", [False, True])
-def test_map_surfaces(kernels, vertex_tangents):
+def test_texture_surfaces(kernels, vertex_tangents):
     """Tangents of faces by the rule; those of vertices, and slopes, have the bytes of one lane."""
     rng, plain = np.random.default_rng(1), kernels_of("portable")
     for count in (1, 2, 5, 17, BATCH_SURFACES):
@@ -74,14 +74,16 @@ def test_map_surfaces(kernels, vertex_tangents):
         for name in ("position", "uv", "world"):
             surfaces[name] = rng.uniform(-2, 2, surfaces[name].shape)
         surfaces = surfaces.reshape(1)
-        given = map_surfaces_of(rng, surfaces[0], 2)
-        maps = record("maps", place_count=2, tangent_place=1, vertex_tangents=vertex_tangents)
-        maps["places"]["has_level"][0, 1], maps["places"]["texels"][0, 1] = 1, (64, 32)
+        given = texture_surfaces_of(rng, surfaces[0], 2)
+        textures = record(
+            "read_textures", place_count=2, tangent_place=1, vertex_tangents=vertex_tangents
+        )
+        textures["places"]["has_level"][0, 1], textures["places"]["texels"][0, 1] = 1, (64, 32)
         got, expected = given.copy(), given.copy()
         for some in (kernels, plain):
             some.surface(surfaces.copy(), 0, 0, WANT_LEVEL)
-        kernels.map_surfaces(surfaces, maps, got)
-        plain.map_surfaces(surfaces, maps, expected)
+        kernels.texture_surfaces(surfaces, textures, got)
+        plain.texture_surfaces(surfaces, textures, expected)
         for name in ("tangent", "sign", "slope", "uv"):
             here, there = (one[name][0, ..., :count] for one in (got, expected))
             assert np.array_equal(bits(here), bits(there)), name
@@ -93,7 +95,7 @@ def test_map_surfaces(kernels, vertex_tangents):
             assert np.array_equal(tangents, np.repeat(rule[0][:, None, :count], 3, axis=1))
 
 
-def textures(rng):
+def random_textures(rng):
     """Two views: of a texture that is blended, and of one with levels."""
     for filter, sides in (("bilinear", [16]), ("trilinear", [32, 16, 8])):
         sizes = np.array([(side, side) for side in sides], np.int32)
@@ -102,19 +104,19 @@ def textures(rng):
         yield texels, 16, sizes, FILTERS[filter], (WRAPS["repeat"], WRAPS["clamp"])
 
 
-def shaded(kernels, surfaces, batch, maps, of_surfaces):
+def shaded(kernels, surfaces, batch, textures, of_surfaces):
     """What the kernel finds, in a batch that has weights and normals by the same backend."""
-    batch, out = batch.copy(), np.zeros(1, MAP_BATCH)
+    batch, out = batch.copy(), np.zeros(1, TEXTURE_BATCH)
     kernels.interpolate(batch, surfaces, WANT_UV | WANT_NORMAL | WANT_WEIGHTS)
-    kernels.maps(batch, surfaces, maps, of_surfaces, out)
+    kernels.read_textures(batch, surfaces, textures, of_surfaces, out)
     return batch, out
 
 
 @all_backends
-def test_maps(kernels):
+def test_read_textures(kernels):
     """Coordinates are interpolated, texels as a base colour's; the bytes are those of one lane."""
     rng, plain = np.random.default_rng(2), kernels_of("portable")
-    given = list(textures(rng))
+    given = list(random_textures(rng))
     views = [texture_view(*one) for one in given]
     for count in (1, 3, 16, 100, BATCH):
         surfaces = np.zeros(1, SURFACES)
@@ -125,14 +127,14 @@ def test_maps(kernels):
         batch = np.zeros(1, BATCH_RECORD)
         batch["count"], batch["sample"] = count, np.minimum(np.arange(LANES), count - 1)
         batch["surface"] = batch["sample"] // 3
-        of_surfaces = map_surfaces_of(rng, surfaces[0], 2)
+        of_surfaces = texture_surfaces_of(rng, surfaces[0], 2)
         of_surfaces["slope"] = rng.uniform(-1e-2, 1e-2, of_surfaces["slope"].shape)
-        maps = record("maps", place_count=2, count=2, tangent_place=0)
-        maps["places"]["has_level"][0, 1] = 1
-        maps["maps"]["view"][0, :2] = [view.ctypes.data for view in views]
-        maps["maps"]["place"][0, :2] = [0, 1]
-        shown, got = shaded(kernels, surfaces, batch, maps, of_surfaces)
-        _, expected = shaded(plain, surfaces, batch, maps, of_surfaces)
+        textures = record("read_textures", place_count=2, count=2, tangent_place=0)
+        textures["places"]["has_level"][0, 1] = 1
+        textures["read"]["view"][0, :2] = [view.ctypes.data for view in views]
+        textures["read"]["place"][0, :2] = [0, 1]
+        shown, got = shaded(kernels, surfaces, batch, textures, of_surfaces)
+        _, expected = shaded(plain, surfaces, batch, textures, of_surfaces)
         for name, part in (("uv", 2), ("lod", 2), ("texel", 2), ("tangent", 4)):
             here, there = (one[name][0, :part, ..., :count] for one in (got, expected))
             assert np.array_equal(bits(here), bits(there)), name
@@ -155,28 +157,29 @@ def test_map_normals(kernels):
     """R48: along the tangent, the bitangent and the normal; the coat's go elsewhere."""
     rng = np.random.default_rng(3)
     texels = rng.random((2, 3, LANES), np.float32)
-    batch, maps = np.zeros(1, BATCH_RECORD), np.zeros(1, MAP_BATCH)
+    batch, textures = np.zeros(1, BATCH_RECORD), np.zeros(1, TEXTURE_BATCH)
     normals = rng.uniform(-1, 1, (3, LANES)).astype(np.float32)
     batch["count"], batch["normal"] = BATCH, normals
-    maps["tangent"] = rng.uniform(-1, 1, maps["tangent"].shape)
-    maps["tangent"][0, 3] = rng.choice([-1, 1], LANES)
+    textures["tangent"] = rng.uniform(-1, 1, textures["tangent"].shape)
+    textures["tangent"][0, 3] = rng.choice([-1, 1], LANES)
     scales = np.float32([0.8, 1.5])
     given = [
-        record("normal_map", texels=texels[k].ravel(), unit=1, scale=scales[k]) for k in range(2)
+        record("normal_texture", texels=texels[k].ravel(), unit=1, scale=scales[k])
+        for k in range(2)
     ]
-    kernels.map_normals(batch, *given, maps)
-    t = maps["tangent"][0]
+    kernels.map_normals(batch, *given, textures)
+    t = textures["tangent"][0]
     across = [normals[1] * t[2] - normals[2] * t[1], normals[2] * t[0] - normals[0] * t[2]]
     across.append(normals[0] * t[1] - normals[1] * t[0])
-    for k, got in enumerate((batch["normal"][0], maps["coat_normal"][0])):
+    for k, got in enumerate((batch["normal"][0], textures["coat_normal"][0])):
         along = texels[k] * TWO - ONE
         x, y = along[0] * scales[k], along[1] * scales[k]
         mapped = [(t[c] * x + (across[c] * t[3]) * y) + normals[c] * along[2] for c in range(3)]
         assert np.array_equal(bits(got[:, :BATCH]), bits(np.array(unit(mapped))[:, :BATCH]))
-    assert np.array_equal(maps["shading_normal"][0, :, :BATCH], normals[:, :BATCH])
+    assert np.array_equal(textures["shading_normal"][0, :, :BATCH], normals[:, :BATCH])
     before = batch["normal"].copy()
-    none = record("normal_map")
-    kernels.map_normals(batch, none, none, maps)
+    none = record("normal_texture")
+    kernels.map_normals(batch, none, none, textures)
     assert np.array_equal(batch["normal"], before)
     assert dot(t[:3], t[:3]).max() > 1  # nothing expects tangents of unit length
     assert layouts.MOST_PLACES == layouts.TEXTURE_SLOTS + 1

@@ -120,7 +120,7 @@ def hits(origin, towards, corners):
 
 @all_backends
 @pytest.mark.parametrize("is_point", [False, True])
-def test_hide(kernels, is_point):
+def test_exact_shadows(kernels, is_point):
     shares = []
     for seed in range(20):
         rng = np.random.default_rng(seed)
@@ -139,10 +139,10 @@ def test_hide(kernels, is_point):
         index = record("caster_index", may_be_open=np.zeros(CASTERS, np.uint8), **given)
         lighting = lighting_of(lights, reach_of(lights), (0, 0, 0), (0, 1), (0, 0, 5, 1))
         got, expected = batch.copy(), batch.copy()
-        kernels.hide(got, lighting, index, receivers)
+        kernels.exact_shadows(got, lighting, index, receivers)
         kernels_of("portable").hide(expected, lighting, index, receivers)
-        found = got["hidden_lights"][0, :BATCH]
-        assert np.array_equal(found, expected["hidden_lights"][0, :BATCH])
+        found = got["shadowed_lights"][0, :BATCH]
+        assert np.array_equal(found, expected["shadowed_lights"][0, :BATCH])
         origin = batch["position"][0, :, :BATCH].T.astype(float)
         towards = np.tile(lights["to_light"], (BATCH, 1)).astype(float)
         if is_point:

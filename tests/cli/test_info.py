@@ -22,6 +22,13 @@ def test_info(model, capsys):
     assert [item["faces"] for item in report["objects"]] == [2]
 
 
+def test_info_counts_the_points_that_are_drawn(tmp_path, capsys):
+    path = tmp_path / "cloud.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\n")
+    assert main(["info", str(path)]) == 0
+    assert "object cloud: 3 vertices, 0 faces, 3 points\n" in capsys.readouterr().out
+
+
 def test_info_shows_names_that_would_steer_the_terminal(tmp_path, capsys):
     path = tmp_path / "a\nb.obj"
     path.write_text("o \x1b[31mred\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")

@@ -183,7 +183,9 @@ def report_lines(report: dict) -> list[str]:
         ]
     for item in report["objects"]:
         name = item["name"] or "unnamed"
-        lines.append(f"object {name}: {item['vertices']:,d} vertices, {item['faces']:,d} faces")
+        kinds = ["vertices", "faces", *(kind for kind in ("lines", "points") if item[kind])]
+        counts = ", ".join(f"{item[kind]:,d} {kind}" for kind in kinds)
+        lines.append(f"object {name}: {counts}")
     for material in report["materials"]:
         texture = f", texture {material['texture']}" if material["texture"] else ""
         lines.append(f"material {material['name'] or 'default'}{texture}")

@@ -5,7 +5,7 @@
 
 In: paths of engine/ and csrc/; of tests, which are their own. Out: the tests that have the file's
 name, and those that tests/record.py has found to be the busiest in it; of a header without code,
-those of the files that include it; of a file that was not recorded, those that name it.
+those of the files that include it; of a file that was not recorded, those that import or name it.
 """
 
 from __future__ import annotations
@@ -26,20 +26,34 @@ def read_table() -> dict[str, list[str]]:
     return {source: tests.split() for source, _, tests in rows}
 
 
-def named_alike(path: Path) -> list[str]:
-    """The tests of which the file has the name: test_light.py of light.inl, light.c, light.py."""
+def named_alike(path: Path) -> tuple[list[str], list[str]]:
+    """The tests that have the file's name: those in a folder of the file's, and the others."""
     stem = path.stem.strip("_")
     found = sorted((ROOT / "tests").rglob(f"test_{stem}.py"))
-    # Of several, those in the folder of the file's own name.
-    near = [test for test in found if test.parent.name in path.parts]
-    return [test_name(test) for test in near or found]
+    near = [test_name(test) for test in found if test.parent.name in path.parts]
+    return near, [name for name in map(test_name, found) if name not in near]
 
 
 def naming(path: Path) -> list[str]:
-    """The tests of a new file: those in the folder of its tests that have its name in them."""
-    word = re.compile(rf"\b{re.escape(path.stem)}\b")
-    tests = [t for t in sorted((ROOT / "tests").rglob("test_*.py")) if t.parent.name in path.parts]
-    return [test_name(test) for test in tests if word.search(test.read_text("utf-8"))]
+    """The tests that import a module, or its package; of documents, and all else, that name it."""
+    tests = sorted((ROOT / "tests").rglob("test_*.py"))
+    words = [rf"\b{re.escape(path.name)}"]
+    if path.suffix == ".py":
+        module = path.parent if path.name == "__init__.py" else path.with_suffix("")
+        dotted = [
+            ".".join(("engine3d", *at.relative_to(ROOT / "engine").parts))
+            for at in (module, module.parent)
+            if at.is_relative_to(ROOT / "engine")
+        ]
+        words = [rf"\b{re.escape(name)}\b" for name in dotted if name != "engine3d"]
+    elif path.suffix != ".md":
+        tests = [test for test in tests if test.parent.name in path.parts]
+        words = [rf"\b{re.escape(path.stem)}\b"]
+    for word in words:
+        found = [test for test in tests if re.search(word, test.read_text("utf-8"))]
+        if found:
+            return [test_name(test) for test in found]
+    return []
 
 
 def test_name(test: Path) -> str:
@@ -77,7 +91,8 @@ def tests_of(path: Path, table: dict[str, list[str]]) -> list[str]:
     recorded = table.get(name, [])
     if not recorded and path.suffix in (".h", ".inl"):
         recorded = tests_of_users(path, table)
-    return list(dict.fromkeys([*named_alike(path), *(recorded or naming(path))]))[:MOST]
+    near, others = named_alike(path)
+    return list(dict.fromkeys([*near, *(recorded or naming(path)), *others]))[:MOST]
 
 
 def main(arguments: list[str]) -> int:

@@ -75,7 +75,7 @@ def turning_outline(scene: Scene, up: ArrayLike) -> np.ndarray:
         across, along = linalg.dot(offsets, right), linalg.dot(offsets, back)
         squares.append(across * across + along * along)
     heights, widths = np.concatenate(rises), np.sqrt(np.concatenate(squares))
-    bottom, top = heights.min(), heights.max()
+    bottom, top = float(heights.min()), float(heights.max())
     if top == bottom and not widths.any():
         bottom, top, widths = -1.0, 1.0, np.ones_like(widths)
     step = (top - bottom) / OUTLINE_BANDS or 1.0

@@ -140,7 +140,7 @@ def test_exact_shadows(kernels, is_point):
         lighting = lighting_of(lights, reach_of(lights), (0, 0, 0), (0, 1), (0, 0, 5, 1))
         got, expected = batch.copy(), batch.copy()
         kernels.exact_shadows(got, lighting, index, receivers)
-        kernels_of("portable").hide(expected, lighting, index, receivers)
+        kernels_of("portable").exact_shadows(expected, lighting, index, receivers)
         found = got["shadowed_lights"][0, :BATCH]
         assert np.array_equal(found, expected["shadowed_lights"][0, :BATCH])
         origin = batch["position"][0, :, :BATCH].T.astype(float)

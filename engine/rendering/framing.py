@@ -239,8 +239,7 @@ class FrustumReach(NamedTuple):
         return self.x_slope, self.y_slope
 
     def gap(self, way: int, distance: float) -> float:
-        """Return by how much the sides are too far apart for an eye at a distance; way 1 is upward.
-        """
+        """Return by how much the sides are too far apart for an eye at a distance (1: upward)."""
         first, second = self[2 * way : 2 * way + 2]
         return 0.5 * (first + second) - self.slopes[way] * distance
 

@@ -62,8 +62,7 @@ def pick(scene: Any, frame: Any, x: int, y: int) -> RayHit | None:
 
 
 def _pixel_ray(frame: Any, x: int, y: int) -> Any:
-    """Return the ray through a pixel's centre from the near plane: origin, unit direction, length.
-    """
+    """Return the ray through a pixel's centre from the near plane: origin, direction, length."""
     view, _ = frame._seen
     world_from_clip = linalg.inverse(view.clip_from_world)
     across = 2.0 * (x + 0.5) / frame.width - 1.0

@@ -113,8 +113,7 @@ class _Placed:
 
 
 def _in_their_own_space(poses: np.ndarray, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return directions (K, D, 3) in the spaces of K poses, and the products (K, D) of the origins.
-    """
+    """Return directions (K, D, 3) in the spaces of K poses, and the origins' products (K, D)."""
     columns = (poses[:, np.newaxis, :3, k] for k in range(4))
     *local, offset = (linalg.dot(column, directions) for column in columns)
     return np.stack(local, axis=-1), offset

@@ -74,8 +74,7 @@ def _has_physical(scene: Scene) -> bool:
 
 
 def fog_color(background: Background) -> tuple[float, ...] | None:
-    """Return the colour of a background, or of a gradient's middle; None if there is no single one.
-    """
+    """Return the colour of a background or of a gradient's middle; None for others."""
     if isinstance(background, Gradient):
         ends = (
             display_color(cast(Color, end), "srgb") for end in (background.top, background.bottom)

@@ -97,8 +97,7 @@ def _ends(widest: np.ndarray) -> list[tuple[float, float]]:
 
 
 def _world_points(scene: Scene) -> Iterator[np.ndarray]:
-    """Yield the finite vertices of each visible mesh, (N, 3) in world space; boxes for instances.
-    """
+    """Yield the finite vertices of visible meshes, (N, 3) in world space; boxes for instances."""
     scene.data.update()
     for node in scene.nodes:
         points = _outline(node) if node.shown else None

@@ -159,8 +159,7 @@ def theme_for(picture: np.ndarray, themes: Iterable[Theme] = (LIGHT, DARK)) -> T
 
 
 def _distance(picture: np.ndarray, outline: tuple[np.ndarray, ...], theme: Theme) -> float:
-    """Return the mean difference of an outline's pixels to a theme's background; 0 without outline.
-    """
+    """Return an outline's mean difference to a theme's background; 0 without an outline."""
     rows, columns = outline
     if not len(rows):
         return 0.0

@@ -357,8 +357,7 @@ class ViewRenderer:
         self.culling.camera = None if view is None else (self._camera(view), view.pose())
 
     def choose_debug(self, drawing: str | None, view: Viewpoint) -> None:
-        """Choose a debug drawing of culling, one of `debug_lines.DEBUG_DRAWINGS`, as from a view.
-        """
+        """Choose a debug drawing of culling, one of `DEBUG_DRAWINGS`, as seen from a view."""
         self.culling.choose(drawing, (self._camera(view), view.pose()))
 
     def text_scale(self, picture: Canvas | Frame) -> int:

@@ -63,8 +63,7 @@ def check_vectors3(value: Any, what: str) -> np.ndarray:
 
 
 def check_positions(value: Any, what: str) -> np.ndarray:
-    """Return (N, 3) float32; warn of non-finite values, except in loaders, which warn themselves.
-    """
+    """Return (N, 3) float32; warn of non-finite values, unless a loader calls."""
     array = check_vectors3(value, what)
     if array is not value:
         with np.errstate(over="ignore", invalid="ignore"):

@@ -292,8 +292,7 @@ class Mesh(Closed):
 
     @property
     def bounds(self) -> NDArray[np.float64]:
-        """Minimum and maximum of the finite coordinates, (2, 3) float64; zeros if there are none.
-        """
+        """Minimum and maximum of the finite coordinates, (2, 3) float64; zeros without any."""
         return derived(self, "bounds")
 
     @property

@@ -27,8 +27,7 @@ _MOST_JOINT = 2**16 - 1
 
 
 def check_influences(joints: Any, weights: Any, count: int) -> dict[str, np.ndarray | None]:
-    """Return joints (V, N) uint16 and weights (V, N) float32 whose rows sum to 1; both or neither.
-    """
+    """Return joints (V, N) uint16 and weights (V, N) float32 of row sums 1; both or neither."""
     if joints is None and weights is None:
         return {"joints": None, "weights": None}
     if joints is None or weights is None:

@@ -96,8 +96,7 @@ class NodeSelection(Closed):
 
     @property
     def scales(self) -> NDArray[np.float64]:
-        """Scale factors along the nodes' axes, (N, 3) float64; (N, 1) or a number may be assigned.
-        """
+        """Scale factors along the nodes' axes, (N, 3) float64; (N, 1) or a number works too."""
         return self._part("scale")
 
     @scales.setter

@@ -228,8 +228,7 @@ def raycast_colliders(
 
 
 def _into_boxes(boxes: np.ndarray, origin: Any, direction: Any) -> np.ndarray:
-    """Return the distance at which a ray enters boxes (N, 2, 3): 0 from inside, infinite on a miss.
-    """
+    """Return where a ray enters boxes (N, 2, 3): 0 from inside, infinite on a miss."""
     with np.errstate(divide="ignore", invalid="ignore"):
         ways = (boxes - origin) / direction
     along = direction != 0.0

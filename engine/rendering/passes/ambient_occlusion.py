@@ -62,8 +62,7 @@ def view_scale(view: View) -> float:
 
 
 class AmbientOcclusion(Pass):
-    """Computes the ambient visibility of each pixel from metric depth, which is 0 for background.
-    """
+    """Computes each pixel's ambient visibility from metric depth, which is 0 for background."""
 
     reads = ("surface_depth", "scene")
     writes = ("ambient_visibility",)

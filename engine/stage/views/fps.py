@@ -125,8 +125,7 @@ class FpsController:
         return True
 
     def _heading(self) -> np.ndarray:
-        """Return right, up and forward as rows: forward follows the view direction, up the world.
-        """
+        """Return right, up and forward as rows: forward follows the view, up the world."""
         side, up, back = home_axes(self.up)
         sin_y, cos_y = math.sin(self.yaw), math.cos(self.yaw)
         level = -(side * sin_y + back * cos_y)

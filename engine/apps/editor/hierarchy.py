@@ -121,11 +121,11 @@ class Hierarchy:
         return node in self._open
 
     def set_open(self, node: Node, is_open: bool, *, below: bool = False) -> None:
-        """Show or hide a node's children; with ``below``, those of all that is below it, too."""
+        """Show or hide a node's children; with ``below``, also those of its whole subtree."""
         self._set_open(with_below(node) if below else [node], is_open)
 
     def reveal(self, node: Node) -> None:
-        """Open all that is above a node."""
+        """Open all ancestors of a node."""
         self._set_open(_above(node), True)
 
     def _set_open(self, nodes: Iterable[Node], is_open: bool) -> None:
@@ -133,7 +133,7 @@ class Hierarchy:
         self._openings += 1
 
     def rows(self) -> Rows:
-        """Return the rows as the tree is now: the same object until something of them changes."""
+        """Return the rows of the current tree: the same object until one of them changes."""
         names = self._tree(), self._scene.data.renames
         key = names if self._search else names[:1], self._openings, self._search
         if key != self._made_of:
@@ -141,7 +141,7 @@ class Hierarchy:
         return self._rows
 
     def _tree(self) -> int:
-        """A number that grows with every change of the tree."""
+        """Return a number that grows with every change of the tree."""
         arrays = self._scene.data.arrays
         looked = arrays, arrays.changes
         if self._looked[:2] != looked:
@@ -185,7 +185,7 @@ class Hierarchy:
 
 
 def _with_above(matches: bytes, parent: list[int]) -> bytearray:
-    """Mark what is found and all that is above it."""
+    """Mark search results and all their ancestors."""
     shown = bytearray(len(matches))
     at = matches.find(1)
     while at >= 0:
@@ -198,7 +198,7 @@ def _with_above(matches: bytes, parent: list[int]) -> bytearray:
 
 
 def _walk(tops, parent, first, following, shown, is_open) -> tuple[list[int], list[int]]:
-    """The slots that rows show, and their depths: each before what is below it."""
+    """Return the slots of visible rows, and their depths: parents first."""
     slots, depths = [], []
     for top in tops:
         at, depth = top, 0

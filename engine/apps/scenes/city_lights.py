@@ -24,7 +24,7 @@ def _shining(color: tuple[float, float, float], intensity: float, reach: float) 
     return {"color": color, "intensity": intensity, "range": reach, "falloff": "window"}
 
 
-#: Total lights: one for each of the cars' lights, the others for lamps.
+#: Minimum number of lights: at least one for each car, the others for lamps.
 LIGHTS = 256
 CARS_AT_LEAST = 40
 #: Maximum number of lit lamps.

@@ -1,8 +1,8 @@
 """engine3d: draw 3D scenes on the CPU, the same bytes on every machine.
 
-This module is the list of public names and nothing else: each is imported from its module when it
-is first used, so that ``import engine3d`` costs next to nothing. `__init__.pyi` says the same to
-type checkers. docs/conventions.md tells the spaces, units and colours that hold everywhere.
+This module only lists the public names: each is imported from its module on first use, so that
+``import engine3d`` is fast. `__init__.pyi` declares the same for type checkers. docs/conventions.md
+defines the spaces, units and colours used everywhere.
 """
 
 if __name__ != "engine3d":
@@ -108,7 +108,7 @@ _MODULES = (
     *("batch", "choices", "datasets", "errors", "events", "linalg", "loaders", "primitives"),
 )
 
-# Modules that need other packages, or few programs need: not for ``import *``.
+# Modules with optional dependencies or few users: not for ``import *``.
 _MODULES_APART = ("compat", "golden", "notebook")
 
 __all__ = ["__version__", *_PUBLIC, *_MODULES]
@@ -120,7 +120,7 @@ def __getattr__(name):
         value = getattr(import_module(f".{_PUBLIC[name]}", __name__), name)
     elif name in _MODULES or name in _MODULES_APART:
         value = import_module(f".{name}", __name__)
-    elif name[0] == "_":  # Python's own questions
+    elif name[0] == "_":  # special names that Python itself asks for
         raise AttributeError(f"module 'engine3d' has no attribute {name!r}")
     else:
         from .base.foreign_names import UnknownName
@@ -131,4 +131,4 @@ def __getattr__(name):
 
 
 def __dir__():
-    return sorted(__all__)  # not the modules behind them, which are imported as they are used
+    return sorted(__all__)  # without the modules behind them, which are imported as they are used

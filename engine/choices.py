@@ -1,8 +1,8 @@
-"""The values that arguments with few choices take, as types: editors complete them.
+"""Types of arguments with few choices, so that editors complete them.
 
-Each is written once, here (outputs are in rendering/frame.py); what a module accepts at run time is
-the same list, which a test checks.
-The command line has its choices from here as well, and prints its help without loading NumPy.
+Each is defined once, here (outputs are in rendering/frame.py); modules accept the same list at run
+time, which a test checks. The command line also takes its choices from here, and prints its help
+without loading NumPy.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ Samples = Literal[1, 2, 4, 8, 16]
 Antialias = Literal["ssaa", "msaa"]
 
 Mode = Literal["lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"]
-#: What the viewer and the command line draw besides: outputs as pictures.
+#: Further modes of the viewer and the command line: outputs as pictures.
 OutputMode = Literal[
     "albedo",
     "position",
@@ -74,7 +74,7 @@ OutputMode = Literal[
 ]
 Wireframe = Literal["overlay", "only"]
 Cull = Literal["none", "back", "front"]
-#: What frames cull besides: back faces, mesh by mesh, where that does not show.
+#: Culling modes of frames: besides the common ones, back faces of closed meshes only.
 FrameCull = Literal["none", "back", "front", "auto"]
 Shading = Literal["deferred", "forward"]
 Normals = Literal["auto", "smooth", "flat", "facet"]
@@ -115,6 +115,6 @@ EulerOrder = Literal["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"]
 
 #: Three numbers: floats are linear light, integers from 0 to 255 sRGB.
 Color: TypeAlias = tuple[float, float, float]
-#: The same, or four numbers: the last is alpha, from 0 to 1, or to 255 beside integers.
+#: A colour, or four numbers: the last is alpha, from 0 to 1, or to 255 with integers.
 SurfaceColor: TypeAlias = Color | tuple[float, float, float, float]
 ColorLike: TypeAlias = Union[Sequence[float], "NDArray[Any]"]

@@ -1,8 +1,8 @@
 """The exceptions and the warning of engine3d.
 
 Every exception that the project raises on purpose is an `Engine3DError` and also inherits the
-built-in that fits, so that both ``except Engine3DError`` and ``except ValueError`` work. The text
-of a file error starts with ``FILE:LINE:`` and is one line, ready for the command line.
+matching built-in, so that both ``except Engine3DError`` and ``except ValueError`` work. The text of
+a file error starts with ``FILE:LINE:`` and is one line, ready for the command line.
 """
 
 from __future__ import annotations
@@ -31,16 +31,16 @@ __all__ = [
 
 
 class Engine3DError(Exception):
-    """Root of every exception of engine3d's own."""
+    """Base of all exceptions of engine3d."""
 
 
 class FileFormatError(Engine3DError, ValueError):
-    """The content of a file is not what its format allows.
+    """The content of a file violates its format.
 
     Parameters
     ----------
     message : str
-        What is wrong, in one line.
+        The fault, in one line.
     path : str or path-like, optional
         The file.
     line : int, optional
@@ -74,7 +74,7 @@ class FileAccessError(Engine3DError, OSError):
     Parameters
     ----------
     message : str
-        What is wrong, in one line.
+        The fault, in one line.
     path : str or path-like, optional
         The file.
 
@@ -105,7 +105,7 @@ class BackendError(Engine3DError, RuntimeError):
 
 
 class OutOfMemoryError(Engine3DError, MemoryError):
-    """The core could not get the memory that a call needs."""
+    """The core could not allocate the memory for a call."""
 
 
 class DisplayError(Engine3DError, RuntimeError):
@@ -113,30 +113,30 @@ class DisplayError(Engine3DError, RuntimeError):
 
 
 class MissingOutputError(Engine3DError, AttributeError):
-    """A frame was asked for an output that was not rendered."""
+    """An output was read that the frame was not rendered with."""
 
 
 class SceneChangedError(Engine3DError, RuntimeError):
-    """A scene got other nodes, from another thread, while a frame of it was drawn."""
+    """Another thread changed a scene's nodes while a frame was drawn."""
 
 
 class RendererBusyError(Engine3DError, RuntimeError):
-    """A renderer was asked for a frame from within a frame, or after a fork from within one."""
+    """A renderer was called from within its own frame, or after a fork from within one."""
 
 
 class Engine3DWarning(UserWarning):
-    """Something was left out or replaced; the rest of the work went on."""
+    """Something was omitted or replaced; the rest of the work continued."""
 
 
 def _name_of(path: Any) -> str | None:
-    """Return a path as text, whatever it is: an error of an error helps nobody."""
+    """Return any path as text; building an error must not raise another."""
     if path is None or isinstance(path, str):
         return path
     return os.fsdecode(path) if isinstance(path, (bytes, os.PathLike)) else str(path)
 
 
 def warn(message: str) -> None:
-    """Give an `Engine3DWarning` that points to the line outside of engine3d that led to it."""
+    """Issue an `Engine3DWarning` that points to the calling line outside engine3d."""
     package, level = __name__.partition(".")[0], 1
     frame: FrameType | None = sys._getframe()
     while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == package:
@@ -145,7 +145,7 @@ def warn(message: str) -> None:
 
 
 def located(message: str, path: str | None, line: int | None = None) -> str:
-    """Return ``message`` with the place it speaks of in front: ``FILE:LINE: message``."""
+    """Return ``message`` with its place in front: ``FILE:LINE: message``."""
     if path is None:
         return printable(message)
     path = path or "''"
@@ -154,7 +154,7 @@ def located(message: str, path: str | None, line: int | None = None) -> str:
 
 
 def printable(text: str) -> str:
-    """Return a name from outside on one line: what would steer a terminal as Python writes it."""
+    """Return an external name on one line, with control characters escaped."""
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)

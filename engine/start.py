@@ -1,7 +1,7 @@
-"""The first thing that the command ``engine3d`` runs: it makes Ctrl-C quiet from the beginning.
+"""The entry point of the command ``engine3d``: it makes Ctrl-C quiet from the start.
 
-Until a command begins there is nothing to clean up, and NumPy, which loads meanwhile, may swallow
-an interrupt or end in a traceback. So the process just leaves then. Nothing else is imported here.
+Before a command begins there is nothing to clean up, and NumPy, which loads meanwhile, may swallow
+an interrupt or print a traceback. So the process simply exits then. Nothing else is imported here.
 """
 
 import os
@@ -27,7 +27,7 @@ def _leave(number: int, frame: object) -> None:
 
 
 def _heed_interrupts() -> None:
-    """Let Ctrl-C raise `KeyboardInterrupt` again, now that a command begins."""
+    """Make Ctrl-C raise `KeyboardInterrupt` again, now that a command begins."""
     import signal
 
     if signal.getsignal(signal.SIGINT) is _leave:

@@ -1,1 +1,1 @@
-"""Programs: the commands, the viewer, the editor, sheets, batches, data sets, golden images."""
+"""Applications: command line, viewer, editor, sheets, batches, data sets, golden images."""

@@ -1,7 +1,7 @@
-"""Scenes to turn with the mouse in notebooks: Jupyter, VS Code, Colab and others.
+"""Interactive scenes in notebooks: Jupyter, VS Code, Colab and others.
 
-In: a scene, what a browser tells of mouse and keys. Out: its pictures there. The widget is that of
-the package jupyter_rfb, which sends JPEGs while something moves and a PNG when it has come to rest.
+In: a scene, mouse and key events from a browser. Out: its pictures there. The widget is based on
+jupyter_rfb, which sends JPEGs during motion and a PNG at rest.
 """
 
 from __future__ import annotations
@@ -49,12 +49,12 @@ _KEYS = {
     "ArrowUp": "Up",
     "ArrowDown": "Down",
 }
-#: A browser's wheel turns by so many of its pixels a step.
+#: Pixels of a browser's wheel per step.
 _WHEEL_PIXELS = 100.0
 
 
 class View(RemoteFrameBuffer):
-    """A scene, a part of one or a mesh, in the output of a cell: drags turn it, the wheel zooms.
+    """An interactive scene, node or mesh in a cell's output: drag to turn, wheel to zoom.
 
     The keys are the viewer's, once the picture was clicked: H lists them. A scene that was changed
     by another cell shows so after `update`.
@@ -88,7 +88,7 @@ class View(RemoteFrameBuffer):
 
     _page: _Page | None = None
     _view_renderer: ViewRenderer | None = None
-    _event_compatibility = 2  # events in the names that jupyter_rfb documents now
+    _event_compatibility = 2  # use the event names that jupyter_rfb documents now
 
     def __init__(
         self,
@@ -120,14 +120,14 @@ class View(RemoteFrameBuffer):
         )
 
     def update(self) -> None:
-        """Draw again: the scene was changed."""
+        """Redraw after a change of the scene."""
         self._viewer.redraw()
         self.request_draw()
 
     def close(self) -> None:
-        """Take the view away, and leave the scene as it was; may be called twice."""
+        """Remove the view, and restore the scene; may be called twice."""
         if self._page is None:
-            return  # Python takes away what an error kept from being made
+            return  # construction failed, and Python deletes the incomplete object
         if self._view_renderer is not None:
             if self._view_renderer.viewed.player is not None:
                 self._view_renderer.viewed.player.stop()
@@ -136,7 +136,7 @@ class View(RemoteFrameBuffer):
         super().close()
 
     def _repr_mimebundle_(self, **options) -> Any:
-        """The widget, and a picture for pages where no program runs any more."""
+        """Return the widget, and a picture for pages without a running kernel."""
         bundle = super()._repr_mimebundle_(**options)
         data = bundle[0] if isinstance(bundle, tuple) else bundle
         if data and self._view_renderer is not None:
@@ -144,22 +144,22 @@ class View(RemoteFrameBuffer):
         return bundle
 
     def _still(self) -> bytes:
-        """Return what the view shows now, as a PNG; the page gets its first picture in any case."""
+        """Return the current picture as a PNG; the page always gets a first picture."""
         self._viewer.draw(self._viewer.sampling.at_rest())
         self._viewer.redraw()
         rgb = self._page.picture
         return encode_png(np.dstack([rgb, np.full(rgb.shape[:2], 255, np.uint8)]))
 
-    # What jupyter_rfb calls
+    # Called by jupyter_rfb
 
     def handle_event(self, event: dict) -> None:
-        """Take in what the browser tells."""
+        """Handle an event from the browser."""
         if event["type"] == "close" or self._view_renderer is None:
             return
         for happened in self._page.translated(event):
             self._viewer.handle(happened)
         if self._viewer.lively:
-            self.request_draw()  # which forgets the PNG that was to come: not without a reason
+            self.request_draw()  # it cancels a pending PNG, so call it only if needed
 
     def get_frame(self) -> np.ndarray | None:
         """Return the picture, (H, W, 3) uint8, if there is a new one to show."""
@@ -167,12 +167,12 @@ class View(RemoteFrameBuffer):
             return None
         viewer = self._viewer
         drawn = viewer.run_once()
-        viewer.running = True  # Q closes windows: this is a part of a page
+        viewer.running = True  # Q closes windows, but not this part of a page
         self._draw_later(viewer)
         return self._page.picture if drawn else None
 
     def _draw_later(self, viewer: Viewer) -> None:
-        """Ask for the next turn of the viewer's loop, when there is something to do for it."""
+        """Schedule the viewer's next turn, if it has anything to do."""
         if viewer.lively:
             self.request_draw()
             return
@@ -182,7 +182,7 @@ class View(RemoteFrameBuffer):
 
 
 class _Page:
-    """The place of a window for the viewer: translates what happens, keeps the last picture."""
+    """Stands in for a window: translates events, and keeps the last picture."""
 
     minimised = False
     writes_text = False
@@ -200,17 +200,17 @@ class _Page:
         self.picture = np.ascontiguousarray(pixels[..., :3])
 
     def events(self, timeout: float = 0.0) -> list:
-        """Return nothing: the viewer is told of events when the browser's messages come."""
+        """Return nothing: events come with the browser's messages."""
         return []
 
     def capture_mouse(self, captured: bool) -> None:
-        """A page keeps its pointer: it looks around as far as the picture goes."""
+        """Do nothing: a page cannot capture the pointer."""
 
     def toggle_fullscreen(self) -> None:
-        """A page's size is not its picture's to choose."""
+        """Do nothing: a picture cannot choose its page's size."""
 
     def translated(self, event: dict) -> list:
-        """Return an event of jupyter_rfb as events of `engine3d.events`."""
+        """Return a jupyter_rfb event as events of `engine3d.events`."""
         translate = _TRANSLATIONS.get(event["type"])
         return [] if translate is None else translate(self, event)
 
@@ -233,7 +233,7 @@ class _Page:
         return [events.MouseButton(button, down, shift, control, *self._mouse)]
 
     def _double_click(self, event: dict) -> list:
-        """Press and let go a second time: browsers tell of both clicks before."""
+        """Return a second press and release: browsers report the clicks before."""
         place = self._place(event)
         return [events.MouseButton("left", down, False, False, *place, 2) for down in (True, False)]
 

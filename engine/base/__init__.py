@@ -1,1 +1,1 @@
-"""The base of every package: checks of arguments, and tracking of changes."""
+"""Foundations of all packages: argument checks, change tracking, files, linear algebra."""

@@ -1,7 +1,7 @@
-"""Angles that look like degrees.
+"""Angle checks that detect values in degrees.
 
-In: angles in radians, as all of Python's are here. Out: a warning where one is beyond four turns,
-which nobody means but who counts in degrees.
+In: angles in radians, as everywhere in Python here. Out: a warning for angles beyond four turns,
+which are probably in degrees.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ FOUR_TURNS = 8.0 * math.pi
 
 
 def finite_angle(value: float, what: str) -> float:
-    """Check an angle of any size: a finite number of radians."""
+    """Return an angle of any size, checked to be a finite number of radians."""
     number = finite(value, what)
     if not -FOUR_TURNS <= number <= FOUR_TURNS:
         warn_of_degrees(what)
@@ -28,12 +28,12 @@ def finite_angle(value: float, what: str) -> float:
 
 
 def field_of_view(value: float, what: str = "yfov") -> float:
-    """Check the angle between the sides of a picture."""
+    """Return a field of view, checked: the angle between opposite sides of a picture."""
     return limited_angle(value, what, math.pi, "between 0 and pi radians", open=True)
 
 
 def limited_angle(value: float, what: str, most: float, words: str, *, open: bool = False) -> float:
-    """Check an angle from 0 to ``most`` radians, or between them, as ``words`` say."""
+    """Return an angle, checked to be from 0 to ``most`` radians as ``words`` describe."""
     number = real(value)
     if not (0.0 < number < most if open else 0.0 <= number <= most):
         beyond = "; degrees go through numpy.radians" if number > 2.0 * math.pi else ""
@@ -42,7 +42,7 @@ def limited_angle(value: float, what: str, most: float, words: str, *, open: boo
 
 
 def angles(value: Any, what: str) -> NDArray[np.float64]:
-    """Return a float64 copy of angles; whether they are finite is for others to say."""
+    """Return a float64 copy of angles; the caller checks whether they are finite."""
     array = floats(value, what)
     if (np.abs(array) > FOUR_TURNS).any():
         warn_of_degrees(what)
@@ -50,5 +50,5 @@ def angles(value: Any, what: str) -> NDArray[np.float64]:
 
 
 def warn_of_degrees(what: str) -> None:
-    """Say that angles are radians, in words that do not change, so that each line hears it once."""
+    """Warn that angles are radians, in constant words, so that each line warns once."""
     warn(f"{what} is beyond four turns: angles are radians; degrees go through numpy.radians")

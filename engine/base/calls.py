@@ -1,8 +1,8 @@
-"""Calls that are looked at: unknown keywords get a hint, wrong types an error that names them.
+"""Call checks: hints for unknown keywords, and errors for wrong argument types.
 
-In: functions whose annotations say what they take. Out: the same functions. `hinted` costs nothing
-but another call; `checks_types` looks at each argument as well, and is for what is not called for
-every node or number. What an annotation cannot say (a range, a shape) is for the function to check.
+In: annotated functions. Out: the same functions. `hinted` costs only one more call; `checks_types`
+checks each argument, and is not for functions called per node or number. Functions check themselves
+what annotations cannot express (a range, a shape).
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ from .foreign_names import Kind, hint
 from .numbers import shown
 
 Function = TypeVar("Function", bound=Callable[..., Any])
-#: Whether a value fits, and the words for what does.
+#: A test of a value, and words for the values that pass.
 _Kind = tuple[Callable[[Any], bool], str]
 
 
 def hinted(function: Function, owner: type | None = None) -> Function:
-    """Let a function say what is meant by a keyword that it does not have.
+    """Make a function suggest a keyword when it gets an unknown one.
 
     Parameters
     ----------
@@ -50,8 +50,8 @@ def hinted(function: Function, owner: type | None = None) -> Function:
 
 
 def checks_types(function: Function) -> Function:
-    """Let a function refuse arguments of types that its annotations do not name."""
-    found: dict[str, _Kind | None] = {}  # when it is first called: by then all names are there
+    """Make a function refuse arguments whose types differ from its annotations."""
+    found: dict[str, _Kind | None] = {}  # filled at the first call: all names are defined by then
 
     @functools.wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:
@@ -72,18 +72,18 @@ def checks_types(function: Function) -> Function:
 
 
 def _is_of_the_call(error: TypeError) -> bool:
-    """Whether no line of the function that was called has run."""
+    """Return whether the error was raised by the call itself, before the function ran."""
     return error.__traceback__ is not None and error.__traceback__.tb_next is None
 
 
 def hints_keywords(kind: Kind) -> Kind:
-    """Let a class's constructor give hints, as `hinted` says."""
+    """Make a class's constructor suggest keywords, as `hinted` does."""
     kind.__init__ = hinted(kind.__init__, kind)  # type: ignore[misc]
     return kind
 
 
 def shows_annotations(kind: Kind) -> Kind:
-    """Let ``help`` show a named tuple's types as they are written."""
+    """Make ``help`` show a named tuple's types as written."""
     written = {name: each.__forward_arg__ for name, each in kind.__annotations__.items()}
     kind.__new__.__annotations__ = written
     return kind
@@ -92,18 +92,18 @@ def shows_annotations(kind: Kind) -> Kind:
 def _raise_hint(
     function: Callable[..., Any], owner: type | None, keywords: Mapping[str, Any]
 ) -> None:
-    """Raise a TypeError of a keyword that a function does not have, if there is one."""
+    """Raise a TypeError for an unknown keyword of a function, if there is one."""
     name = function.__qualname__.removesuffix(".__init__")
     refuse_unknown(owner or name, keywords, inspect.signature(function).parameters)
 
 
 def refuse_unknown(owner: type | str, keywords: Iterable[str], known: Iterable[str]) -> None:
-    """Raise a TypeError, with a hint, of the first keyword that is not known.
+    """Raise a TypeError, with a hint, for the first unknown keyword.
 
     Parameters
     ----------
     owner : type or str
-        The class that is made, or the name of the function.
+        The class to construct, or the name of the function.
     keywords, known : iterable of str
     """
     for word in keywords:
@@ -115,7 +115,7 @@ def refuse_unknown(owner: type | str, keywords: Iterable[str], known: Iterable[s
 
 
 def _kinds_of(function: Callable[..., Any]) -> dict[str, _Kind | None]:
-    """Return what each parameter takes; None where anything may be right."""
+    """Return the types of each parameter; None where anything is allowed."""
     return {
         name: _kind(ast.parse(parameter.annotation, mode="eval").body, function)
         if isinstance(parameter.annotation, str) and name not in ("self", "cls")
@@ -126,7 +126,7 @@ def _kinds_of(function: Callable[..., Any]) -> dict[str, _Kind | None]:
 
 
 def _kind(node: ast.expr, function: Callable[..., Any]) -> _Kind | None:
-    """Return what an annotation allows, as Python's grammar has it."""
+    """Return the types that an annotation in Python's syntax allows."""
     if isinstance(node, ast.BinOp):
         return _either([_kind(part, function) for part in (node.left, node.right)])
     if isinstance(node, ast.Constant):
@@ -145,7 +145,7 @@ def _kind(node: ast.expr, function: Callable[..., Any]) -> _Kind | None:
 
 
 def _named(name: str, function: Any) -> Any:
-    """Return what a name means to a function, perhaps to type checkers only."""
+    """Return what a name in a function's module means, possibly only to type checkers."""
     if name in function.__globals__:
         return function.__globals__[name]
     modules = [sys.modules.get(f"engine3d.{module}") for module in _MODULES]
@@ -159,7 +159,7 @@ def _public(name: str) -> Any:
 
 
 def _kind_of(named: Any, name: str) -> _Kind | None:
-    """Return what a class or an alias allows."""
+    """Return the types that a class or an alias allows."""
     origin = get_origin(named)
     if origin in (Union, UnionType):
         return _either([_kind_of(each, getattr(each, "__name__", "")) for each in get_args(named)])
@@ -190,7 +190,7 @@ def _is_choice(allowed: tuple[str, ...]) -> Callable[[Any], bool]:
 
 
 def is_flag(value: Any) -> bool:
-    """Whether a value is True or False, or as good as one of these: NumPy's, 0 and 1."""
+    """Return whether a value is True or False or equivalent: NumPy's bool, 0 or 1."""
     return isinstance(value, (bool, np.bool_)) or (isinstance(value, int) and value in (0, 1))
 
 
@@ -206,8 +206,8 @@ def _is_file(value: Any) -> bool:
     return hasattr(value, "read") or hasattr(value, "write")
 
 
-_UNCHECKED = ("Any", "ArrayLike", "Backend")  # a BackendError says more of the last
-_MODULES = ("datasets", "batch", "loaders", "choices")  # whose names annotations use
+_UNCHECKED = ("Any", "ArrayLike", "Backend")  # for the last, a BackendError says more
+_MODULES = ("datasets", "batch", "loaders", "choices")  # annotations use their names
 _NOTHING: _Kind = (lambda value: value is None, "None")
 _MANY: _Kind = (_is_many, "several things")
 _MAPPING: _Kind = (lambda value: isinstance(value, Mapping), "a dict")

@@ -1,7 +1,7 @@
-"""Lists and dicts that a thing shows, and that may be changed in place: each change is checked.
+"""Lists and dicts of an object that check every change in place.
 
-In: changes, by whatever method. Out: the list or dict as it is then; where the check raises, as it
-was. So a thing never holds what could not have been assigned to it.
+In: changes, by any method. Out: the changed list or dict; unchanged if the check raises. So an
+object never holds a value that could not have been assigned to it.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from weakref import ref
 
 
 class CheckedList(list[Any]):
-    """A list that belongs to a thing.
+    """A list that belongs to an object.
 
     Parameters
     ----------
     owner : object
-        Held weakly: without it, the list is as any other.
+        Held weakly; once it is gone, the list is an ordinary one.
     take : callable
-        ``take(owner, content, put)`` raises, or calls ``put(content)`` with what is to be held.
+        ``take(owner, content, put)`` raises, or calls ``put(content)`` with the content to keep.
     content : list
     """
 
@@ -29,14 +29,14 @@ class CheckedList(list[Any]):
         self._owner, self._take = ref(owner), take
 
     def __reduce_ex__(self, protocol: SupportsIndex) -> tuple[Any, ...]:
-        return list, (list(self),)  # a copy belongs to nobody
+        return list, (list(self),)  # a copy has no owner
 
     def _put(self, content: list[Any]) -> None:
         list.__setitem__(self, slice(None), content)
 
 
 class CheckedDict(dict[Any, Any]):
-    """A dict that belongs to a thing; as `CheckedList`."""
+    """A dict that belongs to an object; as `CheckedList`."""
 
     def __init__(self, owner: Any, take: Callable[..., None], content: dict[Any, Any]) -> None:
         super().__init__(content)
@@ -51,7 +51,7 @@ class CheckedDict(dict[Any, Any]):
 
 
 def _checked(kind: type, change: Callable[..., Any]) -> Callable[..., Any]:
-    """A method that makes a change of a copy, and has that taken over."""
+    """Return a method that changes a copy and then submits it to the owner's check."""
 
     @functools.wraps(change)
     def method(self: Any, *args: Any, **options: Any) -> Any:

@@ -1,12 +1,12 @@
-"""Tracks which of many things changed, without looking at all of them.
+"""Tracks which of many objects changed, without visiting all of them.
 
-Meshes, sets of instances, materials, textures, cameras and lights get another ``version`` whenever
-something is assigned to them, which is told here. In: such things. Out: those of a `Watch` whose
-version is another than when it last looked. Only the latest changes are remembered: whoever looks
-less often looks at everything.
+Meshes, instances, materials, textures, cameras and lights get a new ``version`` with every
+assignment, and report it here. In: such objects. Out: those of a `Watch` whose version changed
+since its last look. Only the latest changes are remembered: a watch that looks too rarely visits
+all objects.
 
-Nothing here takes a lock: a signal handler, which runs in the middle of anything, may assign as
-well. Each step that others could see half done is one operation of the interpreter's.
+Nothing here takes a lock, because a signal handler may assign at any point. Each step that others
+could see half done is one atomic operation of the interpreter.
 """
 
 from __future__ import annotations
@@ -20,20 +20,20 @@ from .system import after_fork
 
 _REMEMBERED = 2048
 
-_versions = itertools.count(1)  # no number twice, even where two count at once
-_changed: deque[list[int]] = deque([[0]], _REMEMBERED)  # ids of what changed last, in order
+_versions = itertools.count(1)  # unique even if two threads count at once
+_changed: deque[list[int]] = deque([[0]], _REMEMBERED)  # IDs of the latest changes, in order
 
 
 def renew(thing: Any) -> None:
-    """Give a thing another version, and say so: once what was assigned is in its place."""
+    """Give an object a new version and report it; call this after the assignment is complete."""
     thing.__dict__["version"] = next(_versions)
     _changed.append([id(thing)])
 
 
 def _since(moment: list[int]) -> tuple[set[int] | None, list[int]]:
-    """Ids of what changed since a moment, None if that is forgotten; and the moment now.
+    """Return the IDs changed since a moment, or None if forgotten; and the current moment.
 
-    A moment is the last entry that there was, the very object.
+    A moment is the last entry at that time, compared by identity.
     """
     entries = list(_changed)
     ids: set[int] = set()
@@ -45,7 +45,7 @@ def _since(moment: list[int]) -> tuple[set[int] | None, list[int]]:
 
 
 def _forget() -> None:
-    """In a process that was forked, perhaps from the middle of a change."""
+    """Invalidate all moments in a forked process, since the fork may have interrupted a change."""
     _changed.extend([[0] for _ in range(_REMEMBERED)])
 
 
@@ -53,29 +53,28 @@ after_fork(_forget)
 
 
 class Watch:
-    """Things, and which version of each was seen.
+    """A set of objects, with the version of each that was last seen.
 
-    Several threads may look at once: what changed is found by each of them until one has said, by
-    `saw`, that it took it in.
+    Several threads may look at once: each finds a change until one of them confirms it with `saw`.
     """
 
     def __init__(self, things: Iterable[Any] = ()) -> None:
         self._seen: dict[int, tuple[Any, int]] = {}
         self._moment = _changed[-1]
-        self._found: dict[int, None] = {}  # ids of what may have changed and was not taken in
+        self._found: dict[int, None] = {}  # IDs of possible changes not yet confirmed
         for thing in things:
             self.add(thing)
 
     def add(self, thing: Any) -> None:
-        """Look at a thing from now on: before anything is read of it."""
+        """Watch an object from now on; call this before reading it."""
         self._seen.setdefault(id(thing), (thing, thing.version))
 
     def remove(self, thing: Any) -> None:
-        """Look at a thing no longer, if it was looked at."""
+        """Stop watching an object, if it is watched."""
         self._seen.pop(id(thing), None)
 
     def found(self) -> list[tuple[Any, int]]:
-        """Return what changed and was not taken in: pairs of a thing and its version."""
+        """Return the unconfirmed changes: pairs of an object and its version."""
         if self._moment is not _changed[-1]:
             ids, moment = _since(self._moment)
             seen = list(self._seen) if ids is None else ids & self._seen.keys()
@@ -93,18 +92,18 @@ class Watch:
         return pairs
 
     def saw(self, thing: Any, version: int) -> None:
-        """Say that a thing was taken in as it was at a version, or later."""
+        """Confirm that an object was read at this version, or a later one."""
         if id(thing) in self._seen:
             self._seen[id(thing)] = thing, version
             self._take_in(id(thing), thing, version)
 
     def _take_in(self, key: int, thing: Any, version: int) -> None:
         self._found.pop(key, None)
-        if thing.version != version:  # since: found again by the next who looks
+        if thing.version != version:  # changed meanwhile: it will be found again
             self._found[key] = None
 
     def changed(self) -> list[Any]:
-        """Return the things that changed since they were last looked at; each is told once."""
+        """Return the objects changed since the last look, and confirm them."""
         pairs = self.found()
         for thing, version in pairs:
             self.saw(thing, version)

@@ -1,8 +1,8 @@
-"""Names that people bring from elsewhere, and what is called so here.
+"""Names from other libraries, and their equivalents here.
 
-In: a class, a module or a function, and a name that it does not have. Out: the end of a sentence
-that says what it has instead, or nothing. The names are those of pyrender, trimesh, three.js,
-Open3D, PyVista and Blender; what is no word of theirs may be a slip of the keyboard.
+In: a class, module or function, and a name that it lacks. Out: the end of a sentence that suggests
+a name, or nothing. The names come from pyrender, trimesh, three.js, Open3D, PyVista and Blender;
+other names are treated as possible typos.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _PLACES = ("position", "translation", "location", "pose", "rotation", "euler", "
 _MATERIALS = "mesh.materials[0].{}"
 _LIGHT_NODES = "[node for node in scene.nodes if isinstance(node.object, engine3d.PointLight)]"
 
-#: By class, or by function: a foreign name, and the name here, or some words.
+#: By class or function: a foreign name, and the name here or an explanation.
 _NAMES: dict[str, dict[str, str]] = {
     "engine3d": {
         "sphere": "uv_sphere or icosphere",
@@ -282,15 +282,15 @@ _NAMES: dict[str, dict[str, str]] = {
 
 
 def hint(owner: str | type, name: str, known: Iterable[str]) -> str:
-    """Return ``": did you mean ..."``, or nothing where neither is near.
+    """Return ``": did you mean ..."``, or nothing if no name is close.
 
     Parameters
     ----------
     owner : type or str
-        What lacks the name: a class, or the name of a module or a function.
+        The class, or the name of the module or function, that lacks the name.
     name : str
     known : iterable of str
-        What it has.
+        The names that it has.
     """
     owners = [kind.__name__ for kind in owner.__mro__] if isinstance(owner, type) else [owner]
     for each in owners:
@@ -302,7 +302,7 @@ def hint(owner: str | type, name: str, known: Iterable[str]) -> str:
 
 
 def foreign_names(kind: type) -> dict[str, str]:
-    """Return the foreign names of a class and its bases, with what they are here."""
+    """Return the foreign names of a class and its bases, with their equivalents here."""
     found: dict[str, str] = {}
     for each in reversed(kind.__mro__):
         found.update(_NAMES.get(each.__name__, {}))
@@ -310,9 +310,9 @@ def foreign_names(kind: type) -> dict[str, str]:
 
 
 class UnknownName(AttributeError):
-    """The name asked for is not there; the text, with suggestions, is made when it is shown.
+    """An unknown name was read; the text, with suggestions, is built only when shown.
 
-    Asking costs next to nothing, since `getattr` with a default and `hasattr` never read the text.
+    Raising it is cheap, since `getattr` with a default and `hasattr` never read the text.
 
     Parameters
     ----------
@@ -320,26 +320,26 @@ class UnknownName(AttributeError):
         A class, or the name of a module.
     name : str
     known : iterable of str, optional
-        What a module has.
+        The names of a module.
     """
 
     def __init__(self, owner: type | str, name: str, known: Iterable[str] = ()) -> None:
-        # The interpreter's own guess would stand behind that of the text.
+        # Without this, the interpreter would append its own guess.
         super().__init__(owner, name, known, name=None, obj=None)
 
     def __str__(self) -> str:
         owner, name, known = self.args
         if isinstance(owner, str):
             return f"module {owner!r} has no attribute {name!r}{hint(owner, name, known)}"
-        known = [each for each in dir(owner) if hasattr(owner, each)]  # no foreign ones
+        known = [each for each in dir(owner) if hasattr(owner, each)]  # without foreign names
         kind = f"{'an' if owner.__name__[0] in 'AEIOU' else 'a'} {owner.__name__}"
         return f"{kind} has no attribute {name!r}{hint(owner, name, known)}"
 
 
 class _Foreign:
-    """A foreign name of a class, which is there to refuse to be read or assigned.
+    """A foreign name of a class, which raises an error when read or assigned.
 
-    A ``__getattr__`` would do so as well, and make every attribute of the class slower to read.
+    A ``__getattr__`` could do the same, but would slow down every attribute of the class.
     """
 
     def __init__(self, name: str) -> None:
@@ -353,9 +353,9 @@ class _Foreign:
 
 
 def refuses_foreign_names(kind: Kind) -> Kind:
-    """Let a class answer to foreign names by an error that tells its own.
+    """Make a class answer foreign names with an error that suggests its own names.
 
-    Misspelt ones are Python's to tell, which guesses when it shows an error.
+    Python itself suggests corrections of typos when it shows an error.
     """
     foreign = frozenset(foreign_names(kind).keys() - set(dir(kind)))
     for name in foreign:
@@ -366,7 +366,7 @@ def refuses_foreign_names(kind: Kind) -> Kind:
 
 
 def _own_names(thing: Any) -> list[str]:
-    """Return the names that ``dir`` shows, without those that exist only to be refused."""
+    """Return the names for ``dir``, without foreign names."""
     refused = {
         n for kind in type(thing).__mro__ for n, v in vars(kind).items() if type(v) is _Foreign
     }

@@ -1,7 +1,7 @@
-"""Values as they are at one moment, to be put back or compared later.
+"""Snapshots of values, for restoring and comparing.
 
-In: numbers, texts, arrays, things, and lists and dicts of these. Out: the same with lists and dicts
-of their own, however deep these lie; and whether two such values are the same to the bit.
+In: numbers, texts, arrays, objects, and lists and dicts of these. Out: the same with copied lists
+and dicts, at any depth; and whether two such values are identical to the bit.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from .validation import Closed
 
 
 def kept(value: Any) -> Any:
-    """Return a value that stays as it is: with lists, dicts and arrays of its own."""
+    """Return a value with copies of its lists, dicts and arrays, so that it stays unchanged."""
     if isinstance(value, list):
         return list(map(kept, value))
     if isinstance(value, dict):
@@ -29,9 +29,9 @@ def kept(value: Any) -> Any:
 
 
 def same(one: Any, other: Any) -> bool:
-    """Whether two values are the same: things if they are one object, numbers to the bit.
+    """Return whether two values are identical: objects by identity, numbers to the bit.
 
-    Dicts are the same in the same order, since files hold them so.
+    The order of dicts counts, since files keep it.
     """
     if one is other:
         return True

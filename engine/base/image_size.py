@@ -1,6 +1,6 @@
-"""The size of an image in pixels, checked.
+"""Checks of image sizes in pixels.
 
-In: what a caller gave for width and height. Out: integers within what the core can draw.
+In: a caller's width and height. Out: integers that the core can draw.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""Numbers and arrays of numbers, from whatever a caller calls so.
+"""Conversion of callers' numbers and arrays.
 
-In: anything. Out: a float, or a float64 array; an `InvalidArgumentError` that says what must be a
-number. Integers of any size are taken: those that no float reaches are infinite, which the checks
-that follow refuse where they must.
+In: any value. Out: a float, or a float64 array; or an `InvalidArgumentError` that names the
+argument that must be a number. Integers too large for floats become infinite; later checks refuse
+them if necessary.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from ..errors import InvalidArgumentError
 
 
 def real(value: Any) -> float:
-    """Return a number as a float; not-a-number for what is none."""
+    """Return a value as a float; NaN if it is not a number."""
     if not isinstance(value, numbers.Real):
         return math.nan
     try:
@@ -28,16 +28,16 @@ def real(value: Any) -> float:
 
 
 def shown(value: Any) -> str:
-    """Return a value as a message shows it: on one line, and short."""
+    """Return a value for a message: on one line, and short."""
     try:
         text = " ".join(repr(value).split())
-    except ValueError:  # more digits than Python writes
+    except ValueError:  # too many digits to print
         text = f"an integer of {value.bit_length()} bits" if type(value) is int else "numbers"
     return text if len(text) <= 80 else f"{text[:60]} …"
 
 
 def as_array(value: Any, what: str) -> NDArray[Any]:
-    """Return an array of any type."""
+    """Return an array of any dtype."""
     try:
         return np.asarray(value)
     except (TypeError, ValueError, OverflowError, RecursionError) as error:
@@ -47,8 +47,8 @@ def as_array(value: Any, what: str) -> NDArray[Any]:
 def floats(value: Any, what: str) -> NDArray[np.float64]:
     """Return a float64 copy of numbers, C-contiguous."""
     kind = value.__class__
-    if kind is tuple or kind is list:  # the common case first: this is called for every node
-        wrong = bool(value) and value[0].__class__ is str  # NumPy reads "1" as 1
+    if kind is tuple or kind is list:  # the common case first: this runs for every node
+        wrong = bool(value) and value[0].__class__ is str  # NumPy would accept "1" as 1
     else:
         wrong = value is None or getattr(getattr(value, "dtype", None), "kind", "f") in "cmMSU"
     if wrong:

@@ -1,8 +1,8 @@
-"""Work shared out among threads, and threads that begin or are given up.
+"""Parallel work in threads, robust against threads that never start.
 
-In: a function and items. Out: its results, in the items' order. Python's own pools wait for ever
-for a thread that ends before it has begun, as threads do when memory is nearly gone. Here nobody
-waits for a thread that has not begun: whoever asks works, too, and alone if need be.
+In: a function and items. Out: its results, in the items' order. Python's own pools wait forever for
+a thread that dies before it starts, as happens when memory is nearly exhausted. Here nobody waits
+for a thread that has not started: the caller works too, alone if necessary.
 """
 
 from __future__ import annotations
@@ -19,27 +19,27 @@ from ..errors import OutOfMemoryError
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
 
-#: Seconds in which a thread begins, however busy the machine is.
+#: Seconds within which a thread starts, however busy the machine is.
 PATIENCE = 60.0
 
 
 def side_by_side(
     function: Callable[[Item], Outcome], items: Sequence[Item], threads: int
 ) -> list[Outcome]:
-    """Return what a function makes of each item; several threads may call it.
+    """Return a function's result for each item, computed by several threads.
 
     Parameters
     ----------
     function : callable
-        Finds the variables of the caller's context (`contextvars`).
+        Runs in the caller's context (`contextvars`).
     items : sequence
     threads : int
-        At most, the caller's included.
+        The maximum number, including the caller's.
 
     Raises
     ------
     Exception
-        What the function raised for the first item for which it did; no more items are begun then.
+        The function's exception for the first item that fails; no further items are started.
     """
     work = _Work(function, items)
     helpers = [_Helper(work) for _ in range(min(threads, len(items)) - 1)]
@@ -55,16 +55,16 @@ def side_by_side(
 
 
 class _Work:
-    """Items that are taken one by one, and what became of them."""
+    """The items, taken one by one, and their results."""
 
     def __init__(self, function: Callable[[Any], Any], items: Sequence[Any]) -> None:
         self._function, self._items = function, items
         self._outcomes: list[Any] = [None] * len(items)
         self._errors: list[BaseException | None] = [None] * len(items)
-        self._places = iter(range(len(items)))  # of which each number is given to one thread alone
+        self._places = iter(range(len(items)))  # each number goes to one thread only
 
     def do(self) -> None:
-        """Take items until there are none left."""
+        """Process items until none are left."""
         for place in self._places:
             self._do_one(place)
 
@@ -78,7 +78,7 @@ class _Work:
                 raise
 
     def stop(self) -> None:
-        """Let nobody take another item."""
+        """Prevent any further item from being taken."""
         for _ in self._places:
             pass
 
@@ -90,7 +90,7 @@ class _Work:
 
 
 class _Helper:
-    """A thread that takes items, if it begins."""
+    """A thread that processes items, if it starts."""
 
     def __init__(self, work: _Work) -> None:
         self._work = work
@@ -100,27 +100,27 @@ class _Helper:
         self._ended.acquire()
 
     def start(self) -> None:
-        with contextlib.suppress(RuntimeError, MemoryError):  # there can be no more threads
+        with contextlib.suppress(RuntimeError, MemoryError):  # no more threads are possible
             _thread.start_new_thread(self._run, ())
 
     def wait(self) -> None:
-        """Wait for the end of what was begun; there is nothing to begin any more."""
+        """Wait for started work to end; nothing new can start now."""
         if self._has_begun:
             self._ended.acquire()
 
     def _run(self) -> None:
         try:
             self._has_begun = True
-            with contextlib.suppress(BaseException):  # which the work keeps
+            with contextlib.suppress(BaseException):  # the work records it
                 self._context.run(self._work.do)
         finally:
             self._ended.release()
 
 
 class Thread(threading.Thread):
-    """A thread whose start is an error where it does not begin, and no wait for ever.
+    """A thread that raises an error if it does not start, instead of waiting forever.
 
-    Raises `OutOfMemoryError` when it is started.
+    `start` raises `OutOfMemoryError`.
     """
 
     def __init__(self, *arguments: Any, **options: Any) -> None:
@@ -137,7 +137,7 @@ class Thread(threading.Thread):
 
 
 class _Begun(threading.Event):
-    """What a new thread sets when it begins."""
+    """The event that a new thread sets when it starts."""
 
     def wait(self, timeout: float | None = None) -> bool:
         begun = super().wait(PATIENCE if timeout is None else timeout)

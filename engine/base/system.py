@@ -1,8 +1,8 @@
-"""Functions that systems provide differently: opening, locking, processors, signals, forks.
+"""System functions that differ between platforms: opening, locking, processors, signals, forks.
 
-What a system lacks does nothing here: on Windows a file cannot be opened without waiting, from an
-open folder or without following links, no process is forked, and no signal tells that a terminal
-was closed.
+Features that a system lacks do nothing here: Windows cannot open a file without waiting, relative
+to an open folder or without following links; it does not fork, and no signal reports a closed
+terminal.
 """
 
 from __future__ import annotations
@@ -13,34 +13,35 @@ import os
 from collections.abc import Callable
 from typing import Any
 
-_BINARY = getattr(os, "O_BINARY", 0)  # or else Windows changes the ends of lines
+_BINARY = getattr(os, "O_BINARY", 0)  # prevents Windows from changing line ends
 _OWN = getattr(os, "O_CLOEXEC", getattr(os, "O_NOINHERIT", 0))
-_TAKEN = (errno.EAGAIN, errno.EACCES, errno.EDEADLK)  # what says that another has locked a file
-_NO_SYNC = (errno.EINVAL, errno.ENOSYS, errno.EBADF, errno.EACCES)  # of file systems without it
+_TAKEN = (errno.EAGAIN, errno.EACCES, errno.EDEADLK)  # errors that mean the file is already locked
+# errors of file systems that cannot sync
+_NO_SYNC = (errno.EINVAL, errno.ENOSYS, errno.EBADF, errno.EACCES)
 
-#: Flags of `os.open`: read bytes, in this process alone.
+#: Flags of `os.open`: read bytes, and do not pass the handle to child processes.
 READ = os.O_RDONLY | _BINARY | _OWN
-#: The same to write, and for both.
+#: The same for writing, and for both.
 WRITE = os.O_WRONLY | _BINARY | _OWN
 READ_WRITE = os.O_RDWR | _BINARY | _OWN
-#: In addition: a FIFO that nobody writes to is not waited for; a link is not followed.
+#: Additional flags: do not wait for a FIFO's writer; do not follow a link.
 AT_ONCE = getattr(os, "O_NONBLOCK", 0)
 NO_LINK = getattr(os, "O_NOFOLLOW", 0)
-#: Opens a folder, which need not be readable where the system can do without; 0 where it cannot.
+#: Opens a folder, without the right to read it if the system allows that; 0 if unsupported.
 FOLDER = getattr(os, "O_DIRECTORY", 0) and (
     getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | _OWN
 )
 
 
 def usable_processors() -> int:
-    """The processors that this process may use."""
+    """Return the processors that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
 def machine_memory() -> int | None:
-    """The bytes of memory that the machine has; None where the system does not tell."""
+    """Return the machine's memory in bytes; None if the system does not tell."""
     try:
         return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     except (AttributeError, OSError, ValueError):
@@ -48,7 +49,7 @@ def machine_memory() -> int | None:
 
 
 def ending_signals() -> tuple[Any, ...]:
-    """The signals by which a system asks a program to end."""
+    """Return the signals by which the system asks a program to end."""
     import signal
 
     names = ("SIGTERM", "SIGHUP")
@@ -56,33 +57,33 @@ def ending_signals() -> tuple[Any, ...]:
 
 
 def has_alarm() -> bool:
-    """Whether the system can interrupt this process after a while."""
+    """Return whether the system can interrupt this process after a time."""
     import signal
 
     return hasattr(signal, "setitimer") and hasattr(signal, "SIGALRM")
 
 
 def kill_group(process: int) -> None:
-    """End a process that leads a group, and where the system has groups, all of its group."""
+    """End a process that leads a group and, where groups exist, its whole group."""
     import signal
 
     with contextlib.suppress(OSError):
         if hasattr(os, "killpg"):
             os.killpg(process, signal.SIGKILL)
         else:
-            os.kill(process, signal.SIGTERM)  # which Windows knows as the end at once
+            os.kill(process, signal.SIGTERM)  # on Windows, this kills at once
 
 
 def after_fork(function: Callable[[], object]) -> None:
-    """Call a function in every process that is forked from this one."""
+    """Call a function in every process forked from this one."""
     if hasattr(os, "register_at_fork"):
         os.register_at_fork(after_in_child=function)
 
 
 def locked(handle: int) -> bool:
-    """Lock an open file until it is closed; tell whether no other process has locked it.
+    """Lock an open file until it is closed; return whether the lock was obtained.
 
-    Where a file system has no locks, as some on networks, nobody has.
+    On file systems without locks, such as some on networks, it always succeeds.
     """
     try:
         _lock(handle)
@@ -103,13 +104,13 @@ def _lock(handle: int) -> None:
 
 
 def sync_folder(path: str | None) -> None:
-    """See that the names in a folder are on the disk, where the system can say so."""
+    """Sync the names in a folder to the disk, if the system supports it."""
     if path is None or not hasattr(os, "O_DIRECTORY"):
         return
     try:
         handle = os.open(path or os.curdir, os.O_RDONLY | os.O_DIRECTORY | _OWN)
     except OSError:
-        return  # a folder that may be written to, but not read
+        return  # a folder that is writable but not readable
     try:
         os.fsync(handle)
     except OSError as error:
@@ -120,7 +121,7 @@ def sync_folder(path: str | None) -> None:
 
 
 def set_mode(handle: int, path: str, mode: int) -> None:
-    """Set who may read and write an open file, whose path this is."""
+    """Set the permissions of an open file, whose path this is."""
     if hasattr(os, "fchmod"):
         os.fchmod(handle, mode)
     else:

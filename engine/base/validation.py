@@ -1,8 +1,8 @@
-"""Checks of what callers give, and attributes that check what is assigned to them.
+"""Argument checks, and attributes that check assignments.
 
-In: whatever a caller gives. Out: the checked value, or an `InvalidArgumentError`. When a
-`CheckedAttribute` is assigned, its owner's ``version`` grows, which tells the renderer to renew
-what it made of the owner. What a `Closed` class does not declare cannot be assigned at all.
+In: a caller's value. Out: the checked value, or an `InvalidArgumentError`. Assigning a
+`CheckedAttribute` increases its owner's ``version``, so the renderer knows to rebuild its own data.
+Attributes that a `Closed` class does not declare cannot be assigned.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ Kept = TypeVar("Kept")
 
 
 class Closed:
-    """Base of what has no public attributes but its class's, so that a misspelt one is an error.
+    """Base of classes that refuse undeclared public attributes, so that a typo is an error.
 
-    Attributes of instances are declared by annotations; a subclass may declare more. Copies, and
-    what comes from a pickle, hold read-only arrays as well, and lists and dicts of their own.
+    Annotations declare the attributes of instances; a subclass may declare more. Copies and
+    unpickled objects also hold read-only arrays, and their own lists and dicts.
     """
 
     _FORGOTTEN: tuple[
         str, ...
-    ] = ()  # attributes that are computed anew in a copy; the class has their first values
+    ] = ()  # attributes recomputed in a copy; the class has their initial values
 
     def __getstate__(self) -> dict[str, Any]:
         return {key: self.__dict__[key] for key in self.__dict__ if key not in self._FORGOTTEN}
@@ -51,7 +51,7 @@ class Closed:
             cls.__init__ = hinted(cls.__init__, cls)  # type: ignore[method-assign]
         refuses_foreign_names(cls)
 
-    if not TYPE_CHECKING:  # to a type checker, any attribute could be assigned
+    if not TYPE_CHECKING:  # otherwise type checkers would allow any attribute
 
         def __setattr__(self, name: str, value) -> None:
             kind = type(self)
@@ -61,13 +61,13 @@ class Closed:
 
 
 class Versioned(Closed):
-    """Base of what gets another version with each assignment to a `CheckedAttribute`."""
+    """Base of classes whose version grows with each assignment to a `CheckedAttribute`."""
 
     version: int
 
 
 def own(value: Any) -> Any:
-    """Return what a copy keeps of a value: arrays that nobody can write to, its own containers."""
+    """Return a value for a copy: arrays become read-only, containers are copied."""
     if isinstance(value, np.ndarray):
         return frozen(value if is_frozen(value) or value.flags.owndata else value.copy())
     if isinstance(value, dict):
@@ -77,18 +77,18 @@ def own(value: Any) -> Any:
 
 @functools.cache
 def _declared(kind: type) -> frozenset[str]:
-    """The names that a class and its bases annotate."""
+    """Return the names that a class and its bases annotate."""
     return frozenset().union(*(getattr(base, "__annotations__", {}) for base in kind.__mro__))
 
 
 class CheckedAttribute(Generic[Given, Kept]):
-    """A data descriptor: ``check(value, name)`` returns what to keep, or raises.
+    """A data descriptor: ``check(value, name)`` returns the value to keep, or raises.
 
     Parameters
     ----------
     check : callable
     doc : str
-        What ``help`` shows.
+        The text for ``help``.
     """
 
     def __init__(self, check: Callable[[Given, str], Kept], doc: str = "") -> None:
@@ -127,7 +127,7 @@ ColorAttribute: TypeAlias = CheckedAttribute[ColorLike, Color]
 
 
 def one_of(allowed: tuple[Kept, ...]) -> Callable[[Kept, str], Kept]:
-    """Return a check that a value is one of a few."""
+    """Return a check that a value is one of a few given ones."""
 
     def check(value: Kept, what: str) -> Kept:
         return cast(Kept, choose(value, allowed, what))
@@ -136,7 +136,7 @@ def one_of(allowed: tuple[Kept, ...]) -> Callable[[Kept, str], Kept]:
 
 
 def choose(value: Any, allowed: Any, what: str) -> Any:
-    """Return ``value`` if it is one of ``allowed``; the message lists what is allowed."""
+    """Return ``value`` if it is in ``allowed``; the error lists the allowed values."""
     if is_one_of(value, allowed):
         return value
     choices = ", ".join(repr(choice) for choice in allowed)
@@ -144,7 +144,7 @@ def choose(value: Any, allowed: Any, what: str) -> Any:
 
 
 def flag(value: bool, what: str) -> bool:
-    """Check what is True or False, or NumPy's, or 0 and 1."""
+    """Return a checked flag: True, False, NumPy's bool, 0 or 1."""
     if value is True or value is False:
         return value
     if not is_flag(value):
@@ -153,14 +153,14 @@ def flag(value: bool, what: str) -> bool:
 
 
 def text(value: str, what: str) -> str:
-    """Check a str."""
+    """Return a checked str."""
     if not isinstance(value, str):
         raise InvalidArgumentError(f"{what} must be a str, not {shown(value)}")
     return str(value)
 
 
 def whole_number(value: int, what: str, least: int, most: int) -> int:
-    """Check a whole number of a range."""
+    """Return a checked integer in a range."""
     whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
     if not (whole and least <= value <= most):
         raise InvalidArgumentError(
@@ -170,7 +170,7 @@ def whole_number(value: int, what: str, least: int, most: int) -> int:
 
 
 def is_one_of(value: Any, allowed: Any) -> bool:
-    """Whether a value, whatever it is, is among those that are allowed."""
+    """Return whether a value of any type is among the allowed ones."""
     try:
         return bool(value in allowed)
     except (TypeError, ValueError):  # not hashable, or an array
@@ -178,7 +178,7 @@ def is_one_of(value: Any, allowed: Any) -> bool:
 
 
 def finite(value: float, what: str) -> float:
-    """Check a finite number."""
+    """Return a checked finite number."""
     number = real(value)
     if not math.isfinite(number):
         raise InvalidArgumentError(f"{what} must be a finite number, not {shown(value)}")
@@ -186,7 +186,7 @@ def finite(value: float, what: str) -> float:
 
 
 def positive(value: float, what: str) -> float:
-    """Check a finite number greater than 0."""
+    """Return a checked finite number greater than 0."""
     number = real(value)
     if not 0 < number < math.inf:
         raise InvalidArgumentError(
@@ -196,12 +196,12 @@ def positive(value: float, what: str) -> float:
 
 
 def optional_positive(value: float | None, what: str) -> float | None:
-    """Check a finite number greater than 0, or None."""
+    """Return a checked finite number greater than 0, or None."""
     return None if value is None else positive(value, what)
 
 
 def fraction(value: float, what: str) -> float:
-    """Check a number from 0 to 1."""
+    """Return a checked number from 0 to 1."""
     number = real(value)
     if not 0 <= number <= 1:
         raise InvalidArgumentError(f"{what} must be a number from 0 to 1, not {shown(value)}")
@@ -209,12 +209,12 @@ def fraction(value: float, what: str) -> float:
 
 
 def optional_fraction(value: float | None, what: str) -> float | None:
-    """Check a number from 0 to 1, or None."""
+    """Return a checked number from 0 to 1, or None."""
     return None if value is None else fraction(value, what)
 
 
 def not_negative(value: float, what: str) -> float:
-    """Check a finite number that is 0 or greater."""
+    """Return a checked finite number that is at least 0."""
     number = real(value)
     if not 0 <= number < math.inf:
         raise InvalidArgumentError(
@@ -224,7 +224,7 @@ def not_negative(value: float, what: str) -> float:
 
 
 def how_far(value: float, what: str) -> float:
-    """Check a distance: a number that is 0 or greater, and may be infinite."""
+    """Return a checked distance: a number that is at least 0 and may be infinite."""
     number = real(value)
     if not number >= 0:
         raise InvalidArgumentError(f"{what} must be a number, 0 or greater, not {shown(value)}")
@@ -232,25 +232,25 @@ def how_far(value: float, what: str) -> float:
 
 
 def vector3(value: ArrayLike, what: str) -> NDArray[np.float64]:
-    """Check three finite numbers; return them as a float64 array of the caller's own."""
+    """Return three checked finite numbers as a new float64 array."""
     return finite_floats(value, what, (3,))
 
 
 def matrix4(value: ArrayLike, what: str) -> NDArray[np.float64]:
-    """Check a 4x4 matrix of finite numbers; return it as a float64 array of the caller's own."""
+    """Return a checked 4x4 matrix of finite numbers as a new float64 array."""
     return finite_floats(value, what, (4, 4))
 
 
 def frozen_floats(value: ArrayLike, what: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
-    """Return a float64 copy of ``value``, of one shape and finite, that nobody can write to."""
+    """Return a read-only float64 copy of ``value``, checked for its shape and to be finite."""
     return frozen(finite_floats(value, what, shape))
 
 
 def finite_floats(value: ArrayLike, what: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
-    """Return a float64 copy of ``value``, of one shape and finite."""
+    """Return a float64 copy of ``value``, checked for its shape and to be finite."""
     array = floats(value, what)
     if array.shape != shape:
         raise InvalidArgumentError(f"{what} must have shape {shape}, not {array.shape}")
-    if not all(map(math.isfinite, array.ravel().tolist())):  # of few numbers, faster than NumPy
+    if not all(map(math.isfinite, array.ravel().tolist())):  # for few numbers, faster than NumPy
         raise InvalidArgumentError(f"{what} must be finite: {array.tolist()}")
     return array

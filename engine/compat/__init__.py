@@ -1,4 +1,4 @@
-"""Modules with the names and the meaning of other packages, drawn by this engine."""
+"""Modules compatible with other packages, drawn by this engine."""
 
 from importlib import import_module
 
@@ -6,7 +6,7 @@ __all__ = ["pyrender"]
 
 
 def __getattr__(name):
-    """Import a module on first use, as ``engine3d.batch`` is."""
+    """Import a module on first use, as for ``engine3d.batch``."""
     if name not in __all__:
         raise AttributeError(f"module 'engine3d.compat' has no attribute {name!r}")
     return import_module(f".{name}", __name__)

@@ -1,1 +1,1 @@
-"""Extras that few programs need: worlds, levels of detail."""
+"""Extras for few programs: procedural worlds, levels of detail."""

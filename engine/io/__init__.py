@@ -1,1 +1,1 @@
-"""Files, both ways: formats, what readers and writers share, scenes of documents, output."""
+"""File input and output: formats, shared code of readers and writers, scenes, animations."""

@@ -1,7 +1,7 @@
-"""Reading files: meshes, textures, and documents that hold lights and cameras as well.
+"""Loaders: meshes, textures, and documents that also hold lights and cameras.
 
-`load_mesh`, `load_texture` and `load_document` choose the reader by what the file holds and what it
-is called. A format is one module of this package that defines ``READERS``; `registry` finds it.
+`load_mesh`, `load_texture` and `load_document` choose the reader by the file's content and name. A
+format is a module in `formats` that defines ``READERS``; `reader_registry` finds it.
 """
 
 from __future__ import annotations

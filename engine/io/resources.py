@@ -1,8 +1,8 @@
-"""Meshes and textures that are stored once, however often and from wherever they are loaded.
+"""Loads meshes and textures with sharing: equal content is stored once.
 
-In: files, or objects made elsewhere. Out: the object of that content, shared. An object is kept for
-as long as somebody else holds it. A file that changed on disk is loaded again when asked for, into
-the objects that are there, so that every scene shows it.
+In: files, or objects made elsewhere. Out: the shared object for the content, kept as long as
+somebody else holds it. A file that changed on disk is reloaded on request, into the existing
+objects, so that every scene shows it.
 """
 
 from __future__ import annotations
@@ -43,15 +43,15 @@ if TYPE_CHECKING:
 
 @shows_annotations
 class ResourceStats(NamedTuple):
-    """The contents of a `Resources`.
+    """Statistics of a `Resources`.
 
     Attributes
     ----------
     meshes, textures : int
     mesh_bytes, texture_bytes : int
-        Of their arrays, as Python holds them.
+        Size of their arrays in Python.
     loads, shared : int
-        How often something was asked for, and how often of these it was there already.
+        The number of requests, and how many of them found an existing object.
     """
 
     meshes: int
@@ -64,20 +64,20 @@ class ResourceStats(NamedTuple):
 
 @shows_annotations
 class Resource(NamedTuple):
-    """One thing that is loaded.
+    """A loaded mesh or texture.
 
     Attributes
     ----------
     name : str
-        Its own, or else that of its file.
+        Its own name, or else that of its file.
     kind : {"mesh", "texture"}
     thing : Mesh or Texture
     size : int
-        Bytes of its arrays.
+        Size of its arrays in bytes.
     path : str or None
-        The file that it was loaded from.
+        The file it was loaded from.
     users : int
-        How many nodes of the scenes that were asked about use it.
+        How many nodes of the given scenes use it.
     """
 
     name: str
@@ -91,8 +91,8 @@ class Resource(NamedTuple):
 class Resources:
     """Loads meshes and textures, each content once.
 
-    What is shared is one object: who changes it changes it for all, and from then on it is no
-    longer shared with later loads of the old content.
+    A shared thing is one object: changing it changes it for all users, and afterwards it is no
+    longer shared with new loads of the old content.
     """
 
     def __init__(self) -> None:
@@ -100,29 +100,29 @@ class Resources:
         self._by_content: WeakValueDictionary[Any, Any] = WeakValueDictionary()
         self._files: dict[tuple[Any, ...], _Loaded] = {}
         self._loads = self._shared = 0
-        # Held while things are looked up and kept, not while files are read.
+        # Held for lookups and updates, not while files are read.
         self._lock = threading.RLock()
 
     def load_mesh(self, path: str | os.PathLike[str], **options: Any) -> Mesh:
-        """Return the mesh of a file; parameters and exceptions are those of `load_mesh`.
+        """Return the mesh of a file; parameters and exceptions as in `load_mesh`.
 
-        Its textures are shared as well.
+        Its textures are shared too.
         """
         return self._load(load_mesh, path, options)
 
     def load_texture(
         self, path: str | os.PathLike[str], **options: Unpack[TextureOptions]
     ) -> Texture:
-        """Return the texture of a file; parameters and exceptions are those of `load_texture`."""
+        """Return the texture of a file; parameters and exceptions as in `load_texture`."""
         return self._load(load_texture, path, options)
 
     def share(self, thing: Mesh | Texture) -> Mesh | Texture:
-        """Return the object that is there with this content, or keep this one.
+        """Return the existing object with this content, or keep this one.
 
         Raises
         ------
         InvalidArgumentError
-            It is neither a Mesh nor a Texture.
+            The argument is neither a Mesh nor a Texture.
         """
         if not isinstance(thing, (Mesh, Texture)):
             raise InvalidArgumentError(f"thing must be a Mesh or Texture, not {shown(thing)}")
@@ -131,10 +131,10 @@ class Resources:
             return self._same(thing)
 
     def reload_changed(self) -> tuple[str, ...]:
-        """Load the files again that changed since they were loaded; return their paths.
+        """Reload the files that changed since they were loaded; return their paths.
 
-        A model counts as changed with the files that it names, such as its textures. One that is
-        damaged now, or gone, leaves its object as it is and is warned of as `Engine3DWarning`.
+        A model also counts as changed if a file that it names, such as a texture, changed. If a
+        file is now damaged or missing, its object stays as it is, with an `Engine3DWarning`.
         """
         done = []
         for key, loaded in list(self._files.items()):
@@ -159,12 +159,12 @@ class Resources:
         return tuple(done)
 
     def listed(self, *scenes: Scene) -> tuple[Resource, ...]:
-        """Return what is held now, each thing once, in the order of loading.
+        """Return the loaded things, each once, in loading order.
 
         Parameters
         ----------
         *scenes : Scene
-            Those whose nodes are counted as users.
+            Scenes whose nodes count as users.
         """
         uses = uses_in(scenes)
         paths = {id(thing): key[1] for key, thing in list(self._by_file.items())}
@@ -182,7 +182,7 @@ class Resources:
 
     @checks_types
     def find(self, name: str) -> Mesh | Texture | None:
-        """Return the first thing of that name that is held, or None."""
+        """Return the first loaded thing with a name, or None."""
         return next((entry.thing for entry in self.listed() if entry.name == name), None)
 
     def _things(self) -> list[Mesh | Texture]:
@@ -193,7 +193,7 @@ class Resources:
 
     @property
     def stats(self) -> ResourceStats:
-        """Counts and sizes of what is held now."""
+        """The current counts and sizes."""
         things = self._things()
         meshes = [thing for thing in things if isinstance(thing, Mesh)]
         textures = [thing for thing in things if isinstance(thing, Texture)]
@@ -225,7 +225,7 @@ class Resources:
             return self._known(key) or self._keep(key, thing, _Loaded(load, options, states))
 
     def _known(self, key: tuple[Any, ...]) -> Any:
-        """Return the thing that was loaded so, as long as nobody has changed it since."""
+        """Return the thing loaded by the same call, unless it was changed since."""
         thing, loaded = self._by_file.get(key), self._files.get(key)
         if thing is None or loaded is None or loaded.versions != versions_of(thing):
             return None
@@ -233,7 +233,7 @@ class Resources:
         return thing
 
     def _keep(self, key: tuple[Any, ...], thing: Any, loaded: _Loaded) -> Any:
-        """The object of what was read: this one, or one that is there already."""
+        """Return the object for what was read: this one, or an existing equal one."""
         for material in thing.materials if isinstance(thing, Mesh) else ():
             for slot, texture in textures_of(material).items():
                 put_texture(material, slot, self._same(texture, count=False))
@@ -244,7 +244,7 @@ class Resources:
         return thing
 
     def _same(self, thing: Any, *, count: bool = True) -> Any:
-        """The object of the same content, as long as nobody has changed it since."""
+        """Return an object with equal content, unless it was changed since."""
         content = _content(thing)
         other = self._by_content.get(content)
         if other is not None and (other is thing or _content(other) == content):
@@ -267,7 +267,7 @@ def _real_path(path: str | os.PathLike[str]) -> str:
 
 
 class _Loaded:
-    """How a file was loaded: by what, with which options, from which files in which states."""
+    """How a file was loaded: the function, its options, and the states of all files read."""
 
     def __init__(self, load: Any, options: dict[str, Any], states: dict[str, FileState]) -> None:
         self.load, self.options, self.states = load, options, states
@@ -275,7 +275,7 @@ class _Loaded:
 
 
 def versions_of(thing: Mesh | Texture) -> tuple[Any, ...]:
-    """Return what is another once somebody has changed the thing."""
+    """Return the versions of a thing, which differ after any change to it."""
     materials = thing.materials if isinstance(thing, Mesh) else ()
     textures = (texture for material in materials for texture in textures_of(material).values())
     return tuple(part.version for part in (thing, *materials, *textures))
@@ -284,7 +284,7 @@ def versions_of(thing: Mesh | Texture) -> tuple[Any, ...]:
 def _read(
     load: Any, path: str, options: dict[str, Any]
 ) -> tuple[Mesh | Texture, dict[str, FileState]]:
-    """Load a file; return what it holds, and how all files were before they were read for it."""
+    """Load a file; return the result, and the states of all files before they were read."""
     states = {path: FileState(path)}
 
     def note(found: str) -> None:
@@ -297,14 +297,14 @@ def _read(
 
 
 def size_of(thing: Mesh | Texture) -> int:
-    """Return the bytes of a thing's arrays, as Python holds them."""
+    """Return the size of a thing's arrays in bytes, as Python holds them."""
     if isinstance(thing, Texture):
         return thing.pixels.nbytes
     return sum(array.nbytes for array in arrays_of(thing).values() if array is not None)
 
 
 def _content(thing: Any) -> tuple[Any, ...]:
-    """Return a key that two things share if and only if they are equal, but for their names."""
+    """Return a key that is equal for things with equal content, regardless of names."""
     digest = hashlib.blake2b(digest_size=20)
     if isinstance(thing, Texture):
         digest.update(thing.pixels.data)
@@ -332,7 +332,7 @@ def _material_content(material: Material) -> tuple[Any, ...]:
 
 
 def become(thing: Mesh | Texture, fresh: Any) -> None:
-    """Put the content of one object into another of its kind."""
+    """Replace the content of an object with that of another of its kind."""
     if isinstance(thing, Texture):
         thing.pixels = fresh.pixels
         remember_image_file(thing, image_file_of(fresh))

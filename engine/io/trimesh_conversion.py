@@ -1,8 +1,8 @@
-"""Meshes from and for the package trimesh, which is optional.
+"""Conversion of meshes from and to the optional package trimesh.
 
-In: geometry of trimesh, or a `Mesh`. Out: the other. trimesh is imported only to make its objects:
-what comes from it is known by its attributes. Colours of its materials are taken for linear light,
-as its loaders make them of the numbers in files; vertex colours are sRGB bytes on both sides.
+In: trimesh geometry, or a `Mesh`. Out: the other. trimesh is imported only to create its objects;
+its geometry is recognised by attributes. Material colours count as linear light, because its
+loaders copy them from files; vertex colours are sRGB bytes on both sides.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from .reading.warning_list import WarningList
 
 
 def mesh_from_trimesh(geometry: Any) -> Mesh:
-    """Return the mesh of a geometry; see `Mesh.from_trimesh`."""
+    """Return the mesh of a trimesh geometry; see `Mesh.from_trimesh`."""
     if hasattr(geometry, "graph") and hasattr(geometry, "geometry"):
         parts = scene_parts(geometry)
         return Mesh.concatenate([posed_mesh(part.mesh, part.pose) for part in parts])
@@ -37,10 +37,10 @@ def mesh_from_trimesh(geometry: Any) -> Mesh:
 def scene_parts(
     scene: Any, warnings: WarningList | None = None, *, near: bool = False
 ) -> list[PosedPart]:
-    """Return the nodes of a trimesh scene; those of the same geometry share a mesh.
+    """Return the nodes of a trimesh scene; nodes with the same geometry share a mesh.
 
-    With ``warnings``, images that cannot be read are left out. With ``near``, coordinates far from
-    the origin get another one, and poses that take them back.
+    With ``warnings``, unreadable images are left out. With ``near``, distant coordinates are moved
+    near the origin, and poses move them back.
     """
     meshes: dict[str, tuple[Mesh, np.ndarray | None]] = {}
     textures = _Textures(warnings)
@@ -58,7 +58,7 @@ def scene_parts(
 def _near_mesh(
     geometry: Any, name: str, textures: _Textures, near: bool
 ) -> tuple[Mesh, np.ndarray | None]:
-    """The mesh of a geometry, and what takes its coordinates back if they were moved."""
+    """Return the mesh of a geometry, and the pose that undoes a move of its coordinates."""
     vertices = np.asarray(getattr(geometry, "vertices", ()), np.float64)
     if not near or vertices.ndim != 2 or vertices.shape[1] != 3:
         return _mesh(geometry, name, textures), None
@@ -69,7 +69,7 @@ def _near_mesh(
 def _mesh(
     geometry: Any, name: str, textures: _Textures, positions: np.ndarray | None = None
 ) -> Mesh:
-    """The mesh of a Trimesh, a PointCloud or a Path; its vertices may stand elsewhere."""
+    """Return the mesh of a Trimesh, PointCloud or Path; its vertices may be given separately."""
     if positions is None:
         positions = np.asarray(getattr(geometry, "vertices", ()), np.float64)
     if hasattr(geometry, "faces") and hasattr(geometry, "visual"):
@@ -87,7 +87,7 @@ def _triangle_mesh(geometry: Any, name: str, textures: _Textures, positions: np.
     visual = geometry.visual
     kind = getattr(visual, "kind", None)
     indexed = IndexedGeometry(positions, np.asarray(geometry.faces, np.int32))
-    # Asking for the normals of a mesh without any would make trimesh compute them.
+    # Asking a mesh without normals for them would make trimesh compute them.
     if "vertex_normals" in getattr(geometry, "_cache", ()):
         indexed.normals = np.asarray(geometry.vertex_normals, np.float32)
     if kind == "vertex":
@@ -102,7 +102,8 @@ def _triangle_mesh(geometry: Any, name: str, textures: _Textures, positions: np.
 
 
 def _path_mesh(geometry: Any, name: str, vertices: np.ndarray) -> Mesh:
-    # Without the scale a circle would get a point every twentieth of a unit, however large it is.
+    # Without the scale, a circle would get a point every twentieth of a unit, regardless of its
+    # size.
     scale = float(np.ptp(vertices, axis=0).max(initial=0.0)) if len(vertices) else 1.0
     runs = [
         np.asarray(entity.discrete(vertices, scale=scale or 1.0), np.float64)
@@ -124,13 +125,13 @@ def _bytes(colors: Any) -> np.ndarray:
 
 
 def _material(material: Any, textures: _Textures) -> Material:
-    """A `SimpleMaterial` or a `PBRMaterial`; of a `MultiMaterial` the first."""
+    """Return the material of a trimesh material; for a `MultiMaterial`, the first one's."""
     material = (getattr(material, "materials", None) or [material])[0]
     factor = getattr(material, "baseColorFactor", None)
     if factor is None:
         factor = getattr(material, "diffuse", None)
     image = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
-    # The grey that trimesh gives a material without a colour would darken its image.
+    # trimesh's default grey for materials without a colour would darken the image.
     is_default = factor is None or (image is not None and not hasattr(material, "baseColorFactor"))
     emissive = getattr(material, "emissiveFactor", None)
     extras = {
@@ -155,11 +156,11 @@ def _linear(color: Any) -> tuple[float, ...]:
 
 
 class _Textures:
-    """The textures of images of Pillow's, one for each that several materials share."""
+    """The textures of Pillow images, one for each image shared by materials."""
 
     def __init__(self, warnings: WarningList | None = None) -> None:
         self._warnings = warnings
-        # The image is kept, too: another could get its identity.
+        # Also holds the image: otherwise its ID could be reused.
         self._textures: dict[int, tuple[object, Texture | None]] = {}
 
     def get(self, image: Any) -> Texture | None:
@@ -172,7 +173,7 @@ class _Textures:
         try:
             check_image_size(image.width, image.height, "texture")
             return Texture(made_pixels(image, "texture"), name=name)
-        # Pillow decodes an image only now, and raises what damaged ones lead it to.
+        # Pillow decodes the image only here, and raises various errors for damaged ones.
         except Exception as error:
             if self._warnings is None:
                 raise
@@ -202,7 +203,7 @@ def mesh_to_trimesh(mesh: Mesh) -> Any:
 
 
 def _trimesh_part(trimesh: ModuleType, mesh: Mesh, number: int, is_part: bool) -> Any:
-    """The faces of one material; all vertices stay if there is no other."""
+    """Return the faces of one material; all vertices stay if there is no other."""
     faces: np.ndarray = mesh.faces
     vertices: np.ndarray | slice = slice(None)
     if is_part:

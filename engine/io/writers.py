@@ -1,7 +1,7 @@
-"""Writing meshes to files: OBJ with MTL, PLY, STL, glTF.
+"""Writers of mesh files: OBJ with MTL, PLY, STL, glTF.
 
-`save_mesh` chooses the writer by the file's extension. A format is one module of this package that
-defines ``WRITERS``; `registry` finds it.
+`save_mesh` chooses the writer by the file's extension. A format is a module in `formats` that
+defines ``WRITERS``; `writer_registry` finds it.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""From a scene to a picture: cameras' views, what changed since the last frame, the call of C."""
+"""Rendering: from a scene to a frame by way of views, draw lists, passes and the C core."""

@@ -1,11 +1,11 @@
-"""Limits the memory of a frame, since a scene or an option may ask for much in a few bytes.
+"""Limits the memory of a frame, since a scene or an option may demand much in a few bytes.
 
-In: what a frame is about to allocate. Out: nothing, or one error that tells what takes how much and
-what to change, before anything of it is allocated.
+In: the sizes of what a frame is about to allocate. Out: nothing, or one error, before any
+allocation, that lists the largest parts and says what to change.
 
-A frame's outputs may take what the machine has. What else it needs has a limit: `MAX_FRAME_BYTES`
-of options.py, which a program may raise, and `BYTES_A_PIXEL` for each pixel, by which what goes by
-the size of the picture always fits.
+A frame's outputs may take all the machine's memory. Everything else is limited by `MAX_FRAME_BYTES`
+of options.py, which a program may raise, plus `BYTES_A_PIXEL` for each pixel, which always covers
+what scales with the picture.
 """
 
 from __future__ import annotations
@@ -21,21 +21,21 @@ from ..errors import InvalidArgumentError
 from . import options as limits
 from ._output_pool import shapes_of
 
-#: Bytes that a frame may take for each pixel. Bloom and ambient occlusion together need fewer.
+#: Bytes allowed per pixel in addition. Bloom and ambient occlusion together need fewer.
 BYTES_A_PIXEL = 32
 
 _FLOAT = 4
 _KEPT_SAMPLE = 8  # a depth and an ID: csrc/frame/tile/kept.c
 _MOST_KEPT = 1 << 25  # samples of a picture: E3D_MOST_KEPT_SAMPLES of csrc/frame/pass/plan.h
-_TILE_PLANE = 24 * 4096  # of a sample of a tile its depth, ID, colour and count
-# About, of each face that casts exact shadows: its corners, and for each light these once more
-# and the boxes of the cells that it is in.
+_TILE_PLANE = 24 * 4096  # depth, ID, colour and count for each sample of a tile
+# Approximate bytes per face that casts exact shadows: its corners; and for each light, these again
+# and the boxes of the grid cells it is in.
 _CASTER, _CASTER_OF_LIGHT = 37, 160
-_SHOWN = 20  # an error names what takes at least this part of all
+_SHOWN = 20  # an error names each part that takes at least 1/20 of the total
 
 
 class Use(NamedTuple):
-    """What takes memory."""
+    """One consumer of memory."""
 
     size: int  # bytes
     what: str
@@ -48,7 +48,7 @@ class FrameMemory:
     Parameters
     ----------
     axis, multiple : int
-        Samples of a pixel along each axis; how often each is multisampled, 0 without.
+        Samples of a pixel along each axis; multisamples of each, 0 without.
     threads : int
         0: all.
     """
@@ -60,13 +60,12 @@ class FrameMemory:
         self._of_maps: list[Use] = []
 
     def check(self, outputs: tuple[str, ...], size: tuple[int, int], uses: list[Use]) -> list[Use]:
-        """Return the memory of a frame with these outputs and of its passes.
+        """Return the memory of a frame with given outputs, and of its passes.
 
         Raises
         ------
         InvalidArgumentError
-            Its outputs are larger than the machine's memory, or what else goes by its options takes
-            more than a frame may.
+            The outputs exceed the machine's memory, or the rest exceeds the limit of a frame.
         """
         _check_outputs(outputs, *size)
         uses = uses + self._uses_of(*size)
@@ -75,16 +74,16 @@ class FrameMemory:
         return uses
 
     def begin(self, size: tuple[int, int], uses: list[Use]) -> None:
-        """Begin a frame that takes this, and has no maps of shadows so far."""
+        """Begin a frame with this memory and no shadow maps so far."""
         self._size, self._of_options, self._of_maps = size, uses, []
 
     def add_maps(self, lights: Iterable[tuple[str, int, int]]) -> None:
-        """Add maps of shadows: of each light its kind, how many it has, and texels a side.
+        """Add shadow maps: for each light its kind, the number of maps, and texels per side.
 
         Raises
         ------
         InvalidArgumentError
-            The frame would take too much.
+            The frame would exceed the limit.
         """
         for (kind, maps, side), times in Counter(lights).items():
             size = _FLOAT * maps * side * side * times
@@ -93,12 +92,12 @@ class FrameMemory:
         self._check(self._of_options + self._of_maps)
 
     def add_exact(self, lights: int, faces: int) -> None:
-        """Add exact shadows of so many faces, of so many lights.
+        """Add exact shadows of given numbers of faces and lights.
 
         Raises
         ------
         InvalidArgumentError
-            The frame would take too much.
+            The frame would exceed the limit.
         """
         size = faces * (_CASTER + lights * _CASTER_OF_LIGHT)
         what = f"exact shadows ({lights} lights, {faces} faces that may hide them)"
@@ -144,5 +143,5 @@ def _check_outputs(outputs: tuple[str, ...], width: int, height: int) -> None:
 
 
 def _readable(size: int) -> str:
-    """A number of bytes in MiB or GiB."""
+    """Return a number of bytes in MiB or GiB."""
     return f"{size / 2**30:.1f} GiB" if size >= 2**30 else f"{size / 2**20:.1f} MiB"

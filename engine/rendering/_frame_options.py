@@ -1,7 +1,7 @@
-"""The options of a frame: `RenderOptions` and the scene's colours, as the core takes them.
+"""The options of a frame, as the core takes them: `RenderOptions` and the scene's colours.
 
-In: checked options. Out: `FrameOptions`, whose `native` the core takes as it is. They are made when
-an option or a colour changes, and kept from frame to frame meanwhile.
+In: checked options. Out: `FrameOptions`, whose `native` the core takes as it is. It is rebuilt when
+an option or a colour changes, and kept from frame to frame otherwise.
 """
 
 from __future__ import annotations
@@ -44,16 +44,16 @@ from .options import (
 
 Key = TypeVar("Key")
 Value = TypeVar("Value")
-#: Makes of a colour what the core takes.
+#: Converts a colour to the core's format.
 Convert: TypeAlias = Callable[[tuple[Any, ...], ColorSpace], Color]
 
 _NO_CLAMP = (0.0, math.inf)
 _MOST_BLURRED = 8.0  # the last level of an environment: E3D_ENVIRONMENT_LEVELS - 1
 _scene_values = operator.attrgetter(*SCENE_VALUES)
-_MAX_KEPT = 16  # programs that draw ever other pictures keep no more options than these
-# Settings that differ if surfaces are drawn without their colours.
+_MAX_KEPT = 16  # for programs that alternate between pictures
+# Settings that differ if surfaces are drawn without colour.
 _WITHOUT_COLOR = {
-    "mode": _native.MODES["unlit"],  # what is blended is left out, as in mode lit
+    "mode": _native.MODES["unlit"],  # skips blended surfaces, as in mode lit
     "wireframe": _native.WIREFRAMES[None],
     "remove_hidden_lines": True,
     "transparent_outputs": False,
@@ -71,23 +71,23 @@ class FrameOptions:
     Parameters
     ----------
     scene : Scene
-        Its background, ambient light, environment and limits of light count as options.
+        Its background, ambient light, environment and light clamp count as options.
     threads : int
-        That prepare environments; 0: all.
+        Threads that prepare environments; 0: all.
     color_space : {"srgb", "linear"}
     options : RenderOptions
     height : int
-        Of the picture in pixels.
+        Of the picture, in pixels.
 
     Attributes
     ----------
     native : NativeOptions
     headlight : tuple of two tuples of 3 float
-        The light of scenes without lights, on surfaces that are not physically based and on those
-        that are, in lux. With the ambient it adds up to white; an environment takes its place on
-        what it lights.
+        The light of scenes without lights: for surfaces that are not physically based, and in lux
+        for those that are. Together with the ambient light it makes white; an environment replaces
+        it on the surfaces it lights.
     has_backdrop : bool
-        Whether an environment shows as the background.
+        Whether an environment is the background.
     """
 
     def __init__(
@@ -131,16 +131,17 @@ class FrameOptions:
             _fog(scene, color_space, options),
         )
         self.has_backdrop = backdrop is not None
-        # Pixels: twice as far from its middle as the widest line or point reaches, for rounding.
+        # Pixels: twice the reach of the widest line or point from its middle, to allow for
+        # rounding.
         self._mark_size = 2.0 * (max(line_width, point_size) + 2.0)
 
     @cached_property
     def surfaces(self) -> _native.NativeOptions:
-        """Options that draw what these keep, without colour."""
+        """The same options for drawing without colour."""
         return _native.NativeOptions(self._numbers | _WITHOUT_COLOR)
 
     def listing(self, outputs: tuple[str, ...]) -> Listing:
-        """Return how objects are listed for a frame with these outputs."""
+        """Return how to list objects for a frame with given outputs."""
         known, options = self._listings.get(outputs), self._options
         if known is None:
             shaded = shows_light(outputs)
@@ -156,7 +157,7 @@ class FrameOptions:
         return known
 
     def placing(self, frustum: NDArray[np.float64], size: tuple[int, int]) -> Placing:
-        """Return how nodes are placed in a picture of some size that shows a frustum."""
+        """Return how to place nodes in a picture of a given size and frustum."""
         culling = self._options.culling
         return Placing(
             None if culling == "none" else frustum,
@@ -167,7 +168,7 @@ class FrameOptions:
 
 
 def _background(scene: AnyScene, color_space: ColorSpace, convert: Convert) -> dict[str, Any]:
-    """Return the background as the core takes it; an environment is passed separately."""
+    """Return the background for the core; an environment is passed separately."""
     background = scene.background
     if background is None:
         return {"background": (0.0, 0.0, 0.0, 0.0)}
@@ -182,7 +183,7 @@ def _background(scene: AnyScene, color_space: ColorSpace, convert: Convert) -> d
 
 
 def _environment(scene: AnyScene) -> dict[str, float]:
-    """Return the turn, brightness and blur of an environment, for the core."""
+    """Return the rotation, intensity and blur of an environment, for the core."""
     turn, intensity = scene.environment_rotation, scene.environment_intensity
     cosine, sine = linalg.cos(turn), linalg.sin(turn)
     return {
@@ -199,7 +200,7 @@ def _environment(scene: AnyScene) -> dict[str, float]:
 def _fog(
     scene: AnyScene, color_space: ColorSpace, options: RenderOptions
 ) -> tuple[Any, ...] | None:
-    """A scene's fog as the core takes it: colours, depths and density; or None."""
+    """Return a scene's fog for the core: colours, depths and density; or None."""
     fog = scene.fog
     if fog is None:
         return None
@@ -211,29 +212,30 @@ def _fog(
 
 
 class OptionsCache:
-    """The options of the last frames, each for as long as nothing changes that it was made of.
+    """The options of the last frames, each kept until one of its inputs changes.
 
-    Identity decides, because (255, 255, 255) and (255.0, 255.0, 255.0) are equal, but not the same
-    colour. What is compared cannot change in place: a colour that could is not kept.
+    Inputs are compared by identity, because (255, 255, 255) and (255.0, 255.0, 255.0) are equal but
+    not the same colour. Options with a mutable colour are not cached, since it could change in
+    place.
     """
 
     def __init__(self, color_space: ColorSpace, threads: int) -> None:
         self._color_space = color_space
         self._threads = threads
-        # By outputs and the other keywords: their values, and what they name.
+        # By outputs and other keywords: their values, and the options they name.
         self._named: dict[tuple[object, ...], tuple[tuple[Any, ...], RenderOptions]] = {}
-        # By the identity of options: these, the scene's colours, and what they are together.
+        # By identity of options: these, the scene's colours, and the frame options made from both.
         self._found: dict[int, tuple[tuple[Any, ...], FrameOptions]] = {}
 
     def named(self, options: RenderOptions | None, keywords: OptionKeywords) -> RenderOptions:
-        """Return the options of a call: those that it was given, or that its keywords name.
+        """Return the options of a call: the given ones, or those that its keywords name.
 
         Raises
         ------
         InvalidArgumentError
-            They are wrong, or both were given.
+            An option is wrong, or both options and keywords were given.
         TypeError
-            No option has the name of a keyword.
+            A keyword is not an option.
         """
         if options is None:
             return self._of_keywords(keywords) if keywords else DEFAULTS
@@ -255,7 +257,7 @@ class OptionsCache:
         given = tuple(keywords.values())
         try:
             known = self._named.get(key)
-        except TypeError:  # what cannot be hashed names no output
+        except TypeError:  # an unhashable value names no output
             names = check_outputs(names)
         if known is not None and same_objects(given, known[0]):
             return known[1]
@@ -267,7 +269,7 @@ class OptionsCache:
         return options
 
     def get(self, scene: AnyScene, options: RenderOptions, height: int) -> FrameOptions:
-        """Return what the options are for a scene as it is now, in a picture of some height."""
+        """Return the frame options for a scene's current state and a picture's height."""
         seen = options, height, *_scene_values(scene)
         known = self._found.get(id(options))
         if known is None or not same_objects(seen, known[0]):

@@ -1,10 +1,10 @@
-"""Remembers from what a thing was made, so that it is made again only when that changes."""
+"""Remembers the inputs that something was made from, to remake it only when they change."""
 
 from __future__ import annotations
 
 
 class Memo:
-    """The values that a thing was last made from; ``==`` compares them."""
+    """The inputs that something was last made from, compared by ``==``."""
 
     __slots__ = ("_made_of", "_next")
 
@@ -13,20 +13,20 @@ class Memo:
         self._next: tuple[object, ...] | None = None
 
     def is_of(self, *made_of: object) -> bool:
-        """Return whether the thing was made of these values."""
+        """Return whether the result was made from these inputs."""
         return self._made_of == made_of
 
     def differs(self, *made_of: object) -> bool:
-        """Return whether the thing has to be made of these values; it is not, until `done`."""
+        """Return whether the result must be remade from these inputs, and note them for `done`."""
         if self._made_of == made_of:
             return False
         self._made_of, self._next = None, made_of
         return True
 
     def forget(self) -> None:
-        """Have the thing made again in any case."""
+        """Force a remake in any case."""
         self._made_of = None
 
     def done(self) -> None:
-        """Say that the thing was made of the values that were last asked for."""
+        """Note that the result was made from the inputs last asked for."""
         self._made_of = self._next

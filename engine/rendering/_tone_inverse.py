@@ -1,8 +1,8 @@
-"""Inverts tone mapping: finds the light that a mapper shows as a given colour.
+"""Inverts tone mapping: finds the light that a tone mapper maps to a given colour.
 
-In: a colour that a screen can show, linear. Out: light that shows so (docs/exactness, R118 and
-R119, backwards, in float64). Fog over lit surfaces takes it: what is all fog shows the fog's colour
-then, as the background beside it does.
+In: a displayable colour, linear. Out: the light that maps to it (docs/exactness, R118 and R119,
+backwards, in float64). Fog over lit surfaces uses it, so that full fog shows exactly the fog's
+colour, like the background beside it.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 
 from ..choices import ToneMapping
 
-_BRIGHTEST = 0.999  # nothing shows as white but light without end
+_BRIGHTEST = 0.999  # only infinite light maps to white
 _ACES_IN = np.array(
     [[0.59719, 0.35458, 0.04823], [0.07600, 0.90834, 0.01566], [0.02840, 0.13383, 0.83777]]
 )
@@ -38,9 +38,10 @@ _AGX_OUT = np.array(
 _AGX_SRGB = np.array(
     [[1.6605, -0.5876, -0.0728], [-0.1246, 1.1329, -0.0083], [-0.0182, -0.1006, 1.1187]]
 )
-_AGX_CURVE = (15.5, -40.14, 31.96, -6.868, 0.4298, 0.1191, -0.00232)  # from the highest power on
+_AGX_CURVE = (15.5, -40.14, 31.96, -6.868, 0.4298, 0.1191, -0.00232)  # from the highest power down
 _AGX_STOPS = 4.026069 + 12.47393
-# R119's own: log2(m) - (m - 1) of m from 1 to 2, and w**2.2 / w**2 of the root of w.
+# R119's own approximations: log2(m) - (m - 1) for m from 1 to 2, and w**2.2 / w**2 from the root of
+# w.
 _AGX_LOG = (-1.1536209, 2.04788446, -1.05187511, 0.158248708)
 _AGX_POWER = (0.393614709, 0.859294593, -0.256217986)
 
@@ -48,12 +49,12 @@ _AGX_POWER = (0.393614709, 0.859294593, -0.256217986)
 def light_that_shows(
     color: tuple[float, float, float], mapping: ToneMapping
 ) -> tuple[float, float, float]:
-    """Return the light that a tone mapper shows as a colour, or nearly, where it shows none so.
+    """Return the light that a tone mapper maps to a colour, or to the nearest colour it reaches.
 
     Parameters
     ----------
     color : (3,) float
-        Linear; what is above 1 counts as 1.
+        Linear; values above 1 count as 1.
     mapping : {"none", "neutral", "aces", "agx"}
     """
     if mapping == "none":
@@ -87,7 +88,7 @@ def _agx(shown: np.ndarray) -> np.ndarray:
     powers = np.maximum(np.linalg.solve(_AGX_SRGB, shown), 0.0).tolist()
     wide = np.array([_where(_agx_power, value, 0.0, 1.2) for value in powers])
     values = np.linalg.solve(_AGX_OUT, wide).tolist()
-    own = np.diag(_AGX_IN)  # by which R119 divides the rows
+    own = np.diag(_AGX_IN)  # R119 divides the rows by it
     stops = [_agx_stops(v, first) for v, first in zip(values, np.log2(own).tolist(), strict=True)]
     return np.linalg.solve(_AGX_IN / own[:, None], np.exp2(stops))
 
@@ -98,7 +99,7 @@ def _agx_power(w: float) -> float:
 
 
 def _agx_stops(value: float, first: float) -> float:
-    """Return the logarithm, plus ``first``, at which the curve has a value, with R119's error."""
+    """Return the logarithm, plus ``first``, at which R119's curve, with its error, has a value."""
 
     def curve(stops: float) -> float:
         whole = math.floor(stops)
@@ -110,7 +111,7 @@ def _agx_stops(value: float, first: float) -> float:
 
 
 def _where(function: Callable[[float], float], value: float, low: float, high: float) -> float:
-    """Return where a rising function has a value; found by bisection."""
+    """Return where an increasing function has a value, by bisection."""
     for _ in range(50):
         middle = 0.5 * (low + high)
         if function(middle) < value:

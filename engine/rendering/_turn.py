@@ -1,8 +1,8 @@
-"""Whose turn it is to draw with a renderer.
+"""Serialises the use of a renderer.
 
-In: whoever wants to draw. Out: the turn, one after the other; threads wait for theirs. What comes
-from within a frame, such as a signal handler, cannot wait for it to end and is told so. So is a
-process that was forked from the middle of a frame: the rest of that frame is elsewhere.
+In: callers that want to draw. Out: turns, one after the other; threads wait for theirs. A call from
+within a frame, such as from a signal handler, cannot wait and raises an error. So does a process
+forked in the middle of a frame: the threads that draw the rest of it do not exist there.
 """
 
 from __future__ import annotations
@@ -32,18 +32,19 @@ class RendererTurn:
     Parameters
     ----------
     native : NativeRenderer
-        Of which a forked process must let go.
+        The renderer that a forked process must abandon.
     """
 
     def __init__(self, native: NativeRenderer) -> None:
         self._native: NativeRenderer | None = native
-        self._lock = threading.RLock()  # who comes from within gets past it, and is told
+        # reentrant, so that a nested call gets an error instead of a deadlock
+        self._lock = threading.RLock()
         self._drawing = self._forked = False
         _turns.add(self)
 
     @contextmanager
     def taken(self, *, closing: bool = False) -> Iterator[None]:
-        """Wait for the turn, and have it within the block; a renderer can be closed after a fork.
+        """Hold the turn within the block; after a fork, a renderer can still be closed.
 
         Raises
         ------
@@ -66,11 +67,11 @@ class RendererTurn:
             raise RendererBusyError(_FORKED)
 
     def let_go(self) -> None:
-        """Free the native renderer, which the caller has had too."""
+        """Free the native renderer, once the caller has dropped it too."""
         self._native = None
 
     def _fork(self) -> None:
-        """In a forked process: the threads that had or awaited the turn are not here."""
+        """Reset the turn in a forked process: the threads that held or awaited it are gone."""
         self._lock = threading.RLock()
         if self._drawing and self._native is not None:
             self._forked = True

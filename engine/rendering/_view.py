@@ -1,7 +1,7 @@
-"""From where a frame looks: the matrices that the core gets, and depths along the view axis.
+"""The view of a frame: the matrices for the core, and depths along the view axis.
 
-In: a camera, its pose (world-from-camera) and the image's size. Out: a `View`. Matrices are found
-in C (csrc/scene/view.c), in float64 and a fixed order of operations: the same bits everywhere.
+In: a camera, its pose (world-from-camera) and the image's size. Out: a `View`. C computes the
+matrices (csrc/scene/view.c), in float64 and a fixed order of operations: the same bits everywhere.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from ..model.scene.cameras import Camera, far_depth
 from ..model.scene.nodes import Node
 from ..model.scene.staged_scene import AnyScene
 
-#: How a camera is chosen: the scene's own, a node that holds one, or a camera and its pose.
+#: A choice of camera: None for the scene's own, a node that holds one, or a camera and its pose.
 CameraChoice: TypeAlias = Node | tuple[Camera, ArrayLike] | None
 
 
@@ -34,7 +34,7 @@ class View:
     camera : Camera
     projection, clip_from_world, view_from_world : (4, 4) float64
     towards_viewer : tuple of 3 float
-        Of unit length, in the world.
+        World-space unit vector.
     eye : tuple of 4 float
         The camera's world position and 1; without perspective the direction to the viewer and 0.
     """
@@ -49,7 +49,7 @@ class View:
     ) -> None:
         self._lens = (camera, camera.version, width, height)
         if previous is not None and previous._lens == self._lens:
-            projection = previous.projection  # only the pose has changed
+            projection = previous.projection  # only the pose changed
         else:
             projection = np.ascontiguousarray(camera.projection(width, height), np.float64)
         self.projection: NDArray[np.float64] = projection
@@ -82,7 +82,7 @@ class View:
         return np.ascontiguousarray(np.stack(rows), np.float32)
 
     def is_of(self, camera: Camera, pose: np.ndarray, width: int, height: int) -> bool:
-        """Whether the view is still that of this camera, pose and image."""
+        """Return whether the view still has this camera, pose and image."""
         return self._lens == (camera, camera.version, width, height) and (
             self._pose_bytes == pose.tobytes()
         )
@@ -90,7 +90,7 @@ class View:
     def project(
         self, points: ArrayLike, width: int, height: int
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """See `Frame.project`."""
+        """Project points into the picture; see `Frame.project`."""
         points = as_vectors("points", points)
         x, y, _, w = (_rise(row, points) for row in self.clip_from_world)
         with np.errstate(all="ignore"):
@@ -101,7 +101,7 @@ class View:
         return pixels, -_rise(self.view_from_world[2], points)
 
     def depth_range(self, bounds: np.ndarray) -> tuple[float, float]:
-        """Return the metric depths between which a world box lies, within the camera's range."""
+        """Return the range of metric depths of a world box, clipped to the camera's range."""
         center = (bounds[0] + bounds[1]) * 0.5
         half = (bounds[1] - bounds[0]) * 0.5
         row = self.view_from_world[2]
@@ -112,12 +112,12 @@ class View:
         if nearest is not None and farthest is not None:
             near, far = max(near, nearest), min(far, farthest)
         if not near < far or np.float32(near) == np.float32(far):
-            near, far = middle - 0.5, middle + 0.5  # flat, or outside: any range shows as much
+            near, far = middle - 0.5, middle + 0.5  # flat, or outside: any range will do
         return near, far
 
 
 def _rise(row: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A row of a matrix times points with w = 1."""
+    """Return a row of a matrix times points with w = 1."""
     return linalg.dot(points, row[:3]) + row[3]
 
 
@@ -143,7 +143,7 @@ def find_camera(scene: AnyScene, camera: CameraChoice) -> tuple[Camera, np.ndarr
     Returns
     -------
     camera, pose : Camera, (4, 4) float64
-        None if the scene has to be framed automatically.
+        None if the scene must be framed automatically.
 
     Raises
     ------

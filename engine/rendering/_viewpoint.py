@@ -1,7 +1,7 @@
-"""From where a renderer looks: the camera that was chosen, or one that shows the whole scene.
+"""The viewpoint of a renderer: the chosen camera, or one that shows the whole scene.
 
-In: a scene, a choice of camera and the image's size. Out: a `View`, the last one again where
-nothing has changed.
+In: a scene, a choice of camera and the image's size. Out: a `View`; the previous one if nothing has
+changed.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ class Viewpoint:
     Parameters
     ----------
     draw_list : DrawList
-        Of the renderer: it knows whether the scene is as it was.
+        The renderer's draw list, which knows whether the scene has changed.
     """
 
     def __init__(self, draw_list: DrawList) -> None:
@@ -31,7 +31,7 @@ class Viewpoint:
         self._framed: tuple[int, int, int] | None = None
 
     def look(self, scene: AnyScene, camera: CameraChoice, width: int, height: int) -> View:
-        """Find the camera; a view that has not changed is used again."""
+        """Return the view of the chosen camera; an unchanged view is reused."""
         chosen, pose = find_camera(scene, camera) or self._frame_scene(scene, width, height)
         view = self._view
         if view is None or not view.is_of(chosen, pose, width, height):
@@ -39,11 +39,11 @@ class Viewpoint:
         return view
 
     def _frame_scene(self, scene: AnyScene, width: int, height: int) -> tuple[Camera, np.ndarray]:
-        """A camera that shows the whole scene, kept until something in it changes or moves."""
+        """Return a camera that shows the whole scene, kept until something changes or moves."""
         state = self._draw_list.changes, width, height
         if self._framing is None or self._framed != state or not self._draw_list.shows(scene.data):
             aspect = width / height
-            # It refuses staged scenes, which are looked at through cameras.
+            # frame_scene refuses staged scenes, but these always come with a camera.
             self._framing = frame_scene(scene, aspect=aspect)  # type: ignore[arg-type]
             self._framed = state
         return self._framing

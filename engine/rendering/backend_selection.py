@@ -1,8 +1,8 @@
-"""Chooses the backend, and the number of threads.
+"""Selection of the backend and the number of threads.
 
 In: the arguments ``backend`` and ``threads`` and the environment. Out: a backend's number and a
-count of threads for the core. ``ENGINE3D_BACKEND`` and ``ENGINE3D_THREADS`` say what ``"auto"`` and
-0 mean. A backend that is unknown or that this machine cannot run is an error, never replaced.
+thread count for the core. ``ENGINE3D_BACKEND`` and ``ENGINE3D_THREADS`` define what ``"auto"`` and
+0 mean. An unknown or unsupported backend is an error; there is no fallback.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ MAX_THREADS = 256
 def backends() -> list[Backend]:
     """Return the backends that this machine can run, slowest first.
 
-    ``"scalar"`` is the reference, one thread of obvious loops; ``"portable"`` runs on every
+    ``"scalar"`` is the reference, single-threaded and without SIMD; ``"portable"`` runs on every
     processor; the others are named after the instruction set that they need. All draw the same.
     """
     known = cast("dict[Backend, int]", _native.BACKENDS)
@@ -35,7 +35,7 @@ def resolve_backend(backend: Backend = "auto") -> int:
     Raises
     ------
     BackendError
-        The backend is unknown or this machine cannot run it.
+        The backend is unknown, or this machine cannot run it.
     """
     source = "backend"
     if isinstance(backend, str) and backend == "auto":

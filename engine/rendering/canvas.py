@@ -3,8 +3,8 @@
 In:  positions in screen space, in pixels: x right, y down, from the top left corner of the picture.
      Pixel (i, j) is the square [i, i+1) x [j, j+1); its centre is (i + 0.5, j + 0.5).
 Out: the pixels, changed in place. Opaque colours overwrite; others are blended with straight alpha.
-Every position is legal: what lies outside is clipped, what is not finite draws nothing. The drawing
-itself is C (csrc/extras/canvas); docs/canvas.md gives its rules.
+Every position is legal: drawing is clipped to the canvas, and non-finite positions draw nothing.
+The drawing itself is C (csrc/extras/canvas); docs/canvas.md gives its rules.
 """
 
 from __future__ import annotations
@@ -31,28 +31,28 @@ TriangleAlgorithm = Literal["edge", "scanline"]
 
 _TAB_COLUMNS = 4
 _MAX_TEXT_SCALE = 4096
-# The font's codes of characters, and that of the hollow box which stands for all others.
+# The font's codes of characters; a hollow box stands for all others.
 _FONT_CODES = {code: code for code in (ord("\n"), *range(32, 127))}
 _FONT_CODES |= {ord(letter): code for code, letter in enumerate("àâçèéêëîïôùûœÀÇÉ", 128)}
 _REPLACEMENT_CODE = 127
 
 
 class Canvas:
-    """A framebuffer to draw on in two dimensions.
+    """A 2-D drawing surface.
 
     Parameters
     ----------
     width, height : int
         Size in pixels of a new canvas, which starts opaque black.
     pixels : ndarray of uint8, shape (H, W, 4)
-        Or, instead of a size, the RGBA pixels to draw on, top row first: a writable array whose
-        pixels are contiguous within each row. It is not copied. A slice of rows and columns of a
-        larger image is a canvas that clips to that window.
+        Instead of a size: the RGBA pixels to draw on, top row first, a writable array whose pixels
+        are contiguous within each row. It is not copied. A slice of a larger image makes a canvas
+        that clips to that window.
 
     Raises
     ------
     InvalidArgumentError
-        If the size is not 0 to 262144 a side, or the array is not of that kind.
+        If a side is not 0 to 262144, or the array is unsuitable.
 
     Examples
     --------
@@ -92,7 +92,7 @@ class Canvas:
         return self._pixels.shape[0]
 
     def __reduce__(self) -> tuple[type[Canvas], tuple[NDArray[np.uint8]]]:
-        # A shallow copy draws on the same pixels; what is pickled has its own.
+        # A shallow copy draws on the same pixels; a pickled canvas has its own.
         return type(self), (self._pixels,)
 
     def __repr__(self) -> str:
@@ -118,7 +118,7 @@ class Canvas:
         self._surface.clear(_color_bytes(color))
 
     def point(self, x: float, y: float, color: Color) -> None:
-        """Draw the pixel that holds (x, y)."""
+        """Draw the pixel that contains (x, y)."""
         x, y = _numbers("x and y", x, y)
         self._surface.point(x, y, _color_bytes(color))
 
@@ -146,7 +146,7 @@ class Canvas:
         width: float = 1,
         algorithm: LineAlgorithm = "bresenham",
     ) -> None:
-        """Draw a line from the pixel that holds one end to the pixel that holds the other.
+        """Draw a line between the pixels that contain its two ends.
 
         Both end pixels are included, and the two directions of a line give the same pixels.
 
@@ -205,12 +205,12 @@ class Canvas:
         width: float = 1,
         algorithm: LineAlgorithm = "bresenham",
     ) -> None:
-        """Draw lines from each point to the next.
+        """Draw a line from each point to the next.
 
         Parameters
         ----------
         xy : array_like, shape (N, 2)
-            The points, in pixels. One that is not finite interrupts the polyline.
+            The points, in pixels. A non-finite point interrupts the polyline.
         color : (r, g, b) or (r, g, b, a)
             Integers 0 to 255. Up to a width of 1, the pixel that two lines share is drawn once.
         closed : bool, optional
@@ -237,8 +237,8 @@ class Canvas:
         """Fill a triangle, in either winding.
 
         A pixel is covered if its centre is inside; a centre on an edge belongs to the triangle if
-        the edge is a top or a left one. So triangles that share an edge share no pixel and leave
-        none out.
+        the edge is a top or a left one. So triangles that share an edge neither overlap nor leave a
+        gap.
 
         Parameters
         ----------
@@ -247,8 +247,8 @@ class Canvas:
         color : (r, g, b) or (r, g, b, a)
             Integers 0 to 255.
         algorithm : {"edge", "scanline"}, optional
-            Test the pixels of the bounding box with edge functions, or sweep from row to row. The
-            pixels are the same.
+            Test the pixels of the bounding box with edge functions, or sweep from row to row. Both
+            give the same pixels.
         """
         algorithm_code = _algorithm(native.TRIANGLE_ALGORITHMS, algorithm)
         (ax, ay), (bx, by), (cx, cy) = _pair(a, "a"), _pair(b, "b"), _pair(c, "c")
@@ -287,15 +287,15 @@ class Canvas:
         *,
         fill: bool = True,
     ) -> None:
-        """Draw an upright rectangle.
+        """Draw an axis-aligned rectangle.
 
         Parameters
         ----------
         x, y : float
             The top left corner, in pixels.
         width, height : float
-            The size in pixels; the rectangle takes the pixels whose centres it holds, so that one
-            with integer corners takes exactly width x height pixels.
+            The size in pixels; the rectangle covers the pixels whose centres it contains, so that
+            one with integer corners covers exactly width x height pixels.
         color : (r, g, b) or (r, g, b, a)
             Integers 0 to 255.
         fill : bool, optional
@@ -321,15 +321,16 @@ class Canvas:
         x, y : float
             The top left corner of the first cell, in pixels.
         string : str
-            ASCII and the letters àâçèéêëîïôùûœÀÇÉ are drawn, ``\\n`` starts a new line, a tab goes
-            to the next multiple of four columns, and everything else shows as a hollow box.
+            ASCII and the letters àâçèéêëîïôùûœÀÇÉ are drawn, ``\\n`` starts a new line, a tab
+            advances to the next multiple of four columns, and other characters show as a hollow
+            box.
         color : (r, g, b) or (r, g, b, a)
             Integers 0 to 255.
         scale : int, optional
             Pixels of the canvas for one of the font, 1 to 4096.
         background : (r, g, b) or (r, g, b, a), optional
-            Draw the text on a box of this colour, which reaches ``2 * scale`` pixels beyond the
-            text on all sides. A translucent one keeps text legible on any picture.
+            Draw the text on a box of this colour, with a margin of ``2 * scale`` pixels. A
+            translucent box keeps text legible on any picture.
         """
         (x, y), codes, scale = _numbers("x and y", x, y), _codes(string), _scale(scale)
         if background is not None and string:
@@ -354,7 +355,7 @@ def text_size(string: str, scale: int = 1) -> tuple[int, int]:
     Returns
     -------
     width, height : int
-        Size in pixels of the block of its cells, without the margin of a background.
+        Size in pixels of the text's cells, without the background's margin.
     """
     return native.text_size(_codes(string), _scale(scale))
 

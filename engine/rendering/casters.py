@@ -1,4 +1,4 @@
-"""The casters: which nodes cast shadows, and whether they are as they were."""
+"""Shadow casters: which nodes cast shadows, and whether they have changed."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from ..model.scene.staged_data import NodeRows
 
 
 def placed_casters(arrays: NodeRows, selection: np.ndarray | None = None) -> tuple[bytes, ...]:
-    """Return what is the same while the nodes that cast shadows are, and stay where they are.
+    """Return a state that is equal as long as the same nodes cast shadows from the same places.
 
     Parameters
     ----------
     arrays : NodeArrays
     selection : (words,) uint64, optional
-        A bit for each node: only these.
+        A bit for each node; only these nodes count.
     """
     columns, count = arrays.columns, arrays.count
     casts = columns["unshadowed"][:count] & CASTS_NONE == 0

@@ -1,8 +1,8 @@
-"""A rendered frame: its outputs as arrays, and ways to show and save it.
+"""Rendered frames: outputs as arrays, and ways to show and save them.
 
-In: what `Renderer.render` drew. Out: one read-and-write array an output, top row first. Reading an
-output that was not asked for raises and names the argument that asks for it. Files appear whole or
-not at all.
+In: the arrays that `Renderer.render` drew. Out: one writable array per output, top row first.
+Reading an output that was not requested raises an error that names the argument to request it.
+Files are written whole or not at all.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ._view import View
     from .canvas import Canvas
 
-# What a frame may hold, for type checkers. `Frame` has a property of each.
+# The names of outputs, for type checkers. `Frame` has a property for each.
 Output = Literal[
     "color",
     "depth",
@@ -52,13 +52,13 @@ Output = Literal[
     "tangent",
     "radiance",
 ]
-# Their dtypes and numbers of channels (0: no third axis), as the core lists them.
+# Dtype and number of channels of each output (0: no third axis), as listed by the core.
 OUTPUTS: dict[str, tuple[np.dtype[Any], int]] = {
     name: (np.dtype(dtype), channels if channels > 1 else 0)
     for name, (dtype, channels) in _native.OUTPUTS.items()
 }
 
-# File name suffix -> (Pillow's format, what it is saved with).
+# File name suffix -> (Pillow's format, options for saving).
 _FORMATS: dict[ImageFormat, tuple[str, dict[str, Any]]] = {
     "png": ("PNG", {}),
     "jpg": ("JPEG", {"quality": 95, "subsampling": 0}),
@@ -72,7 +72,7 @@ Scalar = TypeVar("Scalar", bound=np.generic)
 
 
 class _Output(Generic[Scalar]):
-    """A property that reads one output."""
+    """A property that returns one output."""
 
     def __init__(self, doc: str) -> None:
         self.__doc__ = doc
@@ -100,24 +100,24 @@ class _Output(Generic[Scalar]):
 
 @refuses_foreign_names
 class Frame:
-    """What a renderer drew.
+    """The result of rendering: the requested outputs as arrays.
 
-    The arrays belong to the caller: they stay as they are for as long as they are held, unless the
-    frame is given to ``render(out=...)``. ``np.asarray(frame)`` is ``frame.color``.
+    The arrays belong to the caller and never change, unless the frame is passed to
+    ``render(out=...)``. ``np.asarray(frame)`` is ``frame.color``.
 
     Attributes
     ----------
     width, height : int
     outputs : tuple of str
-        The outputs that it holds.
+        Names of the outputs it holds.
     stats : dict
         Counters (draws, triangles, pixels_shaded, …), milliseconds of the stages (``ms_…``), the
-        number of threads and tiles, and the backend. ``plan`` names the ways that the tiles took
-        (docs/plan.md has them all; none with the backend ``scalar``). ``nodes``, ``clusters`` and
-        ``triangles`` are all that the scene holds; with ``_in_frustum``, ``_unoccluded`` and
-        ``_drawn`` behind them, what is left after each stage of culling. ``boxes_tested`` is how
-        many boxes it took to find the nodes and instances in the frustum, when the view or the
-        scene last changed: their own, and those of the branches of trees.
+        number of threads and tiles, and the backend. ``plan`` names the code paths of the tiles
+        (docs/plan.md lists them; none for the backend ``scalar``). ``nodes``, ``clusters`` and
+        ``triangles`` count the whole scene; with the suffix ``_in_frustum``, ``_unoccluded`` or
+        ``_drawn``, what remains after each culling stage. ``boxes_tested`` counts the boxes tested
+        for frustum culling when the view or the scene last changed: those of nodes and instances,
+        and those of tree branches.
     """
 
     color: _Output[np.uint8] = _Output(
@@ -182,9 +182,9 @@ class Frame:
         self.width = width
         self.height = height
         self._stats: dict[str, Any] = {}
-        # Till they are read: how many nodes there are, and what the core counted.
+        # Until they are read: the number of nodes, and the core's counters.
         self._drawn: tuple[int, _native.NativeStats] | None = None
-        # What picking needs: the view and the side culled.
+        # For picking: the view, and which faces were culled.
         self._seen: tuple[View, FrameCull] | None = None
         self._outputs = outputs
 
@@ -201,7 +201,7 @@ class Frame:
         return self._stats
 
     def __getstate__(self) -> dict[str, Any]:
-        self._stats = self.stats  # what is left of a frame elsewhere
+        self._stats = self.stats  # a pickled frame keeps only the statistics
         return self.__dict__
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
@@ -212,7 +212,7 @@ class Frame:
         return np.asarray(self.color, dtype)
 
     def project(self, points: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return where points of the world are in the picture, and how far from the camera.
+        """Return the pixel positions of world points, and their distances from the camera.
 
         Parameters
         ----------
@@ -223,23 +223,23 @@ class Frame:
         -------
         pixels : (2,) or (N, 2) float64
             Screen space, in pixels: x to the right and y down from the top left corner; the centre
-            of the top left pixel is (0.5, 0.5). Points outside of the picture have positions
-            outside of it. NaN for points that are not in front of the camera.
+            of the top left pixel is (0.5, 0.5). Points outside the picture have positions outside
+            it. NaN for points not in front of the camera.
         depth : () or (N,) float64
             Distance along the view axis in world units, as in ``frame.depth``; negative behind the
-            camera. A point shows if it is in the picture and nothing nearer is drawn there.
+            camera. A point is visible if it is in the picture and nothing nearer is drawn there.
 
         Raises
         ------
         InvalidArgumentError
-            The points have another shape, or the frame was not drawn by a `Renderer`.
+            The points have a wrong shape, or the frame was not drawn by a `Renderer`.
         """
         if self._seen is None:
             raise InvalidArgumentError("the frame was not drawn by a Renderer")
         return self._seen[0].project(points, self.width, self.height)
 
     def image(self) -> Image.Image:
-        """Return the colour as an image of Pillow (``PIL.Image.Image``, RGBA), a copy."""
+        """Return the colour as a Pillow image (``PIL.Image.Image``, RGBA), a copy."""
         from PIL import Image
 
         return Image.frombytes("RGBA", (self.width, self.height), self.color.tobytes())
@@ -259,13 +259,13 @@ class Frame:
         path : str or path-like
             The suffix decides the format: .png, .jpg, .jpeg (no alpha), .tga or .webp (lossless).
         **options
-            Passed to Pillow's writer, such as ``quality=80``. A PNG without any is written by
-            the engine: fast, and the same bytes everywhere.
+            Passed to Pillow's writer, such as ``quality=80``. Without options, the engine writes
+            PNG itself: fast, and the same bytes everywhere.
 
         Raises
         ------
         InvalidArgumentError
-            The suffix is none of those, or the format lacks the alpha that the picture needs.
+            The suffix is none of these, or the format lacks the alpha that the picture needs.
         FileAccessError
             The file cannot be written.
         """
@@ -287,7 +287,7 @@ class Frame:
         Raises
         ------
         InvalidArgumentError
-            The format is none of those, or lacks the alpha that the picture needs.
+            The format is none of these, or lacks the alpha that the picture needs.
         """
         choose(format, _FORMATS, "format")
         if format == "png" and not options:

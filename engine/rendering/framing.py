@@ -1,8 +1,8 @@
-"""Cameras that show a whole box or a whole scene, as large as possible.
+"""Cameras that fit a box or a scene into the picture, as large as possible.
 
-In: what is to be shown, the image's aspect and the way to look. Out: a camera and its pose. The eye
-stands where the planes of the frustum touch what is shown, and the near and far planes enclose it
-closely, which keeps depth precise. The same inputs give the same bits on every machine.
+In: the subject, the image's aspect and a view direction. Out: a camera and its pose. The frustum's
+planes touch the subject, and the near and far planes enclose it tightly, which keeps depth precise.
+The same inputs give the same bits on every machine.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ from .support_functions import SupportFunction, support_of_box, support_of_scene
 
 _DIRECTION = (-0.35, -0.25, -1.0)
 _UP = (0.0, 1.0, 0.0)
-# The planes stand off by this share of their distance: what touches them is not cut by rounding.
+# The planes keep this fraction of their distance as a margin, so that rounding cuts nothing off.
 _SLACK = 1e-4
 _SECANTS = 2
 _FAR_AWAY = 2.0**40
-_NEAREST = 1e-3  # of the far plane's distance: nearer, and depth would lose too many bits
+_NEAREST = 1e-3  # of the far plane's distance: a nearer plane would cost depth too many bits
 
 
 def frame_bounds(
@@ -50,16 +50,16 @@ def frame_bounds(
     yfov : float
         Vertical field of view in radians.
     direction : (3,) float
-        The way the camera looks; by default from the front, a little from the right and above.
+        The view direction; by default from the front, slightly from the right and above.
     up : (3,) float
         The direction that points up in the image.
     margin : float
-        How much more than the box is shown; 1 is a tight fit.
+        Factor on the visible extent; 1 is a tight fit.
 
     Returns
     -------
     camera : PerspectiveCamera
-        Its near and far planes enclose the box closely, which keeps depth precise.
+        Its near and far planes enclose the box tightly, which keeps depth precise.
     pose : (4, 4) float64
         world-from-camera.
 
@@ -81,8 +81,8 @@ def frame_scene(
 ) -> tuple[PerspectiveCamera, NDArray[np.float64]]:
     """Return a camera and its pose that show a whole scene, as large as possible.
 
-    It goes by the vertices of what is visible, so round models fill more of the picture than their
-    bounding boxes would. This is the camera of scenes that have none.
+    It fits the vertices of visible objects, so round models fill the picture better than their
+    bounding boxes would. Scenes without a camera are drawn with this one.
 
     Parameters
     ----------
@@ -125,7 +125,8 @@ def _frame(
     if support is None:
         support = support_of_box((center - half, center + half))
     backward = -linalg.normalize(_direction(direction))
-    # Only its axes are used: a target so far away that the step from it is lost is the origin.
+    # Only its axes are used: for a target so distant that adding the step would be lost, use the
+    # origin.
     target = center if (np.abs(center) < _FAR_AWAY).all() else np.zeros(3)
     pose = linalg.look_at(target + backward, target, up)
     slopes = x_slope / margin, y_slope / margin
@@ -144,7 +145,7 @@ def _frame(
 def fit_frustum(
     support: SupportFunction, axes: np.ndarray, center: np.ndarray, x_slope: float, y_slope: float
 ) -> tuple[float, float, float, FrustumReach]:
-    """Return where a camera stands to show all of something as large as possible.
+    """Return where a camera must stand to show all of a subject as large as possible.
 
     Parameters
     ----------
@@ -154,14 +155,14 @@ def fit_frustum(
     Returns
     -------
     x, y, distance : float
-        The eye's coordinates along the axes, from ``center``.
+        The eye's coordinates along the axes, relative to ``center``.
     edges : FrustumReach
-        How far what is shown reaches.
+        The extent of the subject.
     """
     edges = frustum_reach(support, axes, center, x_slope, y_slope)
     distance = max(edges.distances)
     if distance - edges.near < _NEAREST * (distance + edges.far):
-        distance = edges.near + 0.5 * (edges.near + edges.far)  # a line that is seen end on
+        distance = edges.near + 0.5 * (edges.near + edges.far)  # a line seen end on
     x, y = _middle(support, axes, center, edges, distance)
     return x, y, distance, edges
 
@@ -173,14 +174,14 @@ def _middle(
     edges: FrustumReach,
     distance: float,
 ) -> tuple[float, float]:
-    """Return where the eye stands across its line of sight, with equal room on both sides.
+    """Return the lateral position of the eye that leaves equal room on both sides.
 
-    From farther away than one of the ways needs, narrower planes touch there, and between them is
-    the middle. The slope from which they meet at the eye is found by the secant method.
+    If the other direction needs a greater distance, narrower planes touch here, and the eye is in
+    the middle between them. The secant method finds the slope at which they meet at the eye.
     """
     slopes = list(edges.slopes)
-    for way in range(2):  # the first guess: in the ratio of the distances to the farthest point
-        if distance + edges.far > 0:  # no single point
+    for way in range(2):  # first guess: the ratio of the distances to the farthest point
+        if distance + edges.far > 0:  # not a single point
             share = (edges.distances[way] + edges.far) / (distance + edges.far)
             slopes[way] *= min(1.0, share)
     narrow = edges
@@ -200,7 +201,7 @@ def _middle(
 
 
 class FrustumReach(NamedTuple):
-    """The extent of something across the planes of a frustum, from a center.
+    """The extent of a subject across the planes of a frustum, relative to a centre.
 
     A camera at (x, y, distance) along its own axes sees a point (across, upward, near) between
     planes that open by ``slope`` if ``|across - x| <= slope * (distance - near)``: a bound for the
@@ -209,9 +210,9 @@ class FrustumReach(NamedTuple):
     Attributes
     ----------
     right, left, top, bottom : float
-        The largest ``±across + slope * near`` and ``±upward + slope * near``.
+        The maxima of ``±across + slope * near`` and ``±upward + slope * near``.
     near, far : float
-        The largest and the smallest ``near``, the latter negated.
+        The maximum of ``near``, and its negated minimum.
     x_slope, y_slope : float
     """
 
@@ -226,7 +227,7 @@ class FrustumReach(NamedTuple):
 
     @property
     def x(self) -> float:
-        """The camera's position from which both sides are seen, as near as possible."""
+        """The camera's lateral position from which both sides are visible, as near as possible."""
         return 0.5 * (self.right - self.left)
 
     @property
@@ -238,13 +239,13 @@ class FrustumReach(NamedTuple):
         return self.x_slope, self.y_slope
 
     def gap(self, way: int, distance: float) -> float:
-        """By how much too far apart both sides are for an eye at a distance; way 1 is upward."""
+        """Return by how much the sides are too far apart for an eye at a distance (1: upward)."""
         first, second = self[2 * way : 2 * way + 2]
         return 0.5 * (first + second) - self.slopes[way] * distance
 
     @property
     def distances(self) -> tuple[float, float]:
-        """From where both sides just show, at ``x``; and top and bottom, at ``y``."""
+        """The distances at which both sides just fit, at ``x``; and top and bottom, at ``y``."""
         width, height = self.right + self.left, self.top + self.bottom
         return 0.5 * width / self.x_slope, 0.5 * height / self.y_slope
 
@@ -252,7 +253,7 @@ class FrustumReach(NamedTuple):
 def frustum_reach(
     support: SupportFunction, axes: np.ndarray, center: np.ndarray, x_slope: float, y_slope: float
 ) -> FrustumReach:
-    """Return how far something reaches across the planes of a camera.
+    """Return how far a subject extends across the planes of a camera.
 
     Parameters
     ----------
@@ -261,9 +262,9 @@ def frustum_reach(
     axes : (3, 3) float64
         Rows: the camera's right, up and back, in world space.
     center : (3,) float64
-        What is measured from.
+        The origin of the measurement.
     x_slope, y_slope : float
-        By how much the side planes, the upper and the lower plane open with the distance.
+        Slopes of the side planes, and of the upper and lower planes.
     """
     right, up, back = axes
     directions = np.array(

@@ -1,7 +1,7 @@
-"""The options of a picture, checked once and used for any number of frames.
+"""Rendering options, checked once and used for any number of frames.
 
-In: options as callers write them. Out: `RenderOptions`, which cannot change; what depends on the
-scene as well is found for each frame (_frame_options.py).
+In: options as callers write them. Out: immutable `RenderOptions`; _frame_options.py computes, for
+each frame, what also depends on the scene.
 """
 
 from __future__ import annotations
@@ -38,22 +38,22 @@ if TYPE_CHECKING:
     from ._view import CameraChoice
     from .frame import Frame
 
-#: Checks a value of so named an option, and returns what to keep.
+#: Checks the value of a named option, and returns the value to keep.
 Check: TypeAlias = Callable[[Any, str], Any]
-#: What the values of an option are to the core.
+#: The core's numbers for the values of an option.
 Numbers: TypeAlias = Mapping[Any, float]
 
-#: Bytes that a frame may take beside its outputs, and a few for each pixel: docs/reliability.md.
+#: Bytes that a frame may take besides its outputs and a few bytes per pixel: docs/reliability.md.
 MAX_FRAME_BYTES = 1 << 30
 WHITE = (1.0, 1.0, 1.0)
 MAX_LINE = 256.0  # pixels: the widest line, the largest point
 _MAX_BLOOM = 100.0
 SIZE_UNITS: tuple[SizeUnit, ...] = get_args(SizeUnit)
-_ROWS = 1000  # of a picture on which sizes in "picture" are pixels
+_ROWS = 1000  # the picture height at which sizes in "picture" equal pixels
 
 
 def check_outputs(outputs: Iterable[str]) -> tuple[Output, ...]:
-    """Return the names of outputs, checked."""
+    """Return names of outputs, checked."""
     if isinstance(outputs, str) or not isinstance(outputs, Iterable):
         raise InvalidArgumentError(f"outputs must be a tuple of names, not {outputs!r}")
     names = tuple(choose(name, OUTPUTS, "outputs") for name in outputs)
@@ -63,12 +63,12 @@ def check_outputs(outputs: Iterable[str]) -> tuple[Output, ...]:
 
 
 def shows_light(outputs: Iterable[str]) -> bool:
-    """Whether outputs show light: shadows and all that falls on surfaces are found for them."""
+    """Return whether the outputs show light, so that shadows and lighting must be computed."""
     return "color" in outputs or "radiance" in outputs
 
 
 def size_in_picture(pixels: float, height: int) -> float:
-    """Return a size of pixels as ``size_unit="picture"`` counts it in a picture of some height."""
+    """Convert a size in pixels to ``size_unit="picture"`` for a picture of given height."""
     return pixels * _ROWS / height
 
 
@@ -91,8 +91,8 @@ def _strength(value: float, what: str) -> float:
 def _option(default: Any, check: Check, core: str = "", numbers: Numbers | None = None) -> Any:
     """A row of `RenderOptions`: ``check(value, name)`` returns what to keep, or raises.
 
-    ``core`` is the member of e3d_frame that takes it, if nothing else decides, and ``numbers`` what
-    each value is there.
+    ``core`` is the member of e3d_frame that takes it unless something else decides, and ``numbers``
+    maps values to the core's numbers.
     """
     return field(default=default, metadata={"check": check, "core": core, "numbers": numbers})
 
@@ -139,25 +139,24 @@ class RenderKeywords(OptionKeywords, total=False):
 @hints_keywords
 @dataclass(frozen=True, kw_only=True)
 class RenderOptions:
-    """How pictures are drawn: made once, checked, and given to any number of frames.
+    """Options for drawing frames: created and checked once, used for any number of frames.
 
-    Options cannot change; ``dataclasses.replace(options, mode="depth")`` makes others. They can be
+    Options are immutable; ``dataclasses.replace(options, mode="depth")`` makes others. They can be
     compared, hashed, copied and pickled.
 
     Parameters
     ----------
     mode : {"lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"}
-        What the colour shows: light, plain surface colour, a random colour per triangle,
-        nearness, view-space normals, identities as colours, or how often each pixel was
-        covered.
+        What the colour shows: lit surfaces, unlit surface colours, a random colour per triangle,
+        nearness, view-space normals, IDs as colours, or how often each pixel was covered.
     wireframe : {None, "overlay", "only"}
         Draw the visible edges over the picture, or instead of its faces.
     cull : {"back", "front", "none", "auto"}
-        Which faces are left out: those that show their back, or those that show their front.
-        ``"auto"`` shows both sides, but leaves the backs out of opaque meshes that enclose a
-        volume, their fronts outside, where the picture is the same.
+        Face culling: of back faces, front faces or none. ``"auto"`` shows both sides, but culls the
+        back faces of opaque closed meshes where that does not change the picture.
     shading : {"deferred", "forward"}
-        When pixels are shaded: once each, or as they are drawn. Both give the same bytes.
+        Deferred shades each visible pixel once, forward shades pixels as they are drawn. Both give
+        the same bytes.
     outputs : iterable of str
         Which arrays the frame holds: ``color``, ``depth``, ``ndc_depth``, ``triangle_id``,
         ``object_id``, ``instance_id``, ``material_id``, ``albedo``, ``normal``, ``position``,
@@ -165,57 +164,53 @@ class RenderOptions:
         ``emissive``, ``tangent``, ``radiance``: see `Frame`.
     normals : {"auto", "smooth", "flat", "facet"}
         Vertex or face normals; ``"auto"`` follows each material's ``flat_shading``. With
-        ``"facet"`` each triangle also has one light, that of its middle.
+        ``"facet"`` each triangle is also lit once, at its centre.
     hidden_surfaces : {"zbuffer", "painter", "none"}
         The method of hidden-surface removal: depth buffer, painter's algorithm (drawing from
         far to near), or none.
     line_width, point_size : float
-        In ``size_unit``, more than 0 and up to 256.
+        In ``size_unit``, above 0 and up to 256.
     line_color : sequence of 3 numbers
         Colour of the wireframe.
     hidden_lines : bool
-        With ``wireframe="only"``: show the edges that faces hide as well.
+        With ``wireframe="only"``: also show edges hidden behind faces.
     culling : {"all", "tree", "frustum", "none", "always"}
-        What is left out before it is drawn. ``"all"``: nodes and parts of meshes outside of the
-        view frustum, or that face away, and what is hidden by what is drawn already, tested
-        where that may pay; ``"always"`` tests it in every frame. ``"tree"``: only nodes (and
-        instances) outside of the frustum, found by the scene's tree of boxes. ``"frustum"``:
-        the same ones, found by testing their boxes one by one. ``"none"``: nothing.
+        The culling method. ``"all"``: frustum culling of nodes and clusters, back-face culling of
+        clusters, and occlusion culling where it may pay; ``"always"`` tests occlusion in every
+        frame. ``"tree"``: only frustum culling of nodes (and instances), by the scene's tree of
+        boxes. ``"frustum"``: the same, by testing their boxes one by one. ``"none"``: no culling.
         The picture is the same; ``frame.stats["boxes_tested"]`` counts the tests.
     batching : bool
-        Hand nodes of the same mesh to the core as one draw. The picture is the same.
+        Pass nodes with the same mesh to the core as one draw. The picture is the same.
     transparent_outputs : bool
-        Outputs other than ``color`` are of the nearest surface, even if it is blended; else of
-        the nearest that isn't. ``radiance`` has all layers in any case. Modes other than "lit"
-        and "unlit" show blended surfaces as opaque ones anyway.
+        Whether outputs other than ``color`` show the nearest surface even if it is blended, instead
+        of the nearest opaque one. ``radiance`` always has all layers. Modes other than "lit" and
+        "unlit" always draw blended surfaces as opaque.
     tone_mapping : {"none", "neutral", "aces", "agx"}
-        How light of any brightness becomes what a screen can show, in mode "lit": of lit
-        surfaces and of an environment behind them. ``"none"`` shows what is above 1 as 1;
-        ``"neutral"`` (Khronos PBR Neutral) keeps colours up to 0.8 and makes room above;
-        ``"aces"`` and ``"agx"`` look like film, the latter with softer contrast.
+        Tone mapping in mode "lit", of lit surfaces and an environment background. ``"none"`` clamps
+        to 1; ``"neutral"`` (Khronos PBR Neutral) keeps colours up to 0.8 and compresses brighter
+        ones; ``"aces"`` and ``"agx"`` look like film, the latter with softer contrast.
     bloom : float
-        How much of the light above 1 glows around where it comes from, in modes "lit" and
-        "unlit", 0 to 100; 1 is a lot. It changes no alpha, so that before a transparent
-        background only what is drawn glows.
+        Strength of the glow around light above 1, in modes "lit" and "unlit", 0 to 100; 1 is
+        strong. It leaves alpha unchanged, so no glow spreads over a transparent background.
     line_shape : {"plain", "round"}
-        Of lines and of a wireframe's edges. ``"plain"``: their ends are cut along a row or a
-        column, and lines of up to a pixel take one pixel for each step, so that slanted ones
-        are thinner across. ``"round"``: as wide as they say at any angle, with half a disc at
-        each end, so that lines that meet have round joins.
+        The shape of lines and wireframe edges. ``"plain"``: ends are cut along a row or column, and
+        lines up to a pixel wide take one pixel per step, so that slanted lines look thinner.
+        ``"round"``: exact width at any angle, with round caps, so that lines that meet have round
+        joins.
     point_shape : {"square", "round"}
     size_unit : {"pixels", "picture"}
-        What line_width and point_size count: pixels, or thousandths of the picture's height, so
-        that a scene looks alike at every size; of these at least 1 pixel is drawn, and at
-        most 256.
+        Unit of line_width and point_size: pixels, or thousandths of the picture's height, so that a
+        scene looks alike at every size; the result is clamped to 1 to 256 pixels.
     alpha_to_coverage : bool
-        With ``antialias="msaa"``: the alpha of materials of ``alpha_mode="mask"`` tells how
-        many of a pixel's samples they cover, half of them at ``alpha_cutoff``: foliage gets
-        smooth edges. Else alpha leaves all that they cover, or none.
+        With ``antialias="msaa"``: the alpha of materials with ``alpha_mode="mask"`` determines how
+        many of a pixel's samples they cover, half of them at ``alpha_cutoff``: foliage gets smooth
+        edges. Otherwise the alpha test keeps all samples or none.
     ambient_occlusion : bool
-        In mode "lit": less of the light from all around reaches corners and hollows.
+        In mode "lit": darken ambient light in corners and hollows.
     ambient_occlusion_radius : float, optional
-        World units: what is farther away is in no light's way. By default a share of the
-        diagonal of the scene's box.
+        World units: occluders farther away are ignored. By default a fraction of the diagonal of
+        the scene's box.
 
     Raises
     ------
@@ -246,12 +241,12 @@ class RenderOptions:
     ambient_occlusion_radius: float | None = _option(None, optional_positive)
 
     def __post_init__(self) -> None:
-        for one in fields(self):  # past __setattr__, which refuses
+        for one in fields(self):  # bypasses __setattr__, which refuses
             self.__dict__[one.name] = one.metadata["check"](self.__dict__[one.name], one.name)
 
     @checks_types
     def pixels_of(self, size: float, height: int) -> float:
-        """Return what a line's width or a point's size is in a picture of some height.
+        """Convert a line width or point size to pixels, for a picture of given height.
 
         Parameters
         ----------
@@ -263,8 +258,8 @@ class RenderOptions:
         Returns
         -------
         float
-            Pixels. A size in shares of the picture is at least 1, so that thin lines keep together
-            in small pictures, and at most 256.
+            Pixels. A size in ``"picture"`` units is clamped to 1 to 256 pixels, so that thin lines
+            stay connected in small pictures.
         """
         if self.size_unit == "pixels":
             return size
@@ -275,7 +270,7 @@ DEFAULTS = RenderOptions()
 
 
 def core_numbers(options: RenderOptions) -> dict[str, float]:
-    """Return the options that the core takes as they are, by the members of e3d_frame."""
+    """Return the options that the core takes unchanged, by members of e3d_frame."""
     found = {}
     for one in fields(options):
         value, numbers = getattr(options, one.name), one.metadata["numbers"]
@@ -285,7 +280,7 @@ def core_numbers(options: RenderOptions) -> dict[str, float]:
 
 
 def shows_options(function: Function) -> Function:
-    """Let ``help`` show the options among the keyword arguments of a function."""
+    """Make ``help`` list the options among the keyword arguments of a function."""
     signature = inspect.signature(function)
     own = list(signature.parameters.values())[:-1]
     rows = [
@@ -300,5 +295,5 @@ def shows_options(function: Function) -> Function:
 
 @functools.lru_cache(16)
 def with_both_sides(options: RenderOptions) -> RenderOptions:
-    """Return the options without culling of faces: the same object each time."""
+    """Return the options without face culling: the same object each time."""
     return replace(options, cull="none")

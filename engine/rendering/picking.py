@@ -1,7 +1,7 @@
-"""What a pixel of a frame shows.
+"""Picking: finds the face that a pixel of a frame shows.
 
-In: the scene that was drawn, the frame, a pixel. Out: the face that the frame says was drawn there,
-or what a ray through the pixel's centre meets.
+In: the drawn scene, the frame, a pixel. Out: the face that the frame's IDs name, or else the first
+hit of a ray through the pixel's centre.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from ..model.scene.shown import placing_pose, shown_object
 from ..model.spatial.rays import RayHit, raycast
 from .frame import Frame
 
-_LAYERS = 256  # faces that are not drawn, one behind the other, that a pick looks through
+_LAYERS = 256  # culled faces, one behind the other, that a pick passes through
 
 
 def pick(scene: Any, frame: Any, x: int, y: int) -> RayHit | None:
-    """See `Scene.pick`."""
+    """Return what a pixel shows; see `Scene.pick`."""
     if not isinstance(frame, Frame):
         raise InvalidArgumentError(f"frame must be a Frame, not {type(frame).__name__}")
     for value in (x, y):
@@ -62,7 +62,7 @@ def pick(scene: Any, frame: Any, x: int, y: int) -> RayHit | None:
 
 
 def _pixel_ray(frame: Any, x: int, y: int) -> Any:
-    """The ray through a pixel's centre, from the near plane on: origin, unit direction, length."""
+    """Return the ray through a pixel's centre from the near plane: origin, direction, length."""
     view, _ = frame._seen
     world_from_clip = linalg.inverse(view.clip_from_world)
     across = 2.0 * (x + 0.5) / frame.width - 1.0
@@ -84,7 +84,7 @@ def _unproject(world_from_clip: np.ndarray, x: float, y: float, z: float) -> Any
 
 
 def _drawn_hit(scene: Any, origin: Any, direction: Any, length: float, cull: str) -> RayHit | None:
-    """The nearest face that is drawn: the sides that were culled are looked through."""
+    """Return the nearest drawn face on a ray, which passes through culled sides."""
     gone = 0.0
     for _ in range(_LAYERS):
         start = origin + direction * gone
@@ -108,13 +108,13 @@ def _mesh_of(node: Node) -> Any:
 
 
 def _has_face(obj: Any, instance: int, face: int) -> bool:
-    """Whether what a frame showed is there still."""
+    """Return whether the face that a frame shows still exists."""
     many = isinstance(obj, InstancedMesh)
     return instance < (len(obj) if many else 1) and face < len((obj.mesh if many else obj).faces)
 
 
 def _hit_of_face(node: Node, instance: int, face: int, origin: Any, direction: Any) -> RayHit:
-    """Return the hit of a ray on the plane of the face that the frame shows; none for a line."""
+    """Return the hit of a ray with the plane of the face that the frame shows; None for a line."""
     unknown = np.full(3, np.nan)
     if face < 0:
         return RayHit(node, instance, face, math.nan, unknown, unknown, unknown)
@@ -145,7 +145,7 @@ def _hit_of_face(node: Node, instance: int, face: int, origin: Any, direction: A
 
 
 def _from(eye: Any, hit: RayHit | None) -> RayHit | None:
-    """Measure the distance from the camera; without perspective, from the near plane."""
+    """Measure the distance from the camera or, without perspective, from the near plane."""
     if hit is None or eye[3] == 0.0:
         return hit
     return hit._replace(distance=float(linalg.length(hit.position - np.array(eye[:3]))))

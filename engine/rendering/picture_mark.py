@@ -1,7 +1,7 @@
-"""A mark that tells a picture drawn by engine3d from an image painted for a model.
+"""Marks pictures drawn by engine3d, to tell them from textures.
 
-TGA files can say who wrote them: `Frame.save` puts these words in their image identification. A
-model that is drawn to ``head.tga`` twice must not wear the first picture in the second.
+TGA files can name their author: `Frame.save` writes this mark into the image ID. Otherwise a model
+rendered to ``head.tga`` twice would get the first picture as texture in the second.
 """
 
 from __future__ import annotations
@@ -9,10 +9,10 @@ from __future__ import annotations
 TGA_MARK = b"drawn by engine3d"
 
 _HEADER_BYTES = 18
-#: Enough of a file for `is_own_picture`.
+#: The bytes of a file that `is_own_picture` needs.
 MARKED_BYTES = _HEADER_BYTES + len(TGA_MARK)
 
 
 def is_own_picture(head: bytes) -> bool:
-    """Return whether the first bytes of a TGA file bear the mark."""
+    """Return whether the first bytes of a TGA file contain the mark."""
     return head[:1] == bytes([len(TGA_MARK)]) and head[_HEADER_BYTES:MARKED_BYTES] == TGA_MARK

@@ -1,7 +1,7 @@
 """Low-level rasterization: triangles in clip space in, visibility out; no camera and no scene.
 
-For tests, and for programs with a pipeline of their own. docs/exactness, sections 2 to 6, says
-exactly which pixels, depths and barycentrics come out.
+For tests, and for programs with their own pipeline. docs/exactness, sections 2 to 6, defines the
+resulting pixels, depths and barycentrics exactly.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from .backend_selection import resolve_backend, resolve_threads
 
 @shows_annotations
 class RasterizeResult(NamedTuple):
-    """What `rasterize` saw, top row first.
+    """The result of `rasterize`, top row first.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ def rasterize(
     ----------
     clip : (V, 4) float
         Homogeneous positions, visible where ``-w <= x, y, z <= w``, as in OpenGL. Rounded to
-        float32. What is not finite drops the triangles that use it, and nothing else.
+        float32. Triangles with a non-finite vertex are dropped.
     faces : (F, 3) int
         Rows of ``clip``; counter-clockwise on the screen is the front.
     width, height : int
@@ -90,7 +90,7 @@ def rasterize(
 def _float_rows(clip: ArrayLike) -> np.ndarray:
     if not (isinstance(clip, np.ndarray) and clip.dtype == np.float32):
         clip = floats(clip, "clip")
-    with np.errstate(over="ignore"):  # what float32 cannot hold is infinite and drops out
+    with np.errstate(over="ignore"):  # float32 overflow is infinite, and its triangles are dropped
         positions = np.ascontiguousarray(clip, np.float32)
     if positions.ndim != 2 or positions.shape[1] != 4:
         raise InvalidArgumentError(f"clip must be (V, 4), not {positions.shape}")

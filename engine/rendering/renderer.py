@@ -1,8 +1,8 @@
 """The renderer: draws scenes into frames on the CPU.
 
-In: a `Scene`, a camera and the options of a picture. Out: a `Frame` with the outputs asked for;
-what isn't asked for isn't computed. One call of the core per frame, without the GIL. The same scene
-gives the same bytes on every backend and every number of threads.
+In: a `Scene`, a camera and options. Out: a `Frame` with the requested outputs; no others are
+computed. One call of the core per frame, without the GIL. The same scene gives the same bytes on
+every backend and every number of threads.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from .passes.protocol import Picture, Tools
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-#: By method and samples per pixel: how many are shaded along an axis, and multisampled in each.
+#: By method and samples per pixel: samples shaded along an axis, and multisamples of each.
 _SAMPLES = {
     "ssaa": {1: (1, 0), 4: (2, 0), 16: (4, 0)},
     "msaa": {1: (1, 0), 2: (1, 2), 4: (1, 4), 8: (1, 8), 16: (1, 16)},
@@ -49,34 +49,34 @@ _SAMPLES = {
 class Renderer(Closed):
     """Draws frames of one size.
 
-    Several renderers may draw in several threads at once; one renderer used from several threads
-    draws one frame after the other.
+    Several renderers may draw in several threads at once; one renderer shared by threads draws one
+    frame after the other.
 
     Parameters
     ----------
     width, height : int
         Pixels, 1 to 16384.
     backend : str
-        One of `engine3d.backends`, or ``"auto"``: what the environment variable
-        ``ENGINE3D_BACKEND`` says, else the fastest.
+        One of `engine3d.backends`, or ``"auto"``: the environment variable ``ENGINE3D_BACKEND`` if
+        set, else the fastest.
     threads : int
-        0: what ``ENGINE3D_THREADS`` says, else all CPUs that this process may use.
+        0: ``ENGINE3D_THREADS`` if set, else all CPUs that this process may use.
     color_space : {"srgb", "linear"}
-        ``"srgb"``: 8-bit colours and textures are decoded to linear light, the result is encoded.
-        ``"linear"``: 8-bit values are taken as they are, and written so.
+        ``"srgb"``: 8-bit colours and textures are decoded to linear light, and the result is
+        encoded. ``"linear"``: 8-bit values are neither decoded nor encoded.
     samples : {1, 2, 4, 8, 16}
         Samples per pixel; more samples give smoother edges. 2 and 8 need ``antialias="msaa"``.
     antialias : {"ssaa", "msaa"}
-        What happens at each sample. ``"ssaa"`` (supersampling): everything; 1, 4 or 16 samples.
-        ``"msaa"`` (multisampling, in the standard patterns of Direct3D): each surface that shows in
-        a pixel gets one colour there, for all samples that it covers. That takes much less time
-        and smooths edges alike, but neither textures nor highlights within a surface. Other outputs
-        than ``color`` are those of one sample a pixel then.
+        The antialiasing method. ``"ssaa"`` (supersampling) shades every sample; 1, 4 or 16 samples.
+        ``"msaa"`` (multisampling, with Direct3D's standard patterns) shades each surface once per
+        pixel, for all samples it covers. It is much faster and smooths edges equally, but not
+        textures or highlights within a surface; outputs other than ``color`` then have one sample
+        per pixel.
 
     Attributes
     ----------
     width, height : int
-        `resize` changes them.
+        Changed by `resize`.
     backend : str
         The backend that draws.
     color_space : str
@@ -144,16 +144,16 @@ class Renderer(Closed):
         return self._antialias
 
     def resize(self, width: int, height: int) -> None:
-        """Change the size of the frames to come."""
+        """Change the size of future frames."""
         width, height = check_side(width, "width"), check_side(height, "height")
         with self._turn.taken():
             self._width, self._height = width, height
             self._forget_arrays()
 
     def close(self) -> None:
-        """Free what the renderer holds; frames stay valid. Drawing afterwards raises."""
+        """Free the renderer's memory; frames stay valid. Drawing afterwards raises an error."""
         with self._turn.taken(closing=True):
-            # Nothing reads them again: `_check_drawable` refuses to draw.
+            # Nothing reads these again: `_check_drawable` refuses to draw.
             self._native = self._draw_list = None  # type: ignore[assignment]
             self._viewpoint = self._passes = None  # type: ignore[assignment]
             self._turn.let_go()
@@ -181,17 +181,17 @@ class Renderer(Closed):
         options: RenderOptions | None = None,
         **keywords: Unpack[OptionKeywords],
     ) -> None:
-        """Do beforehand what the first frame of a scene would do, so that it is as fast as others.
+        """Do the work of a scene's first frame in advance, so that it is as fast as later ones.
 
-        Each mesh gets its clusters and the normals or edges that are missing, each texture its mip
-        levels. They stay with the mesh or the texture, for every renderer. The renderer allocates
-        memory for the outputs and, 8 bytes per sample, for the depths that tell what is hidden.
+        Each mesh gets its clusters and missing normals or edges, each texture its mip levels. They
+        stay with the mesh or texture, for every renderer. The renderer allocates memory for the
+        outputs and, 8 bytes per sample, for the depths of occlusion culling.
 
         Parameters
         ----------
         scene : Scene
         options, **keywords
-            As the frames will be drawn: see `render`.
+            As for `render`.
 
         Raises
         ------
@@ -237,18 +237,17 @@ class Renderer(Closed):
         ----------
         scene : Scene
         camera : None, Node or (Camera, pose)
-            A node of this scene. None is its first visible camera; a scene without one is framed
+            A node of this scene. None uses its first visible camera; a scene without one is framed
             automatically.
         out : Frame, optional
-            An earlier frame of the same size to draw into; its outputs are drawn, and it is
+            An earlier frame of the same size to draw into; its outputs are redrawn, and it is
             returned.
         culling_camera : Node or (Camera, pose), optional
-            Cull as seen from this camera, but draw as seen from ``camera``, to look at what culling
-            leaves out.
+            Cull for this camera but draw from ``camera``, to see the effect of culling.
         options : RenderOptions, optional
-            Instead of keyword arguments that it holds, which must then be left out.
+            Replaces its keyword arguments, which must then be left out.
         **keywords
-            As of `RenderOptions`: ``mode``, ``wireframe``, ``outputs`` and so on.
+            Those of `RenderOptions`: ``mode``, ``wireframe``, ``outputs`` and so on.
 
         Returns
         -------
@@ -258,10 +257,10 @@ class Renderer(Closed):
         ------
         InvalidArgumentError, OutOfMemoryError
         RendererBusyError
-            A signal handler, or something else that ran within a frame of this renderer, asked for
+            A signal handler, or other code that ran within a frame of this renderer, requested
             another one; or the process was forked from within a frame.
         SceneChangedError
-            Another thread added or removed nodes meanwhile, and the frame could not be drawn.
+            Another thread added or removed nodes, and the frame could not be drawn.
         KeyboardInterrupt
             Ctrl-C stops a frame between its tiles.
         """
@@ -278,7 +277,7 @@ class Renderer(Closed):
         out: Frame | None,
         culling_camera: CameraChoice,
     ) -> Frame:
-        """Draw a frame in the turn that the caller has."""
+        """Draw a frame; the caller holds the turn."""
         size = self._width, self._height
         outputs = tuple(options.outputs if out is None else self._check_out(out).outputs)
         plan = self._passes.plan(options, outputs, size)
@@ -307,7 +306,7 @@ class Renderer(Closed):
         listed: tuple[str, ...],
         culling_camera: CameraChoice,
     ) -> Picture:
-        """Bring the draw list up to date, and return what passes begin with."""
+        """Update the draw list, and return the picture that the passes start with."""
         size = self._width, self._height
         frame_options = self._options.get(scene, options, self._height)
         view = self._viewpoint.look(scene, camera, *size)
@@ -328,7 +327,7 @@ class Renderer(Closed):
         return picture
 
     def _let_backs_show(self, picture: Picture) -> None:
-        """Leave out backs of closed meshes only, and only where nobody looks into their holes."""
+        """Cull backs of closed meshes, unless the camera looks into their holes."""
         apertures = self._draw_list.open_apertures(picture.scene.data, picture.view, picture.size)
         picture.shadow_cull = "none" if self._draw_list.has_holes else "back"
         if apertures is None:
@@ -349,7 +348,7 @@ class Renderer(Closed):
 
 
 def _check_samples(samples: Samples, antialias: Antialias) -> Samples:
-    """Check a number of samples, and name the method that has it where another was chosen."""
+    """Check the number of samples; on an error, name the method that supports it."""
     others = [how for how, numbers in _SAMPLES.items() if is_one_of(samples, numbers)]
     if others and antialias not in others:
         raise InvalidArgumentError(
@@ -360,7 +359,7 @@ def _check_samples(samples: Samples, antialias: Antialias) -> Samples:
 
 
 def _blame_change(scene: AnyScene, census: tuple[Any, ...], error: Exception) -> None:
-    """Raise, where nodes came or went since a census, an error that says so instead of another."""
+    """If nodes came or went since a census, replace an error with one that says so."""
     if scene.data.census() != census:
         raise SceneChangedError(
             "nodes were added to the scene or removed while it was drawn: change a scene between "

@@ -1,9 +1,8 @@
-"""Support functions of boxes, points and scenes: how far each reaches in a direction.
+"""Support functions of boxes, points and scenes: how far each extends in a direction.
 
 In: a box, points, or a `Scene`. Out: functions from directions (D, 3) float64, of any length, to
-the largest scalar product of each with any point, (D,) float64. That is all that framing needs to
-know, and it is exact where a bounding box leaves corners empty. Vertices that are not finite do not
-count.
+the maximum scalar product of each with any point, (D,) float64. Framing needs nothing else, and
+unlike a bounding box this has no empty corners. Non-finite vertices do not count.
 """
 
 from __future__ import annotations
@@ -22,8 +21,8 @@ from ..model.scene.shown import as_shown, placing_poses
 
 SupportFunction = Callable[[np.ndarray], np.ndarray]
 
-_BLOCK = 1 << 14  # vertices at a time: three coordinates and a sum stay in the cache
-# So many vertices are looked at one by one, some 20 ns each; of more, only boxes.
+_BLOCK = 1 << 14  # vertices at a time: three coordinates and a sum fit into the cache
+# Up to this many vertices are visited, at some 20 ns each; beyond, only boxes.
 _MAX_VERTICES = 1 << 23
 _MAX_INSTANCES = 1 << 16
 
@@ -36,15 +35,15 @@ def support_of_box(bounds: ArrayLike) -> SupportFunction:
 
 
 def support_of_points(points: np.ndarray) -> SupportFunction:
-    """Return the support function of points, (N, 3); without any it is minus infinity."""
+    """Return the support function of points, (N, 3); without points it is minus infinity."""
     return lambda directions: _farthest(points, directions)
 
 
 def support_of_scene(scene: Scene) -> SupportFunction | None:
-    """Return the support function of everything visible in a scene, or None if there is nothing.
+    """Return the support function of a scene's visible objects, or None if there are none.
 
-    Meshes count with their vertices. Where those are too many to look at each, their boxes stand in
-    for some of them: nothing ever reaches farther than is said.
+    Meshes count with their vertices. If those are too many, boxes replace some of them, which never
+    underestimates the extent.
     """
     placed = _Placed()
     scene.data.update()
@@ -59,11 +58,11 @@ def support_of_scene(scene: Scene) -> SupportFunction | None:
 
 
 class _Placed:
-    """Meshes at their poses: nodes', and instances' one by one."""
+    """Meshes at the poses of nodes and of single instances."""
 
     def __init__(self) -> None:
         self.count = 0
-        self._meshes: list[Mesh | None] = []  # None where the box is all that is looked at
+        self._meshes: list[Mesh | None] = []  # None if only the box counts
         self._poses: list[np.ndarray] = []
         self._boxes: list[np.ndarray] = []
 
@@ -89,7 +88,7 @@ class _Placed:
         self._boxes.append(np.broadcast_to(box, (len(poses), 2, 3)))
 
     def support(self, directions: np.ndarray) -> np.ndarray:
-        """The farthest vertices are looked for where the boxes reach farthest."""
+        """Return the support, searching vertices only where the boxes extend farthest."""
         poses, boxes = np.concatenate(self._poses), np.concatenate(self._boxes)
         local, offset = _in_their_own_space(poses, directions)
         center, half = (boxes[:, 0] + boxes[:, 1]) * 0.5, (boxes[:, 1] - boxes[:, 0]) * 0.5
@@ -114,14 +113,14 @@ class _Placed:
 
 
 def _in_their_own_space(poses: np.ndarray, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Directions as (K, D, 3) in the spaces of K poses, and (K, D) what each origin reaches."""
+    """Return directions (K, D, 3) in the spaces of K poses, and the origins' products (K, D)."""
     columns = (poses[:, np.newaxis, :3, k] for k in range(4))
     *local, offset = (linalg.dot(column, directions) for column in columns)
     return np.stack(local, axis=-1), offset
 
 
 def _farthest(points: np.ndarray, directions: np.ndarray) -> np.ndarray:
-    """The largest scalar products of directions (D, 3) with points (N, 3)."""
+    """Return the maximum scalar products of directions (D, 3) with points (N, 3)."""
     farthest = np.full(len(directions), -np.inf)
     for start in range(0, len(points), _BLOCK):
         block = points[start : start + _BLOCK]

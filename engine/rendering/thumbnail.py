@@ -1,7 +1,7 @@
-"""Pictures of scenes and meshes for notebooks: small, and only of what is drawn in a moment.
+"""Thumbnails of scenes and meshes for notebooks, if they can be drawn quickly.
 
-In: a scene or a mesh. Out: a PNG, or None of what shows nothing, or has too many faces to be drawn
-while somebody waits for the text of a cell.
+In: a scene or a mesh. Out: a PNG, or None if it shows nothing or has too many faces to draw while
+somebody waits for a cell's text.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def thumbnail(thing: Scene | Mesh) -> bytes | None:
     try:
         with Renderer(*SIZE, samples=4, antialias="msaa") as renderer:
             frame = renderer.render(scene, cull="auto")
-    except Engine3DError:  # such as of coordinates that no camera can be placed for
+    except Engine3DError:  # such as for coordinates that no camera can frame
         return None
     return frame.encode()
 

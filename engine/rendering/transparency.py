@@ -1,6 +1,6 @@
-"""Formats without alpha refuse pictures that are transparent somewhere.
+"""Refuses to write transparent pictures in formats without alpha.
 
-In: pixels, (H, W, 4) uint8 RGBA. Out: nothing, or an error: what is transparent would turn black.
+In: pixels, (H, W, 4) uint8 RGBA. Out: nothing, or an error: transparent pixels would turn black.
 """
 
 from __future__ import annotations

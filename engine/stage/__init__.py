@@ -1,4 +1,4 @@
-"""Presents a model without a window: opens, lights, frames, labels and grounds it.
+"""Presentation of a model without a window: loading, lights, framing, labels and ground.
 
-Nothing is imported here: Pillow loads only when a file is written.
+This package imports nothing: Pillow loads only when a file is written.
 """

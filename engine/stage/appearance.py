@@ -1,6 +1,6 @@
-"""How a scene is drawn: what the keys and the command line change of `Renderer.render`'s options.
+"""The drawing options that keys and the command line change.
 
-In: option values. Out: the keyword arguments of one ``render`` call.
+In: option values. Out: the keyword arguments of one `Renderer.render` call.
 """
 
 from __future__ import annotations
@@ -25,23 +25,22 @@ from ..rendering.options import RenderOptions
 
 MODES = (*get_args(Mode), *get_args(OutputMode))
 DARK, LIGHT = (22, 24, 28), (225, 229, 236)
-#: Points are as large as this share of the distance from one to the next, were they spread evenly
-#: over the picture; but not smaller than one pixel of a picture this many pixels high, nor larger
-#: than so many of them.
+#: Points are this fraction of the distance between points spread evenly over the picture. They are
+#: at least one pixel of a picture this high, and at most this many such pixels.
 POINT_SHARE = 0.4
 USUAL_HEIGHT = 720.0
 MOST_PIXELS = 6.0
-#: What a colour gives off, by its red, green and blue in linear light.
+#: Luminance weights of red, green and blue in linear light.
 _LUMINANCE = (0.2126, 0.7152, 0.0722)
 
 
-#: The options of pictures that views have, and what they are unless something says otherwise.
+#: The picture options of a view, with their defaults.
 DEFAULTS = {one.name: one.default for one in fields(RenderOptions) if one.name != "outputs"} | {
     "line_color": None,
     "point_size": None,
 }
 Value = TypeVar("Value")
-#: What the options with few choices can be, in the order in which keys go round.
+#: The choices of options with few choices, in the order in which keys cycle.
 CHOICES = {
     one.name: tuple(one.metadata["numbers"])
     for one in fields(RenderOptions)
@@ -50,11 +49,11 @@ CHOICES = {
 
 
 class Appearance(SimpleNamespace):
-    """The drawing options of one frame: those of `RenderOptions`, but its outputs, as attributes.
+    """The drawing options of one frame as attributes: those of `RenderOptions` except its outputs.
 
-    ``line_color`` is (r, g, b), integers 0 to 255, sRGB; None is dark over faces, and without them
-    what is seen before the background. A ``mode`` may be an output. A ``point_size`` of None goes
-    by the picture and by how many points there are.
+    ``line_color`` is (r, g, b), integers 0 to 255, sRGB; None is dark over faces, and contrasts
+    with the background without faces. A ``mode`` may be an output. A ``point_size`` of None depends
+    on the picture and the number of points.
     """
 
     def __init__(self, **given: Any) -> None:
@@ -69,11 +68,11 @@ class Appearance(SimpleNamespace):
         background : (3,) sequence, Gradient, Environment or None
             The scene's.
         point_size : float
-            What suits the scene and the picture.
+            The automatic size for the scene and picture.
         """
         arguments = dict(vars(self))
         if self.mode in get_args(OutputMode):
-            # An output is painted over it.
+            # The output is painted over it.
             arguments["mode"] = "lit" if self.mode == "radiance" else "unlit"
         if self.line_color is None:
             alone = self.wireframe == "only"
@@ -84,7 +83,7 @@ class Appearance(SimpleNamespace):
 
 
 def contrasting(background: Background) -> tuple[int, int, int]:
-    """Return a dark or a light colour, whichever is seen better before a background."""
+    """Return a dark or a light colour, whichever contrasts more with a background."""
     if background is None or isinstance(background, Environment):
         return LIGHT
     if isinstance(background, Gradient):
@@ -99,7 +98,7 @@ def contrasting(background: Background) -> tuple[int, int, int]:
 
 
 def point_size(count: int, size: tuple[int, int]) -> float:
-    """Return how large ``count`` points should be in a picture of some size, in pixels."""
+    """Return the size in pixels for ``count`` points in a picture of some size."""
     side = min(size)
     pixel = max(1.0, side / USUAL_HEIGHT)
     apart = side / math.sqrt(max(count, 1))
@@ -107,7 +106,7 @@ def point_size(count: int, size: tuple[int, int]) -> float:
 
 
 def count_points(scene: Scene) -> int:
-    """Return how many points a scene shows."""
+    """Return the number of visible points in a scene."""
     count = 0
     for node in scene.nodes:
         shape = node.object
@@ -121,6 +120,6 @@ def count_points(scene: Scene) -> int:
 
 
 def following(value: Value, choices: Sequence[Value], step: int = 1) -> Value:
-    """Return the choice ``step`` places after ``value``, going round."""
+    """Return the choice ``step`` places after ``value``, cyclically."""
     index = choices.index(value) if value in choices else -1
     return choices[(index + step) % len(choices)]

@@ -1,8 +1,8 @@
-"""Why a picture shows nothing, or nothing that could be seen.
+"""Explains why a picture is blank.
 
-In: a scene, a camera, and what was drawn. Out: a word that a program can test, and a sentence.
-Reasons are tried from what the file holds to how it is looked at. `may_be_blank` tells at next to
-no cost which pictures certainly show something; only the others are looked into.
+In: a scene, a camera, and a drawn frame. Out: a word for programs, and a sentence. Causes are tried
+from the file's content to the camera. `may_be_blank` quickly rules out most pictures; only the
+others are examined.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ if TYPE_CHECKING:
     from .staging import Staging
 
 _MANY = 1024
-_SMALL = 240  # pixels of the longer side of a first look
+_SMALL = 240  # pixels of the longer side of a first test picture
 
 
 class Reason(NamedTuple):
-    """Why nothing is seen: a word of the list in docs/sheet.md, and a sentence."""
+    """Why a picture is blank: a word from the list in docs/sheet.md, and a sentence."""
 
     word: str
     sentence: str
@@ -42,7 +42,7 @@ class Reason(NamedTuple):
 
 @dataclass
 class Sight:
-    """The direction and the extent of what a camera sees.
+    """What a frame looks at: scene, camera, size and options.
 
     Attributes
     ----------
@@ -64,7 +64,7 @@ class Sight:
     drawing: Mapping[str, Any] = field(default_factory=dict)
 
     def shows(self, size: tuple[int, int], **options: Any) -> bool:
-        """Whether any pixel of a picture of a size shows something."""
+        """Return whether any pixel of a picture of a given size shows a surface."""
         with Renderer(*size, **self.drawing) as renderer:
             frame = renderer.render(
                 self.scene,
@@ -77,22 +77,22 @@ class Sight:
 
 
 class BlankWatch:
-    """Looks whether any of the frames of a scene has shown something of it."""
+    """Checks whether any frame so far has shown something of the scene."""
 
     def __init__(self) -> None:
         self._has_shown = False
         self._doubtful: Sight | None = None
 
     def look(self, frame: Frame, staging: Staging, sight: Callable[[], Sight]) -> None:
-        """Note whether a frame certainly shows something; else keep the first such sight.
+        """Note whether a frame certainly shows something; keep the first sight that may not.
 
         Parameters
         ----------
         frame : Frame
         staging : Staging
-            What it was drawn with.
+            The stage that it was drawn with.
         sight : callable
-            Returns what the frame looks at.
+            Returns the frame's `Sight`.
         """
         if self._has_shown:
             return
@@ -105,19 +105,19 @@ class BlankWatch:
             self._doubtful = sight()
 
     def reason(self) -> Reason | None:
-        """Return why no frame so far has shown anything; None if one has."""
+        """Return why all frames so far were blank; None if one was not."""
         if self._has_shown or self._doubtful is None:
             return None
         return why_blank(self._doubtful)
 
 
 def may_be_blank(stats: Mapping[str, Any], scene: Scene) -> bool:
-    """Whether a picture of nothing but a scene's own nodes may show nothing: mostly it may not.
+    """Return whether a picture of only a scene's own nodes may be blank; usually not.
 
     Parameters
     ----------
     stats : Mapping
-        Of the frame.
+        The frame's statistics.
     scene : Scene
     """
     if not stats["pixels_shaded"]:
@@ -125,7 +125,7 @@ def may_be_blank(stats: Mapping[str, Any], scene: Scene) -> bool:
     opaque = False
     for number, node in enumerate(scene.nodes):
         if opaque and number >= _MANY:
-            break  # of so many, clear ones hardly hide that nothing else is there
+            break  # among so many, transparent materials hardly hide that the rest is blank
         if isinstance(node.object, DRAWABLE):
             for material in mesh_of(node.object).materials:
                 if material.alpha_mode == "opaque":
@@ -136,7 +136,7 @@ def may_be_blank(stats: Mapping[str, Any], scene: Scene) -> bool:
 
 
 def why_blank(sight: Sight) -> Reason | None:
-    """Return why a picture shows nothing of a scene; None if it shows something."""
+    """Return why a picture of a scene is blank; None if it is not."""
     width, height = sight.size
     scale = max(width, height) / _SMALL
     small = max(1, round(width / scale)), max(1, round(height / scale))
@@ -152,7 +152,7 @@ def reason_of(sight: Sight) -> Reason:
 
 
 def _drawables(sight: Sight) -> list[Node]:
-    """The nodes that hold something to draw."""
+    """Return the nodes with drawable objects."""
     return [node for node in sight.scene.nodes if isinstance(node.object, DRAWABLE)]
 
 
@@ -173,7 +173,7 @@ def _of_content(sight: Sight, nodes: list[Node]) -> Reason | None:
 
 
 def _has_finite(mesh: Mesh) -> bool:
-    """Whether any face, line or point of a mesh has finite corners alone."""
+    """Return whether any face, line or point of a mesh has only finite corners."""
     finite = np.asarray(np.isfinite(mesh.positions).all(axis=1))
     if finite.all():
         return True
@@ -182,7 +182,7 @@ def _has_finite(mesh: Mesh) -> bool:
 
 
 def _is_one_point(mesh: Mesh) -> bool:
-    """Whether the finite vertices of a mesh are all at one place."""
+    """Return whether the finite vertices of a mesh all coincide."""
     return _is_one_place(mesh.positions[np.isfinite(mesh.positions).all(axis=1)])
 
 
@@ -209,9 +209,9 @@ def _of_place(sight: Sight, nodes: list[Node]) -> Reason | None:
 
 
 def _points(sight: Sight, nodes: list[Node]) -> np.ndarray:
-    """Corners of the boxes of instances, and all finite vertices of other meshes.
+    """Return corners of the boxes of instances, and all finite vertices of other meshes.
 
-    Of very many nodes, their boxes must do.
+    For very many nodes, return only the corners of their boxes.
     """
     found = [np.zeros((0, 3))]
     if len(nodes) > _MANY:
@@ -244,7 +244,7 @@ def _of_surface(sight: Sight, nodes: list[Node]) -> Reason:
 
 @contextlib.contextmanager
 def _opaque(materials: Iterable[Material]) -> Iterator[None]:
-    """Let no material have holes or let anything through, for a while."""
+    """Make all materials opaque within the block."""
     modes = [(m, m.alpha_mode) for m in materials if m.alpha_mode != "opaque"]
     try:
         for material, _ in modes:

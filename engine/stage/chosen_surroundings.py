@@ -1,6 +1,6 @@
-"""The surroundings that the user asked for: an environment, and whether it shows.
+"""The environment settings that the user chose.
 
-In: plain values. Out: a staged scene that has them; what was left open stays as the scene has it.
+In: plain values. Out: a staged scene with these settings; the scene keeps its own for the rest.
 """
 
 from __future__ import annotations
@@ -18,24 +18,25 @@ from ..model.scene.staged_scene import StagedScene
 from ..model.scene.surroundings import Background
 from ..model.scene.usage import uses_in
 
-_USUAL_INTENSITY = 0.5  # of the environment that scenes get by themselves, beside their lights
+_USUAL_INTENSITY = 0.5  # of the automatic environment, beside a scene's own lights
 
 
 @dataclass
 class Surroundings:
-    """None leaves a value to the scene.
+    """The user's environment settings; None leaves a value to the scene.
 
     Attributes
     ----------
     environment : Environment or None
     without : bool
-        The scene is to have no environment.
+        Whether to remove the environment.
     rotation : float or None
         Radians.
     intensity : float or None
     shows : bool
-        Whether the environment is the background; a scene without any then gets the studio, as do
-        scenes of physically based materials, whose metals would have nothing to mirror.
+        Whether the environment is the background; if set, a scene without an environment gets the
+        studio. So do scenes with physically based materials, so that metals have something to
+        reflect.
     blur : float or None
     """
 
@@ -47,7 +48,7 @@ class Surroundings:
     blur: float | None = None
 
     def put(self, scene: StagedScene) -> None:
-        """Draw a scene in them."""
+        """Apply the settings to a scene."""
         if self.environment is not None or self.without:
             scene.environment = self.environment
         elif scene.environment is None and _has_physical(scene.scene):
@@ -65,7 +66,7 @@ class Surroundings:
 
 
 def _has_physical(scene: Scene) -> bool:
-    """Return whether a scene shows physically based materials that are lit."""
+    """Return whether a scene shows lit physically based materials."""
     return any(
         isinstance(thing, Material) and thing.is_physical and not thing.unlit
         for thing in uses_in([scene])
@@ -73,7 +74,7 @@ def _has_physical(scene: Scene) -> bool:
 
 
 def fog_color(background: Background) -> tuple[float, ...] | None:
-    """Return the colour of a background, or of a gradient's middle; None where it has no one."""
+    """Return the colour of a background or of a gradient's middle; None for others."""
     if isinstance(background, Gradient):
         ends = (
             display_color(cast(Color, end), "srgb") for end in (background.top, background.bottom)

@@ -1,4 +1,4 @@
-"""Shows how culling works: frozen from one view, with its boxes drawn over pictures."""
+"""Visualises culling: freezes it from one view, and draws its boxes over pictures."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from .overlays.debug_lines import Lines, box_lines, frustum_lines, tree_lines
 
 
 class CullingStudy:
-    """A study of a renderer's culling.
+    """The state of a culling visualisation.
 
     Attributes
     ----------
     camera : (Camera, (4, 4) float64) or None
-        What culls, wherever the scene is seen from; None: what each frame is seen from.
+        The frozen culling camera; None: each frame's own camera.
     drawing : str or None
-        What is drawn over frames: one of `debug_lines.DEBUG_DRAWINGS`.
+        The drawing over frames, one of `debug_lines.DEBUG_DRAWINGS`.
     """
 
     def __init__(self) -> None:
@@ -26,10 +26,10 @@ class CullingStudy:
         self._from: tuple[Camera, np.ndarray] | None = None
 
     def choose(self, drawing: str | None, camera: tuple[Camera, np.ndarray]) -> None:
-        """Draw what culling works with.
+        """Choose the debug drawing.
 
-        A frustum is that of this camera, wherever the scene is seen from; but while culling is
-        frozen it is the one that culls.
+        A frustum drawing shows the given camera's frustum from then on, or that of the frozen
+        camera while culling is frozen.
         """
         self.drawing, self._from = drawing, camera
 

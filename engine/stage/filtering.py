@@ -1,4 +1,4 @@
-"""The filtering of textures that the command line or the viewer asks for."""
+"""Texture filtering as chosen on the command line or in the viewer."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from ..model.materials.textures import Texture
 from ..model.scene.scene import Scene
 from .visibility import DRAWABLE, mesh_of
 
-#: What models get whose files say nothing: how these were chosen is in docs/performance.md.
+#: The default for models whose files do not specify it; docs/performance.md explains the choice.
 USUAL_ANISOTROPY = 8
 USUAL_LOD_BIAS = -0.25
 
 
 @dataclass(frozen=True)
 class Filtering:
-    """The filtering that all textures of a scene get.
+    """Filtering settings for all textures of a scene.
 
     Attributes
     ----------
     anisotropy : int or None
-        Of every texture; None leaves those that have one of their own.
+        Anisotropy of every texture; None keeps each texture's own.
     lod_bias : float or None
-        Likewise.
+        As for ``anisotropy``.
     is_usual : bool
-        Whether what is None becomes the usual value where a texture has none of its own.
+        Whether None becomes the default value for textures that specify none.
     """
 
     anisotropy: int | None = None
@@ -34,7 +34,7 @@ class Filtering:
     is_usual: bool = False
 
     def put(self, scene: Scene) -> None:
-        """Give them to a scene's textures."""
+        """Apply the settings to a scene's textures."""
         things = [node.object for node in scene.nodes if isinstance(node.object, DRAWABLE)]
         materials = {id(m): m for thing in things for m in mesh_of(thing).materials}
         for texture in _textures(materials.values()):
@@ -49,7 +49,7 @@ class Filtering:
 
 
 def _textures(materials: Iterable[Material]) -> list[Texture]:
-    """The textures of materials, each once."""
+    """Return the textures of materials, each once."""
     found: dict[int, Texture] = {}
     for material in materials:
         found.update((id(texture), texture) for texture in textures_of(material).values())

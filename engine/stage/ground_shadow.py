@@ -1,15 +1,14 @@
 """The soft shadow of a model on an invisible ground.
 
-In: a scene, where its ground is, and from which side it is looked at. Out: how dark the ground is
-on a square around the model.
+In: a scene, its ground, and the side it is viewed from. Out: the darkness of the ground on a square
+around the model.
 
-Along the rays of a light, pictures from below and from above tell where the model begins and ends
-over each place of the ground. It is taken apart into slices by height. A slice takes light from
-the ground where the rays meet it, and about as far around as it is high; the slice that takes most
-counts. So the shadow is dark and sharp where the model stands and soft below what overhangs, and
-no ring shows where one slice ends and the next begins, since they overlap. The sky's rays come
-straight down, the key light's at a slant. Sums are of whole numbers that 32-bit floats hold: they
-are the same on every machine.
+Along the rays of a light, depth pictures from below and from above give the model's lower and upper
+surface over each point of the ground. The model is cut into slices by height. A slice blocks light
+where its rays meet the ground, blurred by about its height; at each point the strongest slice
+counts. So the shadow is dark and sharp where the model stands and soft below overhangs; slices
+overlap, so that no ring shows between them. The sky's rays come straight down, the key light's at a
+slant. Sums are integers that 32-bit floats hold exactly: they are the same on every machine.
 """
 
 from __future__ import annotations
@@ -31,36 +30,37 @@ from ..rendering.casters import placed_casters
 from ..rendering.renderer import Renderer
 from .views.viewpoint import Sphere
 
-#: The square reaches so many radii from the middle of the model, in so many texels a side.
+#: The square's half side in model radii, and its texels per side.
 REACH, SIDE = 2.0, 512
-#: How dark it is where none of the sky's light arrives, and none of the key light.
+#: Darkness where none of the sky's light arrives, and none of the key light.
 _SKY, _KEY = 0.46, 0.3
-#: How far both spread, and how far to the left and back the key light's shadow moves, in heights.
+#: Blur of both, and offset of the key light's shadow to the left and back, per height.
 _SKY_SPREAD, _KEY_SPREAD = 0.45, 0.18
 _LEFT, _BACK = 0.42, 0.5
-#: Heights of the slices in radii: the first is at the ground, each next one so many times as high.
+#: Heights of the slices in radii: the first is at the ground, each next one higher by a fixed
+#: factor.
 _HEIGHTS = (0.0, *(0.02 * 1.5**k for k in range(12)))
-#: Heights that are seen, in radii.
+#: Range of heights covered, in radii.
 _LOW, _HIGH = -0.01, 3.0
-#: Spreads in texels: no slice spreads less than the first, and on coarser texels if farther than
-#: the second. Slices are cut out in blocks of whole texels of all sizes.
+#: Blur in texels: no slice is blurred less than the first; beyond the second, coarser texels are
+#: used. Slices are cut into blocks that are whole texels at all sizes.
 _LEAST, _MOST, _BLOCK = 2, 4, 64
-#: What is wholly in a slice, and what is left of that after it has spread to the sides.
+#: The values of a point fully inside a slice, and of one blurred horizontally.
 _WHOLE, _WIDE = 256.0, 4096.0
-#: From here on the shadow fades, in radii, so that it ends before the square does.
+#: The distance in radii at which the shadow starts to fade, to vanish before the square's edge.
 _FADES = 1.6
 
 
 class GroundShadow:
-    """The shadow of a scene on its ground; parts are kept while they are valid.
+    """The shadow of a scene on its ground; parts are cached while they are valid.
 
     Parameters
     ----------
     staged : StagedScene
     ground : Mesh
-        What shows the shadow beside the scene; casts none.
+        The mesh that shows the shadow; it casts none itself.
     axes : (3, 3) ndarray of float64
-        Those of `home_axes`: rows right, up and back.
+        The axes of `home_axes`: rows right, up and back.
     """
 
     def __init__(self, staged: StagedScene, ground: Mesh, axes: np.ndarray) -> None:
@@ -71,24 +71,23 @@ class GroundShadow:
         self._kept: dict[float, tuple[tuple[object, ...], np.ndarray]] = {}
 
     def alphas(self, lowest: float, sphere: Sphere, azimuth: float, cull: FrameCull) -> np.ndarray:
-        """Return how dark the ground is; rows go from the back to the front.
+        """Return the darkness of the ground; rows go from back to front.
 
         Parameters
         ----------
         lowest : float
-            How high the ground lies along the up direction.
+            Height of the ground along the up direction.
         sphere : Sphere
-            The scene's bounding sphere; sets the size of the square.
+            The scene's bounding sphere; determines the size of the square.
         azimuth : float
-            Of one who looks at the scene, in radians; the key light stands behind their right
-            shoulder.
+            The viewer's azimuth in radians; the key light stands behind their right shoulder.
         cull : str
-            As in `Renderer.render`: faces that the lights do not see cast no shadow.
+            As in `Renderer.render`: culled faces cast no shadow.
 
         Returns
         -------
         (SIDE, SIDE) ndarray of uint8
-            0 at the sides.
+            0 at the edges.
         """
         turned, tipped = cosine(azimuth), sine(azimuth)
         slant = -_LEFT * turned - _BACK * tipped, _LEFT * tipped - _BACK * turned
@@ -104,7 +103,7 @@ class GroundShadow:
         spread: float,
         stands: tuple[float, Sphere, FrameCull, Any],
     ) -> np.ndarray:
-        """Return the share of a light that is blocked, (SIDE, SIDE) float32 from 0 to 1."""
+        """Return the fraction of a light that is blocked, (SIDE, SIDE) float32 from 0 to 1."""
         kept = self._kept.get(spread)
         if kept is None or kept[0] != (slant, stands):
             heights = self._heights(slant, *stands[:3])
@@ -112,7 +111,7 @@ class GroundShadow:
         return kept[1]
 
     def _state(self) -> tuple[object, ...]:
-        """Return numbers that stay the same while all casters stay as and where they are."""
+        """Return numbers that stay equal as long as no caster changes or moves."""
         data = self._scene.data
         data.update()
         posing = None if data.posing is None else data.posing.moment
@@ -133,9 +132,9 @@ class GroundShadow:
     def _heights(
         self, slant: tuple[float, float], lowest: float, sphere: Sphere, cull: FrameCull
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Return where the model begins and ends along rays: two of (SIDE, SIDE) float32, in radii.
+        """Return the model's lower and upper surface along rays, in radii: two of (SIDE, SIDE).
 
-        Where nothing is, it begins infinitely high and ends infinitely low.
+        Where nothing is, the lower surface is at infinity and the upper at minus infinity.
         """
         right, up, back = self._axes
         center = np.array(sphere.center)
@@ -156,10 +155,10 @@ class GroundShadow:
         axes: Sequence[np.ndarray],
         cull: FrameCull = "none",
     ) -> np.ndarray:
-        """Depths from 0 to 1 of what a camera on the ground sees; infinite where nothing is."""
+        """Return depths from 0 to 1 seen by a camera on the ground; infinite where nothing is."""
         pose = np.eye(4)
         pose[:3, :3], pose[:3, 3] = np.stack(axes, axis=1), middle
-        by_mesh = cull == "auto"  # each renderer goes on as it began
+        by_mesh = cull == "auto"  # each renderer keeps the mode it began with
         if by_mesh not in self._renderers:
             self._renderers[by_mesh] = Renderer(SIDE, SIDE)
         frame = self._renderers[by_mesh].render(
@@ -169,14 +168,14 @@ class GroundShadow:
 
 
 def _camera(lean: tuple[float, float], reached: float, radius: float) -> Camera:
-    """A camera without perspective whose picture shows where rays that lean meet the ground.
+    """Return an orthographic camera whose picture shows where slanted rays meet the ground.
 
     Parameters
     ----------
     lean : (float, float)
-        How far to the right and up a place moves in the picture for each step to the viewer.
+        How far a point moves right and up in the picture for each step towards the viewer.
     reached : float
-        Twice how far before the camera the picture begins, in radii.
+        Twice the distance of the near plane in front of the camera, in radii.
     radius : float
     """
     side, deep = REACH * radius, _HIGH - _LOW
@@ -194,7 +193,7 @@ def _camera(lean: tuple[float, float], reached: float, radius: float) -> Camera:
 
 
 def _darkness(first: np.ndarray, last: np.ndarray, spread: float) -> np.ndarray:
-    """Return how much light all slices take, (SIDE, SIDE) float32 from 0 to 1."""
+    """Return the light blocked by all slices, (SIDE, SIDE) float32 from 0 to 1."""
     rows, columns = _block(last > -np.inf)
     first, last = first[rows, columns], last[rows, columns]
     level = _texels(len(_HEIGHTS) - 1, spread)[0]
@@ -216,7 +215,7 @@ def _darkness(first: np.ndarray, last: np.ndarray, spread: float) -> np.ndarray:
 
 
 def _texels(number: int, spread: float) -> tuple[int, int]:
-    """Return how often texels are doubled for a slice, and how many each then spreads over."""
+    """Return how often to double texels for a slice, and its blur in the resulting texels."""
     reach, level = spread * _HEIGHTS[number] * SIDE / (2 * REACH), 0
     while reach > _MOST:
         reach, level = reach / 2, level + 1
@@ -224,7 +223,7 @@ def _texels(number: int, spread: float) -> tuple[int, int]:
 
 
 def _slice(first: np.ndarray, last: np.ndarray, number: int) -> np.ndarray:
-    """Return what is at the height of a slice, from 0 to `_WHOLE`; what is near counts in part."""
+    """Return the model's coverage of a slice, from 0 to `_WHOLE`; nearby heights count in part."""
     above = _HEIGHTS[number + 1] if number + 1 < len(_HEIGHTS) else _HIGH
     here, whole = _HEIGHTS[number], np.float32(_WHOLE)
     part = _share(np.float32(above) - first, above - here)
@@ -238,7 +237,7 @@ def _share(height: np.ndarray, step: float) -> np.ndarray:
 
 
 def _block(shows: np.ndarray) -> tuple[slice, slice]:
-    """The rows and columns in which something is, in whole blocks."""
+    """Return the non-empty rows and columns, rounded to whole blocks."""
     found = []
     for axis in (1, 0):
         places = np.flatnonzero(shows.any(axis=axis))
@@ -255,7 +254,7 @@ def _coarse(part: np.ndarray, level: int) -> np.ndarray:
 
 
 def _doubled(taken: np.ndarray) -> np.ndarray:
-    """Return twice as many rows and columns, between which a picture goes on evenly."""
+    """Return a picture with twice the rows and columns, interpolated."""
     for _ in range(2):
         beside = np.concatenate([taken[:1], taken, taken[-1:]]) * np.float32(0.25)
         finer = np.empty((2 * len(taken), taken.shape[1]), np.float32)
@@ -266,9 +265,10 @@ def _doubled(taken: np.ndarray) -> np.ndarray:
 
 
 def _spread(part: np.ndarray, reach: int) -> np.ndarray:
-    """Return a part spread about as by a normal distribution, with a margin of 3 reaches.
+    """Return a part blurred approximately by a Gaussian, with a margin of 3 reaches.
 
-    That is by three means along each side; 1 where all around is wholly in the slice.
+    It applies three box filters along each axis; the result is 1 where the whole neighbourhood is
+    fully inside the slice.
     """
     taps = float((2 * reach + 1) ** 3)
     wide = _sums(np.pad(part, 6 * reach), reach)
@@ -277,7 +277,7 @@ def _spread(part: np.ndarray, reach: int) -> np.ndarray:
 
 
 def _sums(rows: np.ndarray, reach: int) -> np.ndarray:
-    """Return three times the sums of neighbours; rows become shorter by 3 reaches at each end."""
+    """Return three successive box sums; rows become shorter by 3 reaches at each end."""
     for _ in range(3):
         length = len(rows) - 2 * reach
         total = rows[:length] + rows[1 : 1 + length]
@@ -288,7 +288,7 @@ def _sums(rows: np.ndarray, reach: int) -> np.ndarray:
 
 
 def _lay(part: np.ndarray, taken: np.ndarray, corner: Sequence[int], margin: int) -> None:
-    """Let a part take its light, if another does not take more already."""
+    """Apply a part's blocked light where it exceeds the blocked light so far."""
     to, source = [], []
     for start, size in zip(corner, part.shape, strict=True):
         low, high = max(start - margin, 0), min(start - margin + size, len(taken))
@@ -298,7 +298,7 @@ def _lay(part: np.ndarray, taken: np.ndarray, corner: Sequence[int], margin: int
 
 
 def _fading() -> np.ndarray:
-    """From 1 in the middle to 0 at the sides, (SIDE, SIDE) float32."""
+    """Return weights from 1 in the middle to 0 at the edges, (SIDE, SIDE) float32."""
     beside = np.abs(np.arange(SIDE) + 0.5 - SIDE / 2) * (2 * REACH / SIDE)
     share = np.clip((REACH - 2 * REACH / SIDE - beside) / (REACH - _FADES), 0.0, 1.0)
     share = (share * share * (3.0 - 2.0 * share)).astype(np.float32)

@@ -1,8 +1,7 @@
-"""Frames without a screen: turntables and animations, one RGBA array after another.
+"""Frames without a screen: turntables and animations, as RGBA arrays one by one.
 
-In: a `ViewRenderer` and a first `Viewpoint`. Out: a generator of (H, W, 4) uint8 arrays, which
-loop without a jump: the scene's own animation over its period or, without one, a turn of the
-camera.
+In: a `ViewRenderer` and a first `Viewpoint`. Out: a generator of (H, W, 4) uint8 arrays that loop
+smoothly: the scene's own animation over its period or, without one, a turn of the camera.
 """
 
 from __future__ import annotations
@@ -15,13 +14,13 @@ import numpy as np
 from .view_renderer import ViewRenderer
 from .views.viewpoint import Viewpoint
 
-#: Viewers of animations falter outside these.
+#: Animation players stutter outside these limits.
 SHORTEST_FRAME = 0.02
 LONGEST_FRAME = 0.1
 
 
 def seconds_a_frame(view_renderer: ViewRenderer, count: int) -> float:
-    """Return how long each of ``count`` pictures of one period shows."""
+    """Return the display time in seconds of each of ``count`` pictures of one period."""
     seconds = view_renderer.viewed.period / count
     return min(LONGEST_FRAME, max(SHORTEST_FRAME, seconds))
 
@@ -29,7 +28,7 @@ def seconds_a_frame(view_renderer: ViewRenderer, count: int) -> float:
 def turntable(
     view_renderer: ViewRenderer, view: Viewpoint, count: int, start: float = 0.0
 ) -> Iterator[np.ndarray]:
-    """Yield ``count`` pictures of one turn of the camera round the scene, whose clips play."""
+    """Yield ``count`` pictures of one turn of the camera around the scene, with playing clips."""
     moves = view_renderer.viewed.period if view_renderer.viewed.player else 0.0
     for index in range(count):
         turned = view.copy()

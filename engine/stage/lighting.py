@@ -1,9 +1,8 @@
-"""Lights beside a scene, in set-ups to choose from.
+"""Light set-ups beside a scene.
 
-In: a scene and, each frame, the camera's pose. Out: light nodes beside it, of which one set-up is
-visible.
-The set-ups but "sun" move with the camera, so that what is looked at is never dark; the scene's own
-lights, if it has any, are the first set-up.
+In: a scene and, each frame, the camera's pose. Out: light nodes beside it; one set-up is visible at
+a time. All set-ups except "sun" move with the camera, so that the subject is never dark; the
+scene's own lights, if any, are the first set-up.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ from ..model.scene.orbiting import home_axes
 from ..model.scene.staged_scene import StagedScene
 from .views.viewpoint import Sphere
 
-#: Per set-up: the way the light travels, in camera space (or the home frame, if fixed), the linear
+#: Per set-up: the light's direction, in camera space (or the home frame, if fixed), the linear
 #: colour, the intensity.
 SETUPS = {
     "studio": (
@@ -42,11 +41,11 @@ SETUPS = {
 }
 FIXED_SETUPS = ("sun",)
 OWN_LIGHTS = "scene"
-_IN_ENVIRONMENT = 0.6  # how bright set-ups are in an environment, which lights as well
+_IN_ENVIRONMENT = 0.6  # intensity factor of set-ups in an environment, which also lights
 
 
 class Lighting:
-    """The lights of a scene: its own, and the set-ups put beside it.
+    """The lights of a scene: its own, and the set-ups beside it.
 
     Parameters
     ----------
@@ -55,7 +54,7 @@ class Lighting:
     up : (3,) sequence of float
         The world's up direction.
     intensity : float
-        Factor on the set-ups' intensities. In an environment they are dimmer.
+        Factor on the set-ups' intensities. An environment dims them.
     """
 
     def __init__(self, staged: StagedScene, up: ArrayLike, intensity: float = 1.0) -> None:
@@ -74,7 +73,7 @@ class Lighting:
         self.choose(self.names[0])
 
     def choose(self, name: str) -> None:
-        """Light the scene with one set-up and no other."""
+        """Light the scene with one set-up only."""
         self.name = name
         self._turn: np.ndarray | None = None
         self._staged.keep_lights(name == OWN_LIGHTS)
@@ -83,11 +82,11 @@ class Lighting:
                 node.visible = setup == name
 
     def groups(self) -> list[list[Light]]:
-        """Return the lights that shine together: those of each set-up."""
+        """Return the groups of lights that shine together, one for each set-up."""
         return [[cast(Light, node.object) for node in nodes] for nodes in self._nodes.values()]
 
     def follow(self, pose: np.ndarray) -> None:
-        """Turn the set-up with the camera, whose pose is (4, 4)."""
+        """Rotate the set-up with the camera, whose pose is (4, 4)."""
         if self.name == OWN_LIGHTS:
             return
         base = self._base(pose)
@@ -96,16 +95,16 @@ class Lighting:
             node.pose = turned
 
     def _base(self, pose: np.ndarray) -> np.ndarray:
-        """Return what the set-up stands on: the home frame, or the camera's axes."""
+        """Return the axes that the set-up is relative to: the home frame or the camera's."""
         return self._home if self.name in FIXED_SETUPS else pose[:3, :3]
 
     def turn(self, pose: np.ndarray, dx: float, dy: float) -> bool:
-        """Turn the set-up by angles to the right and downward, as a camera sees it.
+        """Rotate the set-up to the right and downward, as seen by a camera.
 
         Returns
         -------
         bool
-            Whether it turned: the scene's own lights stay where they are.
+            Whether it turned: the scene's own lights never do.
         """
         if self.name == OWN_LIGHTS:
             return False
@@ -116,7 +115,7 @@ class Lighting:
 
 
 class OnlyLight:
-    """One light of the user's, instead of every other light.
+    """A single light of the user's that replaces all others.
 
     Parameters
     ----------
@@ -124,7 +123,7 @@ class OnlyLight:
         The scene to light.
     light : DirectionalLight or PointLight
     position : (3,) sequence of float
-        Where a point light is, in world space.
+        A point light's position, in world space.
     """
 
     def __init__(
@@ -139,14 +138,14 @@ class OnlyLight:
         self._node = staged.beside.add(light, translation=position)
 
     def groups(self) -> list[list[Light]]:
-        """As of `Lighting`."""
+        """Return the one light as a group, as `Lighting` does."""
         return [[cast(Light, self._node.object)]]
 
     def choose(self, name: str) -> None:
-        """Do nothing: there is one set-up."""
+        """Do nothing: there is only one set-up."""
 
     def turn(self, pose: np.ndarray, dx: float, dy: float) -> bool:
-        """Turn a directional light as `Lighting.turn` does; return whether it is one."""
+        """Rotate a directional light as `Lighting.turn` does; return whether it is one."""
         if isinstance(self._node.object, PointLight):
             return False
         turned = _seen_turn(pose, dx, dy)
@@ -154,23 +153,23 @@ class OnlyLight:
         return True
 
     def follow(self, pose: np.ndarray) -> None:
-        """Do nothing: the light stays where it was put."""
+        """Do nothing: the light does not follow the camera."""
 
 
 def placed_light(
     staged: StagedScene, position: Sequence[float], bounds: Sphere, intensity: float | None = None
 ) -> OnlyLight:
-    """Light a scene with one point light.
+    """Return the lighting of a scene by one point light.
 
     Parameters
     ----------
     staged : StagedScene
     position : (3,) sequence of float
-        Where, in world space.
+        Its position, in world space.
     bounds : Sphere
         The scene's bounds.
     intensity : float or None
-        I of E = I/d²; None lights the middle of the scene with E = 1.
+        I in E = I/d²; None gives E = 1 at the scene's centre.
     """
     if intensity is None:
         intensity = sum((p - c) * (p - c) for p, c in zip(position, bounds.center, strict=True))
@@ -179,7 +178,7 @@ def placed_light(
 
 
 def _seen_turn(pose: np.ndarray, dx: float, dy: float) -> np.ndarray:
-    """Return the turn, in world space, that a camera sees as one to the right and downward."""
+    """Return the world-space rotation that a camera sees as one to the right and downward."""
     across = linalg.quaternion_from_axis_angle(pose[:3, 1], dx)
     down = linalg.quaternion_from_axis_angle(pose[:3, 0], dy)
     return linalg.quaternion_to_matrix(linalg.quaternion_multiply(across, down))[:3, :3]

@@ -1,7 +1,7 @@
-"""Scenes far from the origin, as maps have them, are looked at from near it.
+"""Moves scenes far from the origin, such as maps, near to it for viewing.
 
-In: a `ViewedScene`. Out: the same, all of it moved to near the origin, where the 32-bit floats of
-light and shadow are fine; and where the origin is in the files' coordinates.
+In: a `ViewedScene`. Out: the same, moved near the origin, where 32-bit floats of light and shadow
+are precise; and the origin's position in the file's coordinates.
 """
 
 from __future__ import annotations
@@ -11,14 +11,14 @@ from collections.abc import Sequence
 from ..io.reading.far_coordinates import origin_near
 from .viewed_scene import ViewedScene
 
-# Nodes hold the distance exactly; only from so many sizes away do lights and eyes become coarse.
+# Node poses hold any distance exactly; lights and eyes become imprecise from this many sizes on.
 _FAR = 2048.0
 
 
 def moved_near(viewed: ViewedScene) -> ViewedScene:
     """Move a scene that is far from the origin, in place; return it.
 
-    What is at its top hangs under one more node then.
+    Its top-level nodes become children of one new node.
     """
     scene = viewed.scene
     low, high = scene.bounds
@@ -34,6 +34,6 @@ def moved_near(viewed: ViewedScene) -> ViewedScene:
 
 
 def from_file(viewed: ViewedScene, position: Sequence[float]) -> tuple[float, ...]:
-    """Return where a position in the files' coordinates is in the scene."""
+    """Return the scene position of a point in the file's coordinates."""
     pairs = zip(position, viewed.origin, strict=True)
     return tuple(float(place) - origin for place, origin in pairs)

@@ -1,7 +1,7 @@
-"""A model file, opened as a `ViewedScene`.
+"""Opens a model file as a `ViewedScene`.
 
-In: a path, and a texture or a colour for what the file leaves without. Out: a scene with a
-neutral background, the up direction usual for the format, and the file's counts and warnings.
+In: a path, and a texture or colour for meshes without materials. Out: a scene with a neutral
+background, the format's usual up direction, and the file's counts and warnings.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ from .visibility import DRAWABLE, mesh_of
 
 
 def color_by(viewed: ViewedScene, document: Document, scalars: ScalarColoring) -> None:
-    """Colour a model's meshes by numbers, in the place of what colours them so far.
+    """Colour a model's meshes by numbers instead of their own colours.
 
     Parameters
     ----------
     viewed : ViewedScene
     document : Document
-        What its scene is made of; both hold the same meshes.
+        The document that the scene was made from; both hold the same meshes.
     scalars : ScalarColoring
 
     Raises
@@ -53,16 +53,16 @@ def color_by(viewed: ViewedScene, document: Document, scalars: ScalarColoring) -
 def open_model(
     path: File, *, animation: Callable[[ViewedScene], object] | None = None, **options: Any
 ) -> ViewedScene:
-    """Load a file to look at.
+    """Load a file for viewing.
 
     Parameters
     ----------
     path : path-like or binary file object
         A file of any format that `engine3d.loaders` reads.
     animation : callable, optional
-        Called with the `ViewedScene`, to let its animations play or stand at a time.
+        Called with the `ViewedScene`, to play its animations or hold them at a time.
     **options
-        Those of `read_model`.
+        Options of `read_model`.
 
     Returns
     -------
@@ -73,7 +73,7 @@ def open_model(
     FileFormatError, FileAccessError
         The file (or the texture asked for) cannot be read.
     InvalidArgumentError
-        It has no such variant, numbers or animation.
+        The file has no such variant, numbers or animation.
     """
     viewed, _ = read_model(path, **options)
     if animation is not None:
@@ -90,7 +90,7 @@ def read_model(
     scalars: ScalarColoring | None = None,
     **options: Any,
 ) -> tuple[ViewedScene, Document]:
-    """Load a file to look at, which may be coloured by other numbers later.
+    """Load a file for viewing, to be coloured by other numbers later.
 
     Parameters
     ----------
@@ -99,14 +99,14 @@ def read_model(
     texture : path-like, optional
         The base colour texture of the meshes without materials.
     color : (3,) sequence, optional
-        The base colour of the meshes without materials. If there are none, that is warned of.
+        The base colour of the meshes without materials. If there are none, a warning says so.
     variant : str or int, optional
         As in `engine3d.load_scene`.
     scalars : ScalarColoring, optional
-        Colours the meshes by a number of their vertices or faces, whatever the file says.
+        Colours the meshes by a number of their vertices or faces, instead of the file's colours.
     **options
-        Others of `engine3d.loaders.load_document`; with a texture or a colour, no image of its
-        ``companion`` is taken.
+        Options of `engine3d.loaders.load_document`; a texture or colour disables its ``companion``
+        image.
 
     Returns
     -------
@@ -117,7 +117,7 @@ def read_model(
     FileFormatError, FileAccessError
         The file (or the texture asked for) cannot be read.
     InvalidArgumentError
-        It has no such variant, or no such numbers.
+        The file has no such variant or numbers.
     """
     image = None if texture is None else load_texture(texture)
     is_dressed = image is not None or color is not None
@@ -131,7 +131,7 @@ def read_model(
     viewed = view_document(document, name, variant)
     if scalars is not None:
         color_by(viewed, document, scalars)
-        # Tone mapping would change the colours that the bar shows.
+        # Tone mapping would change the colours shown in the bar.
         viewed.appearance = {**viewed.appearance, "tone_mapping": "none"}
     return viewed, document
 
@@ -139,7 +139,7 @@ def read_model(
 def view_document(
     document: Document, path: str | None, variant: str | int | None = None
 ) -> ViewedScene:
-    """Return what a file holds as a scene to look at; see `open_model`."""
+    """Return a document as a scene for viewing; see `open_model`."""
     scene = scene_from_document(document, variant)
     if document.scene is None:
         scene.background = DARK.background
@@ -149,7 +149,7 @@ def view_document(
         up=document.up,
         update=None if scene.animator is None else scene.animator.seek,
         themed=document.scene is None,
-        # glTF says of each material which sides show; other files don't, or are often wrong.
+        # glTF defines the visible sides per material; other files do not, or are often wrong.
         appearance={} if document.tree is not None else {"cull": "auto"},
         path=path,
         format=document.format,
@@ -164,12 +164,12 @@ def _no_image(path: str) -> bool:
 
 
 def has_materials(mesh: Mesh) -> bool:
-    """Return whether any material of a mesh says how it looks; a name alone does not."""
+    """Return whether any material of a mesh defines its appearance; a name alone does not."""
     return any(map(says_something, mesh.materials))
 
 
 def _dress(meshes: list[Mesh], image: Texture | None, color: ColorLike | None) -> None:
-    """Give the materials of the meshes the image and the colour; warn if that changes nothing."""
+    """Give the meshes' materials the image and the colour; warn if that changes nothing."""
     if not meshes:
         _warn("the model has materials of its own: it gets no other texture or colour")
     elif image is not None and all(mesh.uvs is None for mesh in meshes):
@@ -182,7 +182,7 @@ def _dress(meshes: list[Mesh], image: Texture | None, color: ColorLike | None) -
 
 
 def dress_scene(scene: Scene, color: ColorLike) -> None:
-    """Give a colour to what in a scene has no texture and does not glow; warn if all has."""
+    """Give a colour to materials without texture or emission; warn if there are none."""
     things = [node.object for node in scene.nodes if isinstance(node.object, DRAWABLE)]
     painted = False
     for mesh in map(mesh_of, things):
@@ -197,7 +197,7 @@ def dress_scene(scene: Scene, color: ColorLike) -> None:
 
 
 def _is_plain(material: Material) -> bool:
-    """Whether a colour is all that a material shows."""
+    """Return whether a material shows only a plain colour."""
     return not textures_of(material) and not any(material.emissive)
 
 
@@ -206,7 +206,7 @@ def _warn(message: str) -> None:
 
 
 def document_lines(document: Document) -> list[str]:
-    """Return the format and the counts of a document, a line each."""
+    """Return the format and the counts of a document, one per line."""
     lines = [f"{'format':<12}{document.format:>11}"]
     if document.unit:
         lines.append(f"{'unit':<12}{document.unit:>11}")

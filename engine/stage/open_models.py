@@ -1,6 +1,6 @@
-"""Several model files, opened as one `ViewedScene`.
+"""Opens several model files as one `ViewedScene`.
 
-In: paths. Out: a scene with all of the models, where their files place them or side by side.
+In: paths. Out: a scene with all models, placed as in their files or side by side.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ from .scalars import ScalarColoring
 from .viewed_scene import ViewedScene
 from .views.viewpoint import UP_DIRECTIONS
 
-#: Room between models that stand side by side, as a share of the widest.
+#: Gap between models side by side, as a fraction of the widest.
 GAP = 0.15
-#: Models that differ more than this in size can hardly be seen together.
+#: Models whose sizes differ by more than this factor can hardly be seen together.
 ALIKE = 50.0
 _SHOWN = (Mesh, InstancedMesh, *LIGHTS)
 
@@ -43,24 +43,25 @@ def open_models(
     animation: Callable[[ViewedScene], object] | None = None,
     **options: Any,
 ) -> ViewedScene:
-    """Load files to look at together.
+    """Load several files for viewing together.
 
-    Each is read once. Until the last of them is, the meshes of all are held, which the scene holds
-    afterwards anyway, and what else each file says.
+    Each is read once. All meshes, which the scene needs anyway, and the files' other data are held
+    until the last file is read.
 
     Parameters
     ----------
     paths : sequence of path-like or binary file object
-        One is opened as `open_model` opens it.
+        Each is opened as by `open_model`.
     side_by_side : bool
-        Stand the models in a row, in the order given, upright, all on one ground and in their own
-        sizes. Otherwise each is where its file places it.
+        Place the models in a row, in the given order, each upright and unscaled, on a common
+        ground. Otherwise each keeps its file's position.
     up : str, optional
-        A key of `UP_DIRECTIONS`: what is up in all of them, whatever is usual for their formats.
+        A key of `UP_DIRECTIONS`: the up direction of all models, instead of their formats' usual
+        ones.
     animation : callable, optional
-        As in `open_model`, for each of them.
+        As in `open_model`, for each model.
     **options
-        Those of `read_model`, for each of them.
+        Options of `read_model`, for each model.
 
     Returns
     -------
@@ -104,7 +105,7 @@ def open_models(
 def _share_range(
     opened: list[tuple[ViewedScene, Document]], scalars: ScalarColoring | None
 ) -> None:
-    """Let one colour mean one number in all models; which, is known only when all were read."""
+    """Give all models one colour range, which is known only after all are read."""
     ranges = {viewed.bar[1:3] for viewed, _ in opened if viewed.bar is not None}
     if scalars is None or len(ranges) < 2:
         return
@@ -115,12 +116,12 @@ def _share_range(
 
 
 def _brightest(viewed_scenes: list[ViewedScene]) -> tuple[float, ...]:
-    """Return the ambient light that is enough for each of the models."""
+    """Return the brightest ambient light among the models."""
     return tuple(np.max([viewed.scene.ambient for viewed in viewed_scenes], axis=0).tolist())
 
 
 def _add(scene: Scene, viewed: ViewedScene, pose: np.ndarray) -> None:
-    """Add what another scene shows, as children of a node that bears its name."""
+    """Add another scene's nodes below a node with its name."""
     group = scene.add(name=viewed.title, pose=pose)
     viewed.scene.data.update()
     for node in viewed.scene.nodes:
@@ -141,7 +142,7 @@ def _own_places(viewed_scenes: list[ViewedScene]) -> list[np.ndarray]:
 
 
 def _row(viewed_scenes: list[ViewedScene]) -> list[np.ndarray]:
-    """Return the poses that stand the models in a row; the first one's up is up."""
+    """Return the poses that place the models in a row; the first one's up direction is up."""
     right, up, back = home_axes(UP_DIRECTIONS[viewed_scenes[0].up])
     poses, boxes = [], []
     for viewed in viewed_scenes:
@@ -162,7 +163,7 @@ def _row(viewed_scenes: list[ViewedScene]) -> list[np.ndarray]:
 
 
 def _box(viewed: ViewedScene, turn: np.ndarray, axes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return how far a turned model reaches along right, up and back: low and high."""
+    """Return the extent of a rotated model along right, up and back: low and high."""
     low, high = viewed.scene.bounds
     corners = np.array([[(low, high)[k >> axis & 1][axis] for axis in range(3)] for k in range(8)])
     points = linalg.transform_points(turn, corners)
@@ -173,7 +174,7 @@ def _box(viewed: ViewedScene, turn: np.ndarray, axes: np.ndarray) -> tuple[np.nd
 def _compare_sizes(
     viewed_scenes: list[ViewedScene], boxes: list[tuple[np.ndarray, np.ndarray]]
 ) -> None:
-    """Warn of models so different in size that one of them hardly shows."""
+    """Warn if models differ so much in size that one of them is hardly visible."""
     sizes = [float((high - low).max()) for low, high in boxes]
     small, large = sizes.index(min(sizes)), sizes.index(max(sizes))
     if sizes[large] > ALIKE * sizes[small]:

@@ -1,4 +1,4 @@
-"""Outputs of a frame as pictures: the G-buffer, made visible.
+"""Visualises the outputs of a frame (the G-buffer) as pictures.
 
 In: a `Frame` that holds the outputs, and the scene's bounds. Out: (H, W, 3) uint8 per output.
 """
@@ -17,16 +17,16 @@ from .overlays.theme import Theme
 from .views.viewpoint import Sphere
 
 OUTPUT_MODES = get_args(OutputMode)
-#: Tells what shows a surface: everything else is background.
+#: This output tells surfaces from background.
 COVERAGE: Output = "depth"
-#: What the split view shows, row by row.
+#: The outputs of the split view, row by row.
 SPLIT: tuple[tuple[Output, ...], ...] = (
     ("color", "albedo", "world_normal"),
     ("world_position", "depth", "uv"),
     ("object_id", "triangle_id", "material_id"),
 )
 SPLIT_OUTPUTS = tuple(name for row in SPLIT for name in row)
-#: Three odd numbers: what an ID is multiplied with for its red, green and blue.
+#: Three odd factors that turn an ID into red, green and blue.
 _SPREAD = np.array([2654435761, 2246822519, 3266489917], np.uint32)
 _CODES = 4096
 #: Pixels between the corner of a small picture and its name.
@@ -41,15 +41,15 @@ def picture_of(name: str, values: np.ndarray, bounds: Sphere) -> np.ndarray:
     name : str
         The output.
     values : ndarray
-        What a frame holds of it.
+        The frame's array of the output.
     bounds : Sphere
-        The scene's: positions are shown by where they are in it.
+        The scene's bounds, which map positions to colours.
     """
     if name == "depth":
         return _nearness(values)
     if name in ("albedo", "emissive", "radiance"):
         return _encoded(values)
-    if name == "metallic_roughness":  # as the textures have them: roughness green, metallic blue
+    if name == "metallic_roughness":  # as in textures: roughness green, metallic blue
         zeros = np.zeros_like(values[..., :1])
         return _bytes(np.concatenate([zeros, values[..., 1:], values[..., :1]], axis=-1))
     if name == "tangent":
@@ -66,13 +66,13 @@ def picture_of(name: str, values: np.ndarray, bounds: Sphere) -> np.ndarray:
 
 
 def paint(frame: Frame, name: str, bounds: Sphere) -> None:
-    """Paint an output over a frame's colour, where a surface shows."""
+    """Paint an output over the surfaces in a frame's colour."""
     covered = frame.depth > 0
     frame.color[covered, :3] = picture_of(name, getattr(frame, name), bounds)[covered]
 
 
 def split(frame: Frame, bounds: Sphere, theme: Theme) -> None:
-    """Show nine outputs of a frame side by side, in its colour, each at a third of the size."""
+    """Replace a frame's colour by nine outputs side by side, each at a third of the size."""
     height, width = frame.height // 3, frame.width // 3
     third = slice(1, 3 * height, 3), slice(1, 3 * width, 3)
     covered, whole = frame.depth[third] > 0, frame.color[third].copy()
@@ -89,7 +89,7 @@ def split(frame: Frame, bounds: Sphere, theme: Theme) -> None:
 
 
 def whole_pixel(x: int, y: int, size: tuple[int, int]) -> tuple[int, int]:
-    """Return which pixel of the whole picture one of the split view shows."""
+    """Return the pixel of the whole picture that a pixel of the split view shows."""
     width, height = (max(1, side // 3) for side in size)
     return x % width * 3 + 1, y % height * 3 + 1
 
@@ -100,7 +100,7 @@ def _bytes(values: np.ndarray) -> np.ndarray:
 
 @functools.cache
 def _codes() -> np.ndarray:
-    """The sRGB codes of linear values from 0 to 1, in equal steps."""
+    """Return the sRGB codes of linear values from 0 to 1, in equal steps."""
     table = srgb_to_linear_table()
     steps = np.arange(_CODES) / (_CODES - 1)
     return np.searchsorted((table[1:] + table[:-1]) / 2, steps).astype(np.uint8)
@@ -111,13 +111,13 @@ def _encoded(linear: np.ndarray) -> np.ndarray:
 
 
 def _identities(ids: np.ndarray) -> np.ndarray:
-    """Return colours that tell neighbouring numbers apart, none of them dark."""
+    """Return colours that distinguish neighbouring IDs, none of them dark."""
     mixed = (ids.astype(np.uint32)[..., np.newaxis] + np.uint32(1)) * _SPREAD
     return (64 + (mixed >> 24) * 3 // 4).astype(np.uint8)
 
 
 def _nearness(depth: np.ndarray) -> np.ndarray:
-    """Return grey: white what is nearest, dark what is farthest in the picture."""
+    """Return nearness as grey: white is nearest, dark is farthest in the picture."""
     covered = depth[depth > 0]
     low, high = (covered.min(), covered.max()) if covered.size else (0.0, 1.0)
     span = np.float32(high - low) or np.float32(1)
@@ -126,7 +126,7 @@ def _nearness(depth: np.ndarray) -> np.ndarray:
 
 
 def _placed(name: str, positions: np.ndarray, bounds: Sphere) -> np.ndarray:
-    """Return where positions are in the bounds, from 0 to 1; in view space round the camera."""
+    """Return positions relative to the bounds, from 0 to 1; in view space around the camera."""
     center = bounds.center if name == "world_position" else (0.0, 0.0, 0.0)
     middle, reach = np.array(center, np.float32), np.float32(2 * bounds.radius)
     return (positions - middle) / reach + np.float32(0.5)

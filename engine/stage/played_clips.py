@@ -1,7 +1,7 @@
-"""The animations of a model that is looked at: which of them play, and how far that reaches.
+"""The animations of a viewed model: which clips play, and the extent of their motion.
 
-In: a `ViewedScene` whose scene has clips; a number, as f3d counts, and a time. Out: the viewed
-scene plays them, or its scene stands as they have it at the time.
+In: a `ViewedScene` whose scene has clips; a clip number, counted as in f3d, and a time. Out: the
+viewed scene plays the clips, or holds their pose at the time.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from ..model.motion.player import AnimationPlayer
 from .scene_bounds import sphere_of_box
 from .viewed_scene import NotInModelError, ViewedScene
 
-#: Times of a clip at which is looked how far things reach.
+#: At this many times of a clip, the scene's extent is measured.
 LOOKS = 16
 
 
 def choose_clips(viewed: ViewedScene, index: int | None) -> tuple[AnimationClip, ...]:
-    """Return the clip of a number, or all for -1; the first for None, if there are any.
+    """Return the clip with a number, or all for -1; for None the first, if there is one.
 
     Raises
     ------
@@ -36,7 +36,7 @@ def choose_clips(viewed: ViewedScene, index: int | None) -> tuple[AnimationClip,
 
 
 def stand_at(viewed: ViewedScene, index: int | None, time: float) -> None:
-    """Let a scene stand as clips have it at a time; after the end as at the end."""
+    """Set a scene to the pose of clips at a time; times after the end hold the end."""
     clips = choose_clips(viewed, index)
     if not clips:
         raise NotInModelError(f"{viewed.title} has no animation")
@@ -47,7 +47,7 @@ def stand_at(viewed: ViewedScene, index: int | None, time: float) -> None:
 
 
 def play_clips(viewed: ViewedScene, index: int | None = None) -> None:
-    """Let a viewed scene play clips, over and over; without any it stays as it is."""
+    """Make a viewed scene play clips in a loop; without clips it stays unchanged."""
     clips = choose_clips(viewed, index)
     if not clips:
         return
@@ -64,7 +64,7 @@ def play_clips(viewed: ViewedScene, index: int | None = None) -> None:
 
 
 def _reach(viewed: ViewedScene, player: AnimationPlayer) -> np.ndarray:
-    """The box of the scene at all times, (2, 3), as far as some of them tell."""
+    """Return the box of the scene over all times, (2, 3), estimated from samples."""
     boxes = []
     for number in range(LOOKS):
         player.seek(viewed.period * number / LOOKS)

@@ -1,7 +1,6 @@
-"""One picture of whatever can be drawn, in one call.
+"""Renders one picture of anything drawable, in one call.
 
-In: a scene, a part of one, a mesh, or what trimesh holds. Out: a `Frame`, by a `Renderer` of its
-own.
+In: a scene, a part of one, a mesh, or a trimesh object. Out: a `Frame`, from its own `Renderer`.
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
 
     from ..rendering._view import CameraChoice
 
-#: What `render` takes for the renderer that it makes.
+#: The keywords of `render` for its renderer.
 _RENDERER_KEYWORDS = ("size", "backend", "threads", "color_space", "samples", "antialias")
 
 
@@ -42,13 +41,13 @@ def render(
     antialias: Antialias = "ssaa",
     **options: Unpack[RenderKeywords],
 ) -> Frame:
-    """Draw one frame of a scene, of a part of one, or of a mesh alone.
+    """Draw one frame of a scene, a node or a mesh.
 
     Parameters
     ----------
     scene : Scene, Node, Mesh, InstancedMesh, or a scene or geometry of trimesh
-        What is no scene is drawn before black. Of a node, all below it is drawn, where it is in the
-        world, in the light of those lights that are among it.
+        Anything but a scene is drawn on black. A node is drawn with its subtree at its world pose,
+        lit by the lights of that subtree.
     camera : None, Node or (Camera, pose)
     size : (int, int)
         Width and height in pixels.

@@ -1,8 +1,8 @@
-"""Meshes coloured by a number that their vertices or faces have: a temperature, a coordinate.
+"""Colours meshes by a number of their vertices or faces, such as a temperature or a coordinate.
 
-In: a `Document` whose meshes carry arrays, which of them is wanted, and of vectors which part. Out:
-the same meshes, which show it by a colour map, and what a bar tells of it. The colour map is a
-texture, so that what is interpolated across a triangle is the number, not the colour.
+In: a `Document` whose meshes have arrays, the array to show, and for vectors the component. Out:
+the same meshes, coloured by a colour map, and the content of a colour bar. The colour map is a
+texture, so that numbers are interpolated across triangles, not colours.
 """
 
 from __future__ import annotations
@@ -22,22 +22,22 @@ from ..model.materials.material import Material
 from ..model.materials.textures import Texture
 from .overlays.colormaps import MISSING
 
-#: Components that are none.
+#: Special values of the component.
 MAGNITUDE, DIRECT = -1, -2
 _AXES = ("x", "y", "z")
 _NORMALS = "normals"
-# Texture coordinates beyond this have no fine places left.
+# Texture coordinates beyond this lose precision.
 _FARTHEST = 1e4
 
 
 class ScalarBar(NamedTuple):
-    """The bar that explains the colours.
+    """The data of the colour bar.
 
     Attributes
     ----------
     title : str
     low, high : float
-        What the first and the last colour stand for.
+        The numbers of the first and last colour.
     colors : (N, 3) uint8
     """
 
@@ -49,22 +49,22 @@ class ScalarBar(NamedTuple):
 
 @dataclass
 class ScalarColoring:
-    """The numbers that are shown as colours, and how.
+    """Which numbers to show as colours, and how.
 
     Attributes
     ----------
     colors : (N, 3) uint8
-        A colour map, that of the lowest number first.
+        A colour map, lowest number first.
     name : str or None
         An array of the file; or ``x``, ``y`` or ``z``, the file's coordinates, or ``normals``. By
-        default the file's first in alphabetical order, and without any how high it is.
+        default the file's first array in alphabetical order, or else the height.
     range : (float, float) or None
-        What the first and the last colour stand for; by default the lowest and the highest number.
+        The numbers of the first and last colour; by default the lowest and highest number.
     component : int
-        Of arrays with several numbers a vertex: which, from 0 on; `MAGNITUDE`: their length;
-        `DIRECT`: none, the numbers are colours: grey, grey and alpha, RGB or RGBA.
+        For arrays with several numbers per vertex: the component, from 0 on; `MAGNITUDE`: the
+        length; `DIRECT`: the numbers are colours: grey, grey and alpha, RGB or RGBA.
     by_faces : bool
-        Whether the array is one of faces.
+        Whether the array belongs to faces.
     """
 
     colors: NDArray[np.uint8]
@@ -75,18 +75,18 @@ class ScalarColoring:
 
     @property
     def kind(self) -> Literal["vertices", "faces"]:
-        """What the file's arrays must belong to."""
+        """The elements that the file's arrays belong to."""
         return "faces" if self.by_faces else "vertices"
 
     def dress(self, document: Document, up: str) -> ScalarBar | None:
         """Colour the meshes of a document; ``up`` is a key of `UP_DIRECTIONS`.
 
-        Returns what the colours mean; None where the numbers are colours.
+        Return the data of the colour bar; None if the numbers are colours.
 
         Raises
         ------
         InvalidArgumentError
-            No mesh has such an array, or it has no such component.
+            No mesh has such an array, or the array lacks the component.
         """
         name = self._chosen(document, up)
         meshes = {id(entry.mesh): entry for entry in document.objects}
@@ -126,7 +126,7 @@ class ScalarColoring:
         return self.name
 
     def _values(self, array: NDArray[Any]) -> NDArray[np.float64]:
-        """One number of each row, NaN where it has none."""
+        """Return one number of each row, NaN where it has none."""
         rows = array.astype(np.float64)
         if self.component >= rows.shape[1]:
             return np.full(len(rows), np.nan)
@@ -135,7 +135,7 @@ class ScalarColoring:
         return rows[:, 0] if rows.shape[1] == 1 else np.sqrt((rows * rows).sum(axis=1))
 
     def _texture(self) -> Texture:
-        """The colour map in the lower row; above it the colour of what has no number."""
+        """Return the colour map as a texture: its lower row; the upper has the missing colour."""
         pixels = np.empty((2, len(self.colors), 3), np.uint8)
         pixels[0], pixels[1] = MISSING, self.colors
         return Texture(pixels, filter="bilinear", wrap="clamp", name="colour map")
@@ -147,8 +147,8 @@ class ScalarColoring:
         is_number = np.isfinite(values)
         shares = (np.where(is_number, values, low) - low) / (high - low)
         if len(mesh.faces):
-            # Numbers out of range are cut off by the texture, in each pixel: else what lies between
-            # one of them and another would be shown wrong.
+            # The texture clamps out-of-range numbers per pixel: clamping per vertex would falsify
+            # the interpolation.
             across = (0.5 + np.clip(shares, -_FARTHEST, _FARTHEST) * (count - 1)) / count
             mesh.colors = None
             mesh.uvs = np.stack([across, np.where(is_number, 0.25, 0.75)], axis=1)
@@ -162,7 +162,7 @@ class ScalarColoring:
 
 
 def _show_colors(mesh: Mesh, array: NDArray[Any]) -> None:
-    """Colour a mesh by numbers that are colours: of 0 to 255 if they are integers, else to 1."""
+    """Colour a mesh by numbers that are colours: 0 to 255 if integers, else 0 to 1."""
     scale = 1.0 if array.dtype.kind in "iu" else 255.0
     numbers = np.clip(np.nan_to_num(array.astype(np.float64)) * scale, 0.0, 255.0)
     channels = [0, 0, 0] if array.shape[1] < 3 else [0, 1, 2]
@@ -172,7 +172,7 @@ def _show_colors(mesh: Mesh, array: NDArray[Any]) -> None:
 
 
 def _array(entry: DocumentObject, name: str) -> NDArray[Any]:
-    """The numbers of an object's vertices, (V, N); NaN where it has none of that name."""
+    """Return an array of an object's vertices, (V, N); NaN if it lacks the array."""
     mesh, pose = entry.mesh, entry.pose
     if name in scalars_of(mesh):
         return scalars_of(mesh)[name].reshape(len(mesh.positions), -1)
@@ -190,7 +190,7 @@ def _array(entry: DocumentObject, name: str) -> NDArray[Any]:
 
 
 def _range(arrays: Iterable[NDArray[np.float64]]) -> tuple[float, float]:
-    """The lowest and the highest number, apart from each other."""
+    """Return the lowest and highest number, made distinct."""
     finite = [array[np.isfinite(array)] for array in arrays]
     finite = [array for array in finite if len(array)]
     if not finite:
@@ -199,7 +199,7 @@ def _range(arrays: Iterable[NDArray[np.float64]]) -> tuple[float, float]:
     high = max(float(array.max()) for array in finite)
     if low < high:
         return low, high
-    # One number for all: it is the middle of what the bar shows, not the end of a range too narrow
-    # to be written.
+    # A constant array: put its value in the middle of the bar, in a range wide enough to be
+    # written.
     around = abs(low) / 2 or 0.5
     return low - around, low + around

@@ -1,7 +1,7 @@
-"""The extent of a scene: what clip planes must enclose, and what a first view must show.
+"""The extent of a scene, for clip planes and for the first view.
 
-In: a `Scene`. Out: a `Sphere`, or points round everything visible. Vertices that are not finite do
-not count; instances count as their boxes.
+In: a `Scene`. Out: a `Sphere`, or points around everything visible. Non-finite vertices are
+ignored; instances count as their boxes.
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ from ..model.scene.scene import Scene
 from ..model.scene.shown import placing_pose, shown_object
 from .views.viewpoint import Sphere
 
-#: How finely `turning_outline` follows a scene.
+#: Number of bands with which `turning_outline` follows a scene.
 OUTLINE_BANDS = 24
 OUTLINE_ANGLES = 24
 
 
 def bounding_sphere(scene: Scene) -> Sphere:
-    """Return a sphere round every visible mesh of ``scene``.
+    """Return a sphere around every visible mesh of ``scene``.
 
-    It is centred on the bounding box and reaches to the farthest vertex; instances count as their
-    boxes. A scene without extent gets a sphere of radius one.
+    Its centre is that of the bounding box, and it reaches to the farthest vertex; instances count
+    as their boxes. An empty scene gets a sphere of radius one.
     """
     low, high = scene.bounds
     center = (low + high) / 2
@@ -42,28 +42,28 @@ def bounding_sphere(scene: Scene) -> Sphere:
 
 
 def sphere_of_box(box: np.ndarray) -> Sphere:
-    """Return the sphere round a box, (2, 3); of one without extent it has a radius of one."""
+    """Return the sphere around a box, (2, 3); an empty box gives radius one."""
     center, half = (box[0] + box[1]) / 2, (box[1] - box[0]) / 2
     return Sphere(tuple(center.tolist()), float(linalg.length(half)) or 1.0)
 
 
 def turning_outline(scene: Scene, up: ArrayLike) -> np.ndarray:
-    """Return points round everything visible in ``scene``, however it turns about ``up``.
+    """Return points around everything visible in ``scene``, for any rotation about ``up``.
 
-    Framing them keeps a turntable in the picture, closer than a sphere would. They lie on rings
-    about the vertical axis through the middle of the scene, as wide as it is at their height.
+    Framing them keeps a turntable in the picture, more tightly than a sphere would. They lie on
+    rings about the vertical axis through the scene's centre, as wide as the scene at their height.
 
     Parameters
     ----------
     scene : Scene
-        What to go round.
+        The scene to surround.
     up : (3,) sequence of float
         The axis's direction.
 
     Returns
     -------
     (N, 3) ndarray of float64
-        World space. A scene without extent gets rings of radius one.
+        World space. An empty scene gets rings of radius one.
     """
     right, up, back = home_axes(up)
     low, high = scene.bounds
@@ -83,7 +83,8 @@ def turning_outline(scene: Scene, up: ArrayLike) -> np.ndarray:
     widest = np.zeros(OUTLINE_BANDS)
     np.maximum.at(widest, bands, widths)
     levels = bottom + step * np.arange(OUTLINE_BANDS + 1)
-    # A band's ring stands at both of its ends: where in the band the scene is that wide is unknown.
+    # A band's ring is placed at both of its ends: the height of the widest point in the band is
+    # unknown.
     rings = [(level, max(pair)) for level, pair in zip(levels, _ends(widest), strict=True)]
     angles = [2 * math.pi * k / OUTLINE_ANGLES for k in range(OUTLINE_ANGLES)]
     circle = [right * sine(angle) + back * cosine(angle) for angle in angles]
@@ -96,7 +97,7 @@ def _ends(widest: np.ndarray) -> list[tuple[float, float]]:
 
 
 def _world_points(scene: Scene) -> Iterator[np.ndarray]:
-    """Yield the finite vertices of each visible mesh, (N, 3) in world space; instances as boxes."""
+    """Yield the finite vertices of visible meshes, (N, 3) in world space; boxes for instances."""
     scene.data.update()
     for node in scene.nodes:
         points = _outline(node) if node.shown else None
@@ -107,7 +108,7 @@ def _world_points(scene: Scene) -> Iterator[np.ndarray]:
 
 
 def _outline(node: Node) -> np.ndarray | None:
-    """Return points of the node's mesh, (N, 3) in its own space, that its hull goes through."""
+    """Return points of the node's mesh, (N, 3) in its own space, that include its convex hull."""
     shape = shown_object(node)
     if isinstance(shape, Mesh):
         return shape.positions

@@ -1,6 +1,6 @@
-"""The scenes of other things that `render` and `show` take: meshes, nodes, scenes of trimesh.
+"""Makes scenes of meshes, nodes and trimesh objects, for `render` and `show`.
 
-In: one of these. Out: a `Scene` of it, whose nodes share the meshes that were given.
+In: one of these. Out: a `Scene` whose nodes share the given meshes.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from ..model.scene.shown import placing_pose, shown_object
 
 
 def scene_of(thing: Any) -> Scene | None:
-    """Return a scene that shows a thing; None for what no scene can be made of.
+    """Return a scene that shows a thing; None if the thing cannot be shown.
 
     Parameters
     ----------
     thing : Scene, Node, Mesh, InstancedMesh, or a scene or geometry of trimesh
-        A scene is returned as it is. Of a node, all that is below it and visible is in the new
-        scene, too: where it is in the world, and as it is bent now.
+        A scene is returned unchanged. For a node, the new scene holds its visible subtree at its
+        world poses, in its current deformation.
     """
     if isinstance(thing, Scene):
         return thing
@@ -41,9 +41,9 @@ def scene_of(thing: Any) -> Scene | None:
 
 
 def _add_branch(scene: Scene, top: Node) -> None:
-    """Add what a node and those below it hold, where they are in the world."""
+    """Add the objects of a node's subtree at their world poses."""
     waiting = [top]
-    while waiting:  # not by calling itself: trees may be deep
+    while waiting:  # iterative, because trees may be deep
         node = waiting.pop()
         if node.visible:
             scene.add(shown_object(node), name=node.name, pose=placing_pose(node))

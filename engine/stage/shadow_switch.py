@@ -1,4 +1,4 @@
-"""Shadows of the lights of a model, switched as the user asked for."""
+"""Switches the shadows of a model's lights as the user chose."""
 
 from __future__ import annotations
 
@@ -8,19 +8,20 @@ from ..choices import LightShadow
 from ..model.scene.lights import DirectLight, Light, PointLight
 
 _MOST_LAMPS = 4  # each draws six maps
-_MAIN = 0.5  # of the brightest: what is dimmer only lightens the shadows of others
+_MAIN = 0.5  # of the brightest: dimmer lights only brighten other lights' shadows
 
 
 def switch_shadows(groups: Iterable[list[Light]], shadow: LightShadow) -> None:
-    """Let lights cast shadows, or not.
+    """Switch the shadows of lights on or off.
 
     Parameters
     ----------
     groups : iterable of list of Light
-        Those that shine together. Of a group with more than four point lights, these cast none.
+        Groups of lights that shine together. In a group with more than four point lights, these
+        cast none.
     shadow : {False, True, "exact"}
-        What ``shadow`` of the main lights is to be; the others cast none. Light from all
-        around has no shadow.
+        The value of ``shadow`` for the main lights; the others cast none. Ambient lights have no
+        shadow.
     """
     for group in groups:
         lights = [light for light in group if isinstance(light, DirectLight)]

@@ -1,4 +1,4 @@
-"""The user's wishes on the command line, whatever scene is shown.
+"""The user's settings from the command line, for any scene.
 
 Plain data: the command line fills it in, `ViewRenderer` applies it to each scene.
 """
@@ -18,14 +18,14 @@ from .overlays.theme import DARK, Theme
 
 @dataclass
 class Settings:
-    """What the user asked for, whatever the scene; None leaves it to the scene.
+    """The user's settings for any scene; None leaves a value to the scene.
 
     Attributes
     ----------
     appearance : dict
         Fields of `Appearance` that were given.
     look : {"studio", "plain"}
-        How models stand there: see `Stage`; or before one colour, without a shadow.
+        ``"studio"``: see `Studio`; ``"plain"``: a plain background, without a shadow.
     up : str or None
         A key of `viewpoint.UP_DIRECTIONS`.
     background : (3,) tuple of int, Gradient or None
@@ -38,11 +38,11 @@ class Settings:
     light_intensity : float or None
         See `lighting.OnlyLight` and `lighting.Lighting`.
     light_direction : (3,) tuple of float or None
-        The way the only light travels, in world space.
+        Direction of the only light, in world space.
     light_clamp : (float, float) or None
         See `Scene`.
     shadow : bool or None
-        What ``shadow`` of the main lights is to be; None leaves it to the scene.
+        The value of ``shadow`` for the main lights; None leaves it to the scene.
     surroundings : Surroundings
         The environment.
     exposure : float or None
@@ -50,15 +50,15 @@ class Settings:
     textures : bool
         Whether materials show their textures.
     filtering : Filtering
-        How textures are read.
+        Texture filtering.
     near, far : float or None
         Distances of the clip planes; None encloses the scene.
     walks : bool
-        Whether one who walks does so on the ground of a scene that stands still.
+        Whether walking follows the ground of a static scene.
     walkable : tuple of str or None
-        Names of the materials that one walks on; None is all.
+        Names of walkable materials; None is all.
     slope : float or None
-        The steepest ground that one walks on, in radians.
+        The steepest walkable slope, in radians.
     grid, axes, metadata, axes_grid, bar : bool
         What to draw besides the scene.
     ui_scale : int or None
@@ -66,7 +66,8 @@ class Settings:
     theme : Theme
         Dark or light.
     keeps_theme : bool
-        Whether models in the look "studio" do not choose the theme that they stand out from.
+        Whether to keep the theme in the look "studio", instead of choosing one that contrasts with
+        the model.
     """
 
     appearance: dict[str, Any]

@@ -1,7 +1,7 @@
-"""A model on its stage: what lights, grounds and surrounds it, beside its scene.
+"""The stage of a model: lights, ground and surroundings beside its scene.
 
-In: a `ViewedScene` and what the user asked for. Out: a `StagedScene`, which follows the camera; the
-model's scene holds nothing of it.
+In: a `ViewedScene` and the user's settings. Out: a `StagedScene`, which follows the camera; the
+model's scene is not changed.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ from .viewed_scene import ViewedScene
 from .views.viewpoint import UP_DIRECTIONS, Sphere, Viewpoint
 from .visibility import Visibility
 
-#: A box around a sphere reaches no farther than this, in radii.
+#: A box around a sphere extends no farther than this, in radii.
 _BOX_REACH = 1.75
 
 
 class Staging:
-    """Lights, ground and other things that a model is drawn with.
+    """The lights, ground and other things that a model is drawn with.
 
     Parameters
     ----------
@@ -50,13 +50,13 @@ class Staging:
     Attributes
     ----------
     scene : StagedScene
-        What to draw.
+        The scene to draw.
     lighting : Lighting or OnlyLight
     visibility : Visibility
     box : BoxGrid
     up : str
     alone : (H, W, 4) uint8 or None
-        A small picture of the model before a transparent background, if one was drawn.
+        A small picture of the model on a transparent background, if one was drawn.
     """
 
     def __init__(
@@ -85,14 +85,14 @@ class Staging:
         self.stand(up, lights)
 
     def stand(self, up: str, lights: str = "") -> None:
-        """Set the stage anew, with a direction that points up.
+        """Rebuild the stage with a given up direction.
 
         Parameters
         ----------
         up : str
             A key of `UP_DIRECTIONS`.
         lights : str
-            The set-up of lights, if there is one of that name; the first one by default.
+            The light set-up with that name if it exists, else the first one.
         """
         self.up = up
         self.scene.clear()
@@ -119,7 +119,7 @@ class Staging:
         return Lighting(self.scene, UP_DIRECTIONS[self.up], intensity)
 
     def _make_studio(self) -> Studio | None:
-        """Return what the model stands in; None where the scene or the user's look says so."""
+        """Return the studio of the model; None if the scene or the user's look has none."""
         if self.settings.look != "studio" or not self.viewed.themed:
             return None
         lights = isinstance(self.lighting, Lighting) and self.lighting.names[0] != OWN_LIGHTS
@@ -128,7 +128,7 @@ class Staging:
         return Studio(self.scene, UP_DIRECTIONS[self.up], is_lit, self.viewed.focus)
 
     def _shows_theme(self) -> bool:
-        """Whether the theme's background is what is behind the model."""
+        """Return whether the background is the theme's."""
         settings = self.settings
         kept = self._transparent or settings.background or settings.surroundings.shows
         return self.viewed.themed and not kept
@@ -140,16 +140,16 @@ class Staging:
         split: bool,
         draw_alone: Callable[[Viewpoint], np.ndarray],
     ) -> None:
-        """Set the stage for a frame: its background, its shadow, the grid round the model.
+        """Update the stage for a frame: its background, shadow and grid.
 
         Parameters
         ----------
         view : Viewpoint
         appearance : Appearance
         split : bool
-            Whether outputs stand side by side.
+            Whether outputs are shown side by side.
         draw_alone : callable
-            Draws a small picture of the model before a transparent background.
+            Draws a small picture of the model on a transparent background.
         """
         if self._studio is not None:
             self._set_studio(self._studio, view, appearance, split, draw_alone)
@@ -175,7 +175,7 @@ class Staging:
 
     @property
     def theme(self) -> Theme:
-        """The colours of texts over the picture, and of the background of models."""
+        """The theme: colours of texts over the picture, and of the model's background."""
         return self.settings.theme
 
     @theme.setter
@@ -187,19 +187,19 @@ class Staging:
             self._lay_fog()
 
     def _lay_fog(self) -> None:
-        """Give the scene the fog that the user asked for."""
+        """Apply the user's fog to the scene."""
         fog = self.settings.fog
         if fog is not None:
             color = fog_color(self.scene.background) if self.settings.fog_follows else None
             self.scene.fog = fog if color is None else replace(fog, color=color)
 
     def show_textures(self, shown: bool) -> None:
-        """Draw with textures, or without."""
+        """Switch textures on or off."""
         self.settings.textures = shown
         self.scene.show_textures(shown)
 
     def show_grid(self, shown: bool) -> None:
-        """Draw a grid under the model, or not."""
+        """Switch the grid under the model on or off."""
         self.settings.grid = shown
         if shown and self._grid is None:
             lines = grid(self._lowest(), self.viewed.bounds, UP_DIRECTIONS[self.up])
@@ -208,7 +208,7 @@ class Staging:
             self._grid.visible = shown
 
     def _lowest(self) -> float:
-        """Return how low the scene reaches along the up direction, however it moves."""
+        """Return the scene's lowest extent along the up direction, over all its motion."""
         up, bounds = UP_DIRECTIONS[self.up], self.viewed.bounds
         if self.viewed.update is not None:
             return float(linalg.dot(bounds.center, up)) - bounds.radius
@@ -221,7 +221,7 @@ class Staging:
 
     @property
     def shows_more(self) -> bool:
-        """Whether more is drawn than the model."""
+        """Whether anything is drawn besides the model."""
         return self.shows_grids or (self._studio is not None and self._studio.shows_shadow)
 
     def reach(self, view: Viewpoint) -> Sphere:

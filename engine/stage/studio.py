@@ -1,12 +1,12 @@
-"""The studio a model stands in: light from all around, its shadow on the ground, a background.
+"""The studio look: ambient light, a shadow on the ground, and a background.
 
-In: a scene and how it is looked at. Out: nodes beside it, and a theme whose background the model
-stands out from.
+In: a scene and its view. Out: nodes beside it, and a theme whose background contrasts with the
+model.
 
-The ground is nowhere drawn over the model. It lies no higher than anything of it, and shows from
-above only. So each line of sight meets the model first, and what lies on the ground in the same
-place; therefore the ground is drawn farther away, the same for the eye, by a share of its distance
-that no depth loses.
+The ground never covers the model: it lies no higher than any part of it, and shows only from above.
+So each line of sight meets the model first, even where the model touches the ground. To keep that
+with limited depth precision, the ground is drawn farther away along the line of sight, by a
+fraction of its distance, which looks the same.
 """
 
 from __future__ import annotations
@@ -29,30 +29,30 @@ from .ground_shadow import REACH, SIDE, GroundShadow
 from .overlays.theme import DARK, LIGHT, Theme
 from .views.viewpoint import Sphere
 
-#: Light from above and from below.
+#: Ambient light from above and from below.
 _SKY, _GROUND = (0.30, 0.32, 0.36), (0.18, 0.17, 0.16)
-#: The outline of a model differs from its background by so many codes of 255, on average over it:
-#: of faces, which shade from one to the next, and of what is all outline, as points and lines are.
+#: The required contrast between a model's outline and its background, as mean difference in 8-bit
+#: codes: for faces, which are shaded, and for points and lines, which are all outline.
 _CONTRAST, _THIN_CONTRAST = 5.0, 60.0
-#: How much farther away the ground is drawn than it is, in distances from the eye.
+#: How much farther away the ground is drawn, as a fraction of its distance from the eye.
 BEHIND = 1 / 4
-#: Lines of sight that fall by less than this share of their length do not show the ground.
+#: Lines of sight that descend less steeply than this do not show the ground.
 _LEVEL = 2e-3
 
 
 class Studio:
-    """The light from all around a model, and its shadow.
+    """The ambient light and ground shadow of a model.
 
     Parameters
     ----------
     staged : StagedScene
-        Nodes are put beside it.
+        The studio adds nodes beside it.
     up : (3,) sequence of float
         The world's up direction.
     is_lit : bool
-        Whether light from all around is added, in place of the scene's ambient light.
+        Whether ambient light replaces that of the scene.
     places : (N, 3) ndarray of float64, optional
-        How far the scene reaches as it moves, in world space; by default it stays where it is.
+        Points that bound the moving scene, in world space; by default it is static.
     """
 
     def __init__(
@@ -77,16 +77,16 @@ class Studio:
         return self._ground is not None and self._ground.visible
 
     def lay_shadow(self, bounds: Sphere, azimuth: float, cull: FrameCull, eye: np.ndarray) -> None:
-        """Show the shadow of the scene as it is on the ground.
+        """Draw the scene's current shadow on the ground.
 
         Parameters
         ----------
         bounds : Sphere
-            The scene's; sets the size of the shadow.
+            The scene's bounds, which determine the size of the shadow.
         azimuth, cull
             As in `GroundShadow.alphas`.
         eye : (4,) sequence of float
-            The place of who looks at it and 1, or the direction to them and 0.
+            The viewer's position and 1, or the direction to the viewer and 0.
         """
         self.show_shadow(False)
         lowest = min(self._usual, self._lowest())
@@ -105,11 +105,11 @@ class Studio:
         self.show_shadow(True)
 
     def _lowest(self) -> float:
-        """How low the scene reaches now."""
+        """Return the scene's current lowest extent."""
         return float(linalg.dot(self._staged.bounds, self._axes[1]).min())
 
     def _darkened(self, alphas: np.ndarray) -> Node:
-        """Return the ground with a shadow on it; it is added when it is needed first."""
+        """Return the ground with a shadow on it; the node is added on first use."""
         if self._ground is None:
             self._ground = self._staged.beside.add(self._square, name="shadow", cast_shadows=False)
         material = self._square.materials[0]
@@ -121,13 +121,13 @@ class Studio:
         return self._ground
 
     def show_shadow(self, shown: bool) -> None:
-        """Show the shadow that was laid, or not, if there is one."""
+        """Show or hide the shadow, if there is one."""
         if self._ground is not None:
             self._ground.visible = shown
 
 
 def _square() -> Mesh:
-    """A square of the ground, black and seen from above, around the origin of its node."""
+    """Return a black ground square, visible from above, around its node's origin."""
     corners = [(-1, 1), (1, 1), (1, -1), (-1, -1)]
     return Mesh(
         [(REACH * x, 0.0, REACH * z) for x, z in corners],
@@ -139,12 +139,12 @@ def _square() -> Mesh:
 
 
 def theme_for(picture: np.ndarray, themes: Iterable[Theme] = (LIGHT, DARK)) -> Theme:
-    """Return the first theme whose background is far enough from a model, or the farthest.
+    """Return the first theme whose background contrasts enough with a model, or the best one.
 
     Parameters
     ----------
     picture : (H, W, 4) uint8
-        The model before a transparent background.
+        The model on a transparent background.
     themes : iterable of Theme
     """
     shows = picture[..., 3] > 0
@@ -159,7 +159,7 @@ def theme_for(picture: np.ndarray, themes: Iterable[Theme] = (LIGHT, DARK)) -> T
 
 
 def _distance(picture: np.ndarray, outline: tuple[np.ndarray, ...], theme: Theme) -> float:
-    """Return how far an outline's pixels are from a theme's background, in codes; 0 without any."""
+    """Return an outline's mean difference to a theme's background; 0 without an outline."""
     rows, columns = outline
     if not len(rows):
         return 0.0

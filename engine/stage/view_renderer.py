@@ -1,4 +1,4 @@
-"""A scene, lit and drawn: what the window, the turntable and the still picture have in common.
+"""Renders a viewed scene: shared by the window, the turntable and still pictures.
 
 In: a `ViewedScene`, a size, an `Appearance`, a `Viewpoint`. Out: a `Frame`, with a grid and text
 drawn on it.
@@ -46,16 +46,16 @@ from .visibility import Visibility
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-#: What the look "studio" draws with unless the scene or the user says otherwise.
+#: The options of the look "studio", unless the scene or the user overrides them.
 STUDIO = {"tone_mapping": "neutral", "ambient_occlusion": True}
-#: How far ambient occlusion reaches, in radii of what is shown.
+#: Radius of ambient occlusion, in radii of the scene.
 _OCCLUSION_REACH = 0.2
-#: How much farther away what has numbers around it is seen from.
+#: Factor on the viewing distance that makes room for numbers around the scene.
 _LABEL_ROOM = 1.12
 
 
 class _Options(TypedDict, total=False):
-    """What all renderers of a view are made with."""
+    """The options that all renderers of a view share."""
 
     backend: Backend
     threads: int
@@ -63,43 +63,43 @@ class _Options(TypedDict, total=False):
 
 
 class ViewRenderer:
-    """Holds a renderer and what it draws.
+    """A renderer with a viewed scene and its stage.
 
     Parameters
     ----------
     viewed : ViewedScene
-        What to draw first; `show` changes it.
+        The first scene to draw; `show` replaces it.
     settings : Settings
-        What the user asked for.
+        The user's settings.
     size : (int, int)
         Width and height in pixels.
     samples : int
-        As in `Renderer`; may change.
+        As in `Renderer`; assignable.
     transparent : bool
         Whether pixels that show no surface get alpha 0.
     report : callable, optional
         Called with each frame.
     **options
-        Others of `Renderer`.
+        Other options of `Renderer`.
 
     Attributes
     ----------
     samples : int
-        Samples per pixel of the frames to come.
+        Samples per pixel of future frames.
     split : bool
         Whether frames show nine outputs side by side.
     culling : CullingStudy
-        How one looks at culling.
+        The culling visualisation.
     staging : Staging
-        What the scene is drawn with.
+        The stage of the scene.
     appearance : Appearance
-        How it is drawn.
+        The drawing options.
     stats : dict
-        Of the last frame that was drawn while culling was not frozen.
+        Statistics of the last frame drawn while culling was not frozen.
     turned_up : str or None
-        The direction up that was chosen with `turn_up`.
+        The up direction chosen with `turn_up`.
     screen_scale : int
-        How many times finer than usual the screen is that shows the frames.
+        Scale factor of the screen that shows the frames.
     """
 
     def __init__(
@@ -129,21 +129,21 @@ class ViewRenderer:
 
     @property
     def renderer(self) -> Renderer:
-        """The renderer with as many samples per pixel as are asked for now."""
+        """The renderer for the current number of samples per pixel."""
         if self.samples not in self._renderers:
             renderer = Renderer(*self.size, samples=self.samples, **self._options)
             self._renderers[self.samples] = renderer
         return self._renderers[self.samples]
 
     def show(self, viewed: ViewedScene, *, keep_appearance: bool = False) -> None:
-        """Draw another scene from now on.
+        """Replace the scene to draw.
 
         Parameters
         ----------
         viewed : ViewedScene
-            What to draw.
+            The scene to draw.
         keep_appearance : bool
-            Draw it as the last one was drawn, in the same lights.
+            Keep the drawing options and lights of the previous scene.
         """
         settings = self.settings
         lights = self.lighting.name if keep_appearance else ""
@@ -165,38 +165,38 @@ class ViewRenderer:
         self._outline = outline
 
     def turn_up(self, up: str) -> None:
-        """Look at the scene with another direction up, from now on."""
+        """Change the up direction of the scene."""
         self.turned_up = up
         self.staging.stand(up, self.lighting.name)
         self._find_outline()
 
     @property
     def viewed(self) -> ViewedScene:
-        """What is drawn."""
+        """The scene to draw."""
         return self.staging.viewed
 
     @property
     def bounds(self) -> Sphere:
-        """The bounding sphere of the scene as it first was, in world space."""
+        """The bounding sphere of the scene in its first pose, in world space."""
         return self.viewed.bounds
 
     @property
     def lighting(self) -> Lighting | OnlyLight:
-        """What lights the scene."""
+        """The lighting of the scene."""
         return self.staging.lighting
 
     @property
     def visibility(self) -> Visibility:
-        """What hides parts of the scene."""
+        """The visibility of parts of the scene."""
         return self.staging.visibility
 
     @property
     def theme(self) -> Theme:
-        """The colours of texts over the picture, and of the background of models."""
+        """The theme: colours of texts over the picture, and of the model's background."""
         return self.staging.theme
 
     def _picture_alone(self, view: Viewpoint) -> np.ndarray:
-        """Return a small picture of the model before a transparent background."""
+        """Return a small picture of the model on a transparent background."""
         scene = self.staging.scene
         background, scene.background = scene.background, None
         width, height = self.size
@@ -212,7 +212,7 @@ class ViewRenderer:
                 scene.background = background
 
     def resize(self, width: int, height: int) -> None:
-        """Draw frames of another size from now on."""
+        """Change the size of future frames."""
         if (width, height) != self.size:
             self.size = (width, height)
             for renderer in self._renderers.values():
@@ -231,13 +231,13 @@ class ViewRenderer:
         return view
 
     def frame(self, view: Viewpoint) -> None:
-        """Move a view along its direction to where all of the scene shows."""
+        """Move a view along its direction until the whole scene fits."""
         view.frame_beside(self._outline, self.aspect, self._taken())
 
     def fill(self, view: Viewpoint) -> None:
         """Move a view so that the scene, in its first pose, fills the picture.
 
-        That is nearer than `frame`, which leaves room for the scene to turn.
+        That is closer than `frame`, which leaves room for the scene to turn.
         """
         if self.settings.axes_grid:
             view.frame_beside(self.staging.box.corners, self.aspect, self._taken())
@@ -248,7 +248,7 @@ class ViewRenderer:
             view.fit(self._support, np.array(self.bounds.center), self.aspect, self._taken())
 
     def _taken(self) -> Taken:
-        """Return the part of the picture that the bar of numbers takes."""
+        """Return the part of the picture that the colour bar takes."""
         bar = self.viewed.bar if self.settings.bar else None
         if bar is None:
             return NOTHING
@@ -259,7 +259,7 @@ class ViewRenderer:
     def draw(
         self, view: Viewpoint, time: float = 0.0, outputs: Iterable[Output] = ("color",)
     ) -> Frame:
-        """Return the frame at ``time`` (seconds) as seen by ``view``."""
+        """Return the frame at ``time`` (seconds) as seen from ``view``."""
         frame = self._render(view, time, outputs)
         if self.culling.drawing is not None:
             lines = self.culling.lines(self.viewed.scene, self.size)
@@ -274,7 +274,7 @@ class ViewRenderer:
         return frame
 
     def pick(self, view: Viewpoint, time: float, x: int, y: int) -> RayHit | None:
-        """Return what the picture shows at a pixel, or None."""
+        """Return the hit at a pixel of the picture, or None."""
         if not (0 <= x < self.size[0] and 0 <= y < self.size[1]):
             return None
         if self.split:
@@ -311,14 +311,14 @@ class ViewRenderer:
         return frame
 
     def _sight(self, camera: Camera, pose: np.ndarray) -> Sight:
-        """What a frame looks at."""
+        """Return what a frame looks at."""
         look = self._appearance()
         look = {name: look[name] for name in ("cull", "point_size", "size_unit") if name in look}
         drawing = {name: held for name, held in self._options.items() if name != "antialias"}
         return Sight(self.viewed.scene, camera, pose, self.size, look, drawing)
 
     def why_blank(self) -> Reason | None:
-        """Return why no frame so far has shown anything of the scene; None if one has."""
+        """Return why all frames so far were blank; None if one was not."""
         return self._blanks.reason()
 
     def _appearance(self) -> dict[str, Any]:
@@ -350,18 +350,18 @@ class ViewRenderer:
         return camera
 
     def freeze_culling(self, view: Viewpoint | None) -> None:
-        """Draw only what this view shows, wherever it is seen from; None: what each frame shows.
+        """Freeze culling at a view's camera; None culls for each frame's camera again.
 
-        Meanwhile `stats` stay as they are, and no frames are reported.
+        While culling is frozen, `stats` stay unchanged, and frames are not reported.
         """
         self.culling.camera = None if view is None else (self._camera(view), view.pose())
 
     def choose_debug(self, drawing: str | None, view: Viewpoint) -> None:
-        """Draw what culling works with: one of `debug_lines.DEBUG_DRAWINGS`, as from a view."""
+        """Choose a debug drawing of culling, one of `DEBUG_DRAWINGS`, as seen from a view."""
         self.culling.choose(drawing, (self._camera(view), view.pose()))
 
     def text_scale(self, picture: Canvas | Frame) -> int:
-        """Return the factor on the font's size of texts over a `Canvas` or `Frame`."""
+        """Return the font scale of texts over a `Canvas` or `Frame`."""
         return self._text_scale(picture.width, picture.height)
 
     def _text_scale(self, width: int, height: int) -> int:
@@ -370,7 +370,7 @@ class ViewRenderer:
         return self.settings.ui_scale or text_scale_for(width, height, self.screen_scale)
 
     def close(self) -> None:
-        """Free the renderers' buffers."""
+        """Free the renderers' memory."""
         while self._renderers:
             self._renderers.popitem()[1].close()
 

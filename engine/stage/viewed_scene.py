@@ -1,7 +1,7 @@
-"""A viewed scene: the scene, how it moves, and how it is best looked at.
+"""A scene for viewing: the scene, its motion, and its preferred view.
 
-Models that are opened and demo scenes both arrive here; the window, the turntable and the still
-picture take them from here.
+Both opened models and demo scenes become viewed scenes; the window, the turntable and still
+pictures draw them.
 """
 
 from __future__ import annotations
@@ -24,22 +24,22 @@ if TYPE_CHECKING:
     from ..model.scene.scene import Scene
     from .scalars import ScalarBar
 
-#: Seconds of one turn of a turntable.
+#: Seconds per turn of a turntable.
 TURN_SECONDS = 6.0
 
 
 class NotInModelError(InvalidArgumentError):
-    """An animation or a camera is asked for that a model doesn't have."""
+    """Raised if a model lacks the requested animation or camera."""
 
 
 @dataclass
 class ViewedScene:
-    """A scene to look at.
+    """A scene for viewing, with its first view, motion and metadata.
 
     Attributes
     ----------
     scene : Scene
-        What is drawn.
+        The scene to draw.
     title : str
         A name for the window and for files.
     up : str
@@ -47,48 +47,49 @@ class ViewedScene:
     azimuth, elevation : float
         The first view, in radians.
     update : callable or None
-        Called with the time in seconds before a frame; moves the scene's nodes. Without it, playing
-        turns the camera round the scene.
+        Called before a frame with the time in seconds, to move the scene's nodes. Without it,
+        playing turns the camera around the scene.
     period : float
         Seconds after which the animation repeats.
     plays : bool
-        Whether it moves from the start.
+        Whether it plays from the start.
     player : AnimationPlayer or None
-        What plays of the scene's animations.
+        The player of the scene's animations.
     focus : (N, 3) ndarray of float64 or None
-        Points that the first view shows, in world space; by default all of the scene.
+        Points to frame in the first view, in world space; by default the whole scene.
     appearance : dict
-        Fields of `Appearance` that this scene wants unless the user says otherwise.
+        Fields of `Appearance` that the scene sets unless the user overrides them.
     follow : callable or None
         Called with the camera's position, (3,) float64 in world space, before a frame.
     detail : callable or None
         Called with the camera, its pose and the picture's size before a frame, to choose levels of
         detail.
     walker : callable or None
-        Returns the `Walker` on the scene's ground, always the same; without it, walking is flying.
+        Returns the `Walker` on the scene's ground, always the same one; without it, walking means
+        flying.
     gaze : (float, float)
-        Where the walker looks first: yaw and pitch in radians.
+        The walker's first view direction: yaw and pitch in radians.
     origin : (float, float, float)
-        Where the scene's origin is in the files' coordinates.
+        The scene's origin in the files' coordinates.
     nearest : float
-        World units: inside the scene the near plane is not farther than this.
+        World units: the maximum near distance inside the scene.
     clearance : callable or None
-        Called with the camera's position, (3,) float64 in world space: returns a distance within
-        which nothing is, so that the near plane may be as far as that.
+        Called with the camera's position, (3,) float64 in world space; returns the radius of the
+        free space around it, which the near plane may use.
     themed : bool
         Whether the background follows the viewer's theme.
     path : str or None
         The file it came from.
     format : str or None
-        The file's.
+        The file's format.
     details : list of str
-        What the file holds, line by line, for the metadata overlay.
+        The file's contents, line by line, for the metadata overlay.
     warnings : list of str
-        What the loader had to pass over.
+        The loader's warnings.
     unit : str
-        Of its coordinates; empty where nobody says.
+        Unit of its coordinates; empty if unknown.
     bar : ScalarBar or None
-        What its colours mean, if they stand for numbers.
+        The colour bar, if its colours represent numbers.
     """
 
     scene: Scene
@@ -119,9 +120,9 @@ class ViewedScene:
 
     @cached_property
     def bounds(self) -> Sphere:
-        """The bounding sphere of the scene as it first was, in world space."""
+        """The bounding sphere of the scene in its first pose, in world space."""
         return bounding_sphere(self.scene)
 
     def metadata(self) -> list[str]:
-        """Return what the file holds, line by line."""
+        """Return the file's contents, line by line."""
         return [self.title, *self.details]

@@ -1,4 +1,4 @@
-"""A scene, a node or a mesh of a program as a scene to look at."""
+"""Makes a viewed scene of a program's scene, node or mesh."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def viewed_thing(
     update: Callable[[float], None] | None,
     period: float,
 ) -> ViewedScene | None:
-    """Return what `show` shows of a scene, node or mesh; None for what is none of these."""
+    """Return the viewed scene that `show` displays for a thing; None for unsuitable things."""
     scene = scene_of(thing)
     if scene is None:
         return None
@@ -41,6 +41,6 @@ def viewed_thing(
 
 
 def check_motion(function: object, what: str) -> None:
-    """Raise `InvalidArgumentError` unless it is None or can be called."""
+    """Raise `InvalidArgumentError` unless the argument is None or callable."""
     if function is not None and not callable(function):
         raise InvalidArgumentError(f"{what} must be a function of the time, not {shown(function)}")

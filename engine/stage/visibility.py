@@ -1,7 +1,8 @@
-"""The objects and materials of a scene that are hidden in the viewer.
+"""Hides objects and materials of a scene in the viewer.
 
-In: a scene; what the user hides, shows, or wants to see alone. Out: a staged scene without the
-hidden nodes, and with meshes that lack the faces of hidden materials; the scene itself has all.
+In: a scene; the parts that the user hides, shows, or isolates. Out: a staged scene without the
+hidden nodes, and with meshes that lack the faces of hidden materials; the scene itself is
+unchanged.
 """
 
 from __future__ import annotations
@@ -21,13 +22,13 @@ from ..rendering.frame import Frame
 
 DRAWABLE = (Mesh, InstancedMesh)
 Drawable: TypeAlias = Mesh | InstancedMesh
-#: What tells materials apart: their name, or the identity of those without.
+#: Key of a material: its name, or its identity if it has none.
 MaterialKey: TypeAlias = str | int
 Key = TypeVar("Key")
 
 
 class Entry(NamedTuple):
-    """An object or a material: its name, how many triangles it has, whether it shows."""
+    """An object or material: its name, its number of triangles, and whether it is visible."""
 
     name: str
     triangles: int
@@ -35,7 +36,7 @@ class Entry(NamedTuple):
 
 
 class Visibility:
-    """Hides parts of a scene where it is drawn.
+    """Hides parts of a scene in its staged scene.
 
     Parameters
     ----------
@@ -59,7 +60,7 @@ class Visibility:
         return (thing for thing in things if isinstance(thing, DRAWABLE))
 
     def objects(self) -> list[Entry]:
-        """Return the objects, in the order of the scene."""
+        """Return the objects in scene order."""
         return [
             Entry(
                 node.name or f"object {node.id}",
@@ -70,7 +71,7 @@ class Visibility:
         ]
 
     def materials(self) -> list[Entry]:
-        """Return the materials; those of one name are one."""
+        """Return the materials; materials with the same name are one entry."""
         counts = dict.fromkeys(self._materials, 0)
         for thing in self._things():
             mesh = mesh_of(thing)
@@ -83,17 +84,17 @@ class Visibility:
         return list(map(Entry, names, counts.values(), shown))
 
     def toggle_object(self, number: int, alone: bool = False) -> None:
-        """Hide or show one of `objects`; or show it alone, and then all again."""
+        """Hide or show one of `objects`; or isolate it, and then show all again."""
         self._hidden_nodes = _toggled(self._hidden_nodes, self._nodes, number, alone)
         self._apply()
 
     def toggle_material(self, number: int, alone: bool = False) -> None:
-        """Hide or show one of `materials`; or show it alone, and then all again."""
+        """Hide or show one of `materials`; or isolate it, and then show all again."""
         self._hidden_materials = _toggled(self._hidden_materials, self._materials, number, alone)
         self._apply()
 
     def tell_whole_face(self, frame: Frame, x: int, y: int) -> None:
-        """Let a pixel name the face of the whole mesh, of which only a part was drawn."""
+        """Map a pixel's face ID from the drawn part to the whole mesh."""
         face = int(frame.triangle_id[y, x])
         if face < 0 or not self._hidden_materials:
             return
@@ -108,7 +109,7 @@ class Visibility:
         self._staged.hide(self._hidden_nodes, part_of)
 
     def _kept(self, mesh: Mesh) -> np.ndarray:
-        """Return which faces of a mesh have no hidden material."""
+        """Return which faces of a mesh have visible materials."""
         hidden = [_key(material) in self._hidden_materials for material in mesh.materials]
         return ~np.array(hidden, bool)[mesh.material_ids]
 
@@ -125,12 +126,12 @@ class Visibility:
 
 
 def mesh_of(thing: Any) -> Mesh:
-    """Return the mesh of what a node holds."""
+    """Return the mesh of a node's object."""
     return thing.mesh if isinstance(thing, InstancedMesh) else thing
 
 
 def _key(material: Material) -> MaterialKey:
-    """Return what tells materials apart: their name, or for want of one themselves."""
+    """Return a material's key: its name, or its identity if it has none."""
     return material.name or id(material)
 
 
@@ -148,7 +149,7 @@ def _toggled(hidden: set[Key], everything: list[Key], number: int, alone: bool) 
 
 
 def _with_faces(mesh: Mesh, kept: np.ndarray) -> Mesh:
-    mesh = mesh.with_creases()  # what is left keeps the normals that it had
+    mesh = mesh.with_creases()  # the remaining faces keep their normals
     edges = mesh.edge_visible
     attributes: dict[str, Any] = attributes_of(mesh)
     return Mesh(

@@ -1,9 +1,9 @@
-"""Many pictures, by many processes: those that are there are not drawn again.
+"""Batch rendering in many processes; finished pictures are not drawn again.
 
-A `Task` is a picture: a model or a script, a camera, a seed, what is written. `read_manifest` reads
-tasks from a file of JSON, and `run` has them drawn by processes of its own, by Dask, or by any
-executor like those of `concurrent.futures`. Scripts load meshes by `load_mesh` and textures by
-`load_texture`, which keep them from picture to picture.
+A `Task` describes a picture: a model or script, a camera, a seed, the outputs. `read_manifest`
+reads tasks from a JSON file, and `run` draws them in its own processes, with Dask, or with any
+executor like those of `concurrent.futures`. Scripts load meshes with `load_mesh` and textures with
+`load_texture`, which cache them between pictures.
 """
 
 from .loading import load_mesh, load_texture

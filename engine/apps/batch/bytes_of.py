@@ -1,7 +1,7 @@
-"""The bytes that a script wants written beside its picture.
+"""Encodes the extra files that a script writes beside its picture.
 
-In: an end of a name, and an array, bytes, a text, or values of JSON's types. Out: the end with an
-extension, and the bytes of the file.
+In: a name suffix, and an array, bytes, a text, or JSON values. Out: the suffix with an extension,
+and the bytes of the file.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _END = re.compile(r"\w[\w-]*(?:\.\w+)*")
 
 
 def bytes_of(end: str, value: Any) -> tuple[str, bytes]:
-    """Return the end of a file's name, with an extension, and its bytes.
+    """Return the suffix of a file's name, with an extension, and its bytes.
 
     Raises
     ------

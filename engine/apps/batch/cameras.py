@@ -39,7 +39,7 @@ _NEAREST = 1e-3  # of the far plane's distance
 
 
 def check_camera(value: Any) -> int | dict[str, Any] | None:
-    """Return what a task says of its camera, checked.
+    """Return a task's camera description, checked.
 
     Raises
     ------
@@ -122,7 +122,7 @@ _MEMBERS = {
 def camera_of(
     said: int | Mapping[str, Any], scene: Scene, size: tuple[int, int]
 ) -> tuple[Camera, NDArray[np.float64]]:
-    """Return the camera that a task names, and its pose.
+    """Return the camera that a task describes, and its pose.
 
     Raises
     ------
@@ -163,7 +163,7 @@ def _framed(
 
 
 def _lens(said: Mapping[str, Any], scene: Scene, pose: NDArray[np.float64]) -> Camera:
-    """Make the projection, with planes around the scene."""
+    """Return the projection, with near and far planes around the scene."""
     low, high = scene.bounds
     radius = _SLACK * float(linalg.length((high - low) * 0.5)) or 1.0
     away = float(linalg.dot(pose[:3, 3] - (low + high) * 0.5, pose[:3, 2]))

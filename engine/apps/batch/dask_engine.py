@@ -1,7 +1,7 @@
-"""Batches over machines: Dask's scheduler hands calls to its workers.
+"""Batches on several machines, by Dask.
 
-In: the address of a scheduler, or a client. Out: an executor as `executors` wants it. Workers write
-files themselves, to a folder that all of them see, and send back what became of each picture.
+In: the address of a scheduler, or a client. Out: an executor for `executors`. Workers write files
+themselves, to a shared folder, and return the outcome of each picture.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ _PATIENCE = 10.0  # seconds, for a scheduler to answer
 
 
 class DaskExecutor:
-    """A client of Dask as an executor.
+    """A Dask client as an executor.
 
     Parameters
     ----------
@@ -27,13 +27,13 @@ class DaskExecutor:
         self._client = client
 
     def submit(self, function, /, *arguments: Any):
-        """Have a worker do a call; Dask gives it to another one where that worker is lost."""
+        """Submit a call to a worker; Dask moves it to another if that worker is lost."""
         return self._client.submit(function, *arguments, pure=False)
 
 
 @contextmanager
 def connected(address: str) -> Iterator[tuple[DaskExecutor, int]]:
-    """Connect to a scheduler; yield an executor, and how many calls its workers do at once.
+    """Connect to a scheduler; yield an executor, and the number of parallel calls.
 
     Raises
     ------
@@ -59,5 +59,5 @@ def connected(address: str) -> Iterator[tuple[DaskExecutor, int]]:
 
 
 def count_of(client: Any) -> int:
-    """Return how many calls the workers of a client do at once."""
+    """Return how many calls a client's workers run in parallel."""
     return max(1, sum(client.nthreads().values()))

@@ -1,7 +1,7 @@
-"""Drawing the pictures of a batch, in whichever process.
+"""Draws the pictures of a batch, in any process.
 
-In: some tasks, and how they are drawn. Out: their files, and an `Outcome` of each. A process keeps
-one renderer, the models that it loaded and the scripts that it ran.
+In: tasks, and drawing settings. Out: their files, and an `Outcome` for each. A process keeps one
+renderer, its loaded models and its scripts.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 
 class How(NamedTuple):
-    """How pictures are drawn.
+    """Drawing settings of a batch.
 
     Attributes
     ----------
@@ -91,12 +91,12 @@ class Outcome(NamedTuple):
 
 
 def writer_of(task: Task, writer: DatasetWriter | None) -> DatasetWriter:
-    """Return what says which files a task's picture becomes."""
+    """Return the writer that decides the files of a task's picture."""
     return PlainWriter(task.outputs) if writer is None else writer
 
 
 def draw_chunk(tasks: Sequence[Task], how: How) -> list[Outcome]:
-    """Draw some pictures: what other processes are asked to do.
+    """Draw some pictures; this is the call sent to other processes.
 
     Raises
     ------
@@ -116,7 +116,7 @@ _kept = threading.local()
 
 
 def _drawer(how: How) -> Drawer:
-    """What this thread draws with."""
+    """Return the drawer of this thread."""
     kind = how.threads, how.backend
     if getattr(_kept, "kind", None) != kind:
         _kept.kind, _kept.drawer = kind, Drawer(*kind)
@@ -138,7 +138,7 @@ class Drawer:
         self._renderer: Renderer | None = None
 
     def outcome(self, task: Task, how: How) -> Outcome:
-        """Draw a picture, unless it is done; say what became of it."""
+        """Draw a picture, unless it is done; return its outcome."""
         start, writer = time.perf_counter(), writer_of(task, how.writer)
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always", Engine3DWarning)
@@ -147,7 +147,7 @@ class Drawer:
                 if not (how.resume and is_done(how.out, task, writer)):
                     self._draw(task, how.out, writer)
                     drawn = True
-            except Exception as problem:  # one picture's fault is not that of the others
+            except Exception as problem:  # a fault of one picture must not affect others
                 error = _told(problem)
         texts = (str(one.message) for one in said if issubclass(one.category, Engine3DWarning))
         seconds = time.perf_counter() - start
@@ -190,7 +190,7 @@ class Drawer:
     def _why_blank(
         self, task: Task, frame: Frame, scene: Scene, camera: Camera, pose, options: RenderOptions
     ) -> Reason | None:
-        """Why a picture shows nothing, if it does not."""
+        """Return why a picture is blank, or None if it is not."""
         from ...stage.blank import Sight, may_be_blank, why_blank
 
         if not may_be_blank(frame.stats, scene):
@@ -212,7 +212,7 @@ class Drawer:
         write_picture(out, task, task.key(writer), inputs, files, None, blank)
 
     def _scene(self, task: Task, inputs: InputFiles) -> tuple[Scene, Said]:
-        """The scene of a task, and what its script says of it."""
+        """Return the scene of a task, and its script's result."""
         path, root = task.model, task.root_path
         scene = Scene() if path is None else self._files.scene(task.path(path), root)
         for key, value in task.scene.items():
@@ -224,7 +224,7 @@ class Drawer:
         return scene, call(path, task.function, task.arguments, scene, generator, inputs.note)
 
     def _sized_renderer(self, task: Task) -> Renderer:
-        """The renderer, of the task's size and with its samples."""
+        """Return the renderer for the task's size and samples."""
         renderer, kind = self._renderer, (task.samples, task.antialias)
         if renderer is None or (renderer.samples, renderer.antialias) != kind:
             if renderer is not None:
@@ -242,7 +242,7 @@ class Drawer:
 
 
 def _told(error: Exception) -> str:
-    """An error on one line; those that nobody foresaw say what they are."""
+    """Return an error as one line; unforeseen errors include their type."""
     text = " ".join(str(error).split())
     if text and isinstance(error, (Engine3DError, OSError)):
         return text
@@ -250,7 +250,7 @@ def _told(error: Exception) -> str:
 
 
 def _chosen_camera(task: Task, scene: Scene, said: Said) -> tuple[Camera, NDArray[np.float64]]:
-    """The camera that the task names, else that of the script, else that of the scene."""
+    """Return the task's camera, else the script's, else the scene's."""
     if task.camera is not None:
         return camera_of(task.camera, scene, task.size)
     chosen = said.camera

@@ -1,7 +1,7 @@
-"""Who does the calls of a batch: this process, processes of ours, Dask, or what callers give.
+"""Executors for the calls of a batch: this process, our own processes, Dask, or the caller's.
 
-In: what `run` was given. Out: something with ``submit(function, *arguments)`` that returns a future
-with ``add_done_callback`` and ``result``, and how many calls it does at once.
+In: the arguments of `run`. Out: an object with ``submit(function, *arguments)`` that returns a
+future with ``add_done_callback`` and ``result``, and its number of parallel calls.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from ...base.system import usable_processors
 from ...errors import InvalidArgumentError
 from .processes import ProcessPool
 
-#: A scheduler, a client and a worker have a hand in each call of Dask's.
+#: Each Dask call passes through a scheduler, a client and a worker.
 DASK_SECONDS = 0.25
 
 
 class Engine(NamedTuple):
-    """Who does the calls.
+    """An executor, with its properties.
 
     Attributes
     ----------
@@ -45,10 +45,10 @@ class Engine(NamedTuple):
 
 
 class InThisProcess:
-    """Does each call at once, as it is submitted."""
+    """Runs each call immediately when it is submitted."""
 
     def submit(self, function, /, *arguments: Any) -> Future:
-        """Do a call; the future is done."""
+        """Run a call; return a finished future."""
         future: Future = Future()
         try:
             future.set_result(function(*arguments))
@@ -65,7 +65,7 @@ def engine_for(
     scheduler: str | None,
     timeout: float | None = None,
 ) -> Iterator[Engine]:
-    """Make what does the calls, and end what was made.
+    """Create the executor within the block, and shut it down afterwards.
 
     Raises
     ------
@@ -90,7 +90,8 @@ def engine_for(
 def _own(jobs: int, threads: int | None, timeout: float | None) -> Iterator[Engine]:
     each = threads or max(1, usable_processors() // jobs)
     if timeout is not None:
-        with ProcessPool(jobs, timeout) as pool:  # a call is a picture: it alone is ended
+        # one picture per call: the timeout ends only that one
+        with ProcessPool(jobs, timeout) as pool:
             yield Engine(pool, jobs, each, chunk_seconds=0.0, ends_calls=True)
     elif jobs == 1:
         yield Engine(InThisProcess(), 1, each)
@@ -100,7 +101,7 @@ def _own(jobs: int, threads: int | None, timeout: float | None) -> Iterator[Engi
 
 
 def _given(executor: Any, threads: int) -> Engine:
-    """An executor of the caller's, who ends it."""
+    """Return the caller's own executor, which the caller shuts down."""
     if hasattr(executor, "scheduler_info"):
         from .dask_engine import DaskExecutor, count_of
 

@@ -1,7 +1,6 @@
-"""Digests of the files that a picture depends on.
+"""Digests of a picture's input files.
 
-In: paths, as they are read. Out: a hash of each file's bytes, found once for as long as the file
-stays as it is.
+In: paths, as they are read. Out: a hash of each file's bytes, computed once until the file changes.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ _known: dict[str, tuple[FileStamp | None, str | None]] = {}
 
 
 class InputFiles:
-    """The files that one picture follows from.
+    """The input files of one picture.
 
     Parameters
     ----------
@@ -29,19 +28,19 @@ class InputFiles:
         self.paths: list[str] = []
 
     def note(self, path: str | os.PathLike[str]) -> None:
-        """Take down a path before it is read."""
+        """Record a path before it is read."""
         path = os.path.realpath(path)
         digest_of(path)
         self.paths.append(path)
 
     def digests(self) -> dict[str, str | None]:
-        """Return the hash of each file, None for one that is not there, by relative path."""
+        """Return the hash of each file by relative path, None for missing files."""
         paths = sorted(set(self.paths))
         return {os.path.relpath(path, self._folder): digest_of(path) for path in paths}
 
 
 def are_as_before(folder: str, digests: dict[str, str | None]) -> bool:
-    """Return whether files still hold what `InputFiles.digests` said."""
+    """Return whether files still match the result of `InputFiles.digests`."""
     return all(
         digest_of(os.path.normpath(os.path.join(os.path.realpath(folder), path))) == digest
         for path, digest in digests.items()
@@ -49,7 +48,7 @@ def are_as_before(folder: str, digests: dict[str, str | None]) -> bool:
 
 
 def digest_of(path: str) -> str | None:
-    """Return the hash of what a file holds; None if it cannot be read."""
+    """Return the hash of a file's content; None if it cannot be read."""
     stamp = file_stamp(path)
     before = _known.get(path)
     if before is not None and not was_written(before[0], stamp):

@@ -1,7 +1,7 @@
-"""Pictures that may take only so long, by workers that cannot be ended, such as threads of Dask's.
+"""Time limits for pictures drawn by workers that cannot be killed, such as Dask's threads.
 
-In: some tasks. Out: an `Outcome` of each. Each thread that is asked has a process of its own draw
-them one by one; that one is ended where a picture takes too long, and another takes its place.
+In: tasks. Out: an `Outcome` for each. Each thread lets its own process draw them one by one; if a
+picture takes too long, that process is killed and replaced.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from .drawing import How, Outcome, draw_chunk
 from .processes import ProcessPool, TimeLimitError
 from .task import Task
 
-_IDLE = 30.0  # seconds: workers of others stay when the batch is over, and so would our processes
+_IDLE = 30.0  # seconds: other programs' workers outlive the batch, and our processes would too
 _kept = threading.local()
 
 
@@ -32,7 +32,7 @@ def _outcome(pool: ProcessPool, task: Task, how: How) -> Outcome:
 
 
 def _pool(limit: float | None) -> ProcessPool:
-    """The process of this thread."""
+    """Return the process of this thread."""
     if getattr(_kept, "limit", None) != limit:
         if getattr(_kept, "pool", None) is not None:
             _kept.pool.stop()

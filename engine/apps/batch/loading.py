@@ -1,8 +1,8 @@
-"""Models and textures that a process keeps between pictures.
+"""Models and textures that a process caches between pictures.
 
-In: the paths of files. Out: meshes, textures and scenes, each file read once for as long as it is
-among the last few; whatever is read is taken down as something that the picture follows from. What
-a script changed is read anew for the next picture: each sees the file as it is.
+In: the paths of files. Out: meshes, textures and scenes, each file read once while it is among the
+last few; each read file is recorded as an input of the picture. If a script changes an object, its
+file is read again for the next picture.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ from ...model.materials.textures import Texture
 from ...model.scene.scene import Scene
 from .file_digests import InputFiles, digest_of
 
-#: Files that a process keeps loaded.
+#: Number of files that a process keeps loaded.
 KEPT = 16
 
 
 class Held(NamedTuple):
-    """A loaded file, as it is kept.
+    """A cached file.
 
     Attributes
     ----------
@@ -46,24 +46,24 @@ class Held(NamedTuple):
 
 
 class LoadedFiles:
-    """The files that one process, or one thread of it, keeps loaded."""
+    """The files that one process, or one of its threads, keeps loaded."""
 
     def __init__(self) -> None:
         self._resources = Resources()
         self._kept: OrderedDict[tuple, Held] = OrderedDict()
         self.inputs: InputFiles | None = None
-        self.out = ""  # the folder that is written to
+        self.out = ""  # the output folder
 
     def mesh(self, path: str, options: dict[str, Any]) -> Mesh:
-        """Return the mesh of a file, as `Resources.load_mesh` shares it."""
+        """Return the mesh of a file, shared as by `Resources.load_mesh`."""
         return self._shared("mesh", self._resources.load_mesh, path, options)
 
     def texture(self, path: str, options: dict[str, Any]) -> Texture:
-        """Return the texture of a file, as `Resources.load_texture` shares it."""
+        """Return the texture of a file, shared as by `Resources.load_texture`."""
         return self._shared("texture", self._resources.load_texture, path, options)
 
     def scene(self, path: str, root: str | None = None) -> Scene:
-        """Return a new scene of a file's contents, with the meshes that are loaded already."""
+        """Return a new scene of a file's contents, with cached meshes."""
         path = os.path.realpath(path)
         key = "scene", path, root, self.out
         held = self._kept.get(key)
@@ -74,12 +74,13 @@ class LoadedFiles:
         self._keep(key, held)
         document = held.thing[0]
         scene = scene_from_document(document)
-        for text in scene.warnings[len(document.warnings) :]:  # those of the document were given
+        # those of the document were already issued
+        for text in scene.warnings[len(document.warnings) :]:
             warn(f"{path}: {text}")
         return scene
 
     def forget_changed(self) -> None:
-        """Let go of what came from files that hold something else now."""
+        """Drop cached results of files that have changed."""
         for key, held in list(self._kept.items()):
             if any(digest_of(path) != digest for path, digest in held.files.items()):
                 del self._kept[key]
@@ -90,13 +91,13 @@ class LoadedFiles:
         key = kind, path, tuple(sorted(options.items()))
         held = self._kept.get(key)
         with _found(path) as files:
-            thing = load(path, **options)  # what is kept is not read again
+            thing = load(path, **options)  # cached files are not read again
         same = held is not None and held.thing is thing
         self._keep(key, held if same else Held(thing, files))
         return thing
 
     def _keep(self, key: tuple, held: Held) -> None:
-        """Keep what is loaded, and take down the files that it came from."""
+        """Cache a result, and record its files."""
         self._kept[key] = held
         self._kept.move_to_end(key)
         while len(self._kept) > KEPT:
@@ -107,7 +108,7 @@ class LoadedFiles:
 
 @contextmanager
 def _found(path: str) -> Iterator[dict[str, str | None]]:
-    """Collect the paths that are read within the block, and their hashes before that."""
+    """Collect the paths read within the block, with their hashes before reading."""
     files = {path: digest_of(path)}
 
     def note(one: str) -> None:
@@ -119,7 +120,7 @@ def _found(path: str) -> Iterator[dict[str, str | None]]:
 
 
 def _versions(document: Document) -> tuple:
-    """Return versions that differ once somebody has changed a mesh of a document."""
+    """Return versions that differ after any change to a document's meshes."""
     meshes = [mesh for _, mesh, _ in document.objects]
     if document.tree is not None:
         meshes += [part.mesh for record in document.tree.meshes for part in record.parts]
@@ -136,9 +137,9 @@ _current: ContextVar[LoadedFiles | None] = ContextVar("loaded_files", default=No
 
 
 def not_written_to(out: str) -> Callable[[str], bool]:
-    """Return what tells whether an image beside a model is none of the pictures of a batch.
+    """Return a test that an image beside a model is not a picture of the batch.
 
-    A picture of a model that lies beside it, under its name, must not become its texture.
+    A picture of a model in its folder, with its name, must not become its texture.
     """
     folder = os.path.realpath(out) + os.sep
     return lambda path: not os.path.realpath(path).startswith(folder)
@@ -146,7 +147,7 @@ def not_written_to(out: str) -> Callable[[str], bool]:
 
 @contextmanager
 def loading(files: LoadedFiles, inputs: InputFiles, out: str) -> Iterator[None]:
-    """Let `load_mesh` and `load_texture` go through some files within the block."""
+    """Make `load_mesh` and `load_texture` use the given files within the block."""
     files.forget_changed()
     token, files.inputs, files.out = _current.set(files), inputs, out
     try:
@@ -158,9 +159,9 @@ def loading(files: LoadedFiles, inputs: InputFiles, out: str) -> Iterator[None]:
 
 @checks_types
 def load_mesh(path: str | os.PathLike[str], **options: Any) -> Mesh:
-    """Load a mesh in a script: once a process, whichever pictures show it.
+    """Load a mesh in a script: once per process, for all its pictures.
 
-    The file, and those that it names, become files that the picture follows from.
+    The file, and the files it names, become inputs of the picture.
 
     Parameters
     ----------
@@ -177,7 +178,7 @@ def load_mesh(path: str | os.PathLike[str], **options: Any) -> Mesh:
 
 @checks_types
 def load_texture(path: str | os.PathLike[str], **options: Any) -> Texture:
-    """Load a texture in a script, as `load_mesh` does a mesh.
+    """Load a texture in a script, as `load_mesh` loads a mesh.
 
     Parameters
     ----------
@@ -193,7 +194,7 @@ def load_texture(path: str | os.PathLike[str], **options: Any) -> Texture:
 
 
 def _files() -> LoadedFiles:
-    """Return the files of the picture that is drawn; others, where scripts are tried alone."""
+    """Return the files of the picture in progress, or new ones outside a batch."""
     files = _current.get()
     if files is None:
         files = LoadedFiles()

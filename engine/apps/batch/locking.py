@@ -1,7 +1,7 @@
-"""One batch at a time writes to a folder.
+"""Ensures that only one batch writes to a folder.
 
-In: a folder. Out: a lock that ends with the process, however it ends. Where the system has none, as
-on some network file systems, two batches may meet: they write whole files all the same.
+In: a folder. Out: a lock that ends with the process, however it ends. On file systems without locks
+two batches may overlap; they still write whole files.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from ...errors import FileAccessError
 
 @contextmanager
 def locked_folder(folder: str) -> Iterator[None]:
-    """Keep other batches out of a folder within the block.
+    """Lock a folder against other batches within the block.
 
     Raises
     ------

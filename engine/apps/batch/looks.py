@@ -1,4 +1,4 @@
-"""Pictures of models as ``engine3d render`` draws them: in soft light, on their shadow.
+"""Draws models as ``engine3d render`` does, in a look.
 
 In: a task with a look. Out: a frame, and why it shows nothing, if that is so; its bytes are those
 of the command with the same options.
@@ -25,7 +25,7 @@ from .task import Task
 def draw_look(
     task: Task, threads: int, backend: Backend, companion: Callable[[str], bool]
 ) -> tuple[Frame, Reason | None]:
-    """Draw a task's model in its look; return also why nothing shows, if that is so.
+    """Draw a task's model in its look; also return why it is blank, or None.
 
     Parameters
     ----------

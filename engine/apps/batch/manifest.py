@@ -1,7 +1,7 @@
 """Manifests: files of JSON that list the tasks of a batch.
 
-In: a file (docs/batches.md tells its format). Out: tasks, and the writer of the data set. What is
-wrong is a `FileFormatError` that names the place, such as ``tasks[2].camera``.
+In: a file (docs/batches.md tells its format). Out: tasks, and the writer of the data set. Faults
+raise a `FileFormatError` that names the place, such as ``tasks[2].camera``.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Manifest(NamedTuple):
 
 @checks_types
 def read_manifest(path: str | os.PathLike[str]) -> Manifest:
-    """Read the tasks of a batch; files that they name are relative to the manifest's folder.
+    """Read the tasks of a batch; paths are relative to the manifest's folder.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def _check_keys(value: JsonValue, known: set[str]) -> None:
 
 
 def _told(place: JsonValue, do: Callable[[], Any], member: str = "") -> Any:
-    """Let an error say where in the file it comes from; the place ends with ``member``."""
+    """Add the place in the file, which ends with ``member``, to errors within the block."""
     try:
         return do()
     except (InvalidArgumentError, TypeError) as error:
@@ -108,13 +108,13 @@ def _writer(entry: JsonValue) -> DatasetWriter:
     try:
         return make(**given)
     except (InvalidArgumentError, TypeError) as error:
-        text = str(error)  # it begins with the parameter at fault
+        text = str(error)  # it begins with the faulty parameter
         key = next((key for key in given if text.startswith(f"{key} ")), None)
         raise entry.at([] if key is None else [key]).error(text) from None
 
 
 def _values(entry: JsonValue, known: set[str], of_dataset: bool) -> dict[str, Value]:
-    """The values of an object's members, checked."""
+    """Return the values of an object's members, checked."""
     _check_keys(entry, known)
     members = entry.members()
     if of_dataset and "outputs" in members:
@@ -136,7 +136,7 @@ def _value(key: str, member: JsonValue, number: int) -> Value:
 def _combined(
     entry: JsonValue, shared: dict[str, Value], number: int, of_dataset: bool
 ) -> Iterator[dict[str, Value]]:
-    """The values of each task that an entry stands for."""
+    """Return the values of each task that an entry describes."""
     own = {**shared, **_values(entry, _KEYS | {"matrix"}, of_dataset)}
     matrix = entry.get("matrix")
     lists = {} if matrix is None else _matrix(matrix, number, of_dataset)
@@ -147,7 +147,7 @@ def _combined(
 
 
 def _naming(own: dict[str, Value], lists: dict[str, list[Value]]) -> list[str]:
-    """The keys whose values tell a matrix's tasks apart, behind what they show."""
+    """Return the keys that distinguish a matrix's tasks, after the model or script."""
     shown = [key for key in ("model", "script") if key in own and key not in lists]
     return [*shown[:1], *lists]
 
@@ -173,7 +173,7 @@ def _matrix(entry: JsonValue, number: int, of_dataset: bool) -> dict[str, list[V
 
 
 def _seeds(member: JsonValue) -> range:
-    """Seeds that follow each other: ``{"from": 0, "count": 1000}``."""
+    """Return consecutive seeds: ``{"from": 0, "count": 1000}``."""
     _check_keys(member, {"from", "count"})
     first, count = member.get("from"), member.need("count")
     start = 0 if first is None else _told(first, lambda: checked("seed", first.value))

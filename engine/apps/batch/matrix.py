@@ -1,8 +1,7 @@
-"""Tasks that differ in some values: all combinations of them.
+"""Task matrices: all combinations of some values.
 
-In: for each key, values, each with a text that stands for it in names. Out: one combination after
-the other, the last key's values changing fastest; names made from a pattern such as
-``{model}_{seed:04}``.
+In: values for each key, each with a text for names. Out: the combinations, with the last key's
+values changing fastest; names from a pattern such as ``{model}_{seed:04}``.
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ class Value(NamedTuple):
 
 
 def value_of(key: str, value: Any, number: int) -> Value:
-    """Return a value with its text: a file's name, a number, its own name, or its place.
+    """Return a value with its text: a file's name, a number, its own name, or its index.
 
     Parameters
     ----------
@@ -57,13 +56,13 @@ def value_of(key: str, value: Any, number: int) -> Value:
 
 
 def combinations(lists: Mapping[str, Sequence[Value]]) -> Iterator[dict[str, Value]]:
-    """Yield a value for each key, in all combinations."""
+    """Yield all combinations of one value for each key."""
     for chosen in itertools.product(*lists.values()):
         yield dict(zip(lists, chosen, strict=True))
 
 
 def name_from(pattern: str, texts: Mapping[str, str]) -> str:
-    """Return a name; in it, ``{key}`` stands for a text, ``{key:04}`` for one of four digits.
+    """Return a name; ``{key}`` is replaced by a text, ``{key:04}`` by one of four digits.
 
     Raises
     ------

@@ -1,7 +1,7 @@
-"""Names the member of an object that is wrong, so that a manifest can tell its place.
+"""Errors that name the faulty member of an object, for messages about manifests.
 
-In: what checks a value that has members, such as a task's camera. Out: errors that tell their way
-down to the member at fault.
+In: checks of a value with members, such as a task's camera. Out: errors with the path to the faulty
+member.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class MemberError(InvalidArgumentError):
 
 @contextmanager
 def member(key: str | int) -> Iterator[None]:
-    """Let errors be those of the member ``key`` of what is checked."""
+    """Attribute errors within the block to the member ``key``."""
     try:
         yield
     except MemberError as error:

@@ -1,4 +1,4 @@
-"""Pictures that are no data set: the files of each beside each other, under its name.
+"""Output without a data set: the files of each picture side by side, under its name.
 
 Out: ``NAME.png``, or another format, and ``NAME.OUTPUT.npy``.
 """
@@ -16,7 +16,7 @@ from ..datasets.writer import DatasetWriter
 
 
 class PlainWriter(DatasetWriter):
-    """Writes what a task's ``outputs`` name.
+    """Writes a task's ``outputs`` as files.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class PlainWriter(DatasetWriter):
         return self.files(sample.name, sample.frame), None
 
     def files(self, name: str, frame: Frame) -> dict[str, bytes]:
-        """Return the files of a picture, by their paths."""
+        """Return the files of a picture, by path."""
         files = {}
         for output, suffix in self.formats.items():
             if output == "color" and suffix:

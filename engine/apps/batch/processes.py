@@ -1,10 +1,9 @@
-"""A pool of processes that outlives the death of each of them.
+"""A process pool that survives the death of its processes.
 
-In: calls of functions that can be imported. Out: futures, as executors of `concurrent.futures` give
-them. A process that dies fails the call that it worked on, by an error that names it, and another
-takes its place; one that works on a call for too long is ended. No process runs the program that
-made the pool, so that it needs no guard; none is in the terminal's group, so that Ctrl-C reaches
-the pool alone, which ends them.
+In: calls of importable functions. Out: futures, as from executors of `concurrent.futures`. If a
+process dies, its call fails with an error that names it, and a new process replaces it; a process
+that exceeds the time limit is killed. Processes do not run the caller's main program, so it needs
+no guard; they are outside the terminal's group, so Ctrl-C reaches only the pool, which ends them.
 """
 
 from __future__ import annotations
@@ -28,15 +27,15 @@ from .worker import BEGUN, receive, send
 _PROGRAM = (
     "import sys; sys.path[:] = {path!r}; from engine3d.apps.batch.worker import main; main({idle})"
 )
-_PATIENCE = 5.0  # seconds, for a process to end that was asked to
+_PATIENCE = 5.0  # seconds a process gets to end when asked to
 
 
 class WorkerDiedError(RuntimeError):
-    """A process ended while it worked on a call."""
+    """A process died during a call."""
 
 
 class TimeLimitError(RuntimeError):
-    """A process was ended because it worked on a call for too long.
+    """A process was killed because its call took too long.
 
     Parameters
     ----------
@@ -53,7 +52,7 @@ class TimeLimitError(RuntimeError):
 
 
 class ProcessPool:
-    """Processes that do calls, each one at a time.
+    """Processes that run calls, one at a time each.
 
     Parameters
     ----------
@@ -70,21 +69,21 @@ class ProcessPool:
         self._workers = [_Worker(number, self._calls, limit, idle) for number in numbers]
 
     def submit(self, function: Callable[..., Any], /, *arguments: Any) -> Future:
-        """Have a call done.
+        """Submit a call.
 
-        Its future fails with `WorkerDiedError` where the process dies, and with `TimeLimitError`
-        where it was ended.
+        Its future fails with `WorkerDiedError` if the process dies, and with `TimeLimitError` if it
+        was killed.
         """
         future: Future = Future()
         self._calls.put((future, function, arguments))
         return future
 
     def process_ids(self) -> list[int]:
-        """Return the ids of the processes that there are now."""
+        """Return the IDs of the current processes."""
         return [worker.process.pid for worker in self._workers if worker.process is not None]
 
     def stop(self) -> None:
-        """End all processes, whatever they work on; what is half written is removed."""
+        """Kill all processes at any point of their work; partial files are removed."""
         for _ in self._workers:
             self._calls.put(None)
         for worker in self._workers:
@@ -100,7 +99,7 @@ class ProcessPool:
 
 
 class _Worker:
-    """A process, and the thread that talks with it."""
+    """A process, and the thread that communicates with it."""
 
     def __init__(
         self, number: int, calls: queue.SimpleQueue, limit: float | None, idle: float | None
@@ -113,14 +112,14 @@ class _Worker:
         self._thread.start()
 
     def hang_up(self) -> None:
-        """Let the process know that nobody asks any more."""
+        """Signal the process that no more calls come."""
         self._stopped = True
         if self.process is not None:
             with contextlib.suppress(OSError, ValueError):
                 self.process.stdin.close()
 
     def join(self) -> None:
-        """Wait for the end of the process."""
+        """Wait for the process to end."""
         process = self.process
         if process is not None:
             try:
@@ -146,7 +145,7 @@ class _Worker:
         except (EOFError, OSError, ValueError, pickle.UnpicklingError, OutOfMemoryError) as error:
             future.set_exception(WorkerDiedError(self._end(error)))
             return
-        except Exception as error:  # what cannot be pickled
+        except Exception as error:  # the result cannot be pickled
             future.set_exception(error)
             return
         if returned:
@@ -155,7 +154,7 @@ class _Worker:
             future.set_exception(result)
 
     def _asked(self, call: tuple, again: bool = True) -> subprocess.Popen:
-        """The process, which has begun with a call."""
+        """Return the process after it has started a call."""
         if self.process is None or self.process.poll() is not None:
             self.process = _started(self._idle)
             if self._stopped:
@@ -166,13 +165,13 @@ class _Worker:
         except (EOFError, OSError) as error:
             if self._idle is None or not again:
                 raise
-            self._end(error)  # it had waited long enough, and was about to end by itself
+            self._end(error)  # its idle time was over, and it was about to end
             return self._asked(call, again=False)
         assert begun == BEGUN
         return self.process
 
     def _result(self, process: subprocess.Popen) -> tuple[bool, Any]:
-        """Return the process's result; the process is ended if that takes too long."""
+        """Return the process's result; kill the process if that takes too long."""
         if self._limit is None:
             return receive(process.stdout)
         has_answered, is_over = threading.Event(), threading.Event()
@@ -193,7 +192,7 @@ class _Worker:
                 raise TimeLimitError(self._limit)
 
     def _end(self, error: Exception) -> str:
-        """Say how the process ended."""
+        """Return the error for how the process ended."""
         process, self.process = self.process, None
         if process is None:
             return f"worker {self._number} did not start: {error}"

@@ -1,8 +1,8 @@
-"""Records of finished pictures: what each was made from, and which files were written.
+"""Records of finished pictures: their inputs, and the files written.
 
-In: a task, its files. Out: ``.batch/NAME.json``, written together with the files and after them: a
-picture with a record is whole. A picture is done if its record has the task's key, and files and
-inputs still hold what the record says.
+In: a task, its files. Out: ``.batch/NAME.json``, written with the files and after them: a picture
+with a record is complete. A picture is done if its record has the task's key, and files and inputs
+still match the record.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def write_picture(
 ) -> None:
     """Write a picture's files and then its record: all of them, or none.
 
-    The record, and a warning, say why a picture shows nothing.
+    If the picture is blank, the record and a warning say why.
     """
     hashes = {path: hashlib.sha256(data).hexdigest() for path, data in own_files(files).items()}
     record = {"key": key, "inputs": inputs.digests(), "files": hashes, "said": said}
@@ -59,7 +59,7 @@ def write_picture(
 def read_record(
     out: str, task: Task, writer: DatasetWriter, *, tell: bool = False
 ) -> dict[str, Any] | None:
-    """Return a task's record; None where there is none, or a damaged one: a warning can tell."""
+    """Return a task's record; None if missing or damaged, optionally with a warning."""
     path = os.path.join(out, record_path(task))
     if not os.path.lexists(path):
         return None
@@ -75,7 +75,7 @@ _DIGEST = shapes.sound_text
 
 
 def _record(said: shapes.Shape) -> shapes.Shape:
-    """Return the shape of records whose writer adds data of this shape."""
+    """Return the shape of records whose writer's data has a given shape."""
     return shapes.members(
         {
             "key": shapes.text,
@@ -88,12 +88,12 @@ def _record(said: shapes.Shape) -> shapes.Shape:
 
 
 def note_of(task: Task, record: dict[str, Any]) -> Note:
-    """Return what a record says of a picture, as writers take it."""
+    """Return a record's note on a picture, as writers take it."""
     return Note(task.name, task.index, list(record["files"]), record["said"])
 
 
 def is_done(out: str, task: Task, writer: DatasetWriter) -> bool:
-    """Return whether a picture is there, made of what there is now."""
+    """Return whether a picture exists, made from the current inputs."""
     record = read_record(out, task, writer, tell=True)
     if record is None or record["key"] != task.key(writer):
         return False

@@ -1,9 +1,9 @@
-"""Running a batch: chunks out, outcomes in, and what is written at the end.
+"""Runs a batch: distributes chunks, collects outcomes, and writes the final files.
 
-In: tasks, a folder, who draws. Out: files, and a `Summary`. Chunks are as many pictures as take 50
-ms (by Dask 250), so that handing them out costs little. Only a few more are handed out than are
-drawn at once, so that memory is bounded. A chunk whose process dies is drawn again, picture by
-picture; a picture that ends its process three times has failed, and so has one that takes too long.
+In: tasks, a folder, an executor. Out: files, and a `Summary`. A chunk holds as many pictures as
+take 50 ms (250 ms with Dask), to keep overhead low. Only a few chunks are queued, to bound memory.
+If a process dies, its chunk is drawn again, picture by picture; a picture fails when it has killed
+its process three times, or takes too long.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ from .task import Task
 
 _MOST_IN_CHUNK = 256
 _TRIES = 3
-_NAMED = 4  # of the pictures that a process may have been drawing when it died
+_NAMED = 4  # pictures that a dead process may have been drawing
 
 
 @checks_types
@@ -66,30 +66,29 @@ def run(
     tasks : iterable of Task
         Their order is that of the data set.
     out : path-like
-        The folder that is written to; is made.
+        The output folder; created if missing.
     writer : DatasetWriter, optional
-        Says which files pictures become; left out, each task's ``outputs`` does.
+        Decides the files of pictures; by default each task's ``outputs`` do.
     jobs : int, optional
-        Processes; as many as there are processors by default. 1: this process.
+        Number of processes; by default one per processor. 1: this process.
     threads : int, optional
-        Of each renderer; by default the processors are shared out among the processes.
+        Threads of each renderer; by default the processors divided among the processes.
     backend : str
-        As of `Renderer`; all give the same bytes.
+        As in `Renderer`; all give the same bytes.
     executor : object, optional
         Instead of ``jobs``: an executor as those of `concurrent.futures`, or a client of Dask.
     scheduler : str, optional
         Instead of ``jobs``: the address of Dask's scheduler, ``tcp://HOST:PORT``. All workers must
         see the same files, at the same paths.
     resume : bool
-        Leave out pictures that are there, made of what there is now.
+        Skip pictures whose inputs have not changed.
     timeout : float, optional
-        Seconds that a picture may take, with loading what it shows. The process that takes longer
-        is ended, and the picture has failed; ``resume`` tries it again. A process other than this
-        one then draws also with ``jobs=1``, and with executors and Dask beside each of their
-        workers.
+        Seconds that a picture may take, including loading. After that its process is killed, and
+        the picture has failed; ``resume`` tries it again. With a timeout, a separate process draws
+        even with ``jobs=1``, and beside each worker of executors and Dask.
     progress : callable, optional
-        Is called with a task, what became of it, and ``""``; or with a task, None, and a line that
-        says why it is drawn again.
+        Called with a task, its outcome, and ``""``; or with a task, None, and a line that says why
+        it is drawn again.
 
     Returns
     -------
@@ -98,7 +97,7 @@ def run(
     Raises
     ------
     InvalidArgumentError
-        Arguments do not go together, or two tasks have the same name.
+        Arguments conflict, or two tasks have the same name.
     FileAccessError
         The folder cannot be written to, or another batch writes to it.
     """
@@ -125,7 +124,7 @@ def run(
 
 
 def _numbered(tasks: Iterable[Task]) -> list[Task]:
-    """The tasks with their places as indices."""
+    """Yield the tasks with their positions as indices."""
     numbered, names = [], set()
     for index, task in enumerate(tasks):
         if not isinstance(task, Task):
@@ -144,24 +143,24 @@ def _make(folder: str) -> None:
 
 
 class _Run:
-    """Handing out the tasks of a batch."""
+    """Distributes the tasks of a batch."""
 
     def __init__(self, tasks: Sequence[Task], how: How, engine: Engine, progress: Any) -> None:
         self._tasks, self._how, self._engine = tasks, how, engine
         self._draw = draw_chunk if how.timeout is None else draw_limited
         self._progress = progress or (lambda task, outcome, text: None)
         self._fresh = iter(tasks)
-        self._again: deque[Task] = deque()  # whose process died
+        self._again: deque[Task] = deque()  # tasks whose process died
         self._tries: dict[int, int] = {}
         self._finished: queue.SimpleQueue = queue.SimpleQueue()
         self._running: dict[Any, list[Task]] = {}
-        self._counted, self._seconds = 0, 0.0  # of outcomes, to tell how long pictures take
+        self._counted, self._seconds = 0, 0.0  # of outcomes, to estimate the time of a picture
         self._warned: set[str] = set()
         self._failed: dict[int, str] = {}
         self.summary = Summary()
 
     def run(self) -> Summary:
-        """Hand out all tasks and take in what becomes of them."""
+        """Distribute all tasks and collect their outcomes."""
         try:
             self._hand_out()
             while self._running:
@@ -198,7 +197,7 @@ class _Run:
         return chunk
 
     def _chunk_size(self) -> int:
-        """How many pictures take as long as a chunk should."""
+        """Return how many pictures take as long as a chunk should."""
         if not self._counted:
             return 1
         mean = max(self._seconds / self._counted, 1e-6)
@@ -214,7 +213,7 @@ class _Run:
             self._count(task, outcome)
 
     def _died(self, chunk: list[Task], error: BaseException) -> None:
-        """Have tasks drawn again whose process died, or that could not be asked for."""
+        """Requeue tasks whose process died, or that could not be submitted."""
         text = " ".join(str(error).split()) or type(error).__name__
         lasting = isinstance(error, (InvalidArgumentError, TimeLimitError))
         again = []
@@ -252,7 +251,7 @@ class _Run:
 
 
 class _Notes:
-    """Notes on the finished pictures, in their order; they are walked through often."""
+    """Notes on the finished pictures, in order; can be iterated repeatedly."""
 
     def __init__(self, tasks: Sequence[Task], how: How) -> None:
         self._tasks, self._how = tasks, how
@@ -262,7 +261,7 @@ class _Notes:
             yield note_of(task, record)
 
     def records(self) -> Iterator[tuple[Task, dict[str, Any]]]:
-        """The pictures that are there, each with its record."""
+        """Yield the finished pictures, each with its record."""
         for task in self._tasks:
             writer = writer_of(task, self._how.writer)
             record = read_record(self._how.out, task, writer)
@@ -271,14 +270,14 @@ class _Notes:
 
 
 def _finish(tasks: Sequence[Task], how: How) -> str:
-    """Write what belongs to all pictures; return the hash of everything."""
+    """Write the files of the whole set; return the hash of everything."""
     notes, whole = _Notes(tasks, how), []
     if how.writer is not None:
         whole = list(how.writer.finish(how.out, notes))
     hashes = {p: _digest(f"{how.out}/{p}") for p in whole}
     for _, record in notes.records():
         files = record["files"].items()
-        # A file that is not there lies within one of the listed files.
+        # A missing file is inside one of the listed files.
         hashes.update((p, digest) for p, digest in files if os.path.exists(f"{how.out}/{p}"))
     return write_sums(how.out, hashes.items())
 
@@ -291,7 +290,7 @@ def _digest(path: str) -> str:
 
 
 def _remove_left_behind(folder: str) -> None:
-    """Remove what processes that were killed were writing."""
+    """Remove partial files of killed processes."""
     for place, _, names in os.walk(folder):
         for name in filter(LEFT_BEHIND.fullmatch, names):
             with contextlib.suppress(OSError):

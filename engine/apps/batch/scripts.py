@@ -1,7 +1,7 @@
-"""The scripts of tasks: files of Python with a function that builds a scene.
+"""Scripts of tasks: Python files with a function that builds a scene.
 
-In: a script's path, a scene, a generator. Out: what the function says of the picture. What it
-raises becomes an error that names the file and the line.
+In: a script's path, a scene, a generator. Out: the function's data about the picture. Exceptions
+become an error that names the file and the line.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ _SAID = ("camera", "labels", "files")
 
 
 class ScriptError(Engine3DError, RuntimeError):
-    """A script raised something, or is none."""
+    """A script raised an exception, or is invalid."""
 
 
 class Said(NamedTuple):
-    """The data that a script reports of its picture.
+    """A script's data about its picture.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class Said(NamedTuple):
 
 
 class Loaded(NamedTuple):
-    """A script that was run.
+    """A script that has been run.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class Loaded(NamedTuple):
 
 
 class Scripts:
-    """The scripts that a process has run, each once for as long as its files stay as they are."""
+    """The scripts that a process has run, each once until its files change."""
 
     def __init__(self) -> None:
         self._loaded: dict[str, Loaded] = {}
@@ -77,7 +77,7 @@ class Scripts:
         generator: Generator,
         note: Callable[[str], None],
     ) -> Said:
-        """Call a script's function; ``note`` gets the script and its folder's modules it imports.
+        """Call a script's function; ``note`` receives the script and the modules it imports.
 
         Raises
         ------
@@ -97,7 +97,7 @@ class Scripts:
             raise ScriptError(located(f"what {function} returned: {error}", path)) from None
 
     def _fresh(self, path: str) -> Loaded:
-        """The script as its files are now."""
+        """Return the script for the current state of its files."""
         known = self._loaded.get(path)
         if known is not None:
             if all(digest_of(file) == digest for file, digest in known.digests.items()):
@@ -124,10 +124,10 @@ def _run(path: str) -> Loaded:
 
 
 def _guarded(path: str, do: Callable[[], Any]) -> Any:
-    """Let a script import what is beside it, and whatever it raises name the file and the line."""
+    """Let a script import from its folder, and name file and line in its errors."""
     folder = os.path.dirname(path)
     sys.path.insert(0, folder)
-    # Python takes compiled code for a file of the same size and second: a change could be missed.
+    # Python reuses compiled code for files of equal size and second: a change could be missed.
     writes, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     importlib.invalidate_caches()
     try:
@@ -150,7 +150,7 @@ def _guarded(path: str, do: Callable[[], Any]) -> Any:
 
 
 def _said(result: Any) -> Said:
-    """Check what a script's function returned."""
+    """Return a script's result, checked."""
     if result is None:
         return Said()
     if not isinstance(result, Mapping):

@@ -19,7 +19,7 @@ SUMS = "SHA256SUMS"
 
 @shows_annotations
 class Failure(NamedTuple):
-    """A picture that is not there.
+    """A picture that could not be drawn.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class Summary:
 
 
 def write_sums(folder: str, hashes: Iterable[tuple[str, str]]) -> str:
-    """Write the list that ``sha256sum -c`` checks; return its own hash.
+    """Write the list for ``sha256sum -c``; return its own hash.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
-"""A picture to be drawn: everything that it follows from, but for what files hold.
+"""Tasks: complete descriptions of pictures, except for the content of files.
 
-In: values as manifests have them. Out: a `Task`, checked, which can be sent to other processes and
-has a key: a hash of all that it says.
+In: values from manifests. Out: a checked `Task`, which can be sent to other processes and has a
+key: a hash of its description.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ from ..datasets.writer import DatasetWriter
 from .cameras import check_camera
 from .members import member
 
-#: What of a scene a task may set.
+#: The scene settings that a task may override.
 SCENE_KEYS = ("background", "ambient", "light_clamp", "exposure")
 LOOKS = ("studio", "plain")
 _LOOK_CAMERA = ("azimuth", "elevation", "view_angle", "name")
 _NAME = re.compile(r"[^\W_][\w .+@=,-]*(?:/[^\W_][\w .+@=,-]*)*")
-_LONGEST = 200  # characters: with the folder and a suffix it is still the name of a file
+_LONGEST = 200  # characters: with a folder and a suffix, it must still be a valid file name
 
 
 @dataclass(frozen=True, slots=True)  # there may be millions
@@ -122,12 +122,12 @@ class Task:
 
     @property
     def root_path(self) -> str | None:
-        """The path of the folder that files named in the model may be in."""
+        """Return the folder allowed for files that the model names."""
         return None if self.root is None else self.path(self.root)
 
     @checks_types
     def key(self, writer: DatasetWriter) -> str:
-        """Return a hash of all that the task says, of the writer and of engine3d's version."""
+        """Return a hash of the task, the writer and engine3d's version."""
         told = {one.name: getattr(self, one.name) for one in fields(self) if one.name != "folder"}
         said = {"task": told, "writer": writer.said(), "engine3d": __version__}
         text = json.dumps(said, sort_keys=True, separators=(",", ":"))
@@ -135,7 +135,7 @@ class Task:
 
 
 def check_look(task: Task) -> None:
-    """Raise unless what a task says goes with its look.
+    """Raise unless a task's other fields fit its look.
 
     Raises
     ------
@@ -153,7 +153,7 @@ def check_look(task: Task) -> None:
 
 
 def task_of(values: Mapping[str, Any]) -> Task:
-    """Return a task of values that `checked` returned, which many tasks may share."""
+    """Return a task from checked values, which many tasks may share."""
     task = object.__new__(Task)
     for name, value in {**_DEFAULTS, **values}.items():
         object.__setattr__(task, name, value)
@@ -161,7 +161,7 @@ def task_of(values: Mapping[str, Any]) -> Task:
 
 
 def checked(name: str, value: Any) -> Any:
-    """Return the value of one of a task's fields; its errors name the field.
+    """Return the value of a task's field, checked; errors name the field.
 
     Raises
     ------

@@ -1,10 +1,10 @@
-"""A process that does what another one asks: the far end of `processes`.
+"""A worker process: the counterpart of `processes`.
 
-In: pickled calls on standard input, each behind its length. Out: pickled results on what was
-standard output; what a script prints goes to standard error. When the asking process is gone,
-whatever happens to it, standard input ends: the process stops at once, and half-written files with
-it. It is started as a program of its own: nothing of the asking program is imported or run again.
-Before each result it says that it begins, so that whoever waits can tell how long a call takes.
+In: pickled calls on standard input, each after its length. Out: pickled results on the original
+standard output; output of scripts goes to standard error. When the parent process is gone, standard
+input ends: the worker stops at once and removes partial files. It is a separate program that does
+not import the parent's main module. It reports the start of each call, so that the parent can
+measure the time.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ BEGUN = "begun"
 
 
 def send(stream: BinaryIO, thing: Any) -> None:
-    """Write a thing and its length."""
+    """Write an object with its length."""
     data = pickle.dumps(thing, pickle.HIGHEST_PROTOCOL)
     stream.write(LENGTH.pack(len(data)) + data)
     stream.flush()
 
 
 def receive(stream: BinaryIO) -> Any:
-    """Read what `send` wrote.
+    """Read an object written by `send`.
 
     Raises
     ------
@@ -51,15 +51,15 @@ def receive(stream: BinaryIO) -> Any:
 
 
 def main(idle: float | None = None) -> None:
-    """Do what is asked until nobody asks any more, or for ``idle`` seconds nobody did."""
+    """Run calls until the input ends, or for ``idle`` seconds none arrives."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    # Whoever ends this process means what Ctrl-C means: nothing half written stays behind.
+    # Ending this process must act like Ctrl-C: no partial file remains.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     results = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     calls: queue.SimpleQueue = queue.SimpleQueue()
     try:
-        # Whoever asks may be gone already: what listens stops this thread at once then.
+        # The parent may be gone already: the listener then stops this thread at once.
         Thread(target=_listen, args=(sys.stdin.buffer, calls), daemon=True).start()
         patience = None  # the first call is on its way
         while (call := calls.get(timeout=patience)) is not None:
@@ -73,7 +73,7 @@ def main(idle: float | None = None) -> None:
 
 
 def _listen(stream: BinaryIO, calls: queue.SimpleQueue) -> None:
-    """Take in calls; when there will be no more, stop whatever is being done."""
+    """Queue incoming calls; when the input ends, interrupt the current one."""
     with contextlib.suppress(EOFError, OSError):
         while True:
             calls.put(receive(stream))
@@ -82,7 +82,7 @@ def _listen(stream: BinaryIO, calls: queue.SimpleQueue) -> None:
 
 
 def _answer(function: Any, arguments: tuple) -> tuple[bool, Any]:
-    """Whether a call returned, and what it returned or raised."""
+    """Return whether a call succeeded, and its result or exception."""
     try:
         return True, function(*arguments)
     except Exception as error:

@@ -1,5 +1,5 @@
-"""The engine measured on this machine, for ``engine3d bench`` and the scripts of benchmarks/.
+"""Benchmarks of the engine, for ``engine3d bench`` and the scripts of benchmarks/.
 
-`measuring` times what `engine3d.apps.scenes.workloads` makes, `report` shows the figures as text.
-Charts and the peer are in benchmarks/.
+`measuring` times the workloads of `engine3d.apps.scenes.workloads`; `report` formats the figures.
+Charts and comparisons with other software are in benchmarks/.
 """

@@ -1,4 +1,4 @@
-"""Rows of figures as lines of text, and what machine they are of.
+"""Benchmark figures and the machine's description as text.
 
 In:  rows of `measuring.measure`. Out: text.
 """
@@ -13,7 +13,7 @@ from ...base.system import usable_processors
 
 
 def machine() -> dict:
-    """Return what the figures were measured on."""
+    """Return the description of the measured machine."""
     return {
         "engine3d": __version__,
         "machine": platform.machine(),
@@ -25,7 +25,7 @@ def machine() -> dict:
 
 
 def _processor() -> str:
-    """The processor's name, as Linux knows it."""
+    """Return the processor's name, as Linux reports it."""
     try:
         lines = Path("/proc/cpuinfo").read_text("utf-8", "replace").splitlines()
     except OSError:
@@ -35,7 +35,7 @@ def _processor() -> str:
 
 
 def heading(size, picture: str = "default") -> list[str]:
-    """Return the lines above the table; `picture` is default or plain, as `workloads` says."""
+    """Return the lines above the table; `picture` is default or plain, as in `workloads`."""
     about = machine()
     return [
         f"engine3d {about['engine3d']}, {about['processor']}, {about['cpus']} CPUs",
@@ -44,7 +44,7 @@ def heading(size, picture: str = "default") -> list[str]:
 
 
 def columns() -> str:
-    """Return the line of the table that names its columns."""
+    """Return the table's header line."""
     first = f"{'workload':<15} {'backend':<9} {'threads':>7} {'ms':>8}"
     stages = f"{'geometry':>8} {'raster':>8} {'shade':>8} {'resolve':>8}"
     return f"{first}   {stages}   {'Mtri/s':>8} {'Mpixel/s':>8}"

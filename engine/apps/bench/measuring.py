@@ -1,4 +1,4 @@
-"""Timing frames of one renderer.
+"""Times the frames of one renderer.
 
 In:  a workload, a renderer, seconds to spend.
 Out: a row of figures: medians over the frames, whatever else the machine did in some of them.
@@ -16,14 +16,14 @@ import numpy as np
 from ...rendering.renderer import Renderer
 from ..scenes.workloads import Workload
 
-#: Milliseconds: a frame as slow is not drawn many times.
+#: Milliseconds: slower frames are not repeated often.
 SLOW = 1500.0
 LEAST, MOST = 3, 300
 STAGES = ("ms_geometry", "ms_raster", "ms_shade", "ms_resolve", "ms_total")
 
 
 class Drawing:
-    """Draws frame after frame of a workload.
+    """Draws frames of a workload.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ class Drawing:
 
 
 class Timer:
-    """Times the frames of what has a method ``draw(frame)``.
+    """Times the frames of an object with a method ``draw(frame)``.
 
     Attributes
     ----------
@@ -79,16 +79,16 @@ class Timer:
         self.stages: list[dict] = []
 
     def one(self) -> float:
-        """Draw a frame; return its milliseconds."""
+        """Draw a frame; return its time in milliseconds."""
         self._frame += 1
         start = time.perf_counter()
         picture = self._drawing.draw(self._frame)
         taken = 1e3 * (time.perf_counter() - start)
-        self.picture = picture  # the one before is let go only now, as callers do
+        self.picture = picture  # the previous one is freed only now, as in real programs
         return taken
 
     def warm_up(self) -> bool:
-        """Draw two frames; return whether the second is the result, because it was slow."""
+        """Draw two frames; return whether the second already is the result, because it was slow."""
         self.one()
         second = self.one()
         if second > SLOW:
@@ -96,7 +96,7 @@ class Timer:
         return second > SLOW
 
     def run(self, seconds: float, least: int = LEAST) -> float:
-        """Time frames for a while; return the median of these."""
+        """Time frames for a while; return their median."""
         begun, deadline = len(self.milliseconds), time.perf_counter() + seconds
         count = 0
         while count < least or (time.perf_counter() < deadline and count < MOST):
@@ -114,7 +114,7 @@ class Timer:
 
 
 def measure(workload: Workload, size, backend="auto", threads=0, seconds: float = 1.0) -> dict:
-    """Return the figures of a workload on one backend and number of threads.
+    """Return the figures of a workload for one backend and number of threads.
 
     Returns
     -------
@@ -133,7 +133,7 @@ def measure(workload: Workload, size, backend="auto", threads=0, seconds: float 
 
 
 def figures(workload: Workload, size, timer: Timer) -> dict:
-    """Return the row of what a timer of a `Drawing` has measured, as `measure` does."""
+    """Return the row of figures of a timer of a `Drawing`, as `measure` does."""
     stages = {name: statistics.median(one[name] for one in timer.stages) for name in STAGES}
     last, taken = timer.stages[-1], timer.median
     return {

@@ -18,7 +18,7 @@ from .said import say
 from .usage import UsageError
 
 INTERRUPTED = 130
-#: Plus the number of the signal that ended the program, as shells count.
+#: Exit status of an interrupted program: this plus the signal's number, as in shells.
 ENDED_BY_SIGNAL = 128
 
 
@@ -37,21 +37,21 @@ def main(argv: list[str] | None = None, begin: Callable[[], None] | None = None)
     int
         The exit status.
     """
-    # NumPy's linear algebra, which draws nothing here, would start a thread for each CPU.
+    # NumPy's linear algebra, which is not used here, would start a thread for each CPU.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     _replace_closed_streams()
     return _run(sys.argv[1:] if argv is None else argv, begin)
 
 
 def _replace_closed_streams() -> None:
-    """Let closed streams (``>&-``) lead nowhere; the next file opened would take their place."""
+    """Redirect closed streams (``>&-``) to nowhere; otherwise the next file would replace them."""
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
 
 
 def _run(arguments: list[str], begin: Callable[[], None] | None) -> int:
-    """Do what the arguments say, and turn every foreseen exception into a line."""
+    """Run a command, and print every foreseen exception as one line."""
     from ...errors import Engine3DError
 
     try:
@@ -60,7 +60,7 @@ def _run(arguments: list[str], begin: Callable[[], None] | None) -> int:
             sys.stdout.flush()
         return status
     except BrokenPipeError:
-        # Whoever read our output has left.
+        # The reader of our output has closed it.
         _leave_standard_output()
         return 1
     except KeyboardInterrupt:
@@ -74,13 +74,14 @@ def _run(arguments: list[str], begin: Callable[[], None] | None) -> int:
     except MemoryError:
         return _fail("out of memory")
     except ImportError as error:
-        if "failed to map" not in str(error):  # what the system says of a library without room
+        # the system's message about a library that does not fit into memory
+        if "failed to map" not in str(error):
             raise
         return _fail("out of memory")
 
 
 def _obey(arguments: list[str], begin: Callable[[], None] | None) -> int:
-    """Parse the arguments, run the command that they name, and return its exit status."""
+    """Parse the arguments, run the command, and return its exit status."""
     from ...errors import InvalidArgumentError
     from .parser import parse
     from .quietness import set_quiet
@@ -107,7 +108,7 @@ def _obey(arguments: list[str], begin: Callable[[], None] | None) -> int:
 
 
 class _Ended(BaseException):
-    """A signal asked the program to end."""
+    """Raised when a signal asks the program to end."""
 
     def __init__(self, number: int) -> None:
         super().__init__(number)
@@ -116,7 +117,7 @@ class _Ended(BaseException):
 
 @contextlib.contextmanager
 def _ended_politely():
-    """Let SIGTERM and SIGHUP raise, so that what is half written is removed."""
+    """Turn SIGTERM and SIGHUP into exceptions, so that partial files are removed."""
     import signal
     import threading
 
@@ -147,12 +148,12 @@ def _can_flush() -> bool:
 
 
 def _leave_standard_output() -> None:
-    """Keep Python from complaining when it flushes at exit what cannot be written."""
+    """Prevent Python's error when it flushes unwritable output at exit."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _load(args: argparse.Namespace):
-    """Import the command; what is imported stays, so no garbage is looked for meanwhile."""
+    """Import the command without garbage collection, since imported objects stay."""
     if "numpy" in sys.modules:
         return args.load_command()
     gc.disable()
@@ -182,7 +183,7 @@ def _usage(message: str) -> int:
 
 
 class _short_warnings:
-    """While active, a warning of engine3d's own is one line on standard error."""
+    """Print warnings of engine3d as one line on standard error within the block."""
 
     def __enter__(self):
         import warnings

@@ -1,8 +1,8 @@
-"""Options that stand in files: those of the user's own, and those that ``--config`` names.
+"""Options in files: the user's own config, and files of ``--config``.
 
-In: JSON, a list of entries: ``{"files": "*.stl", "options": {"up": "+Z"}}``. Out: other defaults of
-a command's options. An entry without ``files`` counts for all; later entries have the last word,
-then come ``-D``, then the command line.
+In: JSON, a list of entries: ``{"files": "*.stl", "options": {"up": "+Z"}}``. Out: new defaults for
+a command's options. An entry without ``files`` applies to all; later entries override earlier ones,
+``-D`` overrides entries, and the command line overrides all.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from . import suggestions
 from .options.scene_options import OF_MODELS
 from .usage import UsageError
 
-# Options that say where to look, or that end the program, belong on the command line.
+# Options about config files, or that end the program, are allowed only on the command line.
 _NOT_HERE = frozenset({"config", "no-config", "define", "help"})
 _LARGEST = 1 << 20  # bytes
 _ENTRY = frozenset({"files", "options"})
-# Options that contradict each other: of two, the one that is said later counts.
+# Options that contradict each other: the later one of a pair wins.
 _RIVALS = (
     *(("background_gradient", other) for other in ("background_color", "no_background")),
     *(("background", other) for other in ("background_color", "no_background")),
@@ -32,11 +32,11 @@ _RIVALS = (
     ("unlit", "mode"),
     ("edges", "wireframe"),
 )
-_DEFINED, _TYPED = 1 << 20, 1 << 21  # places of -D and of the command line after all entries
+_DEFINED, _TYPED = 1 << 20, 1 << 21  # positions of -D and the command line, after all entries
 
 
 def add_config(parser) -> None:
-    """Add where options stand besides."""
+    """Add the options that name config files."""
     group = parser.add_argument_group("options in files")
     group.add_argument(
         "--config",
@@ -61,7 +61,7 @@ def set_defaults(
     models: Sequence[str],
     all_commands: Callable[[], Iterable[argparse.ArgumentParser]],
 ) -> None:
-    """Let the options of files and of ``-D`` be the defaults of a command's.
+    """Set options from files and ``-D`` as defaults of a command.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def set_defaults(
     """
     options = _options(command)
     usual = {action.dest: command.get_default(action.dest) for action in options.values()}
-    said_at: dict[str, int] = {}  # place of the last entry that has an option
+    said_at: dict[str, int] = {}  # position of the last entry with an option
     for path, number, name, value in said:
         place = f"[{number}].options.{name}"
         if name not in options:
@@ -117,7 +117,7 @@ def set_defaults(
 def _check_is_known(
     name: str, commands: Iterable[argparse.ArgumentParser], place: str, path: str
 ) -> None:
-    """Raise unless some command has an option of that name."""
+    """Raise unless some command has an option with this name."""
     known = {one for command in commands for one in _options(command)}
     if name not in known:
         hint = suggestions.meant(name, known) or "; engine3d COMMAND --help lists them"
@@ -127,7 +127,7 @@ def _check_is_known(
 def _give_way(
     command: argparse.ArgumentParser, usual: dict[str, object], said_at: dict[str, int]
 ) -> None:
-    """Take back what was said before something else that contradicts it."""
+    """Remove earlier options that a later one contradicts."""
     for pair in _RIVALS:
         places = [said_at.get(name, -1) for name in pair]
         if -1 not in places and places[0] != places[1]:
@@ -136,7 +136,7 @@ def _give_way(
 
 
 def _options(command: argparse.ArgumentParser) -> dict[str, argparse.Action]:
-    """The options of a command by their long names."""
+    """Return the options of a command by their long names."""
     found = {}
     for action in command._actions:
         names = [option[2:] for option in action.option_strings if option.startswith("--")]
@@ -147,7 +147,7 @@ def _options(command: argparse.ArgumentParser) -> dict[str, argparse.Action]:
 
 
 def _set(command: argparse.ArgumentParser, action: argparse.Action, value) -> None:
-    """Let a value be the default of an option.
+    """Set a value as the default of an option.
 
     Raises
     ------
@@ -177,7 +177,7 @@ def _set(command: argparse.ArgumentParser, action: argparse.Action, value) -> No
 
 
 def _parsed(command: argparse.ArgumentParser, action: argparse.Action, text: str):
-    """Return the value that a word on the command line would have."""
+    """Return the value that a word on the command line would give."""
     try:
         value = command._get_value(action, text)
         command._check_value(action, value)
@@ -187,7 +187,7 @@ def _parsed(command: argparse.ArgumentParser, action: argparse.Action, text: str
 
 
 class Said(NamedTuple):
-    """An option in a file: its place there, its name and its value."""
+    """An option in a file: its position, name and value."""
 
     path: str
     number: int
@@ -196,7 +196,7 @@ class Said(NamedTuple):
 
 
 def options_in_files(args: argparse.Namespace, models: Sequence[str]) -> list[Said]:
-    """Return all options that count for the models.
+    """Return all options that apply to the models.
 
     Raises
     ------
@@ -219,7 +219,7 @@ def options_in_files(args: argparse.Namespace, models: Sequence[str]) -> list[Sa
 
 
 def _counts(patterns, models: Sequence[str], place: str, path: str) -> bool:
-    """Whether an entry counts for one of the models: by its name, or by the end of its path."""
+    """Return whether an entry applies to a model, by its name or the end of its path."""
     if patterns is None:
         return True
     patterns = [patterns] if isinstance(patterns, str) else patterns

@@ -26,7 +26,7 @@ def model_file(name: str) -> str | BinaryIO:
 
 
 def model_files(names: Sequence[str]) -> list[str | BinaryIO]:
-    """Return what several names stand for; standard input can be read once."""
+    """Return the inputs for several names; standard input can be read once."""
     if names.count(STANDARD_INPUT) > 1:
         raise UsageError("- stands for standard input, which can be read only once")
     return [model_file(name) for name in names]

@@ -1,4 +1,4 @@
-"""Values joined to their options where argparse would take them for something else."""
+"""Joins values to their options where argparse would misread them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 
 from .options.appearance_options import WIREFRAMES
 
-#: Options whose value may start with a minus sign, which argparse would take for an option.
+#: Options whose value may start with a minus sign, which argparse would read as an option.
 SIGNED_OPTIONS = frozenset(
     {
         "--up",
@@ -32,10 +32,10 @@ _SIGNED_VALUE = re.compile(r"-(\.?\d|[XYZxyz]($|=)|inf|nan)")
 
 
 def join_values(arguments: list[str]) -> list[str]:
-    """Return the arguments with values joined to options where argparse would take them wrongly.
+    """Return the arguments with values joined to options where argparse would misread them.
 
     ``--camera-position -1,2,3`` becomes ``--camera-position=-1,2,3``, and ``--wireframe MODEL``,
-    whose value may be left out, becomes ``--wireframe=only MODEL``.
+    whose value is optional, becomes ``--wireframe=only MODEL``.
     """
     joined: list[str] = []
     for argument in arguments:

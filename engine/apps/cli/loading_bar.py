@@ -1,7 +1,7 @@
-"""The bar that shows how far a model is loaded, on a terminal, where it takes longer than a second.
+"""A progress bar for loading, on a terminal, if it takes longer than a second.
 
-In: fractions, as ``load_mesh(..., progress=)`` tells them. Out: a line on standard error that is
-gone when the model is there. Where standard error is no terminal, nothing.
+In: fractions from ``load_mesh(..., progress=)``. Out: a line on standard error, removed at the end.
+Without a terminal, nothing.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ _PATIENCE = 1.0
 
 
 class LoadingBar:
-    """A context manager whose value is called with fractions from 0 to 1."""
+    """A context manager; its value is called with fractions from 0 to 1."""
 
     def __init__(self) -> None:
         self._start = time.monotonic()

@@ -1,6 +1,6 @@
-"""Draws several pictures one after the other; if one fails, the others are still drawn.
+"""Draws several pictures in turn; if one fails, the others are still drawn.
 
-In: jobs, and what draws one. Out: lines on standard error: what went wrong, and how many there are.
+In: jobs, and a function that draws one. Out: lines on standard error: the faults, and their number.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ Draw = Callable[[argparse.Namespace], int]
 
 
 def tried(draw: Draw, job: argparse.Namespace) -> int:
-    """Draw what a job says; return the exit status, and tell what is wrong."""
+    """Draw a job; print its error, if any, and return the exit status."""
     try:
         return draw(job)
     except (Engine3DError, OSError) as error:
@@ -25,7 +25,7 @@ def tried(draw: Draw, job: argparse.Namespace) -> int:
 
 
 def draw_each(draw: Draw, jobs: Sequence[argparse.Namespace]) -> int:
-    """Draw them all; return 1 if one failed, else 0."""
+    """Draw all jobs; return 1 if one failed, else 0."""
     failed = sum(tried(draw, job) != 0 for job in jobs)
     if len(jobs) > 1:
         remark(f"{len(jobs) - failed} drawn" + (f", {failed} failed" if failed else ""))

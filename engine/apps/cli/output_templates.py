@@ -1,9 +1,8 @@
 """Names of outputs with variables in them, such as ``{model}_{n}.png``.
 
-In: what ``-o`` was given, and the model's name. Out: the name of a file. Places for the numbers of
-frames, ``%04d`` and ``{:04}``, stay; ``{{``, ``}}`` and ``%%04d`` stand for ``{``, ``}`` and
-``%04d``. What variables stand for is never a pattern, whatever letters it has. The variables are
-those of f3d.
+In: the value of ``-o``, and the model's name. Out: the name of a file. Places for frame numbers,
+``%04d`` and ``{:04}``, are kept; ``{{``, ``}}`` and ``%%04d`` mean ``{``, ``}`` and ``%04d``.
+Values of variables are always literal. The variables are those of f3d.
 """
 
 from __future__ import annotations
@@ -18,17 +17,17 @@ from ...version import __version__
 from .usage import UsageError
 
 _MODEL = ("model", "model.ext", "model_ext")
-#: All variables; some take more behind a colon.
+#: All variables; some accept a format after a colon.
 VARIABLES = ("app", "version", *_MODEL, "folder", "date", "n")
 _BRACES = re.compile(r"\{\{|\}\}")
 _FIELD = re.compile(r"\{(?P<name>[^{}:]+)(?::(?P<more>[^{}]*))?\}")
 _DIGITS = re.compile(r"[0-9]{0,2}")
-_WIDE = re.compile(r"%[^a-zA-Z%]*[0-9]{3}")  # fields of dates that are filled up without an end
+_WIDE = re.compile(r"%[^a-zA-Z%]*[0-9]{3}")  # date fields with very large padding
 _MOST_NUMBERS = 1_000_000
 
 
 def names_the_model(output: str | None) -> bool:
-    """Return whether a name is another one for each model."""
+    """Return whether a name differs for each model."""
     fields = () if output is None else (p for p in _pieces(output) if not isinstance(p, str))
     return any(_name_of(match) in (*_MODEL, "folder", "n") for match in fields)
 
@@ -36,7 +35,7 @@ def names_the_model(output: str | None) -> bool:
 def fill(
     output: str | None, model: str, taken: Sequence = (), folder: str = ""
 ) -> FrameName | None:
-    """Return a name whose variables are filled in.
+    """Return a name with its variables filled in.
 
     Parameters
     ----------
@@ -57,7 +56,8 @@ def fill(
     if output is None:
         return None
     if not folder:
-        output = output.replace("{folder}/", "")  # without its slash, which begins the root
+        # without its slash, which would make the path absolute
+        output = output.replace("{folder}/", "")
     pieces = _pieces(output)
     stem, extension = os.path.splitext(os.path.basename(model))
     said = {
@@ -78,7 +78,7 @@ def fill(
 
 
 def _pieces(output: str) -> list[str | re.Match]:
-    """A name as texts, variables and places for a frame's number, in their order."""
+    """Return a name as texts, variables and places for a frame number, in order."""
     pieces: list[str | re.Match] = []
     place = 0
     while place < len(output):
@@ -102,7 +102,7 @@ def _pieces(output: str) -> list[str | re.Match]:
 
 
 def _check_brace(output: str, place: int) -> None:
-    """Raise `UsageError` if a brace neither belongs to a variable nor is written twice."""
+    """Raise `UsageError` if a brace neither belongs to a variable nor is doubled."""
     brace = output[place]
     if brace in "{}":
         other = "}" if brace == "{" else "{"
@@ -113,7 +113,7 @@ def _check_brace(output: str, place: int) -> None:
 
 
 def _name_of(piece: str | re.Match) -> str | None:
-    """The name of a variable; None of what is none."""
+    """Return the name of a variable; None for other texts."""
     return piece.groupdict().get("name") if isinstance(piece, re.Match) else None
 
 
@@ -124,7 +124,7 @@ def _filled(pieces: list[str | re.Match], said: dict[str, str], number: int) -> 
 
 
 def _value(match: re.Match, said: dict[str, str], number: int) -> str:
-    """What a variable stands for."""
+    """Return the value of a variable."""
     name, more = match["name"], match["more"]
     if name in said and more is None:
         return said[name]
@@ -142,5 +142,5 @@ def _date(form: str, match: re.Match) -> str:
         if _WIDE.search(form):
             raise ValueError("its fields have up to two digits")
         return time.strftime(form)
-    except ValueError as error:  # of which kind are those of texts that cannot be encoded
+    except ValueError as error:  # includes errors of texts that cannot be encoded
         raise UsageError(f"-o: {match[0]} is no date: {error}") from None

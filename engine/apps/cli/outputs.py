@@ -1,7 +1,7 @@
-"""Checks of an output's name before any work, its folder, and the progress bar of long work.
+"""Checks outputs before any work; also folders, and progress bars of long work.
 
-In: what ``-o`` was given. Out: its extension, or a usage error that lists those that work; the
-folder that it names, made when the first file is written there.
+In: the value of ``-o``. Out: its extension, or a usage error that lists the supported ones; its
+folder, created when the first file is written.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from .usage import UsageError
 
 STANDARD_OUTPUT = "-"
 TERMINAL = "terminal:"
-#: Shorter work gets no progress bar.
+#: Work with fewer frames gets no progress bar.
 FEW_FRAMES = 8
-#: Bytes of a GIF that is larger than somebody may have thought.
+#: GIFs above this size in bytes get a remark.
 LARGE_GIF = 4_000_000
 
 
@@ -53,7 +53,7 @@ def check_animation(output: str, *, transparent: bool = False) -> None:
         extension = check_output(output, ANIMATION_SUFFIXES, "an animation").lower()
     if transparent and extension in (*OPAQUE_SUFFIXES, VIDEO_SUFFIX):
         raise UsageError(f"--no-background needs transparency, which {extension} lacks")
-    if extension == VIDEO_SUFFIX:  # last: nobody installs ffmpeg to be refused afterwards
+    if extension == VIDEO_SUFFIX:  # last: nobody should install ffmpeg and then be refused
         from ...io.output.video_files import find_ffmpeg
 
         find_ffmpeg(output)
@@ -72,9 +72,9 @@ def check_picture(output: str, *, transparent: bool = False, series: str) -> Non
 
 
 def check_folder(output: str) -> None:
-    """Raise `FileAccessError` if ``output`` has no folder and none can be made.
+    """Raise `FileAccessError` if ``output`` has no folder and none can be created.
 
-    `make_folder_of` makes it when something is written, so that failures leave no empty folder.
+    `make_folder_of` creates it when something is written, so that failures leave no empty folder.
     """
     folder = wanted = os.path.dirname(os.path.abspath(output))
     while not os.path.lexists(folder):
@@ -89,7 +89,7 @@ def check_folder(output: str) -> None:
 
 
 def remark_on_size(output: str) -> None:
-    """Say what would be smaller than a large GIF that was written."""
+    """Suggest smaller formats after writing a large GIF."""
     if not output.lower().endswith(".gif") or os.path.getsize(output) < LARGE_GIF:
         return
     size = os.path.getsize(output) / 1e6
@@ -97,7 +97,7 @@ def remark_on_size(output: str) -> None:
 
 
 def not_the_output(output: str | None) -> Callable[[str], bool]:
-    """Return what tells whether a path is another file than the one that is written."""
+    """Return a test that a path is not the output file."""
     return lambda path: output is None or not is_same_file(path, output)
 
 
@@ -107,7 +107,7 @@ def is_same_file(path: str, output: str) -> bool:
         written = sys.stdout.fileno() if output == STANDARD_OUTPUT else output
         return os.path.samestat(os.stat(path), os.stat(written))
     except (OSError, ValueError):
-        return False  # it is not there yet
+        return False  # it does not exist yet
 
 
 def check_standard_output() -> None:
@@ -117,7 +117,7 @@ def check_standard_output() -> None:
 
 
 def write_standard_output(data: bytes) -> None:
-    """Write all of ``data`` to standard output, which may be unbuffered and take less at a time."""
+    """Write all of ``data`` to standard output, which may accept less at a time."""
     rest = memoryview(data)
     try:
         while rest:
@@ -130,7 +130,7 @@ def write_standard_output(data: bytes) -> None:
 
 
 def with_progress(items: Iterable, total: int, label: str) -> Iterator:
-    """Yield the items; on a terminal, and if there are many, show a progress bar meanwhile."""
+    """Yield the items; show a progress bar if there are many and a terminal."""
     if total < FEW_FRAMES or not quietness.shows_progress():
         yield from items
         return

@@ -1,4 +1,4 @@
-"""The parser of the command line, and what it makes of arguments."""
+"""The command line parser, and the parsing of arguments."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .usage import UsageError
 
 
 def parse(arguments: list[str]) -> argparse.Namespace:
-    """Return what the arguments say.
+    """Return the parsed arguments.
 
     Raises `UsageError`, or `SystemExit` after argparse has printed its line.
     """
@@ -59,7 +59,7 @@ def _is_option(argument: str) -> bool:
 
 
 def make_parser(asked: str | None = None) -> Parser:
-    """Return the parser; ``load_command()`` of what it parsed returns the command's function.
+    """Return the parser; ``load_command()`` of its result returns the command's function.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ def _all_commands() -> Iterable[argparse.ArgumentParser]:
 
 
 def add_quiet(command: argparse.ArgumentParser) -> None:
-    """Add what says less."""
+    """Add the option for less output."""
     command.add_argument("--quiet", action="store_true", help="print errors only, no warnings")
 
 
@@ -113,7 +113,7 @@ def _load(command: str):
 
 
 class _ListReaders(argparse.Action):
-    """Print the formats and stop, as ``--version`` does."""
+    """Prints the formats and exits, like ``--version``."""
 
     def __call__(self, parser, namespace, values, option_string=None):
         from .readers import list_readers

@@ -1,6 +1,6 @@
-"""``--quiet``: nothing is printed but errors, and what a command is there to print.
+"""``--quiet``: print only errors, and a command's actual result.
 
-One switch for the process, since warnings and progress come from everywhere.
+The switch is global for the process, since warnings and progress come from everywhere.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ _quiet = False
 
 
 def set_quiet(quiet: bool) -> None:
-    """Be quiet from now on, or not."""
+    """Switch quietness on or off."""
     global _quiet
     _quiet = quiet
 
 
 def is_quiet() -> bool:
-    """Return whether warnings and remarks are left out."""
+    """Return whether warnings and remarks are suppressed."""
     return _quiet
 
 
@@ -30,5 +30,5 @@ def remark(text: str) -> None:
 
 
 def shows_progress() -> bool:
-    """Return whether bars may show how far work is: on a terminal, unless quiet."""
+    """Return whether progress bars may be shown: on a terminal, unless quiet."""
     return not _quiet and sys.stderr.isatty()

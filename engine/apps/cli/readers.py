@@ -1,4 +1,4 @@
-"""``engine3d --list-readers``: the formats that can be read."""
+"""``engine3d --list-readers``: prints the readable formats."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from ...io.loaders import formats
 
 
 def list_readers() -> None:
-    """Print the formats, a line each: name, kind, extensions, description."""
+    """Print the formats, one per line: name, kind, extensions, description."""
     rows = [
         (item.name, item.kind, " ".join(item.extensions), item.description) for item in formats()
     ]

@@ -1,6 +1,6 @@
-"""Lines on standard error.
+"""Messages on standard error.
 
-In: text, with names from outside in it. Out: one line each, which cannot steer a terminal.
+In: text that may contain external names. Out: one line each, which cannot control a terminal.
 """
 
 from __future__ import annotations

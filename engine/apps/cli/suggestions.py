@@ -1,6 +1,6 @@
-"""A parser whose errors are one line, with what was probably meant.
+"""A parser with one-line errors that suggest corrections.
 
-In: arguments. Out: what argparse makes of them, or a line on standard error and exit status 2.
+In: arguments. Out: argparse's result, or a line on standard error and exit status 2.
 """
 
 from __future__ import annotations
@@ -12,12 +12,12 @@ from collections.abc import Iterable
 
 from ...errors import printable
 
-#: How alike two words must be, 0 to 1, for one to be compared letter by letter with the other.
+#: Minimum similarity of two words, 0 to 1, for a letter-by-letter comparison.
 _LIKENESS = 0.6
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser whose errors are a line, not lost below all the options that there are.
+    """A parser with one-line errors, which are not buried under a list of all options.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Parser(argparse.ArgumentParser):
         raise argparse.ArgumentError(action, message)
 
 
-#: Options by the names of other commands and programs, and what they may be called here.
+#: Options of other commands and programs, and their names here.
 _ELSEWHERE = {
     "--size": ("--resolution",),
     "--resolution": ("--size",),
@@ -58,23 +58,23 @@ _ELSEWHERE = {
 
 
 def option_meant(word: str, parser: argparse.ArgumentParser) -> str:
-    """Return what `meant` does of an option that a parser does not have."""
+    """Return the suggestion of `meant` for an option that a parser lacks."""
     known = option_strings(parser)
     named = [option for option in _ELSEWHERE.get(word, ()) if option in known]
     return f": did you mean {named[0]}?" if named else meant(word, known)
 
 
 def meant(word: str, known: Iterable[str]) -> str:
-    """Return the end of a message that asks whether one of the known words was meant, or ``""``."""
+    """Return the end of a message that suggests a known word, or ``""``."""
     similar = difflib.get_close_matches(word, list(known), 3, _LIKENESS)
     close = [one for one in similar if _is_close(word, one)]
     return f": did you mean {close[0]}?" if close else ""
 
 
 def _is_close(word: str, known: str) -> bool:
-    """Whether a word begins a known one, or shares two thirds of the longer one's letters with it.
+    """Return whether a word is a prefix of a known one, or shares two thirds of its letters.
 
-    The likeness alone takes ``nonsense`` for ``scene``: they share four letters of eight.
+    Similarity alone would match ``nonsense`` with ``scene``: they share four letters of eight.
     """
     blocks = difflib.SequenceMatcher(None, word, known).get_matching_blocks()
     shared = sum(block.size for block in blocks)

@@ -1,7 +1,7 @@
-"""``engine3d info --system``: what a report of a bug should say of machine and installation.
+"""``engine3d info --system``: a report on machine and installation for bug reports.
 
-In: this process. Out: types that JSON knows, or lines of text. Nothing private is in it: no name of
-a user or a machine, and no path.
+In: this process. Out: JSON types, or lines of text. The report contains nothing private: no user or
+machine names, and no paths.
 """
 
 from __future__ import annotations
@@ -23,16 +23,16 @@ from ...version import __version__
 from ..bench.figures import machine
 from ..viewer.sdl import find_screen, load_sdl
 
-#: Older ones write beyond their buffers when they read some damaged images.
+#: Older versions overrun their buffers when they read some damaged images.
 SAFE_PILLOW = (12, 3, 0)
-#: The extras that only developers of engine3d want.
+#: Extras for developers of engine3d only.
 _FOR_DEVELOPERS = ("test", "fuzz", "bench")
 _INSTRUCTION_SETS = re.compile(r"s?sse|avx|f?ma$|f16c|bmi|popcnt|asimd|neon|sve|rv|altivec|vsx")
 _HARMLESS = re.compile(r"[\w.,:+-]{1,40}")
 
 
 def describe_system() -> dict:
-    """Return what is known of this machine and this installation, in types that JSON knows.
+    """Return a description of machine and installation, as JSON types.
 
     Returns
     -------
@@ -63,7 +63,7 @@ def describe_system() -> dict:
 
 
 def _requirements() -> tuple[list[str], dict[str, list[str]]]:
-    """Return the requirements, and the purpose of each extra, by the installed metadata."""
+    """Return the requirements, and the purpose of each extra, from the installed metadata."""
     needed: list[str] = []
     extras: dict[str, list[str]] = {}
     try:
@@ -81,7 +81,7 @@ def _requirements() -> tuple[list[str], dict[str, list[str]]]:
 
 
 def _version(package: str) -> str | None:
-    """The version of an installed package."""
+    """Return the version of an installed package."""
     try:
         return metadata.version(package)
     except metadata.PackageNotFoundError:
@@ -117,7 +117,7 @@ def _processor() -> dict:
 
 
 def _backends() -> dict:
-    """Return the default backend; if the environment asks for one that is refused, why."""
+    """Return the default backend; if the environment's choice is refused, say why."""
     names = {number: name for name, number in rasterizer.BACKENDS.items()}
     auto = _told(lambda: names[resolve_backend()])
     threads = _told(lambda: resolve_threads() or usable_processors())
@@ -132,7 +132,7 @@ def _told(ask: Callable[[], str | int]) -> str | int:
 
 
 def _window() -> dict:
-    """The version of SDL, or why it does not load; why there is no screen, or None."""
+    """Return SDL's version or load error; and why there is no screen, or None."""
     try:
         sdl = load_sdl()
         version = sdl.SDL_version()
@@ -149,7 +149,7 @@ def _window() -> dict:
 
 
 def _without_home(text: str) -> str:
-    """Return a text with the user's folder, which bears a name, as ``~``."""
+    """Return a text with the user's folder replaced by ``~``."""
     home = os.path.expanduser("~")
     return text.replace(home, "~") if len(home) > 1 else text
 
@@ -163,7 +163,7 @@ def _locale() -> dict:
 
 
 def _environment() -> dict:
-    """The variables that engine3d reads; of values that may be paths only that they are set."""
+    """Return engine3d's environment variables; for possible paths, only that they are set."""
     names = sorted(name for name in os.environ if name.startswith("ENGINE3D_"))
     values = {name: os.environ[name] for name in [*names, "SDL_VIDEODRIVER"] if name in os.environ}
     return {n: value if _HARMLESS.fullmatch(value) else "(set)" for n, value in values.items()}

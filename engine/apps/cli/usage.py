@@ -1,5 +1,5 @@
-"""The exception for wrong usage that only a command, not the parser, can see."""
+"""The exception for wrong usage that a command, not the parser, detects."""
 
 
 class UsageError(Exception):
-    """Arguments that do not go together; its text is one line and the exit status is 2."""
+    """Arguments conflict; the text is one line and the exit status is 2."""

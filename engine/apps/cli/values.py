@@ -1,7 +1,7 @@
-"""The values of options: text in, a number, a vector or a colour out.
+"""Converters of option values: text to numbers, vectors and colours.
 
-Each function takes what was typed and returns the value, or raises ``ArgumentTypeError``, which the
-parser turns into a line and exit status 2.
+Each function converts a text, or raises ``ArgumentTypeError``, which the parser turns into a line
+and exit status 2.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def number(text: str) -> float:
 
 
 def _real(wanted: str, fits: Callable[[float], bool]) -> Callable[[str], float]:
-    """Return a function that parses a finite number and refuses what does not fit."""
+    """Return a function that parses a finite number and refuses unsuitable ones."""
 
     def parse(text: str) -> float:
         value = number(text)
@@ -61,23 +61,23 @@ def _real(wanted: str, fits: Callable[[float], bool]) -> Callable[[str], float]:
 positive = _real("above zero", lambda value: value > 0.0)
 not_negative = _real("zero or more", lambda value: value >= 0.0)
 fraction = _real("a number from 0 to 1", lambda value: 0.0 <= value <= 1.0)
-#: Of a line or a point, in pixels.
+#: Width of a line or size of a point, in pixels.
 width = _real(f"above 0 and at most {MAX_WIDTH} pixels", lambda value: 0.0 < value <= MAX_WIDTH)
-#: What is added to the level of detail of textures.
+#: Offset of textures' level of detail.
 lod_bias = _real(f"in -{MAX_LOD_BIAS} to {MAX_LOD_BIAS}", lambda value: abs(value) <= MAX_LOD_BIAS)
-#: Of exposure.
+#: Exposure in stops.
 stops = _real(
     f"a number from -{MAX_EXPOSURE} to {MAX_EXPOSURE}", lambda value: abs(value) <= MAX_EXPOSURE
 )
 bloom = _real(f"a number from 0 to {MAX_BLOOM}", lambda value: 0.0 <= value <= MAX_BLOOM)
-#: Of ground, in degrees.
+#: Slope of ground in degrees.
 slope = _real("from 0 to less than 90 degrees", lambda value: 0.0 <= value < 90.0)
 #: A vertical field of view in degrees.
 view_angle = _real("from 0.1 to 170 degrees", lambda value: 0.1 <= value <= 170.0)
 
 
 def _whole(least: int = -_MOST, most: int = _MOST) -> Callable[[str], int]:
-    """Return a function that parses a whole number of up to nine digits, in a range."""
+    """Return a function that parses an integer of up to nine digits, in a range."""
     wanted = f" of at least {least}" if least > -_MOST else ""
     wanted = f" from {least:,} to {most:,}" if most < _MOST else wanted
 
@@ -90,29 +90,29 @@ def _whole(least: int = -_MOST, most: int = _MOST) -> Callable[[str], int]:
 
 
 integer = _whole()
-#: Of an animation; -1 for all of them.
+#: Index of an animation; -1 for all.
 index = _whole(-1)
-#: Of a vector; -1 for its length, -2 for colours.
+#: Component of a vector; -1 for its length, -2 for colours.
 component = _whole(-2)
 whole = _whole(0)
 count = _whole(1)
-#: The most places at which a texture is read.
+#: Maximum anisotropy of textures.
 anisotropy = _whole(1, MAX_ANISOTROPY)
 ui_scale = _whole(1, MAX_UI_SCALE)
 city_triangles = _whole(*CITY_TRIANGLES)
-#: Into how many parts edges are cut.
+#: Number of parts into which edges are cut.
 subdivisions = _whole(1, MAX_SUBDIVISIONS)
-#: 0 for as many threads as the process may use.
+#: Number of threads; 0 for as many as the process may use.
 thread_count = _whole(0, MAX_THREADS)
 
 
 def thread_counts(text: str) -> list[int]:
-    """Parse numbers of threads with commas between them."""
+    """Parse comma-separated numbers of threads."""
     return [thread_count(part) for part in text.split(",")]
 
 
 def some_of(names: Sequence[str]) -> Callable[[str], list[str]]:
-    """Return a function that parses some of the names, with commas between them."""
+    """Return a function that parses some comma-separated names of a set."""
 
     def parse(text: str) -> list[str]:
         chosen = text.split(",")
@@ -163,7 +163,7 @@ def interval(text: str) -> tuple[float, float]:
 
 
 def names(text: str) -> tuple[str, ...]:
-    """Parse names with commas between them."""
+    """Parse comma-separated names."""
     return tuple(filter(None, (part.strip() for part in text.split(","))))
 
 
@@ -187,7 +187,7 @@ def up_direction(text: str) -> str:
 
 
 def color(text: str) -> tuple[int, int, int]:
-    """Parse ``0.2,0.4,0.6``, ``51,102,153``, ``#336699`` or a name, as seen on the screen (sRGB).
+    """Parse ``0.2,0.4,0.6``, ``51,102,153``, ``#336699`` or a name, in sRGB.
 
     Numbers are 0 to 1, or 0 to 255 if one of them is above 1.
     """

@@ -1,4 +1,4 @@
-"""The report of ``--verbose`` on standard error: what was loaded and drawn, in which time."""
+"""The ``--verbose`` report on standard error: loading, drawing and times."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ...stage.overlays.draw_counts import count_line
 
 
 def warn_of_nothing(view_renderer) -> Reason | None:
-    """Say, and return, why no picture has shown anything, if that is so."""
+    """Print, and return, why no picture so far has shown anything; None if one has."""
     reason = view_renderer.why_blank()
     if reason is not None:
         warn(f"{view_renderer.viewed.title}: nothing shows: {reason.sentence}")
@@ -19,7 +19,7 @@ def warn_of_nothing(view_renderer) -> Reason | None:
 
 
 class Report:
-    """Prints progress if asked to; times count from when it was made.
+    """Prints progress on request; times count from its creation.
 
     Parameters
     ----------
@@ -40,18 +40,18 @@ class Report:
             )
 
     def loaded(self, viewed) -> None:
-        """Say what is shown."""
+        """Print the contents of the viewed scene."""
         details = ", ".join(" ".join(line.split()) for line in viewed.details)
         self.line(f"loaded {viewed.path or viewed.title}" + (f": {details}" if details else ""))
 
     def frame(self, frame) -> None:
-        """Say how much of the scene a frame had to draw, and how long it took."""
+        """Print the culling counts of a frame, and its time."""
         self._frames += 1
         milliseconds = frame.stats["ms_total"]
         self.line(f"frame {self._frames}: {milliseconds:.1f} ms; {count_line(frame.stats)}")
 
     def drawn(self, view_renderer, frame) -> None:
-        """Say what drew a frame, and the frame's statistics."""
+        """Print the backend of a frame, and its statistics."""
         if not self._verbose:
             return
         width, height = view_renderer.size

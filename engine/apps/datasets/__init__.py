@@ -1,9 +1,9 @@
-"""Data sets of pictures with the truth about them, and what makes each picture another one.
+"""Data sets of pictures with ground truth, and randomisation of scenes.
 
-`Generator` gives numbers that follow from a seed alone: the same on every machine, whichever
-process asks. The functions named ``random_`` make cameras, lights, poses, textures and materials of
-them. The writers say which files a picture becomes: COCO, BOP, WebDataset or plain folders;
-`write_dataset` writes them, and so does `engine3d.batch`.
+`Generator` gives numbers that depend only on a seed: the same on every machine and in every
+process. The functions named ``random_`` make cameras, lights, poses, textures and materials from
+them. Writers define the files of a picture: COCO, BOP, WebDataset or plain folders; `write_dataset`
+and `engine3d.batch` use them.
 """
 
 from .bop import BopWriter

@@ -1,4 +1,4 @@
-"""Data sets as BOP has them: RGB, depth, masks, and the pose of each thing.
+"""The BOP data set format: RGB, depth, masks, and the pose of each thing.
 
 Out: ``SPLIT/SCENE/rgb/IMAGE.png``, ``depth`` of 16 bits, ``mask`` and ``mask_visib``, one for each
 thing, and for each scene ``scene_camera.json``, ``scene_gt.json`` and ``scene_gt_info.json``;
@@ -73,7 +73,7 @@ _NOTE = records.members(
 
 
 def _note_shape(value: Any) -> str | None:
-    """A note of a picture: as many shapes as poses and counts."""
+    """Return the shape of a picture's note: as many shapes as poses and counts."""
     where = _NOTE(value)
     if where is None and len({len(value[key]) for key in ("shapes", "truth", "info")}) > 1:
         return ""
@@ -81,7 +81,7 @@ def _note_shape(value: Any) -> str | None:
 
 
 class BopWriter(DatasetWriter):
-    """Writes pictures, depths, masks and poses as BOP's data sets have them.
+    """Writes pictures, depths, masks and poses in BOP format.
 
     Parameters
     ----------
@@ -178,12 +178,12 @@ class BopWriter(DatasetWriter):
         yield from write_models(folder, numbers, shapes)
 
     def _place(self, index: int) -> tuple[str, int]:
-        """The folder of a picture's scene, and the picture's number there."""
+        """Return the folder of a picture's scene, and its number there."""
         scene, image = divmod(index, self.scene_size)
         return f"{self.split}/{scene:06d}", image
 
     def _steps(self, depth: NDArray[np.float32]) -> NDArray[np.uint16]:
-        """Depths in whole steps, rounded half up; 0 where nothing is."""
+        """Return depths in whole steps, rounded half up; 0 for background."""
         steps = np.floor(depth.astype(np.float64) * (self.millimetres / self.depth_scale) + 0.5)
         if steps.max(initial=0.0) > _DEEPEST:
             farthest = float(depth.max()) * self.millimetres
@@ -194,7 +194,7 @@ class BopWriter(DatasetWriter):
         return steps.astype(np.uint16)
 
     def _pose(self, thing: Thing, sample: Sample) -> tuple[list[float], list[float]]:
-        """The thing's rotation, row by row, and its place, in the camera's space."""
+        """Return a thing's rotation, row by row, and position, in camera space."""
         from_model = linalg.multiply(cv_from_camera(sample.pose), thing.node.world_pose)
         return rigid_parts(from_model, self.millimetres, f"{thing.node.name!r}")
 
@@ -209,7 +209,7 @@ class BopWriter(DatasetWriter):
 
 
 def _camera_file(folder: str, notes: Iterable[Note]) -> Iterator[str]:
-    """Write what camera the data set has: that of its first picture."""
+    """Write the data set's camera file, for its first picture's camera."""
     for note in notes:
         (fx, _, cx, _, fy, cy, *_), (width, height) = (
             note.said["camera"]["cam_K"],
@@ -224,7 +224,7 @@ def _camera_file(folder: str, notes: Iterable[Note]) -> Iterator[str]:
 
 
 def _round_above(value: float) -> float:
-    """Return the next of 1, 2, 5, 10, 20 … above a value: one for most pictures of a scene."""
+    """Return the next of 1, 2, 5, 10, 20 … above a value: equal for most pictures of a scene."""
     unit = 10.0 ** math.floor(math.log10(value))
     return unit * next(step for step in (1, 2, 5, 10) if unit * step >= value)
 
@@ -239,7 +239,7 @@ def _truth(note: Note, numbers: dict[str, int]) -> list[dict[str, Any]]:
 def _counts(
     whole: Silhouette, visible: NDArray[np.bool_], depth: NDArray[np.float32]
 ) -> dict[str, Any]:
-    """What scene_gt_info.json says of a thing."""
+    """Return a thing's entry of scene_gt_info.json."""
     shows = int(visible.sum())
     return {
         "bbox_obj": _as_toolkit(whole.box) if shows else _NOWHERE,

@@ -1,4 +1,4 @@
-"""The models of a BOP data set: the shape of each object, and how large it is.
+"""The models of a BOP data set: the shape and size of each object.
 
 In: things of pictures, drawn by whichever process. Out: a shape for each thing, named by a hash of
 its geometry, so that each is written once, by whoever draws it first; at the end, where all things
@@ -35,7 +35,7 @@ from ...model.scene.nodes import Node
 from .samples import Thing
 from .writer import Shared
 
-STORE = ".models"  # shapes by their hashes: what finished pictures rely on when a batch is resumed
+STORE = ".models"  # shapes by their hashes, which resumed batches rely on
 _HEXADECIMAL, _DIGITS = "0123456789abcdef", 32
 _SIZES = tuple(f"{what}_{axis}" for axis in "xyz" for what in ("min", "size"))
 _RECORD = json_records.members(
@@ -44,7 +44,7 @@ _RECORD = json_records.members(
         "info": json_records.members(dict.fromkeys(("diameter", *_SIZES), json_records.number)),
     }
 )
-_BLOCK = 256  # points whose distances are found together
+_BLOCK = 256  # points whose distances are computed together
 _HEADER = """ply
 format ascii 1.0
 comment written by engine3d, in millimetres
@@ -62,13 +62,13 @@ end_header
 
 
 def shape_name(value: Any) -> str | None:
-    """The shape of a shape's name, as `json_records` has shapes."""
+    """Accept the name of a shape, as a shape of `json_records`."""
     is_name = isinstance(value, str) and len(value) == _DIGITS and set(value) <= set(_HEXADECIMAL)
     return None if is_name else ""
 
 
 def shape_of(thing: Thing, millimetres: float) -> tuple[str | None, dict[str, Shared]]:
-    """Return the hash of a thing's shape, None without triangles, and the files of that shape.
+    """Return the hash of a thing's shape, None without triangles, and the shape's files.
 
     Parameters
     ----------
@@ -108,13 +108,13 @@ def shape_of(thing: Thing, millimetres: float) -> tuple[str | None, dict[str, Sh
 
 
 def has_shapes(folder: str, names: Iterable[str | None]) -> bool:
-    """Return whether these shapes are in a data set's folder, whole."""
+    """Return whether a data set's folder has complete files of these shapes."""
     paths = (os.path.join(folder, STORE, f"{name}.json") for name in set(names) - {None})
     return all(_info_of(path) is not None for path in paths)
 
 
 def _info_of(path: str) -> dict[str, float] | None:
-    """Return the known numbers of a shape, from either of its files; None if one is not whole."""
+    """Return the stored numbers of a shape from its files; None if one is incomplete."""
     stem = os.path.splitext(path)[0]
     stamps = file_stamp(f"{stem}.json"), file_stamp(f"{stem}.ply")
     return None if None in stamps else _checked_info(stem, stamps)
@@ -176,7 +176,7 @@ def write_models(
 
 
 def _warn_of_lacking(found: dict[str, set[str | None]]) -> None:
-    """Warn of categories that get no model, each by its name."""
+    """Warn about categories without a model, by name."""
     several = sorted(category for category, names in found.items() if len(names) > 1)
     if several:
         warn(
@@ -200,10 +200,10 @@ def _written(folder: str, path: str, data: bytes) -> str:
 
 
 def _placed(part: Node, top: Node) -> Iterator[tuple[Mesh, NDArray[np.float64]]]:
-    """The meshes of a part, each with its pose in the space of the node above."""
+    """Return the meshes of a part, each with its pose relative to the top node."""
     pose = np.eye(4)
     node: Node | None = part
-    # Poses of the world would bring their rounding, which is another one in each picture.
+    # World poses would add rounding, which differs in each picture.
     while node is not None and node is not top:
         pose = linalg.multiply(node.pose, pose)
         node = node.parent
@@ -229,7 +229,7 @@ def _ply(mesh: Mesh, millimetres: float) -> bytes:
 
 
 def _info(mesh: Mesh, millimetres: float) -> dict[str, float]:
-    """What models_info.json says of a model."""
+    """Return a model's entry of models_info.json."""
     points = _points(mesh, millimetres).astype(np.float64)
     low, high = points.min(axis=0), points.max(axis=0)
     said = {"diameter": diameter(points)}
@@ -241,9 +241,9 @@ def _info(mesh: Mesh, millimetres: float) -> dict[str, float]:
 def diameter(points: NDArray[np.float64]) -> float:
     """Return the largest distance between any two of some points, (N, 3).
 
-    Points are gone through from the one farthest from their middle on, in blocks, until two of
-    those that are left cannot be farther apart than two that were found: by the sum of their
-    distances from the middle. So balls and slim things need a few blocks, nothing more than all.
+    Points are visited from the farthest from their centre on, in blocks, until the sum of two
+    remaining distances from the centre cannot exceed the best distance found. So spheres and slim
+    things need few blocks, and nothing needs more than all.
     """
     points = np.unique(points, axis=0)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
@@ -254,7 +254,8 @@ def diameter(points: NDArray[np.float64]) -> float:
         if 2.0 * away[start] <= best:
             break
         block = points[start : start + _BLOCK]
-        reach = np.searchsorted(-away, away[start] - best, side="right")  # nothing beyond is as far
+        # no farther point can improve the result
+        reach = np.searchsorted(-away, away[start] - best, side="right")
         others = points[start : max(int(reach), start + 1)]
         for one in range(0, len(others), 16 * _BLOCK):
             apart = block[:, np.newaxis] - others[np.newaxis, one : one + 16 * _BLOCK]

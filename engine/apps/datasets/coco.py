@@ -1,4 +1,4 @@
-"""Data sets as COCO has them: pictures, and one file of boxes, categories and masks.
+"""The COCO data set format: pictures, and one file of boxes, categories and masks.
 
 Out: ``images/NAME.png`` and ``annotations.json``, and other outputs that are asked for as
 ``depth/NAME.npy`` …, which COCO's tools pass over. Each thing of which at least one pixel shows is
@@ -62,7 +62,7 @@ class CocoWriter(DatasetWriter):
     ) -> None:
         self.categories = checked_categories(categories)
         self.written = check_outputs(outputs)
-        # What annotations are made of is drawn in any case.
+        # Annotations need these outputs in any case.
         self.outputs = tuple(dict.fromkeys(("color", "object_id", *self.written)))
 
     @checks_types

@@ -1,4 +1,4 @@
-"""Data sets as plain folders: one for each output, and one list of what is in the pictures.
+"""The plain data set format: one folder for each output, and one list of contents.
 
 Out: ``color/NAME.png``, ``depth/NAME.npy`` and so on, and ``pictures.jsonl``: a line of JSON for
 each picture, with its camera, and of each thing its category, its id in ``object_id``, its place.
@@ -39,7 +39,7 @@ _NOTE = {
 
 
 class FolderWriter(DatasetWriter):
-    """Writes each output into a folder of its own.
+    """Writes each output into its own folder.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ class FolderWriter(DatasetWriter):
 
 
 def encoded(frame: Frame, output: Output) -> tuple[str, bytes]:
-    """Return the suffix and the bytes of the file that holds an output."""
+    """Return the suffix and bytes of the file for an output."""
     if output == "color":
         return "png", frame.encode("png")
     data = io.BytesIO()
@@ -86,7 +86,7 @@ def encoded(frame: Frame, output: Output) -> tuple[str, bytes]:
 
 
 def said_of(sample: Sample) -> dict[str, Any]:
-    """Return what is in a picture, in JSON's types."""
+    """Return the contents of a picture, in JSON types."""
     projection = sample.camera.projection(sample.frame.width, sample.frame.height)
     return {
         "size": [sample.frame.width, sample.frame.height],
@@ -107,5 +107,5 @@ def said_of(sample: Sample) -> dict[str, Any]:
 
 
 def json_line(value: Any) -> bytes:
-    """Return a value as a file of JSON."""
+    """Return a value as a JSON file."""
     return (json.dumps(value, ensure_ascii=False, allow_nan=False) + "\n").encode("utf-8")

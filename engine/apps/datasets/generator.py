@@ -1,4 +1,4 @@
-"""Numbers that look random and follow from a seed and names: the same on every machine.
+"""Reproducible random numbers from a seed and names: the same on every machine.
 
 In: a seed and names, which say what the numbers are for. Out: whole numbers, float64 of 53 bits,
 directions and rotations. The bits are those of Philox, a generator that counts, under a key that is
@@ -23,11 +23,11 @@ from ...errors import InvalidArgumentError
 Item = TypeVar("Item")
 
 _ULP = 2.0**-53
-_MOST = 2**30  # numbers at once
+_MOST = 2**30  # numbers per call
 
 
 class Generator:
-    """A stream of numbers that follows from a seed.
+    """A reproducible stream of random numbers from a seed.
 
     Parameters
     ----------
@@ -52,15 +52,15 @@ class Generator:
             if isinstance(value, bool) or not isinstance(value, allowed):
                 raise InvalidArgumentError(f"seeds are whole numbers, not {shown(value)}")
         self._words = (int(seed), *(n if isinstance(n, str) else int(n) for n in names))
-        # Texts have quotes, and numbers have none: no two lists of words look alike.
+        # Texts have quotes, and numbers have none: different lists of words never look alike.
         key = hashlib.blake2b(repr(self._words).encode("utf-8"), digest_size=16).digest()
         self._bits = np.random.Philox(key=int.from_bytes(key, "little"))
 
     def fork(self, *names: str | int) -> Generator:
-        """Return a generator of its own for one purpose.
+        """Return an independent generator for one purpose.
 
-        It does not depend on what was asked of this one before, nor does this one on it: a further
-        number for the light does not move the camera.
+        Neither generator affects the other: one more random number for the light leaves the camera
+        unchanged.
         """
         return Generator(*self._words, *names)
 
@@ -73,7 +73,7 @@ class Generator:
     ) -> NDArray[np.float64]: ...
 
     def uniform(self, low=0.0, high=1.0, size=None):
-        """Return numbers that are evenly distributed.
+        """Return uniformly distributed numbers.
 
         Parameters
         ----------
@@ -93,7 +93,7 @@ class Generator:
         return low + (high - low) * ((words >> np.uint64(11)) * _ULP)
 
     def integer(self, low: int, high: int) -> int:
-        """Return a whole number from ``low`` to ``high - 1``.
+        """Return a random integer from ``low`` to ``high - 1``.
 
         Raises
         ------
@@ -108,7 +108,7 @@ class Generator:
         return low + (self._raw() * (high - low) >> 64)
 
     def integers(self, low: int, high: int, size: int | tuple[int, ...]) -> NDArray[np.int64]:
-        """Return an array of whole numbers from ``low`` to ``high - 1``, at most 2**32 of them.
+        """Return an array of integers from ``low`` to ``high - 1``, at most 2**32 values.
 
         Raises
         ------
@@ -126,38 +126,38 @@ class Generator:
         return (words * np.uint64(high - low) >> np.uint64(32)).astype(np.int64) + low
 
     def chance(self, probability: float) -> bool:
-        """Return True as often as ``probability``, from 0 to 1, says."""
+        """Return True with a given probability, from 0 to 1."""
         return self.uniform() < fraction(probability, "probability")
 
     def choice(self, items: Sequence[Item]) -> Item:
-        """Return one of the items, each as often as the others."""
+        """Return one of the items, all equally likely."""
         listed = _listed(items)
         if len(listed) == 0:
             raise InvalidArgumentError("items must be one or more, not none")
         return listed[self.integer(0, len(listed))]
 
     def sample(self, items: Sequence[Item], count: int) -> list[Item]:
-        """Return some of the items, none twice, in any order."""
+        """Return some of the items without repetition, in random order."""
         left = list(_listed(items))
         if not 0 <= _whole(count, "count") <= len(left):
             raise InvalidArgumentError(f"count must be 0 to {len(left)}, not {shown(count)}")
         return [left.pop(self.integer(0, len(left))) for _ in range(count)]
 
     def direction(self) -> NDArray[np.float64]:
-        """Return a vector of length 1, (3,): each direction as often as the others."""
+        """Return a random unit vector, (3,), uniform over all directions."""
         x, y, square = self._in_disc()
         stretch = 2.0 * math.sqrt(1.0 - square)
         return np.array([x * stretch, y * stretch, 1.0 - 2.0 * square])
 
     def rotation(self) -> NDArray[np.float64]:
-        """Return a quaternion x, y, z, w, (4,): each rotation as often as the others."""
+        """Return a random quaternion x, y, z, w, (4,), uniform over all rotations."""
         x, y, square = self._in_disc()
         z, w, other = self._in_disc()
         stretch = math.sqrt((1.0 - square) / other)
         return np.array([x, y, z * stretch, w * stretch])
 
     def _in_disc(self) -> tuple[float, float, float]:
-        """A point in the disc of radius 1, and the square of its distance from the middle."""
+        """Return a random point in the unit disc, and its squared distance from the centre."""
         while True:
             x, y = self.uniform(-1.0, 1.0), self.uniform(-1.0, 1.0)
             square = x * x + y * y
@@ -187,7 +187,7 @@ def _listed(items: Sequence[Item]) -> Sequence[Item]:
 
 
 def _shape(size: int | tuple[int, ...] | None) -> tuple[int, ...] | None:
-    """Check the shape of an array."""
+    """Return the shape of an array, checked."""
     if size is None:
         return None
     sides = tuple(size) if isinstance(size, (tuple, list)) else (size,)

@@ -1,7 +1,7 @@
-"""Cameras and poses as OpenCV and BOP have them.
+"""Conversion of cameras and poses to OpenCV's and BOP's conventions.
 
-In: cameras of ours, which look along -Z with +Y up. Out: the matrix K, and poses for a camera that
-looks along +Z with +Y down. Pixels are counted from the centre of the top left one.
+In: our cameras, which look along -Z with +Y up. Out: the matrix K, and poses for a camera that
+looks along +Z with +Y down. Pixel coordinates start at the centre of the top left pixel.
 """
 
 from __future__ import annotations

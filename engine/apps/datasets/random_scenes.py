@@ -1,7 +1,7 @@
-"""Cameras, lights, poses, textures and materials that a `Generator` chooses.
+"""Random cameras, lights, poses, textures and materials.
 
-In: a generator and limits. Out: objects of the scene API. All is made by whole numbers, single IEEE
-operations and `engine3d.linalg`: the same bits, and so the same pictures, on every machine.
+In: a `Generator` and limits. Out: objects of the scene API. All arithmetic is on integers, single
+IEEE operations and `engine3d.linalg`: the same bits, and so the same pictures, on every machine.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from .generator import Generator
 Limits = tuple[float, float]
 PATTERNS = ("checker", "stripes", "dots", "noise")
 _TURN = 2.0 * math.pi
-_TRIES = 64  # for a place, before a thing is left out
+_TRIES = 64  # attempts to place a thing before it is left out
 
 
 @checks_types
@@ -116,7 +116,7 @@ def random_pose(
     *,
     upright: bool = False,
 ) -> NDArray[np.float64]:
-    """Return a pose: any rotation, at a place in a box.
+    """Return a random pose: any rotation, at a position in a box.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def random_pose(
 def scatter(
     generator: Generator, radii: Sequence[float], half_size: float
 ) -> list[tuple[float, float] | None]:
-    """Return places on a square for discs that do not overlap.
+    """Return positions on a square for discs that do not overlap.
 
     Parameters
     ----------
@@ -180,7 +180,7 @@ def _overlap(one: tuple[float, float, float], other: tuple[float, float, float])
 
 @checks_types
 def random_texture(generator: Generator, side: int = 64, pattern: str | None = None) -> Texture:
-    """Return a texture of two colours in a pattern.
+    """Return a random texture of two colours in a pattern.
 
     Parameters
     ----------
@@ -206,7 +206,7 @@ def random_texture(generator: Generator, side: int = 64, pattern: str | None = N
 
 
 def _shares(generator: Generator, side: int, pattern: str) -> NDArray[np.int64]:
-    """How much of the first colour each pixel has, (side, side), 0 to 256."""
+    """Return the share of the first colour for each pixel, (side, side), 0 to 256."""
     cell = side >> generator.integer(1, 4)
     y, x = np.mgrid[0:side, 0:side]
     if pattern == "checker":
@@ -220,7 +220,7 @@ def _shares(generator: Generator, side: int, pattern: str) -> NDArray[np.int64]:
 
 
 def _noise(generator: Generator, x: np.ndarray, y: np.ndarray, cell: int) -> np.ndarray:
-    """Random values at the corners of cells, and between them what is linear."""
+    """Return random values at the corners of cells, linearly interpolated in between."""
     cells = len(x) // cell
     corners = generator.integers(0, 257, (cells, cells))
     left, top, right, low = x // cell, y // cell, x % cell, y % cell
@@ -232,7 +232,7 @@ def _noise(generator: Generator, x: np.ndarray, y: np.ndarray, cell: int) -> np.
 
 @checks_types
 def random_material(generator: Generator, *, textured: float = 0.5) -> Material:
-    """Return a physically based material.
+    """Return a random physically based material.
 
     Parameters
     ----------
@@ -251,7 +251,7 @@ def random_material(generator: Generator, *, textured: float = 0.5) -> Material:
 
 
 def _limits(value: Limits, what: str) -> tuple[float, float]:
-    """Check two numbers."""
+    """Return two limits, checked."""
     try:
         low, high = value
     except (TypeError, ValueError):
@@ -260,6 +260,6 @@ def _limits(value: Limits, what: str) -> tuple[float, float]:
 
 
 def _angles(value: Limits, what: str) -> tuple[float, float]:
-    """Check two angles in radians."""
+    """Return two angles in radians, checked."""
     low, high = _limits(value, what)
     return finite_angle(low, what), finite_angle(high, what)

@@ -1,4 +1,4 @@
-"""Masks as run lengths, in the compressed text that COCO's files hold.
+"""Run-length encoded masks, in COCO's compressed text format.
 
 In: masks. Out: ``{"size": [height, width], "counts": text}``, and back. Runs go down the columns,
 from left to right: how many pixels are out, then in, then out, and so on. From the fourth run on,
@@ -24,7 +24,7 @@ _MORE, _SIGN, _BITS = 0x20, 0x10, 0x1F
 
 
 class Rle(TypedDict):
-    """A mask as COCO's files hold it."""
+    """A mask as in COCO's files."""
 
     size: list[int]
     counts: str
@@ -59,7 +59,7 @@ def encode_rle(mask: NDArray[np.bool_]) -> Rle:
 
 @checks_types
 def decode_rle(rle: Rle) -> NDArray[np.bool_]:
-    """Return the mask, (H, W) bool, of what `encode_rle` gave.
+    """Return the mask, (H, W) bool, of an `encode_rle` result.
 
     Raises
     ------

@@ -1,7 +1,7 @@
-"""The input of a writer of data sets for one picture: the frame, and the scene that it shows.
+"""Samples: the input of a data set writer for one picture.
 
-In: a scene as it was drawn, and which of its nodes are things of which category. Out: a `Sample`;
-masks of what shows of each thing, and boxes around masks.
+In: a scene as drawn, with labels of its nodes. Out: a `Sample`; masks of each thing's visible part,
+and boxes around masks.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class Sample:
     seed: int = 0
 
     def things(self) -> list[Thing]:
-        """Return what is labelled, in the order of the nodes' ids.
+        """Return the labelled things, in order of node IDs.
 
         Raises
         ------
@@ -87,7 +87,7 @@ class Sample:
 
 @dataclass(frozen=True)
 class Thing:
-    """A thing that can be found in a picture.
+    """A thing that can be detected in a picture.
 
     Attributes
     ----------
@@ -102,7 +102,7 @@ class Thing:
     parts: tuple[Node, ...]
 
     def mask(self, object_id: NDArray[np.int32]) -> NDArray[np.bool_]:
-        """Return where the thing shows, (H, W)."""
+        """Return the thing's visible pixels, (H, W)."""
         ids = [part.id for part in self.parts]
         return object_id == ids[0] if len(ids) == 1 else np.isin(object_id, ids)
 
@@ -112,7 +112,7 @@ def _is_drawn(node: Node) -> bool:
 
 
 def _below(node: Node, labelled: Mapping[Node, str]) -> Iterator[Node]:
-    """The drawn nodes of a thing; what hangs below it and is another thing is not its own."""
+    """Return the drawn nodes of a thing, without other things below it."""
     if _is_drawn(node):
         yield node
     for child in node.children:
@@ -121,7 +121,7 @@ def _below(node: Node, labelled: Mapping[Node, str]) -> Iterator[Node]:
 
 
 def box_of(mask: NDArray[np.bool_]) -> tuple[int, int, int, int]:
-    """Return x, y, width and height of the box around a mask; four zeros where it is empty."""
+    """Return x, y, width and height of the box around a mask; four zeros if it is empty."""
     rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
     if not len(rows):
         return 0, 0, 0, 0

@@ -1,7 +1,7 @@
-"""Amodal masks: the pixels that a thing would show alone, within the picture and around it.
+"""Amodal masks: the pixels of a thing without occlusion, inside and around the picture.
 
-In: a thing, and the picture that it is in. Out: its mask as if nothing were in front of it, at the
-same samples, and how many pixels its silhouette has, on a canvas of three times the size.
+In: a thing, and its picture. Out: its mask as if nothing were in front of it, at the same samples,
+and the pixel count of its silhouette, on a canvas three times the size.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class Silhouette(NamedTuple):
 
 
 def silhouette_of(thing: Thing, sample: Sample) -> Silhouette:
-    """Return what a thing of a picture would show alone.
+    """Return the silhouette of a thing, drawn alone.
 
     Raises
     ------
@@ -75,7 +75,7 @@ def _reaches_the_edge(mask: NDArray[np.bool_]) -> bool:
 
 
 def _around(alone: Scene, sample: Sample, options: RenderOptions) -> NDArray[np.bool_]:
-    """The silhouette on a canvas of three times the picture's size, with the picture amid."""
+    """Return the silhouette on a canvas of three times the picture's size, centred."""
     renderer = sample.renderer
     width, height = renderer.width, renderer.height
     projection = np.array(sample.camera.projection(width, height))

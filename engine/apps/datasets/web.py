@@ -1,4 +1,4 @@
-"""Data sets as WebDataset has them: tar files of so many pictures each, read from end to end.
+"""The WebDataset format: tar files with a number of pictures each, read sequentially.
 
 Out: ``shard-000000.tar`` and so on. Of each picture, ``KEY.png``, the other outputs as
 ``KEY.depth.npy`` …, and ``KEY.json``, which says what `folders` says. Files in a tar have no date
@@ -75,7 +75,7 @@ class WebDatasetWriter(DatasetWriter):
             shard.append(note)
         if shard:
             yield self._pack(folder, shard)
-        with contextlib.suppress(OSError):  # missing, or of pictures that have come since
+        with contextlib.suppress(OSError):  # missing, or from newly added pictures
             os.rmdir(os.path.join(folder, UNPACKED))
 
     @checks_types
@@ -100,7 +100,7 @@ class WebDatasetWriter(DatasetWriter):
         return f"shard-{note.index // self.shard:06d}.tar"
 
     def _pack(self, folder: str, notes: list[Note]) -> str:
-        """Write the tar file of some pictures, whose loose files then go."""
+        """Write the tar file of some pictures, and remove their loose files."""
         path = self._shard_of(notes[0])
         paths = [(note, name) for note in notes for name in sorted(note.files)]
         with atomic_write(os.path.join(folder, path), below=folder) as file:
@@ -117,12 +117,12 @@ class WebDatasetWriter(DatasetWriter):
 
 
 def _packed(path: str) -> str:
-    """The name in a tar file of what is loose in a folder."""
+    """Return the name in a tar file for a loose file in a folder."""
     return path.partition("/")[2]
 
 
 @functools.lru_cache(4)
 def _members(path: str, written: int) -> dict[str, tuple[int, int]]:
-    """Return where each member of a tar file begins, and how long it is."""
+    """Return the offset and length of each member of a tar file."""
     with tarfile.open(path) as tar:
         return {entry.name: (entry.offset_data, entry.size) for entry in tar}

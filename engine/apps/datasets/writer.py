@@ -1,4 +1,4 @@
-"""The base of all writers of data sets.
+"""The base of all data set writers.
 
 In: a `Sample`. Out: the files that belong to that picture alone, and a note of it in JSON's types,
 from whichever process drew it; at the end, from all notes in the order of the data set, the files
@@ -24,7 +24,7 @@ from .samples import Sample
 
 
 class Note(NamedTuple):
-    """The notes on a picture that are kept until the data set is whole.
+    """A picture's notes, kept until the data set is complete.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class Note(NamedTuple):
 
 
 class Shared(NamedTuple):
-    """A file that belongs to several pictures, and whose path tells what it holds.
+    """A file shared by several pictures, whose path identifies its content.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class Shared(NamedTuple):
     is_whole: Callable[[str], bool]
 
 
-#: What a file holds, or what makes it where it is not there yet.
+#: A file's content, or the recipe that creates it if missing.
 Content: TypeAlias = bytes | Shared
 
 
@@ -67,7 +67,7 @@ def own_files(files: Mapping[str, Content]) -> dict[str, bytes]:
 
 
 def contents(folder: str, files: Mapping[str, Content]) -> Iterator[tuple[str, bytes]]:
-    """Yield what must be written of a picture's files to a folder: paths there, and bytes."""
+    """Yield the files to write for a picture: paths in the folder, and bytes."""
     for path, data in files.items():
         target = os.path.join(folder, path)
         if isinstance(data, bytes):
@@ -77,9 +77,9 @@ def contents(folder: str, files: Mapping[str, Content]) -> Iterator[tuple[str, b
 
 
 class DatasetWriter(ABC):
-    """Says which files a data set is made of.
+    """Defines the files of a data set.
 
-    A writer keeps nothing of the pictures: it is given to any number of processes.
+    A writer keeps no data of pictures, since it is sent to any number of processes.
 
     Attributes
     ----------
@@ -99,19 +99,19 @@ class DatasetWriter(ABC):
     @abstractmethod
     @checks_types
     def describe(self, sample: Sample) -> tuple[dict[str, Content], Any]:
-        """Return a picture's files, by their paths in the data set, and a note for `finish`.
+        """Return a picture's files, by path in the data set, and a note for `finish`.
 
-        Those that are `Shared` are made where they are not there yet, or are damaged.
+        Files that are `Shared` are created if missing or damaged.
         """
 
     @checks_types
     def is_whole(self, folder: str, note: Note) -> bool:
-        """Return whether the files are there that a picture shares with others."""
+        """Return whether the files that a picture shares with others exist."""
         return True
 
     @checks_types
     def finish(self, folder: str, notes: Iterable[Note]) -> Iterator[str]:
-        """Write what belongs to the whole data set; yield the paths of these files in it.
+        """Write the files of the whole data set; yield their paths in it.
 
         Parameters
         ----------
@@ -126,16 +126,16 @@ class DatasetWriter(ABC):
 
     @checks_types
     def beside(self, sample: Sample, end: str) -> str:
-        """Return where a further file of a picture goes, whose name has this end."""
+        """Return the path of a further file of a picture, with this suffix."""
         return f"extra/{sample.name}.{end}"
 
     def said(self) -> dict[str, Any]:
-        """What tells this writer from others of its kind, in JSON's types."""
+        """Return the writer's settings, in JSON types."""
         return {"kind": self.kind, **dict(sorted(vars(self).items()))}
 
     @checks_types
     def stored(self, folder: str, note: Note, path: str) -> bytes | None:
-        """Return the bytes of one of a picture's own files; None where they are not there.
+        """Return the bytes of one of a picture's own files; None if it is missing.
 
         Parameters
         ----------
@@ -149,12 +149,12 @@ class DatasetWriter(ABC):
         try:
             with open(os.path.join(folder, path), "rb") as file:
                 return file.read()
-        except (OSError, ValueError):  # a name with a zero byte is a file's nowhere
+        except (OSError, ValueError):  # a name with a zero byte
             return None
 
 
 class JsonParts:
-    """A JSON file written value by value, so that it needs no memory: whole or not at all.
+    """Writes a JSON file value by value, to save memory: whole or not at all.
 
     Parameters
     ----------
@@ -175,11 +175,11 @@ class JsonParts:
         self._files.__exit__(*error)
 
     def text(self, text: str) -> None:
-        """Write a piece of JSON as it is."""
+        """Write a piece of JSON verbatim."""
         self._file.write(text.encode("utf-8"))
 
     def all(self, values: Iterable[Any], brackets: str = "[]", keys: bool = False) -> None:
-        """Write an array of values, or of (key, value) an object."""
+        """Write an array of values, or an object of (key, value) pairs."""
         start, end = brackets
         between = start
         for value in values:
@@ -198,7 +198,7 @@ def compact(value: Any) -> str:
 
 
 def checked_categories(names: Sequence[str] | None) -> list[str] | None:
-    """Return the names of categories, each once; None where pictures are to tell them."""
+    """Return distinct category names, checked; None if pictures define them."""
     if names is None:
         return None
     listed = list(names) if isinstance(names, Iterable) and not isinstance(names, str) else []
@@ -211,13 +211,13 @@ def checked_categories(names: Sequence[str] | None) -> list[str] | None:
 
 
 def category_numbers(listed: list[str] | None, found: Iterable[str]) -> dict[str, int]:
-    """Return the number of each category, from 1 on; sorted by name where none are listed."""
+    """Return the number of each category, from 1 on; sorted by name unless listed."""
     names = sorted(set(found)) if listed is None else listed
     return {name: number for number, name in enumerate(names, start=1)}
 
 
 def check_category(listed: list[str] | None, category: str) -> None:
-    """Raise unless a category is one of those that are listed."""
+    """Raise unless a category is in the list."""
     if listed is not None and category not in listed:
         known = ", ".join(listed)
         raise InvalidArgumentError(f"{category!r} is not one of the categories {known}")

@@ -1,4 +1,4 @@
-"""A whole data set from one process: what `engine3d.batch` does with many.
+"""Writes a whole data set in one process; `engine3d.batch` uses many.
 
 In: a folder, a writer, samples one after the other. Out: its files.
 """
@@ -54,7 +54,7 @@ def write_dataset(
 
 
 def save_files(folder: str, files: Mapping[str, Content]) -> None:
-    """Write a picture's files, which appear together, in a folder that is made for them."""
+    """Write a picture's files, which appear together, and create their folder."""
     with AtomicFiles() as parts:
         for target, data in contents(folder, files):
             make_folder_of(target, below=folder)

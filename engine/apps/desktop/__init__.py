@@ -1,1 +1,1 @@
-"""Shared by desktop programs: the user's folders, and the files that were opened lately."""
+"""Shared code of desktop programs: the user's folders and recent files."""

@@ -1,7 +1,7 @@
-"""The files that were opened lately, over all runs of the viewer and of the editor.
+"""The list of recently opened files, shared by all runs of viewer and editor.
 
-In: paths. Out: the same, the latest first, of those that are still there. What is stored is only
-for convenience: a list that is damaged is a warning, one that cannot be written nothing at all.
+In: paths. Out: the same, latest first, without missing files. The list is only a convenience: a
+damaged one gives a warning, and a failure to write is ignored.
 """
 
 from __future__ import annotations
@@ -32,12 +32,12 @@ class RecentFiles:
 
     def __init__(self, path: str | os.PathLike[str] | None = None) -> None:
         self._path = user_path("state", "recent.json") if path is None else Path(path)
-        # The viewer of earlier versions had a list of its own, a path a line.
+        # Earlier viewers kept their own list, one path per line.
         self._earlier = user_path("state", "recent-files") if path is None else None
         self._told = False
 
     def paths(self) -> tuple[str, ...]:
-        """Return the paths of the files that are there, the latest first."""
+        """Return the paths of the existing files, latest first."""
         return tuple(path for path in self._stored() if os.path.isfile(path))[:MOST]
 
     def add(self, *paths: str | os.PathLike[str]) -> None:
@@ -47,7 +47,7 @@ class RecentFiles:
             self._store(list(dict.fromkeys([*added, *self._stored()]))[:MOST])
 
     def clear(self) -> None:
-        """Forget all of them."""
+        """Remove all entries."""
         self._store([])
 
     def _stored(self) -> list[str]:
@@ -74,7 +74,7 @@ class RecentFiles:
 
 
 def _lines(path: Path | None) -> list[str]:
-    """The lines of a file, if it can be read."""
+    """Return the lines of a file, if it can be read."""
     try:
         text = b"" if path is None else json_records.read_small(path, _LARGEST)
     except (FileAccessError, FileFormatError):

@@ -1,7 +1,7 @@
-"""The user's folders in which programs keep lasting data, as each system has them.
+"""The user's folders for lasting data of programs, on each system.
 
-Windows and macOS have folders of their own; everywhere else it is the XDG Base Directory
-Specification (freedesktop.org, 2021).
+Windows and macOS have their own conventions; others follow the XDG Base Directory Specification
+(freedesktop.org, 2021).
 """
 
 from __future__ import annotations
@@ -11,12 +11,12 @@ import sys
 from pathlib import Path
 from typing import Literal, NamedTuple
 
-#: What the user says, what programs remember, and what can be made again or was not saved.
+#: User settings, remembered state, and data that can be recreated or was not saved.
 Kind = Literal["config", "state", "cache"]
 
 
 class _Place(NamedTuple):
-    """Variables of the environment that name a folder, and where it is without them."""
+    """Environment variables for a folder, and its default."""
 
     xdg: str
     usual: str  # below the home folder
@@ -32,10 +32,10 @@ _PLACES: dict[Kind, _Place] = {
 
 
 def user_path(kind: Kind, name: str) -> Path:
-    """Return the path of a file or folder of the user's, which need not be there yet.
+    """Return the path of a user's file or folder, which need not exist yet.
 
-    On Windows and macOS, what is only where XDG has it is found and stays there: the editor of
-    earlier versions kept its files so on all systems.
+    On Windows and macOS, a file that exists only in the XDG place stays there: earlier editors used
+    it on all systems.
     """
     path, other = _of_system(_PLACES[kind]) / name, _of_xdg(_PLACES[kind]) / name
     return other if os.path.lexists(other) and not os.path.lexists(path) else path
@@ -51,7 +51,7 @@ def _of_system(place: _Place) -> Path:
 
 def _of_xdg(place: _Place) -> Path:
     given = os.environ.get(place.xdg, "")
-    # The specification has relative paths ignored.
+    # The specification says to ignore relative paths.
     root = Path(given) if os.path.isabs(given) else _home() / place.usual
     return root / "engine3d"
 

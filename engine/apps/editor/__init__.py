@@ -1,5 +1,5 @@
-"""Editing scenes: what an editor knows and does, without a window.
+"""The editor's logic, without a window.
 
-A `SceneDocument` holds a scene with its history, selection and console; whoever draws panels asks
-it and gives it commands.
+A `SceneDocument` holds a scene with its history, selection and console; panels query it and give it
+commands.
 """

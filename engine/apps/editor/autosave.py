@@ -1,8 +1,8 @@
-"""Saves a copy of unsaved work, in case of a crash.
+"""Saves copies of unsaved work, in case of a crash.
 
-In: a document, now and then. Out: a copy of its scene in the user's cache folder, at most a minute
-old, which the next editor finds if this one ended without a word. A copy belongs to the process
-that locks it; the system lets go of a lock when a process ends, however it does.
+In: a document, from time to time. Out: a copy of its scene in the user's cache folder, at most a
+minute old, which the next editor finds after a crash. A copy belongs to the process that locks it;
+the system releases the lock when the process ends.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ from ..desktop.user_folders import user_path
 from .document import SceneDocument
 from .recovery import ROOT, Recovery
 
-#: Seconds between two copies of a scene that goes on changing.
+#: Seconds between copies of a scene that keeps changing.
 PERIOD = 30.0
 _HEAD = json_records.members(
     {
         "autosave": json_records.members(
             {
-                "document": json_records.anything,  # without it the scene is still there
+                "document": json_records.anything,  # without it the scene is still complete
                 "time": json_records.time_of_day,
             }
         )
@@ -38,7 +38,7 @@ _LONGEST_LINE = 1 << 16  # bytes
 
 
 class Autosave:
-    """Copies of one document; the first at once if it is not saved, as after a recovery.
+    """Copies of one document; the first at once if it is unsaved, as after a recovery.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ class Autosave:
             self.save()
 
     def tick(self, now: float | None = None) -> bool:
-        """Make a copy if one is due; to be called often. Return whether one was made.
+        """Make a copy if one is due; return whether one was made. Call this often.
 
         Parameters
         ----------
@@ -79,7 +79,7 @@ class Autosave:
         return self.save()
 
     def save(self) -> bool:
-        """Make a copy now; a warning of the console tells if that fails."""
+        """Make a copy now; warn on the console if that fails."""
         document = self._document
         self._version, self._changed_since = document.history.version, None
         try:
@@ -95,7 +95,7 @@ class Autosave:
         return True
 
     def discard(self) -> None:
-        """Remove the copy: what it holds is saved, or not wanted."""
+        """Remove the copy, once its content is saved or not wanted."""
         self._version, self._changed_since = self._document.history.version, None
         if self._path is not None:
             _remove(self._path)
@@ -104,7 +104,7 @@ class Autosave:
         self._path = self._lock = None
 
     def _owned_path(self) -> Path:
-        """The path of the copy, which is this process's from now on."""
+        """Return the path of the copy, which this process owns from now on."""
         if self._path is None:
             self._folder.mkdir(mode=0o700, parents=True, exist_ok=True)
             path = self._folder / f"{os.urandom(8).hex()}.e3d.json"
@@ -112,15 +112,15 @@ class Autosave:
             self._lock = os.open(_lock_of(path), flags, 0o600)
             if not locked(self._lock):
                 raise OSError("another process has locked a name drawn at random")
-            os.close(os.open(path, flags, 0o600))  # private from the beginning
+            os.close(os.open(path, flags, 0o600))  # private from the start
             self._path = path
         return self._path
 
 
 def left_behind(folder: str | os.PathLike | None = None) -> tuple[Recovery, ...]:
-    """Return the copies of editors that ended without saving or discarding, the latest first.
+    """Return the copies of editors that crashed, latest first.
 
-    What editors were about to write when they ended is removed.
+    Partial files of such editors are removed.
     """
     place = _folder() if folder is None else Path(folder)
     _remove_half_written(place)
@@ -133,7 +133,7 @@ def left_behind(folder: str | os.PathLike | None = None) -> tuple[Recovery, ...]
 
 
 def _remove_half_written(place: Path) -> None:
-    """Remove what editors were writing when they ended, whoever may still be found by its lock."""
+    """Remove partial files of editors that are gone, as their locks show."""
     for path in place.glob(".*.part"):
         match = LEFT_BEHIND.fullmatch(path.name)
         if match is not None and not _is_locked(place / match["name"]):
@@ -142,7 +142,7 @@ def _remove_half_written(place: Path) -> None:
 
 
 def forget(copy: Recovery) -> None:
-    """Remove a copy that was left behind."""
+    """Remove a copy left behind by a crash."""
     _remove(Path(copy.path))
 
 
@@ -155,7 +155,7 @@ def _lock_of(path: Path) -> Path:
 
 
 def _is_locked(path: Path) -> bool:
-    """Whether a process that is alive owns a copy."""
+    """Return whether a live process owns a copy."""
     try:
         handle = os.open(_lock_of(path), READ_WRITE)
     except OSError:
@@ -167,9 +167,9 @@ def _is_locked(path: Path) -> bool:
 
 
 def _saying(path: Path) -> tuple[str | None, float] | None:
-    """Return the first line of a copy: which document it is of, and when it was made.
+    """Return a copy's first line: its document, and its time.
 
-    None for a copy that cannot be read, of which a warning tells.
+    Return None, with a warning, for an unreadable copy.
     """
     try:
         line = json_records.start_of(path, _LONGEST_LINE).partition(b"\n")[0]

@@ -1,7 +1,7 @@
-"""The log of an editor: messages, warnings, errors and what each action did.
+"""The editor's log: messages, warnings, errors and actions.
 
-In: lines of text, as they come, also from other threads. Out: entries, the oldest first, and those
-of them that a filter lets through.
+In: lines of text, also from other threads. Out: entries, oldest first, and those that match a
+filter.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Entry(NamedTuple):
 
 
 class Console:
-    """A log; the oldest of more than 10,000 entries are forgotten.
+    """A log; beyond 10,000 entries the oldest are dropped.
 
     Attributes
     ----------
@@ -57,11 +57,11 @@ class Console:
 
     @property
     def entries(self) -> tuple[Entry, ...]:
-        """All entries, the oldest first."""
+        """All entries, oldest first."""
         return tuple(self._entries)
 
     def write(self, level: str, text: str) -> None:
-        """Add entries, one a line of the text."""
+        """Add entries, one for each line of the text."""
         for line in str(text).splitlines() or [""]:
             shown = printable(line.expandtabs())
             self._entries.append(Entry(self.version, time.time(), level, shown))
@@ -73,7 +73,7 @@ class Console:
         self.version += 1
 
     def filtered(self, levels: Collection[str] = LEVELS, search: str = "") -> tuple[Entry, ...]:
-        """Return the entries of some levels that hold a text, in whatever case; found once."""
+        """Return the entries of some levels that contain a text, ignoring case; cached."""
         key = self.version, frozenset(levels), search.casefold()
         if self._filtered is None or self._filtered[0] != key:
             found = tuple(
@@ -86,7 +86,7 @@ class Console:
 
     @contextlib.contextmanager
     def warnings_noted(self) -> Iterator[None]:
-        """Turn the warnings of what is done within into entries."""
+        """Turn warnings within the block into entries."""
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             try:

@@ -1,7 +1,7 @@
 """Takes and restores the contents of a mesh, material, texture, light or camera.
 
-In: things. Out: their attributes, with lists and dicts of their own; arrays are not copied, since
-nobody can write to them. What follows from the rest is left out.
+In: objects. Out: their attributes, with copied lists and dicts; arrays are read-only and not
+copied. Derived attributes are left out.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ _DERIVED = {"version", "_derived", "_box_of", "_tree_of"}
 
 
 def contents(thing: Closed) -> dict[str, Any]:
-    """Return what a thing holds."""
+    """Return the contents of an object."""
     return {key: kept(value) for key, value in vars(thing).items() if key not in _DERIVED}
 
 
 def put_contents(thing: Closed, held: dict[str, Any]) -> None:
-    """Let a thing hold what `contents` returned, if it does not."""
+    """Restore the contents that `contents` returned, if they differ."""
     if same(contents(thing), held):
         return
     thing.__dict__.update({key: kept(value) for key, value in held.items()})

@@ -1,7 +1,7 @@
-"""The document of the editor: a scene with its resources, file, history and selection.
+"""The editor's document: a scene with its resources, file, history and selection.
 
-In: commands. Out: a scene that they changed, a console that tells so. Panels show what is here and
-keep nothing of their own that matters.
+In: commands. Out: the changed scene, and log entries. Panels show this state and keep no essential
+state themselves.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ from .recovery import Recovery, content_of
 from .resource_list import ResourceList
 from .selection import Selection
 
-#: Of files that hold scenes, which are saved as they were opened.
+#: Extension of scene files, which are saved as they were opened.
 SCENE_EXTENSION = ".e3d.json"
 
 
 class SceneDocument:
-    """A scene that is edited.
+    """A scene being edited.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ class SceneDocument:
         self.scene = Scene() if scene is None else scene
         self.path: str | None = None
         self.up = "+Y"
-        self._state: FileState | None = None  # of the file, as it was opened or saved
+        self._state: FileState | None = None  # of the file, when it was opened or saved
         self.resources = ResourceList(self.scene)
         self.history = History()
         self.selection = Selection()
@@ -72,7 +72,7 @@ class SceneDocument:
         self.prompt = Prompt(self.scene, self.history, self.console, self._names)
 
     def do(self, command: Command, *, drag: Hashable = None) -> bool:
-        """Do a command as a step that can be undone, and select what it made.
+        """Run a command as an undoable step, and select its result.
 
         Parameters
         ----------
@@ -91,18 +91,18 @@ class SceneDocument:
         except Engine3DError as error:
             self.console.write("error", f"{command.label}: {error}")
             return False
-        if command is self.history.last:  # not a part of a drag that goes on
+        if command is self.history.last:  # the drag continues in the same step
             self.console.write("action", command.label)
         if command.makes_nodes:
             self.selection.set(command.nodes)
         return True
 
     def undo(self) -> bool:
-        """Undo the last step, if there is one; return whether there was."""
+        """Undo the last step; return whether there was one."""
         return self._step("Undo", self.history.undo)
 
     def redo(self) -> bool:
-        """Do the step again that was undone last; return whether there was one."""
+        """Redo the last undone step; return whether there was one."""
         return self._step("Redo", self.history.redo)
 
     @classmethod
@@ -129,7 +129,7 @@ class SceneDocument:
     def begin(
         cls, path: str | os.PathLike[str], *, console: Console | None = None
     ) -> SceneDocument:
-        """Open a file as `open` does; a scene that is not there yet is an empty one, saved there.
+        """Open a file as `open` does; a missing scene file starts an empty scene.
 
         Raises
         ------
@@ -147,7 +147,7 @@ class SceneDocument:
 
     @classmethod
     def recover(cls, copy: Recovery, *, console: Console | None = None) -> SceneDocument:
-        """Open what an editor left behind, as a later state of its file that is not saved.
+        """Open a crashed editor's copy, as an unsaved later state of its file.
 
         Raises
         ------
@@ -165,25 +165,25 @@ class SceneDocument:
 
     @property
     def animator(self) -> Animator:
-        """The animator of the scene's nodes; it moves nothing yet if the scene had none."""
+        """The animator of the scene; created, without motions, if the scene has none."""
         if self.scene.animator is None:
             self.scene.animator = Animator(self.scene)
         return self.scene.animator
 
     @property
     def moves(self) -> bool:
-        """Whether some nodes move by themselves."""
+        """Whether the animator moves any nodes."""
         animator = self.scene.animator
         return animator is not None and any(motions_of(animator))
 
     @property
     def title(self) -> str:
-        """The file's name, with a star while something is not saved."""
+        """The file's name, with a star if there are unsaved changes."""
         name = "untitled" if self.path is None else printable(os.path.basename(self.path))
         return f"{name}*" if self.is_modified else name
 
     def save_would_overwrite(self, path: str | os.PathLike[str] | None = None) -> str | None:
-        """Return what would be lost if the scene were saved to a path, to be asked about.
+        """Return what saving to a path would overwrite, to ask the user.
 
         Parameters
         ----------
@@ -244,13 +244,13 @@ class SceneDocument:
 
     @property
     def is_modified(self) -> bool:
-        """Whether something changed since it was saved."""
+        """Whether there are unsaved changes."""
         return not self.history.is_saved
 
     def _step(self, what: str, step: Callable[[], Command | None]) -> bool:
         try:
             command = step()
-        except Engine3DError as error:  # somebody changed the scene past the history
+        except Engine3DError as error:  # the scene was changed without the history
             self.history.clear()
             self.console.write("error", f"{what}: {error}; the history was cleared")
             return False

@@ -1,8 +1,8 @@
-"""The pose to which a drag of the gizmo goes: exact steps along or around its handles.
+"""The pose of a gizmo drag: exact steps along or around its handles.
 
-In: the pose at the beginning of the drag, the one that the gizmo made of it in single precision, a
-step. Out: a pose in double precision. Axes that are nearly those of the world, or of the node, are
-these, and factors that are nearly 1 are 1, so that a drag does not turn or scale a little.
+In: the pose at the start of the drag, the gizmo's single precision result, and a step. Out: a pose
+in double precision. Axes close to the world's or the node's become exact, and factors close to 1
+become 1, so that a drag adds no small rotation or scale.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ...base import linalg
 from .gizmo import snapped, steps_of_turn, turned
 
-_NEARLY = 2e-3  # of single precision, after a matrix was taken apart
+_NEARLY = 2e-3  # tolerance of single precision after decomposing a matrix
 
 
 def dragged_pose(
@@ -26,7 +26,7 @@ def dragged_pose(
     *,
     is_local: bool = False,
 ) -> NDArray[np.float64]:
-    """Return where a pose is dragged.
+    """Return the pose that a drag leads to.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def _scaled(start, made, step: float | None) -> NDArray[np.float64]:
 
 
 def _axes(pose) -> NDArray[np.float64]:
-    """The directions of the axes of a pose, (3, 3): a row each."""
+    """Return the directions of a pose's axes, (3, 3): a row each."""
     return linalg.normalize(np.ascontiguousarray(pose[:3, :3].T))
 
 
@@ -95,7 +95,7 @@ def _rotation(pose) -> NDArray[np.float64]:
 
 
 def _nearest_axis(axis, candidates) -> NDArray[np.float64]:
-    """The first of some axes, or its opposite, that nearly is an axis; else the axis itself."""
+    """Return the first of some axes, or its opposite, close to an axis; else the axis itself."""
     for candidate in candidates:
         along = float(linalg.dot(axis, candidate))
         if abs(along) > 1.0 - _NEARLY * _NEARLY:

@@ -1,6 +1,6 @@
-"""Files that are dropped on a scene that is edited: models become nodes, images textures.
+"""Files dropped on an edited scene: models become nodes, images textures.
 
-In: a path, and where it was dropped. Out: a command, so that it can be undone.
+In: a path, and the drop position. Out: an undoable command.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def drop_file(
     at: ArrayLike | None = None,
     onto: Node | None = None,
 ) -> Command:
-    """Return the command that a dropped file asks for.
+    """Return the command for a dropped file.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def drop_file(
 
 
 def _underside(scene: Scene) -> np.ndarray:
-    """The middle of the lower side of the box around a scene."""
+    """Return the centre of the lower side of the box around a scene."""
     low, high = scene.bounds
     middle = (low + high) * 0.5
     middle[1] = low[1]
@@ -76,7 +76,7 @@ def _underside(scene: Scene) -> np.ndarray:
 
 def _paint(name: str, onto: Node | None) -> Command:
     mesh = getattr(onto, "object", None)
-    mesh = getattr(mesh, "mesh", mesh)  # of instances
+    mesh = getattr(mesh, "mesh", mesh)  # for instances
     if not isinstance(mesh, Mesh):
         raise InvalidArgumentError("an image becomes a texture: drop it onto a node with a mesh")
     texture = load_texture(name)

@@ -1,8 +1,8 @@
-"""Pictures of files, before they are opened: models and images, small.
+"""Thumbnails of model and image files, for file dialogs.
 
-In: paths, as a dialog comes by them. Out: pixels, some time later: a thread of its own loads and
-draws, so that nobody waits. Models look as ``engine3d render`` draws them. Of several files that
-are asked for, the latest is the next. What is large, or cannot be read, has none.
+In: paths. Out: pixels, some time later: a separate thread loads and draws. Models look as with
+``engine3d render``. The latest request is served first. Large or unreadable files have no
+thumbnail.
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ from ...stage.stage_settings import Settings
 from ...stage.view_renderer import ViewRenderer
 from .thumbnails import shrunk
 
-#: Bytes of the largest files that have pictures.
+#: Files above this size in bytes have no thumbnail.
 LARGEST = 8 << 20
-#: How many pictures are kept.
+#: Number of thumbnails kept.
 MOST = 64
-#: Formats that a process of its own reads, which takes seconds.
+#: Formats read by a separate process, which takes seconds.
 _SLOW = frozenset({"trimesh", "step", "iges"})
 
 
 class FilePictures:
-    """Draws pictures of files, and keeps them.
+    """Draws thumbnails of files, and caches them.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ class FilePictures:
         self._thread: Thread | None = None
 
     def get(self, path: str) -> tuple[NDArray[np.uint8] | None, bool]:
-        """Return the picture of a file, (size, size, 4) uint8, and whether it is still to come."""
+        """Return a file's thumbnail, (size, size, 4) uint8, and whether it is pending."""
         key = _key(path)
         if key is None:
             return None, False
@@ -66,7 +66,7 @@ class FilePictures:
         return None, True
 
     def _work(self) -> None:
-        """Draw what is wanted, for ever."""
+        """Draw requested thumbnails, forever."""
         while True:
             with self._changed:
                 while self._wanted is None:
@@ -80,7 +80,7 @@ class FilePictures:
 
 
 def _key(path: str) -> tuple | None:
-    """A file as it is now; None if it has no picture."""
+    """Return a key of a file's current state; None if it has no thumbnail."""
     if _drawer(path) is None:
         return None
     try:
@@ -102,7 +102,7 @@ def _drawn(path: str, size: int) -> NDArray[np.uint8] | None:
     try:
         draw = _drawer(path)
         return None if draw is None else draw(path, size)
-    except Exception:  # whatever it is, the file has no picture, and the thread goes on
+    except Exception:  # whatever the error, the file has no thumbnail, and the thread goes on
         return None
 
 

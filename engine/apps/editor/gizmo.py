@@ -1,6 +1,6 @@
-"""The arithmetic of nodes that are moved: steps, turns and scales about a point, the ground.
+"""Arithmetic for moving nodes: steps, rotations and scales about a point, and the ground.
 
-In: numbers, points and axes in world space. Out: matrices, and what moves nodes.
+In: numbers, points and axes in world space. Out: matrices, and functions that move nodes.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from .selection import topmost
 
 
 def snapped(value: ArrayLike, step: float | None) -> NDArray[np.float64]:
-    """Return numbers rounded to whole steps; as they are without a step."""
+    """Return numbers rounded to whole steps; unchanged without a step."""
     numbers = np.asarray(value, np.float64)
     if not step:
         return numbers.copy()
@@ -28,20 +28,20 @@ def snapped(value: ArrayLike, step: float | None) -> NDArray[np.float64]:
 
 
 def turned(axis: ArrayLike, angle: float, center: ArrayLike) -> NDArray[np.float64]:
-    """Return the matrix that turns the world around an axis through a point, (4, 4) float64."""
+    """Return the matrix that rotates the world about an axis through a point, (4, 4) float64."""
     return _about(linalg.rotation_axis(axis, angle), center)
 
 
 def scaled(factors: ArrayLike, center: ArrayLike) -> NDArray[np.float64]:
-    """Return the matrix that scales the world along x, y and z from a point, (4, 4) float64."""
+    """Return the matrix that scales the world about a point along x, y and z, (4, 4) float64."""
     return _about(linalg.scaling(factors), center)
 
 
 def on_ground(scene: Scene, up: ArrayLike = (0, 1, 0)) -> Callable[[NodeSelection], None]:
-    """Return what lets nodes down on what is below them, or on 0 if nothing is, for `MoveNodes`.
+    """Return the moves that drop nodes onto what is below them, or onto 0, for `MoveNodes`.
 
-    A node moves against ``up``, as one with all below it, until the lowest point of its box is as
-    low as what the ray from the middle of the box meets first.
+    A node moves with its subtree against ``up``, until the lowest point of its box reaches the
+    first hit of a ray from the centre of the box.
     """
     upward = linalg.normalize(vector3(up, "up"))
 
@@ -52,7 +52,7 @@ def on_ground(scene: Scene, up: ArrayLike = (0, 1, 0)) -> Callable[[NodeSelectio
                 continue
             middle, reach = (box[0] + box[1]) * 0.5, (box[1] - box[0]) * 0.5
             height = float(linalg.dot(middle, upward)) - float(linalg.dot(reach, np.abs(upward)))
-            was_visible, node.visible = node.visible, False  # not to meet itself
+            was_visible, node.visible = node.visible, False  # it must not hit itself
             hit = scene.raycast(middle, -upward)
             node.visible = was_visible
             ground = 0.0 if hit is None else float(linalg.dot(hit.position, upward))
@@ -74,7 +74,7 @@ def _shift(node, offset: NDArray[np.float64]) -> None:
 
 
 def _box(scene: Scene, node) -> NDArray[np.float64] | None:
-    """The box around a node and all below it, (2, 3) float64."""
+    """Return the box around a node and its subtree, (2, 3) float64."""
     boxes = scene.select(with_below(node)).bounds
     boxes = boxes[~np.isnan(boxes[:, 0, 0])]
     return np.stack([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)]) if len(boxes) else None

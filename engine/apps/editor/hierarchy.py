@@ -1,8 +1,8 @@
-"""The rows of a scene's tree as a panel shows them: what is open, what a search finds.
+"""The rows of a scene's tree in a panel, with open nodes and search results.
 
-In: a scene, which nodes are open, a text. Out: the rows from top to bottom. Rows are found again
-only when the tree, a name that is searched, or what is open has changed; nodes that merely move
-cost a comparison of two numbers and of the links.
+In: a scene, its open nodes, a search text. Out: the rows from top to bottom. They are recomputed
+only when the tree, a searched name, or the open nodes change; for nodes that merely move, only two
+numbers and the links are compared.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Row(NamedTuple):
 
 
 class Rows(Sequence[Row]):
-    """The rows of a tree, from top to bottom; one is made when it is asked for.
+    """The rows of a tree, from top to bottom, created on demand.
 
     Parameters
     ----------
@@ -73,20 +73,20 @@ class Rows(Sequence[Row]):
         return Row(node, depth, has_children, is_open, self._is_match[slot] > 0)
 
     def place(self, node: Node) -> int | None:
-        """Return the number of a node's row; None if it has none."""
+        """Return the index of a node's row; None if it has none."""
         if self._places is None:
             self._places = {self._nodes[slot]: k for k, slot in enumerate(self._slots)}
         return self._places.get(node)
 
     def between(self, first: Node, last: Node) -> tuple[Node, ...]:
-        """Return the nodes from one row to another, both included, in the order of the rows."""
+        """Return the nodes from one row to another, inclusive, in row order."""
         places = [place for place in map(self.place, (first, last)) if place is not None]
         slots = self._slots[min(places) : max(places) + 1] if places else ()
         return tuple(self._nodes[slot] for slot in slots)
 
 
 class Hierarchy:
-    """The tree of a scene, to be shown in rows.
+    """The tree of a scene, shown in rows.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ class Hierarchy:
 
     @property
     def search(self) -> str:
-        """The text that names must contain, in any case; "" shows everything that is open.
+        """The text that names must contain, ignoring case; "" shows all open nodes.
 
         What is found is shown with all that is above it, whether that is open or not.
         """
@@ -121,11 +121,11 @@ class Hierarchy:
         return node in self._open
 
     def set_open(self, node: Node, is_open: bool, *, below: bool = False) -> None:
-        """Show or hide a node's children; with ``below``, those of all that is below it, too."""
+        """Show or hide a node's children; with ``below``, also those of its whole subtree."""
         self._set_open(with_below(node) if below else [node], is_open)
 
     def reveal(self, node: Node) -> None:
-        """Open all that is above a node."""
+        """Open all ancestors of a node."""
         self._set_open(_above(node), True)
 
     def _set_open(self, nodes: Iterable[Node], is_open: bool) -> None:
@@ -133,7 +133,7 @@ class Hierarchy:
         self._openings += 1
 
     def rows(self) -> Rows:
-        """Return the rows as the tree is now: the same object until something of them changes."""
+        """Return the rows of the current tree: the same object until one of them changes."""
         names = self._tree(), self._scene.data.renames
         key = names if self._search else names[:1], self._openings, self._search
         if key != self._made_of:
@@ -141,7 +141,7 @@ class Hierarchy:
         return self._rows
 
     def _tree(self) -> int:
-        """A number that grows with every change of the tree."""
+        """Return a number that grows with every change of the tree."""
         arrays = self._scene.data.arrays
         looked = arrays, arrays.changes
         if self._looked[:2] != looked:
@@ -185,7 +185,7 @@ class Hierarchy:
 
 
 def _with_above(matches: bytes, parent: list[int]) -> bytearray:
-    """Mark what is found and all that is above it."""
+    """Mark search results and all their ancestors."""
     shown = bytearray(len(matches))
     at = matches.find(1)
     while at >= 0:
@@ -198,7 +198,7 @@ def _with_above(matches: bytes, parent: list[int]) -> bytearray:
 
 
 def _walk(tops, parent, first, following, shown, is_open) -> tuple[list[int], list[int]]:
-    """The slots that rows show, and their depths: each before what is below it."""
+    """Return the slots of visible rows, and their depths: parents first."""
     slots, depths = [], []
     for top in tops:
         at, depth = top, 0

@@ -1,7 +1,6 @@
-"""The history: commands in order, to be undone and redone.
+"""The history: commands in order, for undo and redo.
 
-In: commands. Out: the same commands, backwards and forwards. A step that was undone and followed by
-another is forgotten.
+In: commands. Out: the same commands, backwards and forwards. A new command discards undone ones.
 """
 
 from __future__ import annotations
@@ -31,22 +30,22 @@ class Command(ABC):
 
     @abstractmethod
     def do(self) -> None:
-        """Change the scene: the first time, and again after `undo`.
+        """Apply the change, the first time or again after `undo`.
 
-        What fails leaves everything as it was, and raises.
+        On failure, raise and leave everything unchanged.
         """
 
     @abstractmethod
     def undo(self) -> None:
-        """Change it back, to the bit."""
+        """Revert the change, to the bit."""
 
     def absorb(self, later: Command) -> bool:
-        """Take in what was done right after this, if both can be one step; say whether they are."""
+        """Merge a command done right after this one, if possible; return whether it was merged."""
         return False
 
 
 class History:
-    """Steps that can be undone.
+    """Undoable steps.
 
     Attributes
     ----------
@@ -67,7 +66,7 @@ class History:
         self._saved_is_reachable = True
 
     def do(self, command: Command, drag: Hashable = None) -> None:
-        """Do a command and remember it.
+        """Run a command and add it to the history.
 
         Parameters
         ----------
@@ -80,7 +79,7 @@ class History:
         self.note(command, drag)
 
     def note(self, command: Command, drag: Hashable = None) -> None:
-        """Remember a command that was done already; as `do`."""
+        """Add a command that was already run; as `do`."""
         if self._saved_is_undone():
             self._saved_is_reachable = False
         del self.steps[self.position :]
@@ -104,7 +103,7 @@ class History:
         return command
 
     def redo(self) -> Command | None:
-        """Do the step again that was undone last; return it, or None if there is none."""
+        """Redo the last undone step; return it, or None if there is none."""
         self._drag = None
         if self.position == len(self.steps):
             return None
@@ -133,19 +132,19 @@ class History:
         return self.steps[self.position] if self.position < len(self.steps) else None
 
     def mark_saved(self) -> None:
-        """Say that what is there now was saved."""
+        """Mark the current state as saved."""
         self._saved, self._saved_is_reachable, self._drag = self.last, True, None
 
     def mark_unsaved(self) -> None:
-        """Say that what is there now was never saved, whatever is undone."""
+        """Mark the current state as never saved, regardless of undo."""
         self._saved_is_reachable, self._drag = False, None
         self.version += 1
 
     @property
     def is_saved(self) -> bool:
-        """Whether what is there now is what was saved."""
+        """Return whether the current state is the saved one."""
         return self._saved_is_reachable and self.last is self._saved
 
     def _saved_is_undone(self) -> bool:
-        """Whether the steps that led to what was saved are about to be forgotten."""
+        """Return whether the steps that lead to the saved state are about to be discarded."""
         return self._saved is not None and self._saved in self.steps[self.position :]

@@ -1,6 +1,6 @@
-"""Commands on the tree: adding, deleting, duplicating, hanging nodes under others, moving them.
+"""Commands on the tree: add, delete, duplicate, reparent, move.
 
-Nodes keep their handles and ids whatever is undone and done again.
+Nodes keep their handles and IDs through undo and redo.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .selection import topmost
 
 
 def counted(what: str, nodes: Sequence[Node]) -> str:
-    """Return a label: "Delete 'lamp'" of one node, "Delete 3 nodes" of several."""
+    """Return a label: "Delete 'lamp'" for one node, "Delete 3 nodes" for several."""
     return f"{what} {nodes[0].name!r}" if len(nodes) == 1 else f"{what} {len(nodes)} nodes"
 
 
@@ -60,7 +60,7 @@ class AddNodes(Command):
             for node in topmost(self._scene.nodes[count:]):
                 self._scene.remove(node)
             raise
-        self.nodes = topmost(self._scene.nodes[count:])  # the latest ones stand last
+        self.nodes = topmost(self._scene.nodes[count:])  # the latest ones are last
         self._places = [(node, node.parent) for node in self.nodes]
 
     def undo(self) -> None:
@@ -69,7 +69,7 @@ class AddNodes(Command):
 
 
 class DeleteNodes(Command):
-    """Take nodes out of a scene, with everything below them."""
+    """Deletes nodes with their subtrees."""
 
     def __init__(self, scene: Scene, nodes: Iterable[Node]) -> None:
         self.nodes = topmost(nodes)
@@ -89,9 +89,9 @@ class DeleteNodes(Command):
 
 
 class DuplicateNodes(AddNodes):
-    """Add copies of nodes beside them, with everything below them.
+    """Adds copies of nodes beside them, with their subtrees.
 
-    Copies share meshes, and have lights and cameras of their own.
+    Copies share meshes, and have their own lights and cameras.
     """
 
     def __init__(self, scene: Scene, nodes: Iterable[Node]) -> None:
@@ -104,7 +104,7 @@ class DuplicateNodes(AddNodes):
 
 
 class Reparent(Command):
-    """Hang nodes under another one, where they stay where they are in the world.
+    """Moves nodes to another parent, by default without moving them in the world.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ class Reparent(Command):
 
 
 class GroupNodes(Command):
-    """Put nodes under a new one, which hangs where the first of them did."""
+    """Puts nodes below a new one, which takes the place of the first."""
 
     makes_nodes = True
 
@@ -179,10 +179,9 @@ class GroupNodes(Command):
 
 
 class JoinNodes(Command):
-    """Put one mesh in the place of those of several nodes, which are deleted.
+    """Replaces the meshes of several nodes by a single one, and deletes the nodes.
 
-    One mesh is drawn faster than many small ones. What hangs below the nodes, and is not one of
-    them, is deleted with them.
+    One mesh draws faster than many small ones. Children of the nodes are deleted with them.
 
     Parameters
     ----------
@@ -217,7 +216,7 @@ class JoinNodes(Command):
 
 
 class MoveNodes(Command):
-    """Move, turn or scale nodes.
+    """Moves, rotates or scales nodes.
 
     Parameters
     ----------
@@ -263,9 +262,9 @@ class MoveNodes(Command):
 
 
 def in_world(matrix) -> Callable[[NodeSelection], None]:
-    """Return what moves nodes by a matrix in world space, (4, 4) float, for `MoveNodes`.
+    """Return a function for `MoveNodes` that moves nodes by a world matrix, (4, 4) float.
 
-    A node that is below another of them moves with that one only.
+    A node below another of them moves only with that one.
     """
 
     def move(selection: NodeSelection) -> None:
@@ -279,9 +278,9 @@ def in_world(matrix) -> Callable[[NodeSelection], None]:
 
 
 def copy_below(scene: Scene, node: Node, parent: Node | None) -> Node:
-    """Add a copy of a node of any scene, and of all below it; return the copy.
+    """Add a copy of any scene's node with its subtree; return the copy.
 
-    The copies are drawn in the order of the originals.
+    The copies keep the drawing order of the originals.
     """
     nodes = with_below(node)
     made = {
@@ -296,7 +295,7 @@ def copy_below(scene: Scene, node: Node, parent: Node | None) -> Node:
 
 
 def _bend_alike(made: dict[Node, Node]) -> None:
-    """Let copies be bent as their originals: by the copies of their joints, if these are copied."""
+    """Make copies deform like their originals: by copied joints, if these are copied."""
     skins: dict[Skin, Skin | None] = {}
     for original, twin in made.items():
         skin = original.skin
@@ -308,7 +307,7 @@ def _bend_alike(made: dict[Node, Node]) -> None:
 
 
 def _skin_of_copies(skin: Skin, made: dict[Node, Node], twin: Node) -> Skin | None:
-    """None where a joint is in another scene, and has no copy."""
+    """Return the skin for copies; None if a joint in another scene has no copy."""
     joints = [made.get(joint, joint) for joint in skin.joints]
     if any(joint.scene is not twin.scene for joint in joints):
         return None

@@ -1,7 +1,7 @@
 """Finds what is under the mouse (node, triangle, material), and the nodes in a rectangle.
 
-In: a frame that a renderer drew, and pixels. Out: nodes of the scene. Lights and cameras show
-nothing: they are found by where they stand in the picture.
+In: a rendered frame, and pixels. Out: nodes of the scene. Lights and cameras are invisible: they
+are found by their positions in the picture.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class Pick(NamedTuple):
 
 
 def pick(scene: Scene, frame: Frame, x: int, y: int, *, reach: float = 10.0) -> Pick | None:
-    """Return what a pixel points at.
+    """Return the pick at a pixel.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def pick(scene: Scene, frame: Frame, x: int, y: int, *, reach: float = 10.0) -> 
 
 
 def enclosed(scene: Scene, frame: Frame, first, last) -> tuple[Node, ...]:
-    """Return the nodes that show within a rectangle of a frame, in the order of the scene.
+    """Return the nodes visible within a rectangle of a frame, in scene order.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def enclosed(scene: Scene, frame: Frame, first, last) -> tuple[Node, ...]:
 
 
 def _origins(scene: Scene, frame: Frame) -> tuple[list[Node], np.ndarray, np.ndarray]:
-    """The lights and cameras that are shown, and where they stand: (N, 2) pixels, (N,) depths."""
+    """Return the shown lights and cameras, and their positions: (N, 2) pixels, (N,) depths."""
     held = (*scene.data.lights.values(), *scene.data.cameras.values())
     nodes = [node for node in held if node.shown]
     places = np.array([node.world_pose[:3, 3] for node in nodes]).reshape(-1, 3)

@@ -1,8 +1,7 @@
-"""Python on the scene that is edited, line by line.
+"""A Python prompt on the edited scene.
 
-In: lines. Out: entries of the console. What a line changes in the scene, or in what its nodes hold,
-is one step that can be undone; what it changes elsewhere (files, variables, meshes that no node
-holds) stays changed.
+In: lines. Out: console entries. Changes to the scene and to its nodes' objects are one undoable
+step; other effects (files, variables, unused meshes) are not undone.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ from .scene_state import SceneState
 
 
 class PythonStep(Command):
-    """What lines of Python did to a scene."""
+    """The changes that Python code made to a scene."""
 
     def __init__(self, label: str, old: SceneState, new: SceneState) -> None:
         self.label, self._old, self._new = label, old, new
@@ -70,11 +69,11 @@ class Prompt:
 
     @property
     def is_open(self) -> bool:
-        """Whether the last lines are the beginning of something that goes on."""
+        """Whether the last lines are an incomplete statement."""
         return bool(self._block)
 
     def push(self, line: str) -> bool:
-        """Run a line, or add it to those that it continues; return whether more must follow."""
+        """Run a line, or continue a statement; return whether more lines must follow."""
         if line.strip():
             self.lines.append(line)
         self._console.write("input", ("... " if self._block else ">>> ") + line)
@@ -91,15 +90,15 @@ class Prompt:
         return is_open
 
     def reset(self) -> None:
-        """Give up the lines that something more should have followed."""
+        """Discard an incomplete statement."""
         self._block.clear()
 
     def completions(self, text: str) -> tuple[str, ...]:
-        """Return what the last name in a line may go on as, such as ``scene.nodes``."""
+        """Return completions of the last name in a line, such as ``scene.nodes``."""
         self._interpreter.locals.update(self._names())
         completer = rlcompleter.Completer(self._interpreter.locals)
         found: dict[str, None] = {}
-        with contextlib.suppress(Exception):  # properties of anything may raise anything
+        with contextlib.suppress(Exception):  # arbitrary properties may raise any exception
             while (match := completer.complete(text, len(found))) is not None:
                 if match in found:
                     break
@@ -108,20 +107,20 @@ class Prompt:
 
 
 class _Interpreter(code.InteractiveInterpreter):
-    """Runs source; what it prints and raises goes to the console."""
+    """Runs source; output and exceptions go to the console."""
 
     def __init__(self, console: Console) -> None:
         super().__init__({"__name__": "__console__", "__doc__": None})
         self._console = console
 
     def run(self, source: str, guard: Callable[[], AbstractContextManager[Any]]) -> bool:
-        """Run source; return whether it is only the beginning of something."""
+        """Run source; return whether it is incomplete."""
         output, is_open = io.StringIO(), False
         with (
             contextlib.redirect_stdout(output),
             contextlib.redirect_stderr(output),
             self._console.warnings_noted(),
-            contextlib.suppress(KeyboardInterrupt),  # that came when the code was over
+            contextlib.suppress(KeyboardInterrupt),  # from an interrupt after the end of the code
             guard(),
         ):
             is_open = self.runsource(source, "<console>")

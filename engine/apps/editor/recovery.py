@@ -1,4 +1,4 @@
-"""A copy of what was not saved, which an editor left behind."""
+"""Recovery copies: unsaved work left behind by a crashed editor."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from typing import NamedTuple
 
 from ...base.files import json_records
 
-#: What a copy names is named from here, so that it may stand anywhere.
+#: Paths in a copy are relative to here, so that it may be stored anywhere.
 ROOT = "/"
 _LARGEST = 1 << 40  # bytes
 
 
 class Recovery(NamedTuple):
-    """A copy that an editor left behind.
+    """A copy left behind by a crashed editor.
 
     Attributes
     ----------
@@ -31,7 +31,7 @@ class Recovery(NamedTuple):
 
 
 def content_of(copy: Recovery) -> tuple[str, bytes]:
-    """Return a path that the names in a copy start from, and the copy's scene.
+    """Return the base of the paths in a copy, and the copy's scene.
 
     Raises
     ------

@@ -1,7 +1,7 @@
-"""Meshes and textures loaded again: from files that changed, or from where missing ones are now.
+"""Reloads meshes and textures from changed files, or from new locations of missing ones.
 
-In: things that came from files. Out: commands that load them again into the same objects, so that
-all nodes show it.
+In: objects from files. Out: commands that reload them into the same objects, so that all nodes show
+the new content.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .history import Command
 
 
 class Reload(Command):
-    """Load a mesh or a texture again from its file; materials become those of the file.
+    """Reloads a mesh or texture from its file; materials become those of the file.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ class Reload(Command):
 
 
 def path_of(thing: Mesh | Texture) -> str | None:
-    """Return the file that a mesh or a texture is of."""
+    """Return the file of a mesh or texture."""
     if isinstance(thing, Texture):
         return image_file_of(thing).path
     came = noted_origin(thing)

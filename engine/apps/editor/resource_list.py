@@ -1,7 +1,7 @@
-"""The meshes, materials and textures that a panel lists: of a scene, and what waits to be used.
+"""The list of meshes, materials and textures for a panel: used by the scene, or unused.
 
-In: a scene, and things that no node uses yet. Out: one entry each, found again only when nodes got
-other objects, or one of these changed.
+In: a scene, and unused objects. Out: one entry each, recomputed only when nodes get other objects,
+or an object changes.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ Thing: TypeAlias = Mesh | Material | Texture
 
 
 class Entry(NamedTuple):
-    """A thing that nodes use, or may use.
+    """A resource that nodes use, or may use.
 
     Attributes
     ----------
@@ -63,15 +63,15 @@ class ResourceList:
         self._versions: tuple = ()
 
     def keep(self, thing: Thing) -> None:
-        """List a thing also while no node uses it."""
+        """Keep a resource in the list even if no node uses it."""
         self._kept[thing] = None
 
     def drop(self, thing: Thing) -> None:
-        """List a thing no longer once no node uses it."""
+        """Remove a resource from the list when no node uses it."""
         self._kept.pop(thing, None)
 
     def entries(self) -> tuple[Entry, ...]:
-        """Return all, sorted by kind and name: the same object until something of them changes."""
+        """Return all entries by kind and name: the same object until an entry changes."""
         arrays = self._scene.data.arrays
         objects = arrays.columns["object"][: arrays.count]
         same = self._objects is not None and np.array_equal(objects, self._objects)
@@ -82,18 +82,18 @@ class ResourceList:
         return self._entries
 
     def find(self, name: str, kind: str | None = None) -> Thing | None:
-        """Return the first thing of a name, and of a kind if one is given, or None."""
+        """Return the first resource with a name, and optionally of a kind, or None."""
         for entry in self.entries():
             if entry.name == name and kind in (None, entry.kind):
                 return entry.thing
         return None
 
     def users(self, thing: Thing) -> tuple[Node, ...]:
-        """Return the nodes that use a thing."""
+        """Return the nodes that use a resource."""
         return users_of(self._scene, thing)
 
     def _found_versions(self) -> tuple:
-        """Return versions that differ once an entry changed, came or went."""
+        """Return versions that differ if an entry changes, appears or disappears."""
         things = (entry.thing for entry in self._entries)
         names = tuple((id(thing), thing.version, thing.name) for thing in things)
         return (
@@ -109,7 +109,7 @@ class ResourceList:
         return tuple(sorted(entries, key=lambda entry: (entry.kind, entry.name.casefold())))
 
     def _with_parts(self) -> list[Thing]:
-        """What is kept, and what it is made of."""
+        """Return the kept resources with the resources they refer to."""
         found: list[Thing] = []
         for thing in self._kept:
             materials = thing.materials if isinstance(thing, Mesh) else [thing]

@@ -1,8 +1,8 @@
-"""Everything that a scene is, at one moment, and how to make it so again.
+"""Snapshots of a scene's complete state, and their restoration.
 
-In: a scene. Out: its state: tree, poses, names, switches, objects, colliders, motion, and what the
-objects, their materials and textures hold. Arrays are not copied where nobody can write to them.
-It serves what changes a scene in ways that no command foresees, such as a line of Python.
+In: a scene. Out: its state: tree, poses, names, switches, objects, colliders, motion, and the
+contents of objects, materials and textures. Read-only arrays are not copied. It supports arbitrary
+changes, such as by a line of Python.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _SCENE_VALUES = (*SCENE_VALUES, "warnings")
 
 
 class SceneState:
-    """A scene as it is when this is made.
+    """The state of a scene at creation.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class SceneState:
         self.nodes = scene.nodes
         self._values = {name: kept(getattr(scene, name)) for name in _SCENE_VALUES}
         animator = scene.animator
-        # One that moves nothing is as good as none.
+        # An animator without motions is equivalent to none.
         self._motions: Motions = ((), ()) if animator is None else motions_of(animator)
         self._animator = animator if any(self._motions) else None
         self._placements = Placements(scene, self.nodes)
@@ -54,7 +54,7 @@ class SceneState:
         columns = scene.data.arrays.columns
         self._flags = columns["flags"][slots] & (VISIBLE | STATIC)
         self._unshadowed = columns["unshadowed"][slots]
-        ids = np.append(columns["id"], -1)  # the last one is that of "none", -1
+        ids = np.append(columns["id"], -1)  # the last entry maps -1, "none", to itself
         self._links = [ids[columns[name][slots]].tolist() for name in ("parent", "next")]
         self._held = [(node.name, node.object, node.collider) for node in self.nodes]
         self._bent = [(node.skin, kept(node.morph_weights)) for node in self.nodes]
@@ -79,7 +79,7 @@ class SceneState:
     __hash__ = None  # type: ignore[assignment]
 
     def put(self) -> None:
-        """Make the scene what it was; nodes that are not in the state are removed."""
+        """Restore the scene's state; nodes that are not in the state are removed."""
         scene = self._scene
         for name, value in self._values.items():
             setattr(scene, name, kept(value))
@@ -140,7 +140,7 @@ class SceneState:
 
 
 def _in_order(ids: list[int], next_of: dict[int, int]) -> list[int]:
-    """The ids of one parent's children in the order of its children."""
+    """Return the IDs of a parent's children in order."""
     followers = {next_of[number] for number in ids}
     number = next(number for number in ids if number not in followers)
     ordered = []
@@ -161,7 +161,7 @@ def _hold(node, name: str, obj: Any, collider: Any) -> None:
 
 
 def _reachable(held: list[tuple]) -> Iterator[Any]:
-    """Return the things that nodes hold, and the resources of these, each once."""
+    """Return the objects of nodes, and their resources, each once."""
     todo: list[Any] = [thing for _, obj, collider in held for thing in (obj, collider)]
     seen: set[int] = set()
     while todo:

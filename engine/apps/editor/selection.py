@@ -1,6 +1,6 @@
 """The selected nodes, in the order of selection.
 
-In: nodes. Out: the selected ones that are still in the scene. The last one is the active one, whose
+In: nodes. Out: the selected nodes still in the scene. The last one is the active one, whose
 properties panels show.
 """
 
@@ -12,7 +12,7 @@ from ...model.scene.nodes import Node
 
 
 class Selection:
-    """Nodes that commands are about.
+    """The nodes that commands apply to.
 
     Attributes
     ----------
@@ -40,19 +40,19 @@ class Selection:
         return nodes[-1] if nodes else None
 
     def set(self, nodes: Iterable[Node] = ()) -> None:
-        """Select these nodes and no others."""
+        """Select exactly these nodes."""
         chosen = dict.fromkeys(nodes)
         if list(chosen) != list(self._nodes):
             self._nodes = chosen
             self.version += 1
 
     def add(self, nodes: Iterable[Node]) -> None:
-        """Select these nodes as well; the last one becomes the active one."""
+        """Add nodes to the selection; the last one becomes active."""
         more = dict.fromkeys(nodes)
         self.set([*(node for node in self._nodes if node not in more), *more])
 
     def toggle(self, node: Node) -> None:
-        """Select a node as well, or no longer."""
+        """Add a node to the selection, or remove it."""
         if node in self._nodes:
             self.set([other for other in self._nodes if other is not node])
         else:
@@ -65,12 +65,12 @@ class Selection:
         return len(self.nodes)
 
     def topmost(self) -> tuple[Node, ...]:
-        """Return the selected nodes that are below no other selected one."""
+        """Return the selected nodes without selected ancestors."""
         return topmost(self.nodes)
 
 
 def topmost(nodes: Iterable[Node]) -> tuple[Node, ...]:
-    """Return the nodes that are below no other of them, in their order."""
+    """Return the given nodes without ancestors among them, in order."""
     chosen = dict.fromkeys(nodes)
     return tuple(node for node in chosen if not _is_below_any(node, chosen))
 

@@ -1,7 +1,7 @@
-"""Small pictures of meshes, materials and textures, drawn by the engine and kept.
+"""Thumbnails of meshes, materials and textures, drawn by the engine and cached.
 
-In: a thing. Out: its picture, drawn again once the thing has changed. Pictures that were not asked
-for lately are given up first.
+In: an object. Out: its picture, redrawn when the object changes. The least recently used pictures
+are dropped first.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _CHECKER = 8  # pixels
 
 
 class Thumbnails:
-    """Draws and keeps pictures.
+    """Draws and caches thumbnails.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class Thumbnails:
         self._ball: Mesh | None = None
 
     def get(self, thing: Mesh | Material | Texture) -> NDArray[np.uint8]:
-        """Return the picture of a thing, (size, size, 4) uint8, read-only."""
+        """Return the thumbnail of an object, (size, size, 4) uint8, read-only."""
         versions = _versions(thing)
         held = self._pictures.get(id(thing))
         if held is None or held[0] is not thing or held[1] != versions:
@@ -58,7 +58,7 @@ class Thumbnails:
     def get_if_time(
         self, thing: Mesh | Material | Texture, deadline: float
     ) -> NDArray[np.uint8] | None:
-        """Return the picture if it is there, or can be begun before a time; else None.
+        """Return a thumbnail if it is cached, or can be started before a deadline; else None.
 
         Parameters
         ----------
@@ -72,7 +72,7 @@ class Thumbnails:
         return self.get(thing) if time.perf_counter() < deadline else None
 
     def clear(self) -> None:
-        """Give up all pictures."""
+        """Drop all thumbnails."""
         self._pictures.clear()
 
     def _drawn(self, thing: Mesh | Material | Texture) -> NDArray[np.uint8]:
@@ -92,7 +92,7 @@ class Thumbnails:
 
 
 def _versions(thing: Mesh | Material | Texture) -> tuple:
-    """What is another once the picture is."""
+    """Return versions that differ if the thumbnail changes."""
     if isinstance(thing, Mesh):
         return (thing.version, *(part for m in thing.materials for part in _versions(m)))
     if isinstance(thing, Material):
@@ -101,7 +101,7 @@ def _versions(thing: Mesh | Material | Texture) -> tuple:
 
 
 def shrunk(texture: Texture, size: int) -> NDArray[np.uint8]:
-    """Return a picture of a texture, whole, over a chequerboard where it is transparent."""
+    """Return a scaled texture, with a chequerboard behind transparent parts."""
     height, width = texture.pixels.shape[:2]
     longest = max(height, width)
     rows, columns = (max(1, side * size // longest) for side in (height, width))

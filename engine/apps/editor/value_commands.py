@@ -15,7 +15,7 @@ from .history import Command
 
 
 class SetValues(Command):
-    """Assign attributes of things.
+    """Assigns attributes of objects.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ class SetValues(Command):
 
     def __init__(self, things: Iterable[Any], values: Mapping[str, Any], label: str = "") -> None:
         self._things = tuple(things)
-        self._values = kept(dict(values))  # the caller may go on with its own
+        self._values = kept(dict(values))  # the caller may keep modifying its own
         self.nodes = tuple(thing for thing in self._things if isinstance(thing, Node))
         self.label = label or f"Set {', '.join(self._values)} of {_named(self._things)}"
         self._old: list[tuple[Any, str, Any]] = []
@@ -59,7 +59,7 @@ class SetValues(Command):
 
 
 def check(thing: Any) -> None:
-    """Raise if what a thing holds does not go together, such as its near and far planes."""
+    """Raise if an object's values conflict, such as its near and far planes."""
     if isinstance(thing, Camera):
         thing.projection(1, 1)
     elif isinstance(thing, DirectLight):

@@ -1,4 +1,4 @@
-"""The user's input in a window, as small values: keys, mouse, dropped files, the window itself.
+"""User input in a window, as small values: keys, mouse, dropped files, window changes.
 
 `engine3d.Window` hands them out; SDL's own structures stay behind it. Keys carry both what they
 type and where they are. Events compare and match by their values::
@@ -67,7 +67,7 @@ class KeyUp:
 
 @dataclass(frozen=True)
 class TextEntered:
-    """Keys, or an input method, made a text, as the user's keyboard and language have it."""
+    """Keys or an input method entered text."""
 
     text: str
 

@@ -1,4 +1,4 @@
-"""Golden images: pictures that lie beside tests, compared by their hashes.
+"""Golden images: reference pictures beside tests, compared by hash.
 
 `plugin` is what pytest loads: it brings the fixture ``golden``. ``engine3d diff`` compares pictures
 and folders of them with the same code. docs/golden.md is the guide. Nothing is imported here, nor

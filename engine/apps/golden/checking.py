@@ -1,4 +1,4 @@
-"""The fixture ``golden``: calling it compares a picture with the golden one.
+"""The fixture ``golden``, which compares a picture with its golden one.
 
 In:  what the test drew. Out: nothing, or an `AssertionError` that says what differs and where both
      pictures are; a `Result` in any case. The hash is compared first; only where it differs is the
@@ -27,7 +27,7 @@ from .results import CHANGED, NEW, PASSED, TWO_PICTURES, UPDATED, Result
 
 @dataclass
 class Place:
-    """The place of a test's golden pictures.
+    """The location of a test's golden pictures.
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ class Place:
 
 
 class Golden:
-    """Compares pictures of one test with golden ones.
+    """Compares the pictures of one test with golden ones.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ class Golden:
         *,
         max_flip: float | None = None,
     ) -> None:
-        """Fail unless a picture is the golden one.
+        """Fail unless a picture equals its golden one.
 
         Parameters
         ----------
@@ -114,7 +114,7 @@ class Golden:
         raise AssertionError(self._explain(case))
 
     def take_results(self) -> list[Result]:
-        """Return what came of the calls since this was last asked."""
+        """Return the results of calls since the last request."""
         taken, self._results = self._results, []
         return taken
 
@@ -138,7 +138,7 @@ class Golden:
         return _Case(result, path, pixels)
 
     def _compare(self, case: _Case, allowances: tuple) -> None:
-        """Find the status of a case, and what is wrong."""
+        """Determine the status of a case, and the fault."""
         result = case.result
         try:
             golden = read_golden(case.path)
@@ -158,7 +158,7 @@ class Golden:
             result.status, result.message = CHANGED, _what_differs(case)
 
     def _explain(self, case: _Case) -> str:
-        """Write the pictures of a failure; return the lines that say what to do."""
+        """Write the pictures of a failure; return the lines of advice."""
         result = case.result
         write_failure(result, self._failures(), case.pixels, case.expected, case.difference)
         which = "missing" if result.status == NEW else "failed"
@@ -187,7 +187,7 @@ class Golden:
 
 @dataclass
 class _Case:
-    """One call: what was drawn, what was expected, and what came of it."""
+    """One call: the drawn picture, the expected one, and the result."""
 
     result: Result
     path: str
@@ -207,7 +207,7 @@ def _check_allowances(max_different: Any, tolerance: Any, max_flip: Any) -> None
 
 
 def _passes(case: _Case, foreign: bool, allowances: tuple) -> bool:
-    """Return whether a difference is within what the test allows.
+    """Return whether a difference is within the test's tolerance.
 
     ``foreign``: the golden file was made by other means, and may be RGB where RGBA is drawn.
     """

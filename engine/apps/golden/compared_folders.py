@@ -1,4 +1,4 @@
-"""Two pictures, or the pictures of two folders, compared: what ``engine3d diff`` does.
+"""Compares two pictures, or the pictures of two folders, for ``engine3d diff``.
 
 In:  what was drawn now, what was expected. Out: results, and difference pictures where they are
      asked for. Files of the same bytes are equal; only others are decoded.
@@ -27,12 +27,12 @@ from .picture_files import SUFFIXES, Picture
 from .reading import read_picture
 from .results import CHANGED, DELETED, FAILED, NEW, PASSED, Result
 
-_AT_ONCE = 16  # pairs of a thread, between two steps of the progress that is shown
+_AT_ONCE = 16  # pairs per thread between two progress updates
 
 
 @dataclass(frozen=True)
 class Rules:
-    """The differences that are allowed; none by default.
+    """The tolerances of a comparison; none by default.
 
     Attributes
     ----------
@@ -53,7 +53,7 @@ class Rules:
     flip: float | None = None
 
     def allowed(self, total: int) -> float:
-        """Return how many of so many pixels may differ."""
+        """Return how many pixels of a total may differ."""
         return self.rate * total if self.pixels is None else self.pixels
 
 
@@ -77,7 +77,7 @@ class Pair:
 
 
 def pairs(actual: str, expected: str, differences: str | None = None) -> list[Pair]:
-    """Return the files to compare: two pictures, or all of two folders, by their paths there.
+    """Return the pairs to compare: two pictures, or all of two folders, by relative path.
 
     Raises `FileAccessError` where one is not there, or is a folder and the other none.
     """
@@ -113,14 +113,14 @@ def _pictures_below(folder: str) -> Iterator[str]:
 def compare_all(
     found: list[Pair], rules: Rules, threads: int, *, keep_going: bool
 ) -> Iterator[Result]:
-    """Yield what came of each pair, in their order; see `compare_files`."""
+    """Yield the result of each pair, in order; see `compare_files`."""
     for start in range(0, len(found), _AT_ONCE * threads):
         some = found[start : start + _AT_ONCE * threads]
         yield from side_by_side(lambda pair: compare_files(pair, rules, keep_going), some, threads)
 
 
 def compare_files(pair: Pair, rules: Rules, keep_going: bool = False) -> Result:
-    """Compare two files, and write the picture of their difference where there is a place for it.
+    """Compare two files, and write the difference picture if it has a path.
 
     With ``keep_going`` a file that cannot be read has failed: the other pictures are compared.
     Raises `FileAccessError`, or `FileFormatError` where one is no picture.
@@ -144,7 +144,7 @@ def compare_files(pair: Pair, rules: Rules, keep_going: bool = False) -> Result:
 
 
 def _judge(result: Result, pair: Pair, pictures: tuple[Picture, Picture], rules: Rules) -> None:
-    """Say how two pictures differ, if they do more than is allowed."""
+    """Return the difference of two pictures, if it exceeds the tolerance."""
     frame, difference = _first_difference(*pictures, rules)
     result.frame = frame
     shown = [one.frames[min(frame, len(one.frames) - 1)] for one in pictures]
@@ -172,7 +172,7 @@ def _bytes(path: str) -> bytes:
 
 
 def _first_difference(actual: Picture, expected: Picture, rules: Rules) -> tuple[int, Difference]:
-    """Return the first frame that differs more than is allowed, or else the last one."""
+    """Return the first frame that differs too much, or else the last one."""
     both = list(zip(actual.frames, expected.frames, strict=False))
     for number, (a, b) in enumerate(both):
         difference = _difference(a, b, rules)
@@ -218,7 +218,7 @@ def _what_differs(
 
 
 def update(results: list[Result], actual: str, expected: str) -> list[Result]:
-    """Make what was drawn what is expected: copy what is changed or new, remove what was deleted.
+    """Make the drawn pictures the expected ones: copy changed or new ones, delete others.
 
     A damaged picture is replaced by what was drawn, but never the other way round. Returns the
     results of those that were drawn and cannot be read. Raises `FileAccessError`.

@@ -1,4 +1,4 @@
-"""Two arrays of pixels compared: how many pixels differ, where, and by how much.
+"""Compares two pixel arrays: how many pixels differ, where, and by how much.
 
 In:  what was drawn and what was expected. Out: a `Difference`. By default every bit counts: a pixel
      differs if any of its channels does. Where something is allowed, it is what the caller says.
@@ -15,7 +15,7 @@ from .pixel_hash import describe
 
 @dataclass(frozen=True)
 class Difference:
-    """How two pictures differ.
+    """The difference of two pictures.
 
     Attributes
     ----------
@@ -38,17 +38,17 @@ class Difference:
 
     @property
     def different(self) -> int:
-        """How many pixels differ."""
+        """Number of differing pixels."""
         return int(np.count_nonzero(self.mask))
 
     @property
     def total(self) -> int:
-        """How many pixels there are."""
+        """Total number of pixels."""
         return self.mask.size
 
     @property
     def box(self) -> tuple[int, int, int, int] | None:
-        """The smallest rectangle around what differs: left, top, right, bottom, ends excluded."""
+        """Bounding rectangle of the differences: left, top, right, bottom, ends excluded."""
         rows, columns = (np.flatnonzero(self.mask.any(axis=axis)) for axis in (1, 0))
         if not rows.size:
             return None
@@ -96,7 +96,7 @@ def compare(actual: np.ndarray, expected: np.ndarray, tolerance: float = 0) -> D
 
 
 def root_mean_square(actual: np.ndarray, expected: np.ndarray) -> float:
-    """Return the root mean square of what the channels of two pictures differ by, 0 to 1.
+    """Return the root mean square of the channel differences of two pictures, 0 to 1.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def _all_different(actual: np.ndarray, expected: np.ndarray, kinds: str) -> Diff
 
 
 def _alike(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
-    """Return both as (H, W, C) of one type and number of channels; None where that cannot be."""
+    """Return both as (H, W, C) with one dtype and channel count; None if impossible."""
     if a.dtype != b.dtype:
         if {a.dtype, b.dtype} != {np.dtype(np.uint8), np.dtype(np.uint16)}:
             return None
@@ -166,7 +166,7 @@ def _distance_of_floats(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def _range(expected: np.ndarray) -> float:
-    """Return the difference that is shown as the greatest one."""
+    """Return the difference that is shown as the maximum."""
     if expected.dtype in (np.uint8, np.uint16):
         return float(np.iinfo(expected.dtype).max)
     known = expected[np.isfinite(expected)] if expected.dtype.kind == "f" else expected

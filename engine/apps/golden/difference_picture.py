@@ -1,4 +1,4 @@
-"""The picture that shows where two pictures differ.
+"""Draws a picture of the differences between two pictures.
 
 In:  what was expected, as it is shown, and a `Difference`. Out: (H, W, 4) uint8, opaque: what was
      expected in pale grey, and over it each pixel that differs, yellow where it is little, red
@@ -14,7 +14,7 @@ from .comparison import Difference
 _HALO = np.array((255, 178, 198), np.float32)
 _LITTLE, _MUCH = np.array((255, 190, 0), np.float32), np.array((214, 0, 40), np.float32)
 _LUMA = np.array((0.2126, 0.7152, 0.0722), np.float32)
-_PALE = np.float32(0.22 / 255)  # how much of the picture is left, of its alpha in codes
+_PALE = np.float32(0.22 / 255)  # remaining opacity of the expected picture, per alpha code
 _SIDES_PER_HALO = 160
 
 
@@ -34,7 +34,7 @@ def difference_picture(shown: np.ndarray, difference: Difference) -> np.ndarray:
     grey[: shown.shape[0], : shown.shape[1], 0] = 255 - alpha * darkness * _PALE
     picture = np.repeat(grey, 3, axis=2)
     picture[_widened(difference.mask, max(2, max(height, width) // _SIDES_PER_HALO))] = _HALO
-    # The root spreads small differences, which are the most frequent ones.
+    # The square root spreads small differences, which are most frequent.
     amount = np.sqrt(difference.amount[difference.mask])[:, np.newaxis]
     picture[difference.mask] = _LITTLE + amount * (_MUCH - _LITTLE)
     opaque = np.full((height, width, 1), 255, np.uint8)

@@ -1,4 +1,4 @@
-"""How arrays of pixels are shown: RGBA of 8 bits, whatever they hold.
+"""Converts arrays of any content to 8-bit RGBA for display.
 
 In:  (H, W) or (H, W, 1 to 4) numbers. Out: (H, W, 4) uint8. Colours stay; 16 bits lose the lower
      ones; floats run from the least to the greatest; whole numbers, which may be identities, have a
@@ -10,12 +10,12 @@ from __future__ import annotations
 import numpy as np
 
 _NOT_A_NUMBER = (255, 0, 255)
-# Odd numbers whose multiples spread over 32 bits: the colours of neighbouring identities differ.
+# An odd multiplier that spreads over 32 bits, so that neighbouring IDs get different colours.
 _SPREAD = np.uint32(2654435769)
 
 
 def displayed(pixels: np.ndarray, like: np.ndarray | None = None) -> np.ndarray:
-    """Return pixels as they are shown.
+    """Return pixels converted for display.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def _rgba(codes: np.ndarray) -> np.ndarray:
 def _shown_floats(values: np.ndarray, like: np.ndarray) -> np.ndarray:
     known = like[np.isfinite(like)]
     low, high = (known.min(), known.max()) if known.size else (0.0, 1.0)
-    # In halves: the range of finite numbers may be infinite.
+    # Computed in halves, because the range of finite numbers may overflow.
     span = float(high) / 2 - float(low) / 2
     with np.errstate(all="ignore"):
         share = (values.astype(np.float64) / 2 - float(low) / 2) / (span or 1.0)

@@ -1,4 +1,4 @@
-"""The files of a failure: the picture, and where it differs, as PNG files to look at.
+"""Files of a failure: the drawn picture, and its differences, as PNG.
 
 In:  a `Result` and its pixels. Out: two files in a folder outside of the tree; their paths are in
      the result.
@@ -26,7 +26,7 @@ def write_failure(
     expected: np.ndarray | None,
     difference: Difference | None,
 ) -> None:
-    """Write what was drawn and, where something was expected, the picture of the difference."""
+    """Write the drawn picture and, if one was expected, the difference picture."""
     stem = os.path.join(folder, *result.name.split("/"))
     result.actual = f"{stem}.png"
     write_golden(result.actual, pixels, below=folder)

@@ -1,4 +1,4 @@
-"""Turns what tests hand over into one array of pixels.
+"""Converts pictures given by tests to pixel arrays.
 
 In:  a `Frame`, a `Canvas`, an image of Pillow's, an array, or the path of an image file.
 Out: an (H, W) or (H, W, C) array, C from 1 to 4, the top row first.
@@ -18,7 +18,7 @@ MAX_CHANNELS = 4
 
 
 def as_pixels(picture: Any) -> np.ndarray:
-    """Return the pixels of what a test hands over, contiguous and little-endian.
+    """Return the pixels of a picture given by a test, contiguous and little-endian.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Golden files: a PNG that people look at, which also holds what exactly was drawn.
+"""Golden files: viewable PNG files that also hold the exact pixels.
 
 In:  an array of pixels. Out: the bytes of a PNG file, and back.
 
@@ -31,8 +31,8 @@ from .picture_files import decode_picture
 from .pixel_hash import pixel_hash
 
 _IDENTITY, _NUMBERS = b"goLD", b"daTA"
-_PLACE = 37  # of the first one's name: after the signature, the header and a length
-MAX_BYTES = 1 << 31  # of the numbers of one array
+_PLACE = 37  # of the first chunk's name: after the signature, the header and a length
+MAX_BYTES = 1 << 31  # limit for the numbers of one array
 _SHAPE = shapes.members(
     {
         "dtype": shapes.one_of(*(np.dtype(kind).name for kind in "?bBhHiIqQefd")),
@@ -45,7 +45,7 @@ _SHAPE = shapes.members(
 
 @dataclass(frozen=True)
 class GoldenFile:
-    """A golden file that was read, but not decoded.
+    """A golden file that has been read but not decoded.
 
     Attributes
     ----------
@@ -122,12 +122,12 @@ def encode_golden(pixels: np.ndarray) -> bytes:
 
 
 def needs_numbers(pixels: np.ndarray) -> bool:
-    """Return whether the colours of a PNG file cannot hold such pixels."""
+    """Return whether PNG colours cannot represent such pixels."""
     return pixels.dtype not in (np.bool_, np.uint8, np.uint16)
 
 
 def exact_pixels(data: bytes, path: str) -> np.ndarray | None:
-    """Return the pixels of a golden file as they were given; None if it is not sealed, or none.
+    """Return the exact pixels of a golden file; None if it is not sealed, or None is given.
 
     Raises `FileFormatError`, which names the path, where a sealed file is not what it says.
     """
@@ -150,13 +150,13 @@ def exact_pixels(data: bytes, path: str) -> np.ndarray | None:
 
 
 def _decoded(data: bytes, path: str, dtype: np.dtype) -> np.ndarray:
-    """The pixels that the picture shows."""
+    """Return the pixels of the viewable picture."""
     pixels = decode_picture(data, path).frames[0]
     return pixels > 0 if dtype == np.bool_ else pixels
 
 
 def _unpacked(numbers: bytes, dtype: np.dtype, shape: tuple[int, ...]) -> np.ndarray | None:
-    """The numbers beside the picture; None if they are damaged, or too few or many."""
+    """Return the numbers stored beside the picture; None if damaged or of wrong length."""
     size = math.prod(shape) * dtype.itemsize
     if not 0 < size <= MAX_BYTES:
         return None
@@ -171,7 +171,7 @@ def _unpacked(numbers: bytes, dtype: np.dtype, shape: tuple[int, ...]) -> np.nda
 
 
 def _identity(chunks: list[tuple[bytes, bytes]], path: str) -> dict | None:
-    """Return what a sealed file says of its pixels, None of any other.
+    """Return the seal's data on the pixels; None for other files.
 
     Raises `FileFormatError` where a file says it in no way that it is written in.
     """
@@ -192,5 +192,5 @@ def _seal(chunks: list[tuple[bytes, bytes]]) -> str:
 
 
 def _by_place(pixels: np.ndarray) -> bytes:
-    """Return the bytes of all numbers, first all lowest ones, and so on: they pack better."""
+    """Return the bytes of all numbers, lowest bytes first: they compress better."""
     return np.ascontiguousarray(pixels.reshape(-1, 1).view(np.uint8).T).tobytes()

@@ -1,4 +1,4 @@
-"""The report: one HTML file with all pictures in it, to look at what changed.
+"""The HTML report: one file with all pictures, to review changes.
 
 In:  results, whose pictures are read from their files. Out: a page that loads nothing from
      elsewhere: side by side, swiped, blinking, and where they differ. Without scripts it shows
@@ -30,7 +30,7 @@ _VIEWS = (
     ("difference", "Difference"),
 )
 _SMALL = 0.02  # share of a picture
-# A picture is made larger, by a whole number, until it is about so wide.
+# Pictures are enlarged by a whole number until they are about this wide.
 _WIDE_BESIDE, _WIDE_ALONE, _LARGEST = 420, 900, 8
 
 
@@ -112,8 +112,8 @@ class Report:
 
 
 def _read(path: str | None, frame: int):
-    """Return a picture as it is shown; None if there is none that can be read."""
-    if path is None or not os.path.isfile(path):  # a FIFO would be waited for
+    """Return a picture for display; None if it cannot be read."""
+    if path is None or not os.path.isfile(path):  # a FIFO would block
         return None
     try:
         frames = read_picture(path).frames
@@ -123,7 +123,7 @@ def _read(path: str | None, frame: int):
 
 
 def _marker(result: Result, width: int, height: int) -> str:
-    """Return what surrounds a small difference, which is lost where pictures are made smaller."""
+    """Return the marker around a small difference, which would vanish in a reduced picture."""
     if result.box is None:
         return ""
     left, top, right, bottom = result.box
@@ -149,7 +149,7 @@ def _scales(pictures: dict) -> str:
 
 
 def _sharp(pictures: dict) -> str:
-    """Small pictures are shown with sharp pixels; large ones, made smaller, are smooth."""
+    """Return the CSS for small pictures, which keep sharp pixels; large ones are smoothed."""
     return " sharp" if _scale(_widest(pictures), _WIDE_BESIDE) > 1 else ""
 
 

@@ -1,4 +1,4 @@
-"""reg-cli's measure of colours: how far apart two are in YIQ, and which pixels are antialiasing.
+"""reg-cli's colour comparison: distance in YIQ, and detection of antialiasing.
 
 In:  two pictures as they are shown. Out: the pixels that look different, for ``engine3d diff -M``.
      Sources: Kotsarenko and Ramos, Measuring perceived color difference using YIQ NTSC transmission
@@ -17,7 +17,7 @@ _YIQ = (
     (0.21147017, -0.52261711, 0.31114694),
 )
 _WEIGHTS = (0.5053, 0.299, 0.1957)
-_FARTHEST = 35215.0  # the greatest weighted square of a distance: of black and white, nearly
+_FARTHEST = 35215.0  # the largest weighted squared distance: nearly that of black and white
 _FEW, _MANY = 2, 3  # neighbours of the same colour
 _NEIGHBOURS = [(y, x) for y in (-1, 0, 1) for x in (-1, 0, 1) if (y, x) != (0, 0)]
 
@@ -85,7 +85,7 @@ def _on_edge(shape: tuple[int, ...]) -> np.ndarray:
 
 
 def _has_many_alike(shown: np.ndarray) -> np.ndarray:
-    """Return which pixels have three neighbours or more of exactly their colour; edges have one."""
+    """Return which pixels have at least three neighbours of exactly their colour."""
     colors = np.ascontiguousarray(shown).view(np.uint32)[..., 0]
     count = _on_edge(shown.shape).astype(np.int32)
     for y, x in _NEIGHBOURS:
@@ -94,9 +94,9 @@ def _has_many_alike(shown: np.ndarray) -> np.ndarray:
 
 
 def _is_antialiased(luma: np.ndarray, same: np.ndarray) -> np.ndarray:
-    """Return which pixels lie between a darker and a brighter neighbour that are plain surfaces.
+    """Return which pixels are between a darker and a brighter neighbour on plain surfaces.
 
-    ``same``: which pixels have many alike in both pictures.
+    ``same`` marks pixels with many equal neighbours in both pictures.
     """
     steps = np.stack([_shifted(luma, y, x) - luma for y, x in _NEIGHBOURS])
     inside = np.stack([_inside(luma.shape, y, x) for y, x in _NEIGHBOURS])

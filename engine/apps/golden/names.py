@@ -1,4 +1,4 @@
-"""Names of golden pictures: from a test, or from what it gave, to a path below its folder.
+"""Names of golden pictures: converts test or given names to relative paths.
 
 In:  the name of a test, or any text. Out: a relative path without a suffix that is the same on all
      systems, stays inside of its folder, and is another one for each name.
@@ -13,16 +13,16 @@ import unicodedata
 from ...errors import InvalidArgumentError
 
 SUFFIX = ".png"
-MAX_LENGTH = 120  # of a part in bytes, which leaves room for what comes behind it
+MAX_LENGTH = 120  # bytes per part, which leaves room for suffixes
 _TEST = re.compile(r"(?P<function>\w+)(?:\[(?P<case>.*)\])?", re.S)
-# Matches all but the characters that every system allows. A name may neither begin nor end with
-# a dot or a space.
+# Matches characters that not every system allows. A name may neither begin nor end with a dot or
+# space.
 _ODD = re.compile(r"[^\w.+=,@ -]")
 _RESERVED = re.compile(r"(?:con|prn|aux|nul|com\d|lpt\d)(?:\..*)?", re.I | re.S)
 
 
 def test_name(classes: list[str], test: str, number: int) -> str:
-    """Return the name of a test's picture that was given none.
+    """Return the name of a test's unnamed picture.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ def test_name(classes: list[str], test: str, number: int) -> str:
 
 
 def given_name(name: str) -> str:
-    """Return the path for a name that a test gave; ``/`` leads into a folder.
+    """Return the path for a given name; ``/`` separates folders.
 
     Raises
     ------
@@ -59,7 +59,7 @@ def given_name(name: str) -> str:
 
 
 def _part(text: str) -> str:
-    """Return one part of a path: the text, or what resembles it and a hash of it."""
+    """Return one part of a path: the text, or a similar one with a hash."""
     text = unicodedata.normalize("NFC", text)
     plain = _ODD.sub("_", text)
     if plain.strip(". ") != plain or _RESERVED.fullmatch(plain):

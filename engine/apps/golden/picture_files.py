@@ -1,4 +1,4 @@
-"""Image files read for comparison: every channel as deep as the file has it, every frame.
+"""Reads image files for comparison, with full channel depth and all frames.
 
 In:  the bytes of a file. Out: arrays (H, W) or (H, W, 2 to 4), the top row first. Unlike
      `load_texture`, which makes RGBA of 8 bits of everything for drawing.
@@ -16,22 +16,22 @@ from ...io.formats.images import PILLOW_FORMATS, check_image_size, quiet_pillow
 from ...io.loaders import load_texture
 from . import png_files
 
-#: Suffixes of files that are pictures in folders that are compared.
+#: Suffixes of files that count as pictures in compared folders.
 SUFFIXES = (".png", ".jpg", ".jpeg", ".webp", ".bmp", ".gif", ".tif", ".tiff", ".tga", ".apng")
 MAX_FRAMES = 10_000
-# Modes of Pillow's whose arrays are what the file holds; the others are converted.
+# Pillow modes whose arrays equal the file's content; others are converted.
 _AS_THEY_ARE = ("L", "LA", "RGB", "RGBA", "I", "F")
 
 
 @dataclass(frozen=True)
 class Picture:
-    """The contents of an image file: an array for each frame; one frame if it is no animation."""
+    """The content of an image file: an array for each frame."""
 
     frames: list[np.ndarray]
 
 
 def decode_picture(data: bytes, path: str) -> Picture:
-    """Decode the bytes of an image file; the path says what errors are about.
+    """Decode the bytes of an image file; errors name the path.
 
     Raises `FileFormatError`.
     """
@@ -60,13 +60,13 @@ def _decode_by_pillow(data: bytes, path: str) -> Picture:
         raise
     except Image.UnidentifiedImageError as error:
         raise FileFormatError("not an image of a known format", path) from error
-    # Pillow's plugins raise whatever a damaged file leads them to.
+    # For damaged files, Pillow's plugins raise various errors.
     except Exception as error:
         raise FileFormatError(f"damaged image: {error}", path) from error
 
 
 def image_pixels(image) -> np.ndarray:
-    """Return the pixels of an image of Pillow's: palettes become colours, else nothing changes."""
+    """Return the pixels of a Pillow image; palettes become colours."""
     if image.mode == "1":
         image = image.convert("L")
     elif image.mode.startswith("I;16"):

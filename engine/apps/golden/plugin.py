@@ -52,7 +52,7 @@ def pytest_addoption(parser: pytest.Parser, pluginmanager: pytest.PytestPluginMa
 
 
 def _import_as_it_is(pluginmanager: pytest.PytestPluginManager) -> None:
-    """Let pytest import engine3d as Python does.
+    """Make pytest import engine3d without rewriting assertions.
 
     pytest rewrites the assertions of every module of a distribution that brings a plugin, which
     makes importing engine3d half as slow again where no bytecode is kept. It has no switch for
@@ -68,7 +68,7 @@ def _import_as_it_is(pluginmanager: pytest.PytestPluginManager) -> None:
 
 
 def pytest_load_initial_conftests(args: list[str]) -> None:
-    """Say what ``--golden-update`` means by itself; it would take the next argument for a value."""
+    """Give ``--golden-update`` its default value; it would take the next argument otherwise."""
     args[:] = ["--golden-update=all" if one == "--golden-update" else one for one in args]
 
 
@@ -111,7 +111,7 @@ def golden(request: pytest.FixtureRequest) -> Golden:
     return item.stash[_CHECKER]
 
 
-# The older kind of wrapper: an old pytest, too, must start where engine3d is installed.
+# The old style of wrapper: old versions of pytest must start too.
 @pytest.hookimpl(hookwrapper=True)
 def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo):
     checker = item.stash.get(_CHECKER, None)
@@ -133,7 +133,7 @@ def pytest_collection_finish(session: pytest.Session) -> None:
 
 
 class _Reports:
-    """Takes what the tests report, in the process that all reports go to."""
+    """Collects the tests' reports in the main process."""
 
     def __init__(self, run: Run) -> None:
         self._run = run
@@ -143,7 +143,7 @@ class _Reports:
 
     @pytest.hookimpl(optionalhook=True)
     def pytest_testnodedown(self, node, error) -> None:
-        """Take over what a process of pytest-xdist has collected; all collect the same."""
+        """Take over the collected tests of a pytest-xdist process; all collect the same."""
         said = getattr(node, "workeroutput", {}).get(RESULTS)
         if said is not None:
             self._run.collected = said["collected"]

@@ -1,4 +1,4 @@
-"""PNG files chunk by chunk: taken apart, put together, 16 bits read whole.
+"""PNG files at chunk level: splitting, joining, and reading 16-bit channels.
 
 In:  the bytes of a file. Out: its chunks, or its pixels: Pillow keeps only the upper bytes of
      colours with 16 bits a channel. Source: PNG specification, third edition (W3C, 2025).
@@ -14,12 +14,12 @@ from collections.abc import Iterable
 import numpy as np
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
-_CHANNELS = {0: 1, 4: 2, 2: 3, 6: 4}  # by the type of colours
+_CHANNELS = {0: 1, 4: 2, 2: 3, 6: 4}  # by colour type
 _HEADER = struct.Struct(">IIBBBBB")
 
 
 class DamagedPng(ValueError):
-    """The bytes are no whole PNG file."""
+    """The bytes are not a complete PNG file."""
 
 
 def join_chunks(chunks: Iterable[tuple[bytes, bytes]]) -> bytes:
@@ -32,7 +32,7 @@ def join_chunks(chunks: Iterable[tuple[bytes, bytes]]) -> bytes:
 
 
 def split_chunks(file: bytes) -> list[tuple[bytes, bytes]]:
-    """Return the (name, content) pairs of a file, up to its end; their sums are checked.
+    """Return the (name, content) pairs of a file, with checked sums.
 
     Raises `DamagedPng`.
     """
@@ -55,7 +55,7 @@ def split_chunks(file: bytes) -> list[tuple[bytes, bytes]]:
 
 
 def is_deep(file: bytes) -> bool:
-    """Return whether a file has 16 bits a channel, and more than grey ones."""
+    """Return whether a file has 16-bit channels that are not just grey."""
     name_and_header = file[12 : 16 + _HEADER.size]
     if not file.startswith(SIGNATURE) or len(name_and_header) < 4 + _HEADER.size:
         return False
@@ -69,7 +69,7 @@ def read_deep(file: bytes) -> np.ndarray:
     Pillow unpacks the same data twice: once as the upper bytes, once as the lower ones.
     """
     channels = _CHANNELS[file[25]]
-    if channels == 2:  # four bytes a pixel, as RGBA of 8 bits has
+    if channels == 2:  # four bytes per pixel, as in 8-bit RGBA
         return _unpacked(file, "RGBA", "RGBA").view(">u2").astype(np.uint16)
     mode = "RGB" if channels == 3 else "RGBA"
     upper, lower = (_unpacked(file, mode, f"{mode};16{order}") for order in "BL")

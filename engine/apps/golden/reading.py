@@ -1,4 +1,4 @@
-"""Image files read for comparison; of golden files with numbers, these, not what shows them."""
+"""Reads image files for comparison; for golden files, their exact numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Results as JSON, with the lists that reg-cli writes, and as JUnit's XML."""
+"""Writes results as JSON, as reg-cli's lists, and as JUnit XML."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _OF_REG_CLI = shapes.members(
 
 
 def write_json(path: str, results: list[Result], folders: dict[str, str] | None = None) -> None:
-    """Write lists of names as reg-cli does, and all that is known of each picture.
+    """Write reg-cli's lists of names, and all data on each picture.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def _names(results) -> list[str]:
 
 
 def read_json(path: str) -> list[Result]:
-    """Return the results that `write_json` wrote, or that reg-cli did.
+    """Return the results from a file of `write_json` or reg-cli.
 
     Raises `FileAccessError`, or `FileFormatError` where the file is no such list.
     """
@@ -100,7 +100,7 @@ def _of_reg_cli(document: dict[str, Any]):
 
 
 def write_junit(path: str, results: list[Result], failures: tuple[str, ...]) -> None:
-    """Write a test case for each picture; those whose status is a failure fail.
+    """Write a test case for each picture; failure statuses fail.
 
     Raises `FileAccessError`.
     """
@@ -126,5 +126,5 @@ def write_junit(path: str, results: list[Result], failures: tuple[str, ...]) -> 
 
 
 def _of_xml(text: str) -> str:
-    """Return a text without what XML cannot hold."""
+    """Return a text without characters that XML cannot hold."""
     return printable(text).encode("utf-8", "backslashreplace").decode()

@@ -1,4 +1,4 @@
-"""The result of comparing one picture: values that go from process to process, and to JSON."""
+"""The result of comparing one picture, sent between processes and written as JSON."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ TWO_PICTURES = "two calls gave different pictures for this name in one run"
 
 @dataclass
 class Result:
-    """One picture.
+    """The result for one picture.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ class Result:
     frame: int = 0
 
     def measure(self, difference) -> None:
-        """Take over the numbers of a `Difference`."""
+        """Copy the numbers of a `Difference`."""
         self.different, self.total = difference.different, difference.total
         self.largest = difference.largest if math.isfinite(difference.largest) else None
         self.box = None if difference.box is None else list(difference.box)

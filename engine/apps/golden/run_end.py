@@ -1,4 +1,4 @@
-"""The end of a run of tests: pictures that nobody asked for, a report, JSON, and lines about them.
+"""The end of a test run: unused pictures, report, JSON, and summary lines.
 
 In:  a `Run`. Out: the files that the command line asks for, lines for the summary, and whether all
      is well as far as the tests themselves could not tell.
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def finish(run: Run, config: pytest.Config) -> bool:
-    """Do it; return False where the run must fail though its tests passed."""
+    """Finish the run; return False if it must fail though its tests passed."""
     results = sorted((Result(**one) for one in run.results), key=lambda r: (r.name, r.test))
     conflicts = two_pictures(results)
     run.lines += [f"{name}: {TWO_PICTURES}" for name in conflicts]
@@ -38,7 +38,7 @@ def finish(run: Run, config: pytest.Config) -> bool:
 
 
 def _count(results: list[Result], run: Run, config: pytest.Config) -> None:
-    """Say how many pictures there are of each kind, where they did not all pass."""
+    """Return the counts by status, if not all pictures passed."""
     counts = Counter(result.status for result in results)
     if set(counts) - {PASSED}:
         order = (PASSED, CHANGED, NEW, UPDATED)
@@ -50,7 +50,7 @@ def _count(results: list[Result], run: Run, config: pytest.Config) -> None:
 
 
 def _treat_unused(unused: dict[Path, str], run: Run, config: pytest.Config) -> list[Result]:
-    """Report or delete files; return results of those that are left. Raises `FileAccessError`."""
+    """Report or delete unused files; return results of the remaining. Raises `FileAccessError`."""
     deletes = config.option.golden_unused == "delete"
     done = "deleted, no test asks for it" if deletes else "no test asks for it"
     for path in unused:
@@ -67,10 +67,10 @@ def _treat_unused(unused: dict[Path, str], run: Run, config: pytest.Config) -> l
 
 
 def two_pictures(results: list[Result]) -> list[str]:
-    """Return the names that were written with two different pictures, by two processes."""
+    """Return the names written with different pictures by two processes."""
     digests: dict[str, set[str]] = {}
     for result in results:
-        # A picture that passed within its allowances has been compared, and may differ.
+        # A picture that passed within its tolerance was compared, and may differ.
         if result.status == UPDATED or (result.status == PASSED and not result.total):
             digests.setdefault(result.name, set()).add(result.digest)
     updated = {result.name for result in results if result.status == UPDATED}
@@ -78,7 +78,7 @@ def two_pictures(results: list[Result]) -> list[str]:
 
 
 def _is_partial(run: Run, config: pytest.Config) -> bool:
-    """Return whether the files' tests may not all have been collected, for all that is known."""
+    """Return whether tests of the files may not all have been collected."""
     for argument in config.args:
         if "::" in argument:
             run.partial.add(argument.partition("::")[0])
@@ -86,9 +86,9 @@ def _is_partial(run: Run, config: pytest.Config) -> bool:
 
 
 def find_unused(run: Run, root: Path) -> dict[Path, str]:
-    """Return golden files that no test has asked for, with their names, of modules that passed.
+    """Return golden files that no test used, with their names, for modules that passed.
 
-    A test that failed or was skipped might have asked for more; nothing is said of its module then.
+    A failed or skipped test might have used more, so its module is not reported.
     """
     partial = {(root / file).resolve() for file in run.partial}
     modules = [
@@ -98,7 +98,7 @@ def find_unused(run: Run, root: Path) -> dict[Path, str]:
     ]
     used = {Path(os.path.normpath(one["expected"])) for one in run.results if one["expected"]}
     folders = {folder_of(module) for module in modules}
-    # Of modules that are gone.
+    # For deleted modules.
     for parent in {folder.parent for folder in folders}:
         if parent.is_dir():
             gone = {path for path in parent.iterdir() if path.is_dir()} - folders
@@ -114,7 +114,7 @@ def find_unused(run: Run, root: Path) -> dict[Path, str]:
 def _golden_files(folder: Path, used: set[Path]) -> list[Path]:
     """Return the golden files below the folder of a module.
 
-    Where none is used, the folder may be one for other purposes: only files of our own count.
+    If none is used, the folder may serve other purposes: only our own files count.
     """
     found = sorted(Path(os.path.normpath(path)) for path in folder.rglob(f"*{SUFFIX}"))
     if not found or not used.isdisjoint(found):
@@ -125,7 +125,7 @@ def _golden_files(folder: Path, used: set[Path]) -> list[Path]:
 
 
 def _name(path: Path, folder: Path, root: Path) -> str:
-    """Return what the fixture would call a file in the folder of a module."""
+    """Return the fixture's name for a file in the folder of a module."""
     module = os.path.relpath(folder.parent.parent / folder.name, root)
     return (Path(module) / path.relative_to(folder).with_suffix("")).as_posix()
 

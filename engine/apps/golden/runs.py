@@ -1,4 +1,4 @@
-"""The state of a test run: a few lists, which cost nothing if no test has pictures."""
+"""The state of a test run: a few lists, which cost nothing without golden tests."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ if TYPE_CHECKING:
     import pytest
 
 FOLDER = "golden"
-RESULTS = "engine3d_golden"  # what reports, and processes of pytest-xdist, carry results as
+RESULTS = "engine3d_golden"  # the key of results in reports, and from pytest-xdist processes
 
 
 def folder_of(module: Path) -> Path:
-    """Return the folder of the golden pictures of a test's module."""
+    """Return the golden picture folder of a test's module."""
     return module.parent / FOLDER / module.stem
 
 
@@ -57,7 +57,7 @@ class Run:
             self.partial.add(file)
 
     def has_golden_pictures(self, config: pytest.Config) -> bool:
-        """Return whether there is anything to do at the end."""
+        """Return whether the end of the run has anything to do."""
         option = config.option
         if self.results or option.golden_report or option.golden_json:
             return True

@@ -1,1 +1,1 @@
-"""Drawing user interfaces: lists of two-dimensional, textured triangles with scissor rectangles."""
+"""Draws user interfaces: lists of textured 2-D triangles with scissor rectangles."""

@@ -1,4 +1,4 @@
-"""Draws what Dear ImGui has laid out, with the engine's own rasteriser.
+"""Draws Dear ImGui's output with the engine's own rasteriser.
 
 In:  ImGui's draw data of a frame, and textures by number: ImGui's own, which hold its glyphs and
      grow as they are needed, and pictures that panels show.
@@ -54,7 +54,7 @@ class ImguiPainter:
         *,
         opaque: bool = False,
     ) -> int:
-        """Take a picture to show; return its number. See `Texture`."""
+        """Register a picture; return its number. See `Texture`."""
         number = self._next
         self._next += 1
         self.replace(number, pixels, filter, opaque=opaque)
@@ -68,11 +68,11 @@ class ImguiPainter:
         *,
         opaque: bool = False,
     ) -> None:
-        """Show another picture under a number."""
+        """Replace the picture under a number."""
         self._textures[number] = Texture(pixels, filter, opaque=opaque)
 
     def remove(self, number: int) -> None:
-        """Forget a picture; it may still be part of the frame that is laid out."""
+        """Remove a picture; the frame in layout may still show it."""
         self._textures.pop(number, None)
 
     def draw(self, draw_data: imgui.ImDrawData, pixels: NDArray[np.uint8]) -> None:
@@ -95,7 +95,7 @@ class ImguiPainter:
         )
 
     def _commands(self, lists: list[Any]) -> tuple[NDArray[Any], list[int]]:
-        """The commands of all lists as one, and the numbers of the textures that they count."""
+        """Return the commands of all lists joined, and the numbers of their textures."""
         rows: list[Any] = []
         places: dict[Any, int] = {}
         first_vertex = first_index = 0
@@ -118,7 +118,7 @@ class ImguiPainter:
         return np.array(rows, COMMAND), list(places)
 
     def _follow(self, texture: imgui.ImTextureData) -> None:
-        """Do what ImGui asks of one of its own textures, whose memory is shared."""
+        """Apply ImGui's request for one of its own textures, whose memory is shared."""
         status = self._imgui.ImTextureStatus
         if texture.status == status.want_create:
             side = texture.height, texture.width, texture.bytes_per_pixel
@@ -132,9 +132,9 @@ class ImguiPainter:
 
 
 def _joined(vectors: list[Any], dtype: np.dtype) -> NDArray[Any]:
-    """A copy of some of ImGui's vectors, one after the other.
+    """Return a concatenated copy of some ImGui vectors.
 
-    It is made of their bytes: NumPy would copy structures a field at a time.
+    It copies bytes: NumPy would copy structures field by field.
     """
     memory = [
         (ctypes.c_ubyte * (vector.size() * dtype.itemsize)).from_address(vector.data_address())

@@ -21,8 +21,8 @@ from ...rendering.backend_selection import resolve_backend
 
 #: A vertex: pixels (y down), uv from the texture's top left corner, RGBA with straight alpha.
 VERTEX = np.dtype([("position", "f4", 2), ("uv", "f4", 2), ("color", "u1", 4)])
-#: A command: its scissor rectangle in pixels, and which indices, added to which vertex, it draws
-#: with which texture. Right and bottom are exclusive.
+#: A command: its scissor rectangle in pixels, index range, first vertex and texture. Right and
+#: bottom are exclusive.
 COMMAND = np.dtype(
     [
         *((side, "i4") for side in ("left", "top", "right", "bottom")),

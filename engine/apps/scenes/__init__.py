@@ -1,8 +1,7 @@
-"""The scenes that have names: what ``--scene`` shows, and what ``bench`` measures.
+"""The named scenes, for ``--scene`` and ``bench``.
 
-A row of `SCENES` is all there is to write: choices, help, checks and completion follow. Nothing
-loads until a scene is asked for. A scene is made anew every time: what one caller changes no other
-sees.
+A new scene needs only a row in `SCENES`: choices, help, checks and completion follow. Nothing is
+loaded until a scene is requested, and each request creates a new scene.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Named(NamedTuple):
-    """A row of the list.
+    """A row of the table of scenes.
 
     Attributes
     ----------
@@ -70,7 +69,7 @@ WORKLOAD_NAMES = tuple(name for name, scene in SCENES.items() if scene.measured)
 
 
 def load_demo(name: str, **options) -> ViewedScene:
-    """Return a scene to look at by its name.
+    """Return a scene for viewing by its name.
 
     Parameters
     ----------
@@ -91,6 +90,6 @@ def load_demo(name: str, **options) -> ViewedScene:
 
 
 def function_of(place: str) -> Callable:
-    """Return the function of this package that a row names."""
+    """Return the function of this package that a row refers to."""
     module, _, name = place.partition(".")
     return getattr(import_module(f".{module}", __name__), name)

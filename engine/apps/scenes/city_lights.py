@@ -1,8 +1,8 @@
-"""The lights of the city: street lamps round the viewer, and cars that drive with theirs.
+"""The lights of the city: street lamps around the viewer, and moving cars.
 
-Lamps shine as far as the viewer overlooks the city: from the street those of the next blocks, from
-above the roofs all. Towards the farthest they grow dim, so that none is switched on or off in
-sight. Where there are few lamps, the cars carry more lights.
+Lamps are lit as far as the viewer can see them: from the street those of the next blocks, from
+above all. They fade towards the farthest, so that none visibly switches on or off. Cars carry more
+lights if there are few lamps.
 """
 
 from __future__ import annotations
@@ -20,41 +20,41 @@ from ...model.scene.scene import Scene
 
 
 def _shining(color: tuple[float, float, float], intensity: float, reach: float) -> dict[str, Any]:
-    """The keyword arguments of a `PointLight` whose light ends at some distance."""
+    """Return the keyword arguments of a `PointLight` with a limited range."""
     return {"color": color, "intensity": intensity, "range": reach, "falloff": "window"}
 
 
-#: Lights that there are at least: one for each of so many cars, the others for lamps.
+#: Minimum number of lights: at least one for each car, the others for lamps.
 LIGHTS = 256
 CARS_AT_LEAST = 40
-#: Lamps that shine at a time, at most.
+#: Maximum number of lit lamps.
 MOST_LAMPS = 472
 LAMP = _shining((1.0, 0.74, 0.42), 1.5, 17.0)
-#: How far lamps shine round one who walks, and how much farther for each metre above the ground.
+#: Radius of lit lamps around a walker, and its growth per metre of height.
 REACH, REACH_OF_HEIGHT = 205.0, 4.0
-#: The share of that way on which lamps grow dim.
+#: The fraction of the radius in which lamps fade.
 FADE = 0.25
 _HEADLIGHT = _shining((0.95, 0.95, 1.0), 1.2, 14.0)
 _TAIL_LIGHT = _shining((1.0, 0.08, 0.05), 0.5, 5.0)
 _TAXI_SIGN = _shining((1.0, 0.82, 0.35), 0.4, 5.0)
-#: A car's lights, in the order in which they are added, and where they are on it.
+#: A car's lights, in the order of adding, and their positions on it.
 _CAR_LIGHTS = (
     (_HEADLIGHT, (0.0, 1.0, 3.4)),
     (_TAIL_LIGHT, (0.6, 0.7, -2.6)),
     (_TAIL_LIGHT, (-0.6, 0.7, -2.6)),
     (_TAXI_SIGN, (0.0, 1.7, -0.2)),
 )
-#: Seconds until the cars drive as at first.
+#: Seconds after which the cars repeat.
 PERIOD = 60.0
-#: Metres of street that a car drives before it starts again, at most.
+#: Maximum distance that a car drives before it restarts, in metres.
 DRIVE = 600.0
-#: The streets along Z that they drive on, counted from the middle, and how far beside its middle.
+#: The driven streets along Z, counted from the middle, and the lane's offset.
 STREETS = (-3, -2, -1, 0, 1)
 LANE = 2.4
 
 
 class Lamps:
-    """Lights that are put to the lamps round the viewer.
+    """Lights that are moved to the lamps around the viewer.
 
     Parameters
     ----------
@@ -75,14 +75,15 @@ class Lamps:
         self._shining: list[int] = []
 
     def follow(self, eye: np.ndarray) -> None:
-        """Let the lamps round ``eye`` shine, the dimmer the nearer they are to the dark ones."""
-        offsets = (self._lamps - eye) * (1.0, 0.0, 1.0)  # over the ground: all are equally high
+        """Light the lamps around ``eye``, fading towards the dark ones."""
+        # horizontal distance: all lamps are equally high
+        offsets = (self._lamps - eye) * (1.0, 0.0, 1.0)
         distances = np.sqrt(linalg.dot(offsets, offsets))
         dark = REACH + REACH_OF_HEIGHT * max(float(eye[1]), 0.0)
         order = np.argsort(distances, kind="stable")
         if self.count < len(self._lamps):
             dark = min(dark, float(distances[order[self.count]]))
-        # In the lamps' own order, so that the lit ones depend on the eye alone, not on its path.
+        # In the lamps' own order, so that the result depends only on the eye, not on its path.
         nearest = np.sort(order[: self.count])
         shining = nearest.tolist()
         if shining != self._shining:
@@ -95,7 +96,7 @@ class Lamps:
 
 
 def _strengths(distances: np.ndarray, dark: float) -> list[float]:
-    """Return intensities that fall smoothly to 0 at the distance of the first dark lamp."""
+    """Return intensities that fade smoothly to 0 at the distance of the first dark lamp."""
     share = np.clip((dark - distances) / (FADE * dark), 0.0, 1.0)
     return (LAMP["intensity"] * share * share * (3.0 - 2.0 * share)).tolist()
 
@@ -124,7 +125,7 @@ class Traffic:
             scene.add(PointLight(**light), parent=self._cars[number % count], translation=place)
 
     def drive(self, time: float) -> None:
-        """Put each car where it is at a time; right-hand traffic on streets along Z."""
+        """Move each car to its place at a time; right-hand traffic on streets along Z."""
         for number, node in enumerate(self._cars):
             street = self._streets[number // 2 % len(self._streets)]
             way = 1.0 if number % 2 else -1.0
@@ -135,7 +136,7 @@ class Traffic:
 
 
 def _pose(x: float, z: float, way: float) -> np.ndarray:
-    """A car's pose: its front to +Z, or turned round."""
+    """Return a car's pose: facing +Z, or turned round."""
     return np.array(
         [[way, 0.0, 0.0, x], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, way, z], [0.0, 0.0, 0.0, 1.0]]
     )

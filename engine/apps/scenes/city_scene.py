@@ -20,24 +20,24 @@ from .skyline import Skyline
 
 TRIANGLES = 500_000
 VIEW_RADIUS = 150.0
-#: What is higher than this is a tower, whose top the first view shows.
+#: Anything higher counts as a tower, whose top the first view must show.
 TOWER = 60.0
-#: Where the sun's light travels, by day and at dusk.
+#: Directions of the sun's light, by day and at dusk.
 SUN, LOW_SUN = (-0.55, -0.62, -0.42), (0.70, -0.20, 0.50)
-#: Texels a side of the sun's maps: few enough that one who walks sees 30 frames a second.
+#: Texels per side of the sun's shadow maps: few enough for 30 frames a second while walking.
 SUN_MAPS = 512
-#: Lit windows are so many times as bright at dusk as they are by day.
+#: Brightness factor of lit windows at dusk.
 LIT = 2.4
-#: Where one starts to walk, and where one looks: yaw and pitch.
+#: The start of a walk, and the first view direction: yaw and pitch.
 START = (7.2, 62.0)
 GAZE = (0.14, 0.02)
-#: How far the ground is known around one who walks: the rest is found on the way.
+#: Radius of the known ground around a walker; the rest is found on the way.
 WALK_RADIUS = 160.0
 NEAREST = 0.1
 
 
 def city(triangles: int | None = None, *, dusk: bool = False) -> ViewedScene:
-    """Return a city of about as many triangles, half a million if left out.
+    """Return a city of about as many triangles; by default half a million.
 
     Parameters
     ----------
@@ -70,14 +70,14 @@ def city(triangles: int | None = None, *, dusk: bool = False) -> ViewedScene:
 
 
 def _day(scene: Scene, town: World) -> None:
-    """Light a city by day: the sun, and what the sky gives."""
+    """Light a city by day: with the sun and the sky."""
     scene.background = sky(DAY, np.negative(SUN))
     scene.ambient = (0.30, 0.36, 0.46)
     scene.add(_sun(SUN, (1.0, 0.93, 0.80), 0.85), name="sun")
 
 
 def _dusk(scene: Scene, town: World) -> None:
-    """Light a city by the last of the sun and the blue of the sky; its lit windows are brighter."""
+    """Light a city at dusk: with the low sun and blue sky, and brighter lit windows."""
     scene.background = sky(DUSK, np.negative(LOW_SUN))
     scene.ambient = (0.11, 0.13, 0.20)
     scene.add(DirectionalLight((-0.55, -0.55, -0.45), (0.62, 0.66, 0.92), 0.36), name="sky")
@@ -94,7 +94,7 @@ def _sun(direction: tuple, color: tuple, intensity: float) -> DirectionalLight:
 
 
 def _focus(town: World) -> np.ndarray:
-    """Points that the first view shows: the middle of the city, and the tops of towers."""
+    """Return the points of the first view: the city centre, and the tops of towers."""
     size = (2.0 * VIEW_RADIUS, 40.0, 2.0 * VIEW_RADIUS)
     middle = box(size).positions.astype(np.float64) + np.array((-30.0, 10.0, -30.0))
     tops = [mesh.positions[mesh.positions[:, 1].argmax()] for mesh in town.districts]
@@ -107,12 +107,12 @@ def _is_near(point: np.ndarray) -> bool:
 
 
 def _walker(town: World) -> Walker:
-    """Who walks in the city: all over it, on the ground near by."""
+    """Return a walker for the whole city, on the ground nearby."""
     boxes = np.stack([mesh.bounds for mesh in town.districts])[:, :, [0, 2]]
     kinds = {"walkable": town.walkable, "ignore": town.foliage}
 
     def survey(x: float, z: float) -> NavigationGrid:
-        middle = np.rint((x, z))  # cells lie the same in all grids
+        middle = np.rint((x, z))  # aligns the cells of all grids
         low, high = middle - WALK_RADIUS, middle + WALK_RADIUS
         near = ((boxes[:, 0] <= high) & (boxes[:, 1] >= low)).all(axis=1)
         meshes = [town.districts[number] for number in np.flatnonzero(near)]

@@ -43,9 +43,9 @@ DAY = Sky((0.10, 0.24, 0.56), (0.56, 0.70, 0.86), (0.13, 0.20, 0.07), (0.30, 0.2
 DUSK = Sky(
     (0.02, 0.05, 0.14), (0.20, 0.19, 0.30), (0.030, 0.042, 0.026), (1.0, 0.36, 0.09), 0.05, 2.0
 )
-#: Cosine of the angle that half of the sun's disc takes, as hazy air shows it.
+#: Cosine of the half angle of the sun's disc, as hazy air shows it.
 _DISC = 0.9997
-#: How fast land shows below the horizon.
+#: How fast land appears below the horizon.
 _CLEARNESS = 8.0
 
 
@@ -53,7 +53,8 @@ def sky(colors: Sky, to_sun) -> Environment:
     """Return the environment of a sky with the sun in a direction, (3,)."""
     up, directions = _directions()
     toward = linalg.dot(directions, linalg.normalize(to_sun))
-    height = np.sqrt(np.clip(up, 0.0, 1.0))[..., np.newaxis]  # most of the change is low
+    # most of the change is near the horizon
+    height = np.sqrt(np.clip(up, 0.0, 1.0))[..., np.newaxis]
     above = np.array(colors.horizon) * (1.0 - height) + np.array(colors.zenith) * height
     # Henyey and Greenstein, 1941: a peak toward the sun with a wide foot.
     forward = 1.0 - math.sqrt(colors.spread)
@@ -67,7 +68,7 @@ def sky(colors: Sky, to_sun) -> Environment:
 
 
 def _directions() -> tuple[np.ndarray, np.ndarray]:
-    """How high each pixel of the picture looks, (H, W), and where to, (H, W, 3)."""
+    """Return how high each pixel looks, (H, W), and its direction, (H, W, 3)."""
     rows = (0.5 - (np.arange(_ROWS) + 0.5) / _ROWS) * np.pi
     columns = ((np.arange(_COLUMNS) + 0.5) / _COLUMNS - 0.5) * 2.0 * np.pi
     up, level = linalg.sin(rows)[:, np.newaxis], linalg.cos(rows)[:, np.newaxis]

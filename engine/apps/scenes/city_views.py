@@ -1,4 +1,4 @@
-"""The city that benchmarks draw: its views, its lights, and how a frame of it is timed.
+"""The benchmark city: its views, its lights, and frame timing.
 
 In:  nothing but engine3d itself.
 Out: scenes with as many lights as asked for, a walk along the same street in a city of any size, a
@@ -15,14 +15,14 @@ from ...model.scene.cameras import PerspectiveCamera
 from ...model.scene.lights import DirectionalLight, PointLight
 from ...model.scene.scene import Scene
 
-#: Where the walk begins: eyes over the pavement of the street in the middle, looking along it.
+#: The start of the walk: eye height over the pavement of the middle street, looking along it.
 START, TARGET = (6.2, 1.85, 60.0), (0.0, 5.0, -60.0)
 STEP = 0.06  # metres per frame: a walk at 60 frames per second
 ABOVE, ABOVE_TARGET = (150.0, 320.0, 420.0), (-20.0, 0.0, -40.0)
 
 
 def city_scene(world, lights=256, reach=17.0, moving=32):
-    """A scene of a city at dusk, and the nodes of the lights that move.
+    """Return a scene of a city at dusk, and the nodes of the moving lights.
 
     The first `moving` lights drive along the street, the others hang in the lamps that are nearest
     to the walk. With more lights than lamps the others float over the roofs.
@@ -46,28 +46,28 @@ def city_scene(world, lights=256, reach=17.0, moving=32):
 
 
 def drive(cars, frame):
-    """Put the moving lights where they are at a frame."""
+    """Move the lights to their places in a frame."""
     for number, node in enumerate(cars):
         along = (number * 9.7 + 0.25 * frame) % 120.0 - 60.0
         node.translation = (2.4 if number % 2 else -2.4, 1.0, along)
 
 
 def street_camera(frame):
-    """The view at street level, a step farther each frame."""
+    """Return the street-level camera, one step farther each frame."""
     eye = (START[0], START[1], START[2] - STEP * frame)
     camera = PerspectiveCamera(yfov=1.0, znear=0.1, zfar=4000.0)
     return camera, look_at(eye, TARGET)
 
 
 def above_camera(frame):
-    """The view from above, a little farther each frame."""
+    """Return the camera above, slightly farther each frame."""
     eye = (ABOVE[0] - STEP * frame, ABOVE[1], ABOVE[2])
     camera = PerspectiveCamera(yfov=0.9, znear=5.0, zfar=6000.0)
     return camera, look_at(eye, ABOVE_TARGET)
 
 
 def time_frames(renderer, scene, camera, frames, before=lambda frame: None, **options):
-    """Draw frames after one that is not counted; return a row of figures.
+    """Draw frames after an uncounted first one; return a row of figures.
 
     Parameters
     ----------

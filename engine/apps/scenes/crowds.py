@@ -1,4 +1,4 @@
-"""Many things at once: spheres as instances, in levels of detail, and parcels of land of their own.
+"""Large crowds: instanced spheres, levels of detail, and distinct parcels of land.
 
 Each shows one way to draw many: one mesh at many poses, the coarsest mesh that nobody can tell from
 the finest, and different meshes that stand still, joined block by block.
@@ -21,23 +21,22 @@ from .workloads import make
 BACKGROUND = (26, 31, 38)
 SUN_DIRECTION, SUN_COLOR = (-0.4, -0.7, -0.6), (0.8, 0.8, 0.8)
 AMBIENT = (0.2, 0.2, 0.2)
-#: Balls in levels of detail: how many a side, how far apart, the subdivisions of each level, and
-#: the colour that tells it.
+#: Balls with levels of detail: count per side, spacing, subdivisions of each level, and its colour.
 BALLS_SIDE, BALLS_APART = 60, 3.0
 LEVELS = (5, 4, 3, 2, 1)
 LEVEL_COLORS = ((235, 90, 80), (240, 170, 70), (230, 220, 90), (110, 200, 110), (100, 150, 235))
-#: What the first view shows of them: the nearest, and all others behind.
+#: The points of the first view: the nearest balls in front.
 NEAR_BALLS = (14.0, 2.0, 8.0)
-#: Parcels of land: how many a side, how far apart, and how large at most.
+#: Parcels of land: count per side, spacing, and maximum size.
 PARCELS_SIDE, PARCELS_APART, PARCEL = 40, 12.0, 11.0
-#: So many parcels a side are a block.
+#: Parcels per side of a block.
 BLOCK_SIDE = 8
 PARCEL_COLORS = {"grass": (96, 128, 74), "wall": (200, 190, 170), "roof": (150, 70, 52)}
-#: A parcel in units of its own: the land, walls and a roof with eaves, in quads that wind outward.
+#: A parcel in its own units: land, walls and a roof with eaves, in outward-facing quads.
 LAND = np.array([(-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1)]) / 2
 WALLS = np.array([(x, y, z) for y in (0, 1) for x, z in LAND[:, [0, 2]]])
 ROOF = np.array([*((1.1 * x, 1, 1.1 * z) for x, z in LAND[:, [0, 2]]), (0, 1.5, 0)])
-#: The share of parcels with a house.
+#: The fraction of parcels with a house.
 BUILT = 0.8
 LAND_FACES = [(0, 1, 2), (0, 2, 3)]
 _SIDES = [(k, (k + 1) % 4) for k in range(4)]
@@ -64,7 +63,7 @@ def lod() -> ViewedScene:
 
 
 def _ball(subdivisions: int, color) -> tuple[Mesh, float]:
-    """Return a ball, and how far its faces are from the finest one's."""
+    """Return a ball, and its faces' deviation from the finest one's."""
     mesh = icosphere(1.0, subdivisions)
     mesh.materials = [Material(color=color, name=f"{len(mesh.faces)} triangles")]
     middles = mesh.positions[mesh.faces].mean(axis=1, dtype=np.float64)
@@ -96,7 +95,7 @@ def parcels() -> ViewedScene:
 
 
 def _parcel(random, materials) -> Mesh:
-    """Return a piece of land that no other is like, and what stands on it."""
+    """Return a unique piece of land, with its house if any."""
     across, along = random.uniform(0.8, 1.0, 2) * PARCEL
     parts = [(LAND * (across, 1, along), LAND_FACES)]
     if random.random() < BUILT:

@@ -17,10 +17,10 @@ from ...stage.viewed_scene import ViewedScene
 
 BACKGROUND = (18, 20, 26)
 SPIN_SECONDS = 8.0
-#: Seconds that each of the three shows in ``cube``.
+#: Seconds for each of the three in ``cube``.
 SHARE_SECONDS = 4.0
 TILT = math.radians(20.0)
-#: What the tilted cube sweeps as it spins.
+#: The box that the tilted cube sweeps as it spins.
 SWEPT_SIZE = (1.42, 1.44, 1.42)
 POINT_SIZE = 12.0
 LINE_WIDTH = 3.0
@@ -63,7 +63,7 @@ def _solid() -> Mesh:
 
 
 def _corner_colors(positions) -> np.ndarray:
-    """Return red, green and blue by the sign of x, y and z, none of them quite dark."""
+    """Return red, green and blue by the sign of x, y and z, none completely dark."""
     colors = np.full((len(positions), 4), 255, dtype=np.uint8)
     colors[:, :3] = np.where(np.asarray(positions) > 0, 255, 60)
     return colors

@@ -1,4 +1,4 @@
-"""Scenes of the models that come with engine3d: a textured one, and one in 3D Studio's ASCII."""
+"""Scenes of the bundled models: a textured one, and one in 3D Studio's ASCII format."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ASC_MODEL = "train.asc"
 
 
 def showcase() -> ViewedScene:
-    """Return the scene that shows when none is named: an island by day, turning slowly."""
+    """Return the default scene: an island by day, turning slowly."""
     viewed = data_model(SHOWCASE_MODEL)
     scene = viewed.scene
     scene.background = SKY

@@ -1,6 +1,6 @@
 """A lit sphere and box on a plane, and three coloured lights that circle above them.
 
-Small glowing spheres show where the lights are.
+Small glowing spheres mark the lights.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ def _cut_box(segments: int) -> Mesh:
 def floor(
     size: float, squares: int, dark=(62, 66, 74), light=(118, 122, 130), segments: int = 1
 ) -> Mesh:
-    """Return a square floor at y = 0 with a checkerboard of ``squares`` a side (sRGB colours)."""
+    """Return a square floor at y = 0 with a checkerboard of ``squares`` per side (sRGB colours)."""
     mesh = plane((size, size), segments)
     board = np.array([[dark, light], [light, dark]], dtype=np.uint8)
     mesh.uvs = mesh.uvs * (squares / 2)
@@ -103,7 +103,7 @@ def floor(
 
 
 def _bulb(scene: Scene, color):
-    """Add a point light with a glowing sphere round it; return the node that moves both."""
+    """Add a point light with a glowing sphere; return the node that moves both."""
     node = scene.add(PointLight(color=color, intensity=LIGHT_INTENSITY))
     bulb = icosphere(BULB_RADIUS, 2)
     bulb.materials = [Material(color=(0.0, 0.0, 0.0), emissive=color)]

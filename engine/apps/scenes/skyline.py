@@ -1,4 +1,4 @@
-"""How high a city is where: how far one who flies over it is from anything.
+"""The heights of a city, for the free distance around a flying viewer.
 
 In: meshes in world space, Y up. Out: distances from a point to a column over each square of the
 ground, as high as what stands there. Nothing is nearer than they are.
@@ -13,12 +13,12 @@ import numpy as np
 from ...extras.worlds.plan import PITCH
 from ...model.geometry.mesh import Mesh
 
-#: How far things reach over the side of the square that their corners are in, and cars drive.
+#: The overhang of things beyond the square of their corners, and of moving cars.
 OVERHANG = 4.0
 
 
 class Skyline:
-    """The highest points of squares as large as a tile of the city.
+    """The maximum heights of squares the size of a city tile.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ class Skyline:
             np.maximum.at(self._heights.reshape(-1), squares[corner], heights)
 
     def clearance(self, eye: np.ndarray) -> float:
-        """Return a distance within which nothing is round ``eye``, (3,); 0 low over the ground."""
+        """Return a radius of free space around ``eye``, (3,); 0 near the ground."""
         half = PITCH / 2 + OVERHANG
         aside = [
             np.maximum(np.abs(centers - eye[axis]) - half, 0.0)

@@ -51,11 +51,11 @@ def solar() -> ViewedScene:
     month = scene.add(name="month", parent=place)
     scene.add(_moon(), name="Moon", parent=month, translation=(MOON_ORBIT, 0, 0))
     animator.spin(sun, period=MONTH)
-    animator.spin(year, period=MONTH, phase=0.6)  # in nature 13 times as long
+    animator.spin(year, period=MONTH, phase=0.6)  # the real year is 13 times as long
     animator.spin(earth, period=MONTH / DAYS)
     animator.spin(
         month, period=MONTH / 2, phase=0.3
-    )  # twice, for the Moon to come round against the year
+    )  # twice, for the Moon to complete its turn against the year
     animator.seek(0.0)
     reach = EARTH_ORBIT + MOON_ORBIT
     return ViewedScene(
@@ -64,7 +64,7 @@ def solar() -> ViewedScene:
         update=animator.seek,
         period=MONTH,
         plays=True,
-        azimuth=3.2,  # of the Earth its day shows first
+        azimuth=3.2,  # first shows the day side of the Earth
         elevation=0.45,
         focus=np.array(
             [
@@ -79,7 +79,7 @@ def solar() -> ViewedScene:
 
 
 def _sun() -> Mesh:
-    """A ball that glows more and less brightly."""
+    """Return a ball that glows unevenly."""
     ball = uv_sphere(SUN_RADIUS, (128, 64))
     middles = ball.positions[ball.faces].mean(axis=1, dtype=np.float64)
     waves = np.zeros(len(middles))
@@ -106,7 +106,7 @@ def _moon() -> Mesh:
 
 
 def _craters() -> np.ndarray:
-    """Grey ground with craters of all sizes, bright at their rims: (H, W, 3) uint8."""
+    """Return grey ground with craters of all sizes, bright at their rims: (H, W, 3) uint8."""
     width, height = MOON_SIZE
     around = 2.0 * np.pi * (np.arange(width) + 0.5) / width
     down = np.pi * (np.arange(height) + 0.5) / height
@@ -131,7 +131,7 @@ def _stars() -> Mesh:
 
 
 def _directions(count: int, seed: int) -> np.ndarray:
-    """Unit vectors without any order, (count, 3): those of points in the unit ball."""
+    """Return unit vectors in random order, (count, 3), from points in the unit ball."""
     points = np.random.default_rng(seed).uniform(-1.0, 1.0, (4 * count, 3))
     square = linalg.dot(points, points)
     return linalg.normalize(points[(square < 1.0) & (square > 0.01)][:count])

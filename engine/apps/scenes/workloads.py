@@ -1,4 +1,4 @@
-"""The scenes of the benchmark; each has a camera that moves by a hair a frame.
+"""The benchmark scenes, with cameras that move slightly every frame.
 
 In:  a name of `SCENES`, and whether the picture is plain.
 Out: a `Workload`. The plain picture is what every renderer can draw alike: 8-bit values as they
@@ -34,7 +34,7 @@ LIGHTS = 256
 LAYERS = 32
 GRID_SIDE = 12
 SPHERES_SIDE = 34
-#: How far the camera moves at most, in parts of its distance from what it looks at.
+#: Maximum motion of the camera, as a fraction of its distance from the target.
 HAIR = 1e-4
 
 
@@ -63,7 +63,7 @@ class Workload:
     color_space: str = "srgb"
 
     def view(self, frame: int) -> tuple[PerspectiveCamera, np.ndarray]:
-        """Return what `Renderer.render` takes as ``camera``: for each frame a hair elsewhere."""
+        """Return the ``camera`` argument of `Renderer.render`, slightly moved every frame."""
         hair = np.array((frame % 7 - 3, frame % 5 - 2, frame % 3 - 1), np.float64)
         distance = float(linalg.length(self.target - self.eye))
         return self.camera, linalg.look_at(self.eye + HAIR / 3 * distance * hair, self.target)
@@ -75,7 +75,7 @@ class Workload:
 
     @property
     def triangles(self) -> int:
-        """How many triangles there are, instances counted."""
+        """Number of triangles, including instances."""
         return sum(_triangles(node.object) for node in self.scene.nodes)
 
 
@@ -91,7 +91,7 @@ def make(name: str, plain: bool = False) -> Workload:
 
 
 def _workload(name: str, parts, plain: bool = False) -> Workload:
-    """Put a workload together: a scene, (eye, target, (yfov, znear, zfar)), options."""
+    """Build a workload from a scene, (eye, target, (yfov, znear, zfar)), and options."""
     scene, (eye, target, (yfov, near, far)), options = parts
     return Workload(
         name,
@@ -105,7 +105,7 @@ def _workload(name: str, parts, plain: bool = False) -> Workload:
 
 
 def layers(count: int) -> Workload:
-    """Return a number of walls behind each other that fill the picture, back to front."""
+    """Return a number of walls that fill the picture, back to front."""
     return _workload("layers", fill_front(False, count, back_to_front=True))
 
 
@@ -125,7 +125,7 @@ def _scene() -> Scene:
 
 
 def _matte(materials) -> list[Material]:
-    """Materials of colour and texture alone, filtered without mip levels."""
+    """Return materials with only colour and texture, filtered without mip levels."""
     matte = functools.cache(lambda texture: Texture(texture.pixels, filter="bilinear"))
     return [
         Material(color=one.color, texture=one.texture and matte(one.texture)) for one in materials
@@ -143,7 +143,7 @@ def textured(plain):
 
 @functools.cache
 def bumpy_sphere() -> Mesh:
-    """70,200 triangles of much the same size, as a scanned figure has them; radius 1 at most."""
+    """Return 70,200 similar triangles, as in a scanned figure; the radius is at most 1."""
     sphere = uv_sphere(1.0, (270, 131))
     x, y, z = sphere.positions.astype(np.float64).T
     bumps = 0.88 + 0.08 * linalg.sin(7.0 * x + 3.0 * y) + 0.04 * linalg.sin(17.0 * z - 9.0 * y)
@@ -166,7 +166,7 @@ def grid(plain, output="color"):
 
 
 def _rows(side, pitch, scale):
-    """A flat grid of (N, 4) poses, the front rows first."""
+    """Return a flat grid of (N, 4) poses, front rows first."""
     places = (np.arange(side) - (side - 1) / 2) * pitch
     z, x = np.meshgrid(places[::-1], places, indexing="ij")
     return np.stack([x, 0 * x, z, 0 * x + scale], axis=-1).reshape(-1, 4)
@@ -193,7 +193,7 @@ def city_above(plain):
 
 
 def fill_front(plain, count=LAYERS, back_to_front=False):
-    """Walls behind each other that fill the picture, as one mesh."""
+    """Return walls that fill the picture as one mesh."""
     distance = np.linspace(2.0, 40.0, count)
     distance = distance[::-1] if back_to_front else distance
     corners = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])

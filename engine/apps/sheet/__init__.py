@@ -1,4 +1,4 @@
-"""Contact sheets: one picture of a model from several sides, and a report of what it shows.
+"""Contact sheets: pictures of a model from several sides, and a report.
 
 In: files, meshes or scenes. Out: a `Sheet`: pixels, and a dict that JSON takes. The same input
 gives the same bytes on every machine.

@@ -1,7 +1,6 @@
-"""The faces of a cut: the pixels of a section at which its plane goes through something.
+"""The cut faces of a section: the pixels where its plane passes through objects.
 
-In: nodes, and a camera whose near plane cuts them. Out: which node each pixel goes through, and the
-areas.
+In: nodes, and a camera whose near plane cuts them. Out: the cut node of each pixel, and the areas.
 """
 
 from __future__ import annotations
@@ -16,14 +15,14 @@ from .cutting import Plane, area_of, cut_nodes, gaps_of, inside
 from .layout import Rectangle
 from .panel_renderer import PanelRenderer
 
-#: Cut material and its hatching.
+#: Colours of cut material and its hatching.
 _CUT, _HATCH = (232, 164, 124), (150, 78, 44)
-#: Pixels from one line of the hatching to the next.
+#: Pixels between lines of the hatching.
 _PITCH = 9
 
 
 class CutNode(NamedTuple):
-    """The cut of a node: pixels that show it, and its area, None where it is open."""
+    """The cut of a node: its pixel count and its area, None if it is open."""
 
     node: int
     pixels: int
@@ -58,7 +57,7 @@ def find_caps(
     areas = [area_of(outline.segments, plane) for outline in outlines]
     gaps = [gaps_of(outline.segments) for outline in outlines]
     ids = np.full((rectangle.height, rectangle.width), -1, np.int64)
-    # An outline within another one is painted over it.
+    # An outline inside another is painted over it.
     for number in sorted(range(len(outlines)), key=lambda k: -areas[k]):
         if gaps[number] is not None:
             closed = np.concatenate([outlines[number].segments, gaps[number]])
@@ -75,7 +74,7 @@ def find_caps(
 def _on_panel(
     segments: np.ndarray, camera: Camera, pose: np.ndarray, rectangle: Rectangle
 ) -> np.ndarray:
-    """The ends of segments in the panel's pixels, (N, 2, 2)."""
+    """Return the ends of segments in the panel's pixels, (N, 2, 2)."""
     projection = np.array(camera.projection(rectangle.width, rectangle.height), np.float64)
     clip = linalg.multiply(projection, linalg.inverse(pose))
     x, y = (linalg.dot(segments, row[:3]) + row[3] for row in clip[:2])
@@ -85,7 +84,7 @@ def _on_panel(
 
 
 def paint_caps(color: np.ndarray, ids: np.ndarray) -> None:
-    """Paint cut material, hatched: in two directions, by the ids of nodes.
+    """Paint hatched cut material, in two directions depending on node IDs.
 
     Parameters
     ----------

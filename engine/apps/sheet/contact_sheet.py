@@ -51,7 +51,7 @@ class Sheet:
         path: str | os.PathLike[str],
         report: str | os.PathLike[str] | None = None,
     ) -> None:
-        """Write the picture as PNG, and the report as JSON where a path for it is given.
+        """Write the picture as PNG, and the report as JSON if it has a path.
 
         Both appear whole, or neither does.
 
@@ -102,7 +102,7 @@ class Sheet:
 
     @checks_types
     def project(self, view: str, points: ArrayLike, model: int = 0) -> NDArray[np.float64]:
-        """Return where points are on the sheet.
+        """Return the positions of points on the sheet.
 
         Parameters
         ----------
@@ -199,7 +199,7 @@ def contact_sheet(
     backend: Backend = "auto",
     threads: int = 0,
 ) -> Sheet:
-    """Draw models from several sides on one sheet, with dimensions and a report of what shows.
+    """Draw models from several sides on one sheet, with dimensions and a report.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Cuts meshes at the plane of a section: outlines of the cut, and their areas.
+"""Cuts meshes at a section plane: outlines of the cut, and their areas.
 
 In: nodes, a plane across an axis. Out: for each node the directed segments in which the plane meets
 its faces, and from them the pixels inside. Every edge that crosses the plane gives one point, found
@@ -21,11 +21,11 @@ from ...model.scene.instances import InstancedMesh, instance_matrices
 from ...model.scene.nodes import Node
 from ...model.scene.shown import placing_pose, shown_object
 
-#: More instances than these are not cut one by one.
+#: With more instances, they are not cut individually.
 MOST_INSTANCES = 4096
-#: More gaps than these of a node are not closed.
+#: With more gaps, a node's outline is not closed.
 MOST_GAPS = 1024
-#: Gaps are closed that are together shorter than this share of what they close.
+#: Gaps are closed if their total length is below this fraction of the gap-closed outline.
 _LONGEST_GAPS = 0.75
 
 
@@ -61,7 +61,7 @@ class Outline(NamedTuple):
 
 
 def cut_nodes(nodes: Iterable[Node], plane: Plane) -> list[Outline]:
-    """Return the outlines of all nodes that a plane goes through."""
+    """Return the outlines of all nodes that a plane cuts."""
     found = []
     for node in nodes:
         parts = [_cut(points, mesh.faces, plane) for points, mesh in _placed(node, plane)]
@@ -72,7 +72,7 @@ def cut_nodes(nodes: Iterable[Node], plane: Plane) -> list[Outline]:
 
 
 def _placed(node: Node, plane: Plane) -> Iterator[tuple[np.ndarray, Mesh]]:
-    """Yield the vertices of what a node draws, in the scene, once for each instance."""
+    """Yield the vertices of a node's drawn object, in the scene, for each instance."""
     box = node.bounds
     if not node.shown or box is None:
         return
@@ -89,7 +89,7 @@ def _placed(node: Node, plane: Plane) -> Iterator[tuple[np.ndarray, Mesh]]:
 
 @np.errstate(all="ignore")
 def _cut(points: np.ndarray, faces: np.ndarray, plane: Plane) -> np.ndarray:
-    """Return the segments in which a plane meets triangles, (N, 2, 3)."""
+    """Return the segments in which a plane intersects triangles, (N, 2, 3)."""
     heights = points[:, plane.axis] - plane.coordinate
     above = heights >= 0.0
     sides = above[faces]
@@ -99,7 +99,7 @@ def _cut(points: np.ndarray, faces: np.ndarray, plane: Plane) -> np.ndarray:
     if not len(crossing):
         return np.zeros((0, 2, 3))
     sides, corners = sides[crossing], faces[crossing]
-    # The corner that is alone on its side comes first; the others follow in the face's order.
+    # The corner that is alone on its side comes first; the others follow in face order.
     alone_above = count[crossing] == 1
     first = np.argmax(sides == alone_above[:, np.newaxis], axis=1)
     turned = np.take_along_axis(corners, (first[:, np.newaxis] + np.arange(3)) % 3, axis=1)
@@ -113,7 +113,7 @@ def _cut(points: np.ndarray, faces: np.ndarray, plane: Plane) -> np.ndarray:
 
 
 def _crossings(points: np.ndarray, heights: np.ndarray, a: np.ndarray, b: np.ndarray):
-    """Return where edges cross the plane; each goes from its lower end to its upper one."""
+    """Return where edges cross the plane, computed from their lower to their upper end."""
     swapped = heights[a] >= 0.0
     low, high = np.where(swapped, b, a), np.where(swapped, a, b)
     share = heights[low] / (heights[low] - heights[high])
@@ -131,7 +131,7 @@ def area_of(segments: np.ndarray, plane: Plane) -> float:
 
 
 def gaps_of(segments: np.ndarray) -> np.ndarray | None:
-    """Return what closes outlines: segments from where some end to where others begin.
+    """Return the segments that close outlines, from open ends to open beginnings.
 
     Each end leads to the nearest beginning, of pairs that are nearest to each other first.
 
@@ -141,7 +141,7 @@ def gaps_of(segments: np.ndarray) -> np.ndarray | None:
         None where there are too many gaps, or they are so long that there is no inside, as of a
         surface that is open all round.
     """
-    points = segments.transpose(1, 0, 2).reshape(-1, 3) + 0.0  # what begins comes first
+    points = segments.transpose(1, 0, 2).reshape(-1, 3) + 0.0  # the beginnings come first
     order = np.lexsort(points.T)
     steps = np.any(points[order][1:] != points[order][:-1], axis=1)
     numbers = np.empty(len(points), np.int64)
@@ -160,7 +160,7 @@ def gaps_of(segments: np.ndarray) -> np.ndarray | None:
 
 
 def _joined(ends: np.ndarray, begins: np.ndarray) -> np.ndarray:
-    """Pair points, as many as there are of each, (K, 2, 3)."""
+    """Pair two equally large sets of points, (K, 2, 3)."""
     pairs = [np.zeros((0, 2, 3))]
     while len(ends):
         away = ends[:, np.newaxis] - begins[np.newaxis]
@@ -178,7 +178,7 @@ def _length(segments: np.ndarray) -> float:
 
 
 def inside(ends: np.ndarray, width: int, height: int) -> np.ndarray:
-    """Return which pixels are inside of closed outlines, (H, W) bool.
+    """Return which pixels are inside closed outlines, (H, W) bool.
 
     Parameters
     ----------

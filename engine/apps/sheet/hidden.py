@@ -1,4 +1,4 @@
-"""How much of each node others hide: each is drawn without the others.
+"""Measures how much of each node others hide, by drawing it alone.
 
 In: a panel's camera and the scene. Out: how many pixels each node would have alone. Nodes that are
 apart on the screen are drawn together, and what no other's box meets is not drawn at all.
@@ -19,14 +19,14 @@ from ...rendering.renderer import Renderer
 from ...stage.visibility import DRAWABLE
 from .layout import Rectangle
 
-#: More pictures than these are not drawn for a panel: what they would tell is left unknown.
+#: Maximum number of pictures per panel; further results stay unknown.
 MOST_PICTURES = 64
 _MOST_NODES = 2048
-_ROOM = 2.0  # pixels by which boxes are enlarged: wide lines and points reach beyond
+_ROOM = 2.0  # pixels by which boxes are enlarged, for wide lines and points
 
 
 class AloneScene:
-    """A scene of the same meshes at the same places, any of which may be hidden.
+    """A scene with the same meshes at the same places, any of which may be hidden.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class AloneScene:
     def count(
         self, camera: Camera, pose: np.ndarray, rectangle: Rectangle, options: Mapping
     ) -> dict[int, int | None]:
-        """Return how many pixels each node has alone where another may hide it.
+        """Return how many pixels each possibly hidden node has alone.
 
         Parameters
         ----------
@@ -87,7 +87,7 @@ class AloneScene:
         return found
 
     def _boxes(self, camera: Camera, pose: np.ndarray, rectangle: Rectangle) -> np.ndarray:
-        """Boxes in the panel, (N, 4): left, top, right, bottom; all of it where unsure."""
+        """Return boxes in the panel, (N, 4): left, top, right, bottom; the whole if unsure."""
         selection = self._scene.select(self._nodes)
         selection.visible = True
         corners = selection.bounds[:, [[i & 1, i >> 1 & 1, i >> 2] for i in range(8)], [0, 1, 2]]
@@ -105,7 +105,7 @@ class AloneScene:
 
 
 def _apart(boxes: np.ndarray) -> list[list[int]]:
-    """Share boxes out to pictures in which none meet; leave out those that no other meets."""
+    """Distribute boxes to pictures without overlaps; leave out boxes that overlap no other."""
     meets = np.ones((len(boxes), len(boxes)), bool)
     for low, high in ((0, 2), (1, 3)):
         meets &= boxes[:, np.newaxis, low] < boxes[np.newaxis, :, high]

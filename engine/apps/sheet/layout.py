@@ -1,4 +1,4 @@
-"""The layout of a sheet: places of its panels, and the scale that fits all of them.
+"""The layout of a sheet: places of its panels, and their common scale.
 
 In: how far each view reaches in world units, the room in pixels. Out: a rectangle for each, and
 pixels per unit. A column is as wide as its widest view needs, a row as high as its highest, so that
@@ -12,13 +12,13 @@ from typing import NamedTuple
 
 from ...errors import InvalidArgumentError
 
-#: A panel has at least so many pixels.
+#: The minimum size of a panel in pixels.
 LEAST_WIDTH, LEAST_HEIGHT = 96, 80
 _HALVINGS = 80
 
 
 class Rectangle(NamedTuple):
-    """Pixels of the sheet: the top left one, how many across and down."""
+    """Pixels of the sheet: the top left one, width and height."""
 
     x: int
     y: int
@@ -27,14 +27,14 @@ class Rectangle(NamedTuple):
 
 
 class Reach(NamedTuple):
-    """How far a view reaches across and up, in world units."""
+    """The extent of a view across and up, in world units."""
 
     width: float
     height: float
 
 
 class Padding(NamedTuple):
-    """Pixels in a panel round what is drawn to scale."""
+    """Pixels in a panel around the scaled drawing."""
 
     left: int
     top: int
@@ -85,7 +85,7 @@ def _rows(count: int, columns: int) -> int:
 
 
 def _grid(area, reaches, padding, gap, columns):
-    """The rectangles and the scale of a number of columns, or None where it does not fit."""
+    """Return rectangles and scale for a number of columns, or None if they do not fit."""
     rows = _rows(len(reaches), columns)
     widths = [max(reach.width for reach in reaches[c::columns]) for c in range(columns)]
     heights = [
@@ -115,12 +115,12 @@ def _grid(area, reaches, padding, gap, columns):
 
 
 def _taken(needs: list[float], scale: float, least: int, pad: int) -> list[float]:
-    # A side that is much shorter than others has a fair share all the same.
+    # Much shorter sides still get a fair share.
     return [max(least, pad + need * scale) for need in needs]
 
 
 def _largest_scale(needs: list[float], total: int, least: int, pad: int) -> float:
-    """The largest scale at which all fit, by halving; 0 where none does."""
+    """Return the largest scale at which all fit, by bisection; 0 if none does."""
     fair = _fair(len(needs), total, least)
     if sum(_taken(needs, 0.0, fair, pad)) > total:
         return 0.0
@@ -137,7 +137,7 @@ def _largest_scale(needs: list[float], total: int, least: int, pad: int) -> floa
 
 
 def _fair(count: int, total: int, least: int) -> int:
-    """Return the least size of a panel; it grows with the sheet."""
+    """Return the minimum size of a panel, which grows with the sheet."""
     return max(least, total // (4 * count))
 
 

@@ -14,12 +14,12 @@ from ...stage.overlays.overlay import AXIS_COLORS
 from ...stage.overlays.theme import DARK, Rgba, Theme
 from .layout import Rectangle
 
-#: X, Y and Z on light ground: the usual red, green and blue, darker.
+#: X, Y and Z on a light background: the usual red, green and blue, darker.
 _DARK_AXES = ((196, 44, 44, 255), (30, 132, 44, 255), (44, 84, 214, 255))
 _ARROW = 7
 _AXIS = 15
 _DIGITS = 4
-#: The rows that the name of a view takes.
+#: Height of a view's name in rows.
 _NAME = 24
 
 
@@ -32,7 +32,7 @@ def length_text(value: float, unit: str | None) -> str:
 
 
 def short(text: str, columns: int) -> str:
-    """Return a text of at most so many characters, its middle left out."""
+    """Return a text shortened to a maximum length, by omitting its middle."""
     if len(text) <= columns:
         return text
     if columns < 8:
@@ -42,14 +42,14 @@ def short(text: str, columns: int) -> str:
 
 
 def line_color(theme: Theme) -> Rgba:
-    """The colour of dimensions."""
+    """Return the colour of dimensions."""
     return (150, 158, 170, 255) if theme is DARK else (96, 104, 118, 255)
 
 
 def draw_width(
     canvas: Canvas, left: float, right: float, y: float, text: str, theme: Theme, scale: int
 ) -> None:
-    """Draw a dimension below a drawing: from one place to another at a height."""
+    """Draw a dimension below a drawing, between two columns at a row."""
     color = line_color(theme)
     left, right = math.floor(left), math.ceil(right) - 1
     reach = 5 * scale
@@ -93,7 +93,7 @@ def _arrow(canvas: Canvas, tip, way, color: Rgba, scale: int) -> None:
 
 
 def _text_upward(canvas: Canvas, x: float, y: float, text: str, color: Rgba, scale: int) -> None:
-    """Write a text turned by a quarter, from below to above."""
+    """Write a text rotated by a quarter turn, from bottom to top."""
     width, height = text_size(text, scale)
     turned = Canvas(np.zeros((height, width, 4), np.uint8))
     turned.text(0, 0, text, color, scale=scale)
@@ -108,7 +108,7 @@ def _text_upward(canvas: Canvas, x: float, y: float, text: str, color: Rgba, sca
 def draw_triad(
     canvas: Canvas, x: float, y: float, axes: np.ndarray, theme: Theme, scale: int
 ) -> None:
-    """Draw the file's axes as a camera sees them, round a place.
+    """Draw the file's axes as a camera sees them, around a point.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def draw_triad(
 
 
 def draw_frame(canvas: Canvas, rectangle: Rectangle, theme: Theme) -> None:
-    """Draw a thin frame round a panel."""
+    """Draw a thin frame around a panel."""
     x, y, width, height = rectangle
     color = (72, 77, 88, 255) if theme is DARK else (176, 183, 194, 255)
     canvas.rectangle(x - 1, y - 1, width + 2, height + 2, color, fill=False)
@@ -153,12 +153,12 @@ def draw_scale_bar(
 
 
 def round_length(most: float) -> float:
-    """Return the largest of 1, 2, 5, 10, … that is at most so much."""
+    """Return the largest of 1, 2, 5, 10, … up to a limit."""
     exponent = _exponent(most)
     lengths = [float(f"{digit}e{exponent}") for digit in (5, 2, 1)]
     return next((length for length in lengths if length <= most), lengths[-1])
 
 
 def _exponent(value: float) -> int:
-    """The power of ten of the first digit; machines round logarithms differently."""
+    """Return the exponent of the first digit, since machines round logarithms differently."""
     return int(f"{value:.16e}".partition("e")[2])

@@ -1,6 +1,6 @@
-"""Opens what a sheet shows: files, meshes and scenes alike.
+"""Opens the sources of a sheet: files, meshes and scenes alike.
 
-In: what the caller gives. Out: a `ViewedScene`.
+In: the caller's sources. Out: a `ViewedScene`.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ SheetSource: TypeAlias = str | os.PathLike[str] | BinaryIO | Mesh | Scene
 
 
 def open_sources(sources: SheetSource | Iterable[SheetSource], **options: Any) -> list[ViewedScene]:
-    """Return what one or several sources hold.
+    """Return the viewed scene of one or several sources.
 
     Parameters
     ----------

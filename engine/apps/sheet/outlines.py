@@ -1,4 +1,4 @@
-"""The lines of a drawing: where one thing ends before another, and where surfaces have an edge.
+"""Draws the lines of a drawing: silhouettes and edges of surfaces.
 
 In: what a panel shows: ids, depths and normals of its pixels. Out: the panel's colours, darker
 along lines of one pixel. Where there would be nothing but lines, they fade.
@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import numpy as np
 
-#: The cosine of the angle between normals from which on there is an edge.
+#: Cosine of the smallest angle between normals that counts as an edge.
 _CREASE = 0.88
-#: Depths that differ from a plane's by more than so many pixels are of two surfaces.
+#: Depths that deviate from a plane by more than this many pixels belong to two surfaces.
 _JUMP = 3.5
-#: How dark lines are, of 256.
+#: Darkness of lines, of 256.
 _DARKNESS = 165
-#: Half the side of the square in which lines are counted; from which share on they fade, and
-#: where they are gone.
+#: Half side of the square in which lines are counted; the fractions at which they start to fade,
+#: and vanish.
 _NEAR, _MANY, _TOO_MANY = 5, 0.42, 0.75
 
 
@@ -53,7 +53,7 @@ def draw_outlines(
 
 
 def _mark_ends(lines: np.ndarray, ids: np.ndarray, depth: np.ndarray) -> None:
-    """Mark the nearer of two neighbours that are of two things."""
+    """Mark the nearer of two neighbours that belong to different things."""
     for here, there in _neighbours():
         differ = ids[here] != ids[there]
         is_here = (ids[here] >= 0) & ((ids[there] < 0) | (depth[here] < depth[there]))
@@ -62,7 +62,7 @@ def _mark_ends(lines: np.ndarray, ids: np.ndarray, depth: np.ndarray) -> None:
 
 
 def _mark_jumps(lines: np.ndarray, ids: np.ndarray, depth: np.ndarray, jump: np.float32) -> None:
-    """Mark what is in front of a surface that goes on farther away."""
+    """Mark surfaces in front of a more distant surface."""
     for before, here, after in _rows_of_three():
         # How much farther away both sides are than a plane through here would have them.
         bend = (depth[before] - depth[here]) + (depth[after] - depth[here])
@@ -91,7 +91,7 @@ def _rows_of_three():
 
 
 def _strength(lines: np.ndarray) -> np.ndarray:
-    """Return how dark each pixel's line is, of 256: less among many, in integers."""
+    """Return the darkness of each pixel's line, of 256: less among many, in integers."""
     side = 2 * _NEAR + 1
     sums = np.zeros((lines.shape[0] + side, lines.shape[1] + side), np.int32)
     inside = slice(_NEAR + 1, -_NEAR)

@@ -1,7 +1,7 @@
 """The pages of a sheet: each model's title, panels, dimensions and scale.
 
 In: opened models and views. Out: a canvas with all of them, their panels and reports. Only lengths
-and names of the files are written: nothing of the machine or of the time.
+and file names are written, nothing about the machine or the time.
 """
 
 from __future__ import annotations
@@ -27,18 +27,18 @@ from .views import ViewSpec
 
 SIZE, SIZE_OF_SEVERAL = (1600, 1200), (1600, 480)
 MOST_ROWS = 16384
-_LARGE = 1400  # a page as high as this has larger texts
-_WIDE = 900  # if it is as wide as this as well
-#: Pixels, times the scale of texts: round the page, between panels; the title; the last line.
+_LARGE = 1400  # pages at least this high get larger text
+_WIDE = 900  # if they are also this wide
+#: Pixels, times the text scale: page margin, gap between panels, title, last line.
 _MARGIN, _GAP, _TITLE, _FOOT = 16, 10, 40, 30
 _DRAWING = Padding(56, 30, 20, 56)
 _PICTURE = Padding(14, 26, 14, 14)
-#: Views that are not to scale take so much of the room that they would need.
+#: Views without scale get this fraction of the room they would need.
 _SHARE = 0.8
 
 
 class Pages(NamedTuple):
-    """What was drawn, model by model."""
+    """The drawn panels and reports, model by model."""
 
     canvas: Canvas
     panels: list[list[Panel]]
@@ -80,7 +80,7 @@ def draw_pages(
 
 
 class _Page:
-    """The part of a sheet that shows one model."""
+    """The part of a sheet for one model."""
 
     def __init__(
         self, canvas: Canvas, area: Rectangle, model: ViewedScene, up: str, unit: str | None
@@ -143,7 +143,7 @@ class _Page:
 
     def _choose_theme(self, studio: PanelRenderer, specs, extent: Extent) -> None:
         if studio.has_faces and not any(spec.kind == "isometric" for spec in specs):
-            return  # lines make drawings of faces stand out from any ground
+            return  # lines separate drawings of faces from any background
         area = Rectangle(0, 0, 160, 120)
         scale = _fitting_scale(extent, area, Padding(0, 0, 0, 0))
         studio.choose_theme(*place_camera(extent, studio.sphere, area, Padding(0, 0, 0, 0), scale))
@@ -218,7 +218,7 @@ class _Page:
 
 
 def _reaches(specs, extents) -> list[Reach]:
-    """Return the reach that each view needs of the layout, in world units."""
+    """Return the extent that each view needs in the layout, in world units."""
     reaches = []
     for spec, extent in zip(specs, extents, strict=True):
         share = 1.0 if spec.to_scale else _SHARE
@@ -227,7 +227,7 @@ def _reaches(specs, extents) -> list[Reach]:
 
 
 def _fitting_scale(extent: Extent, rectangle: Rectangle, padding: Padding) -> float:
-    """Pixels per unit at which a view fills what padding leaves."""
+    """Return the pixels per unit at which a view fills the panel without padding."""
     room = (
         max(rectangle.width - padding.left - padding.right, 8),
         max(rectangle.height - padding.top - padding.bottom, 8),

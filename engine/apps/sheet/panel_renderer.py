@@ -1,4 +1,4 @@
-"""The panels of a sheet as frames: drawings on paper, and pictures in the studio look."""
+"""Renders the panels of a sheet: drawings on paper, and pictures in the studio look."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ from .layout import Rectangle
 OUTPUTS = ("color", "depth", "object_id", "instance_id", "material_id", "triangle_id")
 _SMALL = (160, 120)
 _SAMPLES = 4
-#: How far ambient occlusion reaches, in radii of the model.
+#: Radius of ambient occlusion, in radii of the model.
 _OCCLUSION = 0.2
 
 
 class PanelRenderer:
-    """Draws panels of a scene in the light of a sheet; a context manager, which frees the buffers.
+    """Renders panels of a scene in a sheet's lighting; a context manager that frees the buffers.
 
     Parameters
     ----------
@@ -89,9 +89,9 @@ class PanelRenderer:
             self._renderer.close()
 
     def choose_theme(self, camera: Camera, pose: np.ndarray) -> None:
-        """Choose grounds that the model stands out from, as a camera sees it.
+        """Choose backgrounds that contrast with the model, as seen by a camera.
 
-        Without, it is drawn on light ground.
+        Otherwise, the background is light.
         """
         self.staged.background = None
         self._lighting.follow(pose)
@@ -142,7 +142,7 @@ class PanelRenderer:
         return self.render(camera, pose, rectangle, outputs=outputs, **options)
 
     def options(self, rectangle: Rectangle, *, both_sides: bool) -> dict[str, Any]:
-        """Return what else draws the same pixels: ``cull``, ``backend`` and so on."""
+        """Return the options that draw the same pixels: ``cull``, ``backend`` and so on."""
         cull, points = "none" if both_sides else self._cull, self._point_size(rectangle)
         return {"cull": cull, "point_size": points, **self._drawing}
 
@@ -150,7 +150,7 @@ class PanelRenderer:
         return point_size(self._points, (rectangle.width, rectangle.height))
 
     def sight(self, camera: Camera, pose: np.ndarray, rectangle: Rectangle) -> Sight:
-        """Return what a camera looks at, to ask why it sees nothing."""
+        """Return a camera's sight, to find out why it is blank."""
         size = rectangle.width, rectangle.height
         options = {"cull": self._cull, "point_size": self._point_size(rectangle)}
         return Sight(self.scene, camera, pose, size, options, self._options)
@@ -158,7 +158,7 @@ class PanelRenderer:
     def render(
         self, camera: Camera, pose: np.ndarray, rectangle: Rectangle, **options: Any
     ) -> Frame:
-        """Draw any outputs of a panel."""
+        """Render any outputs of a panel."""
         size = rectangle.width, rectangle.height
         if self._renderer is None:
             self._renderer = Renderer(*size, **self._options)

@@ -1,4 +1,4 @@
-"""One panel of a sheet: drawn, counted, and what is to be told of it.
+"""One panel of a sheet: its drawing, counts and report data.
 
 In: a view with its place on the sheet, a studio. Out: pixels on the sheet, and a `Panel` that keeps
 what the report and questions about pixels need.
@@ -26,9 +26,9 @@ from .placing import Extent, Matrices, cut, cut_obliquely, find_matrices, place_
 from .views import ViewSpec
 from .visible import SAME_COLOUR, box_of, contrast
 
-#: In place of the number of an instance: no other thing has that.
+#: The instance number of cut faces, which no other object has.
 _CUT = 0x7FFFFFFF
-# How far from the model's box the plane of a section may be, in radii of the model.
+# Maximum distance of a section plane from the model's box, in radii of the model.
 _BESIDE = 0.01
 
 
@@ -75,13 +75,13 @@ class Panel:
 
     @property
     def box(self) -> tuple[int, int, int, int] | None:
-        """The box of what shows, in the panel."""
+        """Bounding box of the visible pixels in the panel."""
         return box_of(self.shown)
 
 
 @dataclass(frozen=True)
 class Place:
-    """The place of a view on the sheet, and the size at which it is drawn; see `Panel`."""
+    """The place of a view on the sheet, and its scale; see `Panel`."""
 
     spec: ViewSpec
     rectangle: Rectangle
@@ -142,14 +142,14 @@ def draw_panel(
 
 
 def _show_caps(panel: Panel, plane: Plane, origin) -> None:
-    """Let the outputs of a frame tell of cut faces, rather than of what lies behind them."""
+    """Make the outputs of a frame show cut faces instead of what is behind them."""
     ids, frame = panel.caps.ids, panel.frame
     rows, columns = np.nonzero(ids >= 0)
     nodes = ids[rows, columns]
     other = frame.object_id[rows, columns] != nodes
     frame.material_id[rows[other], columns[other]] = 0
     frame.object_id[rows, columns], frame.triangle_id[rows, columns] = nodes, -1
-    # Where the lines of sight meet the plane.
+    # The intersections of the lines of sight with the plane.
     across, down, away, start = panel.matrices.world_from_pixel[plane.axis].tolist()
     x, y = columns + (panel.rectangle.x + 0.5), rows + (panel.rectangle.y + 0.5)
     goal = plane.coordinate + origin[plane.axis]
@@ -158,7 +158,7 @@ def _show_caps(panel: Panel, plane: Plane, origin) -> None:
 
 
 def _look_for_reasons(panel: Panel, studio: PanelRenderer) -> None:
-    """Find out whether anything is to be seen, and if not, why."""
+    """Find out whether the panel is blank, and if so, why."""
     panel.contrast = _contrast(studio, panel)
     if not panel.shown.any():
         panel.reason = reason_of(studio.sight(panel.camera, panel.pose, panel.rectangle))
@@ -183,10 +183,10 @@ def _camera(studio: PanelRenderer, place: Place, cameras: list[Node], origin):
 
 
 def _plane(studio: PanelRenderer, spec: ViewSpec, origin) -> Plane | None:
-    """The plane of a section, in the scene.
+    """Return the plane of a section, in the scene.
 
-    One that misses the model is moved close to it: it cuts off as much, all or nothing, and a far
-    one would be beyond the reach of the camera and of its numbers.
+    A plane that misses the model is moved next to it: that cuts off the same, all or nothing, while
+    a distant plane would exceed the camera's depth range and precision.
     """
     if spec.section is None:
         return None
@@ -212,16 +212,16 @@ def _contrast(studio: PanelRenderer, panel: Panel) -> int:
 
 
 def _ink(panel: Panel, studio: PanelRenderer) -> None:
-    """Draw the lines of a drawing into a panel's colours, and the cut faces of a section."""
+    """Draw a panel's outlines, and the cut faces of a section."""
     box = panel.box
     if box is None:
         return
-    # A pixel more on all sides: there the lines end.
+    # One more pixel on all sides, where the lines end.
     left, top = max(box[0] - 1, 0), max(box[1] - 1, 0)
     window = slice(top, box[1] + box[3] + 1), slice(left, box[0] + box[2] + 1)
     frame = panel.frame
     things = (frame.object_id[window].astype(np.int64) << 32) + frame.instance_id[window]
-    # Points and lines have no lines round them.
+    # Points and lines get no outlines.
     things = np.where(panel.shown[window] & (frame.triangle_id[window] >= 0), things, -1)
     depth, normals = frame.depth[window], frame.world_normal[window]
     if panel.caps is not None:

@@ -1,4 +1,4 @@
-"""Cameras of panels, and the matrices that take pixels of the sheet to the world and back.
+"""Cameras of panels, and matrices between sheet pixels and the world.
 
 In: a view, what the model reaches, the panel's rectangle and the scale. Out: a camera with its
 pose, in the scene; matrices in the file's coordinates. Every sheet has the same bits everywhere.
@@ -17,13 +17,13 @@ from ...stage.views.viewpoint import Sphere
 from .cutting import Plane
 from .layout import Padding, Reach, Rectangle
 
-#: The eye stands so many radii from the middle, and sees as far again: the shadow on the ground
-#: is within.
+#: Distance of the eye from the middle in radii, and of the far plane beyond it: the ground shadow
+#: must fit.
 _AWAY = 4.0
 
 
 class Extent(NamedTuple):
-    """How far a model reaches along the axes of a camera, from a middle.
+    """The extent of a model along the axes of a camera, relative to its middle.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Extent(NamedTuple):
 
 
 def find_extent(support: SupportFunction, center: np.ndarray, axes: np.ndarray) -> Extent:
-    """Return how far something reaches along the axes of a camera."""
+    """Return the extent of a subject along the axes of a camera."""
     rows = np.ascontiguousarray(axes.T)
     directions = np.concatenate([rows, -rows])
     reach = support(directions) - linalg.dot(directions, center)
@@ -54,7 +54,7 @@ def find_extent(support: SupportFunction, center: np.ndarray, axes: np.ndarray) 
     for row, step in zip(rows, half, strict=True):
         middle += row * step
     size = np.maximum(high - low, 0.0)
-    # A size that is only rounding counts as 0.
+    # A size within rounding errors counts as 0.
     size[size < 1e-12 * float(size.max())] = 0.0
     return Extent(axes, middle, (float(size[0]), float(size[1]), float(size[2])))
 
@@ -62,7 +62,7 @@ def find_extent(support: SupportFunction, center: np.ndarray, axes: np.ndarray) 
 def place_camera(
     extent: Extent, sphere: Sphere, rectangle: Rectangle, padding: Padding, scale: float
 ) -> tuple[OrthographicCamera, np.ndarray]:
-    """Return the camera of a panel and its pose: the model is in the middle of what padding leaves.
+    """Return a panel's camera and pose, with the model centred within the padding.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def place_camera(
 def cut(
     camera: OrthographicCamera, pose: np.ndarray, axis: int, coordinate: float
 ) -> tuple[OrthographicCamera, np.ndarray]:
-    """Return a camera whose near plane is a plane of the scene: what is nearer is cut away.
+    """Return a camera with a plane of the scene as near plane, which clips nearer parts.
 
     Parameters
     ----------
@@ -112,11 +112,11 @@ def cut_obliquely(
     plane: Plane,
     bounds: np.ndarray,
 ) -> Camera:
-    """Return a camera at the same pose whose near plane is a plane that it looks at aslant.
+    """Return a camera at the same pose with an oblique near plane.
 
-    Along each line of sight, the distance from the plane grows as the depth does. So depth in clip
-    space may as well be that distance: what is hidden is the same (Lengyel, "Oblique View Frustum
-    Depth Projection and Clipping", 2005).
+    Along each line of sight, the distance from the plane grows with the depth. So that distance can
+    replace depth in clip space: hidden surfaces stay the same (Lengyel, "Oblique View Frustum Depth
+    Projection and Clipping", 2005).
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def cut_obliquely(
     far = bounds[0 if plane.from_above else 1, plane.axis]
     reach = abs(float(far) - plane.coordinate) * 1.01 or 1.0
     sign = -1.0 if plane.from_above else 1.0
-    row = np.zeros(4)  # -1 on the plane, and 1 as far behind it as the bounds reach
+    row = np.zeros(4)  # -1 on the plane, and 1 at the farthest bounds behind it
     row[plane.axis], row[3] = sign * 2.0 / reach, -sign * plane.coordinate * 2.0 / reach - 1.0
     projection = np.array(camera.projection(rectangle.width, rectangle.height), np.float64)
     projection[2, :3] = linalg.dot(pose[:3, :3].T, row[:3])
@@ -188,5 +188,5 @@ def find_matrices(
 
 
 def is_parallel_projection(projection: np.ndarray) -> bool:
-    """Return whether a (4, 4) clip_from_view has no perspective."""
+    """Return whether a (4, 4) clip_from_view is a parallel projection."""
     return bool((projection[3] == (0.0, 0.0, 0.0, 1.0)).all())

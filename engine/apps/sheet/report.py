@@ -1,4 +1,4 @@
-"""The report of a sheet: what a program needs to know of it, in types that JSON takes.
+"""The report of a sheet for programs, in JSON types.
 
 In: models and their panels. Out: a dict; docs/sheet.md names all keys. Nothing in it depends on the
 machine or on the time.
@@ -22,18 +22,18 @@ from .panels import Panel
 from .placing import is_parallel_projection
 from .visible import Shown, count_by_key, count_parts, joined, mesh_of_node
 
-#: Grows when a key gets another meaning.
+#: Grows when a key changes its meaning.
 VERSION = 1
 _MATERIAL_BITS = 20
 
 
 def report_text(report: dict[str, Any]) -> str:
-    """Return a report as JSON: a line for each value that holds no others."""
+    """Return a report as JSON, with a line for each innermost value."""
     return _text(report, "\n") + "\n"
 
 
 def _text(value: Any, margin: str) -> str:
-    """Return a value as JSON whose further lines begin with a margin."""
+    """Return a value as JSON, with further lines indented."""
     inner = margin + "  "
     if isinstance(value, dict) and value:
         rows = [f"{json.dumps(key)}: {_text(item, inner)}" for key, item in value.items()]
@@ -44,7 +44,7 @@ def _text(value: Any, margin: str) -> str:
 
 
 class ModelReport:
-    """The report on one model.
+    """Builds the report on one model.
 
     Parameters
     ----------
@@ -198,7 +198,7 @@ _MOST_MATERIALS = (1 << _MATERIAL_BITS) - 1
 
 
 def _count(panel: Panel) -> list[Shown]:
-    """The pixels of each material of each node; the key has the node's id in its high bits."""
+    """Return the pixels of each material of each node; keys have the node's ID in the high bits."""
     keys = panel.frame.object_id.astype(np.int64) << _MATERIAL_BITS
     keys += np.clip(panel.frame.material_id, 0, _MOST_MATERIALS)
     return count_by_key(keys, panel.shown)
@@ -209,7 +209,7 @@ def _times(node) -> int:
 
 
 def _materials_of(nodes) -> list:
-    """The materials of nodes, each once, in their order."""
+    """Return the materials of nodes, each once, in order."""
     materials = (m for node in nodes for m in mesh_of_node(node).materials)
     return list({id(material): material for material in materials}.values())
 

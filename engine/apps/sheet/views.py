@@ -1,7 +1,7 @@
-"""The views of a sheet: from where each looks, and how they are spelt.
+"""The views of a sheet: their directions and spelling.
 
-In: text such as ``front,iso,under=0,1,0`` or ``x=50%``. Out: `ViewSpec` and `Section`, which know
-nothing of a model yet.
+In: text such as ``front,iso,under=0,1,0`` or ``x=50%``. Out: `ViewSpec` and `Section`, which are
+independent of any model.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from ...base import linalg
 from ...errors import InvalidArgumentError
 from ...model.scene.orbiting import home_axes, orbit_axes
 
-#: Where the camera stands: degrees of azimuth and elevation, as `engine3d.orbit` counts them.
-#: The isometric one looks along the diagonal of a cube.
+#: Camera positions: degrees of azimuth and elevation, as in `engine3d.orbit`. The isometric one
+#: looks along the diagonal of a cube.
 STANDARD = {
     "front": (0.0, 0.0),
     "right": (90.0, 0.0),
@@ -38,7 +38,7 @@ _SECTION = re.compile(r"\s*(-?)\s*([xyz])\s*(?:=\s*([^%\s]+)\s*(%?))?\s*", re.I)
 
 @dataclass(frozen=True)
 class Section:
-    """A plane across an axis of the file, and the side of it that is looked at.
+    """A plane across an axis of the file, and the side it is seen from.
 
     Attributes
     ----------
@@ -58,12 +58,12 @@ class Section:
     is_share: bool
 
     def coordinate(self, low: float, high: float) -> float:
-        """Return where the plane is in a model that reaches from one coordinate to another."""
+        """Return the plane's coordinate in a model with given extent."""
         return low + (high - low) * self.place if self.is_share else self.place
 
     @property
     def sight(self) -> tuple[float, float, float]:
-        """The way the camera looks."""
+        """The view direction of the camera."""
         sight = [0.0, 0.0, 0.0]
         sight[self.axis] = -1.0 if self.from_above else 1.0
         return sight[0], sight[1], sight[2]
@@ -71,7 +71,7 @@ class Section:
 
 @dataclass(frozen=True)
 class ViewSpec:
-    """A view that is asked for.
+    """A requested view.
 
     Attributes
     ----------
@@ -107,7 +107,7 @@ class ViewSpec:
 
     @property
     def to_scale(self) -> bool:
-        """Whether it is drawn to the scale of the sheet."""
+        """Whether it is drawn at the sheet's scale."""
         return self.kind in ("drawing", "section")
 
     def axes(self, up) -> np.ndarray:
@@ -128,7 +128,7 @@ def _orbit_axes(up, azimuth: float, elevation: float) -> np.ndarray:
 
 
 def _oblique_axes(up, sight) -> np.ndarray:
-    """The axes of an isometric camera that stands before a plane that is looked at along sight."""
+    """Return the axes of an isometric camera in front of a plane."""
     azimuth, elevation = STANDARD["iso"]
     choices = (
         _orbit_axes(up, azimuth + turn, raised)
@@ -139,9 +139,9 @@ def _oblique_axes(up, sight) -> np.ndarray:
 
 
 def parse_views(text: str) -> list[ViewSpec]:
-    """Return the views that a list names.
+    """Return the views in a list.
 
-    Raises `InvalidArgumentError` for what is no view.
+    Raises `InvalidArgumentError` for an invalid view.
     """
     specs, place = [], 0
     while place < len(text):
@@ -175,15 +175,15 @@ def _view(name: str, direction: str | None) -> ViewSpec:
         raise InvalidArgumentError(
             f"views: {name}: {direction!r} is neither X,Y,Z nor AZIMUTH,ELEVATION"
         )
-    largest = max(map(abs, numbers))  # so that no square overflows
+    largest = max(map(abs, numbers))  # avoids overflow of squares
     x, y, z = (number / largest for number in numbers)
     return ViewSpec(name, sight=(x, y, z))
 
 
 def parse_section(text: str) -> Section:
-    """Return the section that a text such as ``x=0.5``, ``-y=20%`` or ``z`` names.
+    """Return the section for a text such as ``x=0.5``, ``-y=20%`` or ``z``.
 
-    Raises `InvalidArgumentError` for what is none.
+    Raises `InvalidArgumentError` for other texts.
     """
     match = _SECTION.fullmatch(text)
     if match is None:
@@ -197,7 +197,7 @@ def parse_section(text: str) -> Section:
 
 
 def check_views(views: str | Iterable[str], sections: str | Iterable[str]) -> list[ViewSpec]:
-    """Return all views of a sheet: those of a list, then two of each section.
+    """Return all views of a sheet: those of a list, then two for each section.
 
     Raises `InvalidArgumentError` where there is none, or two have one name.
     """

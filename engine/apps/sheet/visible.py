@@ -1,4 +1,4 @@
-"""The visible part of a panel: pixels and boxes of nodes, materials and parts, and their occluders.
+"""Counts the visible pixels of nodes, materials and parts in a panel, with boxes and occluders.
 
 In: the IDs of the panel's pixels. Out: plain records. All of it is counting, the same everywhere.
 """
@@ -16,12 +16,12 @@ from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from ...rendering.frame import Frame
 
-#: Colours that differ by no more codes of 255 cannot be told from the ground.
+#: Colours within this difference cannot be told from the background.
 SAME_COLOUR = 6
 
 
 class Shown(NamedTuple):
-    """Pixels of one kind.
+    """The visible pixels of one key.
 
     Attributes
     ----------
@@ -37,7 +37,7 @@ class Shown(NamedTuple):
 
 
 def contrast(frame: Frame, shown: np.ndarray, ground: tuple[int, int, int]) -> int:
-    """Return by how many codes of 255 what shows differs from the ground, at most."""
+    """Return the largest difference in codes between visible pixels and the background."""
     most = 0
     for channel, code in enumerate(ground):
         codes = frame.color[..., channel][shown]
@@ -47,7 +47,7 @@ def contrast(frame: Frame, shown: np.ndarray, ground: tuple[int, int, int]) -> i
 
 
 def box_of(mask: np.ndarray) -> tuple[int, int, int, int] | None:
-    """Return x, y, width and height of what is marked, or None."""
+    """Return x, y, width and height of a mask's bounding box, or None."""
     columns, rows = np.flatnonzero(mask.any(axis=0)), np.flatnonzero(mask.any(axis=1))
     if not len(columns):
         return None
@@ -56,7 +56,7 @@ def box_of(mask: np.ndarray) -> tuple[int, int, int, int] | None:
 
 
 def count_by_key(keys: np.ndarray, mask: np.ndarray) -> list[Shown]:
-    """Return the pixels of each key, in the order of keys.
+    """Return the pixels of each key, in key order.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def count_by_key(keys: np.ndarray, mask: np.ndarray) -> list[Shown]:
 
 
 def _count(keys: np.ndarray, mask: np.ndarray) -> np.ndarray:
-    """Rows of keys, their pixels, and of their boxes left, top, right and bottom, (K, 6)."""
+    """Return rows of keys, pixel counts, and box edges left, top, right and bottom, (K, 6)."""
     box = box_of(mask)
     if box is None:
         return np.zeros((0, 6), np.int64)
@@ -91,7 +91,7 @@ def _count(keys: np.ndarray, mask: np.ndarray) -> np.ndarray:
 
 
 def joined(shown: list[Shown], key: int) -> Shown | None:
-    """Return what several kinds are together, or None without any."""
+    """Return several counts merged, or None if there are none."""
     if not shown:
         return None
     boxes = [one.box for one in shown]
@@ -103,7 +103,7 @@ def joined(shown: list[Shown], key: int) -> Shown | None:
 
 
 def mesh_of_node(node: Node) -> Mesh | None:
-    """Return the mesh that a node draws; frames show its IDs."""
+    """Return the mesh that a node draws, to which the IDs in frames refer."""
     thing = node.object
     if isinstance(thing, InstancedMesh):
         thing = thing.mesh
@@ -111,7 +111,7 @@ def mesh_of_node(node: Node) -> Mesh | None:
 
 
 class PartShown(NamedTuple):
-    """Pixels of a named group of a node's faces."""
+    """The visible pixels of a named group of a node's faces."""
 
     node: int
     name: str
@@ -120,7 +120,7 @@ class PartShown(NamedTuple):
 
 
 def count_parts(frame: Frame, mask: np.ndarray, scene: Scene) -> Iterator[PartShown]:
-    """Yield the named groups of faces that show, node by node."""
+    """Yield the visible named groups of faces, node by node."""
     nodes = {node.id: node for node in scene.nodes}
     for shown in count_by_key(frame.object_id, mask & (frame.triangle_id >= 0)):
         mesh = mesh_of_node(nodes[shown.key])
@@ -130,7 +130,7 @@ def count_parts(frame: Frame, mask: np.ndarray, scene: Scene) -> Iterator[PartSh
 
 
 def _groups(frame: Frame, mask: np.ndarray, shown: Shown, mesh: Mesh):
-    """Yield the name, pixels and box of each group of a mesh, within what its node shows."""
+    """Yield name, pixels and box of each group of a mesh, within its node's pixels."""
     x, y, width, height = shown.box
     window = slice(y, y + height), slice(x, x + width)
     faces = frame.triangle_id[window]
@@ -139,7 +139,7 @@ def _groups(frame: Frame, mask: np.ndarray, shown: Shown, mesh: Mesh):
     place[table[:, 0]] = np.arange(len(table))
     for name, group in mesh.groups.items():
         found = np.zeros(len(table) + 1, bool)
-        found[place[group]] = True  # the last one is of faces that do not show
+        found[place[group]] = True  # the last entry is for invisible faces
         rows = table[found[:-1]]
         if len(rows):
             left, top = (int(low) for low in rows[:, 2:4].min(axis=0))

@@ -1,5 +1,5 @@
-"""Pictures in a terminal, also at the other end of an SSH connection, and the viewer there.
+"""Pictures and the viewer in a terminal, also over SSH.
 
-In: pixels. Out: the terminal's own graphics: kitty's, sixels or, where it has none, half blocks of
-coloured text. POSIX alone: a terminal of another system has no termios.
+In: pixels. Out: the terminal's own graphics: kitty's, sixels or, if it has none, half blocks of
+coloured text. It needs POSIX, because other systems lack termios.
 """

@@ -1,8 +1,8 @@
-"""The terminal: bytes in and out, its size, and what it answers when it is asked.
+"""The terminal device: input and output, its size, and its capabilities.
 
-In: the process's terminal, whatever standard input and output are. Out: `Device`, in raw mode for
-as long as it is open; `ask` tells how pictures can be shown. Answers are input like any other, and
-may come from the other end of a line: sizes that no terminal has count as not told.
+In: the process's terminal, independent of standard input and output. Out: `Device`, in raw mode
+while it is open; `ask` returns the terminal's capabilities. Answers are untrusted input: impossible
+sizes are ignored.
 """
 
 from __future__ import annotations
@@ -17,24 +17,24 @@ from typing import NamedTuple
 
 from ...errors import DisplayError
 
-#: A terminal that answers at all does so within this, over slow connections, too.
+#: Any answering terminal answers within this time, even over slow connections.
 PATIENCE = 2.0
-#: Pixels of a cell where the terminal does not tell.
+#: Default size of a cell in pixels.
 USUAL_CELL = (8, 16)
-#: Pixels along a side of a cell, at most.
+#: Maximum side of a cell in pixels.
 LARGEST_CELL = 1000
-#: Columns and rows where the terminal does not tell; it does not where it says more than so many.
+#: Default columns and rows, and the largest reported number that is believed.
 USUAL_CELLS, TOLD_CELLS = (80, 24), 4096
-#: Columns and rows that are used, at most; no screen has as many.
+#: Maximum columns and rows that are used; no screen has as many.
 MOST_CELLS = (640, 256)
-#: Bytes of an answer.
+#: Maximum bytes of an answer.
 _LONGEST_ANSWER = 1 << 16
-#: Bytes that are read before something else is done.
+#: Maximum bytes read before other work continues.
 _MOST_READ = 1 << 16
 _ASK_KITTY = b"\x1b_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\"
 _ASK_CELL = b"\x1b[16t"
 _ASK_PIXEL_MOUSE = b"\x1b[?1016$p"
-#: Every terminal answers this, so that its answer ends the wait.
+#: Every terminal answers this request, so its answer ends the wait.
 _ASK_ATTRIBUTES = b"\x1b[c"
 _ATTRIBUTES = re.compile(rb"\x1b\[\?([0-9;]{0,256})c")
 _CELL = re.compile(rb"\x1b\[6;(\d{1,4});(\d{1,4})t")
@@ -81,7 +81,7 @@ class Device:
         tty.setraw(self._file)
 
     def close(self) -> None:
-        """Give the terminal back as it was; may be called twice."""
+        """Restore the terminal; may be called twice."""
         import termios
 
         if self._file >= 0:
@@ -103,9 +103,9 @@ class Device:
             rest = rest[os.write(self._file, rest) :]
 
     def read(self, timeout: float) -> bytes:
-        """Return what was typed or answered; empty if nothing comes within ``timeout`` seconds."""
+        """Return input or answers; empty if nothing comes within ``timeout`` seconds."""
         said, wait = b"", max(timeout, 0.0)
-        # The system hands over a few kilobytes at a time: all that waits is taken in at once.
+        # The system delivers a few kilobytes at a time: read everything that is waiting.
         while len(said) < _MOST_READ and select.select([self._file], [], [], wait)[0]:
             part = os.read(self._file, _MOST_READ - len(said))
             if not part:
@@ -114,14 +114,14 @@ class Device:
         return said
 
     def cells(self) -> tuple[int, int]:
-        """Return columns and rows."""
+        """Return the number of columns and rows."""
         columns, rows = os.get_terminal_size(self._file)
         if not (0 < columns <= TOLD_CELLS and 0 < rows <= TOLD_CELLS):
             return USUAL_CELLS
         return min(columns, MOST_CELLS[0]), min(max(rows, 2), MOST_CELLS[1])
 
     def ask(self) -> Answers:
-        """Ask the terminal what it can do; one that is silent can show half blocks."""
+        """Ask the terminal for its capabilities; a silent one gets half blocks."""
         self.write(_ASK_KITTY + _ASK_CELL + _ASK_PIXEL_MOUSE + _ASK_ATTRIBUTES)
         said, ends = b"", time.monotonic() + PATIENCE
         while not _ATTRIBUTES.search(said) and (left := ends - time.monotonic()) > 0:
@@ -135,7 +135,7 @@ class Device:
         return Answers(_graphics(said), measured, pixel_mouse and told is not None)
 
     def _cell_by_system(self) -> tuple[int, int] | None:
-        """Return the size of a cell as the system knows it; None if it does not."""
+        """Return the size of a cell reported by the system; None if unknown."""
         import fcntl
         import termios
 
@@ -147,7 +147,7 @@ class Device:
 
 
 def _sensible(width: int, height: int) -> tuple[int, int] | None:
-    """A cell's size, unless no terminal's cells have it."""
+    """Return a cell's size, or a default for implausible sizes."""
     is_sensible = all(1 <= side <= LARGEST_CELL for side in (width, height))
     return (width, height) if is_sensible else None
 
@@ -156,6 +156,6 @@ def _graphics(said: bytes) -> str:
     if b"\x1b_Gi=31;OK" in said:
         return "kitty"
     attributes = _ATTRIBUTES.search(said)
-    # The first number is the terminal's class; what it can do follows.
+    # The first number is the terminal's class; its capabilities follow.
     known = attributes[1].split(b";")[1:] if attributes else []
     return "sixel" if _SIXEL in known else "blocks"

@@ -1,6 +1,6 @@
-"""Pictures as coloured text: an upper half block per two pixels.
+"""Pictures as coloured text: one upper half block for two pixels.
 
-In: pixels. Out: bytes for any terminal that has 24-bit colours.
+In: pixels. Out: bytes for any terminal with 24-bit colours.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ _HALF = "\N{UPPER HALF BLOCK}"
 
 
 def encode(pixels: np.ndarray) -> bytes:
-    """Return lines of text that show a picture, from the left of the cursor's line on.
+    """Return lines of text that show a picture, starting at the cursor's line.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ def encode(pixels: np.ndarray) -> bytes:
 
 
 def _line(upper: list, lower: list) -> str:
-    """Return a line of cells; colours are named where they change."""
+    """Return a line of cells; colour codes appear only at changes."""
     parts, front, back = [], None, None
     for above, below in zip(upper, lower, strict=True):
         if above != front:

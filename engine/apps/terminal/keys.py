@@ -1,9 +1,8 @@
-"""Turns a terminal's input into events: keys, the mouse, the terminal's focus.
+"""Converts a terminal's input to events: keys, mouse, focus.
 
-In: bytes, which whoever is at the other end of the line chooses: sequences that are unknown, or
-longer than any that is known, are passed over. Out: values of `engine3d.events`. Terminals say when
-a key goes down, not when it comes up: who needs that waits a moment (terminal_window.py). The codes
-are xterm's, of its "Control Sequences".
+In: untrusted bytes: unknown or overlong sequences are skipped. Out: values of `engine3d.events`.
+Terminals report key presses but no releases, which terminal_window.py infers after a delay. The
+codes are those of xterm's "Control Sequences".
 """
 
 from __future__ import annotations
@@ -25,13 +24,13 @@ _SEQUENCE = re.compile(
     rb"\x1b\[<(?P<button>\d{1,4});(?P<x>-?\d{1,6});(?P<y>-?\d{1,6})(?P<end>[Mm])"
     rb"|\x1b\[(?P<numbers>[0-9;]{0,16})(?P<letter>[A-Za-z~])"
     rb"|\x1bO(?P<function>[A-Z])"
-    rb"|\x1b_[^\x1b]*\x1b\\"  # an answer that came late
-    rb"|\x1b\[[ -?]*[@-~]"  # whatever else a terminal takes for a sequence
+    rb"|\x1b_[^\x1b]*\x1b\\"  # a late answer
+    rb"|\x1b\[[ -?]*[@-~]"  # any other sequence
 )
-#: What could still become a sequence.
+#: The start of a possible sequence.
 _BEGUN = re.compile(rb"\x1b(\[[ -?]*|O|_[^\x1b]*\x1b?)?\Z")
 _TAIL = re.compile(rb"[ -?]*(?P<end>[@-~])?")
-#: Of a longer one nothing is kept but how it begins.
+#: Of longer sequences, only the start is kept.
 _LONGEST = 4096
 _LETTERS = {b"A": "Up", b"B": "Down", b"C": "Right", b"D": "Left", b"H": "Home", b"F": "End"}
 _FUNCTIONS = {b"P": "F1", b"Q": "F2", b"R": "F3", b"S": "F4"}
@@ -54,14 +53,14 @@ _BYTES = {
 }
 _BUTTONS = ("left", "middle", "right")
 _CONTROL_C = 0x03
-#: A second click within this is a double click, in seconds and in pixels.
+#: Limits of a double click, in seconds and in pixels.
 _AGAIN_SECONDS, _AGAIN_PIXELS = 0.4, 12
 # Bits of the mouse's number.
 _SHIFT, _CONTROL, _MOVES, _WHEEL = 4, 16, 32, 64
 
 
 class Decoder:
-    """Makes events of the bytes that come, in whatever pieces they come.
+    """Converts bytes to events, in arbitrary pieces.
 
     Parameters
     ----------
@@ -72,17 +71,17 @@ class Decoder:
     def __init__(self, place) -> None:
         self._place = place
         self._rest = b""
-        self._is_inside = False  # of a sequence of which nothing is kept
+        self._is_inside = False  # inside a discarded sequence
         self._mouse: tuple[int, int] | None = None
         self._click = (0.0, (0, 0), 0)
 
     @property
     def waits(self) -> bool:
-        """Whether a sequence has begun that may be an Escape key alone."""
+        """Whether a started sequence may be a lone Escape key."""
         return bool(self._rest)
 
     def decode(self, data: bytes, *, ended: bool = False) -> list:
-        """Return the events of some bytes; ``ended``: no more come soon, so Escape was a key."""
+        """Return the events of some bytes; ``ended`` means that Escape was a key."""
         data, self._rest = self._rest + self._after_sequence(data), b""
         happened: list = []
         place = 0
@@ -100,7 +99,7 @@ class Decoder:
         return happened
 
     def _waits_for(self, begun: bytes, ended: bool) -> bool:
-        """Keep the beginning of a sequence, unless it was an Escape key and what was typed then."""
+        """Keep the start of a sequence, unless it was an Escape key with later input."""
         if ended and len(begun) < 3:
             return False
         self._is_inside = ended and begun.startswith(b"\x1b[")
@@ -109,7 +108,7 @@ class Decoder:
         return True
 
     def _after_sequence(self, data: bytes) -> bytes:
-        """Pass over what may still come of a sequence that was given up: its digits are no keys."""
+        """Skip the rest of a discarded sequence: its digits are no keys."""
         if not (self._is_inside and data):
             return data
         rest = _TAIL.match(data)
@@ -117,7 +116,7 @@ class Decoder:
         return data[rest.end() :]
 
     def _plain(self, data: bytes, place: int, happened: list) -> int:
-        """Take in a byte, or a character of several; return how many bytes it has."""
+        """Handle a byte or a multi-byte character; return its number of bytes."""
         first = data[place]
         if first == _CONTROL_C:
             happened.append(CloseRequested())
@@ -160,7 +159,7 @@ class Decoder:
         return [MouseButton(button, down, shift, control, x, y, self._clicks(down, x, y))]
 
     def _clicks(self, down: bool, x: int, y: int) -> int:
-        """Return which click in a row this is."""
+        """Return the number of the click in a row of clicks."""
         seconds, (left, top), count = self._click
         if down:
             now = time.monotonic()

@@ -1,4 +1,4 @@
-"""Pictures as escape codes of kitty's graphics protocol, which WezTerm and Ghostty know, too.
+"""Pictures in kitty's graphics protocol, which WezTerm and Ghostty also support.
 
 In: pixels. Out: bytes for a terminal. The protocol is described by kitty's manual, "Terminal
 graphics protocol".
@@ -13,12 +13,12 @@ import numpy as np
 
 #: The protocol's limit on the payload of one escape code.
 CHUNK = 4096
-#: The fastest: time matters more than a few bytes on the line.
+#: The fastest level: time matters more than a few bytes.
 LEVEL = 1
 
 
 def encode(pixels: np.ndarray, columns: int, rows: int, number: int | None = None) -> bytes:
-    """Return what shows a picture at the cursor, which stays where it is.
+    """Return the codes that show a picture at the cursor, which does not move.
 
     Parameters
     ----------
@@ -44,5 +44,5 @@ def encode(pixels: np.ndarray, columns: int, rows: int, number: int | None = Non
 
 
 def delete(number: int) -> bytes:
-    """Return what takes the picture of a number away."""
+    """Return the codes that delete the picture with a number."""
     return f"\x1b_Ga=d,d=I,i={number},q=2\x1b\\".encode()

@@ -1,6 +1,7 @@
-"""One picture among the lines of a terminal, as a command prints its output.
+"""Prints one picture between the lines of a terminal.
 
-In: what draws a picture of a size. Out: the picture in the terminal, below what stands there.
+In: a function that draws a picture of a size. Out: the picture in the terminal, below the existing
+text.
 """
 
 from __future__ import annotations
@@ -12,12 +13,12 @@ import numpy as np
 from .device import Device
 from .terminal_window import encoded, picture_size
 
-#: Lines that stay free: the prompt, and one above.
+#: Lines left free: the prompt, and one above.
 SPARED = 2
 
 
 def print_picture(draw: Callable[[tuple[int, int]], np.ndarray], aspect: float) -> None:
-    """Show a picture in the terminal, as large as there is room.
+    """Print a picture in the terminal, as large as possible.
 
     Parameters
     ----------
@@ -42,6 +43,6 @@ def print_picture(draw: Callable[[tuple[int, int]], np.ndarray], aspect: float) 
     room = columns, max(min(most, round(columns * cell_width / aspect / cell_height)), 1)
     picture = encoded(draw(picture_size(answers, room)), answers, room)
     with Device() as device:
-        # Lines for it first: at the bottom of the terminal, the text above moves up.
+        # Make room first: at the bottom of the terminal, the text scrolls up.
         device.write(b"\r\n" * room[1] + f"\x1b[{room[1]}A\x1b7".encode())
         device.write(picture + f"\x1b8\x1b[{room[1]}B\r".encode())

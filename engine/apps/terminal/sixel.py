@@ -1,4 +1,4 @@
-"""Pictures as sixels: bands of six rows, each a line of characters per colour.
+"""Pictures as sixels: bands of six rows, with a line of characters per colour.
 
 In: pixels. Out: bytes for a terminal. The format is DEC's, of the VT330/VT340 programmer reference
 manual, chapter 14; colours are percentages there.
@@ -10,14 +10,14 @@ import re
 
 import numpy as np
 
-#: Registers of colours that terminals surely have.
+#: Colour registers that every sixel terminal has.
 COLORS = 256
 BAND = 6
 _RUNS = re.compile(rb"(.)\1{3,}", re.DOTALL)
 
 
 def encode(pixels: np.ndarray) -> bytes:
-    """Return what shows a picture at the cursor, in pixels of the terminal.
+    """Return the codes that show a picture at the cursor, in the terminal's pixels.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def encode(pixels: np.ndarray) -> bytes:
 
 
 def _band(rows: np.ndarray, filled: int) -> bytes:
-    """Return six rows, the first ``filled`` of which count: a line for each colour in them."""
+    """Return a band of six rows, ``filled`` of them used, with a line for each colour."""
     rows = rows[:filled]
     colors, places = np.unique(rows, return_inverse=True)
     places = places.reshape(rows.shape)

@@ -1,6 +1,6 @@
-"""A terminal in the place of a window: the viewer shows its pictures and reads its keys there.
+"""A terminal as a window for the viewer: it shows pictures and reads keys.
 
-In: pictures. Out: events, and bytes for the terminal. It has what the viewer asks of a
+In: pictures. Out: events, and bytes for the terminal. It implements what the viewer needs of a
 `engine3d.Window`; the terminal's last line is its title bar.
 """
 
@@ -17,14 +17,14 @@ from . import half_blocks, kitty, sixel
 from .device import Answers, Device
 from .keys import Decoder
 
-#: A key counts as held for so long after the terminal last repeated it.
+#: A key counts as held for this long after its last repetition.
 HELD_SECONDS = 0.6
-#: A sequence that begins with Escape comes in one piece, or nearly.
+#: A sequence that begins with Escape arrives within this time.
 ESCAPE_SECONDS = 0.05
-#: Larger pictures would spend the time on the way to the terminal, which enlarges or leaves room.
+#: Larger pictures would take too long to send; the terminal enlarges them or leaves a margin.
 LARGEST = {"kitty": (1280, 960), "sixel": (640, 480)}
 _PICTURE = 1
-# The other screen, no cursor, no wrapping; the mouse with all motions, in the newer form; focus.
+# Alternate screen, no cursor, no wrapping; mouse with all motions, in SGR form; focus.
 _ENTER = b"\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[?1003h\x1b[?1006h\x1b[?1004h\x1b[2J"
 _PIXEL_MOUSE = b"\x1b[?1016h"
 _LEAVE = b"\x1b[?1016l\x1b[?1004l\x1b[?1006l\x1b[?1003l\x1b[?7h\x1b[?25h\x1b[?1049l"
@@ -66,7 +66,7 @@ class TerminalWindow:
         self.close()
 
     def close(self) -> None:
-        """Give the terminal back as it was; may be called twice."""
+        """Restore the terminal; may be called twice."""
         if self._closed:
             return
         self._closed = True
@@ -87,17 +87,17 @@ class TerminalWindow:
 
     @property
     def text_room(self) -> tuple[int, int]:
-        """How many columns and rows of text there is room for over the picture."""
+        """Columns and rows of text that fit over the picture."""
         columns, rows = self._room()
         return max(columns - 2, 1), max(rows - 3, 1)
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height in pixels of the picture that suits the terminal."""
+        """Width and height in pixels of the picture for the terminal."""
         return picture_size(self.answers, self._room())
 
     def _room(self) -> tuple[int, int]:
-        """Return columns and rows for the picture: the last row is the title's."""
+        """Return columns and rows of the picture: the last row is the title's."""
         columns, rows = self._device.cells()
         return columns, rows - 1
 
@@ -126,7 +126,7 @@ class TerminalWindow:
         line = title[: columns - 1].ljust(columns - 1)
         self._device.write(f"\x1b[{rows};1H\x1b[0m{line}".encode("utf-8", "replace"))
 
-    # What happens
+    # Events
 
     def events(self, timeout: float = 0.0) -> list:
         """Return the events that are waiting; if there are none, wait up to ``timeout`` seconds."""
@@ -144,7 +144,7 @@ class TerminalWindow:
         return self._hold(happened)
 
     def _come_up(self) -> list:
-        """Return the keys that the terminal has not repeated for a while."""
+        """Return events for keys that the terminal no longer repeats."""
         now = time.monotonic()
         up = [position for position, until in self._held.items() if until <= now]
         for position in up:
@@ -152,7 +152,7 @@ class TerminalWindow:
         return [KeyUp(position, position) for position in up]
 
     def _hold(self, happened: list) -> list:
-        """Follow which keys are held; a key that is held already is repeated."""
+        """Track held keys; a key that is held already is repeated."""
         until = time.monotonic() + HELD_SECONDS
         followed = []
         for event in happened:
@@ -166,9 +166,9 @@ class TerminalWindow:
         return followed
 
     def _place(self, x: int, y: int) -> tuple[int, int]:
-        """Return the pixel of the picture where the terminal has the mouse, counted from 1.
+        """Return the picture's pixel at a mouse position, counted from 1.
 
-        Beside the picture it is the next one to it, however far the mouse is said to be.
+        Outside the picture it is the nearest pixel, for any position.
         """
         (columns, rows), (width, height) = self._room(), self.size
         if self.answers.graphics == "sixel":
@@ -184,10 +184,10 @@ class TerminalWindow:
         self._resized = True
 
     def capture_mouse(self, captured: bool) -> None:
-        """A terminal's mouse cannot be captured: it looks around as far as the terminal goes."""
+        """Do nothing: a terminal cannot capture the mouse."""
 
     def toggle_fullscreen(self) -> None:
-        """A terminal's size is not the program's to choose."""
+        """Do nothing: a program cannot choose the terminal's size."""
 
 
 def picture_size(answers: Answers, room: tuple[int, int]) -> tuple[int, int]:
@@ -206,7 +206,7 @@ def picture_size(answers: Answers, room: tuple[int, int]) -> tuple[int, int]:
 def encoded(
     pixels: np.ndarray, answers: Answers, room: tuple[int, int], number: int | None = None
 ) -> bytes:
-    """Return what shows a picture in the cells of ``room`` from the cursor on."""
+    """Return the codes that show a picture in the cells of ``room`` from the cursor on."""
     if answers.graphics == "kitty":
         return kitty.encode(pixels, *room, number)
     if answers.graphics == "sixel":

@@ -1,4 +1,4 @@
-"""The window: its loop, keys, actions and panels, and what shows a picture in one.
+"""The viewer: its window, loop, keys, actions and panels; also a picture window.
 
-Nothing is imported here: SDL loads only when a window opens.
+This package imports nothing: SDL loads only when a window opens.
 """

@@ -1,7 +1,7 @@
-"""The actions of keys, a function each; `keymap` says which key calls which.
+"""The actions of keys, one function each; `keymap` binds keys to them.
 
-Every function takes the `Viewer` and a step: 1, or -1 with Shift, for the actions that go round a
-list of choices.
+Every function takes the `Viewer` and a step: 1, or -1 with Shift, for actions that cycle through
+choices.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from .list_panels import MaterialPanel, ObjectPanel
 from .recording import record
 from .sampling import AT_REST, MOTION_FPS
 
-SAMPLES = (1, 4, 16)  # that supersampling and multisampling have
+SAMPLES = (1, 4, 16)  # available with both supersampling and multisampling
 STATISTICS = (None, "short", "long")
 LINE_WIDTHS = (1.0, 16.0)
-#: How far a key turns the camera.
+#: The angle by which a key turns the camera.
 ORBIT_STEP = math.radians(7.5)
-#: What each way of culling leaves out.
+#: What each culling method omits.
 LEFT_OUT = {
     "all": "what is outside the view, faces away or is hidden is left out",
     "tree": "nodes outside the view are left out, found by a tree of boxes",
@@ -37,7 +37,7 @@ ISOMETRIC_ELEVATION = math.atan(1 / math.sqrt(2))
 
 
 def _cycling(option: str):
-    """Return what goes to the next value of an option."""
+    """Return an action that sets an option to its next value."""
 
     def cycle(viewer, step: int) -> None:
         appearance = viewer.view_renderer.appearance
@@ -119,7 +119,7 @@ def narrow_lines(viewer, step: int) -> None:
 
 
 def _looking(azimuth: float, elevation: float):
-    """Return what looks along a direction."""
+    """Return an action that looks along a direction."""
 
     def look(viewer, step: int) -> None:
         if viewer.walker is not None:
@@ -137,7 +137,7 @@ view_isometric = _looking(QUARTER_TURN / 2, ISOMETRIC_ELEVATION)
 
 
 def _turning(right: float, up: float):
-    """Return what turns the camera by two angles round what it looks at."""
+    """Return an action that rotates the camera about its target by two angles."""
 
     def turn(viewer, step: int) -> None:
         if viewer.walker is None:
@@ -259,7 +259,7 @@ def toggle_grid(viewer, step: int) -> None:
 
 
 def _toggling(setting: str):
-    """Return what turns one of the `Settings` on or off."""
+    """Return an action that toggles one of the `Settings`."""
 
     def toggle(viewer, step: int) -> None:
         settings = viewer.view_renderer.settings

@@ -1,6 +1,6 @@
-"""The bar at the bottom of the window that shows how far an animation is.
+"""The progress bar of an animation, at the bottom of the window.
 
-In: a `Canvas` over the frame, a share from 0 to 1. Out: the same pixels, drawn on.
+In: a `Canvas` over the frame, a fraction from 0 to 1. Out: the same pixels, drawn on.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ HEIGHT = 4
 
 
 def draw_bar(canvas, share: float, *, scale: int, theme: Theme) -> None:
-    """Draw the bar: what has played in one colour, what is to come in another."""
+    """Draw the bar: the played part in one colour, the rest in another."""
     height, played = HEIGHT * scale, round(min(1.0, max(0.0, share)) * canvas.width)
     top = max(canvas.height - height, 0)
     canvas.rectangle(0, top, canvas.width, height, theme.block)

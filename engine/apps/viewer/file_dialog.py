@@ -1,7 +1,7 @@
-"""The dialog that opens files: the folders of the machine, and the files that were opened before.
+"""The viewer's file dialog: folders, and recently opened files.
 
-In: keys, typed text and clicks. Out: a file that the viewer opens. Both lists are narrowed by
-what is typed; Tab goes from one to the other.
+In: keys, typed text and clicks. Out: a file that the viewer opens. Typed text filters both lists;
+Tab switches between them.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ UP = ".."
 
 
 class _FilePanel(Panel):
-    """A list of paths with a filter; keys choose a row as well as clicks."""
+    """A filtered list of paths, chosen by keys or clicks."""
 
     corner = "middle"
     least_columns, most_columns, least_rows = COLUMNS, COLUMNS, ROWS
@@ -41,7 +41,7 @@ class _FilePanel(Panel):
         return [self.title + more, f"filter: {self.filter}_"]
 
     def key(self, event) -> bool:
-        """Obey all keys but those with Ctrl and those of the window, such as F11."""
+        """Handle all keys but those with Ctrl and the window's own, such as F11."""
         last = max(0, len(self.rows()) - 1)
         moves = {"Up": -1, "Down": 1, "PageUp": -self._fit, "PageDown": self._fit}
         moves |= {"Home": -last, "End": last}
@@ -58,7 +58,7 @@ class _FilePanel(Panel):
             self._change_list()
         elif not super().key(event):
             typed = len(event.key) == 1 or event.key == "Space" or event.key.startswith("Keypad")
-            return typed  # its text comes as an event of its own
+            return typed  # its text arrives as a separate event
         self.viewer.redraw()
         return True
 
@@ -66,7 +66,7 @@ class _FilePanel(Panel):
         self.set_filter(self.filter + printable(text))
 
     def set_filter(self, text: str) -> None:
-        """Show only what has a text in its name."""
+        """Show only names that contain a text."""
         self.filter, self.chosen, self._follows = text, 0, True
         self.viewer.redraw()
 
@@ -86,7 +86,7 @@ class _FilePanel(Panel):
 
 
 class FolderPanel(_FilePanel):
-    """The folders and models of a folder, at first that of the file which is shown."""
+    """The folders and models in a folder, initially that of the shown file."""
 
     hint = _HINT + "opened before"
 
@@ -103,16 +103,16 @@ class FolderPanel(_FilePanel):
         self.folder = self._listing.path
         self.set_filter("")
         if os.path.dirname(before) == self.folder:
-            self._choose(before)  # the way up ends where one came from
+            self._choose(before)  # after going up, select the previous folder
 
     def _choose(self, path: str) -> None:
-        """Let the row of a path be the chosen one, if it is there."""
+        """Select the row of a path, if it exists."""
         names = [item.name for item in self._items]
         if os.path.basename(path) in names:
             self.chosen = names.index(os.path.basename(path))
 
     def heads(self, left_out: int) -> list[str]:
-        """Return also where this is: its end, if it is long."""
+        """Return also the current folder, shortened at its start."""
         title, *others = super().heads(left_out)
         path = printable(self.folder)
         path = path if len(path) <= COLUMNS else ".." + path[2 - COLUMNS :]
@@ -120,7 +120,7 @@ class FolderPanel(_FilePanel):
         return [f"Open a model{title}", path, *others, *reasons]
 
     def set_filter(self, text: str) -> None:
-        """Show only what has a text in its name; a folder that ends with / is gone to."""
+        """Show only names that contain a text; a folder name that ends with / opens it."""
         super().set_filter(text)
         path = os.path.join(self.folder, os.path.expanduser(text))
         if text.endswith("/") and os.path.isdir(path):
@@ -156,7 +156,7 @@ class FolderPanel(_FilePanel):
 
 
 class RecentPanel(_FilePanel):
-    """The files that were opened last."""
+    """The recently opened files."""
 
     title = "Opened before"
     hint = _HINT + "folders"
@@ -183,7 +183,7 @@ class RecentPanel(_FilePanel):
 
 
 def _size(item: Item) -> str:
-    """Return how large a file is, in words of at most four digits."""
+    """Return a file's size with at most four digits."""
     size, units = float(item.size), ["B", "kB", "MB", "GB", "TB"]
     while size >= 1000 and len(units) > 1:
         size /= 1000

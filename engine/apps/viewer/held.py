@@ -1,4 +1,4 @@
-"""The keys and buttons that are down, and the mouse's position: the sum of the events so far."""
+"""The pressed keys and buttons, and the mouse position, tracked from events."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from .. import events
 
 
 class HeldInput:
-    """Follows events.
+    """Tracks events.
 
     Attributes
     ----------
@@ -30,7 +30,7 @@ class HeldInput:
         return frozenset(position for _, position in self._down)
 
     def follow(self, event) -> None:
-        """Take in one event."""
+        """Handle one event."""
         if isinstance(event, events.KeyDown):
             self._down.add((event.key, event.position))
         elif isinstance(event, events.KeyUp):

@@ -1,4 +1,4 @@
-"""The keys and gestures over the picture: side by side where there is room, else page by page.
+"""The help over the picture: keys and gestures, in columns or pages.
 
 In: a `Canvas` over the frame's pixels and the number of a page. Out: the same pixels, drawn on.
 """
@@ -12,7 +12,7 @@ from ...stage.overlays.overlay import LINE_GAP, PADDING, place, text_scale
 from ...stage.overlays.theme import DARK, Theme
 from .keymap import GESTURES, SECTIONS
 
-#: A row is a key and what it does; a title has no second part, an empty row neither.
+#: A row is a key and its action; titles and empty rows have no second part.
 Row = tuple[str, str]
 GAP: Row = ("", "")
 #: Columns of text between two columns of the help.
@@ -20,7 +20,7 @@ GUTTER = 3
 
 
 class HelpPages:
-    """Whether the help shows, and which of its pages.
+    """Whether the help is shown, and its page.
 
     Attributes
     ----------
@@ -33,14 +33,14 @@ class HelpPages:
         self.shown, self.page, self.count = False, 0, 1
 
     def turn(self, step: int) -> None:
-        """Show it, or the next page or the one before; behind the last one, no more."""
+        """Show the help, or its next or previous page; close it after the last one."""
         page = self.page + step if self.shown else 0
         self.shown = 0 <= page < self.count or not self.shown
         self.page = page
 
 
 def help_sections() -> list[list[Row]]:
-    """Return the help, a list of rows for each section; the first row is its title."""
+    """Return the sections of the help, each a list of rows; the first row is its title."""
     sections = [
         [(title, ""), *((" ".join(binding.keys), binding.help) for binding in bindings)]
         for title, bindings in SECTIONS.items()
@@ -105,7 +105,7 @@ def _cell(scale: int) -> tuple[int, int]:
 
 
 def _pages(columns: int, rows: int) -> list[list[Row]]:
-    """Return the help in lists of at most ``rows`` - 1 rows, as wide as ``columns`` characters."""
+    """Return the help as pages of at most ``rows`` - 1 rows and ``columns`` characters."""
     rows, pages = max(rows - 1, 2), []
     for title, *entries in help_sections():
         indent = _indent(entries)
@@ -128,7 +128,7 @@ def _indent(rows: list[Row]) -> int:
 
 
 def _widths(columns: list[list[Row]]) -> list[int]:
-    """Return how many characters wide each column is."""
+    """Return the width of each column in characters."""
     return [
         max(_indent(column) + len(text) if text else len(key) for key, text in column)
         for column in columns

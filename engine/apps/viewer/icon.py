@@ -10,7 +10,7 @@ import numpy as np
 from ...rendering.canvas import Canvas
 
 SIDE = 64
-#: The middle, and the outer corners from the top, clockwise; a hexagon with upright sides.
+#: The centre, and the outer corners from the top, clockwise; a hexagon with upright sides.
 MIDDLE = (32, 32)
 CORNERS = ((32, 3), (57, 17), (57, 47), (32, 61), (7, 47), (7, 17))
 #: The faces of the cube: corners beside the middle, and a colour.
@@ -33,7 +33,7 @@ def icon() -> np.ndarray:
 
 
 def set_icon(sdl, window) -> None:
-    """Give an SDL window the icon; window managers that show none ignore it."""
+    """Set the icon of an SDL window; some window managers ignore it."""
     import ctypes
 
     pixels = icon()

@@ -1,4 +1,4 @@
-"""SDL's events, translated into those of `engine3d.events`.
+"""Translates SDL's events to those of `engine3d.events`.
 
 In: an ``SDL_Event``. Out: one of these classes, or None for events that mean nothing here. What
 reads events never sees SDL's structures.
@@ -25,18 +25,18 @@ from ..events import (
     Wheel,
 )
 
-#: Where in the picture a point of the window is.
+#: Converts a point of the window to a position in the picture.
 Place = Callable[[int, int], tuple[int, int]]
-#: How many pixels a distance in the window is.
+#: Converts a distance in the window to pixels.
 Stretch = Callable[[int], int]
 
 
 class Translator:
-    """Makes values of SDL's events, in the order in which they came.
+    """Translates SDL's events in order.
 
-    Clicks bear no modifier keys, and SDL tells of these what is so by now, several events later
-    where a frame takes long. So they are taken from the keys' events. Files that are dropped
-    together come one by one: they are one event, when the last of them has come.
+    Clicks carry no modifier keys, and SDL's current modifier state may be several events ahead if a
+    frame takes long. So modifiers are tracked from key events. SDL reports files dropped together
+    one by one: they become one event after the last.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ class Translator:
         self._dropped: list[str] = []
 
     def translate(self, event):
-        """Return ``event`` (an ``SDL_Event``) as a value of `engine3d.events`, or None."""
+        """Return ``event`` (an ``SDL_Event``) as an event of `engine3d.events`, or None."""
         import sdl2
 
         if event.type in (sdl2.SDL_KEYDOWN, sdl2.SDL_KEYUP):
@@ -70,13 +70,13 @@ class Translator:
 
     def _motion(self, sdl2, motion) -> MouseMotion:
         dx, dy = motion.xrel, motion.yrel
-        if not sdl2.SDL_GetRelativeMouseMode():  # a captured mouse counts steps of its own
+        if not sdl2.SDL_GetRelativeMouseMode():  # a captured mouse counts its own steps
             dx, dy = self._stretch(dx), self._stretch(dy)
         return MouseMotion(dx, dy, *self._place(motion.x, motion.y))
 
 
 def window_number(sdl2, event) -> int:
-    """Return SDL's number of the window that an event is for; 0 for one that is for none."""
+    """Return SDL's number of an event's window; 0 if it has none."""
     if event.type == sdl2.SDL_QUIT:
         return 0
     if event.type in (sdl2.SDL_DROPFILE, sdl2.SDL_DROPCOMPLETE):
@@ -129,7 +129,7 @@ def _button(sdl2, event, down: bool, modifiers: int, place: Place):
 
 
 def _dropped(sdl2, event) -> list[str]:
-    """Return the dropped file's path, if there is one; SDL's copy of the name is ours to free."""
+    """Return the dropped file's path, if any, and free SDL's copy of the name."""
     import ctypes
     import os
 

@@ -1,7 +1,7 @@
-"""The keymap: the one list of keys that the loop obeys and the help overlay prints.
+"""The keymap: the only list of keys, for the loop and the help.
 
-A key is named by what it types ("W"), the way SDL names it; walking keys are read by position and
-live in `fps`. Digits also answer by position, for keyboards that type them with Shift.
+A key is named by what it types ("W"), as in SDL; walking keys are read by position and defined in
+`fps`. Digits also work by position, for keyboards that type them with Shift.
 """
 
 from __future__ import annotations
@@ -10,14 +10,14 @@ from typing import NamedTuple
 
 
 class Binding(NamedTuple):
-    """Keys that call one action of `viewer_actions`, and the words the help shows for it."""
+    """Keys bound to one action of `actions`, and their help text."""
 
     keys: tuple[str, ...]
     action: str
     help: str
 
 
-#: The bindings, by what they change.
+#: The bindings, by theme.
 SECTIONS = {
     "Drawing": (
         Binding(("W",), "cycle_wireframe", "wireframe: off, overlay, only"),
@@ -96,7 +96,7 @@ GESTURES = (
     ("Shift+right", "turn the light"),
     ("drop", "open files"),
 )
-#: What goes on while its key is held down.
+#: Actions that repeat while their key is held.
 REPEATED = ("orbit_left", "orbit_right", "orbit_up", "orbit_down")
 
 _ACTIONS = {key: binding.action for binding in BINDINGS for key in binding.keys}

@@ -1,7 +1,7 @@
-"""Lessons in a window, step by step.
+"""Shows lessons in a window, step by step.
 
-In: lessons, and a `Window` that waits. Out: the step that is looked at, enlarged by a whole number,
-on the screen; which one it is, in the title bar.
+In: lessons, and a `Window` that waits. Out: the current step on the screen, enlarged by a whole
+number, with its number in the title bar.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ LEAVE = ("Q", "Escape")
 
 @dataclass(frozen=True)
 class Lesson:
-    """A lesson: its title, and what draws its steps one after the other, (H, W, 4) uint8."""
+    """A lesson: its title, and a function that draws its steps, (H, W, 4) uint8."""
 
     title: str
     draw: Callable[[], Iterator[np.ndarray]]
@@ -33,7 +33,7 @@ class Lesson:
 class LessonWindow:
     """Shows lessons until the user closes the window, or presses Q or Escape.
 
-    A step is drawn when it is first looked at: lessons may take seconds in all.
+    A step is drawn when it is first shown: all steps together may take seconds.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class LessonWindow:
         self._open(number)
 
     def run(self) -> None:
-        """Show them."""
+        """Run until the window closes."""
         self._show()
         for event in self._window:
             match event:
@@ -85,13 +85,13 @@ class LessonWindow:
             self._show()
 
     def _open(self, number: int) -> None:
-        """Begin a lesson."""
+        """Start a lesson."""
         self._number, self._step = number, 0
         self._rest = self._lessons[number].draw()
         self._steps = [next(self._rest)]
 
     def _go_on(self) -> None:
-        """Go to the next step, or the next lesson after the last one."""
+        """Go to the next step, or to the next lesson after the last step."""
         if self._step + 1 == len(self._steps):
             self._steps += [step for step in [next(self._rest, None)] if step is not None]
         if self._step + 1 < len(self._steps):
@@ -100,7 +100,7 @@ class LessonWindow:
             self._open(self._number + 1)
 
     def _go_back(self) -> None:
-        """Go to the step before, or to the last one of the lesson before."""
+        """Go to the previous step, or to the last step of the previous lesson."""
         if self._step > 0:
             self._step -= 1
         elif self._number > 0:
@@ -115,9 +115,9 @@ class LessonWindow:
 
 
 def enlarged(picture: np.ndarray, size: tuple[int, int]) -> np.ndarray:
-    """Return a picture in the middle of another of a size, enlarged by a whole number.
+    """Return a picture enlarged by a whole number, centred in a larger one.
 
-    One that is too large to fit is returned as it is.
+    A picture too large to fit is returned unchanged.
     """
     height, width = picture.shape[:2]
     times = min(size[0] // width, size[1] // height)

@@ -1,6 +1,6 @@
-"""Lists over the picture that the mouse works on: objects and materials.
+"""Clickable lists over the picture: objects and materials.
 
-In: a viewer, clicks on rows, the wheel over them. Out: the rows, drawn in a corner.
+In: a viewer, clicks on rows, the wheel. Out: the rows, drawn in a corner.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ from ...stage.overlays.theme import Theme
 if TYPE_CHECKING:
     from .state import ViewerState
 
-#: A list is not wider than so many characters.
+#: Maximum width of a list in characters.
 MOST_COLUMNS = 44
-#: Of the bar behind the chosen row.
+#: Alpha of the bar behind the chosen row.
 BAR_ALPHA = 90
 HIDDEN, SHOWN = "[ ]", "[x]"
 
 
 class Row(NamedTuple):
-    """A line of a panel: what stands on the left, and on the right."""
+    """A line of a panel: its left and right text."""
 
     text: str
     detail: str = ""
@@ -41,7 +41,7 @@ class Panel:
     hint = ""
     corner = "top right"
     least_columns, most_columns, least_rows = 1, MOST_COLUMNS, 0
-    #: The number of the row that the keys have come to, if they choose rows.
+    #: The row selected by keys, if keys select rows.
     chosen: int | None = None
 
     def __init__(self, viewer: ViewerState):
@@ -54,19 +54,19 @@ class Panel:
         self._row_height = 1
 
     def rows(self) -> list[Row]:
-        """Return the rows as they are now."""
+        """Return the current rows."""
         raise NotImplementedError
 
     def press(self, number: int, alone: bool) -> None:
-        """Obey a click on a row; ``alone`` is the other button, or Shift."""
+        """Handle a click on a row; ``alone`` means the other button, or Shift."""
         raise NotImplementedError
 
     def heads(self, left_out: int) -> list[str]:
-        """Return the lines above the rows; some of them may not fit."""
+        """Return the lines above the rows; not all of them may fit."""
         return [self.title + (f"  ({len(self.rows())}, wheel: more)" if left_out else "")]
 
     def draw(self, canvas, scale: int, theme: Theme) -> None:
-        """Draw the rows that fit, from the first that shows."""
+        """Draw the rows that fit, from the first visible one."""
         cell_width, cell_height = text_size("M", scale)
         self._row_height = cell_height + LINE_GAP * scale
         seen, heads, blank = self._fitting_rows(canvas)
@@ -95,7 +95,7 @@ class Panel:
         return [*self.heads(0), *rows, self.hint]
 
     def _fitting_rows(self, canvas) -> tuple[list[Row], list[str], int]:
-        """Return the rows that fit, the lines above them, and how many blank ones come below."""
+        """Return the rows that fit, the lines above them, and the number of blank ones below."""
         rows, room = self.rows(), (canvas.height - 2 * MARGIN - 2 * PADDING) // self._row_height
         self._heads = len(self.heads(0))
         self._fit = max(1, min(room - self._heads - 1, len(rows)))
@@ -107,35 +107,35 @@ class Panel:
         return seen, self.heads(len(rows) - len(seen)), blank
 
     def covers(self, x: int, y: int) -> bool:
-        """Return whether a pixel is the panel's."""
+        """Return whether a pixel belongs to the panel."""
         left, top, width, height = self._box
         return left <= x < left + width and top <= y < top + height
 
     def click(self, x: int, y: int, alone: bool) -> None:
-        """Obey a click at a pixel."""
+        """Handle a click at a pixel."""
         line = (y - self._box[1] - PADDING) // self._row_height - self._heads
         if 0 <= line < self._fit and self._first + line < len(self.rows()):
             self.press(self._first + line, alone)
             self.viewer.redraw()
 
     def scroll(self, steps: float) -> None:
-        """Obey the wheel."""
+        """Handle the wheel."""
         self._first = max(0, self._first - round(steps))
         self._follows = False
         self.viewer.redraw()
 
     def key(self, event) -> bool:
-        """Obey a key that went down; return whether it was the panel's."""
+        """Handle a pressed key; return whether the panel used it."""
         if event.key != "Escape":
             return False
         self.close()
         return True
 
     def type(self, text: str) -> None:
-        """Obey text that was typed."""
+        """Handle typed text."""
 
     def close(self) -> None:
-        """Show no panel any more."""
+        """Close the panel."""
         self.viewer.panel = None
         self.viewer.redraw()
 
@@ -171,7 +171,7 @@ def _row(entry) -> Row:
 
 
 def _fitted(row: Row, columns: int) -> str:
-    """Return a row as wide as the panel: the text cut at its end, the detail at its front."""
+    """Return a row fitted to the panel: the text cut at its end, the detail at its front."""
     most = max(columns - len(row.text) - 2, columns // 3)
     detail = row.detail if len(row.detail) <= most else ".." + row.detail[2 - most :]
     most = columns - len(detail) - 2

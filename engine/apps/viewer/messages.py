@@ -1,4 +1,4 @@
-"""Messages at the bottom of the viewer's window: for a moment, or until a problem is over."""
+"""Messages at the bottom of the viewer's window: temporary, or until a problem is solved."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ import time
 from ...errors import printable
 
 MESSAGE_SECONDS = 2.5
-#: Characters of a message that one reads in a second.
+#: Characters of a message read per second.
 READ_A_SECOND = 15.0
 
 
 class Messages:
-    """A message that passes, and a trouble that stays.
+    """A temporary message, and a lasting problem.
 
     Attributes
     ----------
@@ -29,21 +29,21 @@ class Messages:
         self._ends = 0.0
 
     def say(self, text: str) -> None:
-        """Show a message for a moment, which is longer for more words."""
+        """Show a message for a time that depends on its length."""
         self.said = printable(text)
         self._ends = time.monotonic() + max(MESSAGE_SECONDS, len(text) / READ_A_SECOND)
 
     def pass_by(self) -> bool:
-        """Let a message end whose moment is over; return whether one did."""
+        """End an expired message; return whether one ended."""
         if not self.said or time.monotonic() < self._ends:
             return False
         self.said = ""
         return True
 
     def remaining(self) -> float:
-        """Return in how many seconds the message ends; infinity if there is none."""
+        """Return the seconds until the message ends; infinity if there is none."""
         return max(0.0, self._ends - time.monotonic()) if self.said else math.inf
 
     def lines(self) -> list[str]:
-        """Return what is to be seen now."""
+        """Return the messages to show now."""
         return [line for line in (self.trouble, self.said) if line]

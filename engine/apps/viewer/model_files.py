@@ -1,7 +1,7 @@
-"""The model files that the viewer shows: what opens them again, and what has become of them.
+"""The model files that the viewer shows, with their options and changes.
 
-In: paths, and how the command line said to open them. Out: scenes to view; whether files were
-written or went away meanwhile.
+In: paths, and options for opening them. Out: scenes to view; whether files were written or deleted
+meanwhile.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from ...stage.open_models import open_models
 from ...stage.played_clips import play_clips
 from ...stage.viewed_scene import ViewedScene
 
-#: Names of model files end so, in lower case.
+#: Extensions of model files, in lower case.
 MODEL_EXTENSIONS = tuple(end for kind in formats("mesh") for end in kind.extensions)
 
 
 class ModelFiles:
-    """The files that are shown.
+    """The shown files.
 
     Parameters
     ----------
@@ -62,21 +62,21 @@ class ModelFiles:
         self._files = [FileWatch(path) for path in self.paths] if self._watches else []
 
     def replace(self, paths: Sequence) -> ViewedScene:
-        """Open other files, which take the place of these if they can be read."""
+        """Open other files, which replace these if they can be read."""
         viewed = open_models(paths, animation=play_clips, **self._always)
         self._options = {}
         self._follow(paths)
         return viewed
 
     def first(self) -> str | None:
-        """Return the absolute path of the first of the files that is there, or None."""
+        """Return the absolute path of the first existing file, or None."""
         here = next((path for path in self.paths if os.path.isfile(path)), None)
         return None if here is None else os.path.abspath(os.fsdecode(here))
 
     def beside(self, step: int) -> str | None:
-        """Return the path of the next model of the list or the folder, or of one before, or None.
+        """Return the path of the next or previous model in the list or folder, or None.
 
-        Called again, it goes on from there, even if that file could not be opened.
+        Repeated calls continue from there, even if that file could not be opened.
         """
         here = self._tried or self.first()
         if here is None:
@@ -96,14 +96,15 @@ class ModelFiles:
         return self._tried
 
     def reload(self) -> ViewedScene:
-        """Open the same files again, as they were opened first."""
+        """Reopen the same files with the same options."""
         return open_models(self.paths, **self._always, **self._options)
 
     def changed(self) -> bool:
-        """Return whether one of the files was written, came or went since it was last looked at."""
-        changed = [file.changed() for file in self._files]  # all of them: each tells it once
+        """Return whether a file was written, appeared or disappeared since the last check."""
+        # check all, since each reports a change only once
+        changed = [file.changed() for file in self._files]
         return any(changed)
 
     def missing(self) -> list[str]:
-        """Return the names of the files that were not there when they were last looked at."""
+        """Return the names of the files that were missing at the last check."""
         return [os.path.basename(file.path) for file in self._files if file.missing]

@@ -1,7 +1,7 @@
-"""The mouse in the viewer: drags orbit, pan and zoom; clicks select; the wheel zooms.
+"""Mouse control of the viewer: drags orbit, pan and zoom; clicks select; the wheel zooms.
 
-In: events of the mouse. Out: calls of the orbit or the walking controller, and of the viewer. A
-press becomes a drag when the mouse has gone some pixels; otherwise it was a click.
+In: mouse events. Out: calls of the orbit or walking controller, and of the viewer. A press becomes
+a drag after some pixels of motion; otherwise it is a click.
 """
 
 from __future__ import annotations
@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from .state import ViewerState
 
-#: Pixels that a hand moves while it clicks.
+#: Pixels of motion allowed in a click.
 CLICK_REACH = 4
 
 
 class Mouse:
-    """Obeys the mouse.
+    """Handles the mouse.
 
     Parameters
     ----------
@@ -33,13 +33,13 @@ class Mouse:
         self.release()
 
     def release(self) -> None:
-        """Forget a button that is down."""
+        """Forget a pressed button."""
         self.drag: str | None = None
         self._travelled = 0
         self._held_back = (0, 0)
 
     def button(self, event) -> None:
-        """A button went down or came up."""
+        """Handle a press or release of a button."""
         if self._viewer.walker is not None:
             return
         if event.down:
@@ -66,7 +66,7 @@ class Mouse:
             self._viewer.select(event.x, event.y)
 
     def motion(self, event) -> None:
-        """The mouse moved."""
+        """Handle a motion of the mouse."""
         viewer = self._viewer
         if viewer.walker is not None:
             self.release()
@@ -94,7 +94,7 @@ class Mouse:
         viewer.redraw()
 
     def wheel(self, event) -> None:
-        """The wheel turned."""
+        """Handle the wheel."""
         viewer = self._viewer
         if viewer.walker is not None:
             viewer.walker.change_speed(event.steps)

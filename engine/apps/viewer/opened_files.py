@@ -1,7 +1,7 @@
-"""Files that are opened while the viewer runs: dropped, stepped to, chosen again, or written anew.
+"""Opens files while the viewer runs: dropped, stepped to, chosen, or reloaded.
 
-In: paths, and what became of the files that are shown. Out: another scene in the viewer; where a
-file cannot be read, what is there stays, and why is said.
+In: paths, and changes of the shown files. Out: another scene in the viewer; if a file cannot be
+read, the current scene stays, with a message.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ...stage.viewed_scene import ViewedScene
     from .state import ViewerState
 
-#: A model that became so many times larger or smaller is framed anew.
+#: A model that changes its size by more than this factor is framed again.
 ALIKE = 8.0
 
 
@@ -62,7 +62,7 @@ class Opening:
         viewer.say(viewed.warnings[0] if viewed.warnings else f"opened {viewed.title}")
 
     def step(self, step: int) -> None:
-        """Show the next model of the folder, or one before; after the last comes the first."""
+        """Show the next or previous model of the folder, cyclically."""
         path = self.files.beside(step)
         if path is None:
             self._viewer.say("there is no other model in the folder; Shift+arrows turn this one")
@@ -70,14 +70,14 @@ class Opening:
             self.open([path], keep_appearance=True)
 
     def load_again(self) -> None:
-        """Show the files as they are now."""
+        """Reload the files."""
         if self.files.paths:
             self._reload()
         else:
             self._viewer.say("there is no file to load again")
 
     def look_for_changes(self) -> None:
-        """Show the files as they are now, if they are watched and were written."""
+        """Reload the files if they are watched and have changed."""
         if self.files.changed():
             self._reload()
 
@@ -106,7 +106,7 @@ class Opening:
         self._viewer.forget_scene()
 
     def _frame_again(self) -> None:
-        """Look at all of what is shown now, from the same side; a reset does so from now on."""
+        """Frame the whole scene from the same direction; a reset does so from now on."""
         viewer = self._viewer
         if viewer.walker is not None:
             viewer.toggle_walking()
@@ -114,7 +114,7 @@ class Opening:
             viewer.view_renderer.frame(view)
 
     def _in_view(self, before: Sphere) -> bool:
-        """Return whether the scene, which had other bounds before, is still worth looking at."""
+        """Return whether the scene, which had other bounds before, is still well framed."""
         view_renderer = self._viewer.view_renderer
         now = view_renderer.bounds
         alike = 1 / ALIKE < now.radius / before.radius < ALIKE

@@ -1,7 +1,7 @@
-"""A picture in a window: it fits at first; the wheel and drags look at parts of it.
+"""Shows a picture in a window, with zooming and panning.
 
-In: (H, W, 4) uint8 pixels and a `Window`. Out: what of the picture shows, on the screen, with the
-pixel under the mouse in the title bar.
+In: (H, W, 4) uint8 pixels and a `Window`. Out: the visible part of the picture on the screen, and
+the pixel under the mouse in the title bar.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ from .. import events
 from .window import Window
 
 BACKDROP = (28, 30, 34, 255)
-#: How far one wheel step or key zooms, and the largest and smallest side of a pixel.
+#: Zoom factor per wheel step or key, and limits of a pixel's size.
 ZOOM_STEP = 1.25
 SIDES = 1 / 64, 64.0
-#: Keys that zoom, with the wheel steps that do the same.
+#: Keys that zoom, with the equivalent wheel steps.
 ZOOM_KEYS = {"+": 1, "=": 1, "Keypad +": 1, "-": -1, "Keypad -": -1}
 
 
 class PictureView:
-    """The part of a picture that shows.
+    """The visible part of a picture.
 
     Parameters
     ----------
@@ -38,10 +38,10 @@ class PictureView:
         self.fit()
 
     def fit(self) -> None:
-        """Show all of the picture, in the middle; it keeps fitting as the window changes."""
+        """Fit the picture into the window, also after later changes of the window."""
         self.fits = True
         sides = (room / length for room, length in zip(self._window, self._picture, strict=True))
-        self.side = min(sides)  # of a pixel of the picture, in pixels of the window
+        self.side = min(sides)  # size of a picture pixel in window pixels
         self._center()
 
     def _center(self) -> None:
@@ -57,12 +57,12 @@ class PictureView:
             self.move((window[0] - old[0]) / 2, (window[1] - old[1]) / 2)
 
     def real_size(self) -> None:
-        """Show each pixel as one of the window, the middle of the picture in the middle."""
+        """Show each pixel as one of the window, and centre the picture."""
         self.fits, self.side = False, 1.0
         self._center()
 
     def zoom(self, steps: float, at: tuple[float, float]) -> None:
-        """Zoom by wheel steps; what is at a point of the window stays there."""
+        """Zoom by wheel steps about a fixed point of the window."""
         low, high = SIDES
         side = max(low, min(high, self.side * ZOOM_STEP**steps))
         ratio, self.side, self.fits = side / self.side, side, False
@@ -76,7 +76,7 @@ class PictureView:
         self._corner = [self._corner[0] + dx, self._corner[1] + dy]
 
     def pixel_at(self, x: int, y: int) -> tuple[int, int] | None:
-        """Return the pixel of the picture that shows at a point of the window, or None."""
+        """Return the picture's pixel at a point of the window, or None."""
         column, row = (
             int(indices[at]) for indices, at in zip(self._indices(), (x, y), strict=True)
         )
@@ -84,7 +84,7 @@ class PictureView:
         return (column, row) if inside else None
 
     def _indices(self) -> list[np.ndarray]:
-        """Return which column, and which row, of the picture each one of the window shows."""
+        """Return the picture's column and row for each column and row of the window."""
         pairs = zip(self._window, self._corner, strict=True)
         return [
             np.floor((np.arange(room) + 0.5 - corner) / self.side).astype(np.int64)
@@ -92,7 +92,7 @@ class PictureView:
         ]
 
     def visible(self, pixels: np.ndarray) -> np.ndarray:
-        """Return what the window shows of the pixels, as an array of its size."""
+        """Return the visible pixels, as an array of the window's size."""
         columns, rows = self._indices()
         width, height = self._picture
         shown = np.empty((len(rows), len(columns), 4), np.uint8)
@@ -123,7 +123,7 @@ class PictureWindow:
         self.view = PictureView((pixels.shape[1], pixels.shape[0]), self._size)
 
     def run(self) -> None:
-        """Show it."""
+        """Run until the window closes."""
         self._draw()
         for event in self._window:
             if self._obey(event):
@@ -133,7 +133,7 @@ class PictureWindow:
         self._window.present(self.view.visible(self._pixels), self._order)
 
     def _obey(self, event) -> bool:
-        """Obey an event; return whether the picture has to be drawn again."""
+        """Handle an event; return whether to redraw the picture."""
         view = self.view
         match event:
             case events.KeyDown("Q" | "Escape"):
@@ -161,7 +161,7 @@ class PictureWindow:
         return True
 
     def _tell(self, x: int, y: int) -> None:
-        """Write in the title which pixel is under the mouse, and its colour."""
+        """Show the pixel under the mouse, and its colour, in the title."""
         width, height = self._size
         pixel = self.view.pixel_at(x, y) if 0 <= x < width and 0 <= y < height else None
         title = self._title
@@ -175,7 +175,7 @@ class PictureWindow:
 
 
 def fitting_size(picture: tuple[int, int], most: tuple[int, int]) -> tuple[int, int]:
-    """Return how large a window for a picture should be: enlarged by whole numbers, if small.
+    """Return the window size for a picture, enlarged by a whole number if small.
 
     Parameters
     ----------

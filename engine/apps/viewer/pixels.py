@@ -1,4 +1,4 @@
-"""Pictures of all kinds as the pixels that a window shows.
+"""Converts pictures of all kinds to pixels for a window.
 
 In: a frame, a canvas, or an array of pixels. Out: (H, W, 4) uint8, and the order of its bytes.
 """
@@ -25,7 +25,7 @@ KINDS = (
 
 
 def as_pixels(picture, format: PixelFormat | None = None) -> tuple[NDArray[np.uint8], PixelFormat]:
-    """Return a picture's pixels, (H, W, 4) uint8, top row first, and the order of their bytes.
+    """Return a picture's pixels, (H, W, 4) uint8, top row first, and their byte order.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
-"""Pixels on the screen: through a streaming texture, as large as fits, in the screen's rhythm.
+"""Presents pixels on the screen through a streaming texture, fitted and in the screen's rhythm.
 
-In: (H, W, 4) uint8 pixels. Out: the picture in the middle of the window, its sides in proportion;
-where in the picture a point of the window is.
+In: (H, W, 4) uint8 pixels. Out: the picture centred in the window with its aspect ratio; and the
+picture position of a window point.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class Presenter:
         self._renderer = self._open_renderer(window, vsync)
         info = sdl.SDL_RendererInfo()
         sdl.SDL_GetRendererInfo(self._renderer, info)
-        # SDL's own renderer says that it waits for the screen, but does not.
+        # SDL's software renderer claims to wait for the screen, but does not.
         waits = sdl.SDL_RENDERER_PRESENTVSYNC | sdl.SDL_RENDERER_SOFTWARE
         synced = info.flags & waits == sdl.SDL_RENDERER_PRESENTVSYNC
         paced = vsync and not synced
@@ -49,8 +49,8 @@ class Presenter:
     def _open_renderer(self, window, vsync: bool):
         sdl = self._sdl
         flags = sdl.SDL_RENDERER_PRESENTVSYNC if vsync else 0
-        # SDL's own renderer hands its pixels to the screen; through OpenGL that is no faster
-        # anywhere, and where OpenGL itself draws on the CPU it takes ten times as long.
+        # SDL's software renderer copies its pixels to the screen; OpenGL is not faster for that,
+        # and ten times slower where it runs on the CPU.
         sdl.SDL_SetHint(sdl.SDL_HINT_FRAMEBUFFER_ACCELERATION, b"0")
         renderer = sdl.SDL_CreateRenderer(window, -1, flags)
         if renderer and is_opengl_on_the_cpu(sdl):
@@ -72,7 +72,7 @@ class Presenter:
 
     @property
     def density(self) -> float:
-        """How many pixels the drawable area has for one unit of the window's size."""
+        """Pixels of the drawable area per unit of the window's size."""
         import ctypes
 
         width, height = ctypes.c_int(), ctypes.c_int()
@@ -80,11 +80,11 @@ class Presenter:
         return max(self.size[0] / max(width.value, 1), 1.0)
 
     def pixels_of(self, distance: int) -> int:
-        """Return a distance in units of the window as pixels of the drawable area."""
+        """Convert a distance in window units to pixels of the drawable area."""
         return round(distance * self.density)
 
     def present(self, pixels: np.ndarray, order: str) -> None:
-        """Show pixels whose bytes come in the order ``"rgba"`` or ``"bgra"``."""
+        """Show pixels with byte order ``"rgba"`` or ``"bgra"``."""
         height, width = pixels.shape[:2]
         if (self._picture, self._order) != ((width, height), order):
             self._make_texture(width, height, order)
@@ -101,7 +101,7 @@ class Presenter:
         sdl.SDL_RenderPresent(self._renderer)
 
     def _room(self) -> tuple[int, int, int, int]:
-        """Return where in the window the picture is: left, top, width and height."""
+        """Return the picture's rectangle in the window: left, top, width and height."""
         (width, height), (across, down) = self.size, self._picture
         if not across:
             return 0, 0, width, height
@@ -112,14 +112,14 @@ class Presenter:
         return (width - shown[0]) // 2, (height - shown[1]) // 2, *shown
 
     def place(self, x: int, y: int) -> tuple[int, int]:
-        """Return where in the picture a point of the window is, in pixels; maybe beside it."""
+        """Return the picture position of a window point, in pixels; it may be outside."""
         x, y = int(x * self.density), int(y * self.density)
         left, top, width, height = self._room()
         across, down = self._picture if self._texture else (width, height)
         return (x - left) * across // width, (y - top) * down // height
 
     def _wait_for_refresh(self) -> None:
-        """Keep the screen's rhythm where SDL's driver cannot."""
+        """Keep the screen's rhythm if SDL's driver cannot."""
         if not self._refresh_seconds:
             return
         now = time.monotonic()

@@ -1,7 +1,7 @@
-"""A turn round the scene, or its own animation, recorded from the window to a file.
+"""Records a turn around the scene, or its own animation, to a file.
 
-In: a `Viewer` and a path. Out: the file, whole or not at all; the window shows each picture as it
-is drawn, and Escape, or closing the window, gives it up.
+In: a `Viewer` and a path. Out: the file, whole or not at all; the window shows each picture, and
+Escape or closing the window cancels.
 """
 
 from __future__ import annotations
@@ -22,16 +22,16 @@ if TYPE_CHECKING:
     from .state import ViewerState
 
 FRAMES = 48
-#: The longer side of the pictures: a file of larger ones would take long, and much room.
+#: Maximum side of the pictures: larger files would take too much time and space.
 LONGEST_SIDE = 640
 
 
 class _GivenUp(Exception):
-    """The user does not want the file any more."""
+    """The user cancelled the recording."""
 
 
 def record(viewer: ViewerState, path: Path) -> str:
-    """Write the file; return what to say of it."""
+    """Write the file; return a message about it."""
     view_renderer = viewer.view_renderer
     size, seconds = view_renderer.size, headless.seconds_a_frame(view_renderer, FRAMES)
     shrunk = min(1.0, LONGEST_SIDE / max(size))
@@ -49,7 +49,7 @@ def record(viewer: ViewerState, path: Path) -> str:
 
 
 def _pictures(viewer: ViewerState, name: str) -> Iterator[np.ndarray]:
-    """Yield the pictures, and show them; raise `_GivenUp` when the user wants no more."""
+    """Yield the pictures, and show them; raise `_GivenUp` if the user cancels."""
     pictures = headless.animation(viewer.view_renderer, viewer.view, FRAMES)
     for number, picture in enumerate(pictures, 1):
         viewer.window.title = f"{name}: {number} of {FRAMES} - Escape gives it up"

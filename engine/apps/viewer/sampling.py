@@ -1,7 +1,7 @@
-"""How many samples per pixel the next frame takes: few in motion, if it must be, more at rest.
+"""Chooses the samples per pixel of the next frame: few in motion if necessary, more at rest.
 
-In: how long frames took to draw. Out: a number of samples. What moves keeps up `MOTION_FPS` frames
-a second where one sample per pixel allows it; what rests is drawn again with `AT_REST`.
+In: drawing times of frames. Out: a number of samples. Motion keeps `MOTION_FPS` frames a second if
+one sample per pixel allows it; at rest the frame is redrawn with `AT_REST`.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ from collections import deque
 
 AT_REST = 4
 MOTION_FPS = 30.0
-#: Nothing moves any more when nothing has been drawn for so long.
+#: The scene is at rest if nothing was drawn for this time.
 REST_SECONDS = 0.15
-#: More samples are taken again when they would surely be in time.
+#: Samples increase only if they would surely be in time.
 SURE = 0.75
-#: Frames by which the time is judged; the shortest counts, as others were disturbed.
+#: Frames that are judged; the shortest counts, as others were disturbed.
 JUDGED = 3
-#: The time of `AT_REST` samples over that of one, until it is measured.
+#: Time of `AT_REST` samples relative to one, until it is measured.
 USUAL_RATIO = 3.0
 
 
@@ -36,7 +36,7 @@ class Sampling:
         self.start_anew()
 
     def start_anew(self) -> None:
-        """Forget what frames took: another scene is drawn, whose first frame tells nothing."""
+        """Forget measured times: a new scene's first frame tells nothing."""
         self._seconds = {count: deque(maxlen=JUDGED) for count in (1, AT_REST)}
         self._ratio = USUAL_RATIO
         self._in_motion = AT_REST
@@ -44,7 +44,7 @@ class Sampling:
         self._drawn_at = math.inf
 
     def add(self, samples: int, seconds: float) -> None:
-        """Take in that a frame with so many samples took so long to draw."""
+        """Record the drawing time of a frame with a number of samples."""
         self._drawn_at = time.monotonic()
         if samples in self._seconds:
             if self._last is not None:
@@ -53,14 +53,14 @@ class Sampling:
             self._last = samples, seconds
 
     def _compare(self, samples: int, seconds: float) -> None:
-        """Learn from a frame and the one before what more samples cost."""
+        """Update the cost of more samples from two consecutive frames."""
         before, others = self._last
         if before != samples:
             many, one = (seconds, others) if samples == AT_REST else (others, seconds)
             self._ratio = max(1.0, many / max(one, 1e-6))
 
     def in_motion(self) -> int:
-        """Return how many samples a frame takes while something moves."""
+        """Return the samples of a frame in motion."""
         if self.fixed is not None:
             return self.fixed
         budget = 1.0 / MOTION_FPS
@@ -73,11 +73,11 @@ class Sampling:
         return self._in_motion
 
     def at_rest(self) -> int:
-        """Return how many samples a frame takes while nothing moves."""
+        """Return the samples of a frame at rest."""
         return self.fixed or AT_REST
 
     def until_rest(self) -> float:
-        """Return in how many seconds the last frame is to be drawn better; infinity if it isn't."""
+        """Return the seconds until the last frame should be refined; infinity if never."""
         if self._last is None or self.fixed is not None or self._last[0] == AT_REST:
             return math.inf
         return max(0.0, self._drawn_at + REST_SECONDS - time.monotonic())

@@ -1,4 +1,4 @@
-"""SDL, which comes from pip (pysdl2-dll) and loads when a window opens.
+"""Loads SDL, which comes from pip (pysdl2-dll), when a window opens.
 
 Out: the loaded module, with its video running; what it says of the screen. A machine without a
 screen raises `DisplayError` with one line that says so.
@@ -13,15 +13,15 @@ import warnings
 from ...errors import DisplayError
 from .x11_errors import forgive_late_messages
 
-#: SDL's drivers that draw nowhere: it falls back to them when there is no screen.
+#: SDL's drivers without a screen, which are its fallback.
 SCREENLESS_DRIVERS = ("offscreen", "dummy", "evdev")
 USUAL_DPI = 96.0
 PLAUSIBLE_DPI = 50.0, 400.0
-#: What ``GDK_SCALE`` may sensibly say.
+#: Valid values of ``GDK_SCALE``.
 TOLD_SCALES = frozenset("1234")
 USUAL_REFRESH_RATE = 60
 GL_RENDERER = 0x1F01
-#: Part of the names under which OpenGL draws without a graphics card.
+#: Parts of the names of OpenGL renderers without a graphics card.
 SOFTWARE_OPENGL = ("llvmpipe", "softpipe", "swrast", "swiftshader", "software")
 
 
@@ -46,15 +46,15 @@ def find_screen() -> None:
 
 
 def open_video():
-    """Load SDL, start its video and return the module; each call wants a `close_video`."""
+    """Load SDL, start its video and return the module; balance each call with `close_video`."""
     find_screen()
     sdl = load_sdl()
     sdl.SDL_SetHint(sdl.SDL_HINT_VIDEO_ALLOW_SCREENSAVER, b"1")
-    # The class by which window managers know the program.
+    # The class name that window managers see.
     sdl.SDL_setenv(b"SDL_VIDEO_X11_WMCLASS", b"engine3d", 0)
     sdl.SDL_SetHint(sdl.SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, b"0")
     if os.environ.get("DISPLAY") and not os.environ.get("WAYLAND_DISPLAY"):
-        # Looking for Wayland as well would print its complaints on standard error.
+        # Searching for Wayland as well would print errors.
         sdl.SDL_SetHint(sdl.SDL_HINT_VIDEODRIVER, b"x11")
     if os.environ.get("DISPLAY"):
         forgive_late_messages()
@@ -68,12 +68,12 @@ def open_video():
 
 
 def close_video(sdl) -> None:
-    """Let go of SDL's video, which ends when nothing needs it any more."""
+    """Release SDL's video, which ends after the last user."""
     sdl.SDL_QuitSubSystem(sdl.SDL_INIT_VIDEO)
 
 
 def refresh_rate(sdl, window) -> int:
-    """Return the refresh rate of a window's screen in hertz; 60 where it is unknown."""
+    """Return the refresh rate of a window's screen in hertz; 60 if unknown."""
     mode = sdl.SDL_DisplayMode()
     if sdl.SDL_GetWindowDisplayMode(window, mode) == 0 and mode.refresh_rate > 0:
         return mode.refresh_rate
@@ -81,7 +81,7 @@ def refresh_rate(sdl, window) -> int:
 
 
 def fit_to_screen(sdl, window) -> None:
-    """Make a window smaller, where it is larger with its borders than its screen has room for."""
+    """Shrink a window that, with its borders, is larger than its screen."""
     import ctypes
 
     area, screen = sdl.SDL_Rect(), sdl.SDL_GetWindowDisplayIndex(window)
@@ -89,7 +89,7 @@ def fit_to_screen(sdl, window) -> None:
         return
     width, height, *borders = (ctypes.c_int() for _ in range(6))
     sdl.SDL_GetWindowSize(window, ctypes.byref(width), ctypes.byref(height))
-    # It leaves zeros where it knows no borders.
+    # It returns zeros if borders are unknown.
     sdl.SDL_GetWindowBordersSize(window, *map(ctypes.byref, borders))
     top, left, bottom, right = (border.value for border in borders)
     fitting = area.w - left - right, area.h - top - bottom
@@ -99,10 +99,10 @@ def fit_to_screen(sdl, window) -> None:
 
 
 def screen_scale(sdl, window) -> int:
-    """Return how many times finer than usual a window's screen is; 1 where it is unknown.
+    """Return the scale factor of a window's screen; 1 if unknown.
 
-    Only X11 leaves it to programs to draw larger on such a screen. What the user told other
-    programs there (``GDK_SCALE``) counts before what the screen says of itself.
+    Only X11 leaves scaling to programs. The user's setting for other programs (``GDK_SCALE``)
+    overrides the screen's data.
     """
     import ctypes
 
@@ -119,9 +119,9 @@ def screen_scale(sdl, window) -> int:
 
 
 def scale_of(dpi: float) -> int:
-    """Return how many times larger than usual texts should be on a screen of so many dots an inch.
+    """Return the text scale for a screen with given dots per inch.
 
-    Projectors and televisions tell sizes that are no sizes: those count as usual screens.
+    Projectors and televisions report wrong sizes: they count as normal screens.
     """
     if not PLAUSIBLE_DPI[0] <= dpi <= PLAUSIBLE_DPI[1]:
         return 1
@@ -143,5 +143,5 @@ def is_opengl_on_the_cpu(sdl) -> bool:
 
 
 def last_error(sdl) -> str:
-    """Return what SDL says of its last failure."""
+    """Return SDL's message about its last failure."""
     return sdl.SDL_GetError().decode("utf-8", "replace") or "unknown error"

@@ -1,6 +1,6 @@
-"""`show`: a scene, a part of one or a picture, in a window, until the user closes it.
+"""`show`: displays a scene, node, mesh or picture in a window until the user closes it.
 
-In: what to show. Out: nothing; what lights and grounds a scene stands beside it.
+In: a thing to show. Out: nothing; lights and ground are beside the scene, not in it.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def show(
     period: float = TURN_SECONDS,
     format: PixelFormat | None = None,
 ) -> None:
-    """Show something in a window until the user closes it.
+    """Show a thing in a window until the user closes it.
 
     Scenes, nodes and meshes show in the viewer, with all of its keys (H lists them). Pictures fit
     into the window; the wheel, + and - zoom, drags move, R fits again, 1 shows real size, and the
@@ -97,7 +97,7 @@ def show(
 
 
 def _in_a_kernel() -> bool:
-    """Whether a notebook's kernel runs this program."""
+    """Return whether the program runs in a notebook kernel."""
     shell = sys.modules.get("IPython")
     return shell is not None and hasattr(shell.get_ipython(), "kernel")
 

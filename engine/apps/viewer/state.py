@@ -1,7 +1,7 @@
-"""The viewer's state: what it shows, and how. Its keys, mouse, lists and files change it.
+"""The viewer's state, changed by its keys, mouse, lists and files.
 
-In: what the user wants. Out: the same state, of which the loop (`viewer.Viewer`) draws a frame
-whenever `redraw` was called.
+In: user actions. Out: the changed state; the loop (`viewer.Viewer`) draws a frame after every
+`redraw`.
 """
 
 from __future__ import annotations
@@ -85,38 +85,38 @@ class ViewerState:
 
     @property
     def changed(self) -> bool:
-        """Whether something changed since the last frame was drawn."""
+        """Whether anything changed since the last frame."""
         return self._changed
 
     def redraw(self) -> None:
-        """Have a frame drawn: something changed."""
+        """Request a new frame."""
         self._changed = True
 
     def say(self, message: str) -> None:
-        """Show a message for a moment, which is longer for more words."""
+        """Show a message for a time that depends on its length."""
         self.messages.say(message)
         self.redraw()
 
     def forget_scene(self) -> None:
-        """Forget what was known of the scene before: another one is shown now."""
+        """Reset the state that belongs to the previous scene."""
         self.selected = None
         self.messages.trouble = ""
         self.sampling.start_anew()
 
     def select(self, x: int, y: int) -> None:
-        """Select what shows at a pixel; where nothing does, nothing is selected any more."""
+        """Select the object at a pixel; deselect if there is none."""
         self.selected = self.view_renderer.pick(self.view, self.time, x, y)
         self.redraw()
 
     def turn_light(self, dx: int, dy: int) -> None:
-        """Turn the light by a drag of (dx, dy) pixels."""
+        """Rotate the light by a drag of (dx, dy) pixels."""
         full_turn = 2 * math.pi / self.view_renderer.size[1]
         lighting = self.view_renderer.lighting
         if not lighting.turn(self.view.pose(), dx * full_turn, dy * full_turn):
             self.say("these lights cannot be turned: L chooses others")
 
     def focus(self, x: int, y: int) -> None:
-        """Move what shows at a pixel into the middle, and turn round it from now on."""
+        """Centre the clicked point, and orbit around it."""
         hit = self.view_renderer.pick(self.view, self.time, x, y)
         if hit is None or not np.isfinite(hit.position).all():
             return
@@ -135,7 +135,7 @@ class ViewerState:
         self.redraw()
 
     def toggle_walking(self) -> None:
-        """Walk, or orbit again; the picture stays where it is, or goes down to the ground."""
+        """Toggle walking; the picture stays, or moves down to the ground."""
         if self.walker is None:
             self._begin_walking()
         else:

@@ -1,4 +1,4 @@
-"""The title of the viewer's window: what is shown, and what its frames take."""
+"""The title of the viewer's window: the model, and its frame times."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from collections.abc import Callable
 
 from ...errors import printable
 
-#: Seconds between two titles of the same model.
+#: Seconds between titles of the same model.
 SECONDS = 0.5
 
 
 class TitleBar:
-    """Writes the title of a window now and then, and at once where another model is shown."""
+    """Writes a window's title periodically, and at once for a new model."""
 
     def __init__(self, window) -> None:
         self._window = window
@@ -20,7 +20,7 @@ class TitleBar:
         self._due = 0.0
 
     def write(self, name: str, told: Callable[[], str], *, at_once: bool) -> None:
-        """Write a title if it is time for one.
+        """Write a title if one is due.
 
         Parameters
         ----------

@@ -32,7 +32,7 @@ from .sampling import Sampling
 from .state import ViewerState
 from .title_bar import TitleBar
 
-#: How long the loop sleeps when nothing happens; also how often a watched file is looked at.
+#: Sleep time of the idle loop, and interval of checks for file changes.
 IDLE_SECONDS = 0.25
 #: A pause in the loop (a slow load, a dragged window) must not throw the walker through a wall.
 LONGEST_STEP = 0.1
@@ -92,7 +92,7 @@ class Viewer(ViewerState):
     def run(self, frames: int | None = None) -> None:
         """Show frames until the window closes, or until ``frames`` have been drawn.
 
-        A number of frames is drawn whether or not anything moves.
+        With a number of frames, they are drawn even if nothing moves.
         """
         drawn = 0
         self._last_turn = clock.monotonic()
@@ -102,7 +102,7 @@ class Viewer(ViewerState):
             drawn += self.run_once()
 
     def run_once(self) -> bool:
-        """Obey what has happened, and return whether a frame was drawn for it."""
+        """Handle pending events; return whether a frame was drawn."""
         for event in self.window.events(0.0 if self.lively else self._patience()):
             self.handle(event)
         now = clock.monotonic()
@@ -123,7 +123,7 @@ class Viewer(ViewerState):
 
     @property
     def lively(self) -> bool:
-        """Whether the next frame should come at once rather than wait for an event."""
+        """Whether the next frame should be drawn without waiting for an event."""
         if self.window.minimised:
             return False
         return self.changed or self.playing or self._walking_now()
@@ -132,7 +132,7 @@ class Viewer(ViewerState):
         return self.walker is not None and bool(self.held_positions)
 
     def advance(self, seconds: float) -> None:
-        """Let ``seconds`` pass: animation, walking, messages that end, files that changed."""
+        """Advance the time by ``seconds``: animation, walking, messages, file changes."""
         if self.playing and not self.window.minimised:
             self._play(seconds)
         if self.walker is not None and self.walker.walk(self.held_positions, seconds, self.fast):
@@ -150,7 +150,7 @@ class Viewer(ViewerState):
             self.orbit.turn(2 * math.pi * seconds / viewed.period, 0.0)
 
     def draw(self, samples: int | None = None) -> None:
-        """Draw one frame, its overlays, and show it.
+        """Draw one frame with its overlays, and show it.
 
         Parameters
         ----------
@@ -224,7 +224,7 @@ class Viewer(ViewerState):
     # Events
 
     def handle(self, event) -> None:
-        """Obey one event of `engine3d.events`."""
+        """Handle one event of `engine3d.events`."""
         handler = _HANDLERS.get(type(event))
         if handler is not None:
             handler(self, event)
@@ -241,7 +241,7 @@ class Viewer(ViewerState):
             self.redraw()
 
     def _walk_key(self, event) -> bool:
-        """Obey a key of walking mode; return whether it was one."""
+        """Handle a key in walking mode; return whether it was one."""
         if event.key == "Escape":
             self.toggle_walking()
             return True
@@ -262,7 +262,7 @@ class Viewer(ViewerState):
             self.panel.type(event.text)
 
     def _redraw(self, event) -> None:
-        self.view_renderer.screen_scale = self.window.scale  # it may be on another screen now
+        self.view_renderer.screen_scale = self.window.scale  # it may have moved to another screen
         self.redraw()
 
     def _unfreeze_culling(self) -> None:

@@ -1,4 +1,4 @@
-"""A resizable window that shows pictures and tells what the user does in it.
+"""A resizable window that shows pictures and reports user input.
 
 In: pictures to present. Out: events (`engine3d.events`). SDL loads when a window opens.
 """
@@ -32,11 +32,11 @@ from .sdl import (
 )
 
 MIN_SIDE = 64
-#: How long a wait for events goes on before Ctrl-C is looked for.
+#: Seconds between checks for Ctrl-C while waiting for events.
 PATIENCE = 0.25
-#: Milliseconds are counted in 32 bits.
+#: SDL counts milliseconds in 32 bits.
 LONGEST_WAIT = 2_000_000.0
-#: SDL's names of the shapes of a pointer.
+#: SDL's names of pointer shapes.
 POINTERS: dict[PointerShape, str] = {
     "arrow": "ARROW",
     "text": "IBEAM",
@@ -51,7 +51,7 @@ POINTERS: dict[PointerShape, str] = {
     "no": "NO",
     "hand": "HAND",
 }
-#: The windows that are open, by SDL's numbers: SDL has one queue of events for all of them.
+#: The open windows by SDL's numbers: SDL has one event queue for all.
 _OPEN: dict[int, Window] = {}
 
 
@@ -138,7 +138,7 @@ class Window:
         self._presenter = Presenter(sdl, self._window, vsync)
         self._translator = Translator(self._presenter.place, self._presenter.pixels_of)
 
-    #: Text is drawn into the picture; elsewhere it may be written beside it.
+    #: A window draws text into the picture; a terminal may write it beside.
     writes_text = False
 
     # Pictures
@@ -179,7 +179,7 @@ class Window:
         """Pictures a second that were presented in the last second."""
         return self._rate.value
 
-    # What happens
+    # Events
 
     @checks_types
     def events(self, timeout: float = 0.0) -> list[events.Event]:
@@ -198,7 +198,7 @@ class Window:
         return received
 
     def _receive(self, event) -> None:
-        """Keep an event for the window that it is for."""
+        """Queue an event for its window."""
         window = _OPEN.get(window_number(self._sdl, event), self)
         translated = window._translator.translate(event)
         if translated is not None:
@@ -234,17 +234,17 @@ class Window:
 
     @property
     def keys(self) -> frozenset[str]:
-        """The keys that are down, by what they type: ``"W" in window.keys``."""
+        """The pressed keys, by what they type: ``"W" in window.keys``."""
         return self._held.keys
 
     @property
     def positions(self) -> frozenset[str]:
-        """The same keys by where they are, named as on a US keyboard."""
+        """The pressed keys by position, named as on a US keyboard."""
         return self._held.positions
 
     @property
     def buttons(self) -> frozenset[str]:
-        """The mouse buttons that are down: ``"left"``, ``"middle"``, ``"right"``."""
+        """The pressed mouse buttons: ``"left"``, ``"middle"``, ``"right"``."""
         return self._held.buttons
 
     @property
@@ -254,13 +254,13 @@ class Window:
 
     @checks_types
     def capture_mouse(self, captured: bool) -> None:
-        """Hide the pointer and report movements without end (mouse look), or give it back."""
+        """Capture the mouse, hiding the pointer and reporting unlimited motion, or release it."""
         self._opened()
         self._sdl.SDL_SetRelativeMouseMode(captured)
 
     @checks_types
     def show_pointer(self, shape: PointerShape | None) -> None:
-        """Give the mouse pointer a shape over the window; None hides it.
+        """Set the shape of the mouse pointer over the window; None hides it.
 
         Raises
         ------
@@ -281,7 +281,7 @@ class Window:
 
     @property
     def clipboard(self) -> str:
-        """The text that any program cut or copied last; can be assigned."""
+        """The clipboard's text; assignable."""
         self._opened()
         return (self._sdl.SDL_GetClipboardText() or b"").decode("utf-8", "replace")
 
@@ -300,7 +300,7 @@ class Window:
 
     @property
     def title(self) -> str:
-        """Text of the title bar; can be assigned."""
+        """Text of the title bar; assignable."""
         return self._title
 
     @title.setter
@@ -311,7 +311,7 @@ class Window:
 
     @property
     def scale(self) -> int:
-        """How many times finer than usual the window's screen is; 1 where it is unknown."""
+        """Scale factor of the window's screen; 1 if unknown."""
         density = self._opened().density
         return max(screen_scale(self._sdl, self._window), int(density + 0.5))
 
@@ -323,15 +323,15 @@ class Window:
         return bool(self._sdl.SDL_GetWindowFlags(self._window) & hidden)
 
     def fit_to_screen(self) -> None:
-        """Make the window smaller, where it is larger than its screen has room for.
+        """Shrink the window if it is larger than its screen.
 
-        The title bar and the borders count. A window is as large as it was asked for otherwise.
+        The title bar and borders count. Other windows keep their requested size.
         """
         self._opened()
         fit_to_screen(self._sdl, self._window)
 
     def toggle_fullscreen(self) -> None:
-        """Fill the screen, or go back to a window."""
+        """Toggle between full screen and a window."""
         self._opened()
         sdl = self._sdl
         full = sdl.SDL_WINDOW_FULLSCREEN_DESKTOP

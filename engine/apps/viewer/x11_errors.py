@@ -1,8 +1,8 @@
-"""The one error of an X server that must not end the program.
+"""Ignores an X11 error that must not end the program.
 
-SDL wakes itself by a message to its own window, on a connection of its own. A busy server may take
-this message up after the window has been closed, and calls the window bad; Xlib then ends the
-process, for nothing.
+SDL wakes itself by messages to its own window, on a separate connection. A busy server may process
+such a message after the window was closed, and report a bad window; Xlib would then end the
+process.
 """
 
 from __future__ import annotations
@@ -28,21 +28,21 @@ class _Error(ctypes.Structure):
 
 
 _Handler = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.POINTER(_Error))
-#: The handler that Xlib has from here, which must live as long as the process.
+#: Our Xlib error handler, which must live as long as the process.
 _installed: list[ctypes._CFuncPtr] = []
 
 
 def forgive_late_messages() -> None:
-    """Let messages to closed windows pass; every other error goes to the handler of before.
+    """Ignore late messages to closed windows; pass other errors to the previous handler.
 
-    It is called before SDL starts its video, which puts a handler of its own in front of this one
-    and takes it away again when it ends: the error comes at the very end.
+    It must be called before SDL starts its video, which installs a handler in front of this one and
+    removes it at its end: the error comes last.
     """
     if _installed:
         return
     try:
         set_handler = ctypes.CDLL("libX11.so.6").XSetErrorHandler
-    except OSError:  # without the library SDL has no such screen
+    except OSError:  # without the library SDL has no X11 screen
         return
     set_handler.argtypes, set_handler.restype = [ctypes.c_void_p], ctypes.c_void_p
 

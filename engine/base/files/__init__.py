@@ -1,4 +1,4 @@
-"""Files whatever is in them: written whole or not at all, loaded once, noticed when they change.
+"""File utilities for any content: atomic writing, hashing, listing, change detection.
 
-Animations are written here as well; models are read in loaders/ and written in writers/.
+Readers and writers of models and images are in io/.
 """

@@ -1,15 +1,15 @@
-"""Writing files so that they are there whole or not at all.
+"""Atomic writing: output files appear whole or not at all.
 
 In: the paths of output files. Out: binary file objects to write to. The bytes go to a temporary
-name in the same folder, which takes the target's name only when everything was written; whatever
-stood there before stays untouched until then, and a failure, or a signal that Python turns into an
-exception, leaves nothing behind. The bytes are on the disk before the name is, and the name is when
-the block ends: after a power cut there is the old file or the new one. Files that belong together
-appear one right after the other.
+file in the same folder, which is renamed to the target when everything is written; until then the
+old file stays untouched, and a failure, or a signal that Python turns into an exception, leaves
+nothing behind. The bytes are synced before the rename, and the name when the block ends: after a
+power cut there is the old file or the new one. Files that belong together appear one right after
+the other.
 
-What may be replaced: a path that somebody named may be a symbolic link, and what it leads to is
-replaced. Where somebody named a folder, and engine3d the files in it, nothing outside of that
-folder is: a link in a file's place is itself replaced, and folders that lead out are an error.
+A path named by the user may be a symbolic link, whose target is replaced. In a folder named by the
+user, engine3d names the files, and replaces nothing outside: it replaces links themselves, and
+refuses folders that lead out.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from ...errors import FileAccessError, InvalidArgumentError
 from ..numbers import shown
 from ..system import AT_ONCE, READ_WRITE, WRITE, set_mode, sync_folder
 
-#: What stays where a process was killed while it wrote.
+#: Temporary files left by a process that was killed while writing.
 LEFT_BEHIND = re.compile(r"\.(?P<name>.*)\.[0-9a-f]{16}\.part", re.DOTALL)
 
 
@@ -34,17 +34,17 @@ LEFT_BEHIND = re.compile(r"\.(?P<name>.*)\.[0-9a-f]{16}\.part", re.DOTALL)
 def atomic_write(
     path: str | os.PathLike[str], *, below: str | os.PathLike[str] | None = None
 ) -> Iterator[BinaryIO]:
-    """Open ``path`` for writing; it appears when the ``with`` block ends without an exception.
+    """Open ``path`` for writing; the file appears when the block ends without an exception.
 
     Parameters
     ----------
     path : str or path-like
-        The output file. An existing file is replaced and its permissions are kept, but for bits
-        that let it run as another user. What is not a regular file (a device such as
-        ``/dev/stdout``, a FIFO that somebody reads) is written to directly.
+        The output file. An existing file is replaced; its permissions are kept, except set-user and
+        set-group bits. Anything but a regular file (a device such as ``/dev/stdout``, a FIFO with a
+        reader) is written to directly.
     below : str or path-like, optional
-        The folder that somebody named, where the name of the file is engine3d's own: no link leads
-        out of it.
+        The folder named by the user, if engine3d chose the file's name; links must not lead out of
+        it.
 
     Yields
     ------
@@ -53,8 +53,8 @@ def atomic_write(
     Raises
     ------
     FileAccessError
-        The folder does not exist, cannot be written to, the disk is full, the path is none, is a
-        FIFO that nobody reads, or leads out of ``below``.
+        The folder does not exist or cannot be written to, the disk is full, or the path is invalid,
+        is a FIFO without a reader, or leads out of ``below``.
     """
     with AtomicFiles() as files:
         yield files.create(path, below=below)
@@ -72,10 +72,10 @@ def checked_path(path: str | bytes | os.PathLike[str]) -> str:
 
 
 class AtomicFiles:
-    """Files that appear together, when the ``with`` block ends without an exception.
+    """Files that appear together when the ``with`` block ends without an exception.
 
-    They are written one after the other, and take their names in the order of creation: one that
-    names others comes last. Raises `FileAccessError` as `atomic_write`; it names the file.
+    They are written one after the other, and renamed in the order of creation: a file that refers
+    to others comes last. Raises `FileAccessError` as `atomic_write` does; it names the file.
     """
 
     def __init__(self) -> None:
@@ -84,7 +84,7 @@ class AtomicFiles:
     def create(
         self, path: str | os.PathLike[str], *, below: str | os.PathLike[str] | None = None
     ) -> BinaryIO:
-        """Begin the next file, as `atomic_write`; the one before is whole, and closed."""
+        """Close the previous file, and open the next one as `atomic_write` does."""
         if self._parts:
             with _named(self._parts[-1].path):
                 self._parts[-1].finish()
@@ -117,40 +117,40 @@ class AtomicFiles:
 
 
 class StreamFiles:
-    """Takes the place of `AtomicFiles` where one file goes to an open stream.
+    """Replaces `AtomicFiles` when a single file goes to an open stream.
 
     Parameters
     ----------
     stream : binary file object
-        Stays open.
+        The stream; it stays open.
     """
 
     def __init__(self, stream: BinaryIO) -> None:
         self._stream = stream
 
     def create(self, path: str, **_: object) -> BinaryIO:
-        """Return the stream, whatever the path."""
+        """Return the stream for any path."""
         return self._stream
 
     def __enter__(self) -> StreamFiles:
         return self
 
     def __exit__(self, *_: Any) -> None:
-        """Nothing has to appear."""
+        """Do nothing: no file has to appear."""
 
 
 Files = AtomicFiles | StreamFiles
 
 
 class _Part:
-    """A file that is being written.
+    """A file in progress.
 
     Attributes
     ----------
     path : str
-        As the caller gave it.
+        The path as the caller gave it.
     folder : str or None
-        Where its name is new, once it appeared.
+        The folder to sync after a rename.
     file : binary file object
     """
 
@@ -176,9 +176,9 @@ class _Part:
             mode = status.st_mode
             self._mode = stat.S_IMODE(mode) & 0o777 if stat.S_ISREG(mode) else None
         folder, name = os.path.split(self._target)
-        # Some letters of the name: at most 128 of the 255 bytes that a name may have.
+        # Only 32 characters of the name, at most 128 of the 255 bytes that a name may have.
         self._temporary = os.path.join(folder, f".{name[:32]}.{os.urandom(8).hex()}.part")
-        # A file that replaces a private one is private from the beginning.
+        # A file that replaces a private one must be private from the start.
         mode = 0o666 if self._mode is None else 0o600
         flags = READ_WRITE | os.O_CREAT | os.O_EXCL
         self.file = os.fdopen(os.open(self._temporary, flags, mode), "wb")
@@ -198,7 +198,7 @@ class _Part:
             self.folder = os.path.dirname(self._target)
 
     def discard(self) -> None:
-        """Close the file, and remove it if it did not appear."""
+        """Close the file, and remove it if it was not renamed."""
         with contextlib.suppress(AttributeError, OSError):
             self.file.close()
         if self._temporary is not None:
@@ -207,7 +207,7 @@ class _Part:
 
 
 def path_below(path: str, folder: str) -> str:
-    """Return a path without links, but for its last part, which is in a folder or below it.
+    """Return a path with its folder resolved; the folder must be ``below`` or inside it.
 
     Raises `FileAccessError` where links lead out of the folder.
     """
@@ -218,7 +218,7 @@ def path_below(path: str, folder: str) -> str:
 
 
 def _opened_device(path: str) -> int:
-    """Open what is no regular file; a FIFO that nobody reads is an error, not a wait for ever."""
+    """Open a device or FIFO; a FIFO without a reader is an error, instead of waiting forever."""
     try:
         handle = os.open(path, WRITE | AT_ONCE)
     except OSError as error:
@@ -232,7 +232,7 @@ def _opened_device(path: str) -> int:
 
 @contextlib.contextmanager
 def _named(path: str | None) -> Iterator[None]:
-    """Let errors of the system name the file."""
+    """Turn system errors within the block into errors that name the file."""
     try:
         yield
     except FileAccessError:

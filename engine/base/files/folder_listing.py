@@ -1,7 +1,7 @@
-"""The contents of a folder, as a file dialog shows them.
+"""The contents of a folder, as a file dialog lists them.
 
-In: a path, extensions, a text. Out: its folders, then its files. Nothing is opened or followed; a
-folder that cannot be read is an empty one with a reason.
+In: a path, extensions, a search text. Out: its folders, then its files. Nothing is opened or
+followed; an unreadable folder is empty, with a reason.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class Listing(NamedTuple):
     items : tuple of Item
         Folders first, each kind by name; at most 10,000.
     reason : str
-        Why there is nothing or not all; "" if all is well.
+        Why the list is empty or incomplete; "" if it is complete.
     """
 
     path: str
@@ -57,16 +57,16 @@ class Listing(NamedTuple):
     def filtered(
         self, extensions: Collection[str] = (), search: str = "", *, hidden: bool = False
     ) -> tuple[Item, ...]:
-        """Return the folders, and the files of some kinds, whose names hold a text.
+        """Return the folders, and the files with given extensions, whose names contain a text.
 
         Parameters
         ----------
         extensions : collection of str
             In lower case, with the dot, also such as ``.obj.gz``; none for all files.
         search : str
-            In whatever case.
+            Case is ignored.
         hidden : bool
-            Show also what begins with a dot.
+            Include names that begin with a dot.
         """
         ends, text = tuple(extensions), search.casefold()
         return tuple(
@@ -79,7 +79,7 @@ class Listing(NamedTuple):
 
 
 def list_folder(path: str | os.PathLike[str]) -> Listing:
-    """Return what a folder holds; what is neither a folder nor a regular file is left out."""
+    """Return the folders and regular files in a folder."""
     folder = os.path.abspath(os.fspath(path))
     items: list[Any] = []
     reason = ""
@@ -99,7 +99,7 @@ def list_folder(path: str | os.PathLike[str]) -> Listing:
 def _item(entry: os.DirEntry[str]) -> list[Item]:
     try:
         status = entry.stat()
-    except OSError:  # gone meanwhile, or a link that leads nowhere
+    except OSError:  # deleted meanwhile, or a broken link
         return []
     is_folder = stat.S_ISDIR(status.st_mode)
     if not is_folder and not stat.S_ISREG(status.st_mode):

@@ -1,7 +1,7 @@
-"""Hashes of what files hold.
+"""Hashes of files.
 
-In: a path. Out: a hash, read piece by piece, so that it needs little memory. What is no file, such
-as a FIFO, is an error: whoever writes to it might never begin.
+In: a path. Out: a hash, read in pieces to save memory. Anything but a regular file is an error: a
+FIFO might never get a writer.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ _PIECE = 1 << 20
 
 
 def hash_of_file(path: str | os.PathLike[str], digest: Any) -> str:
-    """Return the hash of a file, by an object of `hashlib`, in hexadecimal digits.
+    """Return the hash of a file as hexadecimal digits, computed by a `hashlib` object.
 
     Raises
     ------
     OSError
-        It cannot be read, or is no regular file.
+        The file cannot be read, or is not a regular file.
     """
-    _check(os.stat(path), path)  # opening a FIFO and closing it would end whoever writes to it
+    _check(os.stat(path), path)  # opening and closing a FIFO would kill its writer
     with open(path, "rb", opener=_opened_at_once) as file:
         _check(os.fstat(file.fileno()), path)
         while piece := file.read(_PIECE):

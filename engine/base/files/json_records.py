@@ -1,9 +1,9 @@
-"""Files of JSON that the program itself writes and reads again, whatever stands in them by then.
+"""Reading and writing of the program's own JSON files, with checks of their content.
 
-In: a path, or bytes, and the shape that the value should have. Out: a value of that shape, or an
-error that names the file and the place. A shape is a function that returns where in a value it
-finds something else, as ``.files[2]``, and None where it does not. Sealed files begin with the hash
-of their rest: not a letter of them was changed, else they count as damaged.
+In: a path, or bytes, and the expected shape. Out: a value of that shape, or an error that names the
+file and the place. A shape is a function that returns the place of the first mismatch in a value,
+such as ``.files[2]``, or None. Sealed files begin with a hash of their rest; if it does not match,
+they count as damaged.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ Shape: TypeAlias = Callable[[Any], "str | None"]
 LARGEST = 1 << 28  # bytes
 _SEAL, _DIGITS = b'{"seal":"', 40
 _LARGEST_WHOLE = 1 << 63
-_LAST_SECOND = 1 << 37  # in the year 6325: on no system too late for a date
+_LAST_SECOND = 1 << 37  # in the year 6325: all systems accept this date
 
 
 def parsed(data: str | bytes, path: str, shape: Shape | None = None) -> Any:
-    """Return the value that a text holds.
+    """Return the value of a JSON text, checked.
 
     Raises
     ------
     FileFormatError
-        It is not JSON, as RFC 8259 has it, or the value is of another shape; the message names the
-        line, or the place.
+        The text is not JSON (RFC 8259), or the value has another shape; the message names the line
+        or the place.
     """
     try:
         value = json.loads(data, object_pairs_hook=_object, parse_constant=_no_constant)
@@ -45,13 +45,13 @@ def parsed(data: str | bytes, path: str, shape: Shape | None = None) -> Any:
         raise FileFormatError(f"not JSON: {error.msg}", path, error.lineno) from None
     except UnicodeDecodeError:
         raise FileFormatError("not JSON: it is not in UTF-8", path) from None
-    except ValueError as error:  # what the hooks say; a number of more digits than Python reads
+    except ValueError as error:  # from the hooks, or for numbers with too many digits
         raise FileFormatError(f"not JSON: {error}", path) from None
     return value if shape is None else checked(value, path, shape)
 
 
 def checked(value: Any, path: str, shape: Shape) -> Any:
-    """Return a value that is of a shape, or raise `FileFormatError`."""
+    """Return a value if it has a shape, or raise `FileFormatError`."""
     where = shape(value)
     if where is not None:
         place = f"{where.removeprefix('.')}: " if where else ""
@@ -62,20 +62,20 @@ def checked(value: Any, path: str, shape: Shape) -> Any:
 def read_json(
     path: str | os.PathLike[str], shape: Shape | None = None, *, regular: bool = True
 ) -> Any:
-    """Return the value that a file holds.
+    """Return the value of a JSON file.
 
     Raises
     ------
     FileAccessError
-        It cannot be read; or it is no regular file, unless ``regular`` is false: whoever writes to
-        a FIFO that nobody named might never begin.
+        The file cannot be read, or is not a regular file (unless ``regular`` is false): a FIFO
+        might never get a writer.
     FileFormatError
     """
     return parsed(read_small(path, regular=regular), os.fspath(path), shape)
 
 
 def read_small(path: str | os.PathLike[str], most: int = LARGEST, *, regular: bool = True) -> bytes:
-    """Return the bytes of a file that is not large; raises as `read_json`."""
+    """Return the bytes of a small file; raise as `read_json` does."""
     data = start_of(path, most + 1, regular=regular)
     if len(data) > most:
         raise FileFormatError(f"not read: larger than {most} bytes", os.fspath(path))
@@ -83,9 +83,9 @@ def read_small(path: str | os.PathLike[str], most: int = LARGEST, *, regular: bo
 
 
 def start_of(path: str | os.PathLike[str], size: int, *, regular: bool = True) -> bytes:
-    """Return the first bytes of a file, so many at most.
+    """Return the first bytes of a file, at most ``size``.
 
-    Raises `FileAccessError`, as `read_json`.
+    Raises `FileAccessError` as `read_json` does.
     """
     path = os.fspath(path)
     try:
@@ -95,7 +95,7 @@ def start_of(path: str | os.PathLike[str], size: int, *, regular: bool = True) -
                 if regular:
                     raise FileAccessError("cannot read: not a regular file", path)
                 return file.read(size)
-            # A buffer is made first; what a system makes up has a size of 0.
+            # read() allocates its buffer first; virtual files have size 0.
             return file.read(min(size, max(status.st_size, 1 << 16)))
     except FileAccessError:
         raise
@@ -105,14 +105,14 @@ def start_of(path: str | os.PathLike[str], size: int, *, regular: bool = True) -
 
 
 def sealed(value: dict[str, Any]) -> bytes:
-    """Return the bytes of a file that `read_sealed` reads."""
+    """Return a value as the bytes of a sealed file, which `read_sealed` reads."""
     text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     rest = b'",' + text.removeprefix("{").encode("utf-8")
     return _SEAL + _digest(rest) + rest
 
 
 def read_sealed(path: str | os.PathLike[str], shape: Shape) -> Any:
-    """Return what `sealed` was given; raises as `read_json`, or where anything was changed."""
+    """Return the value of a sealed file; raise as `read_json` does, or if it was modified."""
     data, name = read_small(path), os.fspath(path)
     start = len(_SEAL) + _DIGITS
     fits = data.startswith(_SEAL) and data[len(_SEAL) : start] == _digest(data[start:])
@@ -132,7 +132,7 @@ def _opened_at_once(path: str, flags: int) -> int:
 
 
 def _object(entries: list[tuple[str, Any]]) -> dict[str, Any]:
-    """An object, none of whose members is there twice: which one counts would be a guess."""
+    """Build a JSON object; refuse duplicate members, which are ambiguous."""
     found = dict(entries)
     if len(found) < len(entries):
         counts = Counter(key for key, _ in entries)
@@ -149,17 +149,17 @@ def _no_constant(name: str) -> None:
 
 
 def anything(value: Any) -> str | None:
-    """Whatever it is."""
+    """Accept any value."""
     return None
 
 
 def text(value: Any) -> str | None:
-    """A text; of paths, which need not be UTF-8, it may hold what stands for their bytes."""
+    """Accept a text; for paths it may contain surrogates for bytes that are not UTF-8."""
     return None if isinstance(value, str) else ""
 
 
 def sound_text(value: Any) -> str | None:
-    """A text that can be written as UTF-8."""
+    """Accept a text that can be encoded as UTF-8."""
     try:
         return None if isinstance(value, str) and value.encode("utf-8") is not None else ""
     except UnicodeError:
@@ -167,7 +167,7 @@ def sound_text(value: Any) -> str | None:
 
 
 def path_text(value: Any) -> str | None:
-    """A text that the system can take for a path."""
+    """Accept a text that the system can use as a path."""
     try:
         return None if isinstance(value, str) and b"\0" not in os.fsencode(value) else ""
     except UnicodeError:
@@ -175,46 +175,46 @@ def path_text(value: Any) -> str | None:
 
 
 def path_inside(value: Any) -> str | None:
-    """A path that leads from a folder to what is in it."""
+    """Accept a relative path that stays inside its folder."""
     if path_text(value) is not None or not value or os.path.isabs(value):
         return ""
     return "" if ".." in value.replace("\\", "/").split("/") else None
 
 
 def whole(value: Any) -> str | None:
-    """A whole number of 64 bits."""
+    """Accept a 64-bit integer."""
     return None if type(value) is int and abs(value) < _LARGEST_WHOLE else ""
 
 
 def count(value: Any) -> str | None:
-    """A whole number from 0 on."""
+    """Accept an integer from 0 on."""
     return None if whole(value) is None and value >= 0 else ""
 
 
 def number(value: Any) -> str | None:
-    """A finite number."""
+    """Accept a finite number."""
     if type(value) is float:
         return None if math.isfinite(value) else ""
     return whole(value)
 
 
 def time_of_day(value: Any) -> str | None:
-    """Seconds since the epoch that a calendar has."""
+    """Accept seconds since the epoch that a calendar can represent."""
     return None if number(value) is None and 0 <= value < _LAST_SECOND else ""
 
 
 def one_of(*values: Any) -> Shape:
-    """One of some values of the same type."""
+    """Return a shape: one of some values of the same type."""
     return lambda value: None if any(type(value) is type(v) and value == v for v in values) else ""
 
 
 def maybe(shape: Shape) -> Shape:
-    """A value, or null."""
+    """Return a shape: a value of another shape, or null."""
     return lambda value: None if value is None else shape(value)
 
 
 def listed(shape: Shape, exactly: int | None = None) -> Shape:
-    """A list of values of one shape."""
+    """Return a shape: a list of values of one shape."""
 
     def check(value: Any) -> str | None:
         if not isinstance(value, list) or exactly not in (None, len(value)):
@@ -225,7 +225,7 @@ def listed(shape: Shape, exactly: int | None = None) -> Shape:
 
 
 def row(*shapes: Shape) -> Shape:
-    """A list of so many values, each of its own shape."""
+    """Return a shape: a list of fixed length, with a shape for each value."""
 
     def check(value: Any) -> str | None:
         if not isinstance(value, list) or len(value) != len(shapes):
@@ -237,7 +237,7 @@ def row(*shapes: Shape) -> Shape:
 
 
 def mapped(key: Shape, shape: Shape) -> Shape:
-    """An object whose keys are of one shape, and its values of another."""
+    """Return a shape: an object whose keys have one shape and whose values another."""
 
     def check(value: Any) -> str | None:
         if not isinstance(value, dict):
@@ -252,7 +252,7 @@ def mapped(key: Shape, shape: Shape) -> Shape:
 def members(
     needed: dict[str, Shape], optional: dict[str, Shape] | None = None, *, more: bool = False
 ) -> Shape:
-    """An object with these members, and with others only where ``more`` says so."""
+    """Return a shape: an object with these members; others are allowed if ``more``."""
     known = {**needed, **(optional or {})}
 
     def check(value: Any) -> str | None:
@@ -266,7 +266,7 @@ def members(
 
 
 def _first(found: Iterable[tuple[str, Shape, Any]]) -> str | None:
-    """The place of the first value that is not of its shape."""
+    """Return the place of the first value that does not have its shape."""
     for place, shape, value in found:
         where = shape(value)
         if where is not None:

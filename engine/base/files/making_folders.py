@@ -1,4 +1,4 @@
-"""Folders made for files that are about to be written."""
+"""Creates folders for output files."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ from .atomic_write import path_below
 
 
 def make_folder_of(path: str | os.PathLike[str], *, below: str | None = None) -> None:
-    """Make the folder that a file will be in, and those above it.
+    """Create the folder of a file, and the folders above it.
 
-    Raises `FileAccessError`, also where links lead out of the folder ``below``, as `atomic_write`.
+    Raises `FileAccessError`, also if links lead out of the folder ``below``, as `atomic_write`
+    does.
     """
     folder = os.path.dirname(path) or os.curdir
     try:
@@ -30,7 +31,7 @@ def make_folder_of(path: str | os.PathLike[str], *, below: str | None = None) ->
 
 
 def _lacking(folder: str) -> list[str]:
-    """Return a folder and those above it, as far as they are not there yet."""
+    """Return a folder and its ancestors, as far as they do not exist yet."""
     lacking = []
     while folder and not os.path.isdir(folder):
         lacking.append(folder)

@@ -1,4 +1,4 @@
-"""Arrays of pixels as PNG files: the same bytes on every machine.
+"""PNG encoding of pixel arrays, with the same bytes on every machine.
 
 In: grey, RGB or RGBA pixels. Out: the bytes of a file, by the core's own compressor.
 """
@@ -12,9 +12,9 @@ from ..._native.images import encode_png
 
 
 def encode_pixels(pixels: NDArray[np.uint8] | NDArray[np.uint16] | NDArray[np.bool_]) -> bytes:
-    """Return the file of (H, W) or (H, W, 1 to 4) pixels, uint8 or uint16; of bool, True is white.
+    """Return pixels, (H, W) or (H, W, 1 to 4), uint8, uint16 or bool (True is white), as PNG.
 
-    Raises `InvalidArgumentError` where a side is longer than 16384.
+    Raises `InvalidArgumentError` if a side exceeds 16384.
     """
     height, width = pixels.shape[:2]
     deep = pixels.dtype == np.uint16

@@ -1,10 +1,10 @@
-"""Stamps: tell whether a file changed, without reading it if possible.
+"""File stamps: detect whether a file changed, if possible without reading it.
 
-In: paths. Out: stamps, and whether a file was written between two of them: size, time of writing or
-place on the disk differ then, or the time of the last change of any kind does, which no program can
-set back, and not because of other permissions, owners or links. File systems count time in steps,
-and what is written twice within one keeps its stamp: a file that had only just changed when it was
-looked at is therefore read once more when that step is surely over.
+In: paths. Out: stamps, and whether a file was written between two of them. A write changes the
+size, the time of writing, the place on the disk, or at least the time of the last change, which no
+program can set back; changes of permissions, owners or links alone do not count. File systems count
+time in steps, and two writes within one step give the same stamp: so a file that had just changed
+when it was checked is read again after that step is surely over.
 """
 
 from __future__ import annotations
@@ -20,17 +20,18 @@ _STEP = 2 * 10**9  # nanoseconds; FAT has the longest step
 
 
 class FileStamp(NamedTuple):
-    """The system's data on a file; times are in nanoseconds."""
+    """A file's metadata from the system; times are in nanoseconds."""
 
     size: int
     inode: int
     written: int
     changed: int
-    rights: tuple[int, ...]  # permissions, owner, group, links: these change, too
+    # permissions, owner, group, links: they also change the time of the last change
+    rights: tuple[int, ...]
 
 
 def file_stamp(path: str | os.PathLike[str]) -> FileStamp | None:
-    """Return what differs once a file was written; None if there is no such file."""
+    """Return a stamp that differs after a file is written; None if there is no such file."""
     try:
         status = os.stat(path)
     except (OSError, ValueError):
@@ -41,14 +42,14 @@ def file_stamp(path: str | os.PathLike[str]) -> FileStamp | None:
 
 
 def was_written(then: FileStamp | None, now: FileStamp | None) -> bool:
-    """Whether the file came, went or was written between two stamps."""
+    """Return whether the file appeared, disappeared or was written between two stamps."""
     if then is None or now is None:
         return then is not now
     return then[:3] != now[:3] or (then.changed != now.changed and then.rights == now.rights)
 
 
 class FileState:
-    """A file as it is when this is made; whoever reads it afterwards misses no change.
+    """The state of a file at creation; a reader that starts afterwards misses no change.
 
     Parameters
     ----------
@@ -61,7 +62,7 @@ class FileState:
         self._content = _digest(path) if self._is_young() else None
 
     def changed(self) -> bool:
-        """Whether the file is another now; within two seconds of a change, it may take so long."""
+        """Return whether the file has changed; this may take two seconds right after a change."""
         stamp = file_stamp(self._path)
         if was_written(self._stamp, stamp):
             return True

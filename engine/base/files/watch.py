@@ -1,4 +1,4 @@
-"""Tells when a file has been written anew, or is gone.
+"""Detects when a file is rewritten or deleted.
 
 In: a path. Out: True once after each change, when the file's stamp has settled.
 """
@@ -10,12 +10,12 @@ import time
 
 from .stamps import file_stamp, was_written
 
-#: How often the file is looked at.
+#: Seconds between checks.
 CHECK_SECONDS = 0.25
 
 
 class FileWatch:
-    """Watches one file.
+    """Watches one file for changes.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ class FileWatch:
     Attributes
     ----------
     missing : bool
-        Whether it was not there when it was last looked at.
+        Whether the file was missing at the last check.
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
@@ -38,10 +38,10 @@ class FileWatch:
         return self._seen is None
 
     def changed(self) -> bool:
-        """Return whether the file was written, came or went since it was last looked at.
+        """Return whether the file was written, appeared or disappeared since the last report.
 
-        A file whose stamp still moves between two checks is being written: it is not reported yet.
-        Nor is one that is away for so short a time, as when another takes its name.
+        A file whose stamp changes between two checks is still being written, and is not reported
+        yet. Nor is a file that is missing only briefly, as during a rename.
         """
         if time.monotonic() < self._next_check:
             return False

@@ -4,7 +4,7 @@ Conventions (those of pyrender, three.js and trimesh): right-handed, angles in r
 matrices for column vectors (``world = multiply(world_from_object, object)``), quaternions
 ``x, y, z, w``, cameras that look down their own -Z with +Y up, poses that are world-from-object.
 
-Everything is float64 and is made of single IEEE operations (``+ - * /``, square root), one element
+Everything is float64 and computed by single IEEE operations (``+ - * /``, square root), one element
 at a time and in a fixed order. No BLAS, no ``einsum``, no ``numpy.linalg``, no ``libm``: those
 round differently from one processor to the next, and an image would differ with them.
 """

@@ -1,4 +1,4 @@
-"""4x4 affine and projective matrices: making, multiplying, inverting, applying them.
+"""4x4 affine and projective matrices: construction, products, inverses, transforms.
 
 In: float-like arrays; matrices are row-major arrays that act on column vectors from the left, and
 functions that take matrices take stacks of them, shape (..., 4, 4). Out: float64.
@@ -55,7 +55,7 @@ def _three_factors(name: str, factors: npt.ArrayLike) -> FloatArray:
 
 
 def _three(name: str, values: npt.ArrayLike) -> FloatArray:
-    """Return one vector."""
+    """Return one vector, checked."""
     vector = as_vectors(name, values)
     if vector.shape != (3,):
         raise InvalidArgumentError(f"{name} must have shape (3,), not {vector.shape}")
@@ -63,7 +63,7 @@ def _three(name: str, values: npt.ArrayLike) -> FloatArray:
 
 
 def _plane_rotation(first: int, second: int, angle: float) -> FloatArray:
-    """Rotate the axis `first` towards the axis `second`."""
+    """Return the rotation of the axis `first` towards the axis `second`."""
     matrix = np.eye(4)
     angle = finite_angle(angle, "angle")
     c, s = cos(angle), sin(angle)
@@ -93,7 +93,7 @@ def rotation_axis(axis: npt.ArrayLike, angle: float) -> FloatArray:
     Parameters
     ----------
     axis : array_like, shape (3,)
-        Direction of the axis, of any length but zero.
+        Direction of the axis, of any nonzero length.
     angle : float
         Radians, counter-clockwise seen from the tip of the axis.
 
@@ -140,7 +140,7 @@ def multiply(a: npt.ArrayLike, b: npt.ArrayLike, *more: npt.ArrayLike) -> FloatA
 
 
 def _pair_determinants(m: FloatArray, row: int) -> dict[tuple[int, int], FloatArray]:
-    """Return the 2x2 determinants of rows `row` and `row + 1` by their pair of columns."""
+    """Return the 2x2 determinants of rows `row` and `row + 1`, by pair of columns."""
     upper, lower = m[..., row, :], m[..., row + 1, :]
     return {
         (i, j): upper[..., i] * lower[..., j] - upper[..., j] * lower[..., i]
@@ -172,12 +172,12 @@ def inverse(m: npt.ArrayLike) -> FloatArray:
         if not invert(np.ascontiguousarray(m), result):
             raise InvalidArgumentError(_SINGULAR)
         return result
-    with np.errstate(all="ignore"):  # what overflows is reported below
+    with np.errstate(all="ignore"):  # overflow is reported below
         top, bottom = _pair_determinants(m, 0), _pair_determinants(m, 2)
         adjugate = np.empty_like(m)
         for column in range(4):
-            # Entry (column, row) of the adjugate is a signed 3x3 minor without that row and
-            # column: the row's partner in its pair, times the pair determinants of the others.
+            # Entry (column, row) of the adjugate is a signed 3x3 minor without that row and column:
+            # the paired row's entries, times the other pair's determinants.
             others = [k for k in range(4) if k != column]
             for row in range(4):
                 partner = m[..., row ^ 1, :]
@@ -186,7 +186,7 @@ def inverse(m: npt.ArrayLike) -> FloatArray:
                 minor = partner[..., i] * pairs[j, k] - partner[..., j] * pairs[i, k]
                 minor = minor + partner[..., k] * pairs[i, j]
                 adjugate[..., column, row] = -minor if (row + column) % 2 else minor
-        # Expanded along the last row, which makes it an affine matrix's own minor, to the bit.
+        # Expanded along the last row, this is an affine matrix's own 3x3 determinant, to the bit.
         determinant = m[..., 3, 0] * adjugate[..., 0, 3]
         for k in range(1, 4):
             determinant = determinant + m[..., 3, k] * adjugate[..., k, 3]
@@ -196,7 +196,7 @@ def inverse(m: npt.ArrayLike) -> FloatArray:
     return result
 
 
-@np.errstate(all="ignore")  # what overflows is infinite, what is undefined no number
+@np.errstate(all="ignore")  # overflow gives infinity or NaN
 def transform_points(m: npt.ArrayLike, points: npt.ArrayLike) -> FloatArray:
     """Apply a matrix to points, dividing by w if the matrix is projective.
 
@@ -222,11 +222,11 @@ def transform_points(m: npt.ArrayLike, points: npt.ArrayLike) -> FloatArray:
     return result / w[..., np.newaxis]
 
 
-@np.errstate(all="ignore")  # what overflows is infinite, what is undefined no number
+@np.errstate(all="ignore")  # overflow gives infinity or NaN
 def transform_directions(m: npt.ArrayLike, directions: npt.ArrayLike) -> FloatArray:
     """Apply a matrix without its translation to direction vectors, shape (..., 3).
 
-    Normals need `normal_matrix` instead wherever the scale isn't uniform.
+    For normals, use `normal_matrix` instead unless the scale is uniform.
     """
     m, d = _single_matrix(m), as_vectors("directions", directions)
     x, y, z = (d[..., k, np.newaxis] for k in range(3))
@@ -243,8 +243,8 @@ def _single_matrix(m: npt.ArrayLike) -> FloatArray:
 def normal_matrix(m: npt.ArrayLike) -> FloatArray:
     """Return the inverse transpose of the upper left 3x3, which transforms normals.
 
-    Where that is singular (an object scaled to zero along an axis), the matrix of cofactors
-    stands in: it gives the same directions as far as they exist.
+    If that is singular (an object scaled to zero along an axis), the cofactor matrix replaces it:
+    it gives the same directions as far as they exist.
 
     Parameters
     ----------
@@ -253,7 +253,7 @@ def normal_matrix(m: npt.ArrayLike) -> FloatArray:
     Returns
     -------
     ndarray of float64, shape (..., 3, 3)
-        Transformed normals aren't of unit length in general.
+        Transformed normals generally don't have unit length.
     """
     m = as_matrices("m", m)
     x, y, z = (m[..., :3, k] for k in range(3))
@@ -264,7 +264,7 @@ def normal_matrix(m: npt.ArrayLike) -> FloatArray:
     return np.where(np.all(np.isfinite(result), axis=(-2, -1), keepdims=True), result, cofactors)
 
 
-@np.errstate(all="ignore")  # what overflows is infinite, what is undefined no number
+@np.errstate(all="ignore")  # overflow gives infinity or NaN
 def compose(
     offset: npt.ArrayLike = (0.0, 0.0, 0.0),
     rotation: npt.ArrayLike = (0.0, 0.0, 0.0, 1.0),
@@ -276,7 +276,7 @@ def compose(
     ----------
     offset : array_like, shape (3,)
     rotation : array_like, shape (4,)
-        Quaternion x, y, z, w, of any length but zero.
+        Quaternion x, y, z, w, of any nonzero length.
     scale : float or array_like of shape (3,)
 
     Returns
@@ -294,12 +294,11 @@ def compose(
     return matrix
 
 
-@np.errstate(all="ignore")  # what overflows is infinite, what is undefined no number
+@np.errstate(all="ignore")  # overflow gives infinity or NaN
 def decompose(m: npt.ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Split a pose into translation, quaternion and scale, the inverse of `compose`.
 
-    A reflection shows as a negative scale along x, as in three.js. Shear can't be expressed and is
-    lost.
+    A reflection becomes a negative scale along x, as in three.js. Shear is lost.
 
     Parameters
     ----------

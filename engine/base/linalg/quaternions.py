@@ -1,8 +1,8 @@
 """Rotations as quaternions x, y, z, w.
 
-In: quaternions of any length but zero (they are normalised where it matters), shape (4,) or
-stacks (..., 4) where said. Out: float64 unit quaternions, or 4x4 rotation matrices.
-Sources: Shoemake 1985 (products, conversion), Shepperd 1978 (matrix to quaternion).
+In: quaternions of any nonzero length (normalised where it matters), shape (4,) or, where
+documented, stacks (..., 4). Out: float64 unit quaternions, or 4x4 rotation matrices. Sources:
+Shoemake 1985 (products, conversion), Shepperd 1978 (matrix to quaternion).
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from .vectors import as_vectors, normalize
 
 FloatArray = npt.NDArray[np.float64]
 
-# Below this cosine of the second angle, the first and the third turn about the same axis.
+# Below this cosine of the second angle, the first and third turn about the same axis.
 _GIMBAL_LOCK = 1e-9
 _NO_LENGTH = "a quaternion must have a finite length greater than zero"
 
@@ -44,7 +44,7 @@ def quaternion_from_axis_angle(axis: npt.ArrayLike, angle: float) -> FloatArray:
     Parameters
     ----------
     axis : array_like, shape (3,)
-        Direction of the axis, of any length but zero.
+        Direction of the axis, of any nonzero length.
     angle : float
         Radians, counter-clockwise seen from the tip of the axis.
 
@@ -105,7 +105,7 @@ def quaternion_to_matrix(q: npt.ArrayLike) -> FloatArray:
     Parameters
     ----------
     q : array_like, shape (..., 4)
-        Quaternions x, y, z, w of any length but zero.
+        Quaternions x, y, z, w of any nonzero length.
 
     Returns
     -------
@@ -143,7 +143,7 @@ def _single_to_matrix(q: list[float]) -> FloatArray:
     return np.array([[*row, 0.0] for row in rows] + [[0.0, 0.0, 0.0, 1.0]])
 
 
-@np.errstate(all="ignore")  # what overflows is infinite, what is undefined no number
+@np.errstate(all="ignore")  # overflow gives infinity or NaN
 def matrix_to_quaternion(m: npt.ArrayLike) -> FloatArray:
     """Return the quaternion of a rotation matrix.
 
@@ -186,12 +186,12 @@ def matrix_to_quaternion(m: npt.ArrayLike) -> FloatArray:
 def euler_to_quaternion(angles: npt.ArrayLike, order: EulerOrder = "XYZ") -> FloatArray:
     """Return the quaternion of three rotations about the object's own axes.
 
-    ``"XYZ"`` turns about x, then about the new y, then about the newest z: three.js's ``Euler``.
+    ``"XYZ"`` rotates about x, then about the new y, then about the newest z: three.js's ``Euler``.
 
     Parameters
     ----------
     angles : array_like, shape (3,)
-        Radians about x, y and z, whatever the order in which they are applied.
+        Radians about x, y and z, regardless of the order of application.
     order : str
         A permutation of ``"XYZ"``.
 
@@ -211,7 +211,7 @@ def euler_to_quaternion(angles: npt.ArrayLike, order: EulerOrder = "XYZ") -> Flo
 
 
 def quaternion_of_turns(angles: FloatArray, order: EulerOrder = "XYZ") -> FloatArray:
-    """Return what `euler_to_quaternion` does, of checked angles."""
+    """Return the quaternion of checked angles; see `euler_to_quaternion`."""
     result = np.array((0.0, 0.0, 0.0, 1.0))
     for axis in _axes_of(order):
         turn = _turn(np.eye(3)[axis], finite(float(angles[axis]), "angles"))
@@ -220,22 +220,22 @@ def quaternion_of_turns(angles: FloatArray, order: EulerOrder = "XYZ") -> FloatA
 
 
 def quaternion_to_euler(q: npt.ArrayLike, order: EulerOrder = "XYZ") -> FloatArray:
-    """Return the three rotations about the object's own axes that make up a quaternion's.
+    """Return the three rotations about the object's own axes that give a quaternion's rotation.
 
-    The inverse of `euler_to_quaternion`: the second angle is between -pi/2 and pi/2; where it is
-    one of these, the third is 0.
+    It is the inverse of `euler_to_quaternion`: the second angle is between -pi/2 and pi/2; at these
+    limits, the third is 0.
 
     Parameters
     ----------
     q : array_like, shape (4,)
-        Quaternion x, y, z, w of any length but zero.
+        Quaternion x, y, z, w of any nonzero length.
     order : str
         A permutation of ``"XYZ"``.
 
     Returns
     -------
     ndarray of float64, shape (3,)
-        Radians about x, y and z, whatever the order in which they are applied.
+        Radians about x, y and z, regardless of the order of application.
 
     Raises
     ------

@@ -1,8 +1,8 @@
-"""One matrix, vector, quaternion or angle in plain Python floats.
+"""Linear algebra for one matrix, vector, quaternion or angle in plain Python floats.
 
 In: floats; vectors as tuples, matrices as sequences of rows. Out: the same. Each function does the
-operations of its array counterpart in the same order, so that both give the same bits; on one small
-thing NumPy spends ten times as long on calls as on numbers.
+operations of its array counterpart in the same order, so that both give the same bits; for a single
+small value, NumPy's call overhead is ten times the arithmetic.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
-"""Sine, cosine, tangent and arc tangent that give the same bits on every processor.
+"""Sine, cosine, tangent and arc tangent with the same bits on every processor.
 
 In: scalars or arrays, angles in radians. Out: float64, within 2 ulps of the exact value.
-``libm`` and NumPy choose among variants at run time (with or without FMA, with vectors) that
-differ in the last bit, so geometry built on them differs between machines. Here there are only
-IEEE additions and multiplications in a fixed order.
-Method: Cody and Waite's argument reduction to [-pi/4, pi/4], then Taylor's series; the arc tangent
-by its addition theorem from nine tabulated values, then its series.
+``libm`` and NumPy choose among variants at run time (with or without FMA or SIMD) that differ in
+the last bit, so geometry built on them differs between machines. This module uses only IEEE
+additions and multiplications in a fixed order. Method: Cody and Waite's argument reduction to
+[-pi/4, pi/4], then Taylor's series; the arc tangent by its addition theorem from nine tabulated
+values, then its series.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _HALF_PI_LOW = float.fromhex("0x1.3198a2e037073p-69")
 _REDUCTION_LIMIT = 2.0**20
 _MOST_POINTS = 2**24  # of a circle
 
-# Coefficients of x**3, x**5, ... and of x**4, x**6, ...; the first term left out is below 2**-60.
+# Coefficients of x**3, x**5, ... and of x**4, x**6, ...; the first omitted term is below 2**-60.
 _SINE_TERMS = tuple((-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9))
 _COSINE_TERMS = tuple((-1.0) ** k / math.factorial(2 * k) for k in range(2, 9))
 
@@ -53,7 +53,7 @@ _ARC_TANGENT_TERMS = tuple((-1.0) ** k / (2 * k + 1) for k in range(1, 8))
 
 def _reduce(angle: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Split angles into the quadrant number 0..3 and a remainder in [-pi/4, pi/4]."""
-    # A quadrant number beyond 2**20 would lose bits. Reducing by the double nearest to 2*pi then
+    # A quadrant number beyond 2**20 would lose bits. There, reduction by the double nearest to 2*pi
     # costs less than the angle's own rounding.
     turned = np.where(np.abs(angle) < _REDUCTION_LIMIT, angle, np.fmod(angle, 2.0 * math.pi))
     count = np.rint(turned * (2.0 / math.pi))
@@ -84,7 +84,7 @@ def _horner(x: FloatArray, coefficients: tuple[float, ...]) -> FloatArray:
 
 
 def _sine_cosine_single(angle: float) -> tuple[float, float]:
-    """The same operations as `_sine_cosine` on one finite float: the same bits, far sooner."""
+    """Return the results of `_sine_cosine` for one finite float: the same bits, much faster."""
     quadrant, x = _reduce_single(angle)
     square = x * x
     sine = x + x * square * _horner_single(square, _SINE_TERMS)
@@ -110,7 +110,7 @@ def _sine_cosine(angle: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         sine = x + x * square * _horner(square, _SINE_TERMS)
         half = 0.5 * square
         leading = 1.0 - half
-        # The second summand is what the subtraction above rounded away.
+        # The second summand is the rounding error of the subtraction above.
         cosine = leading + (
             ((1.0 - leading) - half) + square * square * _horner(square, _COSINE_TERMS)
         )
@@ -122,7 +122,7 @@ def _sine_cosine(angle: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
 
 
 def _like(angle: npt.ArrayLike, value: FloatArray) -> FloatArray | float:
-    """Give a plain float for a scalar angle."""
+    """Return a plain float if the angle is a scalar."""
     return float(value) if np.ndim(angle) == 0 else value
 
 
@@ -247,7 +247,7 @@ def unit_circle(count: int) -> tuple[FloatArray, FloatArray]:
     steep = np.isin(octant, (1, 2, 5, 6))  # nearer to the Y axis than to the X axis
     x = np.where(steep, sine, cosine)
     y = np.where(steep, cosine, sine)
-    # The end of an octant is 45 degrees, where the series gives two values one ulp apart.
+    # The end of an octant is at 45 degrees, where the two series differ by one ulp.
     diagonal = folded == count
     x, y = (np.where(diagonal, math.sqrt(0.5), values) for values in (x, y))
     return np.where(np.isin(octant, (2, 3, 4, 5)), -x, x) + 0.0, np.where(octant >= 4, -y, y) + 0.0

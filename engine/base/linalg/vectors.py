@@ -30,7 +30,7 @@ def as_vectors(name: str, values: npt.ArrayLike, size: int = 3) -> FloatArray:
     return vectors
 
 
-@np.errstate(over="ignore", invalid="ignore")  # what overflows is infinite
+@np.errstate(over="ignore", invalid="ignore")  # overflow gives infinity
 def dot(a: npt.ArrayLike, b: npt.ArrayLike) -> Any:
     """Return the scalar products of vectors.
 
@@ -52,7 +52,7 @@ def dot(a: npt.ArrayLike, b: npt.ArrayLike) -> Any:
     return a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2]
 
 
-@np.errstate(over="ignore", invalid="ignore")  # what overflows is infinite
+@np.errstate(over="ignore", invalid="ignore")  # overflow gives infinity
 def cross(a: npt.ArrayLike, b: npt.ArrayLike) -> FloatArray:
     """Return the right-handed vector products ``a x b``.
 
@@ -87,12 +87,12 @@ def length(v: npt.ArrayLike) -> Any:
     return np.sqrt(dot(v, v))
 
 
-@np.errstate(over="ignore", invalid="ignore")  # what overflows is infinite
+@np.errstate(over="ignore", invalid="ignore")  # overflow gives infinity
 def normalize(v: npt.ArrayLike) -> FloatArray:
     """Return vectors scaled to length 1; null vectors stay null.
 
-    Vectors are first divided by their largest component, so that no finite one overflows or
-    vanishes on the way.
+    Vectors are first divided by their largest component, so that no finite vector overflows or
+    underflows.
 
     Parameters
     ----------

@@ -19,11 +19,11 @@ from . import single
 from .trigonometry import tan
 from .vectors import as_vectors
 
-_LEAST_SLOPE = 1e-30  # of the frustum's sides: what is smaller overflows in float32
+_LEAST_SLOPE = 1e-30  # of the frustum's sides: smaller slopes overflow in float32
 
 FloatArray = npt.NDArray[np.float64]
 
-# Below this sine of the angle between the line of sight and `up`, another `up` is taken.
+# Below this sine of the angle between the line of sight and `up`, another `up` is used.
 _PARALLEL = 1e-9
 
 
@@ -37,8 +37,8 @@ def look_at(
     eye, target : array_like, shape (3,)
         World positions.
     up : array_like, shape (3,)
-        The direction that shall point up in the image. Where it is parallel to the line of sight
-        (looking straight down), the world axis most perpendicular to that line replaces it.
+        The direction that points up in the image. If it is parallel to the line of sight (looking
+        straight down), the world axis most perpendicular to that line replaces it.
 
     Returns
     -------
@@ -85,7 +85,7 @@ def perspective(yfov: float, aspect: float, znear: float, zfar: float | None = N
     znear : float
         Distance of the near plane, greater than 0.
     zfar : float or None
-        Distance of the far plane, greater than `znear`; None or infinity for none at all.
+        Distance of the far plane, greater than `znear`; None or infinity for none.
 
     Returns
     -------
@@ -130,8 +130,8 @@ def orthographic(xmag: float, ymag: float, znear: float, zfar: float) -> FloatAr
     xmag, ymag : float
         Half the width and half the height of the visible box, greater than 0.
     znear, zfar : float
-        Distances of the near and far plane along the line of sight; `zfar` is the greater one,
-        and a negative `znear` lies behind the camera.
+        Distances of the near and far plane along the line of sight, `zfar` greater than `znear`; a
+        negative `znear` lies behind the camera.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Properties that follow from bounds, which primitives, meshes and scenes of pyrender share."""
+"""Properties derived from bounds, shared by pyrender's primitives, meshes and scenes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 
 class Bounded:
-    """Something with bounds."""
+    """Base of objects with bounds."""
 
     @property
     def bounds(self) -> NDArray:
@@ -16,7 +16,7 @@ class Bounded:
 
     @property
     def centroid(self) -> NDArray:
-        """The middle of the bounds, (3,)."""
+        """The centre of the bounds, (3,)."""
         return np.mean(self.bounds, axis=0)
 
     @property

@@ -1,7 +1,7 @@
-"""Pictures: what a scene draws, in which order, and the core's calls that draw it.
+"""Drawing of scenes: what to draw, in which order, with calls of the core.
 
-In: a scene, flags and a size. Out: colours and depths. Opaque triangles go through the engine's
-renderer, which finds out what shows; what is blended, lines and points are drawn one by one, in
+In: a scene, flags and a size. Out: colours and depths. The engine's renderer determines the
+visibility of opaque triangles; blended triangles, lines and points are drawn one by one, in
 pyrender's order: nodes from far to near, opaque ones first.
 """
 
@@ -27,15 +27,15 @@ from .scene import Scene
 from .settings import settings
 
 _TINY = 2.0**-18  # near planes below it need a larger w (R143 in docs/exactness)
-_FAR = 1e6  # how many times as far as the near plane the far one counts as infinite
+_FAR = 1e6  # a far plane this many times farther than the near plane counts as infinite
 _PLAIN = ((1.0, 1.0, 1.0, 1.0), 1.0, 1.0, (0.0, 0.0, 0.0), (None,) * 5)
 _BLACK = ((0.0, 0.0, 0.0, 1.0), 1.0, 1.0, (0.0, 0.0, 0.0), (None,) * 5)
 
 
 class Drawing:
-    """Draws pictures of scenes, and keeps what the next picture may need.
+    """Draws pictures of scenes, and caches data for the next picture.
 
-    Several of them may draw at once, in threads; one draws one picture after the other.
+    Several may draw at once, in threads; each draws one picture after the other.
     """
 
     def __init__(self) -> None:
@@ -72,7 +72,7 @@ class Drawing:
 
 
 class _Pass:
-    """One picture."""
+    """One picture in progress."""
 
     def __init__(self, drawing: Drawing, scene: Scene, flags: int, seg_node_map) -> None:
         if scene.main_camera_node is None:
@@ -90,7 +90,7 @@ class _Pass:
         self._draws = 0
 
     def draw(self, width: int, height: int, point_size: float):
-        """Draw it; see `Drawing.draw`."""
+        """Draw the picture; see `Drawing.draw`."""
         projection = np.asarray(
             self._camera.get_projection_matrix(width=width, height=height), np.float64
         )
@@ -113,7 +113,7 @@ class _Pass:
         return color, depth
 
     def _samples(self) -> tuple[int, int]:
-        """Return how many samples a pixel has, and the place where its depth is."""
+        """Return the samples of a pixel, and the position where its depth is sampled."""
         moves = settings.samples > 1 and settings.depth_place == "pyrender"
         if self._shading == _native.PLAIN:
             return 1, _native.CENTRE
@@ -137,7 +137,7 @@ class _Pass:
     # ---- steps ----
 
     def _nodes(self) -> list[tuple[Node, np.ndarray, bool]]:
-        """Nodes that show, in the order of drawing: with poses, and which of them are mirrored."""
+        """Return the visible nodes in drawing order, with poses, and which are mirrored."""
         scene, listed = self._scene, self._seg_node_map
         nodes = [
             node
@@ -154,7 +154,7 @@ class _Pass:
         return [(nodes[k], poses[k], mirrored[k]) for k in order]
 
     def _steps(self, projection: np.ndarray, mirrored: bool, places: Sequence[int]) -> None:
-        """List lights, draws and steps in the picture."""
+        """Add lights, draws and steps to the picture."""
         lights = None
         if self._shading == _native.LIT:
             shadows = self._drawing._shadows
@@ -184,7 +184,7 @@ class _Pass:
         self._picture.add_visible(shown, draw_of_object)
 
     def _list(self, groups, node, pose, number, primitive, turned, lights) -> None:
-        """List a primitive: with what is seen, or with what is drawn one by one."""
+        """Add a primitive: to the visibility pass, or to the draws done one by one."""
         if not len(primitive.positions):
             return
         material = primitive.material
@@ -199,7 +199,7 @@ class _Pass:
             groups[-1].drawn.append((first, count))
             groups[-1].blends |= blends
             return
-        if groups[-1].blends:  # it must not get below what was blended before
+        if groups[-1].blends:  # it must not be drawn below earlier blended ones
             groups.append(_Group())
         if primitive.poses is not None and len(primitive.poses):
             turned ^= self._is_mirrored(primitive.poses[0])
@@ -207,7 +207,7 @@ class _Pass:
         groups[-1].visible.append(Placed(key, primitive, pose, sides, turned, first))
 
     def _add(self, node, pose, primitive, culls, wire, blends, lights) -> tuple[int, int]:
-        """Add the draws of a primitive's instances; return the first and how many."""
+        """Add the draws of a primitive's instances; return the first and their number."""
         shape, look = shape_of(primitive), self._look(node, primitive.material)
         poses = [pose] if primitive.poses is None else pose @ primitive.poses.astype(np.float64)
         first = self._draws
@@ -219,7 +219,7 @@ class _Pass:
         return first, len(poses)
 
     def _look(self, node: Node, material: Material) -> tuple:
-        """Colour, metallic, roughness, emission and textures."""
+        """Return colour, metallic, roughness, emission and textures."""
         if self._shading == _native.DEPTH:
             return _PLAIN
         if self._seg_node_map is not None:
@@ -233,7 +233,7 @@ class _Pass:
 
 
 class _Group:
-    """A group of drawing steps: what is seen, and then the draws that lie over it."""
+    """A group of drawing steps: visible triangles, then the draws over them."""
 
     def __init__(self) -> None:
         self.visible: list[Placed] = []
@@ -271,7 +271,7 @@ def _look_of(material: Material) -> tuple:
 
 
 def _may_blend(primitive: Primitive) -> bool:
-    """Whether anything of a primitive may let through what is behind."""
+    """Return whether any part of a primitive may be transparent."""
     material = primitive.material
     if material.alphaMode != "BLEND":
         return False
@@ -285,7 +285,7 @@ def _may_blend(primitive: Primitive) -> bool:
 
 
 def _for_engine(projection: np.ndarray) -> np.ndarray:
-    """The projection with depths that float32 tells apart, though the far plane is far away."""
+    """Return the projection with depths that float32 can distinguish, for a distant far plane."""
     matrix = projection.copy()
     is_perspective = np.array_equal(matrix[3], (0.0, 0.0, -1.0, 0.0)) and not matrix[2, :2].any()
     if not is_perspective:

@@ -1,4 +1,4 @@
-"""Properties that make something of what they are given, or raise, and hold that; names."""
+"""Properties that convert or refuse assigned values; names."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 
 def held(name: str, made: Callable, doc: str) -> property:
-    """A property of a name that holds what `made` makes of a value."""
+    """Return a property that stores assigned values converted by `made`."""
     hidden = f"_{name}"
 
     def put(self, value) -> None:
@@ -16,12 +16,12 @@ def held(name: str, made: Callable, doc: str) -> property:
 
 
 def optional(made: Callable) -> Callable:
-    """What makes something of all but None."""
+    """Return a converter that passes None through."""
     return lambda value: None if value is None else made(value)
 
 
 def number_unless(wrong: Callable[[float], bool], complaint: str) -> Callable[[object], float]:
-    """What makes a float of a value, and raises where that is wrong."""
+    """Return a converter to float with a custom error."""
 
     def made(value) -> float:
         number = float(value)
@@ -33,7 +33,7 @@ def number_unless(wrong: Callable[[float], bool], complaint: str) -> Callable[[o
 
 
 class Named:
-    """Something with a name: text, or None."""
+    """Base of objects with a name: text, or None."""
 
     _name: str | None = None
 

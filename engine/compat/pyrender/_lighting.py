@@ -1,7 +1,7 @@
-"""Lights as the core takes them, and which of them each node gets.
+"""Lights in the core's format, and their assignment to nodes.
 
-In: a scene and flags. Out: lights in a `NativePicture`, and for each node the numbers of those that
-light it: of each kind at most four, the nearest.
+In: a scene and flags. Out: lights in a `NativePicture`, and for each node the numbers of its
+lights: at most the four nearest of each kind.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ _KINDS = {
     SpotLight: (_native.SPOT, RenderFlags.SHADOWS_SPOT),
     PointLight: (_native.POINT, RenderFlags.SHADOWS_POINT),
 }
-#: Textures that OpenGL has for maps of shadows: 32, but for those of materials.
+#: OpenGL textures left for shadow maps: 32, minus those of materials.
 _MAPS = 32 - 6
 
 
 def _most_lights(flags: int) -> dict[type, int]:
-    """How many lights of each kind a node may get: with shadows, as many as there are textures."""
+    """Return the limit of lights of each kind per node: with shadows, the number of textures."""
     most = dict.fromkeys(_KINDS, MAX_N_LIGHTS)
     shadowed = [kind for kind, (_, flag) in _KINDS.items() if flags & flag]
     for kind in shadowed:
@@ -89,7 +89,7 @@ class Lighting:
         )
 
     def of(self, place: np.ndarray) -> tuple[int, int]:
-        """Return where the list of a node's lights begins, and how many there are."""
+        """Return the start and length of a node's list of lights."""
         if self._all_shine:
             nearest = tuple(range(len(self._kinds)))
         else:

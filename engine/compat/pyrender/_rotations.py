@@ -1,4 +1,4 @@
-"""Rotations as quaternions (x, y, z, w), and about lines."""
+"""Rotations as quaternions (x, y, z, w), and about axes."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def quaternion_of(matrix) -> NDArray[np.float64]:
 
 
 def rotation_about(angle: float, axis, point) -> NDArray[np.float64]:
-    """Return the turn by an angle about an axis through a point, (4, 4)."""
+    """Return the rotation by an angle about an axis through a point, (4, 4)."""
     axis = np.asarray(axis, np.float64) / np.linalg.norm(axis)
     half = 0.5 * angle
     pose = np.eye(4)

@@ -1,4 +1,4 @@
-"""Maps of shadows: what each light sees of a scene."""
+"""Shadow maps."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from .scene import Scene
 
 
 class ShadowMaps:
-    """Draws the maps of lights."""
+    """Draws the shadow maps of lights."""
 
     def __init__(self) -> None:
         self._engine: Engine | None = None
         self._casters = Visibility()
 
     def map_of(self, scene: Scene, light_node: Node) -> tuple[np.ndarray, np.ndarray]:
-        """Return what a light sees.
+        """Return the shadow map of a light.
 
         Parameters
         ----------
@@ -47,7 +47,7 @@ class ShadowMaps:
 
 
 def _casters(scene: Scene, light_pose: np.ndarray) -> list[Placed]:
-    """The triangles of all that shows, their fronts alone."""
+    """Return the front-facing triangles of all visible meshes."""
     mirrored = np.linalg.det(light_pose[:3, :3]) < 0
     casters = []
     for node in scene._in_order(scene.mesh_nodes):

@@ -1,7 +1,6 @@
-"""The primitives and textures of the core, made once for each of pyrender's.
+"""The core's handles of pyrender's primitives and textures, created once for each.
 
-In: primitives and textures as programs gave them. Out: handles that stay with these until their
-arrays change.
+In: primitives and textures of programs. Out: handles that are cached until their arrays change.
 """
 
 from __future__ import annotations
@@ -26,12 +25,12 @@ _KINDS |= dict.fromkeys((GLTF.LINES, GLTF.LINE_LOOP, GLTF.LINE_STRIP), _native.L
 
 
 def is_triangles(primitive: Primitive) -> bool:
-    """Whether a primitive is made of triangles."""
+    """Return whether a primitive consists of triangles."""
     return primitive.mode >= GLTF.TRIANGLES
 
 
 def corners_of(primitive: Primitive) -> np.ndarray:
-    """Return the vertices of a primitive's triangles, lines or points, one after the other."""
+    """Return the vertices of a primitive's triangles, lines or points, in order."""
     count = len(primitive.positions)
     numbers = np.arange(count, dtype=np.int32)
     if primitive.indices is not None:
@@ -53,7 +52,7 @@ def _joined(numbers: np.ndarray, mode: int) -> np.ndarray:
         return np.stack([first, numbers[1:-1], numbers[2:]], axis=1).ravel()
     if mode == GLTF.TRIANGLE_STRIP:
         rows = np.stack([numbers[:-2], numbers[1:-1], numbers[2:]], axis=1)
-        rows[1::2, :2] = rows[1::2, 1::-1]  # each second one is wound the other way
+        rows[1::2, :2] = rows[1::2, 1::-1]  # every second one has the opposite winding
         return rows.ravel()
     ends = np.roll(numbers, -1) if mode == GLTF.LINE_LOOP else numbers[1:]
     return np.stack([numbers[: len(ends)], ends], axis=1).ravel()
@@ -75,7 +74,7 @@ def shape_of(primitive: Primitive) -> NativeShape:
 
 
 def mesh_of(primitive: Primitive, *, two_sided: bool, turned: bool) -> Mesh:
-    """Return the triangles of a primitive as the renderer takes them.
+    """Return the triangles of a primitive in the renderer's format.
 
     Parameters
     ----------
@@ -122,13 +121,13 @@ def _native_texture(source, wrap_s, wrap_t, smallest, largest) -> NativeTexture:
 
 
 def _upright(source: np.ndarray) -> np.ndarray:
-    """An image with its bottom row first, (H, W, C)."""
+    """Return an image with its bottom row first, (H, W, C)."""
     texels = source[:, :, np.newaxis] if source.ndim == 2 else source
     return np.ascontiguousarray(texels[::-1])
 
 
 def _levels(source: np.ndarray) -> list[np.ndarray]:
-    """An image and its mip levels, each made of the one before."""
+    """Return an image and its mip levels, each computed from the previous one."""
     levels = [_upright(source)]
     while max(levels[-1].shape[:2]) > 1 and len(levels) < _native.LEVELS:
         halves = _halved(_halved(levels[-1].astype(np.float32), 0), 1)
@@ -137,7 +136,7 @@ def _levels(source: np.ndarray) -> list[np.ndarray]:
 
 
 def _halved(texels: np.ndarray, axis: int) -> np.ndarray:
-    """Texels blended at the places of half as many."""
+    """Return texels averaged to half the resolution."""
     size = texels.shape[axis]
     fewer = max(size >> 1, 1)
     places = (np.arange(fewer) + 0.5) * (size / fewer) - 0.5

@@ -1,4 +1,4 @@
-"""Lights that move with a viewer's camera."""
+"""Lights that move with the viewer's camera."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _TURNS = (0.0, 2.0 * np.pi / 3.0, 4.0 * np.pi / 3.0)
 
 
 def raymond_lights() -> list[Node]:
-    """Return three lights from above the camera, a third of a turn apart, in its space."""
+    """Return three lights above the camera, a third of a turn apart, in its space."""
     nodes = []
     for turn in _TURNS:
         z = np.array([np.sin(_TILT) * np.cos(turn), np.sin(_TILT) * np.sin(turn), np.cos(_TILT)])
@@ -24,5 +24,5 @@ def raymond_lights() -> list[Node]:
 
 
 def direct_light() -> Node:
-    """Return a light that shines where the camera looks."""
+    """Return a light along the camera's view direction."""
     return Node(light=DirectionalLight(), matrix=np.eye(4))

@@ -1,7 +1,7 @@
-"""Finds which triangle shows at each place of a picture, by the engine's renderer.
+"""Determines the visible triangle at each pixel and sample, by the engine's renderer.
 
-In: primitives with their places, and a camera's matrix. Out: IDs of what shows at each pixel's
-centre and at its samples. Nodes and meshes stay from picture to picture.
+In: primitives with their poses, and a camera's matrix. Out: IDs at each pixel's centre and samples.
+Nodes and meshes are cached from picture to picture.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from ...rendering.renderer import Renderer
 from ._shapes import mesh_of
 from .primitive import Primitive
 
-#: Of the samples from the pixel's centre, in pixels, y down, as Mesa has them; then of the centre.
+#: Offsets of Mesa's samples from the pixel's centre, in pixels, y down; then of the centre.
 _OFFSETS = ((-0.125, 0.375), (0.375, 0.125), (-0.375, -0.125), (0.125, -0.375), (0.0, 0.0))
-_MANY = 1 << 16  # ids that a scene gives out before another takes its place
+_MANY = 1 << 16  # IDs used before the scene is replaced by a new one
 
 
 class Placed(NamedTuple):
@@ -49,23 +49,23 @@ class Placed(NamedTuple):
 
 
 class Visibility:
-    """Triangles that are drawn again and again."""
+    """The cached visibility scene."""
 
     def __init__(self) -> None:
         self._forget()
 
     def _forget(self) -> None:
         self._scene = Scene()
-        self._nodes: dict[tuple, tuple] = {}  # the node, what it shows, and where
+        self._nodes: dict[tuple, tuple] = {}  # the node, its mesh, and its pose
         self._cameras = [Camera(np.eye(4)) for _ in range(len(_OFFSETS))]
         self._most = 0
-        self._changes = 0  # of what is placed
-        self._last: tuple | None = None  # of what picture they are
-        self._found: dict[int, tuple] = {}  # of places
+        self._changes = 0  # changes of the placed triangles
+        self._last: tuple | None = None  # the picture that they belong to
+        self._found: dict[int, tuple] = {}  # by sample position
         self._frames: tuple = ((), [])  # drawn into again: of what kind, and a frame of each place
 
     def place(self, things: list[Placed]) -> np.ndarray:
-        """Take in what is to be drawn; return the draw of each object id, or of the only one."""
+        """Place the triangles to draw; return the draw for each object ID, or the only one."""
         if self._most > _MANY:
             self._forget()
         for key in self._nodes.keys() - {thing.key for thing in things}:
@@ -82,7 +82,7 @@ class Visibility:
 
     @property
     def _is_single(self) -> bool:
-        """Whether there is one object without instances, so that triangles tell all."""
+        """Return whether there is one object without instances, so that triangle IDs suffice."""
         return len(self._nodes) == 1 and not self._has_instances
 
     @property
@@ -105,7 +105,7 @@ class Visibility:
         return node
 
     def find(self, renderer: Renderer, projection, pose, places: Sequence[int]) -> list[tuple]:
-        """Return what shows at places of each pixel.
+        """Return the visible IDs at given positions of each pixel.
 
         Parameters
         ----------
@@ -133,7 +133,7 @@ class Visibility:
         return [self._found[place] for place in places]
 
     def _look(self, renderer: Renderer, projection, pose, place: int) -> tuple:
-        """Find what shows at a place; pictures that follow one another share it."""
+        """Return the visible IDs at one position; consecutive pictures share the scene."""
         names = [
             *(["triangle_id"] if self._is_single else ["object_id", "triangle_id"]),
             *(["instance_id"] if self._has_instances else []),
@@ -153,14 +153,14 @@ class Visibility:
         return tuple(getattr(frame, name) if name in names else None for name in every)
 
     def depths(self, renderer: Renderer, projection, pose) -> np.ndarray:
-        """Return z_ndc of what shows at the centres, (H, W) float32, infinite for nothing."""
+        """Return z_ndc at pixel centres, (H, W) float32, infinite for background."""
         camera = self._cameras[-1]
         camera.matrix = projection
         return renderer.render(self._scene, (camera, pose), outputs=("ndc_depth",)).ndc_depth
 
 
 def _moved(projection: np.ndarray, offset, width: int, height: int) -> np.ndarray:
-    """The projection of a picture whose pixels' centres are off by so many pixels."""
+    """Return the projection of a picture shifted by some pixels."""
     matrix = projection.copy()
     matrix[0] -= matrix[3] * (2.0 * offset[0] / width)
     matrix[1] += matrix[3] * (2.0 * offset[1] / height)

@@ -1,4 +1,4 @@
-"""Cameras: the matrices from a node's space to OpenGL's clip space."""
+"""Cameras: matrices from node space to OpenGL's clip space."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .constants import DEFAULT_Z_FAR, DEFAULT_Z_NEAR
 
 
 class Camera(Named, abc.ABC):
-    """A camera; it looks along the -Z of its node, +Y up. Programs derive their own from it.
+    """A camera that looks along the -Z of its node, +Y up. Programs can subclass it.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ class Camera(Named, abc.ABC):
         """Return clip-from-camera for a picture of some size, (4, 4)."""
 
     def _depth_rows(self, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Fill in how depth becomes that of a perspective."""
+        """Fill in the depth rows of a perspective projection."""
         near, far = self.znear, self.zfar
         matrix[3, 2] = -1.0
         if far is None:
@@ -88,7 +88,7 @@ class PerspectiveCamera(Camera):
 
     @property
     def zfar(self) -> float | None:
-        """Distance of the far plane; None where there is none."""
+        """Distance of the far plane; None for none."""
         return self._zfar
 
     @zfar.setter
@@ -141,7 +141,7 @@ class OrthographicCamera(Camera):
 
 
 class IntrinsicsCamera(Camera):
-    """A camera given in pixels, as calibration gives it.
+    """A camera given in pixels, as calibration tools give it.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Numbers that pyrender's programs name: flags, modes of OpenGL and limits."""
+"""Constants of pyrender: flags, modes of OpenGL and limits."""
 
 DEFAULT_Z_NEAR = 0.05  # metres
 DEFAULT_Z_FAR = 100.0
@@ -7,12 +7,12 @@ MAX_N_LIGHTS = 4  # of each kind, for each node
 TARGET_OPEN_GL_MAJOR, TARGET_OPEN_GL_MINOR = 4, 1
 MIN_OPEN_GL_MAJOR, MIN_OPEN_GL_MINOR = 3, 3
 FLOAT_SZ = UINT_SZ = 4
-SHADOW_TEX_SZ = 2048  # sides of maps of shadows, in texels
+SHADOW_TEX_SZ = 2048  # sides of shadow maps, in texels
 TEXT_PADDING = 20
 
 
 class RenderFlags:
-    """How a picture is drawn; flags are joined by ``|``."""
+    """Rendering flags, combined with ``|``."""
 
     NONE = 0
     DEPTH_ONLY = 1
@@ -24,7 +24,7 @@ class RenderFlags:
     SHADOWS_POINT = 64
     SHADOWS_SPOT = 128
     SHADOWS_ALL = SHADOWS_DIRECTIONAL | SHADOWS_POINT | SHADOWS_SPOT
-    VERTEX_NORMALS = 256  # of the viewer; pictures in memory do not have them, as in pyrender
+    VERTEX_NORMALS = 256  # for the viewer only; offscreen pictures ignore it, as in pyrender
     FACE_NORMALS = 512
     SKIP_CULL_FACES = 1024
     RGBA = 2048
@@ -33,7 +33,7 @@ class RenderFlags:
 
 
 class TextAlign:
-    """Where a caption of the viewer stands."""
+    """Positions of captions in the viewer."""
 
     CENTER, CENTER_LEFT, CENTER_RIGHT = 0, 1, 2
     BOTTOM_LEFT, BOTTOM_RIGHT, BOTTOM_CENTER = 3, 4, 5
@@ -41,7 +41,7 @@ class TextAlign:
 
 
 class GLTF:
-    """Numbers of OpenGL that files of glTF use."""
+    """OpenGL constants used by glTF files."""
 
     NEAREST, LINEAR = 9728, 9729
     NEAREST_MIPMAP_NEAREST, LINEAR_MIPMAP_NEAREST = 9984, 9985
@@ -52,21 +52,21 @@ class GLTF:
 
 
 class BufFlags:
-    """What vertices of a primitive carry."""
+    """The vertex attributes of a primitive."""
 
     POSITION, NORMAL, TANGENT, TEXCOORD_0 = 0, 1, 2, 4
     TEXCOORD_1, COLOR_0, JOINTS_0, WEIGHTS_0 = 8, 16, 32, 64
 
 
 class TexFlags:
-    """Which textures a material has."""
+    """The textures of a material."""
 
     NONE, NORMAL, OCCLUSION, EMISSIVE = 0, 1, 2, 4
     BASE_COLOR, METALLIC_ROUGHNESS, DIFFUSE, SPECULAR_GLOSSINESS = 8, 16, 32, 64
 
 
 class ProgramFlags:
-    """What pyrender's shaders are made for."""
+    """The purposes of pyrender's shaders."""
 
     NONE, USE_MATERIAL, VERTEX_NORMALS, FACE_NORMALS = 0, 1, 2, 4
 

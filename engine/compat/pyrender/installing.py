@@ -1,4 +1,4 @@
-"""Taking pyrender's place for programs that cannot be changed."""
+"""Installs this module as pyrender, for programs that cannot be changed."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ _MODULES = (
 
 
 def install() -> None:
-    """Let ``import pyrender`` and ``import pyrender.…`` find this module from now on.
+    """Make ``import pyrender`` and ``import pyrender.…`` load this module from now on.
 
-    Call it before the first import of pyrender. Modules that imported pyrender before keep it.
+    Call it before the first import of pyrender: earlier importers keep the original.
     """
     package = __package__
     sys.modules["pyrender"] = sys.modules[package]

@@ -1,4 +1,4 @@
-"""Lights: what they shine, and from where their shadows are drawn."""
+"""Lights, and the cameras of their shadow maps."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .texture import Texture
 from .utils import format_color_vector
 
 _FLOAT = 5126  # of OpenGL
-_WIDER = math.pi / 16.0  # than its cone is what a map of a spotlight shows
+_WIDER = math.pi / 16.0  # a spotlight's shadow map is wider than its cone by this angle
 
 
 class Light(Named, abc.ABC):
@@ -48,7 +48,7 @@ class Light(Named, abc.ABC):
 
     @abc.abstractmethod
     def _get_shadow_camera(self, scene_scale: float) -> Camera:
-        """Return the camera that sees what has light, in a scene with a diagonal of some length."""
+        """Return the camera of the shadow map, for a scene with a given diagonal."""
 
 
 class DirectionalLight(Light):
@@ -60,7 +60,7 @@ class DirectionalLight(Light):
 
 
 class _Lamp(Light):
-    """A light at a place, with a range that nothing reads."""
+    """Base of lights with a position, and a range that is ignored."""
 
     _reach = optional(number_unless(lambda reach: reach <= 0, "Range must be > 0"))
     range = held("range", _reach, "Kept, but not used: light has no end, as in pyrender.")

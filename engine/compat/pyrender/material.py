@@ -16,7 +16,7 @@ _ALPHA_MODES = ("OPAQUE", "MASK", "BLEND")
 
 
 def _flag(name: str, doc: str) -> property:
-    """A property that holds True or False, and takes nothing else."""
+    """Return a property that holds only True or False."""
 
     def made(value) -> bool:
         if not isinstance(value, bool | np.bool_):
@@ -27,7 +27,7 @@ def _flag(name: str, doc: str) -> property:
 
 
 def _texture(name: str, channels: str, doc: str) -> property:
-    """A property that holds a texture, and makes one of what is an image."""
+    """Return a property that holds a texture, and converts images."""
 
     def made(value) -> Texture | None:
         if value is None or isinstance(value, Texture):
@@ -39,7 +39,7 @@ def _texture(name: str, channels: str, doc: str) -> property:
 
 
 def _share(name: str, what: str, doc: str) -> property:
-    """A property that holds a number from 0 to 1; None is 1."""
+    """Return a property that holds a number from 0 to 1; None is 1."""
 
     def made(value) -> float:
         value = 1.0 if value is None else value
@@ -51,7 +51,7 @@ def _share(name: str, what: str, doc: str) -> property:
 
 
 def _color(name: str, length: int, default: float, doc: str) -> property:
-    """A property that holds a colour, float32; None is the default."""
+    """Return a property that holds a colour, float32; None is the default."""
 
     def made(value) -> NDArray[np.float32]:
         return format_color_vector(np.full(length, default) if value is None else value, length)
@@ -127,7 +127,7 @@ class Material(Named, abc.ABC):
 
     @property
     def alphaCutoff(self) -> float:
-        """Below it, a base colour of MASK counts as transparent when nodes are sorted."""
+        """Alpha cutoff: with MASK, smaller base colour alphas sort as transparent."""
         return self._alphaCutoff
 
     @alphaCutoff.setter
@@ -138,12 +138,12 @@ class Material(Named, abc.ABC):
 
     @property
     def _factor(self) -> NDArray[np.float32]:
-        """The colour whose fourth number is alpha."""
+        """Return the colour whose fourth number is alpha."""
         return np.ones(4, np.float32)
 
     @property
     def is_transparent(self) -> bool:
-        """Whether meshes of it are drawn after those that are not transparent."""
+        """Whether meshes with it are drawn after the others."""
         if self.alphaMode == "OPAQUE":
             return False
         return bool(self._factor[3] < (1.0 if self.alphaMode == "BLEND" else self.alphaCutoff))

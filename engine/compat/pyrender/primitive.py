@@ -1,4 +1,4 @@
-"""Primitives: vertices, what joins them, and a material."""
+"""Primitives: vertices, their topology, and a material."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .constants import GLTF, BufFlags
 from .material import Material, MetallicRoughnessMaterial
 from .utils import format_color_array
 
-#: The attributes of vertices: name, columns, and what an error calls them.
+#: Vertex attributes: name, columns, and the name in errors.
 _ATTRIBUTES = {
     "normals": (3, "Incorrect normals shape"),
     "tangents": (4, "Incorrect tangent shape"),
@@ -30,7 +30,7 @@ _FLAGS = {
 
 
 def _rows(name: str, doc: str) -> property:
-    """A property that holds an array with a row for each vertex, float32, or None."""
+    """Return a property that holds a row for each vertex, float32, or None."""
     hidden = f"_{name}"
     columns, complaint = _ATTRIBUTES[name]
     may_have_more = name == "texcoord_0"
@@ -50,7 +50,7 @@ def _rows(name: str, doc: str) -> property:
 
 
 def _drawn_from(name: str, made, doc: str) -> property:
-    """A property that holds what `made` makes of a value, which drawing keeps something of."""
+    """Return a converting property whose values drawing caches data of."""
     hidden = f"_{name}"
 
     def put(self, value) -> None:
@@ -150,7 +150,7 @@ class Primitive(Bounded):
     texcoord_1 = _rows("texcoord_1", "(N, 2) float32, or None.")
 
     def _forget(self) -> None:
-        """Let go of what drawing made of the arrays."""
+        """Forget cached drawing data of the arrays."""
         self._bounds = None
         self._drawn: dict = {}
 
@@ -171,7 +171,7 @@ class Primitive(Bounded):
 
     @property
     def bounds(self) -> NDArray:
-        """Lowest and highest corner, (2, 3); of instances, only their places count."""
+        """Lowest and highest corner, (2, 3); for instances, only their positions count."""
         if self._bounds is None:
             bounds = np.array([self.positions.min(axis=0), self.positions.max(axis=0)])
             if self.poses is not None:
@@ -182,16 +182,16 @@ class Primitive(Bounded):
 
     @property
     def buf_flags(self) -> int:
-        """What the vertices carry, as `BufFlags`."""
+        """Flags of the vertex attributes, as `BufFlags`."""
         return sum(flag for name, flag in _FLAGS.items() if getattr(self, name) is not None)
 
     @property
     def is_transparent(self) -> bool:
-        """Whether it is drawn after what is not transparent."""
+        """Whether it is drawn after opaque primitives."""
         return self.material.is_transparent or self._has_alpha
 
     def delete(self) -> None:
-        """Let go of what drawing keeps of the primitive."""
+        """Free the cached drawing data of the primitive."""
         self._forget()
 
     def __getstate__(self) -> dict:

@@ -1,4 +1,4 @@
-"""The renderer: pictures of scenes in a viewport."""
+"""The renderer: draws scenes into a viewport."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .shader_program import ADVICE
 
 
 class GLError(Exception):
-    """An error of OpenGL, which is never raised here; programs name it to catch it."""
+    """An OpenGL error, which is never raised here; it exists for programs that catch it."""
 
 
 class Renderer:
@@ -47,7 +47,7 @@ class Renderer:
 
     @property
     def _program_cache(self) -> None:
-        """The cache of shaders that pyrender has here; programs put their own in its place."""
+        """The place of pyrender's shader cache; programs may assign their own."""
         return None
 
     @_program_cache.setter
@@ -65,7 +65,7 @@ class Renderer:
         raise NotImplementedError("captions are not drawn: use engine3d.Canvas on the picture")
 
     def delete(self) -> None:
-        """Let go of what drawing keeps."""
+        """Free the cached drawing data."""
         self._drawing = None
 
 

@@ -1,11 +1,11 @@
-"""Samplers: how textures are read between and beyond their texels."""
+"""Samplers: filtering and wrapping of textures."""
 
 from ._held import Named
 from .constants import GLTF
 
 
 class Sampler(Named):
-    """How a texture is read.
+    """Filter and wrap modes of a texture.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Scenes: trees of nodes, a background and light from all around."""
+"""Scenes: trees of nodes, a background and ambient light."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from .utils import format_color_vector
 
 
 def _entries(node: Node) -> list:
-    """What a node holds."""
+    """Return the objects of a node."""
     return [obj for obj in (node.mesh, node.camera, node.light) if obj is not None]
 
 
 def _of_kind(kind: type, what: str) -> tuple[property, property]:
-    """The properties of lights of a kind, and of the nodes that hold them."""
+    """Return properties for lights of one kind, and for their nodes."""
     return (
         property(lambda self: {node.light for node in self._light_nodes[kind]}, doc=f"All {what}."),
         property(lambda self: self._light_nodes[kind], doc=f"The nodes that hold {what}."),
@@ -62,7 +62,7 @@ class Scene(Bounded, Named):
     def clear(self) -> None:
         """Remove all nodes."""
         self._nodes: set[Node] = set()
-        self._order: dict[Node, int] = {}  # when each was added: sets have no order
+        self._order: dict[Node, int] = {}  # the order of adding: sets have none
         self._parents: dict[Node, Node | None] = {}
         self._mesh_nodes: set[Node] = set()
         self._camera_nodes: set[Node] = set()
@@ -82,7 +82,7 @@ class Scene(Bounded, Named):
 
     @property
     def ambient_light(self) -> NDArray[np.float32]:
-        """Light from all around, (3,) float32."""
+        """Ambient light, (3,) float32."""
         return self._ambient_light
 
     @ambient_light.setter
@@ -132,7 +132,7 @@ class Scene(Bounded, Named):
 
     @property
     def main_camera_node(self) -> Node | None:
-        """The node whose camera pictures are seen from: the first, until another is assigned."""
+        """The node of the main camera: the first, unless another is assigned."""
         return self._main_camera_node
 
     @main_camera_node.setter
@@ -163,7 +163,7 @@ class Scene(Bounded, Named):
     # ---- changes ----
 
     def add(self, obj, name=None, pose=None, parent_node=None, parent_name=None) -> Node:
-        """Put a mesh, a light or a camera into the scene.
+        """Add a mesh, a light or a camera to the scene.
 
         Parameters
         ----------
@@ -199,7 +199,7 @@ class Scene(Bounded, Named):
         return node
 
     def get_nodes(self, node=None, name=None, obj=None, obj_name=None) -> set[Node]:
-        """Return the nodes that fit all that is given.
+        """Return the nodes that match all given criteria.
 
         Parameters
         ----------
@@ -223,7 +223,7 @@ class Scene(Bounded, Named):
         return found
 
     def add_node(self, node, parent_node=None) -> None:
-        """Put a node and its children into the scene.
+        """Add a node and its children to the scene.
 
         Parameters
         ----------
@@ -250,7 +250,7 @@ class Scene(Bounded, Named):
             self.add_node(child, node)
 
     def _list(self, node: Node) -> None:
-        """Put a node into the sets that name what it holds."""
+        """Add a node to the sets for its objects."""
         if node.mesh is not None:
             self._mesh_nodes.add(node)
         for kind, nodes in self._light_nodes.items():
@@ -266,7 +266,7 @@ class Scene(Bounded, Named):
         return node in self._nodes
 
     def remove_node(self, node) -> None:
-        """Take a node and its children out of the scene.
+        """Remove a node and its children from the scene.
 
         Raises
         ------
@@ -310,7 +310,7 @@ class Scene(Bounded, Named):
         return pose
 
     def set_pose(self, node, pose) -> None:
-        """Say where a node is in its parent.
+        """Set the pose of a node relative to its parent.
 
         Parameters
         ----------
@@ -328,7 +328,7 @@ class Scene(Bounded, Named):
 
     @staticmethod
     def from_trimesh_scene(trimesh_scene, bg_color=None, ambient_light=None) -> Scene:
-        """Return a scene of one of trimesh's: its meshes and where they are.
+        """Return a scene converted from a trimesh scene: its meshes and their poses.
 
         Parameters
         ----------
@@ -344,7 +344,7 @@ class Scene(Bounded, Named):
         return scene
 
     def _in_order(self, nodes) -> list[Node]:
-        """Nodes of the scene in the order in which they were added."""
+        """Return nodes of the scene in the order of adding."""
         return sorted(nodes, key=self._order.__getitem__)
 
 

@@ -1,4 +1,4 @@
-"""Settings of this module that pyrender does not have.
+"""Settings of this module that pyrender lacks.
 
 Each setting is read whenever a picture is drawn, and may be set by an environment variable before
 the module is imported.
@@ -21,7 +21,7 @@ def _checked_samples(value) -> int:
 
 
 def _one_of(name: str, usual: str) -> property:
-    """A property that is `usual` or "pyrender"."""
+    """Return a property with the values `usual` and "pyrender"."""
 
     def made(value) -> str:
         if value not in (usual, "pyrender"):

@@ -1,6 +1,6 @@
-"""Shaders, which there are none of: pictures are drawn without OpenGL.
+"""Shader classes, which only raise errors: pictures are drawn without OpenGL.
 
-Programs that bring shaders of their own get an error that says what to do instead.
+Programs with their own shaders get an error with advice.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ class ShaderProgram:
 
 
 class ShaderProgramCache:
-    """A cache of shaders, which programs replace to bring their own.
+    """A shader cache, which programs replace to use their own shaders.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class ShaderProgramCache:
         raise NotImplementedError(ADVICE)
 
     def clear(self) -> None:
-        """Do nothing: there is nothing to forget."""
+        """Do nothing: the cache is empty."""
 
 
 __all__ = ["ShaderProgram", "ShaderProgramCache"]

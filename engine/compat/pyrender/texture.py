@@ -1,4 +1,4 @@
-"""Textures: images and how they are read."""
+"""Textures: images with samplers."""
 
 from __future__ import annotations
 
@@ -62,17 +62,17 @@ class Texture(Named):
         self._alpha: bool | None = None
 
     def _has_alpha(self) -> bool:
-        """Whether any texel lets through what is behind."""
+        """Return whether any texel is transparent."""
         if self._alpha is None:
             self._alpha = bool((self._source[:, :, 3] < 255).any())
         return self._alpha
 
     def is_transparent(self, cutoff: float = 1.0) -> bool:
-        """Return False: pyrender takes no texture for transparent when it sorts nodes."""
+        """Return False: pyrender's node sorting ignores the transparency of textures."""
         return False
 
     def delete(self) -> None:
-        """Let go of what drawing keeps of the texture."""
+        """Free the cached drawing data of the texture."""
         self._native = None
 
     def __getstate__(self) -> dict:

@@ -1,4 +1,4 @@
-"""A trackball: camera poses that follow a mouse."""
+"""A trackball: camera poses controlled by the mouse."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from ._rotations import rotation_about
 
-_SLOW = 0.3  # of the picture's shorter side is a turn by one radian
-_CLICK = 0.9  # of the distance is left after a click of the wheel
+_SLOW = 0.3  # fraction of the picture's shorter side per radian
+_CLICK = 0.9  # remaining distance after a click of the wheel
 
 
 def _shift(vector) -> NDArray[np.float64]:
@@ -50,20 +50,20 @@ class Trackball:
         return self._n_pose
 
     def set_state(self, state: int) -> None:
-        """Choose what drags do."""
+        """Choose the effect of drags."""
         self._state = state
 
     def resize(self, size) -> None:
-        """Tell the size of the picture, in pixels."""
+        """Set the size of the picture, in pixels."""
         self._size = np.array(size, np.float64)
 
     def down(self, point) -> None:
-        """Begin a drag at a pixel."""
+        """Start a drag at a pixel."""
         self._pdown = np.array(point, np.float64)
         self._pose, self._target = self._n_pose, self._n_target
 
     def drag(self, point) -> None:
-        """Follow a drag to a pixel, y up."""
+        """Continue a drag to a pixel, y up."""
         point = np.array(point, np.float64)
         moves = {
             Trackball.STATE_ROTATE: self._rotated,
@@ -97,7 +97,7 @@ class Trackball:
         return _shift(-np.sign(dy) * ratio * radius * self._pose[:3, 2])
 
     def scroll(self, clicks: int) -> None:
-        """Come nearer by some clicks of a wheel."""
+        """Move nearer by some clicks of a wheel."""
         self._n_pose = self._scrolled(self._n_pose, clicks)
         self._pose = self._scrolled(self._pose, clicks)
 
@@ -106,7 +106,7 @@ class Trackball:
         return _shift((_CLICK**clicks - 1.0) * radius * pose[:3, 2]) @ pose
 
     def rotate(self, azimuth: float, axis=None) -> None:
-        """Turn about an axis, or about the camera's upwards."""
+        """Rotate about an axis, or about the camera's up direction."""
         self._n_pose = self._turned(self._n_pose, azimuth, axis)
         self._pose = self._turned(self._pose, azimuth, axis)
 

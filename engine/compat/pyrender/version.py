@@ -1,3 +1,3 @@
-"""The version of pyrender whose meaning the names here have."""
+"""The version of pyrender that this module is compatible with."""
 
 __version__ = "0.1.45"

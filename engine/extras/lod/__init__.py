@@ -1,7 +1,7 @@
-"""Levels of detail: coarser meshes for what is small on the screen. Nothing uses them by itself.
+"""Levels of detail: coarser meshes for objects that are small on the screen, used on request.
 
 `simplify` makes coarser meshes, `Impostor` flat cards; `DetailedInstances` draws each instance with
-the coarsest that nobody can tell from the finest, `DetailedMeshes` each of many meshes.
+the coarsest level that looks like the finest, `DetailedMeshes` each of many meshes.
 """
 
 from .impostors import Impostor

@@ -1,6 +1,6 @@
-"""Chooses the level to draw: the coarsest whose error is small on the screen, without flicker.
+"""Chooses levels of detail: the coarsest with a small error on the screen, without flicker.
 
-In: a camera, distances, errors in the units of the things. Out: the numbers of levels.
+In: a camera, distances, errors in object units. Out: level numbers.
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ from ...model.scene.cameras import Camera
 def checked_view(
     camera: Camera, pose: ArrayLike, size: tuple[int, int]
 ) -> tuple[np.ndarray, tuple[int, int]]:
-    """Return the pose and the size of whatever looks at things, or raise `InvalidArgumentError`."""
+    """Return the viewer's pose and picture size, checked."""
     if not isinstance(camera, Camera):
         raise InvalidArgumentError(f"camera must be a Camera, not {type(camera).__name__}")
     return matrix4(pose, "pose"), check_size(size)
 
 
 def pixels_a_unit(camera: Camera, size: tuple[int, int], distances: np.ndarray) -> np.ndarray:
-    """Return how many pixels a unit is wide, at some distances from the eye, (N,).
+    """Return the pixels per unit at some distances from the eye, (N,).
 
-    Without perspective that is the same everywhere.
+    Without perspective it is the same everywhere.
     """
     projection = camera.projection(*size)
     pixels = abs(float(projection[1, 1])) * size[1] * 0.5
@@ -42,14 +42,14 @@ def pixels_a_unit(camera: Camera, size: tuple[int, int], distances: np.ndarray) 
 def choose_levels(
     last: np.ndarray, errors: np.ndarray, limit: float, hysteresis: float
 ) -> np.ndarray:
-    """Return the levels to draw: refine what is too coarse now, coarsen what is so by a margin.
+    """Return the levels to draw: refine too coarse ones, coarsen others only by a margin.
 
     Parameters
     ----------
     last : (N,) int
-        What was drawn.
+        The previous levels.
     errors : (levels, N) float64
-        On the screen, in pixels.
+        Errors on the screen, in pixels.
     limit : float
         The largest error, in pixels.
     hysteresis : float
@@ -61,12 +61,12 @@ def choose_levels(
 
 
 def _coarsest(errors: np.ndarray, limit: float) -> np.ndarray:
-    """The last level of each column up to which every error is at most the limit."""
+    """Return the last level of each column up to which no error exceeds the limit."""
     return (np.cumprod(errors[1:] <= limit, axis=0)).sum(axis=0)
 
 
 def check_limits(hysteresis: float, **limits: float) -> None:
-    """Raise `InvalidArgumentError` where a limit in pixels or the hysteresis makes no sense."""
+    """Raise `InvalidArgumentError` unless the limit in pixels and the hysteresis are valid."""
     for name, value in limits.items():
         if not 0.0 < real(value) < math.inf:
             raise InvalidArgumentError(f"{name} must be greater than 0, not {shown(value)}")
@@ -75,7 +75,7 @@ def check_limits(hysteresis: float, **limits: float) -> None:
 
 
 def check_errors(errors: Sequence[float]) -> None:
-    """Raise `InvalidArgumentError` unless errors begin with 0, never decrease and are finite."""
+    """Raise `InvalidArgumentError` unless errors start with 0, never decrease and are finite."""
     if (
         not errors
         or errors[0] != 0.0

@@ -1,9 +1,9 @@
-"""Impostors: flat cards that show a mesh as it looks from many directions.
+"""Impostors: flat cards that show a mesh as seen from many directions.
 
 In: a mesh. Out: for each of some directions all around it a card, cut out along the mesh's outline,
 with its surface colours from an atlas and its normals at the corners, so that a card is lit as the
-mesh is. The engine draws the pictures itself. A card is a mesh like any other, in the space of the
-mesh that it stands for: it needs no transparency, and has depths, identities and light.
+mesh is. The engine draws the pictures itself. A card is a normal mesh, in the space of the mesh it
+replaces: it needs no transparency, and has depths, IDs and lighting.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ from ...model.scene.scene import Scene
 from ...rendering.frame import Output
 from ...rendering.renderer import Renderer
 
-_CELLS = 4  # along each side of a card: normals are kept at their corners
-_PIXELS = 4  # along each side of a texel
-_BORDER = 1  # texels round a picture, for the filter
-_OVERLAP = 1 / 32  # texels by which neighbouring rectangles overlap, so that nothing shows between
-_SEARCH = 96  # directions along each side of the octahedron that are tried for the worst
+_CELLS = 4  # per side of a card: their corners hold normals
+_PIXELS = 4  # per side of a texel
+_BORDER = 1  # texels around a picture, for the filter
+_OVERLAP = 1 / 32  # texels by which adjacent rectangles overlap, to close gaps
+_SEARCH = 96  # directions per side of the octahedral map that are searched for the worst one
 
 
 class Impostor(Closed):
-    """A picture that replaces a mesh where it is small on the screen.
+    """A picture that replaces a mesh that is small on the screen.
 
     Parameters
     ----------
@@ -56,8 +56,8 @@ class Impostor(Closed):
     texture : Texture
         The atlas: a picture a direction, row by row.
     error : float
-        How far a point of the mesh may seem to be from where it is, in its units: by being flat,
-        seen from between two directions, and by the size of texels.
+        The largest apparent displacement of a point of the mesh, in its units: due to flatness, to
+        directions between two pictures, and to the texel size.
 
     Raises
     ------
@@ -98,7 +98,7 @@ class Impostor(Closed):
         self.error = self._radius * (math.sin(turn) + 2.0 / texels)
 
     def nearest(self, towards: NDArray[np.float64], last: NDArray[np.intp]) -> NDArray[np.intp]:
-        """Return which direction is nearest to each of some, (N,) int.
+        """Return the nearest of the impostor's directions for each given one, (N,) int.
 
         Parameters
         ----------
@@ -124,7 +124,7 @@ class Impostor(Closed):
     def _card(
         self, number: int, normals: np.ndarray, mask: np.ndarray, materials: list[Material]
     ) -> Mesh:
-        """The mesh of one picture."""
+        """Return the mesh of one picture."""
         texels = len(mask)
         rectangles = np.array(_rectangles(mask), np.float64).reshape(-1, 4)
         left, top, right, bottom = (rectangles + _OVERLAP * np.array([-1, -1, 1, 1])).T
@@ -157,14 +157,14 @@ class Impostor(Closed):
 
 
 def bounding_ball(mesh: Mesh) -> tuple[np.ndarray, float]:
-    """Return the middle of a mesh's box, (3,) float64, and how far its vertices are from there."""
+    """Return the centre of a mesh's box, (3,) float64, and the vertices' distance from it."""
     center = (mesh.bounds[0] + mesh.bounds[1]) * 0.5
     lengths = linalg.length(mesh.positions - center)
     return center, float(lengths[np.isfinite(lengths)].max(initial=0.0))
 
 
 def octahedral_directions(side: int) -> np.ndarray:
-    """Return side² unit vectors, evenly on a square that is folded to an octahedron."""
+    """Return side² unit vectors, from a regular grid on an octahedral map."""
     middle = (2.0 * np.arange(side) + 1.0) / side - 1.0
     y, x = (part.ravel() for part in np.meshgrid(middle, middle, indexing="ij"))
     z = 1.0 - np.abs(x) - np.abs(y)
@@ -174,7 +174,7 @@ def octahedral_directions(side: int) -> np.ndarray:
 
 
 def _widest_turn(directions: np.ndarray) -> float:
-    """The angle between a direction and the nearest of some, at the worst."""
+    """Return the largest angle between any direction and the nearest of the given ones."""
     nearest = np.full(_SEARCH * _SEARCH, -1.0)
     tried = octahedral_directions(_SEARCH)
     for direction in directions:
@@ -183,7 +183,7 @@ def _widest_turn(directions: np.ndarray) -> float:
 
 
 def _axes(direction: np.ndarray) -> np.ndarray:
-    """Right, up and back of who looks at the mesh from a direction, rows."""
+    """Return right, up and back of a viewer in a direction, as rows."""
     up = (0.0, 1.0, 0.0) if abs(direction[1]) < 0.99 else (0.0, 0.0, 1.0)
     return linalg.look_at(direction, (0.0, 0.0, 0.0), up)[:3, :3].T
 
@@ -215,13 +215,13 @@ def _pictures(
 
 
 def _summed(pixels: np.ndarray) -> np.ndarray:
-    """Sums over the pixels of each texel, in a fixed order; what is not covered counts 0."""
+    """Return sums over the pixels of each texel, in a fixed order; uncovered pixels count 0."""
     parts = [pixels[y::_PIXELS, x::_PIXELS] for y in range(_PIXELS) for x in range(_PIXELS)]
     return sum(parts[1:], parts[0].copy())
 
 
 def _filled(color: np.ndarray, mask: np.ndarray) -> np.ndarray:
-    """Return a picture as texels with a border; the colours at the mask's edge go on beyond it."""
+    """Return a picture as texels with a border; colours at the mask's edge are extended outward."""
     side = len(mask) + 2 * _BORDER
     known = np.zeros((side, side), bool)
     known[_BORDER:-_BORDER, _BORDER:-_BORDER] = mask
@@ -229,7 +229,7 @@ def _filled(color: np.ndarray, mask: np.ndarray) -> np.ndarray:
     colors[_BORDER:-_BORDER, _BORDER:-_BORDER] = np.where(mask[..., np.newaxis], color, 0.0)
     while known.any() and not known.all():
         total, count = np.zeros_like(colors), np.zeros((side, side))
-        for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):  # round the edges, harmlessly
+        for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):  # wraps around the edges, harmlessly
             near = np.roll(known, step, axis)
             total += np.where(near[..., np.newaxis], np.roll(colors, step, axis), 0.0)
             count += near
@@ -252,7 +252,7 @@ def _rectangles(mask: np.ndarray) -> list[tuple[int, int, int, int]]:
 
 
 def _in_cell(mask: np.ndarray, left: int, top: int) -> list[tuple[int, int, int, int]]:
-    """Runs of texels, each with the same run of the rows below it."""
+    """Return runs of texels, each extended over equal runs in the rows below."""
     open_runs: dict[tuple[int, int], int] = {}
     found = []
     for row in range(len(mask) + 1):
@@ -270,7 +270,7 @@ def _in_cell(mask: np.ndarray, left: int, top: int) -> list[tuple[int, int, int,
 def _corner_normals(
     normals: np.ndarray, mask: np.ndarray, x: np.ndarray, y: np.ndarray
 ) -> np.ndarray:
-    """The mean normal of the covered texels that meet nearest to some corners, (N, 3)."""
+    """Return the mean normal of the covered texels around each corner, (N, 3)."""
     padded = np.zeros((len(mask) + 2, len(mask) + 2, 3))
     padded[1:-1, 1:-1] = np.where(mask[..., np.newaxis], normals, 0.0)
     at_corners = padded[:-1, :-1] + padded[:-1, 1:] + padded[1:, :-1] + padded[1:, 1:]

@@ -1,7 +1,7 @@
-"""Instances that are drawn coarser the smaller they are on the screen.
+"""Instances drawn with levels of detail by their size on the screen.
 
 In: meshes from fine to coarse with their errors, poses, and before each frame a camera. Out: an
-`InstancedMesh` per level, of those instances whose error is then less than some pixels.
+`InstancedMesh` per level, with the instances whose error is then below a limit in pixels.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ RATIOS = (0.5, 0.2, 0.08)
 
 
 class DetailedInstances(Closed):
-    """A mesh at many poses, each drawn in the detail that its size on the screen needs.
+    """A mesh at many poses, each drawn at the level of detail for its size on the screen.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ class DetailedInstances(Closed):
         finest = InstancedMesh(mesh, poses, colors=colors)
         self._poses, self._colors = finest.poses, finest.colors
         self.level = frozen(np.zeros(len(self._poses), np.intp))
-        self._drawn = self.level  # as which of the instances
+        self._drawn = self.level  # the level or card that each instance is drawn as
         cards = () if impostor is None else impostor.cards
         others = [InstancedMesh(mesh, finest.poses[:0]) for mesh, _ in self.levels[1:]]
         others += [InstancedMesh(card, finest.poses[:0]) for card in cards]
@@ -108,10 +108,10 @@ class DetailedInstances(Closed):
 
     @checks_types
     def add_to(self, scene: Scene, *, name: str = "", parent: Node | None = None) -> Node:
-        """Add a node for each level to a scene; returns the node that groups them.
+        """Add a node for each level to a scene; return their group node.
 
-        Frames show all of them as this one: ``object_id`` is its id, and ``instance_id`` the row
-        of ``poses``, whatever the level.
+        Frames show all of them under this node's ``object_id``; ``instance_id`` is the row of
+        ``poses`` at any level.
         """
         group = scene.add(name=name, parent=parent)
         self._nodes.append(group)
@@ -120,7 +120,7 @@ class DetailedInstances(Closed):
         return group
 
     def update(self, camera: Camera, pose: ArrayLike, size: tuple[int, int]) -> bool:
-        """Choose the levels for a camera; returns whether any instance's changed.
+        """Choose the levels for a camera; return whether any instance's level changed.
 
         Parameters
         ----------
@@ -157,7 +157,7 @@ class DetailedInstances(Closed):
         pose: np.ndarray,
         size: tuple[int, int],
     ) -> np.ndarray:
-        """The number of the level or of the card that each instance is drawn as."""
+        """Return the number of the level or card that each instance is drawn as."""
         far = np.flatnonzero(level == len(self.levels))
         drawn = level.copy()
         if len(far):
@@ -169,12 +169,12 @@ class DetailedInstances(Closed):
     def _towards_viewer(
         self, poses: np.ndarray, camera: Camera, pose: np.ndarray, size: tuple[int, int]
     ) -> np.ndarray:
-        """From instances to who looks at them, in their own space, (N, 3), of any length."""
+        """Return directions from instances to the viewer, (N, 3), in instance space, any length."""
         perspective = float(camera.projection(*size)[3, 3]) == 0.0
         world = linalg.inverse(self._nodes[0].world_pose) if self._nodes else np.eye(4)
         if perspective:
             eye, center = linalg.transform_points(world, pose[:3, 3]), self._center
-        else:  # a direction, wherever the instances are
+        else:  # parallel projection: one direction for all instances
             eye, center = linalg.dot(world[:3, :3], pose[:3, 2]), np.zeros(3)
         if poses.ndim == 2:
             offset, scale = poses[:, :3] * float(perspective), poses[:, 3:4]
@@ -189,7 +189,7 @@ class DetailedInstances(Closed):
     def _errors_on_screen(
         self, camera: Camera, pose: np.ndarray, size: tuple[int, int]
     ) -> np.ndarray:
-        """Errors of each level of each instance in pixels, (levels, N)."""
+        """Return the errors of each level of each instance in pixels, (levels, N)."""
         center, radius = self._center, self._radius
         poses = self._poses.astype(np.float64)
         if poses.ndim == 2:
@@ -215,7 +215,7 @@ class DetailedInstances(Closed):
 
 
 def _made_levels(mesh: Mesh) -> tuple[tuple[Mesh, float], ...]:
-    """A mesh and what it is simplified to, as far as that makes it smaller."""
+    """Return a mesh and its simplifications, as far as each makes it smaller."""
     levels = [(mesh, 0.0)]
     for ratio in RATIOS:
         coarse, error = simplify(mesh, ratio)

@@ -1,7 +1,7 @@
-"""Meshes at their places that are drawn coarser the farther they are, such as a city's districts.
+"""Static meshes drawn with levels of detail by distance, such as a city's districts.
 
-In: the same meshes at several levels, with errors, and before each frame a camera. Out: nodes of
-which one a mesh is visible: the coarsest whose error is then less than some pixels.
+In: the same meshes at several levels, with errors, and before each frame a camera. Out: nodes, one
+of which is visible for each mesh: the coarsest whose error is then below a limit in pixels.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from ._choosing import check_errors, check_limits, checked_view, choose_levels, 
 
 
 class DetailedMeshes(Closed):
-    """Meshes, each drawn in the detail that its nearest point needs.
+    """Meshes, each drawn at the level of detail for its nearest point.
 
     Parameters
     ----------
@@ -69,14 +69,14 @@ class DetailedMeshes(Closed):
         boxes = [mesh.bounds if len(mesh.positions) else nothing for mesh in meshes]
         self._boxes = np.array(boxes, np.float64).reshape(-1, 2, 3)
         self._group: Node | None = None
-        self._nodes: list[list[Node]] = []  # of each mesh, one per level
+        self._nodes: list[list[Node]] = []  # for each mesh, one node per level
 
     @checks_types
     def add_to(self, scene: Scene, *, name: str = "", parent: Node | None = None) -> Node:
-        """Add all to a scene, once; returns the node that groups them.
+        """Add all meshes to a scene, once; return their group node.
 
-        Below it is a node a mesh, whose id frames show for all of its levels. ``triangle_id`` is
-        that of the level.
+        It has a child for each mesh, whose ID frames show for all its levels. ``triangle_id``
+        belongs to the level.
 
         Raises
         ------
@@ -96,7 +96,7 @@ class DetailedMeshes(Closed):
         return self._group
 
     def update(self, camera: Camera, pose: ArrayLike, size: tuple[int, int]) -> bool:
-        """Choose the levels for a camera; returns whether any changed.
+        """Choose the levels for a camera; return whether any changed.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""Meshes of fewer triangles, by the quadric edge collapses of the package fast-simplification.
+"""Mesh simplification by quadric edge collapses, with the package fast-simplification.
 
 In: a mesh and the share of its triangles to keep. Out: a mesh with the same materials, and how far
 the old surface may lie from it. Each material is simplified by itself and borders stay where they
@@ -23,7 +23,7 @@ _ATTRIBUTES = ("normals", *vertex_attributes(Mesh))
 
 @checks_types
 def simplify(mesh: Mesh, ratio: float) -> tuple[Mesh, float]:
-    """Return a mesh of fewer triangles, and how far it is from the old one.
+    """Return a mesh with fewer triangles, and its distance from the original.
 
     Needs the package fast-simplification: ``pip install engine3d[detail]``. Its results may differ
     between machines and versions.
@@ -31,7 +31,7 @@ def simplify(mesh: Mesh, ratio: float) -> tuple[Mesh, float]:
     Parameters
     ----------
     mesh : Mesh
-        Lines and points are left out.
+        The mesh; lines and points are dropped.
     ratio : float
         The share of the triangles to keep, more than 0 and at most 1. Borders and seams may keep
         more.
@@ -70,7 +70,7 @@ def simplify(mesh: Mesh, ratio: float) -> tuple[Mesh, float]:
 
 
 def _equal_vertices(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """Return a number for each vertex, which equal vertices share, and the first one of each."""
+    """Return a number for each vertex, the same for equal vertices, and the first of each."""
     columns = [mesh.positions]
     columns += [mesh.normals] if mesh.has_normals else []
     columns += attributes_of(mesh).values()
@@ -82,7 +82,7 @@ def _equal_vertices(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
 def _simplified(
     positions: np.ndarray, faces: np.ndarray, ratio: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
-    """Positions and faces of one part, the old vertex behind each new one, and the error."""
+    """Return positions and faces of one part, the old vertex of each new one, and the error."""
     try:
         import fast_simplification
     except ImportError as error:
@@ -108,7 +108,7 @@ def _simplified(
 
 
 def _error(old: np.ndarray, new: np.ndarray, faces: np.ndarray, becomes: np.ndarray) -> float:
-    """The farthest of the old vertices from the triangles near the vertices that they became."""
+    """Return the largest distance of old vertices from the triangles near their new vertices."""
     edges = np.unique(faces[:, [0, 1, 1, 2, 2, 0, 1, 0, 2, 1, 0, 2]].reshape(-1, 2), axis=0)
     edges = np.concatenate([edges, np.repeat(np.arange(len(new)), 2).reshape(-1, 2)])
     vertex, near = _expanded(np.arange(len(old)), becomes, edges[:, 0], edges[:, 1], len(new))
@@ -123,7 +123,7 @@ def _error(old: np.ndarray, new: np.ndarray, faces: np.ndarray, becomes: np.ndar
 def _expanded(
     owner: np.ndarray, key: np.ndarray, keys: np.ndarray, values: np.ndarray, count: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Each owner with every value whose key it has; keys are below ``count``."""
+    """Return each owner with every value that has its key; keys are below ``count``."""
     order = np.argsort(keys, kind="stable")
     starts = np.searchsorted(keys[order], np.arange(count + 1))
     sizes = np.diff(starts)[key]
@@ -132,7 +132,7 @@ def _expanded(
 
 
 def _distances(points: np.ndarray, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
-    """Distances of points from triangles, (N,): to the plane inside them, else to an edge."""
+    """Return distances of points from triangles, (N,): to the plane if inside, else to an edge."""
     edges = [_to_segments(points, p, q) for p, q in ((a, b), (b, c), (c, a))]
     normal = linalg.normalize(linalg.cross(b - a, c - a))
     height = np.abs(linalg.dot(points - a, normal))
@@ -150,7 +150,7 @@ def _to_segments(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray
 
 
 def _joined(mesh: Mesh, parts: Sequence[tuple[np.ndarray, np.ndarray, np.ndarray, int]]) -> Mesh:
-    """One mesh of all parts, with the attributes that the old one had."""
+    """Return one mesh of all parts, with the old mesh's attributes."""
     if not parts:
         return Mesh(np.zeros((0, 3), np.float32), materials=mesh.materials, name=mesh.name)
     positions, faces, sources, ids = zip(*parts, strict=True)

@@ -1,4 +1,4 @@
-"""Worlds made by rule, of any size: something to walk through and to measure.
+"""Procedural worlds of any size, for walking and benchmarks.
 
 `city` makes a city. Everything in it follows from a seed by integer hashes and element-wise
 float64 arithmetic: the same bytes on every machine.

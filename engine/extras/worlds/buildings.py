@@ -1,6 +1,6 @@
-"""Houses: from the plan's table to facades, roofs, balconies, awnings and chimneys.
+"""Houses: facades, roofs, balconies, awnings and chimneys from the plan's table.
 
-In: `plan.Houses`. Out: quads in a `Patchwork`, and in `house_quads` how many each house has.
+In: `plan.Houses`. Out: quads in a `Patchwork`, and in `house_quads` the quads of each house.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ _MASONRY, _WINDOW = numbers("masonry", "window")
 
 
 def _digit(value: np.ndarray, place: int, choices: int) -> np.ndarray:
-    """Return 0..choices-1 from a number in [0, 1); another place gives another choice."""
+    """Return 0..choices-1 from a number in [0, 1); different places give different choices."""
     scaled = value * (1009.0, 1013.0, 1019.0, 1021.0, 1031.0, 1033.0)[place]
     return ((scaled - np.floor(scaled)) * choices).astype(np.int64)
 
@@ -76,7 +76,7 @@ def _has_awning(houses: Houses) -> np.ndarray:
 
 
 def _balcony_rows(houses: Houses) -> np.ndarray:
-    """How many storeys have balconies: every second, from the second on, on some houses."""
+    """Return how many storeys have balconies: every second from the second on, on some houses."""
     return np.where(_digit(houses.style, 3, 4) == 0, houses.storeys // 2, 0)
 
 
@@ -125,7 +125,7 @@ def _facades(houses: Houses, frame: Frames, width: np.ndarray) -> Facades:
 
 
 def _moved(frame: Frames, s: Lengths, o: Lengths, turns: int) -> Frames:
-    """Frames at (s, o) of others, turned to the left by quarter turns as seen from above."""
+    """Return frames at (s, o) of others, turned left by quarter turns as seen from above."""
     x = frame.x + frame.dx * s - frame.dz * o
     z = frame.z + frame.dz * s + frame.dx * o
     dx, dz = frame.dx, frame.dz

@@ -47,12 +47,12 @@ from .surfaces import FOLIAGE, NUMBER, WALKABLE, materials
 LEAST, MOST = 20_000, 50_000_000
 #: Tiles along each side of a district.
 DISTRICT = 4
-#: Rings of meadows round the city.
+#: Rings of meadows around the city.
 _MEADOWS = 1
 _FEWEST_A_TILE = 1_500
-#: The sizes up to which coarser districts leave things out or move them, in metres.
+#: Details up to these sizes in metres may be omitted or moved at coarser levels.
 _TOLERANCES = (0.3, 1.5)
-#: By the kind of tile: what makes a table of buildings, counts their quads, and adds them.
+#: By kind of tile: functions that make a table of buildings, count their quads, and add them.
 _BUILDINGS: tuple[tuple[int, Callable[..., Any], Callable[..., Any], Callable[..., Any]], ...] = (
     (HOUSES, houses, house_quads, add_houses),
     (TOWERS, towers, tower_quads, add_towers),
@@ -62,7 +62,7 @@ _LAND = {HOUSES: "gravel", TOWERS: "stone", PARK: "grass", PLAZA: "stone"}
 
 @dataclass(frozen=True)
 class World:
-    """A place to walk through, made by `city`. Y is up, a unit is a metre.
+    """A city to walk through, made by `city`. Y is up, the unit is the metre.
 
     Attributes
     ----------
@@ -89,17 +89,17 @@ class World:
 
     @property
     def triangles(self) -> int:
-        """How many triangles there are."""
+        """Number of triangles."""
         return sum(len(mesh.faces) for mesh in self.districts)
 
     def mesh(self) -> Mesh:
-        """Return everything as one mesh, such as for `Mesh.save`."""
+        """Return everything as one mesh, for example for `Mesh.save`."""
         return Mesh.concatenate(self.districts, name="city")
 
     def levels(self) -> tuple[tuple[tuple[Mesh, ...], float], ...]:
-        """Return the districts as they are, and coarser, for `DetailedMeshes`.
+        """Return the districts at full and coarser detail, for `DetailedMeshes`.
 
-        The ground is the same at every level, so that districts of different levels meet.
+        The ground is the same at every level, so that districts of different levels match.
 
         Returns
         -------
@@ -118,7 +118,7 @@ class World:
 
     @checks_types
     def add_to(self, scene: Scene) -> Node:
-        """Add the districts to a scene; returns the node that groups them."""
+        """Add the districts to a scene; return their group node."""
         group = scene.add(name="city")
         for mesh in self.districts:
             scene.add(mesh, parent=group)
@@ -134,7 +134,7 @@ class World:
 
 
 def city(triangles: int = 1_000_000, seed: int = 0) -> World:
-    """Return a city of about as many triangles, the same on every machine.
+    """Return a city of about the given number of triangles, the same on every machine.
 
     Parameters
     ----------
@@ -167,7 +167,7 @@ def city(triangles: int = 1_000_000, seed: int = 0) -> World:
 
 
 class _Ground:
-    """The ground: which tiles are city and which meadow, and the trees that complete the number."""
+    """The ground: city and meadow tiles, and the trees that make up the number of triangles."""
 
     def __init__(self, seed: int, triangles: int) -> None:
         self.seed = seed
@@ -190,7 +190,7 @@ class _Ground:
         self.wood = wood(seed, self.wood_i, self.wood_j, max(0, missing))
 
     def districts(self) -> list[tuple[int, int]]:
-        """Return the districts that have tiles, row by row."""
+        """Return the non-empty districts, row by row."""
         i, j = np.concatenate([self.i, self.wild_i]), np.concatenate([self.j, self.wild_j])
         keys = np.unique(np.stack([j // DISTRICT, i // DISTRICT], axis=1), axis=0)
         return [(a, b) for b, a in keys.tolist()]
@@ -205,7 +205,7 @@ def _tiles_by_distance(count: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _meadows(i: np.ndarray, j: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the tiles round the city, row by row."""
+    """Return the tiles around the city, row by row."""
     low = int(min(i.min(), j.min())) - _MEADOWS
     side = int(max(i.max(), j.max())) + _MEADOWS + 1 - low
     built = np.zeros((side, side), bool)
@@ -220,7 +220,7 @@ def _meadows(i: np.ndarray, j: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _tile_triangles(seed: int, i: np.ndarray, j: np.ndarray, kinds: np.ndarray) -> np.ndarray:
-    """Return how many triangles each tile has."""
+    """Return the number of triangles of each tile."""
     count = np.zeros(len(i), np.int64)
     for kind in (HOUSES, TOWERS, PARK, PLAZA):
         count[kinds == kind] = _ground_triangles(kind)
@@ -256,7 +256,7 @@ def _meadow_triangles(i: np.ndarray) -> int:
 
 
 def _add_land(patch: Patchwork, tile: Frames, kinds: np.ndarray) -> None:
-    """Add the ground of tiles that the river does not flow through."""
+    """Add the ground of tiles without the river."""
     land = np.array([NUMBER[_LAND[kind]] for kind in range(len(_LAND))])[kinds]
     add_ground(patch, tile, land)
     add_parks(patch, tile[kinds == PARK])
@@ -271,7 +271,7 @@ def _add_meadows(patch: Patchwork, i: np.ndarray, j: np.ndarray) -> None:
 def _district(
     ground: _Ground, key: tuple[int, int], shared: list[Material], tolerance: float = 0.0
 ) -> tuple[Mesh, np.ndarray]:
-    """Return a district's mesh, and where its lamps shine."""
+    """Return a district's mesh, and the positions of its lamps."""
     inside = (ground.i // DISTRICT == key[0]) & (ground.j // DISTRICT == key[1])
     seed, i, j, kinds = ground.seed, ground.i[inside], ground.j[inside], ground.kinds[inside]
     patch, tile = Patchwork(tolerance), corners(i, j)

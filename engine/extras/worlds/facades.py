@@ -54,7 +54,7 @@ class Facades:
 
 
 def relief_quads(width: np.ndarray, storeys: np.ndarray) -> np.ndarray:
-    """Return how many quads `add_reliefs` makes of facades of that width and storeys."""
+    """Return how many quads `add_reliefs` makes for facades of given widths and storeys."""
     bays = np.maximum(1, (width / _BAY).astype(np.int64))
     return 9 * bays + storeys * (2 + 6 * bays) + 12
 
@@ -65,9 +65,9 @@ def flat_quads(width: np.ndarray, storeys: np.ndarray) -> np.ndarray:
 
 
 def add_reliefs(patch: Patchwork, facades: Facades, seed: int) -> None:
-    """Add street fronts: openings that stand back, a string course, a cornice.
+    """Add street fronts: recessed openings, a string course, a cornice.
 
-    Seen from far the wall has no openings, and panes before it.
+    At coarser detail the wall has no openings, and panes in front of it.
     """
     frame, width, height = facades.frame, facades.width, facades.height
     trim = NUMBER["trim"]
@@ -88,7 +88,7 @@ def _is_level(patch: Patchwork) -> bool:
 
 
 def _add_ground_floor(patch: Patchwork, facades: Facades, seed: int) -> None:
-    """Each bay is a cell of wall round its opening; one of them is the door."""
+    """Add the ground floor: each bay is a wall cell around its opening; one is the door."""
     bays = facades.bays
     owner, bay = each(bays)
     frame, pitch = facades.frame[owner], (facades.width / bays)[owner]
@@ -113,7 +113,7 @@ def _add_ground_floor(patch: Patchwork, facades: Facades, seed: int) -> None:
 
 
 def _add_upper_floors(patch: Patchwork, facades: Facades, seed: int) -> None:
-    """A band of wall below each row of windows, piers between them, a last band above."""
+    """Add the upper floors: wall bands below the rows of windows, piers, and a last band."""
     owner, storey = each(facades.storeys)
     frame, width, wall = facades.frame[owner], facades.width[owner], facades.wall[owner]
     floor = GROUND + STOREY * storey
@@ -150,7 +150,7 @@ def _add_openings(
     wall: np.ndarray,
     pane: np.ndarray,
 ) -> None:
-    """A pane that stands back, and the four sides of the hole in the wall."""
+    """Add recessed panes, and the four sides of each hole in the wall."""
     if _is_level(patch):
         patch.add(front(frame, a, b, sill, head, _BEFORE), pane)
         return
@@ -162,7 +162,7 @@ def _add_openings(
 
 
 def add_flats(patch: Patchwork, facades: Facades, seed: int) -> None:
-    """Add backs: a wall with panes before it."""
+    """Add backs: a wall with panes in front of it."""
     patch.add(front(facades.frame, 0.0, facades.width, 0.0, facades.height, 0.0), facades.wall)
     owner, number = each(facades.bays * (facades.storeys + 1))
     bays = facades.bays[owner]
@@ -179,12 +179,12 @@ def add_plains(patch: Patchwork, facades: Facades) -> None:
     patch.add(front(facades.frame, 0.0, facades.width, 0.0, facades.height, 0.0), facades.wall)
 
 
-#: Quads of one balcony, of one awning.
+#: Quads of a balcony and of an awning.
 BALCONY_QUADS, AWNING_QUADS = 9, 4
 
 
 def add_balconies(patch: Patchwork, facades: Facades, storey: np.ndarray) -> None:
-    """Add a balcony along each facade at the floor of a storey above the ground floor."""
+    """Add a balcony along each facade at the floor of an upper storey."""
     floor, end = GROUND + STOREY * storey, facades.width - 0.6
     patch.add(box(facades.frame, 0.6, end, floor - 0.15, floor, 0.0, 0.95, "ftulr"), NUMBER["trim"])
     rail = facades.frame, floor, floor + 0.85
@@ -196,7 +196,7 @@ def add_balconies(patch: Patchwork, facades: Facades, storey: np.ndarray) -> Non
 
 
 def add_awnings(patch: Patchwork, facades: Facades, material: np.ndarray) -> None:
-    """Add a slanted cloth over each ground floor, seen from above and from below."""
+    """Add a slanted awning over each ground floor, visible from above and below."""
     frame, end = facades.frame, facades.width - 0.4
     s, o = (0.4, end, end, 0.4), (1.4, 1.4, 0.13, 0.13)
     cloth = quads(frame, s, (2.9, 2.9, 3.6, 3.6), o)
@@ -207,7 +207,7 @@ def add_awnings(patch: Patchwork, facades: Facades, material: np.ndarray) -> Non
 
 
 def _lit(seed: int, frame: Frames, bay: np.ndarray, storey: int | np.ndarray) -> np.ndarray:
-    """1 where somebody is at home, else 0."""
+    """Return 1 for lit windows, else 0."""
     chance = unit_floats(seed, _LIT, _metres(frame.x), _metres(frame.z), bay, storey)
     return (chance < _LIT_SHARE).astype(np.int64)
 

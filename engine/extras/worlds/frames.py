@@ -1,8 +1,8 @@
-"""Frames to build in: an origin on the ground, a direction to the right, and what is outward.
+"""Local frames for buildings: an origin on the ground, a direction to the right, and outward.
 
 In: frames and arrays of lengths s (to the right), y (up) and o (outward), one number per quad.
 Out: corners of quads (N, 4, 3) float64, counter-clockwise from the front. Facades, boxes, roofs and
-bridges are all said in these terms, so none of them knows which way it faces.
+bridges use these coordinates, independent of their orientation.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Lengths: TypeAlias = float | np.ndarray
 class Frames:
     """N frames: origins x, y, z and the direction (dx, dz) to the right, which has length 1.
 
-    Outward is (-dz, dx), towards the one who sees the right on the right. Each is (N,) float64.
+    Outward is (-dz, dx), towards a viewer for whom right is on the right. Each is (N,) float64.
     """
 
     x: np.ndarray
@@ -63,42 +63,42 @@ def quads(
 def front(
     frame: Frames, s0: Lengths, s1: Lengths, y0: Lengths, y1: Lengths, o: Lengths
 ) -> np.ndarray:
-    """Upright, seen from outside."""
+    """Return upright quads, seen from outside."""
     return quads(frame, (s0, s1, s1, s0), (y0, y0, y1, y1), (o, o, o, o))
 
 
 def back(
     frame: Frames, s0: Lengths, s1: Lengths, y0: Lengths, y1: Lengths, o: Lengths
 ) -> np.ndarray:
-    """Upright, seen from behind."""
+    """Return upright quads, seen from behind."""
     return quads(frame, (s1, s0, s0, s1), (y0, y0, y1, y1), (o, o, o, o))
 
 
 def top(
     frame: Frames, s0: Lengths, s1: Lengths, y: Lengths, o0: Lengths, o1: Lengths
 ) -> np.ndarray:
-    """Level, seen from above; o0 is farther in than o1."""
+    """Return level quads, seen from above; o0 is farther in than o1."""
     return quads(frame, (s0, s1, s1, s0), (y, y, y, y), (o1, o1, o0, o0))
 
 
 def bottom(
     frame: Frames, s0: Lengths, s1: Lengths, y: Lengths, o0: Lengths, o1: Lengths
 ) -> np.ndarray:
-    """Level, seen from below."""
+    """Return level quads, seen from below."""
     return quads(frame, (s0, s1, s1, s0), (y, y, y, y), (o0, o0, o1, o1))
 
 
 def left(
     frame: Frames, s: Lengths, y0: Lengths, y1: Lengths, o0: Lengths, o1: Lengths
 ) -> np.ndarray:
-    """Upright across the frame, seen from the left."""
+    """Return upright quads across the frame, seen from the left."""
     return quads(frame, (s, s, s, s), (y0, y0, y1, y1), (o0, o1, o1, o0))
 
 
 def right(
     frame: Frames, s: Lengths, y0: Lengths, y1: Lengths, o0: Lengths, o1: Lengths
 ) -> np.ndarray:
-    """Upright across the frame, seen from the right."""
+    """Return upright quads across the frame, seen from the right."""
     return quads(frame, (s, s, s, s), (y0, y0, y1, y1), (o1, o0, o0, o1))
 
 
@@ -112,7 +112,7 @@ def box(
     o1: Lengths,
     sides: str = "ftlrb",
 ) -> np.ndarray:
-    """Sides of boxes, one kind after another: front, top, left, right, back, underside (u)."""
+    """Return sides of boxes by kind: front, top, left, right, back, underside (u)."""
     made = {
         "f": lambda: front(frame, s0, s1, y0, y1, o1),
         "b": lambda: back(frame, s0, s1, y0, y1, o0),
@@ -125,6 +125,6 @@ def box(
 
 
 def each(counts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return, for counts (N,), the owner of each single thing, and its number within the owner."""
+    """Return, for counts (N,), the owner of each item, and its number within the owner."""
     owner = np.repeat(np.arange(len(counts)), counts)
     return owner, np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)

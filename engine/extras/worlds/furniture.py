@@ -1,6 +1,6 @@
-"""Small things that stand about: trees, street lamps, benches, cars, fountains, a church.
+"""Street furniture and landmarks: trees, street lamps, benches, cars, fountains, a church.
 
-In: nothing. Out: templates round the origin, made once. Turned by nothing, a thing looks to +Z.
+Out: templates around the origin, made once. An unrotated one faces +Z.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from .hashing import unit_floats
 from .patchwork import Patchwork, Template
 from .surfaces import NUMBER
 
-#: Height of a lamp's light over the ground, in metres.
+#: Height of a lamp's light above the ground, in metres.
 LAMP_HEIGHT = 4.6
 _TRUNK_SIDES, _POLE_SIDES = 6, 6
 _HERE = frames(0.0, 0.0)
@@ -26,7 +26,7 @@ _HERE = frames(0.0, 0.0)
 
 @functools.cache
 def template(name: str, tolerance: float = 0.0) -> Template:
-    """Return the shape of that name, as it has to be for `Patchwork` of some tolerance."""
+    """Return the template with a name, for a `Patchwork` of given tolerance."""
     patch = Patchwork(tolerance)
     _MAKERS[name](patch)
     return patch.template()
@@ -42,7 +42,7 @@ def car(name: str, materials: list[Material]) -> Mesh:
 def _ring(
     patch: Patchwork, sides: int, low: tuple[float, float], high: tuple[float, float], material: str
 ) -> None:
-    """The sides of a prism or cone: ``low`` and ``high`` are (radius, y)."""
+    """Return the sides of a prism or cone: ``low`` and ``high`` are (radius, y)."""
     x, z = linalg.unit_circle(sides)
     x1, z1 = np.roll(x, -1), np.roll(z, -1)
     (r0, y0), (r1, y1) = low, high
@@ -54,7 +54,7 @@ def _ring(
 
 
 def _disc(patch: Patchwork, sides: int, radius: float, y: float, material: str) -> None:
-    """A level polygon of an even number of sides, cut into quads like a fan."""
+    """Return a level polygon with an even number of sides, cut into quads like a fan."""
     x, z = (part * radius for part in linalg.unit_circle(sides))
     first = np.arange(0, sides, 2)
     corners = np.zeros((len(first), 4, 3))
@@ -83,7 +83,7 @@ def _crown(
     material: str,
     channel: int,
 ) -> Template:
-    """A lump of leaves: a sphere whose points lie a little in or out."""
+    """Return a crown of leaves: a sphere with slightly displaced points."""
     rough = patch.tolerance >= 1.0
     ball = icosphere(1.0, 0 if rough else 1)
     normals = ball.positions.astype(np.float64)
@@ -155,7 +155,7 @@ def _bench(patch: Patchwork) -> None:
 
 
 def _car(patch: Patchwork, paint: str) -> None:
-    """A car 4.2 m long, its front to +Z."""
+    """Return a car 4.2 m long that faces +Z."""
     s, o = (-0.85, 0.85), (-2.1, 2.1)
     rough = patch.tolerance >= 0.7
     patch.add(box(_HERE, *s, 0.0 if rough else 0.28, 0.85, *o, "flrbu"), NUMBER[paint])
@@ -190,7 +190,7 @@ def _fountain(patch: Patchwork) -> None:
 
 
 def _church(patch: Patchwork) -> None:
-    """A nave along Z with its tower towards +Z, 30 m long."""
+    """Return a church: a nave along Z with its tower towards +Z, 30 m long."""
     wall, roof = "masonry", "roof slate"
     _box(patch, (-5.5, 5.5), (0.0, 9.0), (-17.0, 7.0), wall, "flrb")
     y, near, far = (9.0, 9.0, 15.0, 15.0), 7.2, -17.2

@@ -1,8 +1,8 @@
-"""Numbers that look random and are a function of their coordinates: the same on every machine.
+"""Hash-based random numbers from coordinates: the same on every machine.
 
 In: a seed and integer coordinates. Out: 32-bit hashes, or numbers in [0, 1) made of their upper 24
-bits, which a float64 holds exactly. Nothing depends on the order in which they are asked for, nor
-on a generator whose stream may change.
+bits, which a float64 holds exactly. The results depend neither on the order of calls nor on a
+generator whose stream may change.
 
 Each word w turns the state h into mix(h xor w * 0x9E3779B9), modulo 2**32, where mix is Chris
 Wellons's "lowbias32": x ^= x >> 16; x *= 0x7FEB352D; x ^= x >> 15; x *= 0x846CA68B; x ^= x >> 16.

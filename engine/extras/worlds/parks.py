@@ -1,4 +1,4 @@
-"""Paths and ponds of parks: quads over the grass.
+"""Paths and ponds of parks, as quads over the grass.
 
 In: a `Patchwork`, frames at the corners of park tiles. Out: quads.
 """
@@ -19,9 +19,9 @@ _POND, _RIM, _WALK = 9.0, 9.6, 13.5
 
 
 def add_parks(patch: Patchwork, tile: Frames) -> None:
-    """Add a pond in the middle, a walk round it, and paths to the four streets."""
+    """Add a central pond, a path around it, and paths to the four streets."""
     middle, gravel = PITCH / 2, NUMBER["gravel"]
-    # Paths end inside the walk, whose corners lie nearer to the middle than its radius.
+    # Paths end inside the circular path, whose corners are closer to the middle than its radius.
     inner = middle - _WALK + 0.3, middle + _WALK - 0.3
     for o0, o1 in ((EDGE, inner[0]), (inner[1], PITCH - EDGE)):
         patch.add(top(tile, middle - 1.5, middle + 1.5, _LEVEL, o0, o1), gravel)
@@ -36,7 +36,7 @@ def add_parks(patch: Patchwork, tile: Frames) -> None:
 def _annulus(
     tile: Frames, inner: float, outer: float, y_inner: float, y_outer: float
 ) -> np.ndarray:
-    """Quads between two circles round the middle of each tile, seen from above or outside."""
+    """Return quads between two circles around the middle of each tile, facing up or outward."""
     x, z = linalg.unit_circle(_SIDES)
     x1, z1 = np.roll(x, -1), np.roll(z, -1)
     corners = np.empty((len(tile), _SIDES, 4, 3))
@@ -50,7 +50,7 @@ def _annulus(
 
 
 def _discs(tile: Frames, radius: float, y: float) -> np.ndarray:
-    """Quads of polygons round the middle of each tile, like fans of two triangles a leaf."""
+    """Return polygons around the middle of each tile as quads, like fans of paired triangles."""
     x, z = linalg.unit_circle(_SIDES)
     corners = np.zeros((len(tile), _SIDES // 2, 4, 3))
     for k in range(3):

@@ -1,4 +1,4 @@
-"""Geometry collected piece by piece: quads by the thousand, and small shapes set down many times.
+"""Collects geometry piece by piece: thousands of quads, and repeated small shapes.
 
 In: corners of quads (N, 4, 3) float64, counter-clockwise from their front, each with a material;
 templates with the places where they stand. Out: one `Mesh`, flat where quads are. All arithmetic is
@@ -24,7 +24,7 @@ _UNIT_SQUARE = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
 
 @dataclass(frozen=True)
 class Template:
-    """A small shape that stands in many places.
+    """A small shape that is placed many times.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class Patchwork:
     Parameters
     ----------
     tolerance : float
-        Metres: who adds something may leave out, or put elsewhere, what is no larger.
+        Metres: details up to this size may be omitted or moved.
     """
 
     def __init__(self, tolerance: float = 0.0) -> None:
@@ -66,9 +66,9 @@ class Patchwork:
             self._materials.append(np.tile(given, len(corners) // len(given)))
 
     def place(self, template: Template, places: np.ndarray) -> None:
-        """Set a template down at places (N, 6): x, y, z, scale, and the cosine and sine of a turn.
+        """Place a template at places (N, 6): x, y, z, scale, and the cosine and sine of a rotation.
 
-        The turn goes about +Y, from +Z towards +X.
+        The rotation is about +Y, from +Z towards +X.
         """
         if not len(places):
             return
@@ -92,12 +92,12 @@ class Patchwork:
 
     @property
     def triangles(self) -> int:
-        """How many there are so far."""
+        """Number of triangles so far."""
         quads = sum(len(corners) for corners in self._corners)
         return 2 * quads + sum(len(part.faces) for part in self._parts)
 
     def template(self) -> Template:
-        """Return everything as one shape."""
+        """Return everything as one template."""
         parts = [*self._quads(), *self._parts]
         starts = np.cumsum([0, *(len(part.positions) for part in parts)])
         return Template(
@@ -146,15 +146,15 @@ class Patchwork:
 
 
 def _normals(corners: np.ndarray) -> np.ndarray:
-    """Unit normals from the diagonals; adding zero turns -0 into 0."""
+    """Return unit normals from the diagonals; adding zero turns -0 into 0."""
     diagonals = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
     return linalg.normalize(linalg.cross(*diagonals)) + 0.0
 
 
 def _uvs(corners: np.ndarray, normals: np.ndarray, material: np.ndarray) -> np.ndarray:
-    """Texture coordinates: the world's own, in the size of each texture, or the whole image.
+    """Return texture coordinates: world coordinates at each texture's size, or the whole image.
 
-    What lies flat is seen from above with -Z at the top; what stands is seen upright.
+    Level quads are seen from above with -Z at the top; upright ones are seen upright.
     """
     across, along = np.abs(normals[:, 0]), np.abs(normals[:, 2])
     flat = np.abs(normals[:, 1]) > np.maximum(across, along)
@@ -170,7 +170,7 @@ def _uvs(corners: np.ndarray, normals: np.ndarray, material: np.ndarray) -> np.n
 
 
 def _turned(vectors: np.ndarray, cosine: np.ndarray, sine: np.ndarray) -> np.ndarray:
-    """Vectors (V, 3) turned about +Y by N angles (N, 1): (N, V, 3)."""
+    """Return vectors (V, 3) rotated about +Y by N angles (N, 1): (N, V, 3)."""
     x, y, z = vectors.T
     turned = np.empty((len(cosine), len(vectors), 3))
     turned[..., 0] = x * cosine + z * sine
@@ -184,5 +184,5 @@ def _single(array: np.ndarray) -> np.ndarray:
 
 
 def _kept(array: np.ndarray) -> np.ndarray:
-    """Let `Mesh` keep the array itself: nobody else writes to it."""
+    """Make an array read-only, so that `Mesh` keeps it without copying."""
     return frozen(array)

@@ -1,8 +1,7 @@
-"""The places of small things on each kind of tile.
+"""Places small things on each kind of tile.
 
-In: a seed, tiles' coordinates and kinds. Out: for each template, the tiles and the places
-(x, y, z, scale, cosine, sine of the turn) of all that stand there. Functions of the seed and the
-tile's coordinates alone.
+In: a seed, tiles' coordinates and kinds. Out: for each template, the tiles and the places (x, y, z,
+scale, cosine and sine of the rotation). They depend only on the seed and the tile's coordinates.
 """
 
 from __future__ import annotations
@@ -40,7 +39,7 @@ def placements(seed: int, i: np.ndarray, j: np.ndarray, kinds: np.ndarray) -> Pl
 
 
 def wood(seed: int, i: np.ndarray, j: np.ndarray, triangles: int) -> Places:
-    """Return places of trees on meadows that have as many triangles together, but for a tree."""
+    """Return places of trees on meadows with about this many triangles, up to one tree."""
     if not len(i):
         return {}
     things = _Things(seed, i, j)
@@ -54,14 +53,14 @@ def wood(seed: int, i: np.ndarray, j: np.ndarray, triangles: int) -> Places:
 
 
 class _Things:
-    """Collects what stands where; positions are given within the tile."""
+    """Collects placed things; positions are relative to the tile."""
 
     def __init__(self, seed: int, i: np.ndarray, j: np.ndarray) -> None:
         self.seed, self.i, self.j = seed, i, j
         self._found: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {}
 
     def chance(self, channel: int, tile: np.ndarray, *numbers: int | np.ndarray) -> np.ndarray:
-        """Return numbers in [0, 1) of the tiles."""
+        """Return random numbers in [0, 1) for the tiles."""
         return unit_floats(self.seed, channel, self.i[tile], self.j[tile], *numbers)
 
     def add(
@@ -90,7 +89,7 @@ class _Things:
         number: np.ndarray,
         channel: int,
     ) -> None:
-        """Add trees of all kinds and sizes, turned anyhow."""
+        """Add trees of all kinds and sizes, randomly rotated."""
         kind = self.tree_kinds(tile, number, channel)
         scale = 0.75 + 0.6 * self.chance(_SIZE, tile, number, channel)
         turn = (self.chance(_TURN, tile, number, channel) * _TURNS).astype(np.int64)
@@ -100,7 +99,7 @@ class _Things:
             self.add(name, tile[m], x[m], z[m], y, scale[m], *way)
 
     def tree_kinds(self, tile: np.ndarray, number: np.ndarray, channel: int) -> np.ndarray:
-        """Return indices of `TREES`: the round and the wide are twice as frequent."""
+        """Return indices of `TREES`: round and wide ones are twice as frequent."""
         kind = (self.chance(channel, tile, number, 7) * 6.0).astype(np.int64)
         return np.array([0, 0, 1, 1, 2, 3])[kind]
 
@@ -114,7 +113,7 @@ class _Things:
 
 
 def _along_sides(tiles: np.ndarray, along: ArrayLike, inward: float) -> tuple[np.ndarray, ...]:
-    """Points on the four sides of tiles: tile, side, number, x, z, and the way to the street."""
+    """Return points on the four sides of tiles: tile, side, number, x, z, and street direction."""
     along = np.asarray(along)
     tile = np.repeat(tiles, 4 * len(along))
     side = np.tile(np.repeat(np.arange(4), len(along)), len(tiles))
@@ -126,7 +125,7 @@ def _along_sides(tiles: np.ndarray, along: ArrayLike, inward: float) -> tuple[np
 
 
 def _line_streets(things: _Things, kinds: np.ndarray) -> None:
-    """Lamps, trees and parked cars along the streets; the river has streets on two sides."""
+    """Add lamps, trees and parked cars along streets; the river has streets on two sides."""
     tiles = np.arange(len(kinds))
     tile, side, number, x, z = _along_sides(tiles, _LAMPS_ALONG, KERB + 0.7)
     kept = (kinds[tile] != RIVER) | (side < 2)
@@ -150,7 +149,8 @@ def _line_streets(things: _Things, kinds: np.ndarray) -> None:
     color = (things.chance(_CAR, tile, side, number, 1) * len(CARS)).astype(np.int64)
     for k, name in enumerate(CARS):
         m = kept & (color == k)
-        # Right-hand traffic: to -Z on the low side of X, to +Z on the high one, and so on.
+        # Right-hand traffic: towards -Z on the low side of X, towards +Z on the high one, and so
+        # on.
         cosine = np.choose(side[m], (1.0, -1.0, 0.0, 0.0))
         sine = np.choose(side[m], (0.0, 0.0, -1.0, 1.0))
         things.add(name, tile[m], x[m], z[m], 0.0, 1.0, cosine, sine)
@@ -159,7 +159,7 @@ def _line_streets(things: _Things, kinds: np.ndarray) -> None:
 def _scatter(
     things: _Things, tiles: np.ndarray, count: int, channel: int, low: float, high: float
 ) -> tuple[np.ndarray, ...]:
-    """``count`` points anywhere in the square from ``low`` to ``high`` of each tile."""
+    """Return ``count`` random points in the square from ``low`` to ``high`` of each tile."""
     tile = np.repeat(tiles, count)
     number = np.tile(np.arange(count), len(tiles))
     x, z = (low + (high - low) * things.chance(channel, tile, number, k) for k in range(2))
@@ -173,7 +173,7 @@ def _plant_courts(things: _Things, tiles: np.ndarray) -> None:
 
 
 def _plant_parks(things: _Things, tiles: np.ndarray) -> None:
-    """A grove on a jittered grid that leaves the paths and the pond free; benches at the pond."""
+    """Add a grove on a jittered grid that avoids paths and pond, and benches at the pond."""
     count = _GROVE_SIDE * _GROVE_SIDE
     tile = np.repeat(tiles, count)
     number = np.tile(np.arange(count), len(tiles))
@@ -193,7 +193,7 @@ def _plant_parks(things: _Things, tiles: np.ndarray) -> None:
 
 
 def _furnish_plazas(things: _Things, tiles: np.ndarray) -> None:
-    """A church on every second plaza, fountains on the others; trees and benches round them."""
+    """Add a church on every second plaza, fountains on others; trees and benches around them."""
     has_church = things.chance(_SQUARE, tiles) < 0.5
     has_church |= (things.i[tiles] == -1) & (things.j[tiles] == -2)
     middle = PITCH / 2
@@ -212,7 +212,7 @@ def _furnish_plazas(things: _Things, tiles: np.ndarray) -> None:
 
 
 def _plant_open_plots(things: _Things, tiles: np.ndarray) -> None:
-    """Rows of trees between towers."""
+    """Add rows of trees between towers."""
     middle = PITCH / 2
     for number in range(8):
         t = EDGE + 3.0 + number * (LAND - 6.0) / 7.0

@@ -14,13 +14,13 @@ import numpy as np
 from .frames import Frames, frames
 from .hashing import unit_floats
 
-#: Metres from the middle of a street to the middle of the next, which is the side of a tile.
+#: Metres between the middles of adjacent streets, which is the side of a tile.
 PITCH = 72.0
-#: Half the carriageway, and where the pavement ends and the block begins.
+#: Half the carriageway, and the distance at which the pavement ends and the block begins.
 KERB, EDGE = 5.0, 8.5
 LAND = PITCH - 2.0 * EDGE
 DEPTH = 13.0
-#: The column of tiles that the river flows through.
+#: The column of tiles with the river.
 RIVER_COLUMN = 1
 
 HOUSES, TOWERS, PARK, PLAZA, RIVER = range(5)
@@ -34,16 +34,16 @@ _FIXED = {
     (0, 0): HOUSES,
     (0, 1): TOWERS,
 }
-#: Side of the squares of tiles, each of which has towers in its middle.
+#: Side of the squares of tiles that have towers in their middle.
 _QUARTER = 11
 _TOWER_REACH = 3.0
 
-# Channels of the hash: what a number is for.
+# Channels of the hash, one for each purpose.
 _KIND, _MIDDLE, _LOT, _STOREYS, _STYLE, _ROOF, _PLOT = range(100, 107)
 
 
 def tile_kinds(seed: int, i: np.ndarray, j: np.ndarray) -> np.ndarray:
-    """Return what each tile is: HOUSES, TOWERS, PARK, PLAZA or RIVER, (N,) int."""
+    """Return the kind of each tile: HOUSES, TOWERS, PARK, PLAZA or RIVER, (N,) int."""
     chance = unit_floats(seed, _KIND, i, j)
     towers = 0.03 + 0.85 * np.maximum(0.0, 1.0 - _middle_distance(seed, i, j) / _TOWER_REACH)
     kinds = np.select(
@@ -56,7 +56,7 @@ def tile_kinds(seed: int, i: np.ndarray, j: np.ndarray) -> np.ndarray:
 
 
 def _middle_distance(seed: int, i: np.ndarray, j: np.ndarray) -> np.ndarray:
-    """Tiles between each tile and the middle of its quarter."""
+    """Return the distance in tiles between each tile and the middle of its quarter."""
     a, b = i // _QUARTER, j // _QUARTER
     across = _QUARTER * (0.25 + 0.5 * unit_floats(seed, _MIDDLE, a, b, 0)) + a * _QUARTER - i
     along = _QUARTER * (0.25 + 0.5 * unit_floats(seed, _MIDDLE, a, b, 1)) + b * _QUARTER - j
@@ -132,7 +132,7 @@ def _row(
     lots: int,
     has_corners: bool,
 ) -> tuple[np.ndarray, ...]:
-    """One row of houses on every tile: tile, x, z, dx, dz, width, corner and lot of each."""
+    """Return one row of houses on every tile: tile, x, z, dx, dz, width, corner and lot of each."""
     length = LAND if has_corners else LAND - 2.0 * DEPTH
     start = 0.0 if has_corners else DEPTH
     share = [0.75 + 0.5 * unit_floats(seed, _LOT, i, j, number, k) for k in range(lots)]
@@ -175,7 +175,7 @@ def towers(seed: int, i: np.ndarray, j: np.ndarray) -> Towers:
     quarter = LAND / 4.0
     x = a * PITCH + EDGE + quarter * (1 + 2 * (plot % 2))
     z = b * PITCH + EDGE + quarter * (1 + 2 * (plot // 2))
-    # One of the four plots stays open; which one differs from tile to tile.
+    # One of the four plots stays open, a different one on each tile.
     open_plot = (unit_floats(seed, _PLOT, a, b) * 4.0).astype(np.int64)
     kept = plot != open_plot
     height = 8.0 + 30.0 * chance[2] * chance[3] + 8.0 * chance[4]

@@ -1,8 +1,8 @@
 """The river: banks with pavements and parapets, quays below with ramps, water, and bridges.
 
-In: a `Patchwork`, frames at the corners of the river's tiles. Out: quads. A bank is
-said once, seen from its street: s runs to the water, o along the street; the other bank is the same
-in a frame turned round.
+In: a `Patchwork`, frames at the corners of the river's tiles. Out: quads. A bank is defined once,
+as seen from its street: s runs to the water, o along the street; the other bank uses a reversed
+frame.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from .streets import add_markings
 from .surfaces import NUMBER
 
 CURB, QUAY, WATER = 0.15, -4.4, -5.2
-#: From the street's middle to the water.
+#: Distance from the street's middle to the water.
 BRINK = EDGE + 4.5
 _PARAPET = 1.15
 _GAP = 20.0, 23.0
@@ -28,12 +28,12 @@ _BRIDGE = 300
 
 
 def has_bridge(seed: int, line: np.ndarray) -> np.ndarray:
-    """Return whether a bridge continues the street number ``line`` along X."""
+    """Return whether a bridge continues street number ``line`` along X."""
     return (unit_floats(seed, _BRIDGE, line) < 0.5) | (line == 0)
 
 
 def add_river(patch: Patchwork, tile: Frames, starts: np.ndarray, ends: np.ndarray) -> None:
-    """Add the river's tiles; ``starts`` and ``ends`` (N,) bool tell where they have bridges."""
+    """Add the river's tiles; ``starts`` and ``ends`` (N,) bool say where they have bridges."""
     turned = _turned(tile)
     patch.add(top(tile, BRINK, PITCH - BRINK, WATER, 0.0, PITCH), NUMBER["water"])
     _add_bank(patch, tile, starts, ends)
@@ -48,7 +48,7 @@ def _turned(tile: Frames) -> Frames:
 
 
 def _add_bank(patch: Patchwork, bank: Frames, starts: np.ndarray, ends: np.ndarray) -> None:
-    """The street, its pavement, the wall, the quay with its ramp."""
+    """Add the street, its pavement, the wall, and the quay with its ramp."""
     stone, wall = NUMBER["stone"], NUMBER["masonry"]
     far = PITCH - KERB
     patch.add(top(bank, 0.0, KERB, 0.0, 0.0, PITCH), NUMBER["asphalt"])
@@ -69,7 +69,7 @@ def _add_bank(patch: Patchwork, bank: Frames, starts: np.ndarray, ends: np.ndarr
 
 
 def _add_ramp(patch: Patchwork, bank: Frames) -> None:
-    """A landing behind the gap in the parapet, and a way down along the wall."""
+    """Add a landing behind the gap in the parapet, and a ramp down along the wall."""
     stone, wall = NUMBER["stone"], NUMBER["masonry"]
     edge, (o0, o1), o2 = EDGE + _RAMP_WIDTH, _GAP, _RAMP_END
     patch.add(top(bank, EDGE, edge, CURB, o0, o1), stone)
@@ -84,7 +84,7 @@ def _add_ramp(patch: Patchwork, bank: Frames) -> None:
 
 
 def _add_half_bridges(patch: Patchwork, bank: Frames) -> None:
-    """Half of a bridge, from the middle of its street to its parapet."""
+    """Add half of a bridge, from the middle of its street to its parapet."""
     stone, wall = NUMBER["stone"], NUMBER["masonry"]
     end = PITCH - EDGE
     patch.add(top(bank, EDGE, end, 0.0, 0.0, KERB), NUMBER["asphalt"])
@@ -110,7 +110,7 @@ def _add_half_bridges(patch: Patchwork, bank: Frames) -> None:
 
 
 def _arch(t: np.ndarray) -> np.ndarray:
-    """Height of the vault along an arch, t from 0 to 1."""
+    """Return the height of an arch, t from 0 to 1."""
     return _SPRING + (_CROWN - _SPRING) * (4.0 * t * (1.0 - t))
 
 

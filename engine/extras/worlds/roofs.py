@@ -17,7 +17,7 @@ from .plan import DEPTH
 from .surfaces import NUMBER
 
 GABLE, HIP, MANSARD, FLAT = range(4)
-#: Quads of each kind of roof, dormers and chimneys aside.
+#: Quads of each kind of roof, without dormers and chimneys.
 ROOF_QUADS = np.array([4, 4, 5, 18])
 DORMER_QUADS, CHIMNEY_QUADS = 4, 5
 _EAVES = 0.40
@@ -25,7 +25,7 @@ _DORMER_PITCH = 3.4
 
 
 def dormers(kind: np.ndarray, width: np.ndarray) -> np.ndarray:
-    """Return how many dormers each roof has."""
+    """Return the number of dormers of each roof."""
     return np.where(kind == MANSARD, (width / _DORMER_PITCH).astype(np.int64), 0)
 
 
@@ -65,7 +65,7 @@ def _add_slopes(
     rise: float,
     cover: np.ndarray,
 ) -> None:
-    """Two slopes: from the eaves s[0]..s[1] up to a ridge s[2]..s[3], at ``ridge`` inward."""
+    """Add two slopes: from the eaves s[0]..s[1] up to a ridge s[2]..s[3], at ``ridge`` inward."""
     a, b, c, d = s
     y = (0.0, 0.0, rise, rise)
     patch.add(quads(frame, (a, b, d, c), y, (_EAVES, _EAVES, -ridge, -ridge)), cover)
@@ -111,7 +111,7 @@ def _add_mansards(
 def _add_flats(
     patch: Patchwork, frame: Frames, width: np.ndarray, cover: np.ndarray, wall: np.ndarray
 ) -> None:
-    """A flat roof behind parapets, with a hut on it."""
+    """Add a flat roof behind parapets, with a hut on it."""
     patch.add(top(frame, 0.0, width, 0.0, -DEPTH, 0.0), NUMBER["roof gravel"])
     for o in (0.0, 0.3 - DEPTH):
         patch.add(box(frame, 0.0, width, 0.0, 0.8, o - 0.3, o, "ftb"), wall)

@@ -26,8 +26,7 @@ _SETBACK = 2.0
 
 @dataclass(frozen=True)
 class _Sections:
-    """N sections: tower, middle x and z, half widths, height of the foot, storeys, and whether the
-    section is the upper one."""
+    """N sections: tower, middle x, z, half widths, base height, storeys, whether it is upper."""
 
     tower: np.ndarray
     x: np.ndarray
@@ -44,7 +43,7 @@ def _style(towers: Towers) -> np.ndarray:
 
 
 def _second(towers: Towers) -> np.ndarray:
-    """Storeys of the upper section: a third of the high towers; none of the others."""
+    """Return storeys of the upper section: a third for high towers; none for others."""
     return np.where((towers.storeys > 14) & (_style(towers) != _GRID), towers.storeys // 3, 0)
 
 
@@ -112,7 +111,7 @@ def add_towers(patch: Patchwork, towers: Towers, seed: int) -> None:
 
 
 def _side(sections: _Sections, turn: int) -> tuple[Frames, np.ndarray]:
-    """Frames of one side of each section, and its width."""
+    """Return frames of one side of each section, and its width."""
     dx, dz = ((1, 0), (0, -1), (-1, 0), (0, 1))[turn]
     along, across = (sections.a, sections.b) if dz == 0 else (sections.b, sections.a)
     x = sections.x - dx * along - dz * across
@@ -129,7 +128,7 @@ def _add_ribbons(
     glass: np.ndarray,
     stone: np.ndarray,
 ) -> None:
-    """Bands of glass that stand back between bands of stone, and a pillar at each end."""
+    """Add recessed bands of glass between bands of stone, and a pillar at each end."""
     owner, storey = each(storeys)
     f, w, low = frame[owner], width[owner], (lobby[owner] + _FLOOR * storey)
     recess = 0.0 if patch.tolerance >= 0.3 else 0.3
@@ -152,7 +151,7 @@ def _add_fins(
     glass: np.ndarray,
     stone: np.ndarray,
 ) -> None:
-    """Glass from top to bottom behind upright fins."""
+    """Add full-height glass behind upright fins."""
     if patch.tolerance >= 0.65:
         patch.add(front(frame, 0.0, width, lobby, lobby + _FLOOR * storeys, -0.3), glass)
         return
@@ -168,7 +167,7 @@ def _add_fins(
 
 
 def _add_roofs(patch: Patchwork, sections: _Sections, style: np.ndarray, stone: np.ndarray) -> None:
-    """A roof and parapets on each section."""
+    """Add a roof and parapets to each section."""
     grid = style == _GRID
     height = np.where(
         grid,

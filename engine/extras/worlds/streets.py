@@ -41,7 +41,7 @@ def add_ground(patch: Patchwork, tile: Frames, land: np.ndarray) -> None:
 
 
 def _ring(patch: Patchwork, tile: Frames, edges: Sequence[float], y: float, material: int) -> None:
-    """Four level quads between two squares."""
+    """Return four level quads between two squares."""
     a, b, c, d = edges
     patch.add(top(tile, a, d, y, a, b), material)
     patch.add(top(tile, a, d, y, c, d), material)
@@ -50,7 +50,7 @@ def _ring(patch: Patchwork, tile: Frames, edges: Sequence[float], y: float, mate
 
 
 def add_markings(patch: Patchwork, tile: Frames) -> None:
-    """Mark the streets along Z: dashes on the middle of the first, stripes where people cross."""
+    """Mark the streets along Z: a dashed middle line on the first, and pedestrian crossings."""
     paint = NUMBER["marking"]
     owner, number = each(np.full(len(tile), _DASHES))
     start = 10.5 + 6.0 * number

@@ -65,7 +65,7 @@ _SURFACES = {
     "leaves dark": ((58, 98, 52), "turf", 3.0),
     "leaves light": ((124, 148, 62), "turf", 3.0),
 }
-#: Linear light that a surface gives off.
+#: Emission in linear light.
 _EMISSIVE = {
     "window lit": (0.34, 0.22, 0.08),
     "shop window lit": (0.42, 0.32, 0.16),
@@ -95,7 +95,7 @@ _SIDE = 128
 
 
 def numbers(*names: str) -> np.ndarray:
-    """Return the material numbers of names, (N,) int32."""
+    """Return the material numbers for names, (N,) int32."""
     return np.array([NUMBER[name] for name in names], np.int32)
 
 
@@ -123,13 +123,13 @@ def _texture(name: str) -> Texture:
 
 
 def _noise(channel: int, side: int, cell: int = 1) -> np.ndarray:
-    """Noise in [0, 1), (side, side); one value for each square of ``cell`` pixels."""
+    """Return noise in [0, 1), (side, side), with one value for each square of ``cell`` pixels."""
     rows = np.arange(side)[:, np.newaxis] // cell
     return unit_floats(0, channel, rows, np.arange(side) // cell)
 
 
 def _soft(noise: np.ndarray, times: int) -> np.ndarray:
-    """Average each value with its neighbours, round the edges, so that the image repeats."""
+    """Average each value with its neighbours, wrapping around, so that the image tiles."""
     for _ in range(times):
         for axis in (0, 1):
             noise = (noise + np.roll(noise, 1, axis)) * 0.5
@@ -167,7 +167,7 @@ def _waves() -> np.ndarray:
 
 
 def _courses(rows: int, columns: int, joint: int, channel: int, spread: float) -> np.ndarray:
-    """Blocks in courses, each half a block beside the last, with joints of ``joint`` pixels."""
+    """Return blocks in courses, each shifted by half a block, with joints of ``joint`` pixels."""
     height, width = _SIDE // rows, _SIDE // columns
     y, x = np.mgrid[0:_SIDE, 0:_SIDE]
     course = y // height
@@ -196,7 +196,7 @@ def _sash(
     bottom: int,
     bars: Sequence[tuple[int | None, int | None]],
 ) -> np.ndarray:
-    """Pixels of a white frame with bars around glass of the given level."""
+    """Return a white window frame with bars, around glass of the given level."""
     pixels = np.full((_SIDE, _SIDE, 3), 228, np.uint8)
     glass = np.zeros((_SIDE, _SIDE), bool)
     glass[top:bottom, left:right] = True

@@ -1,7 +1,7 @@
-"""A module for each format, or a folder where it takes several: how it is read, and written.
+"""The file formats, one module or subpackage each, for reading and writing.
 
-What defines ``READERS`` or, in a module ``NAME_writer``, ``WRITERS`` is a format; `reader_registry`
-and `writer_registry` list them.
+A module with ``READERS`` is a readable format, and a module ``NAME_writer`` with ``WRITERS`` a
+writable one; `reader_registry` and `writer_registry` list them.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from types import ModuleType
 
 
 def modules(*, writing: bool) -> Iterator[ModuleType]:
-    """Import the modules here and in folders below that write files, or all others; yield each."""
+    """Import and yield the modules here and in subpackages: the writers, or all others."""
     for module in pkgutil.walk_packages(__path__, __name__ + "."):
         name = module.name.rpartition(".")[2]
         if (name.endswith("_writer") or name.startswith("written_")) == writing:
@@ -21,7 +21,7 @@ def modules(*, writing: bool) -> Iterator[ModuleType]:
 
 
 def named(name: str) -> ModuleType | None:
-    """Import the module that a format's name names, without importing the others."""
+    """Import only the module with a format's name."""
     try:
         module = importlib.import_module(f".{name}", __name__)
         is_folder = hasattr(module, "__path__")

@@ -1,10 +1,10 @@
-"""3D Studio ASCII (.asc): objects, lights and cameras as 3D Studio wrote them for the printer.
+"""3D Studio ASCII (.asc): the printed listing of a scene's objects, lights and cameras.
 
 In: the bytes of a file. Out: a `Document` with one object for each tri-mesh. Page marks and empty
-lines may stand anywhere, also inside the lists; a control-Z ends the file. Edge flags (AB, BC, CA)
-become visible edges, smoothing groups become normals: faces without one are flat. Coordinates stay
-those of the file, in which +Z is up. There are no material definitions: a name such as
-``r255g128b0a0`` is a colour, others are plain.
+lines may occur anywhere, also inside lists; a control-Z ends the file. Edge flags (AB, BC, CA)
+become visible edges, smoothing groups become normals: faces without one are flat. Coordinates are
+unchanged, with +Z up. The format has no material definitions: a name such as ``r255g128b0a0`` is a
+colour, other materials are plain.
 """
 
 from __future__ import annotations
@@ -46,8 +46,8 @@ _TRI_MESH = re.compile(r"Tri-mesh,\s*Vertices:\s*(\S+)\s+Faces:\s*(\S+)\s*$")
 _PAGE = re.compile(r"Page\s+\d+$")
 _CAMERA = re.compile(r"Camera\s*\(\s*([^\s)]+)\s*mm\s*\)")
 
-# 3D Studio's lens table (15 mm: 115 degrees ... 50 mm: 46 degrees) is that of the diagonal of
-# 35 mm film, 43.27 mm, and was used for the width of its pictures, which were 4:3.
+# 3D Studio's lens table (15 mm: 115 degrees ... 50 mm: 46 degrees) gives the angle of the diagonal
+# of 35 mm film, 43.27 mm, which 3D Studio applied to the width of its 4:3 pictures.
 _FILM = 43.27
 _ASPECT = 4 / 3
 _UP = (0.0, 0.0, 1.0)
@@ -55,9 +55,9 @@ _MAX_OBJECTS = 5000
 
 
 def read_asc(source: Source, split: bool = False) -> Document:
-    """Read a 3D Studio ASCII file, as `Reader.read`; each tri-mesh is an object in any case.
+    """Read a 3D Studio ASCII file, as `Reader.read`; each tri-mesh is always one object.
 
-    With ``split``, coordinates far from the origin get another one.
+    With ``split``, coordinates far from the origin are moved near it.
     """
     parser = _Parser(source)
     parser.parse()
@@ -79,9 +79,9 @@ def read_asc(source: Source, split: bool = False) -> Document:
 
 
 class _Parser:
-    """Goes through the lines once; each line belongs to the object named last.
+    """Parses the lines in one pass; each line belongs to the last named object.
 
-    Vertices, faces, and what is said about faces, are read in C, up to a line that is no such.
+    C reads vertices, faces and statements about faces, up to the first other line.
     """
 
     def __init__(self, source: Source) -> None:
@@ -89,12 +89,12 @@ class _Parser:
             source = source._replace(content=source.data.partition(_END_OF_FILE)[0])
         self._text = text_lines(source)
         self._path = source.path
-        # The number of the line that holds the byte counted to.
+        # The line number at the byte counted up to.
         self._number, self._counted = 1, 0
         self._name = ""
         self._mesh: MeshRecord | None = None
         self._item: LightRecord | CameraRecord | None = None
-        # By text, what lines about faces mean; and the line last warned of, and its place.
+        # By text, the meaning of lines about faces; and the last warned line, and its place.
         self._materials: dict[bytes, int] = {}
         self._groups: dict[bytes, int] = {}
         self._warned = 1, 0
@@ -151,7 +151,7 @@ class _Parser:
         mesh.rows.add(FACES, [*corners, *(match[k] != "0" for k in (5, 6, 7))])
 
     def _read_other(self, line: str) -> bool:
-        """Read a line that is no vertex and no face; False if it says nothing that is known."""
+        """Read a line that is not a vertex or a face; return False for unknown content."""
         keyword, _, rest = line.partition(":")
         rest = rest.strip()
         if keyword == "Named object":
@@ -200,7 +200,7 @@ class _Parser:
             self.meshes.append(mesh)
 
     def _take_marks(self, mesh: MeshRecord) -> None:
-        """Take what was said about the faces of a mesh; most of it is said many times."""
+        """Apply statements about a mesh's faces; most of them repeat."""
         marks = mesh.rows.take_marks()
         if not len(marks):
             return
@@ -225,7 +225,7 @@ class _Parser:
         return self._materials[text]
 
     def _read_groups(self, text: bytes, place: int) -> int:
-        """The smoothing groups that a line names, as bits; remembered if all of them can be."""
+        """Return a line's smoothing groups as bits; cached if all of them are valid."""
         groups, is_sound = 0, True
         for word in decoded(text).replace(",", " ").split():
             digits = word.lstrip("0")
@@ -339,7 +339,7 @@ class _Parser:
         return x, y, z
 
     def _field_of_view(self, word: str) -> float:
-        """Vertical field of view, in radians, of a lens in millimetres."""
+        """Return the vertical field of view in radians for a lens in millimetres."""
         lens = self._float(word)
         if not (math.isfinite(lens) and lens > 0):
             self._fail(f"not a lens: {shown(word)}")

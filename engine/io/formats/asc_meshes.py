@@ -1,4 +1,4 @@
-"""The tri-meshes of a 3D Studio ASCII file: as they stand there, and as objects of a `Document`."""
+"""The tri-meshes of a 3D Studio ASCII file: as parsed, and as objects of a `Document`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..reading.documents import DocumentObject
 from ..reading.far_coordinates import moved_near
 from ..reading.smoothing import FLAT, fill_normals
 
-# The form of most lines of a file, as native.FormReader reads it; it fits a whole line.
+# The form of most lines of a file, as native.FormReader reads it; it must match whole lines.
 _VERTEX_FORM = b"Vertex #_:_X:%_Y:%_Z:%|_U:%_V:%"
 _FACE_FORM = b"Face #_:_A:@_B:@_C:@|_AB:?_BC:?_CA:?"
 _MARKS = (b"Material:", b"Smoothing:")
@@ -26,19 +26,19 @@ _COLOR_NAME = re.compile(r"r(\d{1,3})g(\d{1,3})b(\d{1,3})a(\d{1,3})", re.IGNOREC
 
 
 class MeshRecord:
-    """A tri-mesh as it stands in the file.
+    """A tri-mesh as it is in the file.
 
     Attributes
     ----------
     name : str
     line : int
     vertex_count, face_count : int
-        As announced.
+        The announced numbers.
     is_mapped : bool
     rows : native.FormReader
-        Of vertices X, Y, Z, U and V; of faces A, B and C, and whether AB, BC and CA are visible.
+        For vertices X, Y, Z, U and V; for faces A, B and C, and whether AB, BC and CA are visible.
     said : dict of int to ((N,) int64, (N,) int64)
-        Faces, and their materials' numbers, or the smoothing groups that they are in as bits.
+        Face numbers, with material numbers or smoothing groups as bits.
     """
 
     def __init__(self, text: bytes, name: str, line: int, vertices: int, faces: int) -> None:
@@ -57,12 +57,12 @@ class MeshRecord:
         self.said = {MATERIAL: nothing, SMOOTHING: nothing}
 
     def count(self, form: int) -> int:
-        """Return how many vertices or faces were read."""
+        """Return the number of vertices or faces read."""
         return self.rows.count(form)[0]
 
 
 def material_of(name: str) -> Material:
-    """Return a material of which only the name is known; the name may be a colour."""
+    """Return the material for a name, which may be a colour."""
     match = _COLOR_NAME.fullmatch(name)
     if match is None:
         return Material(name=name)
@@ -114,7 +114,7 @@ def _mesh(
 
 
 def _smooth(positions: np.ndarray, triangles: Triangles, masks: np.ndarray) -> np.ndarray | None:
-    """Give the triangles normals by their smoothing groups; None leaves that to the mesh."""
+    """Set a mesh's normals by smoothing groups; None leaves them to the mesh."""
     filled = fill_normals(
         positions,
         triangles.positions,

@@ -1,7 +1,7 @@
-"""OpenEXR pictures, decoded by the optional package OpenEXR.
+"""OpenEXR images, decoded by the optional package OpenEXR.
 
-In: the bytes of a file. Out: (H, W, 3) float32 linear light. The package reads paths only, so that
-what is in memory goes through a temporary file. Sizes are checked before any pixel is decoded.
+In: the bytes of a file. Out: (H, W, 3) float32 linear light. The package reads only paths, so
+content in memory goes through a temporary file. Sizes are checked before any pixel is decoded.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ def read_exr(source: Source) -> NDArray[np.float32]:
     Returns
     -------
     pixels : (H, W, 3) float32
-        Of R, G and B, or of Y alone; other channels are left out.
+        The channels R, G and B, or Y alone; others are ignored.
 
     Raises
     ------
     FileAccessError
-        The package OpenEXR is not there.
+        The package OpenEXR is not installed.
     FileFormatError
     """
     try:
@@ -53,7 +53,7 @@ def read_exr(source: Source) -> NDArray[np.float32]:
                 planes = {name: channel.pixels for name, channel in channels.items()}
         except FileFormatError:
             raise
-        except Exception as error:  # whatever the library says of a damaged file
+        except Exception as error:  # the library raises various errors for damaged files
             lines = str(error).replace(file.name, "it").strip().splitlines()
             reason = lines[0] if lines else "it cannot be decoded"
             raise FileFormatError(f"damaged OpenEXR picture: {reason}", source.path) from None
@@ -62,7 +62,7 @@ def read_exr(source: Source) -> NDArray[np.float32]:
 
 @contextlib.contextmanager
 def _silence() -> Iterator[None]:
-    """The library writes to both streams of the process what it raises as well."""
+    """Silence the library, which prints its errors to both streams of the process."""
     kept, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
     try:
         os.dup2(nowhere, 2)

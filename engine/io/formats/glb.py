@@ -1,6 +1,6 @@
-"""glTF 2.0 in its binary form, which `gltf` reads.
+"""The binary form of glTF 2.0, which `gltf` reads.
 
-A module of its own, so that a file of this extension is read without importing all formats.
+It is a separate module, so that this extension can be read without importing all formats.
 """
 
 from __future__ import annotations

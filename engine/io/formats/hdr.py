@@ -1,9 +1,9 @@
-"""Radiance pictures (.hdr): linear light of four bytes a pixel.
+"""Radiance images (.hdr): linear light in four bytes per pixel.
 
 In: the bytes of a file. Out: (H, W, 3) float32 linear light, the top row first, whichever of the
-eight orders of pixels the file has. Nothing is allocated before the file was found long enough for
-what its header claims. Lines that say how the picture was exposed are passed over, as three.js and
-Blender do. Source: Ward, Real Pixels, Graphics Gems II, 1991; Radiance's own reader, color.c.
+eight orders of pixels the file has. The file's length is checked against its header before any
+allocation. Exposure lines are ignored, as in three.js and Blender. Source: Ward, Real Pixels,
+Graphics Gems II, 1991; Radiance's own reader, color.c.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ from .images import check_image_size
 _MOST_HEADER = 1 << 16  # bytes
 _SIZE = re.compile(rb"([-+])([XY]) +(\d{1,9}) +([-+])([XY]) +(\d{1,9})\s*")
 _FORMAT = b"32-bit_rle_rgbe"
-_LEAST_LINE = 8  # bytes: a pixel, and a run of the old kind
-# Files of the new kind say at most 16 pixels a byte; of the old kind, which is rare, long runs
+_LEAST_LINE = 8  # bytes: a pixel, and an old-style run
+# New-style files encode at most 16 pixels per byte; old-style files are rare, and their long runs
 # count as hostile.
 _PIXELS_PER_BYTE, _FEW_PIXELS = 20, 1 << 21
 
 
 def read_hdr(source: Source) -> NDArray[np.float32]:
-    """Decode a Radiance picture.
+    """Decode a Radiance image.
 
     Returns
     -------
@@ -39,7 +39,7 @@ def read_hdr(source: Source) -> NDArray[np.float32]:
     Raises
     ------
     FileFormatError
-        The message names the file and, of damaged pixels, the byte.
+        The message names the file and, for damaged pixels, the byte.
     """
     size, start = _read_header(source)
     lines, width = int(size[3]), int(size[6])
@@ -56,7 +56,7 @@ def read_hdr(source: Source) -> NDArray[np.float32]:
 
 
 def _read_header(source: Source) -> tuple[re.Match[bytes], int]:
-    """The line of the size, and where the pixels begin."""
+    """Return the image's size and orientation, and the offset of the pixels."""
     head = source.head(_MOST_HEADER)
     if not head.startswith((b"#?RADIANCE", b"#?RGBE")):
         raise FileFormatError("no Radiance picture: it does not begin with #?RADIANCE", source.path)
@@ -82,7 +82,7 @@ def _read_header(source: Source) -> tuple[re.Match[bytes], int]:
 
 
 def _check_length(source: Source, lines: int, width: int, start: int) -> None:
-    """Refuse a file that cannot hold its lines, before memory is taken for them."""
+    """Refuse a file too short for its lines, before allocating memory."""
     most = _FEW_PIXELS + _PIXELS_PER_BYTE * source.size
     least = lines * min(4 * width, _LEAST_LINE)
     if source.size - start < least or lines * width > most:
@@ -93,14 +93,14 @@ def _check_length(source: Source, lines: int, width: int, start: int) -> None:
 
 
 def _light(packed: NDArray[np.uint8]) -> NDArray[np.float32]:
-    """A channel c with the exponent e is c * 2**(e - 136), and 0 where e is 0; all exactly."""
+    """Return c * 2**(e - 136) for a channel c with exponent e, and 0 if e is 0, exactly."""
     scale = np.ldexp(np.float32(1), np.arange(256) - 136).astype(np.float32)
     scale[0] = 0
     return packed[:, :, :3] * scale[packed[:, :, 3:]]
 
 
 def _upright(light: NDArray[np.float32], size: re.Match[bytes]) -> NDArray[np.float32]:
-    """Bring the top left pixel to the front; a header says first which way lines follow."""
+    """Return the image with the top left pixel first; the header gives the order of lines."""
     first, second = size[1] + size[2], size[4] + size[5]
     if first in (b"+Y", b"-X"):
         light = light[::-1]

@@ -1,8 +1,8 @@
-"""PNG, JPEG and the other common image formats, decoded by Pillow.
+"""PNG, JPEG and other common image formats, decoded by Pillow.
 
-In: the bytes of an image file. Out: (H, W, 4) uint8 RGBA, the top row first. Pillow is imported
-when the first image is read, and is allowed the listed formats only (others may start programs).
-Sizes are checked here for all images, whoever decodes them.
+In: the bytes of an image file. Out: (H, W, 4) uint8 RGBA, the top row first. Pillow is imported for
+the first image, and restricted to the listed formats (others may start programs). This module
+checks the sizes of all images, whichever decoder reads them.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ from ..reading.sources import Source
 if TYPE_CHECKING:
     from PIL import Image
 
-# More pixels than this are refused before anything is decoded; as RGBA they take 683 MiB. Assign
-# another value to change it (beyond this one, which is Pillow's, Image.MAX_IMAGE_PIXELS as well).
+# Images with more pixels are refused before decoding; this many take 683 MiB as RGBA. Assignable
+# (above this default, which is Pillow's, change Image.MAX_IMAGE_PIXELS too).
 MAX_PIXELS = 178_956_970
-# A guard against decompression bombs: all images of a model have at most MAX_PIXELS, and at most
-# so many pixels for each byte of their files.
+# A guard against decompression bombs: all images of a model together have at most MAX_PIXELS, and
+# at most this many pixels for each byte of their files.
 PIXELS_PER_BYTE = 10
-# Pixels that are converted at a time.
+# Pixels converted at a time.
 _STRIP = 1 << 20
 
 _left: ContextVar[list[int] | None] = ContextVar("pixels_left", default=None)
@@ -40,7 +40,7 @@ _left: ContextVar[list[int] | None] = ContextVar("pixels_left", default=None)
 
 @contextlib.contextmanager
 def images_of_one_model() -> Iterator[None]:
-    """Limit the pixels of all images that are checked within the block together."""
+    """Limit the total pixels of all images checked within the block."""
     token = _left.set([MAX_PIXELS])
     try:
         yield
@@ -49,15 +49,15 @@ def images_of_one_model() -> Iterator[None]:
 
 
 def check_image_size(width: int, height: int, path: str, size: int = 0) -> None:
-    """Refuse images without pixels, and those too large to be honest.
+    """Refuse empty images, and sizes that are implausible for their files.
 
     Parameters
     ----------
     width, height : int
     path : str
-        What the error names.
+        The name in errors.
     size : int
-        Bytes of the image's file.
+        Size of the image file in bytes.
 
     Raises
     ------
@@ -108,29 +108,29 @@ def read_image(source: Source) -> np.ndarray:
         raise FileFormatError(f"an image is limited to {MAX_PIXELS} pixels", source.path) from error
     except UnidentifiedImageError as error:
         raise FileFormatError("not an image of a known format", source.path) from error
-    # Pillow's plugins raise whatever a damaged file leads them to: OSError, SyntaxError,
-    # struct.error, IndexError, ...
+    # For damaged files, Pillow's plugins raise many types: OSError, SyntaxError, struct.error,
+    # IndexError, ...
     except Exception as error:
         raise FileFormatError(f"damaged image: {error}", source.path) from error
 
 
 @contextlib.contextmanager
 def quiet_pillow() -> Iterator[None]:
-    """Silence warnings of what Pillow passes over, and of sizes that are not too large here."""
+    """Silence Pillow's warnings about ignored content, and about sizes that are allowed here."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         yield
 
 
 def rgba_pixels(image: Image.Image, path: str) -> np.ndarray:
-    """Convert an image of Pillow's.
+    """Convert a Pillow image to RGBA.
 
     Parameters
     ----------
     image : PIL.Image.Image
-        Of any mode. The high byte counts of 16-bit channels.
+        An image in any mode. 16-bit channels keep their high byte.
     path : str
-        What the error names.
+        The name in errors.
 
     Returns
     -------
@@ -139,25 +139,26 @@ def rgba_pixels(image: Image.Image, path: str) -> np.ndarray:
     Raises
     ------
     FileFormatError
-        Its pixels have no range that is known: floats, or integers beyond 16 bits.
+        Its pixels have no known range: floats, or integers beyond 16 bits.
     """
-    if image.mode == "F":  # Pillow would make them 0 and 1 of 255
+    if image.mode == "F":  # Pillow would turn values of 0 to 1 into 0 and 1 of 255
         raise FileFormatError("pixels that are floats are not read", path)
     convert = _wide_grey if image.mode.startswith("I") else _converted
-    # Strip by strip: Pillow's own conversion and the way from it to an array copy an image each.
+    # Strip by strip: Pillow's conversion and the conversion to an array would each copy the whole
+    # image.
     pixels = np.empty((image.height, image.width, 4), np.uint8)
     rows = max(_STRIP // image.width, 1)
     for top in range(0, image.height, rows):
         bottom = min(top + rows, image.height)
         convert(image, image.crop((0, top, image.width, bottom)), pixels[top:bottom], path)
-    return frozen(pixels)  # so that a texture takes it over
+    return frozen(pixels)  # the texture can keep it without copying
 
 
 def made_pixels(image: Image.Image, path: str) -> np.ndarray:
-    """Convert an image of Pillow's that a program made; otherwise as `rgba_pixels`.
+    """Convert a Pillow image made by a program; otherwise as `rgba_pixels`.
 
-    Integers and floats without a range of their own are of 0 to 255 where a conversion made them.
-    Other integers are of 0 to 65535, and floats of 0 to 1.
+    Integers and floats that Pillow converted from other modes range from 0 to 255. Other integers
+    range from 0 to 65535, and floats from 0 to 1.
     """
     if image.mode == "F":
         values = np.asarray(image)
@@ -170,7 +171,7 @@ def made_pixels(image: Image.Image, path: str) -> np.ndarray:
     return rgba_pixels(image, path)
 
 
-# Modes that Pillow does not convert to RGBA, or not as they look -> the one on the way.
+# Modes that Pillow cannot convert to RGBA correctly -> the intermediate mode.
 _THROUGH = {"HSV": "RGB", "YCbCr": "RGB", "RGBX": "RGB", "CMYK": "RGB", "La": "LA", "PA": "RGBA"}
 
 
@@ -183,17 +184,17 @@ def _converted(image: Image.Image, strip: Image.Image, pixels: np.ndarray, path:
 
 
 def _of_lab(strip: Image.Image) -> Image.Image:
-    """CIE Lab under D50 as sRGB."""
+    """Convert CIE Lab (D50) to sRGB."""
     from PIL import ImageCms
 
     profiles = ImageCms.createProfile("LAB"), ImageCms.createProfile("sRGB")
     made = ImageCms.profileToProfile(strip, *profiles, outputMode="RGB")
-    assert made is not None  # it's only None where the image itself is changed
+    assert made is not None  # it is None only if the image is changed in place
     return made
 
 
 def _wide_grey(image: Image.Image, strip: Image.Image, pixels: np.ndarray, path: str) -> None:
-    """16-bit grey, which Pillow's own conversion would clip at 255."""
+    """Convert 16-bit grey, which Pillow's conversion would clip at 255."""
     wide = np.asarray(strip)
     if wide.dtype.itemsize > 2 and (wide.min() < 0 or wide.max() > 0xFFFF):
         raise FileFormatError("pixels of more than 16 bits are not read", path)
@@ -203,7 +204,7 @@ def _wide_grey(image: Image.Image, strip: Image.Image, pixels: np.ndarray, path:
 
 
 def starts_with(*signatures: bytes) -> Callable[[bytes], bool]:
-    """Return whether a head begins with one of these, as a signature of a `Reader`."""
+    """Return a `Reader` signature that accepts files with one of these beginnings."""
     return lambda head: head.startswith(signatures)
 
 

@@ -1,10 +1,10 @@
-"""OFF, the Object File Format of Geomview: polygons as text, with the usual prefixes.
+"""OFF, the Object File Format of Geomview: text polygons, with the usual prefixes.
 
 In: the bytes of a file. Out: a `Document` of one object. ``N``, ``C`` and ``ST`` before ``OFF``
 announce normals, colours and texture coordinates of the vertices, ``4`` a divisor of the
-coordinates, ``n`` a number of dimensions, of which there must be three; colours behind the
-coordinates are taken without ``C`` too, and behind a face they are its own. Where the lines are not
-those of vertices and faces, the numbers are taken one by one. Binary files are refused.
+coordinates, ``n`` a number of dimensions, of which there must be three; colours after the
+coordinates are also read without ``C``, and after a face they are face colours. If the lines do not
+match vertices and faces, the numbers are read one by one. Binary files are refused.
 """
 
 from __future__ import annotations
@@ -35,14 +35,14 @@ _KEYWORD = re.compile(
     rb"(?:(ST)?[ \t]*(C)?[ \t]*(N)?[ \t]*(4)?[ \t]*(n)?[ \t]*OFF|off)(?![A-Za-z])"
 )
 _MOST_DIGITS = 19
-# Numbers in the lines of vertices that the keyword does not announce: none, or a colour.
+# Numbers in vertex lines beyond the announced ones: none, or a colour.
 _COLOR_WIDTHS = (0, 3, 4)
 
 
 def read_off(source: Source, split: bool = False) -> Document:
     """Read an OFF file, as `Reader.read`: one object.
 
-    With ``split``, coordinates far from the origin get another one.
+    With ``split``, coordinates far from the origin are moved near it.
     """
     warnings = WarningList(source.path)
     reader = _OffReader(source, warnings)
@@ -65,7 +65,7 @@ def read_off(source: Source, split: bool = False) -> Document:
 
 
 class _OffReader:
-    """Reads the first lines one by one, and the numbers of all others at once."""
+    """Reads the first lines one by one, and all other numbers at once."""
 
     def __init__(self, source: Source, warnings: WarningList) -> None:
         self._path = source.path
@@ -75,7 +75,7 @@ class _OffReader:
             self._fail("binary OFF files are not read")
         self._text = text_lines(source)
         self._has = dict.fromkeys(("uvs", "colors", "normals", "divisor"), False)
-        # Where the lines of numbers begin.
+        # Where the lines of numbers start.
         self._body = 0
         self._vertex_count = self.face_count = 0
 
@@ -105,7 +105,7 @@ class _OffReader:
         return geometry
 
     def _read_head(self) -> None:
-        """Read the keyword, if there is one, and the counts, wherever lines end."""
+        """Read the keyword, if present, and the counts, wherever lines end."""
         position, line = next(self._filled_lines(0), (0, b""))
         match = _KEYWORD.match(line.lstrip())
         place = position
@@ -117,14 +117,14 @@ class _OffReader:
         self._read_counts(place)
 
     def _read_dimensions(self, place: int) -> int:
-        """Read the number of dimensions; return the place behind it."""
+        """Read the number of dimensions; return the position after it."""
         place, word = self._next_word(place)
         if word != b"3":
             self._fail("only three-dimensional OFF files are read", place)
         return place + len(word)
 
     def _read_counts(self, place: int) -> None:
-        """Read the numbers of vertices and faces; that of edges says nothing and may be missing."""
+        """Read the numbers of vertices and faces; that of edges is ignored and optional."""
         counts, line = [], b""
         for _ in range(2):
             place, word = self._next_word(place)
@@ -139,7 +139,7 @@ class _OffReader:
         end = self._text.index(b"\n", place)
         rest = self._text[place:end].partition(b"#")[0].split()
         self._body = end + 1
-        if len(rest) > 1:  # the numbers of vertices begin in this line
+        if len(rest) > 1:  # the vertex numbers begin in this line
             self._body = place + self._text[place:end].index(rest[0]) + len(rest[0])
         elif not rest:
             self._skip_edges()
@@ -148,19 +148,19 @@ class _OffReader:
             self._fail("no vertices in this OFF file")
 
     def _skip_edges(self) -> None:
-        """Pass over a number of edges in a line of its own."""
+        """Skip a number of edges on its own line."""
         place, line = next(self._filled_lines(self._body), (0, b""))
         if len(line.split()) == 1:
             self._body = self._text.index(b"\n", place) + 1
 
     def _next_word(self, place: int) -> tuple[int, bytes]:
-        """The next word from a place on, and where it is; empty at the end."""
+        """Return the next word from a position on, and its position; empty at the end."""
         place, line = next(self._filled_lines(place), (len(self._text) - 1, b""))
         word = line.split(None, 1)[0] if line else b""
         return place + line.index(word), word
 
     def _filled_lines(self, start: int) -> Iterator[tuple[int, bytes]]:
-        """Go along the lines that hold anything: the place of each, and it without a comment."""
+        """Yield the non-empty lines: position, and content without comment."""
         while start < len(self._text):
             end = self._text.index(b"\n", start)
             line = self._text[start:end].partition(b"#")[0]
@@ -169,7 +169,7 @@ class _OffReader:
             start = end + 1
 
     def _rows(self) -> NumberRows:
-        """The lines of vertices and faces, as many as there must be."""
+        """Return the lines of vertices and faces, as many as announced."""
         vertices, faces = self._vertex_count, self.face_count
         body = memoryview(self._text)[self._body :]
         try:
@@ -186,7 +186,7 @@ class _OffReader:
         return rows
 
     def _rows_of_words(self) -> NumberRows | None:
-        """The rows of vertices and faces where lines end anywhere; None if there are none."""
+        """Return the rows of vertices and faces for arbitrary line ends; None if impossible."""
         body = memoryview(self._text)[self._body :]
         try:
             values = read_numbers(body, native.HASH_COMMENTS).values
@@ -204,12 +204,12 @@ class _OffReader:
         return None
 
     def _needed(self) -> int:
-        """How many numbers a vertex has at least."""
+        """Return the minimum count of numbers per vertex."""
         has = self._has
         return 3 + 3 * has["normals"] + 2 * has["uvs"] + has["divisor"]
 
     def _check_widths(self, widths: np.ndarray) -> None:
-        """Check that the lines of vertices hold enough numbers, and all as many."""
+        """Check that vertex lines have enough numbers, and equally many."""
         widths = widths[: self._vertex_count]
         needed = self._needed()
         wrong = (widths != widths[:1]) | (widths < needed)
@@ -264,7 +264,7 @@ class _OffReader:
         geometry.face_colors = None if colors is None else colors[cut.polygons]
 
     def _corners(self, values: np.ndarray, starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-        """The vertices of all corners, (C,) int32."""
+        """Return the vertices of all corners, (C,) int32."""
         items = native.copy_numbers(values, starts.reshape(-1, 1), sizes.reshape(-1, 1), 0)
         corners, wrong = native.indices_of(items.reshape(1, -1), self._vertex_count)
         if wrong is not None:
@@ -275,7 +275,7 @@ class _OffReader:
     def _face_colors(
         self, values: np.ndarray, starts: np.ndarray, counts: np.ndarray
     ) -> np.ndarray | None:
-        """Colours behind the corners of faces: (F, 4) uint8, white for faces without one."""
+        """Return the colours after face corners: (F, 4) uint8, white for faces without one."""
         has_color = (counts == 3) | (counts == 4)
         if (counts > 0).any() and (others := int(((counts > 0) & ~has_color).sum())):
             self._warnings.add(f"what stands behind the corners of {others} faces is left out")
@@ -288,8 +288,8 @@ class _OffReader:
         return _display_colors(rows)
 
     def _row(self, row: int) -> tuple[int, bytes]:
-        """The place and the text of a vertex's line, or, counted on, of a face's."""
-        end = len(self._text) - 1, b""  # where rows are not lines
+        """Return position and text of a vertex line or, counted on, a face line."""
+        end = len(self._text) - 1, b""  # the rows are not lines
         return next(islice(self._filled_lines(self._body), row, None), end)
 
     def _fail_at_face(self, reason: str, face: int) -> NoReturn:
@@ -302,7 +302,7 @@ class _OffReader:
 
 
 def _sizes_of_faces(values: np.ndarray, count: int) -> np.ndarray | None:
-    """How many corners each face has where faces are all of some numbers; None if they are not."""
+    """Return the number of corners of each face in a flat list of numbers; None if inconsistent."""
     numbers, sizes = values.data, []
     place, end = 0, len(values)
     for _ in range(count):
@@ -314,9 +314,9 @@ def _sizes_of_faces(values: np.ndarray, count: int) -> np.ndarray | None:
 
 
 def _display_colors(values: np.ndarray) -> np.ndarray:
-    """Colours of 3 or 4 columns, 0..255 or 0..1, as sRGB bytes; white for what is not finite.
+    """Return colours of 3 or 4 columns, 0..255 or 0..1, as sRGB bytes; non-finite ones white.
 
-    Alphas have a range of their own.
+    The alpha column may have another range.
     """
     colors = np.full((len(values), 4), 255, np.uint8)
     for columns in (slice(0, 3), slice(3, 4)):

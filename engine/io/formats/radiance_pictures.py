@@ -1,7 +1,6 @@
-"""Pictures of linear light, by what they begin with: Radiance or OpenEXR.
+"""Images of linear light, detected by content: Radiance or OpenEXR.
 
-In: the bytes of a file. Out: its light as floats, or as the 8-bit codes of a texture, which ends at
-1.
+In: the bytes of a file. Out: its light as floats, or as the 8-bit codes of a texture, clamped at 1.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ from ..reading.reader_registry import Reader
 from ..reading.sources import Source
 from .images import starts_with
 
-#: Of files whose pixels are light.
+#: Extensions of files whose pixels are light.
 LIGHT_EXTENSIONS = (".hdr", ".exr")
 _STRIP = 1 << 20
 _RADIANCE = b"#?"
@@ -23,7 +22,7 @@ _OPENEXR = b"\x76\x2f\x31\x01"
 
 
 def load_radiance(source: Source) -> NDArray[np.float32]:
-    """Decode a picture.
+    """Decode an image.
 
     Returns
     -------
@@ -48,12 +47,12 @@ def load_radiance(source: Source) -> NDArray[np.float32]:
 
 
 def read_srgb(source: Source) -> NDArray[np.uint8]:
-    """Decode a picture as colours of a texture: (H, W, 4) uint8, sRGB."""
+    """Decode an image as a colour texture: (H, W, 4) uint8, sRGB."""
     return _codes(load_radiance(source), is_data=False)
 
 
 def read_linear(source: Source) -> NDArray[np.uint8]:
-    """Decode a picture as numbers of a texture: (H, W, 4) uint8, 255 for 1."""
+    """Decode an image as a data texture: (H, W, 4) uint8, 255 for 1."""
     return _codes(load_radiance(source), is_data=True)
 
 
@@ -67,7 +66,7 @@ def _codes(light: NDArray[np.float32], *, is_data: bool) -> NDArray[np.uint8]:
         colors[:, :3] = np.clip(np.nan_to_num(part.reshape(-1, 3), nan=0.0), 0, 1)
         codes = np.floor(colors.astype(np.float64) * 255 + 0.5) if is_data else srgb_bytes(colors)
         pixels[top : top + rows] = codes.reshape(part.shape[0], width, 4)
-    pixels.setflags(write=False)  # so that a texture takes it over
+    pixels.setflags(write=False)  # the texture can keep it without copying
     return pixels
 
 

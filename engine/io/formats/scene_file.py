@@ -1,8 +1,8 @@
-"""Scenes as engine3d writes them: a tree of nodes in JSON, and the files that it names.
+"""Reader of engine3d's scene files: a tree of nodes in JSON, and the files it names.
 
-In: the bytes of a file. Out: a `Document` whose ``scene`` holds the tree, with meshes, materials
-and textures made; what nodes hold besides is left to whoever builds a scene of it. The objects of
-the document are what shows, with the nodes' poses. docs/formats.md has the format.
+In: the bytes of a file. Out: a `Document` whose ``scene`` holds the tree, with its meshes,
+materials and textures; other objects of nodes are created when a scene is built. The objects of the
+document are the visible meshes, with their world poses. docs/formats.md has the format.
 """
 
 from __future__ import annotations
@@ -24,16 +24,16 @@ from .scene_tree import links_of, pose_parts, shown_parts
 
 FORMAT = "engine3d scene"
 VERSION = 1
-#: Keys of a file, but for ``format`` and ``version``.
+#: Keys of a file besides ``format`` and ``version``.
 LISTS = ("environments", "textures", "materials", "objects", "nodes")
 
-# A node takes about a kilobyte, however little the file says of it.
+# A node takes about a kilobyte, however small its entry.
 _NODES, _BYTES_OF_A_NODE = 20_000, 32
 _SIGNATURE = re.compile(rb'\A(?:\xef\xbb\xbf)?\s*\{\s*"format"\s*:\s*"engine3d scene"')
 
 
 def read_scene_file(source: Source, split: bool = False) -> Document:
-    """Read a scene, as `Reader.read`; its objects are what shows."""
+    """Read a scene file, as `Reader.read`; its objects are the visible meshes."""
     root = parsed_json(source)
     _check_format(root)
     warnings = WarningList(source.path)

@@ -1,7 +1,7 @@
-"""The looks of a scene file: its environments, textures and materials.
+"""The appearance data of a scene file: environments, textures and materials.
 
 In: entries of the file's lists. Out: environments, textures and materials, or an error that names
-the place. What cannot be read is told of, and something keeps its place.
+the place. Unreadable files give a warning and a placeholder.
 """
 
 from __future__ import annotations
@@ -42,12 +42,12 @@ _MATERIAL_FIELDS = frozenset(inspect.signature(Material).parameters)
 
 
 class SceneLooks:
-    """The environments, textures and materials of a scene's file.
+    """The environments, textures and materials of a scene file.
 
     Attributes
     ----------
     environments : list of Environment or None
-        None for that of a file which can't be read.
+        None if its file cannot be read.
     materials : list of Material
     """
 
@@ -61,12 +61,12 @@ class SceneLooks:
         self.materials = [self._material(entry) for entry in root.entries("materials")]
 
     def chosen(self, numbers: JsonValue) -> list[Material]:
-        """Return the materials that numbers mean."""
+        """Return the materials with given numbers."""
         count = len(self.materials)
         return [self.materials[number.index(count, "materials")] for number in numbers]
 
     def _environment(self, entry: JsonValue) -> Environment | None:
-        """None, with a warning, for that of a file which can't be read."""
+        """Return an environment; None, with a warning, if its file cannot be read."""
         if (name := entry.get("built_in")) is not None:
             if name.text() not in BUILT_IN:
                 raise name.wrong(f"one of {', '.join(BUILT_IN)}")
@@ -92,7 +92,7 @@ class SceneLooks:
         numbers = [key for key in held if key in ("anisotropy", "lod_bias")]
         texts = (key for key in held if key not in ("file", "png", "wrap", *numbers))
         options: dict[str, Any] = {key: held[key].text() for key in texts}
-        options |= {key: held[key].value for key in numbers}  # which Texture checks
+        options |= {key: held[key].value for key in numbers}  # checked by Texture
         if (wrap := entry.get("wrap")) is not None:
             pair = isinstance(wrap.value, list)
             options["wrap"] = tuple(side.text() for side in wrap) if pair else wrap.text()
@@ -118,7 +118,7 @@ class SceneLooks:
         return texture
 
     def _image(self, name: str, file: JsonValue) -> Texture:
-        """The image of a file, or one that keeps its place, with a warning."""
+        """Return the image of a file, or a placeholder with a warning."""
         try:
             with self._files.read(self._files.find(name)) as source:
                 return texture_of(source)
@@ -138,7 +138,7 @@ class SceneLooks:
         try:
             with certainly_linear():
                 if not values.keys() <= _MATERIAL_FIELDS:
-                    return Material(**values)  # which says what it does not know
+                    return Material(**values)  # Material reports unknown values
                 material = Material()
                 for key, value in values.items():
                     setattr(material, key, value)
@@ -147,7 +147,7 @@ class SceneLooks:
             raise entry.error(str(error)) from None
 
     def _slot(self, entry: JsonValue) -> Texture | PlacedTexture:
-        """A texture by its number, or one that is placed."""
+        """Return a texture by its number, or a placed one."""
         if not isinstance(entry.value, dict):
             return self._textures[entry.index(len(self._textures), "textures")]
         values = {key: held.value for key, held in entry.members().items()}
@@ -159,7 +159,7 @@ class SceneLooks:
 
 
 def _sky(entry: JsonValue) -> Environment:
-    """The sky of an entry, by where the sun stands."""
+    """Return the sky of an entry, for its sun direction."""
     turbidity, disc = entry.get("turbidity"), entry.get("sun_disc")
     try:
         return Environment.sky(
@@ -172,7 +172,7 @@ def _sky(entry: JsonValue) -> Environment:
 
 
 def place_of(source: Source, name: str) -> str | None:
-    """Return where a file would be that was not found, if it has a place."""
+    """Return the path where a missing file would be, if it has one."""
     if source.folder is None or "\0" in name or len(name) > _MAX_NAME:
         return None
     return os.path.abspath(os.path.join(source.folder, name))

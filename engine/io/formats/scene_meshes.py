@@ -1,4 +1,4 @@
-"""The meshes of a scene's file: of files that it names, of primitives, or of arrays in it.
+"""The meshes of a scene file: from other files, primitives, or embedded arrays.
 
 In: entries of the file's list of objects. Out: meshes, or an error that names the place.
 """
@@ -29,7 +29,7 @@ _ARRAYS = {name.removeprefix("_given_") for name in arrays_of(Mesh([]))}
 
 
 class SceneMeshes:
-    """Makes the meshes of a scene's file, those of other files out of their ``parts``."""
+    """Builds the meshes of a scene file; those of other files come from ``parts``."""
 
     def __init__(
         self, source: Source, looks: SceneLooks, files: LinkedFiles, warnings: WarningList
@@ -93,7 +93,7 @@ class SceneMeshes:
         if self._vertices_left < 0:
             raise entry.error("more vertices of primitives than such a file may ask for")
         key = name.value, repr(arguments)
-        if key in self._primitives:  # made once: scenes hold thousands that are alike
+        if key in self._primitives:  # cached: scenes may contain thousands of equal ones
             made, materials = self._primitives[key]
             return twin_of(made, [copy_of(one) for one in materials], name_in_file(made))
         try:
@@ -104,7 +104,7 @@ class SceneMeshes:
         return mesh
 
     def _mesh_of_file(self, entry: JsonValue) -> Mesh:
-        """A mesh of a file, or an empty one that keeps its place, with a warning."""
+        """Return a mesh of a file, or an empty placeholder with a warning."""
         name, part = entry.need("file").text(), None
         if (text := entry.get("part")) is not None:
             place = entry.get("occurrence")
@@ -130,7 +130,7 @@ def _crease_angle(entry: JsonValue, usual: float) -> float:
 
 
 def _vertices_of(arguments: dict[str, Any]) -> int:
-    """About how many vertices a primitive has."""
+    """Return the approximate number of vertices of a primitive."""
     segments = arguments.get("segments", 1)
     counts = segments if isinstance(segments, list) else [segments]
     whole = [count for count in counts if type(count) is int and count > 0]

@@ -1,7 +1,7 @@
-"""The parts of files that a scene's file names: each file is read once, each part given out once.
+"""The parts of model files that a scene file refers to, each file read once.
 
-In: the name of a file, and of a part of it. Out: a mesh; where a part is asked for again, another
-one that shares its arrays. Parts of a file share materials only where all of them are new.
+In: the name of a file, and of a part. Out: a mesh; a repeated request gets another mesh that shares
+its arrays. Parts of a file share materials only while each is requested for the first time.
 """
 
 from __future__ import annotations
@@ -20,25 +20,25 @@ from ..reading.sources import Source
 from ..reading.text import shown
 
 _MAX_COPIES = 20_000
-# A file's name, its format, whether its parts are wanted, and the angle of creases.
+# A file's name, its format, whether parts are wanted, and the crease angle.
 _Key: TypeAlias = tuple[str, str | None, bool, float]
-# A part's name, and how many of it stand before; None for the whole file.
+# A part's name, and its index among parts with that name; None for the whole file.
 _Part: TypeAlias = tuple[str, int] | None
 
 
 class PartsOfFiles:
-    """Meshes out of the files that a scene names; ``told`` is what their readers warned of."""
+    """Meshes of the files that a scene refers to; ``told`` collects their readers' warnings."""
 
     def __init__(self, source: Source, files: LinkedFiles) -> None:
         self._source, self._files = source, files
         self._meshes: dict[_Key, dict[_Part, Mesh] | Exception] = {}
-        self._given: dict[tuple[_Key, _Part], int] = {}  # how often each part was given out
+        self._given: dict[tuple[_Key, _Part], int] = {}  # how often each part was returned
         self._materials_of: dict[Mesh, list[Material]] = {}  # as they were read
         self._copies: dict[tuple[int, int], Material] = {}
         self.told: list[str] = []
 
     def part(self, name: str, format: str | None, part: _Part, crease_angle: float) -> Mesh:
-        """Return a part of a file, or all of it; what was read or given out before is not again."""
+        """Return a part of a file, or all of it, without reading a file twice."""
         key = name, format, part is not None, crease_angle
         if key not in self._meshes:
             try:
@@ -50,13 +50,13 @@ class PartsOfFiles:
             raise found.with_traceback(None)
         mesh = found.get(part)
         if mesh is None:
-            assert part is not None  # the whole file is there
+            assert part is not None  # the whole file always exists
             raise LinkedFileError(f"it has no part {shown(part[0])} number {part[1]}")
         times = self._given[key, part] = self._given.get((key, part), -1) + 1
         return self._twin(mesh, times) if times else mesh
 
     def _twin(self, mesh: Mesh, times: int) -> Mesh:
-        """A mesh that is used once more: parts of a file share materials only if all are new."""
+        """Return a mesh for a repeated use; parts share materials only on first use."""
         materials = [self._material_copy(m, times) for m in self._materials_of[mesh]]
         return twin_of(mesh, materials, name_in_file(mesh))
 
@@ -87,6 +87,6 @@ class PartsOfFiles:
 
 
 def name_in_file(mesh: Mesh) -> str:
-    """Return the name that a mesh came with, whatever it is called by now."""
+    """Return the name that a mesh had in its file."""
     came = noted_origin(mesh)
     return mesh.name if came is None else came.name

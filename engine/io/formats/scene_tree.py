@@ -1,6 +1,6 @@
-"""The tree of a scene file: parents, poses, and which nodes are shown.
+"""The tree of a scene file: parents, poses, and visibility.
 
-In: nodes as they stand in JSON, or a `SceneRecord`. Out: links, poses, meshes in the world.
+In: nodes from JSON, or a `SceneRecord`. Out: links, poses, meshes in the world.
 """
 
 from __future__ import annotations
@@ -18,19 +18,19 @@ from ..reading.json_values import JsonValue
 from ..reading.posed_parts import PosedPart
 from ..reading.sources import Source
 
-# Each instance takes some kilobytes as an object of the document.
+# As an object of the document, each instance takes some kilobytes.
 _MAX_OBJECTS = 50_000
 _IDENTITY = {"translation": (0.0, 0, 0), "rotation": (0.0, 0, 0, 1), "scale": (1.0, 1, 1)}
 _PARTS = {**{key: len(part) for key, part in _IDENTITY.items()}, "pose": 12}
 
 
 def links_of(nodes: list[JsonValue]) -> tuple[list[int], dict[int, list[int]]]:
-    """Return the parent of each node, and the children of those that have some.
+    """Return the parent of each node, and the children of nodes that have some.
 
     Raises
     ------
     FileFormatError
-        A node has several parents, or is below itself.
+        A node has several parents, or is its own ancestor.
     """
     parents = [-1] * len(nodes)
     children: dict[int, list[int]] = {}
@@ -42,7 +42,7 @@ def links_of(nodes: list[JsonValue]) -> tuple[list[int], dict[int, list[int]]]:
                 raise child.error(f"nodes[{index}] is a child of nodes[{parents[index]}] already")
             parents[index] = number
             children.setdefault(number, []).append(index)
-    state = bytearray(len(nodes))  # 1: on the way up from here, 2: leads to the top
+    state = bytearray(len(nodes))  # 1: on the current path up, 2: leads to the top
     for number in range(len(nodes)):
         way = []
         while number >= 0 and not state[number]:
@@ -73,7 +73,7 @@ def pose_parts(node: JsonValue) -> Place:
 
 
 def shown_parts(record: SceneRecord, source: Source) -> list[PosedPart]:
-    """Return what shows, with poses in the world; an instance each."""
+    """Return the visible parts with world poses, one for each instance."""
     worlds, is_shown = _standing(record)
     parts: list[PosedPart] = []
     for number, node in enumerate(record.nodes):
@@ -92,7 +92,7 @@ def shown_parts(record: SceneRecord, source: Source) -> list[PosedPart]:
 
 
 def _instances(record: SceneRecord, index: int) -> Iterator[tuple[Mesh, np.ndarray]]:
-    """The meshes that an object of instances is, and where in the space of its node."""
+    """Return the meshes of an object of instances, and their poses in node space."""
     entry = record.objects[index]
     if entry.need("kind").value != "instances":
         return
@@ -106,7 +106,7 @@ def _instances(record: SceneRecord, index: int) -> Iterator[tuple[Mesh, np.ndarr
 
 
 def mesh_of(record: SceneRecord, number: JsonValue) -> Mesh:
-    """Return the mesh that a number means."""
+    """Return the mesh with a number."""
     index = number.index(len(record.objects), "objects")
     if index not in record.meshes:
         raise number.error(f"objects[{index}] is no mesh")
@@ -114,7 +114,7 @@ def mesh_of(record: SceneRecord, number: JsonValue) -> Mesh:
 
 
 def _standing(record: SceneRecord) -> tuple[np.ndarray, np.ndarray]:
-    """The poses of the nodes in the world, (N, 4, 4) float64, and which show, as all above them."""
+    """Return the nodes' world poses, (N, 4, 4) float64, and which nodes are visible."""
     hidden = [node.get("hidden") for node in record.nodes]
     is_shown = np.array([held is None or not held.flag() for held in hidden], bool)
     worlds, parents = _poses(record.places), np.array(record.parents)
@@ -125,7 +125,7 @@ def _standing(record: SceneRecord) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _levels(record: SceneRecord) -> list[list[int]]:
-    """The nodes that stand at the top, those below these, and so on."""
+    """Yield the nodes level by level, from the roots down."""
     level = [number for number, parent in enumerate(record.parents) if parent < 0]
     levels = []
     while level:
@@ -135,7 +135,7 @@ def _levels(record: SceneRecord) -> list[list[int]]:
 
 
 def _poses(places: list[Place]) -> np.ndarray:
-    """The poses that parts of poses are, (N, 4, 4) float64."""
+    """Return the poses for given parts, (N, 4, 4) float64."""
     parts = {
         key: np.array([place.get(key, default) for place in places]).reshape(-1, len(default))
         for key, default in _IDENTITY.items()

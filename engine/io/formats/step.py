@@ -1,8 +1,8 @@
-"""STEP and IGES, the exchange formats of CAD, as far as the package cascadio reads them.
+"""STEP and IGES, the exchange formats of CAD, read by the optional package cascadio.
 
 In: the bytes of a file. Out: a `Document` of triangles that follow its curved surfaces closely. The
-package, which holds Open CASCADE, is given a process of its own, see `limited_process`. It makes
-glTF of the file: the tree of its parts, their names and colours; coordinates are metres, +Z is up.
+package, which includes Open CASCADE, runs in a separate process, see `limited_process`. It converts
+the file to glTF: the tree of parts, their names and colours; coordinates are metres, +Z is up.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from ..reading.reader_registry import Reader
 from ..reading.sources import Source
 from .gltf.gltf import read_gltf
 
-# How far a triangle's edge may be from its curve, as a share of its length, and how far its normals
-# may turn, in radians.
+# The largest deviation of a triangle's edge from its curve, as a fraction of its length, and of its
+# normals, in radians.
 _LINEAR, _ANGULAR = 0.001, 0.25
 _STEP = b"ISO-10303-21"
-# Open CASCADE takes several times what other readers take of a file; its limits go by this.
+# Open CASCADE needs several times the memory and time of other readers; its limits scale by this.
 _SIZE_FACTOR = 8
 
 
@@ -44,14 +44,14 @@ def read_step(source: Source, split: bool = False, kind: str = "step") -> Docume
     except FileFormatError as error:
         raise FileFormatError(error.message, source.path) from error
     for material in document.tree.materials if document.tree is not None else ():
-        # Only colours are the file's own; what metals are like the converter leaves to glTF.
+        # Only colours come from the file; metallic and roughness are the converter's defaults.
         material.metallic = material.roughness = None
     document.format, document.unit = kind, "m"
     return document
 
 
 def _converted(source: Source, split: bool, kind: str) -> bytes:
-    """The file as a binary glTF file; empty if it cannot be read."""
+    """Return the file as binary glTF; empty if it cannot be read."""
     import cascadio
 
     return cascadio.load(
@@ -60,7 +60,7 @@ def _converted(source: Source, split: bool, kind: str) -> bytes:
         tol_linear=_LINEAR,
         tol_angular=_ANGULAR,
         tol_relative=True,
-        use_parallel=False,  # threads would take addresses that the process may not have
+        use_parallel=False,  # threads would take address space that the process may not have
     )
 
 

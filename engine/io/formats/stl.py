@@ -1,8 +1,8 @@
-"""STL: triangles without anything else, as text or binary.
+"""STL: triangle soup, as text or binary.
 
 In: the bytes of a file. Out: a `Document`. Corners at exactly the same place become one vertex. The
-normals of the file are not believed: they are computed by crease angle. Whether a file is binary is
-told by its length: many binary files begin with the word ``solid``.
+file's normals are ignored; normals are computed by crease angle. The length decides whether a file
+is binary, because many binary files begin with the word ``solid``.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ from ..reading.welding import number_rows
 from .stl_spelling import usual_spelling
 
 _HEADER = 84
-# A facet is a normal, three corners, and two bytes of attributes.
+# A facet has a normal, three corners, and two bytes of attributes.
 _FACET_SIZE, _CORNERS_AT = 50, 12
 _SKIPPED = (b"facet", b"outer", b"endfacet", b"endsolid")
 _TEXT = re.compile(rb"(?:\xef\xbb\xbf)?\s*(?:solid(?![A-Za-z])|facet[ \t_]*normal)", re.IGNORECASE)
-# What some programs write behind a text.
+# Bytes that some programs append to text.
 _PADDING, _ENDINGS = b"\0\x1a", (b"\0", b"\x1a")
 _MAX_OBJECTS = 1000
 _MOST = 2**31 - 1
@@ -41,7 +41,7 @@ _FORMS = (
     (b"endloop ", native.MARKED, 0, 0, 0.0, 0),
     *((word + b" ", native.SKIPPED, 0, 0, 0.0, 0) for word in _SKIPPED),
 )
-_FACET_FORM = 2  # the first of what is skipped
+_FACET_FORM = 2  # the first of the skipped forms
 _SNIFFED = 4096
 
 
@@ -51,19 +51,19 @@ class _Facets(NamedTuple):
     Attributes
     ----------
     facet_count : int
-        F.
+        The number of facets, F.
     positions : (V, 3) float32
-        Of all corners, each place once.
+        The distinct corner positions.
     faces : (T, 3) int32
     polygons : (T,) int32 or None
         The facet that each triangle was cut from; None if each facet is one.
     edge_visible : (T, 3) bool or None
     corner_count : int
-        Corners of all facets together.
+        The total number of corners.
     solids : list of (str, int)
-        The name of each solid, and its first facet; none in the binary form.
+        The name of each solid, and its first facet; empty for the binary form.
     pose : (4, 4) float64 or None
-        Takes the positions to where they are in the file.
+        Moves the positions back to the file's coordinates.
     """
 
     facet_count: int
@@ -79,7 +79,7 @@ class _Facets(NamedTuple):
 def read_stl(source: Source, split: bool = False) -> Document:
     """Read an STL file, as `Reader.read`.
 
-    With ``split``, each solid is an object; otherwise they are groups of one mesh.
+    With ``split``, each solid is an object; otherwise solids are groups of one mesh.
     """
     warnings = WarningList(source.path)
     facets = (_read_text if _is_text(source) else _read_binary)(source, warnings, split)
@@ -117,7 +117,7 @@ def _is_text(source: Source) -> bool:
 
 
 def _has_binary_length(head: bytes, size: int) -> bool:
-    """Whether a file is as long as the number of facets in a binary file's header says."""
+    """Return whether a file's length matches the facet count in a binary header."""
     count = int.from_bytes(head[80:_HEADER], "little")
     return size == _HEADER + _FACET_SIZE * count
 
@@ -172,7 +172,7 @@ def _read_text(source: Source, warnings: WarningList, split: bool) -> _Facets:
 
 
 class _Rows(NamedTuple):
-    """The lines of a text.
+    """The parsed lines of a text.
 
     Attributes
     ----------
@@ -181,7 +181,7 @@ class _Rows(NamedTuple):
         The first corner of each facet, and their number.
     solids : list of (str, int)
     facet_lines : int
-        Lines that begin a facet: more than there are facets if some hold all of theirs.
+        Lines that begin a facet; more than the facets if some lines hold a whole facet.
     """
 
     corners: np.ndarray
@@ -191,18 +191,18 @@ class _Rows(NamedTuple):
 
     @property
     def polygons(self) -> int:
-        """How many facets have at least three corners."""
+        """The number of facets with at least three corners."""
         return int((np.diff(self.ends) >= 3).sum())
 
     @property
     def may_lack_facets(self) -> bool:
-        """Whether lines of facets, or of solids, may hold more than was read of them."""
+        """Whether lines of facets or solids may hold more than was read from them."""
         is_less = not self.polygons or self.facet_lines >= len(self.ends)
         return is_less or any("facet" in name.lower() for name, _ in self.solids)
 
 
 def _rows_of_any(text: bytes, path: str, warnings: WarningList) -> _Rows:
-    """Read a text as it stands or, where that fails, in the usual spelling."""
+    """Read a text as it is or, if that fails, in normalised spelling."""
     rows = _rows_or_problem(text, path)
     if isinstance(rows, _Rows) and not rows.may_lack_facets:
         return rows
@@ -226,7 +226,7 @@ def _rows_or_problem(text: bytes, path: str) -> _Rows | FileFormatError:
 
 
 def _rows(text: bytes, path: str) -> _Rows:
-    """Read lines: what counts are those of vertices and of loops' ends."""
+    """Read lines; only those of vertices and loop ends count."""
     reader = native.FormReader(text, _FORMS, True)
     solids: list[tuple[str, int]] = []
     marks = [np.zeros(1, np.int64)]
@@ -249,7 +249,7 @@ def _rows(text: bytes, path: str) -> _Rows:
 
 
 def _fail_at(path: str, text: bytes, place: int) -> NoReturn:
-    """Raise an error about the line that begins there, which has no form."""
+    """Raise an error about the unrecognised line at an offset."""
     line = text[place : text.index(b"\n", place)]
     is_vertex = line.split()[0].lower() == b"vertex"
     what = "not three numbers" if is_vertex else "not a line of an STL file"
@@ -258,7 +258,7 @@ def _fail_at(path: str, text: bytes, place: int) -> NoReturn:
 
 
 def _groups(solids: list[tuple[str, int]], facets: np.ndarray) -> list[tuple[str, np.ndarray]]:
-    """The triangles of each solid; facets before the first ``solid`` belong to none."""
+    """Return the triangles of each solid; facets before the first ``solid`` belong to none."""
     if not solids:
         return []
     begins = np.searchsorted(facets, [start for _, start in solids])

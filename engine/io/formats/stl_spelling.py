@@ -1,8 +1,8 @@
-"""Text STL as other programs read it: keywords in several spellings, several on one line.
+"""Normalises text STL in unusual spellings, as other programs also read it.
 
-In: a text that does not read line by line. Out: the same in lines of the usual form, to be read
-again. Programs write ``end solid`` with a blank, an underscore or none, a facet or all of the file
-on one line, a keyword and its number without a blank, and lines of their own.
+In: a text that fails to parse line by line. Out: the same in lines of the usual form. Programs
+write ``end solid`` with a blank, an underscore or none, a facet or the whole file on one line, a
+keyword and its number without a blank, and lines of their own.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _KEYWORD = re.compile(
     rb"(?P<end>end[ \t_]*facet)|(?P<solid>end[ \t_]*solid))",
     re.IGNORECASE,
 )
-# Lines that programs add, of no meaning here.
+# Lines that programs add, to be ignored.
 _OTHER = re.compile(
     rb"^[ \t]*(?:#|;|//|(?:colou?r|comment|material|attribute|author|unit)s?\b)[^\n]*|"
     rb"^[ \t]*end[ \t]*$",
@@ -34,7 +34,7 @@ class Spelling(NamedTuple):
     ----------
     text : bytes
     left_out : int
-        Lines of no meaning that it had.
+        The number of ignored lines.
     """
 
     text: bytes
@@ -42,10 +42,10 @@ class Spelling(NamedTuple):
 
 
 def usual_spelling(text: bytes) -> Spelling:
-    """Return a text with each keyword at the beginning of a line, spelt as usual."""
+    """Return a text with each keyword at the start of a line, in its usual spelling."""
     text, left_out = _OTHER.subn(b"", text)
     kinds = [match.lastgroup for match in _KEYWORD.finditer(text)]
-    # Where ends of loops are missing, ends of facets are missing, too.
+    # If ends of loops are missing, ends of facets are missing too.
     closing = "loop" if kinds.count("loop") >= kinds.count("end") else "end"
     words: dict[str | None, bytes] = {
         "facet": b"\nfacet normal ",

@@ -1,4 +1,4 @@
-"""STL: the triangles of a mesh and their normals, binary or as text."""
+"""Writer of STL: the triangles of a mesh and their normals, binary or text."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _TEXT = (
 
 
 def write_stl(mesh: Mesh, path: str, files: Files, ascii: bool = False) -> list[str]:
-    """Write an STL file; returns what it does not hold."""
+    """Write an STL file; return a line for each loss."""
     facets = np.zeros(len(mesh.faces), _FACET)
     facets["normal"] = unit_vectors(face_area_vectors(mesh.positions, mesh.faces))
     facets["corners"] = mesh.positions[mesh.faces]

@@ -1,10 +1,10 @@
 """Truevision TGA: types 1, 2, 3, 9, 10 and 11 of 8 to 32 bits, all four origins.
 
-In: the bytes of a file. Out: (H, W, 4) uint8 RGBA, the top row first. Nothing is allocated before
-the file was found long enough for the size that its header claims, and pixels are decoded in
-blocks, so that memory stays near that of the image. Source: Truevision TGA File Format
-Specification 2.0. What Pillow reads differently: images with their origin at the right, run-length
-packets across lines, maps of 15 and 16 bits, grey with alpha.
+In: the bytes of a file. Out: (H, W, 4) uint8 RGBA, the top row first. The file's length is checked
+against its header before any allocation, and pixels are decoded in blocks, so that memory use stays
+near the image's size. Source: Truevision TGA File Format Specification 2.0. Pillow reads these
+differently: images with their origin at the right, run-length packets across lines, maps of 15 and
+16 bits, grey with alpha.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _BLOCK = 1 << 18
 
 @dataclass(frozen=True)
 class _Header:
-    """The 18 bytes that a file begins with, checked."""
+    """The 18-byte file header, checked."""
 
     kind: int
     run_length: bool
@@ -67,14 +67,14 @@ def read_tga(source: Source) -> np.ndarray:
     Returns
     -------
     pixels : (H, W, 4) uint8, the top row first
-        5-bit channels are widened by repeating their high bits. Alpha is that of the file where
-        its extension area or, without one, its attribute bits say that there is one, else 255.
-        Alpha that is zero everywhere counts as none, unless an extension area vouches for it.
+        5-bit channels are widened by repeating their high bits. Alpha is used if the extension area
+        or, without one, the attribute bits declare it, else it is 255. Alpha that is zero
+        everywhere is ignored, unless an extension area declares it.
 
     Raises
     ------
     FileFormatError
-        The header is none of TGA's, or the file ends before its pixels do.
+        The header is not TGA, or the file is too short for its pixels.
     """
     header = _read_header(source)
     attributes = _extension_attributes(source.data)
@@ -137,14 +137,14 @@ def _read_header(source: Source) -> _Header:
 
 
 def _has_alpha(header: _Header, attributes: int | None) -> bool:
-    """The extension area of TGA 2.0 knows best; else the attribute bits decide."""
+    """Return whether the file has alpha: by its extension area, else by the attribute bits."""
     if attributes is not None:
         return attributes in (_ALPHA_RETAINED, _ALPHA, _ALPHA_PREMULTIPLIED)
     return header.alpha_bits > 0 or (header.kind == _GREY and header.bits == 16)
 
 
 def _extension_attributes(data: bytes) -> int | None:
-    """The attribute type byte of the extension area, or None without a sound one."""
+    """Return the attribute type byte of the extension area, or None without a valid one."""
     footer = data[-26:]
     if len(footer) < 26 or footer[8:25] != _FOOTER_SIGNATURE:
         return None
@@ -159,13 +159,13 @@ def _read_color_map(source: Source, header: _Header, has_alpha: bool) -> np.ndar
     raw = source.data[header.map_start : header.map_start + header.map_size]
     if len(raw) < header.map_size or not raw:
         raise FileFormatError("cut short in the TGA colour map", source.path)
-    # 32-bit entries hold alpha whatever the attribute bits, which speak of the pixels.
+    # 32-bit map entries have alpha regardless of the attribute bits, which describe the pixels.
     has_alpha = has_alpha or header.map_bits == 32
     return _rgba(np.frombuffer(raw, np.uint8).reshape(-1, entry), header.map_bits, has_alpha)
 
 
 def _check_length(source: Source, header: _Header, start: int) -> None:
-    """Refuse a file that cannot hold its pixels, before memory is taken for them."""
+    """Refuse a file too short for its pixels, before allocating memory."""
     count = header.width * header.height
     least = count * header.pixel_bytes
     if header.run_length:
@@ -179,10 +179,10 @@ def _check_length(source: Source, header: _Header, start: int) -> None:
 
 
 def _stored_pixels(source: Source, header: _Header, start: int, room: np.ndarray) -> np.ndarray:
-    """The pixels as they are stored, (N, bytes per pixel) uint8.
+    """Return the pixels as stored, (N, bytes per pixel) uint8.
 
-    Run-length packets are unpacked to the end of ``room``, (N, 4). Pixels can take their place in
-    it from the first to the last: none lands behind the bytes that it is made of.
+    Run-length packets are unpacked to the end of ``room``, (N, 4). Pixels can then be converted in
+    place from first to last: none overwrites bytes that are still needed.
     """
     size, count = header.pixel_bytes, len(room)
     if not header.run_length:
@@ -196,7 +196,7 @@ def _stored_pixels(source: Source, header: _Header, start: int, room: np.ndarray
 
 
 def _rgba(stored: np.ndarray, bits: int, has_alpha: bool) -> np.ndarray:
-    """Turn stored colours of 15 to 32 bits into RGBA."""
+    """Convert stored colours of 15 to 32 bits to RGBA."""
     rgba = np.empty((len(stored), 4), np.uint8)
     rgba[:, 3] = 255
     if bits in (24, 32):
@@ -214,7 +214,7 @@ def _rgba(stored: np.ndarray, bits: int, has_alpha: bool) -> np.ndarray:
 
 
 def _rgba_from_grey(stored: np.ndarray) -> np.ndarray:
-    """Turn grey of one byte, or grey and alpha of two, into RGBA."""
+    """Convert one-byte grey, or two-byte grey and alpha, to RGBA."""
     rgba = np.full((len(stored), 4), 255, np.uint8)
     rgba[:, :3] = stored[:, :1]
     if stored.shape[1] == 2:
@@ -236,7 +236,7 @@ def _look_up(stored: np.ndarray, color_map: np.ndarray, header: _Header, path: s
 
 
 def _turn_upright(pixels: np.ndarray, header: _Header) -> None:
-    """Bring the top-left pixel to the front, in place."""
+    """Flip the image in place so that the top-left pixel comes first."""
     if not header.from_top:
         half = header.height // 2
         for row in range(half):

@@ -1,9 +1,8 @@
-"""COLLADA and other formats that the package trimesh reads, where it is installed.
+"""COLLADA and other formats read by the optional package trimesh.
 
-In: the bytes of a file. Out: a `Document` with one object for each node. trimesh and the libraries
-that it calls are given a process of their own, see `limited_process`: a few hundred bytes can lead
-them to any amount of memory and time. The files that a model names are looked for as for any model:
-in its folder only.
+In: the bytes of a file. Out: a `Document` with one object for each node. trimesh and its libraries
+run in a separate process, see `limited_process`: a few hundred bytes can make them use any amount
+of memory and time. Files that a model names are searched in its folder only, as for any model.
 """
 
 from __future__ import annotations
@@ -25,20 +24,20 @@ from ..reading.sources import Source
 from ..reading.warning_list import WarningList
 from ..reading.zip_archives import ZIP, ZipArchive
 
-# The formats that trimesh reads by itself, and with further packages.
+# Formats that trimesh reads by itself, and with further packages.
 _EXTENSIONS = (".xyz", ".dxf", ".dae", ".zae", ".3dxml", ".xaml")
-# The first bytes of files of a kind, if they are known.
+# Signatures of formats, if known.
 _BEGINNINGS = {
     **dict.fromkeys(("3dxml", "zae"), ZIP),
     **dict.fromkeys(("dae", "xaml"), b"<"),
 }
-# Letters of what trimesh says that are passed on.
+# Characters of trimesh's messages that are passed on.
 _SAID = 200
 _BYTE_ORDER_MARKS = (b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")
 
 
 def read_with_trimesh(source: Source, split: bool = False) -> Document:
-    """Read a file with trimesh, in a process of its own, as `Reader.read`; a node is an object."""
+    """Read a file with trimesh in a separate process, as `Reader.read`; a node is an object."""
     kind = source.extension.removeprefix(".")
     _check_beginning(source, kind)
     if importlib.util.find_spec("trimesh") is None:
@@ -85,7 +84,7 @@ def read_here(source: Source, split: bool) -> Document:
         raise
     except FileNotFoundError as error:
         raise FileFormatError(f"trimesh cannot read it: {error}", source.path) from error
-    # Damaged files lead trimesh to whatever its libraries raise: KeyError, struct.error, ...
+    # For damaged files, trimesh raises errors of its libraries: KeyError, struct.error, ...
     except Exception as error:
         said = " ".join(str(error).split())
         reason = f"{type(error).__name__}: {said}" if said else type(error).__name__
@@ -101,7 +100,7 @@ def read_here(source: Source, split: bool) -> Document:
 
 
 class _Teller(logging.Handler):
-    """Tells of what is logged."""
+    """A log handler that turns messages into warnings."""
 
     def __init__(self, warnings: WarningList) -> None:
         super().__init__(logging.WARNING)
@@ -113,7 +112,7 @@ class _Teller(logging.Handler):
 
 @contextlib.contextmanager
 def _said(warnings: WarningList) -> Iterator[None]:
-    """Let what trimesh would print become warnings."""
+    """Turn trimesh's log messages into warnings within the block."""
     handler = _Teller(warnings)
     logger = logging.getLogger("trimesh")
     logger.addHandler(handler)
@@ -124,7 +123,7 @@ def _said(warnings: WarningList) -> Iterator[None]:
 
 
 def _check_beginning(source: Source, kind: str) -> None:
-    """Refuse files that are not of the format; trimesh's own errors would mislead."""
+    """Refuse files of another format; trimesh's own errors would mislead."""
     head = source.head(64)
     is_marked = head.startswith(_BYTE_ORDER_MARKS) and kind in ("dae", "xaml")
     if not is_marked and not head.lstrip().startswith(_BEGINNINGS.get(kind, b"")):
@@ -132,10 +131,10 @@ def _check_beginning(source: Source, kind: str) -> None:
 
 
 def _resolver(trimesh: Any, source: Source, warnings: WarningList) -> Any:
-    """Gives trimesh the images beside the model, and nothing else."""
+    """Return a resolver that gives trimesh the images beside the model, and nothing else."""
     files = LinkedFiles.of(source, warnings)
 
-    class FolderResolver(trimesh.resolvers.Resolver):  # type: ignore[misc]  # it has no types
+    class FolderResolver(trimesh.resolvers.Resolver):  # it is untyped
         def __init__(self) -> None:
             pass
 
@@ -159,7 +158,7 @@ def _resolver(trimesh: Any, source: Source, warnings: WarningList) -> Any:
 
 
 def _image(source: Source) -> bytes:
-    """An image as trimesh can open it, decoded as all others are."""
+    """Return an image in a form that trimesh can open, decoded like all others."""
     from PIL import Image
 
     file = io.BytesIO()

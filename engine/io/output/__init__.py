@@ -1,1 +1,1 @@
-"""Animations and videos of frames."""
+"""Writing of animations and videos."""

@@ -1,8 +1,8 @@
-"""Animations to files: GIF, animated WebP, APNG, MP4, or a picture for each frame.
+"""Animation files: GIF, animated WebP, APNG, MP4, or numbered pictures.
 
-In: (H, W, 4) uint8 RGBA arrays. Out: a file that loops without end (MP4 leaves that to whoever
-plays it), written beside its target and renamed when complete; or numbered pictures. Pillow
-encodes; it loads when something is written. Single pictures are written by `Frame.save`.
+In: (H, W, 4) uint8 RGBA arrays. Out: a file that loops forever (for MP4, the player decides),
+written to a temporary file and renamed when complete; or numbered pictures. Pillow encodes; it is
+imported on first use. `Frame.save` writes single pictures.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .video_files import save_video
 if TYPE_CHECKING:
     from pathlib import Path
 
-#: The extensions of pictures, which `Frame.save` writes.
+#: Extensions of pictures that `Frame.save` writes.
 PICTURE_SUFFIXES = (".png", ".jpg", ".jpeg", ".tga", ".webp")
 OPAQUE_SUFFIXES = (".jpg", ".jpeg")
 #: Pillow's name of each animated format.
@@ -30,27 +30,27 @@ VIDEO_SUFFIX = ".mp4"
 ANIMATION_SUFFIXES = (*ANIMATION_FORMATS, VIDEO_SUFFIX)
 WEBP_QUALITY = 90
 TRANSPARENT_INDEX = 255
-#: Viewers of GIF take anything shorter for a mistake and show a tenth of a second.
+#: GIF players treat shorter durations as errors and show a tenth of a second instead.
 SHORTEST_MILLISECONDS = 20
 
 
 def save_animation(pictures: Iterable[np.ndarray], path: Any, seconds_a_frame: float) -> None:
-    """Write an endless animation; the path's extension chooses the format.
+    """Write an endless animation in the format of the path's extension.
 
     Parameters
     ----------
     pictures : iterable of (H, W, 4) ndarray of uint8
-        At least one; drawn as they are asked for.
+        At least one; consumed one by one, so they may be drawn on demand.
     path : path-like
-        Ends in one of `ANIMATION_SUFFIXES`; or the name of a picture with a place for the frame's
-        number (`frame_name`): then each frame is a file, from number 0.
+        Ends in one of `ANIMATION_SUFFIXES`; or a picture's name with a place for the frame number
+        (`frame_name`): then each frame is a file, from number 0.
     seconds_a_frame : float
-        How long each picture shows.
+        Duration of each picture.
 
     Raises
     ------
     FileAccessError
-        A file cannot be written, or MP4 lacks what it needs.
+        A file cannot be written, or ffmpeg for MP4 is missing.
     """
     path = frame_name(path)
     if path.place is not None:
@@ -83,7 +83,7 @@ def _save_images(
 
 
 def numbered_path(folder: Path, stem: str, suffix: str) -> Path:
-    """Return ``folder/stem-NNN.suffix`` with the first number that no file bears."""
+    """Return ``folder/stem-NNN.suffix`` with the first unused number."""
     number = 1
     while (path := folder / f"{stem}-{number:03d}{suffix}").exists():
         number += 1
@@ -91,7 +91,7 @@ def numbered_path(folder: Path, stem: str, suffix: str) -> Path:
 
 
 def _image(pixels: np.ndarray) -> Any:
-    """Return a Pillow image: RGB where every pixel is opaque, else RGBA."""
+    """Return a Pillow image: RGB if every pixel is opaque, else RGBA."""
     from PIL import Image
 
     if (pixels[..., 3] == 255).all():
@@ -100,7 +100,7 @@ def _image(pixels: np.ndarray) -> Any:
 
 
 def _with_palette(image: Any) -> Any:
-    """Return ``image`` in 256 colours of its own, as GIF wants it; the last may be transparent."""
+    """Return ``image`` with its own 256-colour palette for GIF; the last may be transparent."""
     from PIL import Image
 
     if image.mode == "RGB":
@@ -115,7 +115,7 @@ def _with_palette(image: Any) -> Any:
 
 
 def _dithered(image: Any, count: int) -> Any:
-    """Return an RGB image in ``count`` colours; of Pillow's ways the one with least banding."""
+    """Return an RGB image in ``count`` colours, by the Pillow method with least banding."""
     from PIL import Image
 
     palette = image.quantize(count, method=Image.Quantize.MAXCOVERAGE)

@@ -1,7 +1,7 @@
-"""The function that saves animations: frames in, one file out, or one for each of them.
+"""The public function that saves animations.
 
-In: frames, or their pixels, as they are drawn. Out: an animated file, whole or not at all.
-`display.animation_files` encodes; this checks what callers give.
+In: frames, or their pixels, in drawing order. Out: an animated file, whole or not at all.
+`animation_files` encodes; this module checks the arguments.
 """
 
 from __future__ import annotations
@@ -35,24 +35,24 @@ def save_animation(
     Parameters
     ----------
     frames : iterable of Frame or of (H, W, 4) uint8
-        At least one, all of one size. Of a frame its colour counts; an array is RGBA, top row
-        first. They are asked for one after another, so a generator may draw them.
+        At least one, all of one size. A frame contributes its colour; an array is RGBA, top row
+        first. They are consumed one by one, so a generator may draw them.
     path : str or path-like
-        The suffix decides the format: .gif, .webp and .apng repeat without end; .mp4 needs
-        ``pip install engine3d[video]``, leaves out alpha, and has even sides (a warning says so
-        where a row or column is doubled). A picture's name with a place for a number, such as
-        ``frame_{:04}.png`` or ``frame_%04d.png``, gives a picture for each frame, from number 0;
-        ``{{:04}}`` and ``%%04d`` stand for these letters themselves.
+        The suffix decides the format: .gif, .webp and .apng repeat forever; .mp4 needs ``pip
+        install engine3d[video]``, drops alpha, and requires even sides (a warning says if a row or
+        column is doubled). A picture's name with a place for a number, such as ``frame_{:04}.png``
+        or ``frame_%04d.png``, writes a picture for each frame, from number 0; ``{{:04}}`` and
+        ``%%04d`` are literal.
     fps : float
-        Frames per second, greater than 0 and at most 50, since viewers of GIF files show nothing
-        faster; at most 240 for .mp4.
+        Frames per second, above 0 and at most 50, since GIF players are no faster; at most 240 for
+        .mp4.
 
     Raises
     ------
     InvalidArgumentError
-        The suffix is none of those, there is no frame, or the frames differ in size.
+        The suffix is unknown, there is no frame, or the frames differ in size.
     FileAccessError
-        The file cannot be written, or MP4 lacks what it needs.
+        The file cannot be written, or ffmpeg for MP4 is missing.
     """
     path = frame_name(checked_path(path))
     numbered = path.place is not None

@@ -1,9 +1,9 @@
-"""Names of files with a place for the number of a frame, such as ``frame_%04d.png``.
+"""File names with a place for the frame number, such as ``frame_%04d.png``.
 
-In: what somebody typed or gave. Out: a `FrameName`, which is the name and knows whether numbers go
-into it. ``%04d``, ``{:04}``, ``{:04d}`` and ``{}`` are places; ``%%04d``, ``{{:04}}`` and ``{{}}``
-stand for these letters themselves. What comes of a file's name, which may hold any letters, is no
-pattern: who puts it into a name says so by `literal_name`.
+In: a name from the user. Out: a `FrameName`, which is the name and knows whether it takes numbers.
+``%04d``, ``{:04}``, ``{:04d}`` and ``{}`` are places; ``%%04d``, ``{{:04}}`` and ``{{}}`` are these
+texts literally. Names of existing files may contain any characters and are not patterns:
+`literal_name` marks them.
 """
 
 from __future__ import annotations
@@ -12,20 +12,20 @@ import os
 import re
 from typing import NamedTuple
 
-#: A place for a frame's number, or what stands for such letters.
+#: A place for a frame number, or its escaped form.
 FRAME_NUMBER = re.compile(
     r"(?P<escaped>%%0?[0-9]?d|\{\{(?::0?[0-9]?d?)?\}\})|%(0?[0-9]?)d|\{(?::(0?[0-9]?)d?)?\}"
 )
 
 
 class Place(NamedTuple):
-    """The place of a number in a name.
+    """The place of the number in a name.
 
     Attributes
     ----------
     before, after : str
     width : str
-        How `format` is to write the number, such as ``"04"``.
+        Format specification of the number, such as ``"04"``.
     """
 
     before: str
@@ -34,7 +34,7 @@ class Place(NamedTuple):
 
 
 class FrameName(str):
-    """The name of files; it is known whether numbers go into it.
+    """A file name that may take frame numbers.
 
     Attributes
     ----------
@@ -44,18 +44,18 @@ class FrameName(str):
     place: Place | None = None
 
     def of_frame(self, number: int) -> str:
-        """Return the name of a frame's file."""
+        """Return the file name for a frame."""
         before, width, after = self.place or Place(self, "", "")
         return f"{before}{format(number, width + 'd')}{after}"
 
 
 def literal_name(path: str | os.PathLike[str]) -> FrameName:
-    """Return a name whose letters are all meant as they are."""
+    """Return a name without places for numbers."""
     return FrameName(os.fspath(path))
 
 
 def frame_name(path: str | os.PathLike[str]) -> FrameName:
-    """Return a name as a pattern; numbers go into one place, which is not in a folder's name."""
+    """Return a name as a pattern with at most one place for numbers, not in a folder's name."""
     if isinstance(path, FrameName):
         return path
     folder, name = os.path.split(os.fspath(path))
@@ -68,13 +68,13 @@ def frame_name(path: str | os.PathLike[str]) -> FrameName:
 
 
 def meant(match: re.Match[str]) -> str:
-    """Return the letters that what `FRAME_NUMBER` calls escaped stands for."""
+    """Return the literal text of an escaped place."""
     text = match["escaped"]
     return text[1:] if text.startswith("%") else text[1:-1]
 
 
 def joined_name(pieces: list[str | re.Match[str]]) -> FrameName:
-    """Return the name of texts, which are meant as they are, and of places for a frame's number."""
+    """Join literal texts and places for a frame number to a name."""
     texts = [piece if isinstance(piece, str) else piece[0] for piece in pieces]
     name = FrameName("".join(texts))
     behind = ["".join(texts[index + 1 :]) for index in range(len(pieces))]

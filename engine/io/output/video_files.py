@@ -1,8 +1,8 @@
-"""MP4 files: H.264 video, written by ffmpeg.
+"""MP4 files: H.264 video, encoded by ffmpeg.
 
-In: (H, W, 4) uint8 RGBA arrays. Out: a file, whole or not at all. ffmpeg is a program of its own,
-which the package imageio-ffmpeg brings (``pip install engine3d[video]``); where that is not
-installed, one on the PATH does as well. Videos have no alpha: what is transparent is refused.
+In: (H, W, 4) uint8 RGBA arrays. Out: a file, whole or not at all. ffmpeg is a separate program,
+included in the package imageio-ffmpeg (``pip install engine3d[video]``); otherwise one on the PATH
+is used. Videos have no alpha: transparent pictures are refused.
 """
 
 from __future__ import annotations
@@ -22,23 +22,23 @@ from ...base.files.atomic_write import atomic_write
 from ...errors import Engine3DWarning, FileAccessError, printable
 from ...rendering.transparency import refuse_transparency
 
-#: Constant quality of x264: 18 can hardly be told from the original.
+#: Constant quality of x264: 18 is visually almost lossless.
 QUALITY = 18
 WAITS = 10.0
 
 
 def find_ffmpeg(path: Any) -> str:
-    """Return the program that writes videos.
+    """Return the path of ffmpeg.
 
     Parameters
     ----------
     path : path-like
-        The video to be written, for the error.
+        The video to write, for the error.
 
     Raises
     ------
     FileAccessError
-        There is none; the text says what to install.
+        ffmpeg is missing; the text says what to install.
     """
     try:
         import imageio_ffmpeg
@@ -58,10 +58,10 @@ def save_video(pictures: Iterable[np.ndarray], path: Any, seconds_a_frame: float
     Parameters
     ----------
     pictures : iterable of (H, W, 4) ndarray of uint8
-        At least one, all of one size; drawn as they are asked for.
+        At least one, all of one size; consumed one by one.
     path : path-like
     seconds_a_frame : float
-        How long each picture shows.
+        Duration of each picture.
 
     Raises
     ------
@@ -95,12 +95,12 @@ def _arguments(size: tuple[int, int], seconds_a_frame: float) -> list[str]:
 
 
 def _feed(command: list[str], pictures: Iterable[np.ndarray], path: Any) -> None:
-    """Run ffmpeg and hand it the pictures."""
+    """Run ffmpeg and feed it the pictures."""
     with tempfile.TemporaryFile() as said:
         process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=said
         )
-        assert process.stdin is not None  # it was asked for
+        assert process.stdin is not None  # it was requested
         try:
             for pixels in pictures:
                 refuse_transparency(pixels, ".mp4")
@@ -120,7 +120,7 @@ def _feed(command: list[str], pictures: Iterable[np.ndarray], path: Any) -> None
 
 
 def _rgb(pixels: np.ndarray) -> bytes:
-    """Return a picture's bytes without alpha, its last row and column doubled to even sides."""
+    """Return a picture's bytes without alpha; odd sides get their last row or column doubled."""
     height, width = pixels.shape[:2]
     odd = ((0, height % 2), (0, width % 2), (0, 0))
     return np.pad(pixels[..., :3], odd, mode="edge").tobytes()

@@ -1,1 +1,1 @@
-"""Shared by readers: sources, documents, limits, meshes being put together."""
+"""Shared code of readers: sources, documents, limits, mesh construction."""

@@ -1,8 +1,8 @@
-"""The image that belongs to a model by its name alone.
+"""Companion textures: images that belong to a model by name only.
 
-``head.obj`` without materials gets ``head_diffuse.png`` or ``head.tga`` beside it as its texture.
-Of the images that bear the model's very name only TGA counts: others are as likely pictures of the
-model. So is a TGA that engine3d wrote; it says so.
+``head.obj`` without materials uses ``head_diffuse.png`` or ``head.tga`` beside it as texture. Of
+images with exactly the model's name only TGA counts: other formats are as likely pictures of the
+model. A TGA written by engine3d is also a picture; a mark in it says so.
 """
 
 from __future__ import annotations
@@ -25,21 +25,21 @@ _PREFERRED = (".tga", ".png", ".jpg", ".jpeg")
 def companion_texture(
     path: str | os.PathLike[str], accept: Callable[[str], bool] | None = None
 ) -> str | None:
-    """Return the path of the image beside a model that bears its name, or None.
+    """Return the path of a model's companion texture, or None.
 
     Parameters
     ----------
     path : str or path-like
         The model, such as ``head.obj``.
     accept : callable, optional
-        ``accept(image)``: whether an image may be taken; the next one is looked for if not.
+        ``accept(image)`` returns whether to use an image; if not, the next one is tried.
 
     Returns
     -------
     image : str or None
-        The first that exists of ``head.tga`` and of ``head_diffuse``, ``head_texture``,
+        The first existing one of ``head.tga`` and of ``head_diffuse``, ``head_texture``,
         ``head_color``, ``head_albedo``, ``head_basecolor``, each as TGA, PNG, JPEG and then the
-        other formats. A TGA file that engine3d wrote is none.
+        other formats. TGA files written by engine3d are skipped.
     """
     path = os.fsdecode(path)
     folder, stem = os.path.dirname(path), stem_and_extension(path)[0]
@@ -77,4 +77,4 @@ def _is_own_picture(files: LinkedFiles, image: str) -> bool:
         with files.read(image) as source:
             return is_own_picture(source.head(MARKED_BYTES))
     except Engine3DError:
-        return False  # whoever takes it says what is wrong with it
+        return False  # reading it later reports the fault

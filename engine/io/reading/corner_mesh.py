@@ -1,7 +1,7 @@
-"""A mesh from corners that name a position, a texture coordinate and a normal each.
+"""Builds a mesh from corners with separate indices of position, texture coordinate and normal.
 
 In: the lists of a file, and triangles of indices into them. Out: a `Mesh` with one vertex for each
-combination that occurs; triangles keep their order. Positions that nothing uses are left out.
+distinct combination; triangles keep their order. Unused positions are dropped.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from ..formats.obj.mtl import uv_transform
 
-# Faces, and for each vertex its index of position, of texture coordinate and of normal; None for
-# all positions as they are, and for what no corner has.
+# Faces, and each vertex's indices of position, texture coordinate and normal; None if all positions
+# are kept, or no corner has the attribute.
 _Welded: TypeAlias = tuple[np.ndarray, np.ndarray | None, np.ndarray | None, np.ndarray | None]
 
 
@@ -42,14 +42,14 @@ class Vertices(NamedTuple):
 
 @dataclass
 class Triangles:
-    """Triangles of a file.
+    """The triangles of a file.
 
     Attributes
     ----------
     positions : (T, 3) int32
         Indices of the corners' positions.
     uvs, normals : (T, 3) int32 or None
-        Those of texture coordinates and normals, -1 for none; None if no corner has any.
+        Indices of texture coordinates and normals, -1 for none; None if no corner has any.
     materials : (T,) int32
     polygons : (T,) int32
         The polygon that each triangle was cut from.
@@ -64,7 +64,7 @@ class Triangles:
     edge_visible: np.ndarray | None
 
     def part(self, chosen: slice) -> Triangles:
-        """Return some triangles that stand together."""
+        """Return a range of triangles."""
         arrays = vars(self).items()
         return replace(self, **{name: rows[chosen] for name, rows in arrays if rows is not None})
 
@@ -77,11 +77,11 @@ class Geometry(NamedTuple):
     vertices : Vertices
     triangles : Triangles
     normals : (N, 3) float or None
-        What ``triangles.normals`` refers to; None leaves normals to the mesh.
+        The normals that ``triangles.normals`` indexes; None leaves normals to the mesh.
     lines : (L, 2) int, points : (P,) int
         Position indices.
     crease_angle : float
-        Radians, of normals that are left to the mesh.
+        Radians, for normals left to the mesh.
     """
 
     vertices: Vertices
@@ -92,7 +92,7 @@ class Geometry(NamedTuple):
     crease_angle: float = SMOOTH
 
     def with_own_positions(self) -> Geometry:
-        """Return the same with only the positions in use, for one of many parts of a file."""
+        """Return the geometry with only its used positions, for one of many parts of a file."""
         corners = self.triangles.positions
         used = np.unique(np.concatenate([corners.ravel(), self.lines.ravel(), self.points]))
         colors = self.vertices.colors
@@ -141,9 +141,9 @@ def build_mesh(geometry: Geometry, materials: list[Material], name: str) -> Mesh
 def _transformed_uvs(
     triangles: Triangles, uvs: np.ndarray, materials: list[Material]
 ) -> tuple[np.ndarray | None, np.ndarray]:
-    """Texture coordinates as each material's ``-s`` and ``-o`` want them, and their indices.
+    """Return texture coordinates after each material's ``-s`` and ``-o``, and their indices.
 
-    A coordinate that materials of different transforms share becomes several.
+    A coordinate shared by materials with different transforms is duplicated.
     """
     transforms: dict[tuple[float, ...], int] = {(1.0, 1.0, 0.0, 0.0): 0}
     kinds = [transforms.setdefault(uv_transform(m), len(transforms)) for m in materials]
@@ -163,7 +163,7 @@ def _transformed_uvs(
 def _weld(
     positions: np.ndarray, uvs: np.ndarray | None, normals: np.ndarray | None, position_count: int
 ) -> _Welded:
-    """Number the combinations of indices that occur, in the order of their positions."""
+    """Number the distinct combinations of indices, in the order of their positions."""
     if uvs is None and normals is None:
         return _without_unused(positions, position_count)
     faces, of_position, of_uv, of_normal = native.weld_corners(
@@ -180,7 +180,7 @@ def _flat(indices: np.ndarray) -> np.ndarray:
 
 
 def _without_unused(positions: np.ndarray, position_count: int) -> _Welded:
-    """Faces over the positions that they use, if only positions matter."""
+    """Return faces over their used positions, if only positions matter."""
     is_used = native.used_or_all(_flat(positions), position_count)
     if is_used is None:
         return positions, None, None, None
@@ -191,7 +191,7 @@ def _without_unused(positions: np.ndarray, position_count: int) -> _Welded:
 def _vertices_for(
     used: np.ndarray, of_position: np.ndarray | None, position_count: int
 ) -> tuple[np.ndarray, np.ndarray | None, int]:
-    """A vertex for each used position: one that the faces have, or a new one at the end."""
+    """Return a vertex for each used position: an existing one of the faces, or a new one."""
     if of_position is None:
         return used, None, 0
     vertex = np.full(position_count, -1, np.int32)
@@ -208,7 +208,7 @@ def _rows(table: np.ndarray, indices: np.ndarray | None) -> np.ndarray:
 
 
 def _gather(table: np.ndarray, indices: np.ndarray, extra: int) -> np.ndarray:
-    """Rows of a table; zero for index -1 and for the vertices that only lines and points use."""
+    """Return rows of a table; zero for index -1 and for vertices used only by lines and points."""
     rows = np.zeros((len(indices) + extra, table.shape[1]), np.float32)
     present = slice(None) if indices.min(initial=0) >= 0 else indices >= 0
     with np.errstate(over="ignore"):
@@ -217,6 +217,6 @@ def _gather(table: np.ndarray, indices: np.ndarray, extra: int) -> np.ndarray:
 
 
 def _finite(rows: np.ndarray) -> np.ndarray:
-    """Rows with zero for what is not finite."""
+    """Return rows with non-finite values replaced by zero."""
     rows[~np.isfinite(rows)] = 0
     return rows

@@ -1,7 +1,7 @@
-"""Documents, which readers make of files: objects with their meshes, lights, cameras and counts.
+"""Documents, the result of readers: objects with meshes, lights, cameras and counts.
 
-These are plain records in the file's own coordinates. Nothing here knows about scenes: whoever
-builds one decides what becomes of the lights and cameras.
+Documents are plain records in the file's own coordinates, without any link to scenes: the code that
+builds a scene interprets lights and cameras.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ class LightRecord:
 
 @dataclass
 class CameraRecord:
-    """A camera of a file that stands somewhere by itself.
+    """A camera of a file with its own position.
 
     Attributes
     ----------
@@ -78,7 +78,7 @@ class CameraRecord:
         Vertical field of view, radians.
     up : tuple of 3 float
     roll : float
-        Turn about the view axis, radians.
+        Rotation about the view axis, radians.
     name : str
     """
 
@@ -92,7 +92,7 @@ class CameraRecord:
 
 @dataclass
 class SceneRecord:
-    """The tree of a scene's file; what nodes hold is checked by whoever builds a scene of it.
+    """The node tree of a scene file; building a scene checks the nodes' objects.
 
     Attributes
     ----------
@@ -100,15 +100,15 @@ class SceneRecord:
         Background and light.
     materials : list of Material
     meshes : dict of int to Mesh
-        Those of the objects that are meshes, by number.
+        The objects that are meshes, by number.
     objects, nodes : list of JsonValue
     places : list of Place
     parents : list of int
-        Of each node; -1: none.
+        The parent of each node; -1: none.
     children : dict of int to list of int
-        Of each node that has some, in their order.
+        The children of each node that has some, in order.
     environments : list of Environment or None
-        None stands for one whose file cannot be read.
+        None if its file cannot be read.
     """
 
     values: JsonValue
@@ -130,17 +130,17 @@ class MeshRecord:
     ----------
     name : str
     mesh : Mesh
-        With what moves it: joints, weights, morph targets.
+        The mesh, with joints, weights and morph targets.
     morph_weights : tuple of float
-        One for each morph target, where the node says nothing else.
+        Default weight of each morph target.
     variants : dict of int to tuple of Material
-        What takes the place of the mesh's materials in a variant of `TreeRecord.variants`.
+        The materials that replace the mesh's in a variant of `TreeRecord.variants`.
     rest : tuple of MeshRecord
-        Further parts of the mesh, which no `Mesh` could hold with the others: what carries other
-        vertex attributes, lines and points of another material. All of them have as many morph
-        targets; weights and extras are those of the first.
+        Further parts of the mesh, which do not fit into one `Mesh`: with other vertex attributes,
+        or lines and points with another material. All have the same number of morph targets;
+        weights and extras are those of the first.
     extras : object
-        What the file says besides, as JSON has it; None for nothing.
+        Extra data of the file, as JSON; None for none.
     """
 
     name: str
@@ -158,21 +158,20 @@ class MeshRecord:
 
 @dataclass(frozen=True, eq=False)
 class SkinRecord:
-    """The skin that bends a mesh.
+    """The skin that deforms a mesh.
 
-    The vertex of a skinned mesh stands at the sum over its joints of
-    ``weight * world(joint) @ inverse_bind @ position``; where the node of the mesh stands changes
-    nothing.
+    A skinned vertex's position is the sum over its joints of ``weight * world(joint) @ inverse_bind
+    @ position``; the pose of the mesh's node has no effect.
 
     Attributes
     ----------
     name : str
     joints : tuple of int
-        Numbers of nodes in the tree.
+        Node numbers in the tree.
     inverse_binds : (J, 4, 4) float64
         joint-from-mesh at rest.
     skeleton : int or None
-        The node that the file names as their common root; changes nothing.
+        The node that the file names as their common root; it has no effect.
     extras : object
     """
 
@@ -185,19 +184,19 @@ class SkinRecord:
 
 @dataclass(frozen=True, eq=False)
 class ChannelRecord:
-    """How one part of one node changes in time.
+    """Animates one part of one node.
 
     Attributes
     ----------
     node : int
-        Its number in the tree.
+        The node's number in the tree.
     path : {"translation", "rotation", "scale", "weights"}
     interpolation : {"step", "linear", "cubicspline"}
     times : (K,) float32
-        Seconds, never less than 0, each more than the one before.
+        Seconds, at least 0, strictly increasing.
     values : (K, N) or (K, 3, N) float32
-        N is 3, 4 (quaternions x, y, z, w) or the number of morph targets. Of splines, each key has
-        the tangent towards it, the value, and the tangent away from it.
+        N is 3, 4 (quaternions x, y, z, w) or the number of morph targets. Each key of a spline has
+        in-tangent, value and out-tangent.
     """
 
     node: int
@@ -209,19 +208,19 @@ class ChannelRecord:
 
 @dataclass(frozen=True, eq=False)
 class PropertyRecord:
-    """How a property of something else than a node's pose changes in time.
+    """Animates a property other than a node's pose.
 
     Attributes
     ----------
     kind : {"node", "material", "camera", "light"}
     number : int
-        In the tree's list of these.
+        The index in the tree's list.
     path : str
-        The attribute of what a scene has for it: see `PropertyChannel`.
+        The attribute of the scene's object: see `PropertyChannel`.
     interpolation : {"step", "linear", "cubicspline"}
     times : (K,) float32
     values : (K, N) or (K, 3, N) float32
-        As of `ChannelRecord`.
+        As in `ChannelRecord`.
     """
 
     kind: str
@@ -240,7 +239,7 @@ class ClipRecord:
     ----------
     name : str
     duration : float
-        The last time of all channels, seconds; all clips begin at 0.
+        The last time of all channels in seconds; all clips start at 0.
     channels : tuple of ChannelRecord
     extras : object
     properties : tuple of PropertyRecord
@@ -255,7 +254,7 @@ class ClipRecord:
 
 @dataclass(frozen=True, eq=False)
 class LensRecord:
-    """The camera of a node; it stands where its node stands.
+    """The camera of a node, with the node's pose.
 
     Attributes
     ----------
@@ -264,12 +263,12 @@ class LensRecord:
     yfov : float or None
         Vertical field of view of a perspective camera, radians.
     aspect : float or None
-        Width over height; None for the picture's own.
+        Width over height; None for that of the picture.
     xmag, ymag : float or None
-        Half the width and height that an orthographic camera sees.
+        Half the visible width and height of an orthographic camera.
     znear : float
     zfar : float
-        Infinite if the file names none.
+        Infinite if the file gives none.
     extras : object
     """
 
@@ -286,21 +285,21 @@ class LensRecord:
 
 @dataclass(frozen=True, eq=False)
 class LampRecord:
-    """A light that its node places; it shines along the node's -Z.
+    """A light placed by its node; it shines along the node's -Z.
 
     Attributes
     ----------
     kind : str
-        "directional", "point" or "spot"; a file may have others, which give no light.
+        "directional", "point" or "spot"; unknown kinds give no light.
     name : str
     color : tuple of 3 float
         Linear light.
     intensity : float
-        Lux of directional lights, candela of the others.
+        Lux for directional lights, candela for others.
     range : float
-        Where it ends; infinite if the file names no end.
+        The range; infinite if the file gives none.
     inner_cone_angle, outer_cone_angle : float
-        Of a spot light: from the axis, radians.
+        Angles of a spot light from its axis, radians.
     extras : object
     """
 
@@ -316,24 +315,24 @@ class LampRecord:
 
 @dataclass(frozen=True, eq=False, slots=True)  # a file may have very many
 class NodeRecord:
-    """A node of a tree; numbers count in the lists of the `TreeRecord`.
+    """A node of a tree; numbers index the lists of the `TreeRecord`.
 
     Attributes
     ----------
     name : str
     children : tuple of int
     translation, rotation, scale : tuple of float or None
-        As the file has them; None where it leaves them out.
+        As in the file; None if missing.
     matrix : (4, 4) float64 or None
-        parent-from-node, where the file has it so.
+        parent-from-node, if the file uses a matrix.
     visible : bool
     mesh, skin, camera, light : int or None
     weights : tuple of float or None
-        Of the morph targets, instead of the mesh's.
+        Morph weights that override the mesh's.
     instances : (N, 4, 4) float64 or None
-        node-from-instance, where the mesh is drawn many times.
+        node-from-instance, if the mesh is instanced.
     instance_parts : tuple of (N, 3), (N, 4) and (N, 3) or None
-        Translations, quaternions and scales, where the file has these poses so.
+        Translations, quaternions and scales of the instances, if the file has them.
     instance_colors : (N, 4) float32 or None
         Linear light and alpha.
     extras : object
@@ -359,25 +358,26 @@ class NodeRecord:
 
 @dataclass(frozen=True, eq=False)
 class TreeRecord:
-    """The tree of a file: its nodes, and what they name, each thing once.
+    """The tree of a file: its nodes and their objects, each once.
 
     Attributes
     ----------
     nodes : tuple of NodeRecord
-        All of the file, also those that the shown scene does not hold.
+        All nodes of the file, including those outside the default scene.
     roots : tuple of int
-        The nodes that the shown scene begins with.
+        The root nodes of the default scene.
     meshes : tuple of MeshRecord
     skins : tuple of SkinRecord
     clips : tuple of ClipRecord
     cameras : tuple of LensRecord
     lights : tuple of LampRecord
     materials : tuple of Material
-        All of the file.
+        All materials of the file.
     made_materials : dict of int to tuple of Material
-        All that each of them became: of meshes without normals, say, another than of those with.
+        All versions created of each material: meshes without normals use a different one, for
+        example.
     variants : tuple of str
-        Names of the sets of materials that one may choose from.
+        Names of the material variants.
     extras : object
     """
 
@@ -400,32 +400,32 @@ class TreeRecord:
 
 @dataclass
 class Document:
-    """Everything that a file holds.
+    """The content of a file.
 
     Attributes
     ----------
     format : str
         Name of the format, such as ``"obj"``.
     objects : list of DocumentObject
-        ``(name, mesh, pose)``, in the order of the file.
+        ``(name, mesh, pose)``, in file order.
     lights : list of LightRecord
     cameras : list of CameraRecord
     counts : dict
-        The lists that the file holds, before any splitting or joining: numbers (``vertices``,
+        The sizes of the file's lists, before any splitting or joining: numbers (``vertices``,
         ``uvs``, ``normals``, ``faces``, ``triangles``, ``lines``, ``points``) and lists of names
         (``objects``, ``groups``, ``materials``).
     warnings : list of str
-        What was left out or replaced, one line each.
+        The loader's warnings: what it omitted or replaced, one line each.
     scene : SceneRecord or None
-        The tree of nodes, of a scene of engine3d; its objects then are what of it shows.
+        The node tree of an engine3d scene file; the objects are its visible meshes.
     tree : TreeRecord or None
-        The tree of nodes, of another file that holds one; its objects then are what of it shows.
+        The node tree of any other file; the objects are its visible meshes.
     unit : str
-        The symbol of the coordinates' unit, such as ``"mm"``; empty where the format has none.
+        The symbol of the coordinates' unit, such as ``"mm"``; empty if the format has none.
     arrays : dict of str to list of str
-        Names of what ``scalars`` can hold, of ``"vertices"`` and of ``"faces"``.
+        Names of the numbers that ``scalars`` can hold, of ``"vertices"`` and of ``"faces"``.
     up : str
-        Which axis is up, by custom, in files of the format: ``"+Y"`` or ``"+Z"``.
+        The format's usual up axis: ``"+Y"`` or ``"+Z"``.
     """
 
     format: str
@@ -442,10 +442,10 @@ class Document:
 
     @property
     def scalars(self) -> list[dict[str, np.ndarray]]:
-        """Numbers of vertices, (V,) or (V, N) by name, of the mesh of each object.
+        """Numbers of vertices, (V,) or (V, N) by name, for the mesh of each object.
 
-        What has no meaning of its own, if `load_document` was asked for it: properties of PLY
-        files, attributes of glTF files whose names begin with ``_``. Of faces, each vertex has the
-        numbers of the faces around it.
+        Custom data, if `load_document` was asked for it: properties of PLY files, attributes of
+        glTF files whose names begin with ``_``. Each vertex gets the numbers of its faces, if they
+        belong to faces.
         """
         return [scalars_of(entry.mesh) for entry in self.objects]

@@ -1,7 +1,7 @@
-"""Models that are too far from the origin to be drawn as the file has them.
+"""Detects models too far from the origin to be drawn precisely.
 
-In: a `Document`, as any reader made it. Out: a warning if its meshes are, whose coordinates are
-32-bit floats. Objects whose poses hold the distance are not.
+In: a `Document` of any reader. Out: a warning if its meshes, with 32-bit coordinates, are too far.
+Distances held by objects' poses do not matter.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from .documents import Document
 if TYPE_CHECKING:
     from ...model.geometry.mesh import Mesh
 
-# How far apart 32-bit floats may be, as a share of the size: half a pixel of a picture 2048 wide.
+# The largest gap between 32-bit floats, relative to the size: half a pixel of a picture 2048 wide.
 _COARSEST = 2.0**-12
 
 
 def extent_warnings(document: Document) -> list[str]:
-    """Return what is to be said about the size and the place of a document's meshes."""
+    """Return the warnings about the size and position of a document's meshes."""
     boxed = [one for one in document.objects if one.pose is None and _is_box(one.mesh)]
     if not boxed:
         return []
@@ -36,12 +36,12 @@ def extent_warnings(document: Document) -> list[str]:
 
 
 def _is_box(mesh: Mesh) -> bool:
-    """Whether there are two vertices, which have a distance."""
+    """Return whether there are at least two vertices."""
     if mesh.bounds[0].tolist() != mesh.bounds[1].tolist():
         return True
     return int(np.isfinite(mesh.positions).all(axis=1).sum()) > 1
 
 
 def _size(boxes: np.ndarray) -> float:
-    """The longest side of the box around boxes, (N, 2, 3)."""
+    """Return the longest side of the box around boxes, (N, 2, 3)."""
     return float((boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)).max())

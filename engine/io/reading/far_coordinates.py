@@ -1,7 +1,7 @@
-"""Coordinates far from the origin, as maps have them: the origin is moved near the model (R144).
+"""Moves coordinates far from the origin, as in maps, near it (R144).
 
-In: positions in float64, as a file has them. Out: positions that 32-bit floats hold finely, and
-where their origin is in the file's coordinates.
+In: positions in float64, as in a file. Out: positions that 32-bit floats hold precisely, and their
+origin in the file's coordinates.
 """
 
 from __future__ import annotations
@@ -10,15 +10,15 @@ import math
 
 import numpy as np
 
-# A model farther from the origin than so many times its size has lost seven bits of a float's 24.
+# At this distance from the origin, in model sizes, a float has lost seven of its 24 bits.
 _FAR = 128.0
 
 
 def origin_near(low: np.ndarray, high: np.ndarray, far: float = _FAR) -> np.ndarray | None:
-    """Return an origin for what lies in a box, (3,) float64; None where the usual one is near.
+    """Return an origin for a box, (3,) float64; None if the box is near the usual one.
 
-    Near is what is less than ``far`` times its size away. The origin is a multiple of a power of
-    two, so that little is rounded.
+    Near means less than ``far`` times its size away. The origin is a multiple of a power of two,
+    which keeps rounding small.
     """
     size, reach = float((high - low).max()), float(np.maximum(np.abs(low), np.abs(high)).max())
     if not 0.0 < far * size < reach < math.inf:
@@ -29,7 +29,7 @@ def origin_near(low: np.ndarray, high: np.ndarray, far: float = _FAR) -> np.ndar
 
 @np.errstate(all="ignore")
 def moved_near(positions: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-    """Return positions seen from an origin near them.
+    """Return positions relative to a nearby origin.
 
     Parameters
     ----------
@@ -38,9 +38,9 @@ def moved_near(positions: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
     Returns
     -------
     positions : (V, 3) float
-        The same where the origin stays.
+        The same if the origin does not move.
     pose : (4, 4) float64 or None
-        Takes them back to where they are in the file.
+        Moves them back to the file's coordinates.
     """
     finite = positions[np.isfinite(positions).all(axis=1)]
     if not len(finite):

@@ -1,8 +1,8 @@
-"""A mesh from faces whose corners name one vertex each.
+"""Builds a mesh from faces whose corners index vertices.
 
-In: vertices with their attributes, triangles of vertex indices, and what differs from corner to
-corner (texture coordinates) or from face to face (colours). Out: a `Mesh`, its vertices split where
-their corners differ; triangles keep their order. Vertices that nothing uses are left out.
+In: vertices with their attributes, triangles of vertex indices, and attributes per corner (texture
+coordinates) or per face (colours). Out: a `Mesh` whose vertices are split where their corners
+differ; triangles keep their order. Unused vertices are dropped.
 """
 
 from __future__ import annotations
@@ -36,11 +36,11 @@ class IndexedGeometry:
     tangents : (V, 4) float32 or None
     colors : (V, 4) uint8 or float32, or None
     corner_uvs : (T, 3, 2) float32 or None
-        Take the place of ``uvs``.
+        Replace ``uvs``.
     corner_colors : (T, 3, 4) uint8 or None
-        Take the place of ``colors`` and ``face_colors``.
+        Replace ``colors`` and ``face_colors``.
     face_colors : (T, 4) uint8 or float32, or None
-        Count only without ``colors``.
+        Used only without ``colors``.
     lines : (L, 2) int or None
     position_ids : (V,) number or None
         Vertices with the same number are one point of the surface.
@@ -48,9 +48,9 @@ class IndexedGeometry:
     scalars : dict of str to (V,) or (V, N) number
         Numbers of the vertices, by name.
     face_scalars : dict of str to (T,) or (T, N) number
-        Numbers of the faces: become those of vertices, which are split for it.
+        Numbers of the faces, transferred to vertices, which are split for them.
     crease_angle : float
-        Radians, of normals that are not given.
+        Radians, for computed normals.
     """
 
     positions: np.ndarray
@@ -72,7 +72,7 @@ class IndexedGeometry:
 
 
 def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
-    """Return the mesh; vertices alone are a point cloud."""
+    """Return the mesh; vertices without elements become a point cloud."""
     corners, count = geometry.corners, len(geometry.positions)
     lines = np.zeros((0, 2), np.int32) if geometry.lines is None else geometry.lines
     if not len(corners) and not len(lines):
@@ -114,7 +114,7 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
 
 
 def _chosen(geometry: IndexedGeometry, vertices: np.ndarray | None) -> dict[str, np.ndarray]:
-    """Return the attributes of some vertices besides positions, as parameters of a mesh."""
+    """Return some vertices' attributes besides positions, as parameters of a mesh."""
     given = {name: getattr(geometry, name) for name in ("normals", *vertex_attributes(Mesh))}
     return {name: _rows(array, vertices) for name, array in given.items() if array is not None}
 
@@ -126,7 +126,7 @@ def _rows(array: np.ndarray, vertices: np.ndarray | None) -> np.ndarray:
 def _position_ids(
     geometry: IndexedGeometry, vertices: np.ndarray | None, is_split: bool
 ) -> np.ndarray | None:
-    """The points of the surface, numbered from 0 without gaps."""
+    """Return the points of the surface, numbered from 0 without gaps."""
     given = geometry.position_ids
     if given is None:
         ids = vertices if is_split else None
@@ -136,7 +136,7 @@ def _position_ids(
 
 
 def _corner_attributes(geometry: IndexedGeometry) -> dict[str, np.ndarray]:
-    """Attributes of all corners (3T, ...) that may split vertices."""
+    """Return the attributes of all corners (3T, ...) that may split vertices."""
     found = {}
     if geometry.corner_uvs is not None:
         found["uvs"] = geometry.corner_uvs.reshape(-1, 2)
@@ -148,7 +148,7 @@ def _corner_attributes(geometry: IndexedGeometry) -> dict[str, np.ndarray]:
 
 
 def _face_kinds(geometry: IndexedGeometry) -> np.ndarray | None:
-    """A number (T, 1) uint32 for each face, equal where all their numbers are."""
+    """Return a number (T, 1) uint32 for each face, equal for faces with equal numbers."""
     if not geometry.face_scalars:
         return None
     rows = [row.reshape(len(row), -1) for row in geometry.face_scalars.values()]
@@ -159,9 +159,9 @@ def _face_kinds(geometry: IndexedGeometry) -> np.ndarray | None:
 def _split(
     corners: np.ndarray, splitting: list[np.ndarray], count: int
 ) -> tuple[np.ndarray, np.ndarray | None, np.ndarray]:
-    """Faces, the old vertex of each new one, and a corner that each new one stands at.
+    """Return faces, the old vertex of each new one, and a corner of each new one.
 
-    None for all vertices as they are; there are no corners if nothing splits them.
+    None means all vertices unchanged; without splits there are no corners.
     """
     if not splitting:
         is_used = native.used_or_all(np.ascontiguousarray(corners, np.int32).ravel(), count)
@@ -172,7 +172,7 @@ def _split(
     keys = corners.ravel().astype(np.int64)
     for attribute in splitting:
         number, first = number_rows(attribute)
-        # Numbered anew each time, so that the product cannot overflow.
+        # Renumbered each time, so that the product cannot overflow.
         _, keys = np.unique(keys * len(first) + number, return_inverse=True)
         keys = keys.reshape(-1)
     _, first, faces = np.unique(keys, return_index=True, return_inverse=True)
@@ -182,7 +182,7 @@ def _split(
 def _vertices_for(
     used: np.ndarray, vertices: np.ndarray | None, count: int
 ) -> tuple[np.ndarray, np.ndarray | None, int]:
-    """For each old vertex in use a new one, the list of new ones with those it lacked, how many."""
+    """Return each used old vertex's new one, the extended list, and its length."""
     if vertices is None:
         return used, None, 0
     vertex_of = np.full(count, -1, np.int32)

@@ -1,6 +1,6 @@
-"""Values of a JSON file, each with its place in the file, checked as they are asked for.
+"""JSON values with their places in the file, checked on access.
 
-In: what the JSON parser made. Out: texts, numbers, arrays and so on, or a `FileFormatError` that
+In: the JSON parser's result. Out: texts, numbers, arrays and so on, or a `FileFormatError` that
 names the place: ``nodes[3].rotation``.
 """
 
@@ -18,7 +18,7 @@ from ...errors import FileFormatError
 from .sources import Source
 from .text import checked_text, shown
 
-# Element types of arrays, by their names in files; little-endian.
+# Dtypes of arrays, by their names in files; little-endian.
 ARRAY_TYPES = {"float32": "<f4", "int32": "<i4", "uint8": "u1", "bool": "?"}
 _MAX_AXES = 3
 
@@ -29,7 +29,7 @@ class JsonValue:
     Attributes
     ----------
     value : object
-        As the parser made it.
+        The parser's value.
     """
 
     __slots__ = ("_path", "_place", "value")
@@ -37,11 +37,11 @@ class JsonValue:
     def __init__(self, value: Any, path: str, place: tuple[Any, ...] = ()) -> None:
         self.value = value
         self._path = path
-        self._place = place  # that of what holds it, and the key or number there
+        self._place = place  # the container's place, and the key or number in it
 
     @property
     def where(self) -> str:
-        """Its place; empty for the whole file."""
+        """The value's place; empty for the whole file."""
         place, keys = self._place, []
         while place:
             place, key = place
@@ -54,11 +54,11 @@ class JsonValue:
         return FileFormatError(f"{where}: {message}" if where else message, self._path)
 
     def wrong(self, wanted: str) -> FileFormatError:
-        """Return the error that this should be something else."""
+        """Return the error that something else was expected."""
         return self.error(f"{shown(repr(self.value))[1:-1]} is not {wanted}")
 
     def members(self) -> dict[str, JsonValue]:
-        """Return what an object holds, by key."""
+        """Return the members of an object, by key."""
         if not isinstance(self.value, dict):
             raise self.wrong("an object")
         return {key: self._member(key) for key in self.value}
@@ -67,34 +67,34 @@ class JsonValue:
         return JsonValue(self.value[key], self._path, (self._place, key))
 
     def at(self, keys: Iterable[str | int]) -> JsonValue:
-        """Return what is there at the end of a way of keys and numbers."""
+        """Return the value at the end of a path of keys and numbers."""
         place = self
         for key in keys:
             place = place._member(key)
         return place
 
     def get(self, key: str) -> JsonValue | None:
-        """Return what an object holds under a key; None where it is left out."""
+        """Return a member of an object; None if missing."""
         if not isinstance(self.value, dict):
             raise self.wrong("an object")
         return self._member(key) if key in self.value else None
 
     def need(self, key: str) -> JsonValue:
-        """Return what an object must hold under a key."""
+        """Return a required member of an object."""
         held = self.get(key)
         if held is None:
             raise self.error(f"{key!r} is missing")
         return held
 
     def __iter__(self) -> Iterator[JsonValue]:
-        """Go through a list."""
+        """Iterate over a list."""
         if not isinstance(self.value, list):
             raise self.wrong("a list")
         for number, value in enumerate(self.value):
             yield JsonValue(value, self._path, (self._place, number))
 
     def entries(self, key: str) -> list[JsonValue]:
-        """Return the objects of a list under a key; none if it is left out."""
+        """Return the objects in a list under a key; none if missing."""
         held = self.get(key)
         found = [] if held is None else list(held)
         for entry in found:
@@ -103,39 +103,39 @@ class JsonValue:
         return found
 
     def text(self) -> str:
-        """Return a text."""
+        """Return a text, checked."""
         if not isinstance(self.value, str):
             raise self.wrong("a text")
         return self.value
 
     def flag(self) -> bool:
-        """Return true or false."""
+        """Return true or false, checked."""
         if not isinstance(self.value, bool):
             raise self.wrong("true or false")
         return self.value
 
     def index(self, count: int, of_what: str) -> int:
-        """Return a number from 0 to below ``count``."""
+        """Return an integer from 0 to below ``count``, checked."""
         if type(self.value) is not int or not 0 <= self.value < count:
             raise self.wrong(f"the number of one of {count} {of_what}")
         return self.value
 
     def numbers(self, count: int) -> list[float]:
-        """Return so many finite numbers."""
+        """Return ``count`` finite numbers, checked."""
         value = self.value
         if not (isinstance(value, list) and len(value) == count and all(map(_is_number, value))):
             raise self.wrong(f"{count} finite numbers")
         return [float(number) for number in value]
 
     def base64(self) -> bytes:
-        """Return the bytes that a text holds as base64."""
+        """Return the bytes of a base64 text."""
         try:
             return base64.b64decode(self.text(), validate=True)
-        except ValueError:  # which `binascii.Error` is one of
+        except ValueError:  # includes `binascii.Error`
             raise self.error("is not base64") from None
 
     def array(self) -> np.ndarray:
-        """Return an array: its type, its shape and its bytes as base64."""
+        """Return an array, given by dtype, shape and base64 bytes."""
         kind, shape = self.need("type").text(), self.need("shape")
         if kind not in ARRAY_TYPES:
             raise self.need("type").wrong(f"one of {', '.join(ARRAY_TYPES)}")
@@ -153,12 +153,12 @@ class JsonValue:
 
 
 def parsed_json(source: Source) -> JsonValue:
-    """Return the value that a JSON file holds.
+    """Return the value of a JSON file.
 
     Raises
     ------
     FileFormatError
-        It is not JSON; the message names the line.
+        The file is not JSON; the message names the line.
     """
     return JsonValue(parsed(checked_text(source), source.path), source.path)
 

@@ -1,8 +1,8 @@
-"""Reading in a process of its own, which may take so much memory and time and no more.
+"""Runs readers in a separate process with limited memory and time.
 
-In: a function that reads, and a `Source`. Out: what it returns or raises. Libraries that cannot be
-trusted with a file end with it there. Where the system knows no limits of processes, time alone is
-limited. Pillow is allowed the formats of `images` only, whoever calls it.
+In: a reading function, and a `Source`. Out: its result or exception. Libraries that may crash on a
+file crash only that process. If the system cannot limit processes, only time is limited. Pillow is
+restricted to the formats of `images`, whatever library calls it.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ from .linked_files import found_files, tell_found
 from .sources import Source
 
 Answer = TypeVar("Answer")
-# A process may take so many bytes besides what Python takes, and so many times the file's.
+# Memory limit beyond Python's own: a base, and a multiple of the file's size.
 MAX_MEMORY_BASE = 256 << 20
 MAX_MEMORY_RATIO = 40
-# Seconds of processor time: for any file, and for each megabyte of it.
+# Seconds of processor time: a base, and for each megabyte of the file.
 MAX_SECONDS_BASE = 10
 MAX_SECONDS_PER_MEGABYTE = 4
-# By the clock it may take so many times as long, since other work may go on.
+# The limit of wall time is this many times as long, since other work may run.
 _PATIENCE = 10
 _START = "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer); {}"
 _RUN = "from engine3d.io.reading.limited_process import main; main()"
@@ -46,14 +46,14 @@ def in_limited_process(
     source : Source
     split : bool
     size : int
-        The bytes that limits go by.
+        The size in bytes on which limits depend.
 
     Raises
     ------
     FileFormatError
-        It took more than it may, or the process ended.
+        The process exceeded a limit, or crashed.
     Engine3DError
-        What ``read`` raised.
+        The exception of ``read``.
     """
     if not sys.executable or getattr(sys, "frozen", False):
         raise FileFormatError("needs a Python interpreter of its own, there is none", source.path)
@@ -82,9 +82,9 @@ def in_limited_process(
 
 
 def _answer(request: bytes, seconds: float) -> tuple[bytes, int | None]:
-    """Return the output of the process, and its exit status; None if it had to be ended."""
+    """Return the process's output and exit status; None if it had to be killed."""
     process = subprocess.Popen(
-        # Isolated: nothing in the current folder or the environment is imported.
+        # Isolated: it imports nothing from the current folder or the environment.
         [sys.executable, "-I", "-c", _START.format(_RUN)],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
@@ -102,7 +102,7 @@ def _answer(request: bytes, seconds: float) -> tuple[bytes, int | None]:
 
 
 def main() -> None:
-    """Answer the request at standard input; what this process runs."""
+    """Answer the request on standard input; the process runs this."""
     answer = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # libraries may print
     read, path, data, split, memory, seconds = pickle.load(sys.stdin.buffer)
@@ -122,7 +122,7 @@ def main() -> None:
 
 
 def _limit(memory: int, seconds: int) -> None:
-    """Limit this process; ``memory`` is what it may take besides what it has now."""
+    """Limit this process to ``memory`` more bytes than it has now."""
     try:
         import resource
     except ImportError:
@@ -143,7 +143,7 @@ def _lower(resource: ModuleType, what: int, limit: int) -> None:
 
 
 def _limit_pillow() -> None:
-    """Forget the formats of Pillow's that may not be opened: one of them starts Ghostscript."""
+    """Remove forbidden formats from Pillow: one of them starts Ghostscript."""
     try:
         from PIL import Image
     except ImportError:

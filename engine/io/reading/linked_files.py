@@ -1,11 +1,10 @@
-"""Finding the files that a file names, without ever leaving the folder of the model.
+"""Finds the files that a file refers to, without leaving the model's folder.
 
-In: a name as it stands in a file (``mtllib``, ``map_Kd``, a URI), written on any system. Out: the
-path of a regular file inside the folder, or the reason why there is none. Absolute names, ``..``
-and symbolic links that lead out are refused, unless the caller named a root that they stay in;
-devices and FIFOs are never read. Whatever becomes of the folder meanwhile, what is read is a
-regular file that was inside it when it was opened. How a name may be written is in
-linked_names.py.
+In: a name in a file (``mtllib``, ``map_Kd``, a URI), written on any system. Out: the path of a
+regular file inside the folder, or the reason why there is none. Absolute names, ``..`` and symbolic
+links that lead out are refused, unless they stay in a root given by the caller; devices and FIFOs
+are never read. Even if the folder changes meanwhile, only regular files inside it at opening time
+are read. linked_names.py handles the spellings of names.
 """
 
 from __future__ import annotations
@@ -26,9 +25,9 @@ from .text import shown
 from .warning_list import WarningList
 
 _MAX_NAME = 4096
-# Taking the escapes of a longer name apart would take many times its memory.
+# Decoding the escapes of a longer name would take many times its memory.
 _MAX_SPELT = 3 * _MAX_NAME
-# A file that looks in vain for more places than this only wants to keep the disk busy.
+# A file that causes more failed lookups than this only wants to keep the disk busy.
 _MAX_FAILURES = 16_000
 _NOT_FOUND = "not found"
 
@@ -37,7 +36,7 @@ _listeners: ContextVar[tuple[Callable[[str], object], ...]] = ContextVar("listen
 
 @contextmanager
 def found_files(note: Callable[[str], object]) -> Iterator[None]:
-    """Call ``note`` with each path that is found within the block, before it is read."""
+    """Call ``note`` with each path found within the block, before it is read."""
     token = _listeners.set((*_listeners.get(), note))
     try:
         yield
@@ -46,21 +45,21 @@ def found_files(note: Callable[[str], object]) -> Iterator[None]:
 
 
 def tell_found(paths: Iterable[str]) -> None:
-    """Call what `found_files` was given with paths that were found elsewhere."""
+    """Report paths found elsewhere to the function given to `found_files`."""
     for path in paths:
         for note in _listeners.get():
             note(path)
 
 
 def checked_root(root: str | os.PathLike[str] | None) -> str | None:
-    """Return the path of a folder that files named in a model may be in.
+    """Return the path of a folder that may contain files named in a model.
 
     Raises
     ------
     InvalidArgumentError
-        It is no path.
+        The argument is not a path.
     FileAccessError
-        There is no such folder.
+        The folder does not exist.
     """
     if root is None:
         return None
@@ -76,20 +75,20 @@ def checked_root(root: str | os.PathLike[str] | None) -> str | None:
 
 
 class LinkedFileError(Exception):
-    """The reason, in a few words, why a named file is not read."""
+    """A short reason why a named file is not read."""
 
 
 class LinkedFiles:
-    """The files that one model may name.
+    """The files that one model may refer to.
 
     Parameters
     ----------
     folder : str or None
-        The model's folder, which no name may leave; None if it has none, being no file.
+        The model's folder, which no name may leave; None if the model is not a file.
     root : str, optional
         Another folder that names may lead into.
     warnings : WarningList, optional
-        What `find_uri` tells of a file that stands in for another.
+        Gets the notes of `find_uri` about substitute files.
     """
 
     def __init__(
@@ -105,19 +104,19 @@ class LinkedFiles:
 
     @classmethod
     def of(cls, source: Source, warnings: WarningList | None = None) -> LinkedFiles:
-        """Return the files that a model may name."""
+        """Return the linked files of a model."""
         return cls(source.folder, source.root, warnings)
 
     def find(self, name: str, folder: str | None = None) -> str:
-        """Return the path of the file that ``name`` means.
+        """Return the path of the file that ``name`` refers to.
 
         Parameters
         ----------
         name : str
-            Backslashes count as slashes. Where the letter case differs from that of the one on
-            disk, or the name is in another encoding, the file is still found.
+            Backslashes count as slashes. Files are also found if the letter case or encoding of the
+            name differs from the disk's.
         folder : str, optional
-            The folder that the name is relative to first; then the model's, then the root.
+            The folder to search first; then the model's, then the root.
 
         Raises
         ------
@@ -131,16 +130,16 @@ class LinkedFiles:
         return path
 
     def find_near(self, name: str, folder: str | None = None) -> tuple[str, str]:
-        """Return the path of what ``name`` means or else of what stands in for it.
+        """Return the path of the file for ``name``, or of a substitute.
 
-        Files name others by paths of another machine. What has the last parts of such a path, as
-        many as possible, is taken for what was meant.
+        Files often contain paths of another machine. The file that matches the most trailing parts
+        of such a path is the substitute.
 
         Returns
         -------
         path : str
         note : str
-            What to say of a file that stands in for another; empty for one that was found as named.
+            A note about a substitute; empty if the file was found as named.
 
         Raises
         ------
@@ -160,7 +159,7 @@ class LinkedFiles:
         return path, f"{reason}; {path} is used"
 
     def find_uri(self, uri: str) -> str:
-        """Return the path of the file that a URI, or a plain name, means, as `find_near`.
+        """Return the path of the file for a URI or plain name, as `find_near`.
 
         Raises
         ------
@@ -172,15 +171,15 @@ class LinkedFiles:
         return path
 
     def _places_from(self, folder: str | None) -> list[str]:
-        """The folders that a name may be relative to, the likeliest first."""
+        """Return the folders that a name may be relative to, most likely first."""
         if not self._places:
             raise LinkedFileError("not looked for, the model is in no folder")
         return self._places if folder is None else list(dict.fromkeys([folder, *self._places]))
 
     def _first_found(self, names: Iterable[str], places: list[str]) -> str:
-        """The first file that any of the names means in any of the folders.
+        """Return the first file with any of the names in any of the folders.
 
-        Where there is none, the reason is the first one that says more than that.
+        If there is none, return the most specific reason.
         """
         reason = LinkedFileError(_NOT_FOUND)
         for name in names:
@@ -198,8 +197,8 @@ class LinkedFiles:
     def read(self, path: str) -> Source:
         """Read a file that `find` returned.
 
-        It is looked for anew, opened once, and what was opened is read: a link that has taken the
-        place of the file, or of a folder on the way to it, since then leads nowhere.
+        It is located again, opened once, and read from that handle: a link that has since replaced
+        the file or a folder on its path leads nowhere.
 
         Raises
         ------
@@ -214,9 +213,9 @@ class LinkedFiles:
         return unpacked(opened_source(path, handle))
 
     def _opened(self, path: str) -> int:
-        """Go from the folder that holds it to the file, folder by folder, following no link."""
+        """Open the file from its root folder, folder by folder, without following links."""
         real = self._real_path(path)
-        if not FOLDER:  # a system that opens no folders
+        if not FOLDER:  # on systems that cannot open folders
             return os.open(real, READING)
         root = next(root for root in self._roots if _is_inside(real, root))
         *folders, name = os.path.relpath(real, root).split(os.sep)
@@ -230,7 +229,7 @@ class LinkedFiles:
             os.close(handle)
 
     def _real_path(self, path: str) -> str:
-        """The path without links, which must be inside."""
+        """Return the path without links, checked to be inside."""
         real = os.path.realpath(path)
         if not any(_is_inside(real, root) for root in self._roots):
             raise LinkedFileError(
@@ -239,7 +238,7 @@ class LinkedFiles:
         return real
 
     def _found(self, name: str, folder: str) -> str:
-        """The path of the file of one name in one folder."""
+        """Return the path of the file with one name in one folder."""
         if not name or "\0" in name or len(name) > _MAX_NAME:
             raise LinkedFileError("not a file name")
         if is_absolute(name) and not (self._has_root and os.path.isabs(name)):
@@ -258,12 +257,12 @@ class LinkedFiles:
         return path
 
     def _as_on_disk(self, folder: str, name: str) -> str:
-        """The path with its parts as folders spell them, where `match_key` is the same."""
+        """Return the path in the folders' spelling, matching parts by `match_key`."""
         path = folder
         for part in name.split("/"):
             inner = os.path.join(path, part)
             if part not in ("", ".", "..") and not os.path.lexists(inner):
-                self._real_path(path)  # nothing is listed outside
+                self._real_path(path)  # no folder outside is listed
                 inner = os.path.join(path, self._listing(path).get(match_key(part), part))
             path = inner
         return path

@@ -1,7 +1,7 @@
-"""The ways in which a file that is meant may be spelt.
+"""Possible spellings of the name of a linked file.
 
-In: a name as it stands in a file, from any system. Out: the spellings to look for on this one, and
-the ends of a path that another machine had. Nothing here looks at a disk.
+In: a name in a file, from any system. Out: the spellings to search for on this system, and the
+trailing parts of a path from another machine. This module does not access the disk.
 """
 
 from __future__ import annotations
@@ -12,26 +12,26 @@ import unicodedata
 from collections.abc import Iterator
 from urllib.parse import unquote
 
-# Encodings of names that are no UTF-8, besides Latin-1, in which they are told: of Japanese,
-# Chinese, Korean, Western, Russian and Central European Windows, of Macs, and of archives that
-# were unpacked as if they were of DOS. A name counts only if there is such a file.
+# Encodings of names that are not UTF-8, besides Latin-1, which is the fallback: of Japanese,
+# Chinese, Korean, Western, Russian and Central European Windows, of Macs, and of archives unpacked
+# as if they came from DOS. A decoded name counts only if such a file exists.
 _ENCODINGS = (
     *("cp932", "gb18030", "big5hkscs", "cp949", "euc_jp", "cp1252", "cp1251", "cp1250"),
     *("mac_roman", "cp437", "cp850"),
 )
 _FILE_URL = re.compile(r"file:(?://(?:localhost(?=/))?)?", re.IGNORECASE)
 _DRIVE = re.compile(r"[A-Za-z]:")
-# So many last parts of a long path are looked for.
+# This many trailing parts of a long path are searched.
 _MOST_PARTS = 8
 
 
 def is_absolute(name: str) -> bool:
-    """Whether a name, as `spellings` gives it, is a path from the root of some system."""
+    """Return whether a name from `spellings` is an absolute path of some system."""
     return name.startswith(("/", "~")) or _DRIVE.match(name) is not None
 
 
 def spellings(name: str) -> Iterator[str]:
-    """Yield what a name may be on this disk, with slashes; the likeliest first."""
+    """Yield possible spellings of a name on this disk, with slashes, most likely first."""
     name = name.strip(" \t\r\n\v\f").strip('"')
     plain = _plain(name)
     yield plain
@@ -43,7 +43,7 @@ def spellings(name: str) -> Iterator[str]:
 
 
 def ends(name: str) -> Iterator[str]:
-    """Yield the last parts of a path, as many as are looked for, then ever fewer of them."""
+    """Yield trailing parts of a path, from the longest to the shortest."""
     seen = set()
     for spelling in spellings(name):
         parts = [part for part in spelling.split("/") if part not in ("", ".", "..")]
@@ -55,13 +55,13 @@ def ends(name: str) -> Iterator[str]:
 
 
 def match_key(name: str) -> str:
-    """Return what names have in common that differ by letter case or by composed letters alone."""
+    """Return a key that ignores letter case and Unicode composition."""
     folded = name.casefold()
     return folded if folded.isascii() else unicodedata.normalize("NFC", folded)
 
 
 def _plain(name: str) -> str:
-    """A name without the marks of a URL of a file, with slashes."""
+    """Return a name without a file URL's prefix and suffix, with slashes."""
     url = _FILE_URL.match(name)
     if url is not None:
         name = unquote(name[url.end() :])
@@ -71,7 +71,7 @@ def _plain(name: str) -> str:
 
 
 def _in_other_encodings(name: str) -> Iterator[str]:
-    """Return what a name may have meant that isn't UTF-8 and was read as Latin-1."""
+    """Return the possible meanings of a non-UTF-8 name that was decoded as Latin-1."""
     try:
         letters = name.encode("latin-1")
     except UnicodeEncodeError:

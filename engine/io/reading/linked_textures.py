@@ -1,7 +1,6 @@
-"""The textures of a model: those that its files name, and the one beside it that bears its name.
+"""The textures of a model: those its files refer to, and its companion texture.
 
-In: names as they stand in files, or the model's own. Out: `Texture` objects, each image loaded
-once.
+In: names in files, or the model's own. Out: `Texture` objects, each image loaded once.
 """
 
 from __future__ import annotations
@@ -39,24 +38,25 @@ class TextureCache:
     def get(
         self, name: str, folder: str | None, wrap: Wrap, is_data: bool = False
     ) -> tuple[Texture, str]:
-        """Return the texture that a name means, and what to say of it ("" for nothing).
+        """Return the texture for a name, and a note about it ("" for none).
 
         Parameters
         ----------
         name : str
         folder : str
-            Where it is looked for first, before the model's folder.
+            The folder to search before the model's.
         wrap : {"repeat", "clamp"}
         is_data : bool
-            Whether its codes are numbers, not colours: of images whose pixels are light.
+            Whether it holds numbers, not colours; this matters for images whose pixels are light.
 
         Raises
         ------
         LinkedFileError, Engine3DError
-            There is no such image, or it is damaged.
+            The image is missing or damaged.
         """
         path, note = self._files.find_near(name, folder)
-        is_data = is_data and path.lower().endswith(LIGHT_EXTENSIONS)  # others are read alike
+        # others are read the same way
+        is_data = is_data and path.lower().endswith(LIGHT_EXTENSIONS)
         key = (os.path.realpath(path), wrap, is_data)
         if key not in self._textures:
             self._textures[key] = _read_texture(self._files, path, wrap, is_data)
@@ -66,7 +66,7 @@ class TextureCache:
 def give_companion_texture(
     source: Source, materials: list[Material], warnings: WarningList
 ) -> None:
-    """Paint materials with the image that bears the model's name, if there is one, and say so."""
+    """Apply the companion texture to materials, if there is one, with a warning."""
     path = companion_texture(source.path, source.companion) if source.has_name else None
     if path is None:
         return

@@ -1,4 +1,4 @@
-"""The three functions that load files."""
+"""The public functions that load files."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from ...model.materials.textures import TextureOptions
 
 
-# Told the share of the work that is done; what it returns does not matter.
+# Called with the fraction of the work done; its result is ignored.
 Progress = Callable[[float], object]
 
 
@@ -48,40 +48,37 @@ def load_mesh(
     Parameters
     ----------
     path : str, path-like, bytes, binary file object or Traversable
-        See `engine3d.loaders.formats` for what can be read. Files compressed by gzip are unpacked.
-        Bytes are the content itself; what is not in a folder finds no material libraries and
-        textures.
+        See `engine3d.loaders.formats` for the formats. Files compressed by gzip are unpacked. Bytes
+        are the content itself; without a folder, material libraries and textures are not found.
     format : str, optional
-        The format's name, such as ``"obj"``. Left out, it is told by the content and the name.
+        The format's name, such as ``"obj"``; by default detected by content and name.
     progress : callable, optional
-        ``progress(fraction)`` is called with the share of the work that is done: 0.0 once the file
-        is open, 1.0 at the end, never less than before. OBJ files call it every four
-        megabytes; most formats tell the beginning and the end only. What it raises ends loading.
+        ``progress(fraction)`` is called with the fraction of the work done: 0.0 once the file is
+        open, 1.0 at the end, never decreasing. OBJ files call it every four megabytes; most formats
+        only at the start and end. An exception from it ends loading.
     crease_angle : float, optional
-        Radians, 0 to pi, for files that have neither normals nor smoothing groups: edges whose
-        triangles meet at more than this are drawn sharp, others smooth. 35 degrees if left out; pi
-        makes all smooth, 0 all flat.
+        Radians, 0 to pi, for files with neither normals nor smoothing groups: edges whose triangles
+        meet at a greater angle are drawn sharp, others smooth. 35 degrees by default; pi makes all
+        edges smooth, 0 makes all faces flat.
     root : path-like, optional
-        A folder that files named in the model may be in, besides the model's own folder, which
-        they may otherwise not leave: images in ``../images``, say. Names that are relative are
-        looked for there, too, and the only folder that files are looked for in if the model is
-        bytes.
+        A second folder, besides the model's own, in which files named in the model are allowed,
+        such as images in ``../images``. Relative names are also searched there. For a model given
+        as bytes, it is the only folder searched.
 
     Returns
     -------
     mesh : Mesh
-        All objects of the file joined, triangles in the file's order. What was left out or
-        replaced (a missing texture, say) stands in ``mesh.warnings``, and is warned of as
-        `Engine3DWarning`.
+        All objects of the file joined, triangles in file order. ``mesh.warnings`` lists what was
+        omitted or replaced (such as a missing texture), and each is issued as `Engine3DWarning`.
 
     Raises
     ------
     FileAccessError
         The file cannot be read.
     FileFormatError
-        It is damaged or in a format that is not known; the message names file and line.
+        The file is damaged or of an unknown format; the message names file and line.
     InvalidArgumentError
-        There is no such ``format``, or ``path`` is none of these things.
+        ``format`` is unknown, or ``path`` has a wrong type.
     """
     root = checked_root(root)
     with read_source(path) as source:
@@ -101,18 +98,18 @@ def load_document(
     scalars: Literal["vertices", "faces"] | None = None,
     root: str | os.PathLike[str] | None = None,
 ) -> Document:
-    """Load everything that a model file holds: its objects one by one, lights and cameras.
+    """Load everything in a model file: its objects one by one, lights and cameras.
 
     Other parameters and exceptions are those of `load_mesh`.
 
     Parameters
     ----------
     companion : callable, optional
-        ``companion(path)`` tells whether the image ``path`` beside a model without materials may
-        become its texture for its name alone (`companion_texture`); any may if left out.
+        ``companion(path)`` returns whether an image beside a model without materials may become its
+        texture by name alone (`companion_texture`); by default any may.
     scalars : {"vertices", "faces"}, optional
-        Read also numbers of vertices, or of faces, that have no meaning of their own:
-        `Document.scalars`. Vertices are split where their faces have different numbers.
+        Also read custom numbers of vertices or faces: `Document.scalars`. Vertices are split where
+        their faces have different numbers.
     """
     root = checked_root(root)
     with read_source(path) as source:
@@ -128,7 +125,7 @@ def load_document(
 
 
 def whole_mesh(document: Document, source: Source, format: str | None) -> Mesh:
-    """Return all meshes of a document as one, which knows its file."""
+    """Return all meshes of a document as one, with the file as its origin."""
     meshes = [entry.mesh for entry in document.objects]
     with _faults_of(source):
         mesh = meshes[0] if len(meshes) == 1 else Mesh.concatenate(meshes)
@@ -139,9 +136,9 @@ def whole_mesh(document: Document, source: Source, format: str | None) -> Mesh:
 
 
 def parts_of(document: Document, source: Source, format: str | None) -> dict[tuple[str, int], Mesh]:
-    """Return the meshes of a document; each knows which part of the file it is.
+    """Return the meshes of a document, with their parts of the file as origins.
 
-    A part is named by the object's name, and how many of that name stand before it.
+    A part is named by the object's name and its index among objects with that name.
     """
     parts: dict[tuple[str, int], Mesh] = {}
     seen: dict[str, int] = {}
@@ -160,10 +157,9 @@ def _remember(
     format: str | None,
     part: tuple[str, int] | None,
 ) -> None:
-    """Note which part of a file a mesh is, unless that file alone would not give it again.
+    """Record which part of a file a mesh is, unless the file alone could not give it again.
 
-    A scene's file has no parts to be named, and what was read from another root could only be read
-    from there.
+    Scene files have no named parts, and content from another root can only be read with that root.
     """
     if source.has_name and document.scene is None and source.root is None:
         origin = FileOrigin(
@@ -181,11 +177,11 @@ def load_texture(
     Parameters
     ----------
     path : str, path-like, bytes, binary file object or Traversable
-        TGA, PNG, JPEG and whatever else Pillow reads. Bytes are the content itself.
+        TGA, PNG, JPEG and other formats of Pillow. Bytes are the content itself.
     format : str, optional
-        The format's name, such as ``"tga"``. Left out, it is told by the content and the name.
+        The format's name, such as ``"tga"``; by default detected by content and name.
     **options
-        Passed on to `Texture`: ``color_space``, ``filter``, ``wrap``, ``name``, ``anisotropy``,
+        Passed to `Texture`: ``color_space``, ``filter``, ``wrap``, ``name``, ``anisotropy``,
         ``lod_bias``.
 
     Raises
@@ -193,9 +189,9 @@ def load_texture(
     FileAccessError
         The file cannot be read.
     FileFormatError
-        It is damaged, too large, or no image.
+        The file is damaged, too large, or not an image.
     InvalidArgumentError
-        There is no such ``format``, or ``path`` is none of these things.
+        ``format`` is unknown, or ``path`` has a wrong type.
     """
     with read_source(path) as source:
         return texture_of(source, format, **options)
@@ -208,9 +204,9 @@ def texture_of(
     is_data: bool = False,
     **options: Unpack[TextureOptions],
 ) -> Texture:
-    """Return the texture of an open image; as `load_texture` otherwise.
+    """Return the texture of an open image; otherwise as `load_texture`.
 
-    Where pixels are light, codes are proportional to it if they are data, or linear colours.
+    If pixels are light, data and linear colours get codes proportional to it.
     """
     with _memory_of(source):
         reader = find_reader(source, "image", format)
@@ -237,11 +233,11 @@ def _read_document(
 
 
 def document_of(source: Source, format: str | None, *, split: bool) -> Document:
-    """Return what an open model file holds, without warning of anything."""
+    """Return the document of an open model file, without issuing warnings."""
     with _memory_of(source):
         reader = find_reader(source, "mesh", format)
     source.progress(0.0)
-    # Numbers out of range become infinite, and are treated as such.
+    # Out-of-range numbers become infinite, and are handled as such.
     with _faults_of(source), np.errstate(all="ignore"), images_of_one_model():
         document = reader.read(source, split=split)
         document.warnings.extend(extent_warnings(document))
@@ -252,11 +248,11 @@ def document_of(source: Source, format: str | None, *, split: bool) -> Document:
 
 @contextlib.contextmanager
 def _memory_of(source: Source) -> Iterator[None]:
-    """Name the file where there is no memory for it, or for the library that reads it."""
+    """Name the file if there is no memory for it, or for its reader's library."""
     try:
         yield
     except (MemoryError, ImportError, OSError) as error:
-        # The loader of libraries has no type of error for this.
+        # The dynamic loader has no error type of its own for this.
         is_of_loader = isinstance(error, ImportError) and "failed to map" in str(error)
         if isinstance(error, MemoryError) or is_of_loader or _is_lack(error):
             raise FileFormatError("needs more memory than there is", source.path) from error
@@ -269,9 +265,9 @@ def _is_lack(error: Exception) -> bool:
 
 @contextlib.contextmanager
 def _faults_of(source: Source) -> Iterator[None]:
-    """Name the file in errors of what is made of its content."""
+    """Name the file in errors about its content."""
     try:
         with _memory_of(source):
             yield
-    except InvalidArgumentError as error:  # more of something than a mesh can hold
+    except InvalidArgumentError as error:  # a count exceeds what a mesh can hold
         raise FileFormatError(str(error), source.path) from error

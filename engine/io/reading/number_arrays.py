@@ -1,6 +1,6 @@
-"""Numbers out of text, each rounded correctly whatever the locale.
+"""Parses numbers from text, correctly rounded and independent of the locale.
 
-In: text of nothing but numbers and comments, or one word. Out: an array, or a float.
+In: text with only numbers and comments, or one word. Out: an array, or a float.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ import numpy as np
 
 from ..._native import loaders as native
 
-# What Microsoft's C runtimes write for values that are not numbers.
+# Non-finite values as written by Microsoft's C runtimes.
 _MICROSOFT = re.compile(rb"([+-]?)(?:\d\.#(INF|IND|QNAN|SNAN|QNB)\d*|nan\([a-z]*\))", re.IGNORECASE)
 _WORD = re.compile(rb"\S+")
 
 
 class NotANumberError(ValueError):
-    """A text has something other than a number.
+    """A text contains something other than numbers.
 
     Attributes
     ----------
@@ -26,7 +26,7 @@ class NotANumberError(ValueError):
     position : int
         Its offset in the text.
     widths : (R,) int64
-        Of the lines before: see `NumberRows`.
+        Widths of the lines before; see `NumberRows`.
     """
 
     def __init__(self, word: bytes, position: int, widths: np.ndarray) -> None:
@@ -41,9 +41,9 @@ class NumberRows(NamedTuple):
     ----------
     values : (N,) float64
     widths : (R,) int64
-        How many each line has, of those that hold any; empty if they were not counted.
+        Count of numbers in each non-empty line; empty if not counted.
     end : int
-        The offset behind the last line read.
+        The offset after the last line read.
     """
 
     values: np.ndarray
@@ -54,18 +54,18 @@ class NumberRows(NamedTuple):
 def read_numbers(
     text: bytes | memoryview, comments: int, rows: int | None = None, widths: bool = False
 ) -> NumberRows:
-    """Read numbers between blanks.
+    """Read numbers separated by blanks.
 
     Parameters
     ----------
     text : bytes-like
-        Its last byte is a blank or ends a line: see `ended`.
+        Its last byte must be a blank or line end: see `ended`.
     comments : int
         ``native.NO_COMMENTS``, ``HASH_COMMENTS`` or ``PLY_COMMENTS``.
     rows : int, optional
-        Lines to read, of those that hold numbers; all of them by default.
+        Number of non-empty lines to read; by default all.
     widths : bool
-        Count the numbers of each.
+        Whether to count the numbers in each line.
 
     Raises
     ------
@@ -75,7 +75,7 @@ def read_numbers(
     found = np.zeros(0, np.int64) if counted is None else counted
     if wrong is not None:
         match = _WORD.match(text, wrong)
-        assert match is not None  # what is no number is a word
+        assert match is not None  # anything but a number is a word
         word = match[0]
         if comments == native.HASH_COMMENTS:
             word = word.partition(b"#")[0]
@@ -84,12 +84,12 @@ def read_numbers(
 
 
 def ended(text: bytes | memoryview) -> bytes | memoryview:
-    """Return a text with a blank or a line's end behind it: itself, or a copy."""
+    """Return a text that ends in a blank or line end: itself, or a copy."""
     return text if bytes(text[-1:]).isspace() else bytes(text) + b"\n"
 
 
 def parse_float(word: bytes) -> float:
-    """Read one float, also ``1.#QNAN`` and the like; raises ValueError."""
+    """Parse one float, also ``1.#QNAN`` and the like; raise ValueError otherwise."""
     try:
         return float(word)
     except ValueError:

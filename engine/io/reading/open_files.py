@@ -1,7 +1,7 @@
-"""A file on a disk whose bytes are read when they are asked for.
+"""Open files that are read on demand.
 
-In: an open file. Out: its bytes, whole or piece by piece: what is looked through once need not be
-in memory at once.
+In: an open file. Out: its bytes, whole or in pieces: a file that is scanned once need not be in
+memory at once.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ class OpenFile:
     Parameters
     ----------
     path : str
-        What messages call it.
+        The path as messages show it.
     file : io.FileIO
-        Is closed by `whole` and by `close`.
+        The file; `whole` and `close` close it.
 
     Attributes
     ----------
     size : int
-        Its bytes, when it was opened.
+        Its size in bytes when it was opened.
     """
 
     def __init__(self, path: str, file: io.FileIO) -> None:
@@ -37,11 +37,11 @@ class OpenFile:
 
     @property
     def is_whole(self) -> bool:
-        """Whether all of it is in memory."""
+        """Whether all of the file is in memory."""
         return self._data is not None
 
     def whole(self) -> bytes:
-        """Return all bytes; reads them the first time.
+        """Return all bytes; read them the first time.
 
         Raises
         ------
@@ -52,7 +52,7 @@ class OpenFile:
                 with self._file as file:
                     file.seek(0)
                     data = read_bytes(file.readinto, self.size)
-                    # Some files, such as those of /proc, are longer than their size says.
+                    # Some files, such as those in /proc, are longer than their size says.
                     self._data = data + file.readall()
             except (OSError, ValueError) as error:
                 raise unreadable(self._path, error) from error
@@ -93,5 +93,5 @@ class OpenFile:
 
 
 def unreadable(path: str, error: Exception) -> FileAccessError:
-    """Return the error to raise for what the system said."""
+    """Return the error to raise for a system error."""
     return FileAccessError(f"cannot read: {getattr(error, 'strerror', None) or error}", path)

@@ -1,7 +1,7 @@
 """Meshes with poses, as the objects of a `Document`.
 
-In: parts, several of which may share a mesh. Out: one object each, as it is or with its pose
-applied. Any number of nodes may repeat a mesh, so that joined they are limited.
+In: parts, several of which may share a mesh. Out: one object each, with its pose kept or applied.
+Since any number of nodes may repeat a mesh, the joined size is limited.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ from .text import shown
 if TYPE_CHECKING:
     from ...model.geometry.mesh import Mesh
 
-# A file's meshes may hold so many numbers, and its nodes may repeat so many vertices, and besides
-# as many as it has bytes. Assign another value to change it.
+# Base limit for the numbers of a file's meshes and the vertices its nodes repeat; the file's size
+# in bytes is added. Assignable.
 MAX_REPEATED = 1 << 20
-# The last row of a pose may differ so much from 0 0 0 1 after rounding to float32.
+# Tolerance for the last row of a pose, 0 0 0 1, after rounding to float32.
 _ROUNDING = 1e-5
 _LAST_ROW = (0.0, 0.0, 0.0, 1.0)
 
 
 class PosedPart(NamedTuple):
-    """A `DocumentObject` that has a pose."""
+    """A `DocumentObject` with a pose."""
 
     name: str
     mesh: Mesh
@@ -45,14 +45,14 @@ def document_objects(
     source : Source
     parts : list of PosedPart
     most_vertices : int
-        How many vertices all parts may have if their poses are applied.
+        The limit of the total vertices if poses are applied.
     split : bool
-        Keep the poses apart, and meshes shared.
+        Whether to keep poses separate and meshes shared.
 
     Raises
     ------
     FileFormatError
-        A pose is not affine, there are too many vertices or none.
+        A pose is not affine, or there are no vertices or too many.
     """
     parts = [part._replace(pose=without_rounding(part.pose)) for part in parts]
     for part in parts:
@@ -73,14 +73,14 @@ def document_objects(
 
 
 def without_rounding(pose: np.ndarray) -> np.ndarray:
-    """Return a (4, 4) pose with the last row of an affine one, if it has it but for rounding."""
+    """Return a (4, 4) pose with an exactly affine last row, if it is affine up to rounding."""
     if pose[3].tolist() == [*_LAST_ROW] or not np.abs(pose[3] - _LAST_ROW).max() <= _ROUNDING:
         return pose
     return np.vstack([pose[:3], _LAST_ROW])
 
 
 def counts_of(objects: list[DocumentObject]) -> dict[str, Any]:
-    """Return the lists that the objects hold, as `Document.counts` shows them."""
+    """Return the sizes of the objects' lists, for `Document.counts`."""
     return {
         "vertices": sum(len(entry.mesh.positions) for entry in objects),
         "faces": sum(len(entry.mesh.faces) for entry in objects),

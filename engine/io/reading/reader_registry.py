@@ -1,9 +1,9 @@
-"""The one list of readers, and the choice among them.
+"""The list of readers, and the choice among them.
 
-A format is a module of `formats` with a tuple ``READERS``; adding the file registers it. The
-choice goes by the first bytes where a format has a signature, then by the extension, then by a look
-at the text of a file whose extension says nothing. A module that bears the name of the extension is
-tried alone before all are imported.
+A format is a module of `formats` with a tuple ``READERS``; adding the file registers it. The choice
+uses the signature in the first bytes, then the extension, then the look of the text if the
+extension is inconclusive. The module named after the extension is tried alone before all are
+imported.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ SNIFFED_BYTES = 4096
 
 
 class Reader(NamedTuple):
-    """One format that can be read.
+    """One readable format.
 
     Attributes
     ----------
@@ -37,18 +37,18 @@ class Reader(NamedTuple):
         Lower case, with the dot.
     read : callable
         ``read(source, split=False) -> Document`` for meshes: with ``split`` every object of the
-        file becomes one of the document, with its pose; otherwise poses are applied.
-        ``read(source) -> (H, W, 4) uint8`` for images. Both raise `FileFormatError` where a file is
-        damaged, larger than it may be, or needs a package that is not installed.
+        file becomes one of the document, with its pose; otherwise poses are applied. ``read(source)
+        -> (H, W, 4) uint8`` for images. Both raise `FileFormatError` if a file is damaged, too
+        large, or needs a package that is not installed.
     signature : callable, optional
-        ``signature(head) -> bool``: whether the first bytes can be of this format only.
+        ``signature(head) -> bool``: whether the first bytes prove this format.
     resembles : callable, optional
-        ``resembles(head, size) -> bool``: whether the first bytes of a file of so many bytes look
-        like this format.
+        ``resembles(head, size) -> bool``: whether the first bytes of a file of this size look like
+        this format.
     read_linear : callable, optional
-        Of images whose pixels are light: as ``read``, with codes proportional to it.
+        For images whose pixels are light: as ``read``, with codes proportional to light.
     up : str
-        Which axis of a mesh is up, by custom.
+        The format's usual up axis.
     """
 
     name: str
@@ -63,7 +63,7 @@ class Reader(NamedTuple):
 
 
 class Format(NamedTuple):
-    """A readable format, as listings show it."""
+    """A readable format, for listings."""
 
     name: str
     description: str
@@ -82,12 +82,12 @@ def readers() -> tuple[Reader, ...]:
 
 @checks_types
 def formats(kind: str | None = None) -> list[Format]:
-    """Return the formats that can be read.
+    """Return the readable formats.
 
     Parameters
     ----------
     kind : {"mesh", "image"}, optional
-        Only those of one kind.
+        Return only formats of this kind.
     """
     return [
         Format(reader.name, reader.description, reader.kind, reader.extensions)
@@ -104,12 +104,12 @@ def find_reader(source: Source, kind: str, name: str | None = None) -> Reader:
     source : Source
     kind : {"mesh", "image"}
     name : str, optional
-        The format, whatever the file looks like.
+        The format; skips detection.
 
     Raises
     ------
     FileFormatError
-        No format of this kind fits.
+        No format of this kind matches.
     InvalidArgumentError
         No format of this kind has that name.
     """
@@ -135,7 +135,7 @@ def find_reader(source: Source, kind: str, name: str | None = None) -> Reader:
 
 
 def _namesake(extension: str, kind: str) -> Reader | None:
-    """The reader of an extension in the module of that name, without importing the others."""
+    """Return an extension's reader from the module of that name, without importing others."""
     if not extension[1:].isidentifier():
         return None
     module = named(extension[1:])

@@ -1,9 +1,9 @@
-"""The normals that a file leaves out, by its smoothing groups.
+"""Computes normals that a file omits, by its smoothing groups.
 
-In: triangles with indices of positions and normals, -1 where there is none, and the smoothing
-groups of each. Out: the same with every corner's normal filled in. Corners of one position in one
-group share an angle-weighted normal; a triangle without a group is flat: all corners of its polygon
-have the same.
+In: triangles with indices of positions and normals, -1 for none, and their smoothing groups. Out:
+the same with every corner's normal filled in. Corners of one position in one group share an
+angle-weighted normal; a triangle without a group is flat: all corners of its polygon share one
+normal.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from ...model.geometry.normals import face_normals, smooth_sums, unit_vectors
 from .welding import number_rows, rows_repeat
 
 FLAT = 0
-# Parts of a surface that meet at an angle of less than 30 degrees were smooth where they were cut.
+# Surface parts that meet at less than 30 degrees were smooth before they were cut.
 _SEAM_COSINE = 0.8660254
 _MAX_MASKS = 64
 
-# A table of normals (N, 3), and the row in it of every corner (T, 3).
+# A table of normals (N, 3), and each corner's row in it (T, 3).
 _Normals: TypeAlias = tuple[np.ndarray, np.ndarray]
 
 
@@ -39,31 +39,30 @@ def fill_normals(
     are_masks: bool = False,
     crease_angle: float = SMOOTH,
 ) -> tuple[np.ndarray, np.ndarray] | None:
-    """Give every corner a normal.
+    """Fill in missing normals of corners.
 
     Parameters
     ----------
     positions : (V, 3) float64
     corners : (T, 3) int32
-        Position index of each triangle's corners.
+        Position indices of each triangle's corners.
     normal_indices : (T, 3) int32 or None
-        Their normals in ``normals``, -1 for none; None if no corner has any.
+        Indices into ``normals``, -1 for none; None if no corner has any.
     normals : (N, 3) float64
         The file's normals.
     groups : (T,) int64
         Smoothing group of each triangle, 0 for flat.
     polygons : (T,) int32
-        The polygon that each triangle is part of.
+        The polygon of each triangle.
     are_masks : bool
-        Each bit of ``groups`` is a group, and a triangle may be in several.
+        Whether each bit of ``groups`` is a group, so that a triangle may be in several.
     crease_angle : float
-        Radians, between triangles that are of one group because the file has none.
+        Radians, for triangles in one group because the file has no groups.
 
     Returns
     -------
     (normal_indices, normals) or None
-        None if no corner has a normal and all are in one group: then the mesh computes the same
-        by itself.
+        None if no corner has a normal and all are in one group: the mesh computes the same itself.
     """
     is_flat = groups == FLAT
     if normal_indices is None:
@@ -91,7 +90,7 @@ def fill_normals(
 
 
 def _grouped_normals(positions: np.ndarray, corners: np.ndarray, groups: np.ndarray) -> _Normals:
-    """One normal for each position in each group, and the one of every corner."""
+    """Return one normal for each position and group, and each corner's index."""
     _, group = np.unique(groups, return_inverse=True)
     of_corner = np.repeat(group.astype(np.int32), 3)
     corners = np.ascontiguousarray(corners, np.int32)
@@ -104,7 +103,7 @@ def _grouped_normals(positions: np.ndarray, corners: np.ndarray, groups: np.ndar
 def _creased_normals(
     positions: np.ndarray, corners: np.ndarray, groups: np.ndarray, *, crease_angle: float
 ) -> _Normals:
-    """A normal for each position and side of a crease, and the one of every corner."""
+    """Return a normal for each position and side of a crease, and each corner's index."""
     arrays = {
         "positions": np.ascontiguousarray(positions, np.float32),
         "faces": np.ascontiguousarray(corners, np.int32),
@@ -115,10 +114,10 @@ def _creased_normals(
 
 
 def _masked_normals(positions: np.ndarray, corners: np.ndarray, masks: np.ndarray) -> _Normals:
-    """One normal for each position and mask, from all triangles there that share a group."""
+    """Return one normal for each position and mask, summed over triangles that share a group."""
     distinct, mask = np.unique(masks, return_inverse=True)
     if len(distinct) > _MAX_MASKS:
-        # Nobody models like this; the lowest group alone keeps the work in bounds.
+        # No real model needs more; using only the lowest group bounds the work.
         return _grouped_normals(positions, corners, masks & -masks)
     count = len(positions)
     tables = []
@@ -130,8 +129,8 @@ def _masked_normals(positions: np.ndarray, corners: np.ndarray, masks: np.ndarra
 
 
 def _flat_normals(positions: np.ndarray, corners: np.ndarray, polygons: np.ndarray) -> _Normals:
-    """One normal for each polygon, and the one of every corner."""
-    # Polygons stand in their order.
+    """Return one normal for each polygon, and each corner's index."""
+    # Polygons are in order.
     is_first = np.r_[True, polygons[1:] != polygons[:-1]]
     polygon = np.cumsum(is_first) - 1
     table = face_normals(positions, corners, polygon)[is_first]
@@ -139,16 +138,16 @@ def _flat_normals(positions: np.ndarray, corners: np.ndarray, polygons: np.ndarr
 
 
 def join_seams(mesh: Mesh) -> None:
-    """Make vertices of equal coordinates one point where the surface goes on smoothly.
+    """Merge vertices of equal coordinates into one point where the surface is smooth.
 
-    Many files list the points along the border of two patches twice. Their normals would show a
-    crease there. Vertices whose normals differ from the one they would have together by 30
-    degrees or more stay apart: that is an edge of the model.
+    Many files duplicate the points along the border of two patches, which would show as a crease.
+    Vertices whose normals differ by 30 degrees or more from the merged normal stay separate: they
+    are on an edge of the model.
 
     Parameters
     ----------
     mesh : Mesh
-        Without normals of its own; its ``position_ids`` may change.
+        A mesh without given normals; its ``position_ids`` may change.
     """
     positions, given = mesh.positions, mesh.position_ids
     if given is None and not rows_repeat(positions):

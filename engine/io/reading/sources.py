@@ -1,8 +1,8 @@
-"""The content of a file, and the name it goes by in messages.
+"""The content of a file, with its name for messages.
 
 In: a path, bytes, or a binary file object. Out: a `Source`, unpacked if it was compressed by gzip.
-Of paths only regular files are read: a FIFO or a device could block for ever or never end. Large
-ones are not in memory before somebody asks for all their bytes.
+Paths must be regular files: a FIFO or device could block or never end. Large files are loaded into
+memory only when all their bytes are requested.
 """
 
 from __future__ import annotations
@@ -26,30 +26,29 @@ if TYPE_CHECKING:
     else:
         from importlib.abc import Traversable
 
-#: What is loaded from: a path, the content, a file, or a resource of a package.
+#: The sources of loading: a path, the content, a file, or a package resource.
 File: TypeAlias = "str | os.PathLike[str] | bytes | BinaryIO | Traversable"
 
-# A compressed file may unpack to this many bytes, and so many times its own size besides. Assign
-# other values to change it.
+# Limits of unpacking: a base in bytes, and a multiple of the compressed size. Assignable.
 MAX_UNPACKED_BASE = 16 << 20
 MAX_UNPACKED_RATIO = 50
 
-# How files are opened: without O_NONBLOCK, a FIFO that nobody writes to would wait for ever.
+# Flags to open files: without O_NONBLOCK, opening a FIFO without a writer would hang.
 READING = READ | AT_ONCE
 
 _GZIP = b"\x1f\x8b\x08"
 _GZIP_WINDOW = 16 + 15
 _CHUNK = 1 << 20
-# The bytes behind the end of a member are copied once for each: a file may have very many.
+# The bytes after each member are copied once: a file may have very many members.
 _PACKED_PIECE = 1 << 14
-# Files below this many bytes are read at once.
+# Smaller files are read at once.
 _LARGE = 4 << 20
-# The bytes of a piece stay in the processor's cache until they are dealt with.
+# Pieces of this size stay in the processor's cache while they are processed.
 _PIECE = 1 << 18
 
 
 def _no_progress(fraction: float) -> None:
-    """Nobody watches."""
+    """Ignore the progress."""
 
 
 def _any_image(path: str) -> bool:
@@ -62,18 +61,18 @@ class Source(NamedTuple):
     Attributes
     ----------
     path : str
-        As the caller gave it; messages name it. In angle brackets for what has no name.
+        As the caller gave it, for messages. In angle brackets if there is no name.
     content : bytes or OpenFile
     progress : callable
-        ``progress(fraction)``: told by the reader how much of its work is done, 0..1.
+        ``progress(fraction)``, called by the reader with the fraction of work done, 0..1.
     companion : callable
-        ``companion(path) -> bool``: whether an image may become the texture for its name alone.
+        ``companion(path) -> bool``: whether an image may become the texture by name alone.
     crease_angle : float
-        Radians, of normals that the file lacks.
+        Radians, for normals that the file lacks.
     scalars : {"vertices", "faces"} or None
-        Of which of these meshes are to carry the numbers that have no meaning of their own.
+        Whose custom numbers to read.
     root : str or None
-        A folder besides the model's own that files named in the model may be in.
+        A second folder, besides the model's own, for files named in the model.
     """
 
     path: str
@@ -116,10 +115,10 @@ class Source(NamedTuple):
             view[:] = memoryview(self.data)[start : start + len(view)]
 
     def pieces(self, start: int, stride: int, rows: int) -> Iterator[tuple[int, memoryview]]:
-        """Walk along rows of ``stride`` bytes from ``start`` on, which are all inside.
+        """Iterate over rows of ``stride`` bytes from ``start`` on, which must all be inside.
 
-        Yields the number of a row, and the bytes of some rows from there on: all of them if the
-        file is in memory. A view holds until the next one comes.
+        Yields a row number, and the bytes of some rows from there on: all of them if the file is in
+        memory. A view is valid until the next one is yielded.
         """
         if not isinstance(self.content, OpenFile) or self.content.is_whole:
             yield 0, memoryview(self.data)[start : start + rows * stride]
@@ -133,12 +132,12 @@ class Source(NamedTuple):
 
     @property
     def has_name(self) -> bool:
-        """Whether there is a path, rather than bytes or a stream without a name."""
+        """Whether there is a path, rather than bytes or an unnamed stream."""
         return not self.path.startswith("<")
 
     @property
     def folder(self) -> str | None:
-        """The folder that files named inside this one are looked for in; None without a path."""
+        """The folder of files named in this one; None without a path."""
         return (os.path.dirname(self.path) or ".") if self.has_name else None
 
     @property
@@ -155,7 +154,7 @@ class Source(NamedTuple):
 def stem_and_extension(path: str) -> tuple[str, str]:
     """Return a file's name without folder and extension, and the extension in lower case.
 
-    A ``.gz`` at the end is taken off before.
+    A trailing ``.gz`` is removed first.
     """
     stem, extension = os.path.splitext(os.path.basename(path))
     if extension.lower() == ".gz":
@@ -164,21 +163,21 @@ def stem_and_extension(path: str) -> tuple[str, str]:
 
 
 def read_source(file: File) -> Source:
-    """Read a file whole.
+    """Read a whole file.
 
     Parameters
     ----------
     file : str, path-like, bytes-like, binary file object or Traversable
-        Bytes are the content itself. A file object is read from where it stands.
+        Bytes are the content itself. A file object is read from its current position.
 
     Raises
     ------
     FileAccessError
-        It does not exist, cannot be read, or is no regular file.
+        The file does not exist, cannot be read, or is not a regular file.
     FileFormatError
-        It is compressed and damaged, or far larger than its size lets expect.
+        The compressed file is damaged, or unpacks to an implausible size.
     InvalidArgumentError
-        It is none of these things.
+        The argument has a wrong type.
     """
     if isinstance(file, (bytes, bytearray, memoryview)):
         source = Source("<bytes>", bytes(file))
@@ -194,7 +193,7 @@ def read_source(file: File) -> Source:
 
 
 def unpacked(source: Source) -> Source:
-    """Return a source whose content is not compressed; raises as `read_source`."""
+    """Return a source with uncompressed content; raise as `read_source` does."""
     if source.head(len(_GZIP)) != _GZIP:
         return source
     with source:
@@ -215,12 +214,12 @@ def _read_path(path: str) -> Source:
 
 
 def opened_source(path: str, handle: int) -> Source:
-    """Return the source of an open file, which it owns from now on.
+    """Return the source of an open file, and take over the file.
 
     Raises
     ------
     FileAccessError
-        It is no regular file.
+        It is not a regular file.
     """
     mode = os.fstat(handle).st_mode
     if not stat.S_ISREG(mode):
@@ -235,7 +234,7 @@ def opened_source(path: str, handle: int) -> Source:
 
 
 def _read_resource(file: Traversable) -> Source:
-    """Read a resource of a package that is not in a folder, but in an archive, say."""
+    """Read a package resource that is not in a folder but, for example, in an archive."""
     try:
         return Source(str(file), file.read_bytes())
     except (OSError, KeyError, ValueError) as error:
@@ -243,7 +242,7 @@ def _read_resource(file: Traversable) -> Source:
 
 
 def _read_stream(file: Any) -> Source:
-    """Read whatever has a method ``read``."""
+    """Read any object with a method ``read``."""
     name = getattr(file, "name", None)
     path = f"<{type(file).__name__}>"
     if isinstance(name, str) and (name == "<stdin>" or os.path.exists(name)):
@@ -258,7 +257,7 @@ def _read_stream(file: Any) -> Source:
 
 
 def _unpacked(source: Source) -> bytes:
-    """Unpack all members of a gzip file; what stands behind them is left out."""
+    """Unpack all members of a gzip file; trailing bytes are ignored."""
     import zlib
 
     packed = memoryview(source.data)

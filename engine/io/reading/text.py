@@ -1,7 +1,7 @@
-"""Text files as people have them: any line ends, byte-order marks, any encoding of names.
+"""Normalises text files: any line ends, byte-order marks, any encoding of names.
 
 In: the bytes of a file. Out: bytes of an ASCII superset whose lines end in LF, without a byte-order
-mark. Line numbers stay those of the file.
+mark. Line numbers do not change.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _BLANKS = re.compile(r"[ \t\r\n\v\f]+")
 
 
 def text_lines(source: Source) -> bytes:
-    """Return the text of a file with LF line ends; never empty, the last line is ended too.
+    """Return a file's text with LF line ends; never empty, and the last line is ended too.
 
     Raises
     ------
@@ -31,7 +31,7 @@ def text_lines(source: Source) -> bytes:
 
 
 def checked_text(source: Source) -> bytes:
-    """Return the bytes of a text, line ends as they are, without a byte-order mark.
+    """Return the bytes of a text without a byte-order mark; line ends are unchanged.
 
     Raises
     ------
@@ -52,7 +52,7 @@ def checked_text(source: Source) -> bytes:
 
 
 def decoded(name: bytes) -> str:
-    """Return a name as text: UTF-8, or Latin-1 where it is not that."""
+    """Return a name as text: UTF-8, or else Latin-1."""
     try:
         return name.decode("utf-8")
     except UnicodeDecodeError:
@@ -60,9 +60,9 @@ def decoded(name: bytes) -> str:
 
 
 def words_of(text: str) -> list[str]:
-    """Return the words of a decoded text, with no letter beyond ASCII between them.
+    """Return the words of a decoded text, split at ASCII blanks only.
 
-    Names in other encodings hold bytes that Python counts as blanks.
+    Names in other encodings contain bytes that Python treats as blanks.
     """
     return [word for word in _BLANKS.split(text) if word]
 

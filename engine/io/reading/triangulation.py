@@ -1,9 +1,9 @@
-"""Polygons cut into triangles, all polygons of a file at once.
+"""Triangulation of polygons, all polygons of a file at once.
 
 In: the number of corners of each polygon, and the positions of all corners. Out: triangles as
-corner numbers, in the order of the polygons, each polygon wound as it was; and which of their edges
-are the polygon's own. Convex polygons become fans; a concave quad is cut from its reflex corner;
-other concave polygons have their ears clipped. Work is counted, so that no file can hang a loader.
+corner numbers, in polygon order and with the polygon's winding; and which of their edges are the
+polygon's own. Convex polygons become fans; a concave quad is cut from its reflex corner; other
+concave polygons are ear-clipped. The work is limited, so that no file can hang a loader.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from ..._native import loaders as native
 
 
 class WorkBudget:
-    """Tests of corners that may still be made, for all concave polygons of a file together.
+    """The number of corner tests left for all concave polygons of a file.
 
-    A hundred million take about a second.
+    A hundred million tests take about a second.
     """
 
     def __init__(self, tests: int = 50_000_000) -> None:
@@ -26,9 +26,9 @@ class WorkBudget:
 
     @classmethod
     def for_file(cls, size: int) -> WorkBudget:
-        """Return the budget of a file of so many bytes.
+        """Return the budget for a file of a given size in bytes.
 
-        One of up to a megabyte loads within two seconds, a larger one within ten.
+        Files up to a megabyte load within two seconds, larger ones within ten.
         """
         return cls(50_000_000 if size <= 1 << 20 else 300_000_000)
 
@@ -41,11 +41,11 @@ class Triangulation(NamedTuple):
     corners : (T, 3) int32
         Corner numbers, counted over all polygons.
     polygons : (T,) int32
-        The polygon that each triangle is part of.
+        The polygon of each triangle.
     edge_visible : (T, 3) bool or None
-        Which edges are the polygon's; None if all are.
+        Which edges are the polygon's own; None if all are.
     is_complete : bool
-        False if some concave polygons were cut as fans because the file holds too many, or one of
+        False if some concave polygons were cut as fans, because the file has too many or one has
         more than 262,144 corners.
     """
 
@@ -67,11 +67,11 @@ def triangulate(
     Parameters
     ----------
     sizes : (P,) int
-        Corners of each polygon; those of fewer than three give no triangle.
+        Corners of each polygon; fewer than three give no triangle.
     positions : (V, 3) float64 or float32
-        The corners' positions, polygon after polygon, or what ``indices`` refer to.
+        The corners' positions, polygon after polygon, or the table for ``indices``.
     budget : WorkBudget, optional
-        The work that concave polygons may take.
+        The work budget of concave polygons.
     indices : (C,) int32, optional
         The position of each corner; C is the sum of ``sizes``.
 

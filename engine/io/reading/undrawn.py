@@ -1,7 +1,7 @@
-"""Properties of materials that the engine does not draw, reported once for each kind.
+"""Warnings about material features that the engine does not draw, one for each kind.
 
-In: for each material in use, the kinds of such things that it has. Out: one warning a kind, with
-the number of materials.
+In: for each used material, its undrawn features. Out: one warning per kind, with the number of
+materials.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterable
 
 from .warning_list import WarningList
 
-#: The kinds, in the order in which they are told -> what is said of one and of several materials.
+#: The kinds, in reporting order -> the text for one and for several materials.
 KINDS = {
     "refraction": (
         "bends light (thickness and index of refraction)",
@@ -40,7 +40,7 @@ def warn_of_undrawn(kinds: Iterable[Collection[str]], warnings: WarningList) -> 
     Parameters
     ----------
     kinds : iterable of collection of str
-        For each material, the keys of `KINDS` that are true of it.
+        For each material, the keys of `KINDS` that apply.
     warnings : WarningList
     """
     counts = Counter(kind for of_one in kinds for kind in of_one)

@@ -1,7 +1,6 @@
-"""Normals and texture coordinates of files, whatever numbers stand there, as a `Mesh` takes them.
+"""Cleans normals and texture coordinates of files for a `Mesh`.
 
-In: arrays as they were read. Out: texture coordinates that are finite, and normals that all have a
-direction, or none.
+In: arrays as read. Out: finite texture coordinates, and normals that all have a direction, or none.
 """
 
 from __future__ import annotations
@@ -10,12 +9,12 @@ import numpy as np
 
 from ...model.geometry.normals import vertex_normals
 
-# Normals whose largest component is outside have no direction that float32 could tell.
+# Normals whose largest component is outside this range have no direction in float32.
 _SHORTEST, _LONGEST = 1e-15, 1e15
 
 
 def finite_uvs(values: np.ndarray) -> np.ndarray:
-    """Return texture coordinates as float32, zero for what is not finite."""
+    """Return texture coordinates as float32, with zeros for non-finite ones."""
     with np.errstate(over="ignore"):
         uvs = values.astype(np.float32)
     uvs[~np.isfinite(uvs)] = 0
@@ -25,7 +24,7 @@ def finite_uvs(values: np.ndarray) -> np.ndarray:
 def usable_normals(
     normals: np.ndarray | None, positions: np.ndarray, faces: np.ndarray
 ) -> np.ndarray | None:
-    """Return normals with computed ones for those without a direction; None if all are."""
+    """Return normals, with computed ones for those without a direction; None if all lack one."""
     if normals is None:
         return None
     with np.errstate(invalid="ignore"):

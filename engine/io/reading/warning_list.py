@@ -1,4 +1,4 @@
-"""The warnings that a reader gathers: one line each, with the place they speak of."""
+"""Collects the warnings of a reader: one line each, with their places."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ _MAX = 30
 
 
 class WarningList:
-    """Warnings about one file; a flood of them is cut off and counted.
+    """Warnings about one file; beyond a limit they are only counted.
 
     Attributes
     ----------
@@ -22,20 +22,20 @@ class WarningList:
         self._once: set[str] = set()
 
     def add(self, message: str, line: int | None = None, path: str | None = None) -> None:
-        """Note a warning about a line of the file, or of another file that it names."""
+        """Add a warning about a line of the file, or of another file that it names."""
         if len(self._messages) >= _MAX:
             self._left_out += 1
             return
         self._messages.append(located(message, path or self.path, line))
 
     def add_once(self, message: str) -> None:
-        """Note a warning about the file, unless it was noted before."""
+        """Add a warning about the file, unless it exists already."""
         if message not in self._once:
             self._once.add(message)
             self.add(message)
 
     def messages(self) -> list[str]:
-        """Return the warnings, with a last one that tells how many more there were."""
+        """Return the warnings, and a last one that counts the omitted ones."""
         if not self._left_out:
             return list(self._messages)
         return [*self._messages, f"{self.path}: and {self._left_out} more warnings"]

@@ -1,8 +1,8 @@
-"""Equal rows of an array found.
+"""Finds equal rows of an array.
 
-In: rows of numbers, such as the corners of all triangles of a file. Out: the number of each row,
-equal ones having the same, in the order of their first appearance. Rows are equal if all their bits
-are, but for the two zeros; the result is exact, whatever the rows hold.
+In: rows of numbers, such as the corners of all triangles of a file. Out: a number for each row, the
+same for equal rows, in order of first appearance. Rows are equal if all their bits are, except that
+the two zeros are equal; the result is always exact.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ def number_rows(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     -------
     numbers : (N,) int32
     first : (M,) int32
-        The first row of each number, in rising order.
+        The first row of each number, in ascending order.
     """
     rows = np.ascontiguousarray(rows)
     return native.number_rows(rows.view(np.uint32), rows.dtype == np.float32)
 
 
 def rows_repeat(rows: np.ndarray) -> bool:
-    """Tell whether any two rows are equal; faster than to number them where none are."""
+    """Return whether any two rows are equal; faster than numbering if none are."""
     rows = np.ascontiguousarray(rows)
     return native.rows_repeat(rows.view(np.uint32), rows.dtype == np.float32)

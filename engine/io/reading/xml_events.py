@@ -1,7 +1,7 @@
-"""Reads XML element by element; nothing expands.
+"""Parses XML element by element, without entity expansion.
 
-In: bytes, piece by piece. Out: calls for each beginning and end of an element. A document type,
-with which entities would come, is refused, and so is what is nested deeper than formats need.
+In: bytes, in pieces. Out: a call for each start and end of an element. A document type, which could
+define entities, is refused, and so is excessive nesting.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from xml.parsers import expat
 from ...errors import FileFormatError
 
 _MOST_DEPTH = 64
-#: Between the namespace and the local part of a name.
+#: Separates namespace and local name.
 SEPARATOR = " "
 
 Attributes = dict[str, str]
@@ -29,21 +29,21 @@ def read_xml(
     path: str,
     part: str = "",
 ) -> None:
-    """Call ``begin(name, attributes, place)`` and ``end(name)`` for each element, in their order.
+    """Call ``begin(name, attributes, place)`` and ``end(name)`` for each element, in order.
 
     Parameters
     ----------
     pieces : iterable of bytes
     begin, end : callable
-        Names, those of attributes too, are ``"namespace local"``, or local only where there is no
-        namespace; ``place`` is the offset in the text. `XmlFault` may be raised.
+        Names of elements and attributes are ``"namespace local"``, or only local without a
+        namespace; ``place`` is the offset in the text. They may raise `XmlFault`.
     path, part : str
-        The file that messages name, and which part of it the text is.
+        The file for messages, and the part of it that the text is.
 
     Raises
     ------
     FileFormatError
-        It is no well-formed XML, has a document type, or is too deep.
+        The XML is not well-formed, has a document type, or is too deep.
     """
     parser = expat.ParserCreate(namespace_separator=SEPARATOR)
     depth = 0
@@ -69,7 +69,7 @@ def read_xml(
         for piece in pieces:
             parser.Parse(piece, False)
         parser.Parse(b"", True)
-    except FileFormatError:  # of the pieces
+    except FileFormatError:  # from the pieces
         raise
     except XmlFault as fault:
         raise _located(str(fault), path, part, parser.CurrentLineNumber) from None

@@ -1,7 +1,7 @@
-"""ZIP archives, as model formats use them.
+"""ZIP archives in model formats.
 
-In: the bytes of an archive. Out: the bytes of its parts, piece by piece. What all of them unpack to
-is limited by the archive's size before anything is unpacked; no part yields more than it announces.
+In: the bytes of an archive. Out: the bytes of its parts, in pieces. The total unpacked size is
+limited by the archive's size before unpacking; no part yields more than it announces.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from . import sources
 from .sources import Source
 from .text import shown
 
-#: What archives begin with.
+#: Signature of archives.
 ZIP = b"PK"
 _PIECE = 1 << 16
 _MOST_SAID = 100
-# Ways to pack that packages do not allow; messages name them.
+# Compression methods that packages do not allow; messages name them.
 _PACKINGS = {9: "Deflate64", 12: "BZIP2", 14: "LZMA", 93: "Zstandard", 95: "XZ"}
 # Errors that the library raises for damaged or unusual archives; the last two for encrypted ones.
 _FAULTS = (
@@ -45,7 +45,7 @@ class ZipArchive:
     Raises
     ------
     FileFormatError
-        It is damaged, or unpacks to more than the limit for its size.
+        The archive is damaged, or unpacks to more than the limit for its size.
     """
 
     def __init__(self, source: Source) -> None:
@@ -67,26 +67,26 @@ class ZipArchive:
 
     @property
     def names(self) -> list[str]:
-        """The names of all parts, in the order of the archive."""
+        """The names of all parts, in archive order."""
         return [entry.filename for entry in self._parts.values()]
 
     def __contains__(self, name: str) -> bool:
         return _key(name) in self._parts
 
     def size(self, name: str) -> int:
-        """Return how many bytes a part unpacks to; 0 if it is not there."""
+        """Return a part's unpacked size in bytes; 0 if it does not exist."""
         entry = self._parts.get(_key(name))
         return 0 if entry is None else entry.file_size
 
     def pieces(self, name: str) -> Iterator[bytes]:
-        """Yield the bytes of a part, piece by piece.
+        """Yield the bytes of a part in pieces.
 
-        Names are told apart as in packages: whatever the case, with or without a slash in front.
+        Names are matched as in packages: ignoring case and a leading slash.
 
         Raises
         ------
         FileFormatError
-            It is not there, damaged, or packed in a way that is not known.
+            The part is missing, damaged, or compressed by an unknown method.
         """
         entry = self._parts.get(_key(name))
         if entry is None:
@@ -102,7 +102,7 @@ class ZipArchive:
             ) from error
 
     def check_packings(self) -> None:
-        """Raise unless all parts are packed in ways that are known."""
+        """Raise unless all parts use known compression methods."""
         for entry in self._parts.values():
             self._check_packing(entry)
 
@@ -114,7 +114,7 @@ class ZipArchive:
             )
 
     def read(self, name: str) -> bytes:
-        """Return the bytes of a part; raises as `pieces`."""
+        """Return the bytes of a part; raise as `pieces` does."""
         return b"".join(self.pieces(name))
 
 

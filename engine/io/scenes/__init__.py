@@ -1,1 +1,1 @@
-"""Scenes of what files hold, and records of them."""
+"""Conversion between scenes, documents and records."""

@@ -1,7 +1,7 @@
-"""How nodes move, as a scene's file tells it: spins and keyframes, node by node.
+"""Spins and keyframes of nodes in scene files.
 
 In: an `Animator`, or the nodes of a file. Out: entries for the file, or an `Animator` that moves
-the same nodes the same way, to the bit. Numbers stand as they were given.
+the same nodes identically, to the bit. Numbers are kept as given.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from ..reading.json_values import JsonValue
 
 MOTION_KEYS = {"spins", "tracks"}
 _SPIN_KEYS = {"axis", "period", "phase", "rotation"}
-#: What keyframes hold, and how many numbers each row has.
+#: The arrays of keyframes, and the numbers in each row.
 _PARTS = {"translations": 3, "rotations": 4, "scales": 3}
-# Entries of spins and tracks by node; None: of nodes that have gone.
+# Entries of spins and tracks by node; None: for deleted nodes.
 Motions: TypeAlias = dict[Node | None, dict[str, list[dict[str, Any]]]]
 
 
 def motion_entries(animator: Animator | None) -> Motions:
-    """Return what the file says of each node that moves."""
+    """Return the file entries of each moving node."""
     entries: Motions = {}
     spins, tracks = ((), ()) if animator is None else motions_of(animator)
     for spin in spins:
@@ -50,7 +50,7 @@ def _track_entry(track: Track) -> dict[str, Any]:
 
 
 def fill_animator(scene: Scene, nodes: list[Node], entries: list[JsonValue], rate: float) -> None:
-    """Give a scene the animator that the entries of its nodes ask for, if they ask for one."""
+    """Give a scene the animator described by its nodes' entries, if any."""
     spins, tracks = [], []
     for node, entry in zip(nodes, entries, strict=True):
         spins += [_spin(node, each) for each in entry.entries("spins")]

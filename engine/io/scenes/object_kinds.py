@@ -1,7 +1,7 @@
-"""The objects of nodes besides meshes, as scene files name them: kinds of lights and cameras.
+"""The objects of nodes besides meshes in scene files: kinds of lights and cameras.
 
-In: a light or camera, or a kind with values. Out: the values that differ from those by default, or
-the object. The values are the parameters of the class, so that files follow what a class gets.
+In: a light or camera, or a kind with values. Out: the values that differ from the defaults, or the
+object. The values are the parameters of the class, so that the format follows the classes.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ KINDS: dict[str, type] = {
     "intrinsics camera": IntrinsicsCamera,
     "camera": Camera,
 }
-# Where a parameter is kept under another name.
+# Parameters stored under another name.
 _HELD: dict[tuple[type, str], str] = {(Camera, "projection"): "matrix"}
 
 
 def kind_of(obj: Any) -> str | None:
-    """Return the kind of a light or a camera; None where files have no word for it."""
+    """Return the kind of a light or camera; None if files cannot express it."""
     return next((kind for kind, cls in KINDS.items() if type(obj) is cls), None)
 
 
@@ -43,7 +43,7 @@ def parameters(cls: type) -> dict[str, Any]:
 
 
 def values_of(obj: Any) -> dict[str, Any]:
-    """Return what an object is made of, as JSON knows it, but for what is so by default."""
+    """Return an object's parameters that differ from their defaults, as JSON."""
     found = {}
     kind: type = type(obj)
     for name, default in parameters(kind).items():
@@ -54,7 +54,7 @@ def values_of(obj: Any) -> dict[str, Any]:
 
 
 def plain(value: Any) -> Any:
-    """Return a value in types that JSON knows: arrays as lists, infinity as None."""
+    """Convert a value to JSON types: arrays to lists, infinity to None."""
     if isinstance(value, np.ndarray):
         return value.tolist()
     if isinstance(value, (list, tuple)):

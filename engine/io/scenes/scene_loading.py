@@ -1,8 +1,8 @@
-"""From a file that holds objects, lights and cameras to a scene.
+"""Builds a scene from a file or document with objects, lights and cameras.
 
-In: a path, or the `Document` that a loader made of it. Out: a `Scene` in the file's coordinates,
-with the file's tree of nodes if it has one, else one node an object. What a file says in other
-terms than ours (lights without falloff, camera rolls) is translated here.
+In: a path, or its `Document`. Out: a `Scene` in the file's coordinates, with the file's tree of
+nodes if it has one, else one node an object. This module converts differing concepts of files
+(lights without falloff, camera rolls).
 """
 
 from __future__ import annotations
@@ -35,19 +35,19 @@ def load_scene(
     crease_angle: float = CREASE_ANGLE,
     root: str | os.PathLike[str] | None = None,
 ) -> Scene:
-    """Read a file with all its objects, lights, cameras, skins and animations.
+    """Load a file with all its objects, lights, cameras, skins and animations.
 
     Parameters
     ----------
     path : str, path-like, bytes, binary file object or Traversable
         A file of any mesh format; as in `load_mesh`.
     format : str, optional
-        The format's name, such as ``"asc"``. Left out, it is told by the content and the name.
+        The format's name, such as ``"asc"``; by default detected by content and name.
     progress : callable, optional
         As in `load_mesh`.
     variant : str or int, optional
-        The name or number of one of the sets of materials that a glTF file offers
-        (KHR_materials_variants); the usual one if left out.
+        The name or number of a glTF file's material variant (KHR_materials_variants); by default
+        the standard materials.
     crease_angle : float, optional
         As in `load_mesh`.
     root : path-like, optional
@@ -56,7 +56,7 @@ def load_scene(
     Returns
     -------
     scene : Scene
-        In the file's coordinates; ``scene.warnings`` tells what was left out or replaced.
+        In the file's coordinates; ``scene.warnings`` lists what was omitted or replaced.
 
     Raises
     ------
@@ -75,14 +75,14 @@ def scene_from_document(document: Document, variant: str | int | None = None) ->
     Raises
     ------
     InvalidArgumentError
-        There is no such variant.
+        The variant does not exist.
     """
     scene = Scene()
     scene.warnings.extend(document.warnings)
     if variant is not None:
         choose_variant(document.tree, variant)
     if document.tree is not None:
-        scene.ambient = (0, 0, 0)  # glTF has no such light
+        scene.ambient = (0, 0, 0)  # glTF has no ambient light
         fill_from_tree(scene, document.tree)
         return scene
     if document.scene is not None:
@@ -99,7 +99,7 @@ def scene_from_document(document: Document, variant: str | int | None = None) ->
 
 
 def _try_light(scene: Scene, record: LightRecord, bounds: np.ndarray) -> None:
-    """Add a light, or tell why it is left out."""
+    """Add a light, or warn why it is left out."""
     try:
         _add_light(scene, record, bounds)
     except InvalidArgumentError as error:
@@ -107,7 +107,7 @@ def _try_light(scene: Scene, record: LightRecord, bounds: np.ndarray) -> None:
 
 
 def _add_light(scene: Scene, record: LightRecord, bounds: np.ndarray) -> None:
-    """Add a light; files give lights no falloff, so theirs are as bright at the scene's centre."""
+    """Add a light; file lights have no falloff, so match their brightness at the scene's centre."""
     color = tuple(float(component) for component in record.color)
     if record.kind == "ambient":
         scene.ambient = tuple(component * record.intensity for component in color)
@@ -138,10 +138,10 @@ def _add_camera(scene: Scene, record: CameraRecord, bounds: np.ndarray) -> None:
 
 
 def _distance(position: tuple[float, float, float], bounds: np.ndarray) -> float:
-    """Distance of a point from the centre of a box."""
+    """Return the distance of a point from the centre of a box."""
     return float(linalg.length(np.subtract(position, (bounds[0] + bounds[1]) * 0.5)))
 
 
 def _radius(bounds: np.ndarray) -> float:
-    """Half the diagonal of a box, 1 for an empty one."""
+    """Return half the diagonal of a box, 1 for an empty one."""
     return float(linalg.length((bounds[1] - bounds[0]) * 0.5)) or 1.0

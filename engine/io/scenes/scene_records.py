@@ -1,7 +1,7 @@
-"""From the tree of a scene's file to a scene.
+"""Builds a scene from the tree of a scene file.
 
-In: a `SceneRecord`, whose meshes are made. Out: nodes with what they hold, in the order of the
-file. What is wrong is a `FileFormatError` that names its place.
+In: a `SceneRecord` with its meshes. Out: nodes with their objects, in file order. Faults raise a
+`FileFormatError` that names the place.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _NODE_KEYS |= {"cast_shadows", "receive_shadows", "collider", "children", *MOTIO
 
 
 def fill_scene(scene: Scene, record: SceneRecord) -> None:
-    """Add the nodes of a record to an empty scene, and take over its background and light."""
+    """Add the nodes of a record to an empty scene, and apply its background and light."""
     values = record.values.members()
     full_rate_distance = values.pop("full_rate_distance", None)
     for key, value in values.items():
@@ -74,7 +74,7 @@ def _background(
 
 
 def _of_fields(value: JsonValue, kinds: tuple[type, ...]) -> Any:
-    """One of several kinds of value: whose parameters the entry has."""
+    """Return the one of several kinds of value whose parameters the entry has."""
     held = {key: one.value for key, one in value.members().items()}
     for kind in kinds:
         if held.keys() == {one.name for one in fields(kind)}:
@@ -84,7 +84,7 @@ def _of_fields(value: JsonValue, kinds: tuple[type, ...]) -> Any:
 
 
 def _try(place: JsonValue, do: Callable[..., Any]) -> Any:
-    """Let an error say where in the file it comes from."""
+    """Add the place in the file to errors within the block."""
     try:
         return do()
     except (InvalidArgumentError, TypeError) as error:

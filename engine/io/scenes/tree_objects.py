@@ -1,7 +1,7 @@
-"""The objects of a document that holds a tree: what its scene shows, node by node.
+"""The objects of a document with a tree: the visible meshes, node by node.
 
-In: a `TreeRecord`. Out: an object for each mesh of each shown node, and counts. Any number of nodes
-may repeat a mesh, so that joined they are limited.
+In: a `TreeRecord`. Out: an object for each mesh of each visible node, and counts. Since any number
+of nodes may repeat a mesh, the joined size is limited.
 """
 
 from __future__ import annotations
@@ -14,29 +14,29 @@ from ..reading.posed_parts import PosedPart, counts_of, document_objects
 from ..reading.sources import Source
 from .tree_posing import RestPose, ShownNode
 
-# Each takes some kilobytes, however little the file says of it.
+# Each takes some kilobytes, however small its entry.
 _MAX_OBJECTS = 50_000
 
 
 def tree_objects(
     source: Source, tree: TreeRecord, most_vertices: int, split: bool
 ) -> list[DocumentObject]:
-    """Return what a tree shows.
+    """Return the visible objects of a tree.
 
     Parameters
     ----------
     source : Source
     tree : TreeRecord
     most_vertices : int
-        How many vertices all objects may have if their poses are applied.
+        The limit of the total vertices if poses are applied.
     split : bool
-        Keep poses apart and meshes as they are stored, each instanced one once; otherwise poses,
-        skins and morph targets are applied.
+        Whether to keep poses separate and meshes as stored, each instanced mesh once; otherwise
+        poses, skins and morph targets are applied.
 
     Raises
     ------
     FileFormatError
-        There are too many objects or vertices, or no vertices though there is to be one mesh.
+        There are too many objects or vertices, or one mesh is requested and there are no vertices.
     """
     rest = RestPose(tree)
     shown = [node for node in rest.nodes if node.visible]
@@ -63,7 +63,7 @@ def tree_objects(
 
 
 def _check_vertices(source: Source, tree: TreeRecord, drawn: list[ShownNode], most: int) -> None:
-    """Refuse too many before any are made."""
+    """Refuse too many vertices before creating any."""
     total = 0
     for node in drawn:
         record = tree.nodes[node.number]
@@ -80,7 +80,7 @@ def _check_vertices(source: Source, tree: TreeRecord, drawn: list[ShownNode], mo
 
 
 def tree_counts(tree: TreeRecord, objects: list[DocumentObject]) -> dict[str, Any]:
-    """Return the lists that a tree holds, as `Document.counts` shows them."""
+    """Return the sizes of a tree's lists, for `Document.counts`."""
     return {
         **counts_of(objects),
         "nodes": len(tree.nodes),

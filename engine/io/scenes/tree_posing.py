@@ -1,8 +1,8 @@
-"""The poses of a tree's nodes, and the shapes of its meshes at rest.
+"""The poses of a tree's nodes, and the rest shapes of its meshes.
 
 In: a `TreeRecord`. Out: matrices and vertices in float64, single operations in the written order,
-so that they have the same bits on every machine. At rest, morph targets have the weights that node
-or mesh say, and skins follow their joints as these stand in the file.
+so that they have the same bits on every machine. At rest, morph targets have the weights of their
+node or mesh, and skins follow their joints' poses in the file.
 """
 
 from __future__ import annotations
@@ -20,23 +20,23 @@ from ...model.geometry.vertex_attributes import attributes_of
 from ..reading.documents import MeshRecord, NodeRecord, SkinRecord, TreeRecord
 
 _IDENTITY = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))
-# Vertices that are bent at a time.
+# Vertices deformed at a time.
 _BLOCK = 1 << 14
 
 
 class ShownNode(NamedTuple):
-    """A node of the shown scene.
+    """A node of the default scene.
 
     Attributes
     ----------
     number : int
-        In the tree.
+        Its number in the tree.
     parent : int
-        Its number; -1: none.
+        The parent's number; -1: none.
     world : (4, 4) float64
         world-from-node.
     visible : bool
-        Neither it nor a node above it is hidden.
+        Whether neither it nor an ancestor is hidden.
     """
 
     number: int
@@ -46,7 +46,7 @@ class ShownNode(NamedTuple):
 
 
 def shown_nodes(tree: TreeRecord) -> list[ShownNode]:
-    """Return the nodes of the shown scene, each before those below it."""
+    """Return the nodes of the default scene, parents first."""
     found = []
     waiting: list[tuple[int, int, single.Rows, bool]]
     waiting = [(root, -1, _IDENTITY, True) for root in reversed(tree.roots)]
@@ -66,7 +66,7 @@ def shown_nodes(tree: TreeRecord) -> list[ShownNode]:
 
 
 def local_pose(node: NodeRecord) -> single.Rows:
-    """Return the rows of parent-from-node."""
+    """Return the rows of a node's parent-from-node."""
     if node.matrix is not None:
         return node.matrix.tolist()
     if node.translation is None and node.rotation is None and node.scale is None:
@@ -82,7 +82,7 @@ def local_pose(node: NodeRecord) -> single.Rows:
 
 
 class RestPose:
-    """The shapes of a tree's meshes at rest.
+    """The rest shapes of a tree's meshes.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ class RestPose:
         self._worlds = {shown.number: shown.world for shown in self.nodes}
 
     def posed(self, shown: ShownNode) -> Iterator[tuple[Mesh, np.ndarray]]:
-        """Yield the meshes of a node with morph targets and skin applied, and where they stand."""
+        """Yield the meshes of a node, with morph targets and skin applied, and their poses."""
         node = self._tree.nodes[shown.number]
         if node.mesh is None:
             return
@@ -125,19 +125,19 @@ class RestPose:
         return self._tree.skins[node.skin] if node.skin is not None and has_joints else None
 
     def _joint_matrices(self, skin: SkinRecord) -> np.ndarray:
-        """world-from-mesh of each joint, (J, 4, 4)."""
+        """Return world-from-mesh of each joint, (J, 4, 4)."""
         worlds = np.array([self._worlds.get(joint, np.eye(4)) for joint in skin.joints])
         return linalg.multiply(worlds, skin.inverse_binds)
 
 
 def _tinted(mesh: Mesh, color: np.ndarray) -> Mesh:
-    """A mesh whose vertex colours, which are floats where a glTF file has some, are multiplied."""
+    """Return a mesh with multiplied vertex colours; glTF vertex colours are floats."""
     held = np.ones((len(mesh.positions), 4), np.float32) if mesh.colors is None else mesh.colors
     return _changed(mesh, {"colors": held * color})
 
 
 def _morphed(mesh: Mesh, weights: np.ndarray) -> Mesh:
-    """A mesh with its morph targets added."""
+    """Return a mesh with its morph targets added."""
     changed = {}
     for key in ("positions", "normals", "tangents"):
         base = getattr(mesh, key)
@@ -155,7 +155,7 @@ def _morphed(mesh: Mesh, weights: np.ndarray) -> Mesh:
 
 
 def _bent(moved: Mesh, mesh: Mesh, matrices: np.ndarray) -> Mesh | None:
-    """A mesh, with its morph targets added, bent by the joints of another; None if it has none."""
+    """Return a morphed mesh, skinned by another's joints; None without joints."""
     joints, weights = moved.joints, moved.weights
     if joints is None or weights is None:
         return None
@@ -180,7 +180,7 @@ def _bent(moved: Mesh, mesh: Mesh, matrices: np.ndarray) -> Mesh | None:
 
 
 def _blended(joints: np.ndarray, weights: np.ndarray, matrices: np.ndarray) -> np.ndarray:
-    """The matrix of each vertex, (V, 4, 4)."""
+    """Return the matrix of each vertex, (V, 4, 4)."""
     total = np.zeros((len(joints), 4, 4))
     for joint, weight in zip(joints.T, weights.T.astype(np.float64), strict=True):
         total += weight[:, np.newaxis, np.newaxis] * matrices[joint]
@@ -188,7 +188,7 @@ def _blended(joints: np.ndarray, weights: np.ndarray, matrices: np.ndarray) -> n
 
 
 def _times(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """The upper 3x3 of each matrix times a vector, (V, 3)."""
+    """Return the upper 3x3 of each matrix times a vector, (V, 3)."""
     x, y, z = vectors.T.astype(np.float64)
     return np.stack(
         [m[:, 0] * x + m[:, 1] * y + m[:, 2] * z for m in (matrices[:, k] for k in range(3))],
@@ -197,13 +197,13 @@ def _times(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
 
 
 def _cofactors(matrices: np.ndarray) -> np.ndarray:
-    """Return the matrices for normals that belong to the upper 3x3 for points, (V, 3, 3)."""
+    """Return the normal matrices for the upper 3x3 of point matrices, (V, 3, 3)."""
     rows = [matrices[:, k, :3] for k in range(3)]
     return np.stack([linalg.cross(rows[k - 2], rows[k - 1]) for k in range(3)], axis=1)
 
 
 def _changed(mesh: Mesh, arrays: dict[str, np.ndarray]) -> Mesh:
-    """A mesh with other positions, normals and tangents."""
+    """Return a mesh with other positions, normals and tangents."""
     held = {"positions": mesh.positions, **attributes_of(mesh)}
     if mesh.has_normals:
         held["normals"] = mesh.normals

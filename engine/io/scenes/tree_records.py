@@ -1,8 +1,8 @@
-"""From the tree of a file to a scene.
+"""Builds a scene from the tree of a file.
 
-In: a `TreeRecord`, whose meshes are made. Out: the nodes of its shown scene with what they hold:
-meshes, shared as in the file, cameras, lights, skins, and clips for an `AnimationPlayer`. What has
-no place in a scene is warned of.
+In: a `TreeRecord` with its meshes. Out: the nodes of its default scene with their objects: meshes,
+shared as in the file, cameras, lights, skins, and clips for an `AnimationPlayer`. Content that
+scenes cannot hold gives warnings.
 """
 
 from __future__ import annotations
@@ -42,25 +42,25 @@ if TYPE_CHECKING:
     from ...model.motion.properties import PropertyChannel
     from ...model.motion.skins import Skin
 
-#: What a file says of what a scene holds, for whoever writes it again: the record of each thing.
+#: The file's record of each object in a scene, for writing it again.
 records: WeakKeyDictionary[Any, Any] = WeakKeyDictionary()
 #: Pairs of properties, the first of which must be less.
 _APART = (("znear", "zfar"), ("inner_cone_angle", "outer_cone_angle"))
-#: Stands there for a node that holds what the one above it could not hold besides.
+#: Marks a node that holds an object its parent could not hold in addition.
 FURTHER_PART = object()
 
 _Record = TypeVar("_Record", LensRecord, LampRecord)
 
 
 class MeshWords(NamedTuple):
-    """What a file says of a mesh, without the mesh; the holder of its key is kept forever.
+    """A file's statements about a mesh, without a reference that would keep it alive.
 
     Attributes
     ----------
     morph_weights, variants, extras
         As in `MeshRecord`.
     variant_names : tuple of str
-        Of the file.
+        The file's variant names.
     """
 
     morph_weights: tuple[float, ...]
@@ -70,12 +70,12 @@ class MeshWords(NamedTuple):
 
 
 class InstanceWords(NamedTuple):
-    """The statements of a file about instances.
+    """A file's statements about instances.
 
     Attributes
     ----------
     poses : (N, 4, 4) float32
-        The very array that they had then.
+        The identical array of the instances at loading.
     parts : tuple of arrays or None
         As in `NodeRecord`.
     """
@@ -85,7 +85,7 @@ class InstanceWords(NamedTuple):
 
 
 def choose_variant(tree: TreeRecord | None, variant: str | int) -> None:
-    """Give the meshes of a tree the materials of one of its variants.
+    """Apply a variant's materials to the meshes of a tree.
 
     Raises
     ------
@@ -107,26 +107,26 @@ def choose_variant(tree: TreeRecord | None, variant: str | int) -> None:
 
 
 def fill_from_tree(scene: Scene, tree: TreeRecord) -> None:
-    """Add the nodes of a tree's shown scene to an empty scene, and its clips."""
+    """Add the nodes of a tree's default scene to an empty scene, and its clips."""
     records[scene] = tree.extras
     _Filling(scene, tree).fill()
 
 
 class _Filling:
-    """Makes each thing of a tree once."""
+    """Creates each object of a tree once."""
 
     def __init__(self, scene: Scene, tree: TreeRecord) -> None:
         self._scene, self._tree = scene, tree
-        self._instances: dict[tuple[int, ...], InstancedMesh] = {}  # by the ids of their arrays
-        # Cameras, lights and skins by their numbers; None for what is left out.
+        self._instances: dict[tuple[int, ...], InstancedMesh] = {}  # by the IDs of their arrays
+        # Cameras, lights and skins by number; None for those left out.
         self._things: dict[tuple[str, int], Camera | Light | None] = {}
         self._skins: dict[int, Skin | None] = {}
-        self._nodes: dict[int, Node] = {}  # by their numbers in the tree
+        self._nodes: dict[int, Node] = {}  # by number in the tree
         self._parts: dict[int, list[Node]] = {}  # the nodes that show parts of their meshes
-        self._keys: dict[int, tuple[np.ndarray, np.ndarray]] = {}  # by the ids of the first
+        self._keys: dict[int, tuple[np.ndarray, np.ndarray]] = {}  # by the IDs of the first
 
     def fill(self) -> None:
-        """Add everything."""
+        """Add everything to the scene."""
         for node in shown_nodes(self._tree):
             self._add(node.number, self._nodes.get(node.parent))
         self._add_skins()
@@ -136,11 +136,12 @@ class _Filling:
     def _add(self, index: int, parent: Node | None) -> None:
         record = self._tree.nodes[index]
         held = [*self._meshes(record), *self._placed(record)]
-        # Further objects, which one of our nodes cannot hold, hang below it.
+        # One of our nodes holds one object; further objects become child nodes.
         first, others = (held[0], held[1:]) if held else (None, [])
         node = self._scene.add(first, name=record.name, parent=parent, **_place(record))
         node.visible = record.visible
-        # What the node itself does not tell; of very many nodes, records take as much as they do.
+        # Keep what the node itself cannot hold; with very many nodes, such records take as much
+        # memory.
         if any(x is not None for x in (record.extras, record.rotation, record.matrix)):
             records[node] = record
         self._nodes[index] = node
@@ -165,7 +166,7 @@ class _Filling:
         return [self._instanced(mesh, poses, record) for mesh in meshes]
 
     def _instanced(self, mesh: Mesh, poses: np.ndarray, record: NodeRecord) -> InstancedMesh:
-        """The instances of a mesh, once for all nodes that have the same."""
+        """Return the instances of a mesh, shared by nodes with equal ones."""
         colors = record.instance_colors
         key = id(mesh), id(poses), id(colors)
         if key not in self._instances:
@@ -174,7 +175,7 @@ class _Filling:
         return self._instances[key]
 
     def _placed(self, record: NodeRecord) -> list[Camera | Light]:
-        """The camera and the light of a node."""
+        """Return the camera and light of a node."""
         things = (
             self._thing("camera", record.camera, self._tree.cameras, _camera),
             self._thing("light", record.light, self._tree.lights, _light),
@@ -188,7 +189,7 @@ class _Filling:
         entries: Sequence[_Record],
         make: Callable[[_Record], Camera | Light],
     ) -> Camera | Light | None:
-        """The thing that a node names, made once for all nodes that name it."""
+        """Return the object that a node refers to, created once for all its nodes."""
         if number is None:
             return None
         key = kind, number
@@ -268,14 +269,14 @@ class _Filling:
         self._scene.animations[_free(record.name or f"animation_{number}", self._scene)] = clip
 
     def _shared(self, array: np.ndarray) -> np.ndarray:
-        """The float64 numbers that channels hold of an array, the same for all that name it."""
+        """Return an array as float64 for channels, shared by all that use it."""
         held = self._keys.get(id(array))
         if held is None:
             held = self._keys[id(array)] = array, frozen(array.astype(np.float64))
         return held[1]
 
     def _property_channels(self, record: PropertyRecord, clip: str) -> list[PropertyChannel]:
-        """The channels of what a record means: several where a scene has several things for it."""
+        """Return the channels of a record: several if the scene has several objects for it."""
         targets: list[Any] = []
         if record.kind == "node":
             node = self._nodes.get(record.number)
@@ -292,7 +293,7 @@ class _Filling:
     def _property_channel(
         self, target: Any, record: PropertyRecord, clip: str
     ) -> PropertyChannel | None:
-        """A channel of one thing; None, which is told, if that has no such property."""
+        """Return a channel of one object; None, with a warning, if it lacks the property."""
         from ...model.motion.properties import PropertyChannel
 
         try:
@@ -306,7 +307,7 @@ class _Filling:
     def _without_crossing(
         self, channels: list[PropertyChannel], clip: str
     ) -> list[PropertyChannel]:
-        """The channels without those by which a near plane would pass the far one, and such."""
+        """Return the channels without those that would cross, such as near and far planes."""
         crossing = set()
         for low, high in _APART:
             ends = {(c.target, c.path): c.reach for c in channels if c.path in (low, high)}
@@ -321,7 +322,7 @@ class _Filling:
 
 
 def _free(name: str, scene: Scene) -> str:
-    """The name, or one with a number behind it where another clip is called so."""
+    """Return the name, with a number appended if another clip has it."""
     number, free = 1, name
     while free in scene.animations:
         number += 1
@@ -337,10 +338,10 @@ def _place(record: NodeRecord) -> Place:
 
 
 def _camera(record: LensRecord) -> Camera:
-    """A camera of the picture's own shape, whatever shape the file thinks of."""
+    """Return a camera with the picture's aspect, whatever the file's."""
     if record.ymag is not None:
         return OrthographicCamera(record.ymag, znear=record.znear, zfar=record.zfar)
-    assert record.yfov is not None  # it is no other
+    assert record.yfov is not None  # it is a perspective camera
     return PerspectiveCamera(record.yfov, znear=record.znear, zfar=record.zfar)
 
 

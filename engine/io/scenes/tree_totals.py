@@ -1,6 +1,6 @@
-"""The totals of a tree's shown scene: its triangles, and the box around it at rest.
+"""Totals of a tree's default scene: its triangle count, and its bounds at rest.
 
-In: a `TreeRecord`. Out: numbers. What is hidden does not count.
+In: a `TreeRecord`. Out: numbers. Hidden nodes do not count.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ from ...model.geometry.mesh import Mesh
 from ..reading.documents import NodeRecord, TreeRecord
 from .tree_posing import RestPose
 
-# Where meshes are repeated so often that this many vertices would have to be placed, the corners of
-# their boxes are.
+# If more vertices than this would have to be placed, the corners of the meshes' boxes are placed
+# instead.
 _MOST_PLACED = 1 << 26
 
 
 def triangle_count(tree: TreeRecord) -> int:
-    """Return how many triangles are drawn, each instance's counted."""
+    """Return the number of drawn triangles, including each instance."""
     total = 0
     for shown in RestPose(tree).nodes:
         node = tree.nodes[shown.number]
@@ -29,9 +29,9 @@ def triangle_count(tree: TreeRecord) -> int:
 
 
 def rest_bounds(tree: TreeRecord) -> list[list[float]] | None:
-    """Return the lowest and highest coordinates in the world, with skins and morph weights applied.
+    """Return the world bounds at rest, with skins and morph weights applied.
 
-    None if nothing shows. Where vertices are not finite they do not count.
+    None if nothing is visible. Non-finite vertices do not count.
     """
     rest = RestPose(tree)
     drawn = [shown for shown in rest.nodes if shown.visible]
@@ -48,13 +48,13 @@ def rest_bounds(tree: TreeRecord) -> list[list[float]] | None:
 
 
 def _vertices(tree: TreeRecord, node: NodeRecord) -> int:
-    """How many vertices a node shows."""
+    """Return the number of vertices that a node shows."""
     times = 1 if node.instances is None else len(node.instances)
     return times * sum(len(part.mesh.positions) for part in tree.parts(node))
 
 
 def _corners(mesh: Mesh) -> np.ndarray:
-    """The corners of a mesh's box."""
+    """Return the corners of a mesh's box."""
     low, high = mesh.bounds
     choices = np.array(np.meshgrid(*zip(low, high, strict=True), indexing="ij"))
     return choices.reshape(3, -1).T

@@ -1,7 +1,7 @@
-"""Scenes of the package trimesh, to be drawn or shown in one line.
+"""Converts trimesh scenes for drawing.
 
-In: a trimesh.Scene, or one of its geometries. Out: a `Scene` with their meshes where they are, and
-with the camera where the other scene was given one.
+In: a trimesh.Scene, or one of its geometries. Out: a `Scene` with the meshes at their poses, and
+with the camera if the trimesh scene was given one.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ from ...model.scene.scene import Scene
 
 
 def is_of_trimesh(thing: object) -> bool:
-    """Return whether something is a scene or a geometry of trimesh."""
+    """Return whether an object is a trimesh scene or geometry."""
     return type(thing).__module__.partition(".")[0] == "trimesh" and (
         hasattr(thing, "graph") or hasattr(thing, "vertices")
     )
 
 
 def scene_from_trimesh(thing: Any) -> Scene:
-    """Return a scene of what trimesh holds.
+    """Return a scene converted from a trimesh object.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def scene_from_trimesh(thing: Any) -> Scene:
 
 
 def _add_camera(scene: Scene, other: Any) -> None:
-    """Add the camera of another scene, far enough to see all of it."""
+    """Add the camera of a trimesh scene, far enough away to see everything."""
     pose = np.asarray(other.camera_transform, np.float64)
     bounds = scene.bounds
     radius = 0.5 * float(np.linalg.norm(bounds[1] - bounds[0])) or 1.0

@@ -1,1 +1,1 @@
-"""Shared by writers: names, side files, losses."""
+"""Shared code of writers: names, side files, losses."""

@@ -1,4 +1,4 @@
-"""Names, in the words of warnings, what of a mesh a format cannot hold."""
+"""Warning texts about the content that a format cannot hold."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ _NAMES = {
     "points": "points",
     "groups": "groups",
 }
-# As many materials are named one by one.
+# This many materials are listed by name.
 _MOST_NAMED = 3
 
 
 def lost_parts(mesh: Mesh, format: str, *parts: str) -> list[str]:
-    """Return a line that names those parts that the mesh has, if it has any."""
+    """Return a line that lists the given parts that the mesh has, if any."""
     lost = []
     for part in parts:
         if part == "materials":
@@ -40,19 +40,19 @@ def lost_parts(mesh: Mesh, format: str, *parts: str) -> list[str]:
 
 
 def not_held(format: str, things: Iterable[str]) -> list[str]:
-    """Return a line that says so, if there are any."""
+    """Return a line about parts that are not held, if there are any."""
     named = ", ".join(things)
     return [f"{format} files do not hold {named}"] if named else []
 
 
 def lost_of_materials(mesh: Mesh, unwritten: dict[str, list[str]]) -> list[str]:
-    """Return a line for each thing that MTL has no words for.
+    """Return a line for each material feature that MTL cannot express.
 
     Parameters
     ----------
     mesh : Mesh
     unwritten : dict of str to list of str
-        What else was left out, and of which materials.
+        Other losses, and their materials.
     """
     lost: dict[str, list[str]] = {}
     for number, material in enumerate(mesh.materials):
@@ -65,7 +65,7 @@ def lost_of_materials(mesh: Mesh, unwritten: dict[str, list[str]]) -> list[str]:
 
 
 def lost_of_reading(texture: Texture) -> list[str]:
-    """Return the settings of reading a texture that only engine3d's own files hold."""
+    """Return the sampling settings of a texture that only engine3d's own files hold."""
     usual = {"anisotropy": 1, "lod_bias": 0.0}
     return [name for name, value in usual.items() if getattr(texture, name) != value]
 
@@ -73,7 +73,7 @@ def lost_of_reading(texture: Texture) -> list[str]:
 def _beyond_mtl(material: Material, has_normals: bool) -> list[str]:
     things = ["two_sided"] if material.two_sided else []
     if material.flat_shading and has_normals:
-        things.append("flat_shading")  # without normals, smoothing groups say it
+        things.append("flat_shading")  # without normals, smoothing groups express it
     if material.alpha_mode == "mask" and material.alpha_cutoff != 0.5:
         things.append("alpha_cutoff")
     texture = textures_of(material).get("texture")
@@ -86,7 +86,7 @@ def _beyond_mtl(material: Material, has_normals: bool) -> list[str]:
         is_srgb = texture.color_space == "srgb"
         things += [] if is_srgb else [f"the texture's colour space {texture.color_space!r}"]
         if not linear_color(material.rgb).any():
-            things.append("black under a texture")  # which readers take for left out
+            things.append("black under a texture")  # readers take it for a missing colour
     if linear_color(material.specular).any() and not material.shininess:
         things.append("a highlight of no shininess")
     return things

@@ -1,9 +1,8 @@
-"""The polygons of a mesh, put together again from their triangles.
+"""Reassembles the polygons of a mesh from their triangles.
 
-In: faces whose hidden edges tell which of them are one polygon. Out: the corners of each polygon,
-beginning where a reader has to begin to cut it into the same triangles. A polygon that no reader
-would cut so (its flags may say anything, its triangles differ in material) is given out as its
-triangles.
+In: faces whose hidden edges define the polygons. Out: the corners of each polygon, starting where
+readers must start to get the same triangles. A polygon that readers would cut differently (for
+example with odd flags or mixed materials) is returned as its triangles.
 """
 
 from __future__ import annotations
@@ -15,8 +14,8 @@ import numpy as np
 from ...model.geometry.mesh import Mesh
 from ..reading.triangulation import triangulate
 
-# Polygons that are no fans are put together in Python, and tried from each of their corners: work
-# that grows with the square of their size.
+# Polygons that are not fans are reassembled in Python, and tried from each corner, which takes
+# quadratic time.
 _MAX_CLIPPED = 500
 _MAX_TRIES = 300_000
 
@@ -27,13 +26,13 @@ class Outlines(NamedTuple):
     Attributes
     ----------
     sizes : (P,) int64
-        Corners of each.
+        The number of corners of each polygon.
     corners : (C,) int32
         Vertex indices, polygon after polygon.
     first_faces : (P,) int64
-        The first triangle of each.
+        The first triangle of each polygon.
     lost_edges : int
-        How many triangles with hidden edges are given out as such: these edges show then.
+        How many triangles with hidden edges are returned as triangles; these edges become visible.
     """
 
     sizes: np.ndarray
@@ -43,13 +42,13 @@ class Outlines(NamedTuple):
 
 
 def polygon_outlines(mesh: Mesh, states: np.ndarray | None = None) -> Outlines:
-    """Return the polygons of a mesh, in the order of its faces.
+    """Return the polygons of a mesh, in face order.
 
     Parameters
     ----------
     mesh : Mesh
     states : (F, K) int array, optional
-        What all triangles of a polygon must have in common.
+        Values that all triangles of a polygon must share.
     """
     count = len(mesh.faces)
     if mesh.edge_visible is None or mesh.edge_visible.all():
@@ -86,7 +85,7 @@ def _mixed(states: np.ndarray | None, first: np.ndarray) -> np.ndarray:
 
 
 def _fans(faces: np.ndarray, visible: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return which faces are part of a whole fan, and the number of each face's run."""
+    """Return which faces are part of a complete fan, and the number of each face's run."""
     goes_on = (faces[1:, 0] == faces[:-1, 0]) & (faces[1:, 1] == faces[:-1, 2])
     goes_on &= ~visible[1:, 0] & ~visible[:-1, 2]
     starts = np.r_[True, ~goes_on]
@@ -98,7 +97,7 @@ def _fans(faces: np.ndarray, visible: np.ndarray) -> tuple[np.ndarray, np.ndarra
 
 
 def _outline(triangles: list[list[int]]) -> np.ndarray | None:
-    """Undo ear clipping: each triangle before the last adds its middle corner."""
+    """Undo ear clipping: each triangle except the last adds its middle corner."""
     outline = list(triangles[-1])
     for a, b, c in reversed(triangles[:-1]):
         for place, corner in enumerate(outline):
@@ -111,7 +110,7 @@ def _outline(triangles: list[list[int]]) -> np.ndarray | None:
 
 
 def _turn(mesh: Mesh, found: dict[int, np.ndarray]) -> None:
-    """Let each outline begin where cutting it gives the mesh's triangles, or drop it."""
+    """Rotate each outline so that cutting it gives the mesh's triangles, or drop it."""
     positions = mesh.positions.astype(np.float64)
     faces = list(found)
     differing = [
@@ -135,7 +134,7 @@ def _turn(mesh: Mesh, found: dict[int, np.ndarray]) -> None:
 def _cuts_alike(
     mesh: Mesh, positions: np.ndarray, faces: list[int], outlines: dict[int, np.ndarray]
 ) -> np.ndarray:
-    """Whether each outline is cut into the triangles that begin at a face."""
+    """Return whether each outline is cut into the triangles that start at a face."""
     if not outlines:
         return np.zeros(0, bool)
     sizes = np.array([len(outline) for outline in outlines.values()])
@@ -152,7 +151,7 @@ def _cuts_alike(
 def _joined(
     faces: np.ndarray, first: np.ndarray, triangles: np.ndarray, found: dict[int, np.ndarray]
 ) -> Outlines:
-    """Outlines, and the triangles of polygons without one, in the order of the faces."""
+    """Return outlines, and the triangles of polygons without one, in face order."""
     sizes, corners, first_faces = [], [], []
     for face, number in zip(first.tolist(), triangles.tolist(), strict=True):
         outline = found.get(face)

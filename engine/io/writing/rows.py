@@ -1,7 +1,7 @@
 """Arrays as lines of text.
 
-In: arrays of numbers. Out: bytes, a line per row. Floats are written with the fewest digits that
-read back as the same float32; nothing depends on the locale.
+In: arrays of numbers. Out: bytes, a line per row. Floats get the fewest digits that read back as
+the same float32, independent of the locale.
 """
 
 from __future__ import annotations
@@ -13,24 +13,24 @@ from numpy.typing import ArrayLike
 
 from ..._native import writers as native
 
-# Rows made at a time, which bounds the memory for their text.
+# Rows formatted at a time, to limit the memory for their text.
 _BLOCK = 1 << 16
 
 
 def write_floats(file: BinaryIO, prefix: str, rows: np.ndarray) -> None:
-    """Write float32 rows (N, K), each behind ``prefix``."""
+    """Write float32 rows (N, K), each after ``prefix``."""
     between = [prefix.encode(), *[b" "] * (rows.shape[1] - 1), b"\n"]
     write_float_rows(file, between, rows)
 
 
 def write_float_rows(file: BinaryIO, between: list[bytes], rows: np.ndarray) -> None:
-    """Write float32 rows (N, K) with K + 1 words before, between and behind their numbers."""
+    """Write float32 rows (N, K) with K + 1 words before, between and after their numbers."""
     for block in _blocks(np.ascontiguousarray(rows, np.float32)):
         file.write(native.float_rows(block, between).data)
 
 
 def write_integers(file: BinaryIO, pattern: str, rows: np.ndarray) -> None:
-    """Write integer rows, each by a pattern such as ``"f %d %d %d"``."""
+    """Write integer rows by a pattern such as ``"f %d %d %d"``."""
     line = pattern.encode() + b"\n"
     for block in _blocks(rows):
         file.write(line * len(block) % tuple(block.ravel().tolist()))

@@ -1,4 +1,4 @@
-"""The function that saves meshes."""
+"""The public function that saves meshes."""
 
 from __future__ import annotations
 
@@ -21,29 +21,29 @@ def save_mesh(
     format: str | None = None,
     **options: Any,
 ) -> None:
-    """Write a mesh to a file, so that it is there whole or not at all.
+    """Write a mesh to a file, whole or not at all.
 
     Parameters
     ----------
     mesh : Mesh
     path : str, path-like or binary file object
-        Its extension names the format: ``.obj`` (materials go to an ``.mtl`` beside it and textures
-        to PNG files beside that, all under the model's name; of files that others wrote there under
-        these names none is replaced), ``.ply``, ``.stl``, or ``.glb`` and ``.gltf`` (all in one
-        file, with the materials as physical ones). Read again, the file gives the same
-        arrays, as far as its format holds them; what it does not hold is warned of as
-        `Engine3DWarning`. A file object needs ``format``, and takes no materials of OBJ.
+        The extension selects the format: ``.obj`` (materials go to an ``.mtl`` beside it and
+        textures to PNG files, all named after the model; foreign files with these names are not
+        replaced), ``.ply``, ``.stl``, or ``.glb`` and ``.gltf`` (all in one file, with physical
+        materials). Reading the file gives the same arrays, as far as the format holds them; losses
+        are issued as `Engine3DWarning`. A file object needs ``format``, and cannot take OBJ
+        materials.
     format : str, optional
-        The format's name, whatever the extension.
+        The format's name; overrides the extension.
     **options
-        ``ascii`` : bool, of PLY and STL: text instead of little-endian binary.
+        ``ascii`` : bool, for PLY and STL: text instead of little-endian binary.
 
     Raises
     ------
     FileAccessError
         The file cannot be written.
     InvalidArgumentError
-        The format is not known, has no such option, or needs files beside a file object.
+        The format is unknown, lacks an option, or needs side files that a file object cannot have.
     """
     if not isinstance(mesh, Mesh):
         raise InvalidArgumentError(f"mesh must be a Mesh, not {type(mesh).__name__}")

@@ -1,9 +1,8 @@
-"""Scenes written as JSON: the tree of nodes, and what they hold.
+"""Writes scenes as JSON: the tree of nodes, and their objects.
 
-In: a scene and a path. Out: one file. Meshes, images and environments of files in the folder of
-the scene, or below it, are named; those of primitives are told by their arguments; all others are
-in the file as base64, so that nothing is lost. docs/formats.md has the format, and
-io/formats/scene_file.py reads it.
+In: a scene and a path. Out: one file. Meshes, images and environments from files in the scene's
+folder, or below it, are stored by name; primitives by their arguments; all others as base64, so
+that nothing is lost. docs/formats.md defines the format, and io/formats/scene_file.py reads it.
 """
 
 from __future__ import annotations
@@ -54,25 +53,24 @@ _IDENTITY = {"translation": np.zeros(3), "rotation": np.eye(4)[3], "scale": np.o
 
 @checks_types
 def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
-    """Write a scene to a file, so that it is there whole or not at all.
+    """Write a scene to a file, whole or not at all.
 
     Parameters
     ----------
     scene : Scene
     path : str or path-like
-        With ``.glb`` or ``.gltf`` it becomes glTF 2.0, all in one file; images keep the bytes that
-        they came in. With any other extension it becomes JSON of engine3d: by custom it ends in
-        ``.e3d.json``, and `load_scene` tells it by its content; meshes, textures and
-        environments that were loaded from files in its folder, or below it, are named by their
-        relative paths, and all others become a part of the file. What cannot be written is warned
-        of as `Engine3DWarning`. How nodes move is written if it is that of ``scene.animator``.
+        ``.glb`` and ``.gltf`` give glTF 2.0, all in one file; unchanged images keep their encoded
+        bytes. Any other extension gives engine3d's JSON, usually named ``.e3d.json``, which
+        `load_scene` detects by content; meshes, textures and environments from files in its folder,
+        or below it, are stored by relative path, all others inside the file. Losses are issued as
+        `Engine3DWarning`. Motion is saved if it belongs to ``scene.animator``.
 
     Raises
     ------
     FileAccessError
         The file cannot be written.
     InvalidArgumentError
-        It is no scene.
+        The argument is not a scene.
     """
     if not isinstance(scene, Scene):
         raise InvalidArgumentError(f"not a Scene: {type(scene).__name__}")
@@ -89,7 +87,7 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
 
 
 def scene_text(scene: Scene, folder: str) -> tuple[bytes, list[str]]:
-    """Return a scene's file for a folder, and a line for each thing that it does not hold."""
+    """Return a scene's file for a folder, and a line for each loss."""
     writing = _Writing(folder)
     writing.nodes(scene)
     writing.told += _lost_motion(scene)
@@ -105,7 +103,7 @@ def scene_text(scene: Scene, folder: str) -> tuple[bytes, list[str]]:
 
 
 def _lost_motion(scene: Scene) -> list[str]:
-    """A line that names what moves vertices and nodes, if anything does."""
+    """Return a line that names lost deformation and motion, if there is any."""
     nodes = scene.nodes
     meshes = {id(n.object): n.object for n in nodes if isinstance(n.object, Mesh)}.values()
     lost = ["skins"] if any(node.skin is not None for node in nodes) else []
@@ -115,7 +113,7 @@ def _lost_motion(scene: Scene) -> list[str]:
 
 
 def _lines(tree: dict[str, Any]) -> Iterator[str]:
-    """JSON with a line for each thing, so that two versions of a file are easily compared."""
+    """Return JSON with a line for each object, so that versions of a file are easily compared."""
     for number, (key, value) in enumerate(tree.items()):
         yield f'{"," if number else "{"}\n"{key}": '
         if key in LISTS and value:
@@ -130,12 +128,12 @@ def _compact(value: Any) -> str:
 
 
 def _fields(value: Fog | ExponentialFog | Gradient) -> dict[str, Any]:
-    """The parameters of a value that never changes."""
+    """Return the parameters of an immutable value."""
     return {one.name: plain(getattr(value, one.name)) for one in fields(value)}
 
 
 class _Writing:
-    """The lists of a file, each thing once.
+    """The lists of a file, each object once.
 
     Attributes
     ----------
@@ -148,10 +146,10 @@ class _Writing:
         self.told: list[str] = []
         self._folder = os.path.realpath(folder)
         self._numbers: dict[int, int] = {}
-        self._kept: list[Any] = []  # so that no other thing gets an id meanwhile
+        self._kept: list[Any] = []  # keeps IDs from being reused
 
     def nodes(self, scene: Scene) -> None:
-        """Write the nodes, and what they hold."""
+        """Write the nodes, and their objects."""
         nodes = scene.nodes
         numbers = {node: number for number, node in enumerate(nodes)}
         placements = Placements(scene, nodes)
@@ -176,7 +174,7 @@ class _Writing:
             self.lists["nodes"].append(entry)
 
     def values(self, scene: Scene) -> dict[str, Any]:
-        """Write what the scene itself is: the values of environments only where they are others."""
+        """Write the scene's own values; those of environments only if not default."""
         values: dict[str, Any] = {"background": None, "ambient": plain(scene.ambient)}
         if isinstance(scene.background, tuple):
             values["background"] = plain(scene.background)
@@ -214,7 +212,7 @@ class _Writing:
         return {**name, "pixels": _array(environment.pixels)}
 
     def _number(self, where: str, thing: Any, entry_of: Any) -> int:
-        """The number of a thing in its list, to which it is added if it is new there."""
+        """Return the number of an object in its list; add new ones."""
         if id(thing) not in self._numbers:
             entry = entry_of(thing)
             self._numbers[id(thing)] = len(self.lists[where])
@@ -261,7 +259,7 @@ class _Writing:
         return entry
 
     def _named(self, origin: FileOrigin | PrimitiveOrigin) -> dict[str, Any] | None:
-        """Return the name for a mesh; None if it is to be written as arrays."""
+        """Return the name for a mesh; None if it must be written as arrays."""
         if isinstance(origin, PrimitiveOrigin):
             return {"primitive": origin.name, "arguments": origin.arguments}
         file = self._relative(origin.path, origin.is_missing)
@@ -279,7 +277,7 @@ class _Writing:
         return entry
 
     def _relative(self, path: str, may_be_missing: bool = False) -> str | None:
-        """The path from the scene's folder; None if it leads out, or there is no such file."""
+        """Return the path relative to the scene's folder; None if outside, or missing."""
         real = os.path.realpath(path)
         try:
             inside = os.path.commonpath([self._folder, real]) == self._folder
@@ -304,7 +302,7 @@ class _Writing:
         return entry
 
     def _slot(self, value: Texture | PlacedTexture) -> int | dict[str, Any]:
-        """The number of a texture; of one that is placed, this and where."""
+        """Return the number of a texture; for a placed one, with its placement."""
         if isinstance(value, Texture):
             return self._number("textures", value, self._texture)
         return {
@@ -350,7 +348,7 @@ class _Writing:
 
 
 def _place(placements: Placements, row: int) -> dict[str, list[Any]]:
-    """A node's pose: its parts where these give it to the bit, but for what is the identity."""
+    """Return a node's pose: non-identity parts if they give it to the bit, else the matrix."""
     if not placements.has_parts[row]:
         return {"pose": placements.poses[row, :3].ravel().tolist()}
     parts = {

@@ -1,7 +1,7 @@
-"""The names of the files that a model is written with: its library, and the images of that.
+"""Names of the files beside a written model: its material library, and the library's images.
 
-In: the path of an OBJ file. Out: paths beside it that are free, or taken by what engine3d wrote for
-this model before. The files of others stay: nobody asked for these names.
+In: the path of an OBJ file. Out: paths beside it that are free, or were written by engine3d for
+this model before. Files of others are never replaced: the user did not choose these names.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from ..reading.sources import read_source
 from .written_names import linkable_stem
 
 LIBRARY_MARK = b"# written by engine3d\n"
-# So much of an old library is searched for the images that it names.
+# Bytes of an old library that are searched for image names.
 _MOST_READ = 1 << 22
 
 
@@ -31,7 +31,7 @@ class SideFiles:
     library : str
         The path of the material library.
     folder : str
-        What the files are in.
+        The folder of the files.
     """
 
     def __init__(self, path: str) -> None:
@@ -44,11 +44,11 @@ class SideFiles:
 
     @property
     def usual_library(self) -> str:
-        """Return the library's usual path, whether or not another file has that name."""
+        """Return the library's usual path, even if another file has that name."""
         return os.path.join(self._folder, f"{self._stem}.mtl")
 
     def next_image(self) -> str:
-        """Return the path of one more PNG file."""
+        """Return a path for one more PNG file."""
         while True:
             name = f"{self._stem}_{self._next}.png"
             self._next += 1
@@ -77,7 +77,7 @@ def _start_of(path: str) -> bytes:
 
 
 def _images_of(library: bytes) -> set[str]:
-    """The images that a library of ours names as textures."""
+    """Return the images that one of our own libraries uses as textures."""
     lines = (line.partition(b" ") for line in library.splitlines())
     values = [value for keyword, _, value in lines if keyword == b"map_Kd"]
     return {parse_map(value.decode(errors="replace"))["name"] for value in values}

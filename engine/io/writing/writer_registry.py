@@ -1,4 +1,4 @@
-"""The one list of writers, and the choice among them by extension or name.
+"""The list of writers, and the choice among them by extension or name.
 
 A format is a module ``NAME_writer`` of `formats` with a tuple ``WRITERS``; adding the file
 registers it.
@@ -17,7 +17,7 @@ from ..reading.reader_registry import Format
 
 
 class Writer(NamedTuple):
-    """One format that can be written.
+    """One writable format.
 
     Attributes
     ----------
@@ -27,10 +27,10 @@ class Writer(NamedTuple):
     extensions : tuple of str
         Lower case, with the dot.
     write : callable
-        ``write(mesh, path, files, **options) -> list of str``: a line for what the format did not
-        hold. ``files`` is an `AtomicFiles`, or a `StreamFiles`, which has room for one file.
+        ``write(mesh, path, files, **options) -> list of str``: a line for each loss. ``files`` is
+        an `AtomicFiles`, or a `StreamFiles`, which takes one file only.
     options : tuple of str
-        The names of the options that it takes.
+        The names of its options.
     """
 
     name: str
@@ -50,7 +50,7 @@ def writers() -> tuple[Writer, ...]:
 
 
 def formats() -> list[Format]:
-    """Return the formats that can be written."""
+    """Return the writable formats."""
     return [Format(w.name, w.description, "mesh", w.extensions) for w in writers()]
 
 
@@ -60,7 +60,7 @@ def find_writer(path: str, name: str | None = None) -> Writer:
     Raises
     ------
     InvalidArgumentError
-        No format has this extension, or this name.
+        No format has this extension or name.
     """
     wanted = name.lower().removeprefix(".") if name is not None else None
     extension = os.path.splitext(path)[1].lower() if wanted is None else "." + wanted

@@ -1,8 +1,8 @@
-"""Text with names in it, as model files hold it.
+"""Encoding of names and text for model files.
 
-In: text; a name may come from a path that is no UTF-8, or from JSON, with halves of surrogate
-pairs that no encoding has. Out: UTF-8, those halves as Python escapes them; and names that one line
-of a file can hold, with a record of those that had to change.
+In: text; a name may come from a path that is not UTF-8, or from JSON with unpaired surrogates. Out:
+UTF-8, with such surrogates escaped as in Python; and names that fit one line of a file, with a
+record of those that changed.
 """
 
 from __future__ import annotations
@@ -11,19 +11,19 @@ import os
 import re
 from collections.abc import Iterable
 
-# So many changed names are reported one by one.
+# This many changed names are listed.
 _MOST_TOLD = 5
 
 
 def encoded(text: str) -> bytes:
-    """Return text as UTF-8, whatever is in it."""
+    """Return any text as UTF-8."""
     return text.encode("utf-8", "backslashreplace")
 
 
 def line_text(text: str) -> str:
-    """Return text that reads back from a line of an OBJ, MTL or STL file.
+    """Return a text that can be read back from a line of an OBJ, MTL or STL file.
 
-    Line ends and runs of blanks become a blank; control characters, what would begin a comment and
+    Line ends and runs of blanks become a blank; control characters, comment signs at the start and
     a backslash that would join the next line become ``_``.
     """
     text = re.sub(r"[\0-\x1f\x7f]", "_", " ".join(text.split()))
@@ -33,8 +33,8 @@ def line_text(text: str) -> str:
 
 
 def unique(names: Iterable[str]) -> list[str]:
-    """Return the names, all different: numbers are put behind those that are taken."""
-    copies: dict[str, int] = {}  # of each name that is taken, the last number behind it
+    """Return the names made distinct, by numbers appended to repeated ones."""
+    copies: dict[str, int] = {}  # for each used name, the last appended number
     result: list[str] = []
     for name in names:
         candidate = name
@@ -47,7 +47,7 @@ def unique(names: Iterable[str]) -> list[str]:
 
 
 def renamed(kind: str, old: Iterable[str], new: Iterable[str]) -> list[str]:
-    """Return a line that tells which names are others in the file, if any are."""
+    """Return a line that lists the names changed in the file, if any."""
     changes = [f"{a!r} is {b!r}" for a, b in zip(old, new, strict=True) if a not in ("", b)]
     if not changes:
         return []
@@ -57,13 +57,13 @@ def renamed(kind: str, old: Iterable[str], new: Iterable[str]) -> list[str]:
 
 
 def linkable_stem(path: str) -> str:
-    """Return a name for the files beside a model that the model's text can point to.
+    """Return a name for side files that the model's text can refer to.
 
-    It is that of the model where readers find such a file: not as an absolute path, an option, two
-    words with several blanks between them, or a name in another encoding.
+    It is the model's own name if readers can find such a file: names that look like absolute paths
+    or options, contain several blanks in a row, or use another encoding are replaced.
     """
     stem = os.path.splitext(os.path.basename(path))[0]
     stem = "".join(c if c.isprintable() and c not in '\\"#' else "_" for c in stem)
     stem = re.sub(r"^[-~ ]|(?<=^[A-Za-z]):| (?= )| $", "_", stem)
-    # With a number and an extension behind it, still a name that file systems take.
+    # With a number and an extension appended, file systems must still accept the name.
     return stem.encode()[:200].decode(errors="ignore") or "model"

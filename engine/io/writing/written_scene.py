@@ -1,7 +1,7 @@
-"""From a scene to the tree that files of other programs hold.
+"""Converts a scene to a tree for other file formats.
 
-In: a `Scene`. Out: a `TreeRecord`, and a line for each thing that it has no place for. What a file
-said of the scene's things is said again, where they still are what they were.
+In: a `Scene`. Out: a `TreeRecord`, and a line for each loss. A file's original statements about
+objects are kept if the objects are unchanged.
 """
 
 from __future__ import annotations
@@ -46,20 +46,20 @@ if TYPE_CHECKING:
     from ...model.scene.nodes import SceneObject
 
 _LIGHTS = (DirectionalLight, PointLight, SpotLight)
-_REACH = ("range", "inner_cone_angle", "outer_cone_angle")  # of those that have it
+_REACH = ("range", "inner_cone_angle", "outer_cone_angle")  # properties only some lights have
 _IDENTITY = {"translation": (0.0, 0.0, 0.0), "rotation": (0.0, 0.0, 0.0, 1.0)}
 _IDENTITY["scale"] = (1.0, 1.0, 1.0)
 _Thing = TypeVar("_Thing")
 
 
 def tree_of_scene(scene: Scene) -> tuple[TreeRecord, list[str]]:
-    """Return a scene as a tree, and a line for each thing that is lost."""
+    """Return a scene as a tree, and a line for each loss."""
     making = _Making(scene)
     return making.tree(), making.told
 
 
 class _TurnedLight:
-    """A node of the file for a directional light that shines elsewhere than along -Z."""
+    """A file node for a directional light that does not shine along -Z."""
 
     def __init__(self, light: DirectionalLight) -> None:
         self.light = light
@@ -69,7 +69,7 @@ _Row: TypeAlias = Node | _TurnedLight
 
 
 class _Making:
-    """The lists of a tree, each thing once."""
+    """The lists of a tree, each object once."""
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
@@ -78,12 +78,12 @@ class _Making:
             name: [] for name in ("meshes", "cameras", "lights", "skins")
         }
         self._numbers: dict[tuple[str | int, ...], int] = {}
-        self._kept: list[Any] = []  # so that no other thing gets an id meanwhile
+        self._kept: list[Any] = []  # keeps IDs from being reused
         self._variants: tuple[str, ...] = ()
 
     def tree(self) -> TreeRecord:
         scene = self._scene
-        # What hangs below a node since that could not hold it goes back into it.
+        # Objects moved to a child node at loading return to their parent.
         self._folded = {
             node: parent
             for node in scene.nodes
@@ -119,9 +119,9 @@ class _Making:
         )
 
     def _rows(self) -> list[_Row]:
-        """The nodes of the file, each before those below it: in the order in which it is read.
+        """Return the nodes of the file in reading order, parents first.
 
-        So what they hold has the same numbers when what was read is written again.
+        So their objects keep their numbers when a loaded file is written again.
         """
         found: list[_Row] = []
         waiting: list[_Row] = [node for node in self._scene.nodes[::-1] if node.parent is None]
@@ -131,7 +131,7 @@ class _Making:
         return found
 
     def _below(self, row: _Row) -> list[_Row]:
-        """Return the children of a node of the file; its turned light comes last."""
+        """Return the children of a file node; its turned light comes last."""
         if not isinstance(row, Node):
             return []
         below: list[_Row] = [child for child in row.children if child not in self._folded]
@@ -161,7 +161,7 @@ class _Making:
         )
 
     def _shown(self, node: Node, held: list[SceneObject]) -> dict[str, Any]:
-        """The mesh of a node, and how it is bent."""
+        """Return the mesh of a node, and its deformation."""
         instanced = [obj for obj in held if isinstance(obj, InstancedMesh)]
         meshes = [obj.mesh for obj in instanced] or [obj for obj in held if isinstance(obj, Mesh)]
         meshes = [mesh for mesh in meshes if _shows(mesh)]
@@ -188,7 +188,7 @@ class _Making:
         return found
 
     def _placed(self, node: Node, held: list[SceneObject]) -> dict[str, Any]:
-        """The camera and the light of a node."""
+        """Return the camera and light of a node."""
         found: dict[str, Any] = {}
         for obj in held:
             if isinstance(obj, (Mesh, InstancedMesh)):
@@ -207,9 +207,9 @@ class _Making:
         return found
 
     def _is_told(self, node: Node, light: DirectLight) -> bool:
-        """Whether a light shines as such files say; others that are nearly so are told of."""
+        """Return whether glTF can express a light; warn about approximate ones."""
         if node in self._turned:
-            return False  # it hangs below
+            return False  # it becomes a child node
         if isinstance(light, PointLight) and light.falloff != "gltf" and light.range < math.inf:
             self.told.append(
                 f"node {shown(node.name)}: gltf files hold no light whose falloff is "
@@ -218,7 +218,7 @@ class _Making:
         return True
 
     def _number(self, where: str, thing: _Thing, record_of: Callable[[_Thing], object]) -> int:
-        """The number of a thing in its list, to which it is added if it is new there."""
+        """Return the number of an object in its list; add new ones."""
         key = where, id(thing)
         if key not in self._numbers:
             self._kept.append(thing)
@@ -262,7 +262,7 @@ class _Making:
                 properties += self._property(channel, clip.name)
                 continue
             node = self._folded.get(channel.node, channel.node)
-            # Each part of a mesh has a channel for its weights, a file has one for all.
+            # Each part of a mesh has a weights channel, but a file has one for all.
             if node not in self._row or (node, channel.path) in seen:
                 continue
             if channel.path == "weights" and channel.values.shape[-1] != _targets_of(node):
@@ -283,7 +283,7 @@ class _Making:
         return ClipRecord(clip.name, clip.duration, tuple(channels), extras, tuple(properties))
 
     def _property(self, channel: PropertyChannel, clip: str) -> list[PropertyRecord]:
-        """Return how a property changes; nothing, with a warning, if the file lacks it."""
+        """Return the record of an animated property; None, with a warning, if not possible."""
         thing, numbers = channel.target, self._numbers
         if isinstance(thing, Node):
             kind, number = "node", self._row.get(self._folded.get(thing, thing))
@@ -325,31 +325,31 @@ def _tells_of_shadows(node: Node) -> bool:
 
 
 def _is_turned(light: DirectionalLight) -> bool:
-    """Whether a light shines elsewhere than along -Z, as those of such files do."""
+    """Return whether a light does not shine along -Z, the direction in such files."""
     x, y, z = light.direction.tolist()
     return (x, y) != (0.0, 0.0) or z > 0
 
 
 def _shows(mesh: Mesh) -> bool:
-    """Whether a mesh is more than vertices, of which such files would hold nothing."""
+    """Return whether a mesh has more than vertices, which such files would not hold."""
     return any(map(len, (mesh.faces, mesh.lines, mesh.points)))
 
 
 def _targets_of(node: Node) -> int:
-    """How many morph targets the mesh has in the file that a node shows."""
+    """Return how many morph targets the mesh of a node has in the file."""
     mesh = node.object
     return len(mesh.morph_targets) if isinstance(mesh, Mesh) and _shows(mesh) else 0
 
 
 def _is_further_part(node: Node) -> bool:
-    """Whether a node is as the loader made it for what the node above it could not hold."""
+    """Return whether a node still is as the loader made it for its parent's further object."""
     if records.get(node) is not FURTHER_PART or node.children:
         return False
     return np.array_equal(node.pose, np.eye(4)) and node.visible and node.object is not None
 
 
 def _place(came: NodeRecord, placements: Placements, row: int) -> dict[str, Any]:
-    """A node's pose: as the file had it while it is the same, else its parts or its matrix."""
+    """Return a node's pose: as in the file if unchanged, else as parts or a matrix."""
     names = (*_IDENTITY, "matrix")
     pose = placements.poses[row]
     if any(getattr(came, name) is not None for name in names):
@@ -366,7 +366,7 @@ def _place(came: NodeRecord, placements: Placements, row: int) -> dict[str, Any]
 
 
 def _poses(instanced: InstancedMesh) -> np.ndarray:
-    """node-from-instance, (N, 4, 4) float64."""
+    """Return node-from-instance, (N, 4, 4) float64."""
     given = instanced.poses.astype(np.float64)
     if given.ndim == 3:
         return given
@@ -377,7 +377,7 @@ def _poses(instanced: InstancedMesh) -> np.ndarray:
 
 
 def _linear(colors: np.ndarray | None) -> np.ndarray | None:
-    """Colours of instances in linear light, (N, 4) float32."""
+    """Return instance colours in linear light, (N, 4) float32."""
     if colors is None or colors.dtype != np.uint8:
         return None if colors is None else colors.clip(0, 1)
     decoded = [(*linear_color(tuple(row[:3])), row[3] / 255) for row in colors.tolist()]
@@ -408,13 +408,13 @@ def _lamp(light: DirectLight) -> LampRecord:
 
 
 def _across(direction: np.ndarray) -> tuple[float, float, float]:
-    """A direction that is not along another."""
+    """Return a direction not parallel to another."""
     x, y, z = np.abs(direction).tolist()
     return (0.0, 1.0, 0.0) if y < max(x, z) else (1.0, 0.0, 0.0)
 
 
 def _materials_of(meshes: tuple[MeshRecord, ...]) -> dict[int, Material]:
-    """The materials in use by their ids, in the order of their use."""
+    """Return the used materials by ID, in order of use."""
     found: dict[int, Material] = {}
     for record in meshes:
         for part in record.parts:
@@ -427,9 +427,10 @@ def _materials_of(meshes: tuple[MeshRecord, ...]) -> dict[int, Material]:
 
 
 def materials_of_faces(mesh: Mesh) -> list[int]:
-    """The numbers of the materials that faces have, in the order in which they are written.
+    """Return the material numbers of faces, in writing order.
 
-    Readers make one mesh of the smooth ones and another of the flat ones: like stands with like.
+    Readers make one mesh of the smooth ones and another of the flat ones, so materials of each kind
+    are adjacent.
     """
     if not len(mesh.faces):
         return []

@@ -1,1 +1,1 @@
-"""Environments: pictures of everything around, as light and as background."""
+"""Environments: panoramic images that light a scene and serve as its background."""

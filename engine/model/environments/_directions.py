@@ -50,7 +50,7 @@ def panel(
     soft: float,
     rays: Sequence[Floats],
 ) -> Floats:
-    """Return how much of an upright panel each ray meets, 0..1.
+    """Return how much of an upright panel each ray hits, 0..1.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The sky by day: its brightness and colour, from the sun's position and the haze.
+"""The daylight sky: its radiance and colour, from the sun's position and the turbidity of the air.
 
 In: the direction towards the sun, and the turbidity of the air. Out: the picture of the sky over
 bare ground, and the light of the sun itself. Source: Preetham, Shirley and Smits, "A practical
@@ -22,9 +22,9 @@ Floats = NDArray[np.float64]
 
 LEAST_TURBIDITY, MOST_TURBIDITY = 2.0, 10.0
 _SCALE = 0.04  # of kcd/m2
-_SUN = 128.0  # klx, before the air takes some
-# Of Perez's five coefficients a slope and an offset along the turbidity: of the luminance Y and of
-# the chromaticities x and y.
+_SUN = 128.0  # klx, outside the atmosphere
+# Perez's five coefficients as slope and offset over the turbidity: for the luminance Y and the
+# chromaticities x and y.
 _PEREZ = (
     ((0.1787, -1.4630), (-0.3554, 0.4275), (-0.0227, 5.3251), (0.1206, -2.5771), (-0.0670, 0.3703)),
     (
@@ -42,7 +42,8 @@ _PEREZ = (
         (-0.0109, 0.0529),
     ),
 )
-# Chromaticity at the zenith: rows by falling powers of the turbidity, columns of the sun's angle.
+# Chromaticity at the zenith: rows by falling powers of the turbidity, columns by falling powers of
+# the sun's zenith angle.
 _ZENITH_X = (
     (0.00166, -0.00375, 0.00209, 0.0),
     (-0.02903, 0.06377, -0.03202, 0.00394),
@@ -57,17 +58,17 @@ _SRGB = ((3.2406, -1.5372, -0.4986), (-0.9689, 1.8758, 0.0415), (0.0557, -0.2040
 # At 650, 550 and 450 nm: the wavelengths in micrometres to the powers of -4.08 and -1.3.
 _RAYLEIGH = (5.798471, 11.463579, 25.995187)
 _AEROSOL = (1.750704, 2.175347, 2.823734)
-_GROUND = (0.20, 0.175, 0.14)  # what it reflects
-# Cosines of the disc's edge, about a degree from its middle: wider than the true sun, as far as
-# pixels show it, and dimmer by as much.
+_GROUND = (0.20, 0.175, 0.14)  # albedo
+# Cosines at the disc's edge and core, about a degree from its centre: wider than the true sun so
+# that pixels resolve it, and dimmer in proportion.
 _EDGE, _CORE = 0.99982, 0.99988
 _DISC = 2.0 * math.pi * (1.0 - 0.5 * (_EDGE + _CORE))  # steradians
-_LEAST_COSINE = 0.02  # of the angle from the zenith, where the sky is asked for its colour
+_LEAST_COSINE = 0.02  # of the zenith angle at which the sky's colour is evaluated
 
 
 class _Sky(NamedTuple):
     sun: tuple[float, float, float]
-    angle: float  # of the sun from the zenith
+    angle: float  # zenith angle of the sun
     perez: tuple[tuple[float, ...], ...]
     zenith: tuple[float, float, float]
 
@@ -83,7 +84,7 @@ def pixels(
         Towards the sun, of unit length and not below the horizon.
     turbidity : float
     has_disc : bool
-        Whether the sun itself shows.
+        Whether the sun's disc is drawn.
     """
     rays = directions(512)
     cosine = toward(sun, rays)
@@ -136,7 +137,7 @@ def _chromaticity(rows: tuple[tuple[float, ...], ...], t: float, angle: float) -
 
 
 def _colors(sky: _Sky, up: Any, cosine: Any) -> list[Any]:
-    """Red, green and blue, by the cosines from the zenith and from the sun."""
+    """Return red, green and blue from the cosines with the zenith and with the sun."""
     straight = [_distribution(row, 1.0, sky.sun[1], sky.angle) for row in sky.perez]
     bent = np.clip(cosine, -1.0, 1.0)
     gamma = linalg.atan2(np.sqrt(1.0 - bent * bent), bent)
@@ -150,7 +151,7 @@ def _colors(sky: _Sky, up: Any, cosine: Any) -> list[Any]:
 
 
 def _distribution(row: tuple[float, ...], up: Any, cosine: Any, gamma: Any) -> Any:
-    """Perez's formula."""
+    """Evaluate Perez's formula."""
     a, b, c, d, e = row
     return (1.0 + a * _exp(b / up)) * (1.0 + c * _exp(d * gamma) + e * (cosine * cosine))
 
@@ -179,7 +180,7 @@ def _from_zenith(sun: tuple[float, float, float]) -> float:
 
 
 def _exp(x: Any) -> Any:
-    """The exponential function, of the same bits everywhere: 2 to a whole number times a series."""
+    """Return the exponential, with the same bits everywhere: a power of two times a series."""
     x = np.maximum(x, -700.0)
     whole = np.rint(x * 1.4426950408889634)
     rest = x - whole * 0.6931471805599453
@@ -190,8 +191,8 @@ def _exp(x: Any) -> Any:
 
 
 def _power(base: float, exponent: float) -> float:
-    """A power of a number between 1 and 100, of the same bits everywhere."""
-    low, high = 0.0, 5.0  # its logarithm lies between, and is found by halving
+    """Return a power of a number between 1 and 100, with the same bits everywhere."""
+    low, high = 0.0, 5.0  # the bisection's bounds for its logarithm
     for _ in range(60):
         middle = 0.5 * (low + high)
         if _exp(middle) < base:

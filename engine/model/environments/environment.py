@@ -1,8 +1,8 @@
-"""Environments: the light that comes from all around a scene.
+"""Environments: light that reaches a scene from every direction.
 
-In: an equirectangular picture of linear light, a file of one, or the name of a built-in one. Out:
-an `Environment`, which never changes. What rendering needs of it (its faces, blurred for each
-roughness) is the core's affair: it is made when it is first drawn with, and kept with the object.
+In: an equirectangular picture of linear light, a file of one, or a built-in name. Out: an immutable
+`Environment`. The core prefilters it for each roughness when it is first drawn, and keeps the
+result with the object.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from ...errors import InvalidArgumentError
 if TYPE_CHECKING:
     from ...io.reading.sources import File, Source
 
-#: Names of those that are made by rule.
+#: Names of the procedural environments.
 BUILT_IN: tuple[BuiltInEnvironment, ...] = get_args(BuiltInEnvironment)
 MAX_SIDE = 16384
 
@@ -34,20 +34,19 @@ MAX_SIDE = 16384
 class Environment(Closed):
     """Light from every direction, as an equirectangular picture.
 
-    Column u and row v, both in [0, 1] from the left and from below, show what is in the direction
-    (x, y, z) with u = atan2(z, x)/2pi + 1/2 and v = asin(y)/pi + 1/2: up is the top row, the
-    direction -Z, into which cameras look, a quarter from the left. That is how three.js and Blender
-    take such pictures.
+    Column u and row v, both in [0, 1] from the left and from below, hold the radiance from the
+    direction (x, y, z) with u = atan2(z, x)/2pi + 1/2 and v = asin(y)/pi + 1/2: up is the top row;
+    -Z, where cameras look, is a quarter from the left. three.js and Blender use the same layout.
 
-    An environment doesn't change, so scenes and renderers share it; what is made of it when it is
-    first drawn (some tenths of a second for 2048 x 1024 pixels) is kept as long as it is.
+    An environment is immutable, so scenes and renderers can share it. The first frame prefilters it
+    (some tenths of a second for 2048 x 1024 pixels); the result is kept with the object.
 
     Parameters
     ----------
     pixels : (H, W, 3) array-like of float
-        Linear radiance, the top row first: 1 is what a white surface shows under light of 1. Sides
-        from 1 to 16384, commonly W = 2H. What is not finite or below 0 counts as 0, and no more
-        than 2**40 counts.
+        Linear radiance, the top row first; 1 is the radiance of a white surface under light of 1.
+        Sides from 1 to 16384, commonly W = 2H. Negative and non-finite values become 0; values
+        above 2**40 are clamped.
     name : str
 
     Attributes
@@ -55,11 +54,11 @@ class Environment(Closed):
     pixels : (H, W, 3) float32, read-only
     name : str
     path : str or None
-        The file that it was loaded from.
+        The file it was loaded from.
     built_in : str or None
-        ``"studio"``, ``"sky"`` or ``"hall"`` for what these make.
+        ``"studio"``, ``"sky"`` or ``"hall"`` for built-in environments.
     sun : (sun_direction, turbidity, sun_disc) or None
-        What `sky` was given.
+        The arguments of `sky`.
 
     Raises
     ------
@@ -96,9 +95,9 @@ class Environment(Closed):
         Raises
         ------
         FileAccessError
-            The file cannot be read, or a package that it needs is missing.
+            The file cannot be read, or the package it needs is missing.
         FileFormatError
-            It is damaged, or neither of both; the message names the file and the byte.
+            The file is damaged or of neither format; the message names the file and the byte.
         InvalidArgumentError
         """
         from ...io.reading.sources import read_source
@@ -121,19 +120,20 @@ class Environment(Closed):
     ) -> Environment:
         """Return a clear sky over bare ground.
 
-        Without a direction it is a painted one: the sun stands behind the right shoulder of who
-        looks along -Z, and so lights what they see. With one it is what the sky is like when the
-        sun stands there (Preetham, Shirley and Smits 1999): blue at noon, red at dusk.
+        Without a direction it is a painted sky: the sun stands behind the right shoulder of a
+        viewer who looks along -Z, and lights what they see. With a direction it is a physical sky
+        (Preetham, Shirley and Smits 1999): blue at noon, red at dusk.
 
         Parameters
         ----------
         sun_direction : (3,) float, optional
-            Towards the sun, of any length but zero; not below the horizon, where Y is 0.
+            Towards the sun, of any nonzero length, not below the horizon (Y < 0).
         turbidity : float
-            How hazy the air is, 2 to 10: 2 is clear, 6 a light haze. Only with a direction.
+            Turbidity of the air, 2 to 10: 2 is clear, 6 a light haze. Only with a direction.
         sun_disc : bool
-            Whether the sun itself shows, and lights; without it, `DirectionalLight.sun` of the same
-            direction and turbidity is its light, which can cast shadows. Only with a direction.
+            Whether the sun's disc is drawn and lights the scene. Without it, `DirectionalLight.sun`
+            with the same direction and turbidity gives its light and can cast shadows. Only with a
+            direction.
 
         Raises
         ------
@@ -183,7 +183,7 @@ class Environment(Closed):
 
 
 def environment_of(source: Source) -> Environment:
-    """Return the environment of a file's content; raises as `Environment.load` does."""
+    """Return the environment held by a file's content; raise as `Environment.load` does."""
     from ...io.formats.radiance_pictures import load_radiance
 
     environment = Environment(frozen(load_radiance(source)), name=source.stem)
@@ -193,7 +193,7 @@ def environment_of(source: Source) -> Environment:
 
 
 def _checked(pixels: ArrayLike) -> NDArray[np.float32]:
-    """Return a picture as float32, C-contiguous, that nobody can write to."""
+    """Return a picture as a read-only, C-contiguous float32 array."""
     if isinstance(pixels, (str, os.PathLike)):
         raise InvalidArgumentError(
             f"an Environment is made of pixels: use Environment.load({pixels!r})"
@@ -264,7 +264,7 @@ def _daylight(sun: tuple[float, float, float], turbidity: float, sun_disc: bool)
 
 
 def named_environment(name: str) -> Environment:
-    """Return the built-in environment of a name.
+    """Return the built-in environment with a given name.
 
     Raises
     ------

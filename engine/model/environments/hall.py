@@ -1,6 +1,6 @@
 """The hall: a room with a wooden floor, plastered walls, tall windows on the right, and lamps.
 
-Each pixel's ray is followed from the eye, at the origin, to the wall that it meets.
+Each pixel's ray is traced from the eye, at the origin, to the wall it hits.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _PLASTER, _WOOD, _CEILING_COLOR = (0.78, 0.66, 0.5), (0.44, 0.27, 0.14), (0.72, 
 
 
 class _Hit(NamedTuple):
-    """The points where rays meet the room, and the walls there."""
+    """The points where rays hit the room, and the walls hit."""
 
     x: Floats
     y: Floats
@@ -63,13 +63,13 @@ def _meet_room() -> _Hit:
 
 
 def _from_middle(z: Floats) -> Floats:
-    """Distance along the hall from the middle of the nearest window."""
+    """Return the distance along the hall from the middle of the nearest window."""
     shifted = z / _WINDOW_PITCH
     return np.abs(shifted - np.rint(shifted)) * _WINDOW_PITCH
 
 
 def _window(hit: _Hit) -> Floats:
-    """Glass, 0..1: three panes of each window side by side, and a bar across."""
+    """Return how much of each point is glass, 0..1: three panes a window, with a bar across."""
     off = _from_middle(hit.z)
     glass = ramp(_HALF_WINDOW, _HALF_WINDOW - 0.05, off)
     glass = glass * ramp(_SILL, _SILL + 0.05, hit.y) * ramp(_TOP, _TOP - 0.05, hit.y)
@@ -79,16 +79,16 @@ def _window(hit: _Hit) -> Floats:
 
 
 def _lamps(hit: _Hit) -> Floats:
-    """Round lamps in the ceiling, between the windows."""
+    """Return where the round ceiling lamps are, 0..1."""
     off = _WINDOW_PITCH / 2 - _from_middle(hit.z)
     square = np.minimum((hit.x - 1.8) ** 2, (hit.x + 1.8) ** 2) + off * off
     return ramp(0.09, 0.06, square)
 
 
 def _sunlit(hit: _Hit) -> Floats:
-    """Return where the sun falls through the windows onto the floor, slanting to the far end."""
+    """Return where the sun falls onto the floor through the windows, 0..1."""
     slope = _HALF_WIDTH - hit.x  # from the wall
-    height = _FLOOR + slope * 0.9  # at which the sun passed through the wall
+    height = _FLOOR + slope * 0.9  # at which the sun's ray passed through the wall
     off = _from_middle(hit.z + 0.45 * slope)
     lit = ramp(_HALF_WINDOW, _HALF_WINDOW - 0.12, off)
     lit = lit * ramp(_SILL, _SILL + 0.12, height) * ramp(_TOP, _TOP - 0.12, height)
@@ -96,7 +96,7 @@ def _sunlit(hit: _Hit) -> Floats:
 
 
 def _brightness(hit: _Hit) -> Floats:
-    """Light on the walls: more near the windows, and under the lamps."""
+    """Return the light on the walls: brighter near the windows and under the lamps."""
     from_windows = _HALF_WIDTH - hit.x
     day = 1.5 / (1.0 + 0.16 * from_windows * from_windows)
     day = np.where(hit.side & (hit.x > 0), 0.22, day)  # their own wall is against the light
@@ -107,7 +107,7 @@ def _brightness(hit: _Hit) -> Floats:
 
 
 def _boards(hit: _Hit) -> Floats:
-    """Boards of the floor along the hall: each of a shade of its own, with dark joints."""
+    """Return the shades of the floor boards, with dark joints between them."""
     number = np.floor(hit.x / 0.22)
     shade = number * 0.6180339887498949
     shade = 0.8 + 0.4 * (shade - np.floor(shade))

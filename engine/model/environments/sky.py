@@ -6,13 +6,13 @@ import numpy as np
 
 from ._directions import directions, picture, ramp, toward
 
-_SUN = (0.62, 0.72, 0.5)  # towards it
+_SUN = (0.62, 0.72, 0.5)  # direction towards the sun
 _ZENITH, _HORIZON = (0.11, 0.26, 0.66), (0.62, 0.77, 0.95)
 _GROUND, _FAR_GROUND = (0.20, 0.175, 0.14), (0.40, 0.42, 0.42)
 _GLOW = (1.0, 0.92, 0.78)
 _DISC = (9.2e3, 8.6e3, 7.4e3)
-# Cosines of the disc's edge, 1 degree and a bit less from its middle: wider than the true sun, as
-# far as pixels show it, and dimmer by as much.
+# Cosines at the disc's edge and core, 1 degree and slightly less from its centre: wider than the
+# true sun so that pixels resolve it, and dimmer in proportion.
 _EDGE, _CORE = 0.99982, 0.99988
 
 

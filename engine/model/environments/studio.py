@@ -15,7 +15,7 @@ _STRIP = ((0.4, 4.0, -0.8), 2.2, 0.45, 0.1), (6.0, 6.0, 6.0)
 
 def pixels() -> np.ndarray:
     """Return the picture, (H, W, 3) float32."""
-    rays = directions(256)  # soft as it is, it looks the same with more
+    rays = directions(256)  # its soft shapes look the same with more
     y = rays[1]
     walls = 0.16 + 0.22 * ramp(0.9, -0.15, y)  # darker above
     floor = 0.62 - 0.22 * ramp(-0.05, -1.0, y)

@@ -1,1 +1,1 @@
-"""Meshes: their arrays, what follows from these (normals, edges), and meshes of other libraries."""
+"""Meshes: their arrays, derived data (normals, edges), and conversion from other libraries."""

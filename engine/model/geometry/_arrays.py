@@ -1,7 +1,7 @@
-"""The arrays of a mesh: the checks that each kind passes, and the attribute that holds one.
+"""The arrays of a mesh: a check for each kind, and the attribute that holds one.
 
-In: whatever a caller calls an array. Out: a read-only C-contiguous array of one fixed type, which
-shares no memory that anybody can write to, or an `InvalidArgumentError` that says what is wrong.
+In: anything array-like. Out: a read-only C-contiguous array with a fixed dtype that shares no
+writable memory, or an `InvalidArgumentError` that names the fault.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ Kept = TypeVar("Kept")
 
 
 class ArrayAttribute(Generic[Given, Kept]):
-    """A checked array of a mesh; assigning hands the new one to the mesh's ``_replace``."""
+    """A checked array of a mesh; assigning passes the new one to the mesh's ``_replace``."""
 
     def __init__(self, check: Callable[[Any, str], Any], *, optional: bool = False) -> None:
         self._check = check
@@ -53,22 +53,22 @@ class ArrayAttribute(Generic[Given, Kept]):
 
 
 def check_vectors2(value: Any, what: str) -> np.ndarray:
-    """(N, 2) float32."""
+    """Return (N, 2) float32, checked."""
     return _frozen(_floats(value, what, 2), np.float32)
 
 
 def check_vectors3(value: Any, what: str) -> np.ndarray:
-    """(N, 3) float32."""
+    """Return (N, 3) float32, checked."""
     return _frozen(_floats(value, what, 3), np.float32)
 
 
 def check_positions(value: Any, what: str) -> np.ndarray:
-    """(N, 3) float32; warns of what is not finite, but for arrays of loaders, which say it."""
+    """Return (N, 3) float32; warn of non-finite values, unless a loader calls."""
     array = check_vectors3(value, what)
     if array is not value:
         with np.errstate(over="ignore", invalid="ignore"):
             suspicious = not math.isfinite(np.add.reduce(array.reshape(-1)))
-        if suspicious:  # or too large to be added up
+        if suspicious:  # or too large to sum
             broken = int((~np.isfinite(array)).any(axis=1).sum())
             if broken and not _is_loading():
                 warn(f"{broken} of {len(array)} {what} are not finite: what uses them is not drawn")
@@ -76,7 +76,7 @@ def check_positions(value: Any, what: str) -> np.ndarray:
 
 
 def _is_loading() -> bool:
-    """Whether a loader asks, which has words of its own for what its file holds."""
+    """Return whether a loader calls, which words its own warnings about its file."""
     frame: FrameType | None = sys._getframe()
     while frame is not None:
         if frame.f_globals.get("__name__", "").startswith("engine3d.io."):
@@ -86,12 +86,12 @@ def _is_loading() -> bool:
 
 
 def check_vectors4(value: Any, what: str) -> np.ndarray:
-    """(N, 4) float32."""
+    """Return (N, 4) float32, checked."""
     return _frozen(_floats(value, what, 4), np.float32)
 
 
 def check_colors(value: Any, what: str) -> np.ndarray:
-    """(N, 4) uint8 or float32; three components get an opaque alpha."""
+    """Return (N, 4) uint8 or float32; three components get an opaque alpha."""
     array = as_array(value, what)
     if array.ndim != 2 or array.shape[1] not in (3, 4):
         raise InvalidArgumentError(f"{what} must be (N, 3) or (N, 4), got {array.shape}")
@@ -105,22 +105,22 @@ def check_colors(value: Any, what: str) -> np.ndarray:
 
 
 def check_indices(value: Any, what: str) -> np.ndarray:
-    """(N,) int32."""
+    """Return (N,) int32, checked."""
     return _frozen(_integers(value, what, ()), np.int32)
 
 
 def check_pairs(value: Any, what: str) -> np.ndarray:
-    """(N, 2) int32."""
+    """Return (N, 2) int32, checked."""
     return _frozen(_integers(value, what, (2,)), np.int32)
 
 
 def check_triples(value: Any, what: str) -> np.ndarray:
-    """(N, 3) int32."""
+    """Return (N, 3) int32, checked."""
     return _frozen(_integers(value, what, (3,)), np.int32)
 
 
 def check_flags3(value: Any, what: str) -> np.ndarray:
-    """(N, 3) bool."""
+    """Return (N, 3) bool, checked."""
     array = _shaped(as_array(value, what), what, (3,))
     if array.dtype.kind not in "biu" and array.size:
         raise InvalidArgumentError(f"{what} must be bool, got {array.dtype}")
@@ -128,7 +128,7 @@ def check_flags3(value: Any, what: str) -> np.ndarray:
 
 
 def check_groups(value: Any, faces: int) -> dict[str, np.ndarray]:
-    """dict of str to (N,) int32, indices of that many faces."""
+    """Return groups as a dict of str to (N,) int32 face indices."""
     if not isinstance(value, Mapping):
         raise InvalidArgumentError(f"groups must be a dict of names to indices, not {value!r}")
     groups = {}
@@ -143,7 +143,7 @@ def check_groups(value: Any, faces: int) -> dict[str, np.ndarray]:
 
 def require_range(indices: np.ndarray, count: int, what: str, of_what: str) -> None:
     """Raise unless every index is in 0..count-1."""
-    # Without their sign, negative numbers are beyond every count: most often one look is enough.
+    # Viewed as unsigned, negative numbers exceed every count: usually one test is enough.
     if indices.size == 0 or int(indices.view(np.uint32).max()) < count:
         return
     low, high = int(indices.min()), int(indices.max())
@@ -182,7 +182,7 @@ def _integers(value: Any, what: str, row: tuple[int, ...]) -> np.ndarray:
 
 
 def _frozen(array: np.ndarray, dtype: Any) -> np.ndarray:
-    """Return a read-only array of the type; a copy unless nobody can write to this one."""
+    """Return a read-only array of the given dtype; copy it unless nobody can write to it."""
     if not (is_frozen(array) and array.dtype == dtype and array.flags.c_contiguous):
         with np.errstate(over="ignore", invalid="ignore"):
             array = frozen(np.array(array, dtype, order="C"))

@@ -1,7 +1,7 @@
-"""Joining several meshes into one, in their order.
+"""Joins several meshes into one, in their order.
 
-In: meshes, and perhaps their poses. Out: one mesh whose arrays are theirs one after the other, with
-the indices moved along. What only some of them have is filled in for the others.
+In: meshes, optionally with poses. Out: one mesh with their arrays concatenated and the indices
+shifted. Attributes that only some meshes have are filled in for the others.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def placed(mesh_type: type, meshes: list[Any], poses: Any) -> list[Any]:
 
 
 def _pose_matrix(pose: Any, number: int) -> np.ndarray:
-    """A pose as a matrix: of a matrix, or of translation, rotation and scale."""
+    """Return a pose as a matrix, from a matrix or from translation, rotation and scale."""
     what = f"poses[{number}]"
     if isinstance(pose, (list, tuple)) and len(pose) == 3:
         pose = compose(*pose)
@@ -52,7 +52,7 @@ def _check_types(mesh_type: type, meshes: list[Any]) -> None:
 
 
 def concatenate(mesh_type: type, meshes: list[Any], name: str) -> Any:
-    """Return a ``mesh_type`` that holds everything of ``meshes``; see `Mesh.concatenate`."""
+    """Return a ``mesh_type`` that holds all of ``meshes``; see `Mesh.concatenate`."""
     _check_types(mesh_type, meshes)
     meshes = _alike(meshes)
     if not meshes:
@@ -79,7 +79,7 @@ def concatenate(mesh_type: type, meshes: list[Any], name: str) -> Any:
 
 
 def _alike(meshes: list[Any]) -> list[Any]:
-    """Meshes of one crease angle without normals; or else all with those that are drawn."""
+    """Return the meshes, with computed normals if one has normals or crease angles differ."""
     angles = {mesh.crease_angle for mesh in meshes}
     if len(angles) <= 1 and not any(mesh.has_normals for mesh in meshes):
         return meshes
@@ -87,7 +87,7 @@ def _alike(meshes: list[Any]) -> list[Any]:
 
 
 def _moved(meshes: Any, starts: Any, what: str) -> np.ndarray:
-    """Index arrays, each raised by the number of vertices before its mesh."""
+    """Return the index arrays concatenated, each raised by the vertex count before its mesh."""
     parts = zip(meshes, starts, strict=True)
     return np.concatenate([getattr(mesh, what) + np.int32(start) for mesh, start in parts])
 
@@ -112,7 +112,7 @@ def _joined_normals(meshes: Any) -> Any:
 
 
 def _joined_attributes(meshes: Any) -> dict[str, np.ndarray]:
-    """Those that some of the meshes have."""
+    """Return the joined vertex attributes that some of the meshes have."""
     held = [attributes_of(mesh) for mesh in meshes]
     kind: type = type(meshes[0])
     counts = [len(mesh.positions) for mesh in meshes]
@@ -126,7 +126,7 @@ def _joined_attributes(meshes: Any) -> dict[str, np.ndarray]:
 def _joined_attribute(
     attribute: VertexAttribute[Any, Any], arrays: list[Any], counts: list[int]
 ) -> np.ndarray:
-    """Bytes stay bytes; beside floats they become linear light."""
+    """Return one attribute of all meshes joined; bytes mixed with floats become linear light."""
     given = [array for array in arrays if array is not None]
     if len({array.dtype for array in given}) > 1:
         arrays = [
@@ -173,7 +173,7 @@ def _joined_position_ids(meshes: Any) -> Any:
 
 
 def _joined_groups(meshes: Any) -> dict[str, np.ndarray]:
-    """Groups of the same name become one."""
+    """Return the groups of all meshes; groups with the same name are merged."""
     parts: dict[str, list[np.ndarray]] = {}
     start = 0
     for mesh in meshes:

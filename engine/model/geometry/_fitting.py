@@ -1,4 +1,4 @@
-"""Whether an array fits the others of a mesh: numbers of rows, and indices in range."""
+"""Checks that an array fits the others of a mesh: row counts, and index ranges."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .vertex_attributes import vertex_attributes
 
 
 def check_fit(mesh: Any, what: str, array: Any, others: dict[str, Any]) -> None:
-    """Check an array against those that are there, and the number of materials."""
+    """Check an array against the mesh's other arrays, and against the number of materials."""
     if what == "positions":
         kind: type = type(mesh)
         _check_new_positions(array, others, vertex_attributes(kind))

@@ -1,7 +1,7 @@
-"""A mesh whose vertices are those of another, some of them several times.
+"""Splits vertices: makes a mesh whose vertices are another's, some of them repeated.
 
-In: a mesh, other faces, the old vertex of each new one, and what the new ones have instead. Out: a
-mesh with everything else that the old one had.
+In: a mesh, new faces, the old vertex of each new one, and the attributes that change. Out: a mesh
+that keeps everything else.
 """
 
 from __future__ import annotations
@@ -17,16 +17,16 @@ if TYPE_CHECKING:
 
 
 def split_mesh(mesh: Mesh, faces: np.ndarray, rows: np.ndarray, **given: Any) -> Mesh:
-    """Return the mesh with the vertices of some rows, the old ones first.
+    """Return the mesh with its vertices taken from given rows, the old vertices first.
 
     Parameters
     ----------
     mesh : Mesh
     faces : (F, 3) int
-        As many as before, in their order.
+        As many faces as before, in the same order.
     rows : (W,) int
     **given
-        What the new vertices have, as parameters of `Mesh`.
+        Attributes of the new vertices, as parameters of `Mesh`.
     """
     ids = mesh.position_ids
     if ids is None and len(rows) > len(mesh.positions):

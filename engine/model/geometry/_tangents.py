@@ -1,7 +1,7 @@
-"""Tangents of meshes, for maps of normals: computed as those maps were baked.
+"""Tangents of meshes for normal maps, computed the way normal maps are baked.
 
-In: a mesh with texture coordinates. Out: a mesh with tangents, whose vertices are split where the
-image is mirrored or sheared apart. The method is Mikkelsen's (csrc/io/loaders/tangents.c), which
+In: a mesh with texture coordinates. Out: a mesh with tangents; its vertices are split where the
+texture is mirrored or sheared. The method is Mikkelsen's (csrc/io/loaders/tangents.c), which
 Blender and most bakers use.
 """
 
@@ -45,9 +45,9 @@ def mesh_with_tangents(mesh: Mesh, uv_set: int) -> Mesh:
 def _split(
     vertices: np.ndarray, groups: np.ndarray, count: int, group_count: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices of corners, such that each is of one group, and the old ones of those added.
+    """Return a one-group vertex for each corner, and the old vertices of the new ones.
 
-    The group of a vertex's first corner keeps it.
+    The group of a vertex's first corner keeps the vertex.
     """
     keys, first, of_corner = np.unique(
         vertices.astype(np.int64) * max(group_count, 1) + groups,

@@ -1,9 +1,9 @@
-"""Normals of surfaces that are smooth but for their creases, and the vertices that this takes.
+"""Vertex normals that are smooth except at creases, with vertices split where needed.
 
-In: the arrays of a mesh without normals, and the angle between two triangles beyond which the edge
-between them is a crease. Out: the arrays with normals, vertices split where their triangles have
-several (csrc/io/loaders/creases.c has the method). Vertices at exactly the same place are one point
-of the surface, whatever they carry. The old vertices keep their numbers.
+In: the arrays of a mesh without normals, and the crease angle: an edge whose two triangles meet at
+a greater angle is a crease. Out: the arrays with normals, and with vertices split where their
+triangles have several (csrc/io/loaders/creases.c has the method). Vertices at exactly the same
+place are one point of the surface, whatever their attributes. The old vertices keep their numbers.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from .normals import vertex_normals
 if TYPE_CHECKING:
     from .mesh import Mesh
 
-#: No edge is a crease.
+#: No edge is a crease at this angle.
 SMOOTH = math.pi
-#: What loaders take: cylinders of a dozen sides are round, bevels of 45 degrees are not.
+#: The loaders' angle: 12-sided cylinders look round, 45-degree bevels stay sharp.
 CREASE_ANGLE = math.radians(35.0)
 
 
@@ -46,12 +46,12 @@ class Creased(NamedTuple):
 
 
 def check_crease_angle(value: float, what: str = "crease_angle") -> float:
-    """Return an angle, checked."""
+    """Return a checked crease angle."""
     return limited_angle(value, what, math.pi, "from 0 to pi radians")
 
 
 def has_creases(arrays: dict[str, Any], angle: float) -> bool:
-    """Whether the arrays of a mesh get normals by creases: none are given, and nothing bends it."""
+    """Return whether a mesh gets creased normals: it has no normals, joints or morph targets."""
     movers = ("_given_normals", "joints", "morph_positions")
     return angle < SMOOTH and len(arrays["faces"]) > 0 and all(arrays[m] is None for m in movers)
 
@@ -81,7 +81,7 @@ def find_creases(arrays: dict[str, Any], angle: float) -> Creased:
         float(linalg.cos(angle)),
     )
     if is_smooth:
-        # The bits of a surface without creases don't depend on whether one looked for them.
+        # A surface without creases must get the same bits whether creases were searched for or not.
         return Creased(faces, None, vertex_normals(positions, faces, places))
     if not len(sources):
         return Creased(split, None, normals)
@@ -93,14 +93,14 @@ def find_creases(arrays: dict[str, Any], angle: float) -> Creased:
 def creased_arrays(
     arrays: dict[str, Any], attributes: Iterable[str], angle: float
 ) -> dict[str, Any]:
-    """Return the arrays of a mesh, with normals and the vertices that these need.
+    """Return the arrays of a mesh with normals and split vertices.
 
     Parameters
     ----------
     arrays, angle
         As for `find_creases`.
     attributes : iterable of str
-        The names of what vertices carry.
+        Names of the vertex attributes.
     """
     made = find_creases(arrays, angle)
     changed = {"faces": made.faces, "_given_normals": made.normals}
@@ -112,7 +112,7 @@ def creased_arrays(
 
 
 def mesh_with_creases(mesh: Mesh) -> Mesh:
-    """Return the mesh with given normals; see `Mesh.with_creases`."""
+    """Return the mesh with creased normals; see `Mesh.with_creases`."""
     arrays = dict(mesh._arrays)
     if not has_creases(arrays, mesh.crease_angle):
         return mesh

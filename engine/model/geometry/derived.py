@@ -1,7 +1,7 @@
-"""The arrays of a mesh at one moment, and what follows from them: normals, edges, bounds.
+"""The arrays of a mesh at one moment, and data derived from them: normals, edges, bounds.
 
-For all that make something of meshes and keep it: arrays may be assigned meanwhile, but those that
-were there are never changed.
+Code that caches results of a mesh uses this: arrays may be replaced meanwhile, but an array is
+never changed in place.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 
 
 def arrays_of(mesh: Mesh) -> dict[str, Any]:
-    """Return the arrays of a mesh by name, None for those that it lacks, all of one moment."""
+    """Return a mesh's arrays by name, None for missing ones, all from one moment."""
     return dict(mesh._arrays)
 
 
 def derived(mesh: Mesh, what: str, arrays: dict[str, Any] | None = None) -> Any:
-    """Return what follows from arrays that a mesh had, or has now: computed once for these."""
+    """Return data derived from a mesh's arrays, current or earlier; computed once for them."""
     arrays = arrays_of(mesh) if arrays is None else arrays
     if what == "normals" and arrays["_given_normals"] is not None:
         return arrays["_given_normals"]
@@ -56,7 +56,7 @@ def _bounds(positions: np.ndarray) -> np.ndarray:
 
 _DERIVED: dict[
     str, tuple[Callable[..., np.ndarray], tuple[str, ...]]
-] = {  # how each is computed, and from which arrays
+] = {  # the function that computes each, and the arrays it takes
     "normals": (_normals.vertex_normals, ("positions", "faces", "position_ids")),
     "face_normals": (_face_normals, ("positions", "faces", "position_ids", "edge_visible")),
     "polygons": (_topology.polygon_ids, ("faces", "edge_visible", "position_ids")),

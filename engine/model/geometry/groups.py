@@ -1,4 +1,4 @@
-"""The named parts of a mesh: lists of faces, checked whenever somebody changes them in place."""
+"""The named parts of a mesh: lists of faces, checked after every change in place."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def put_groups(mesh: Mesh, groups: dict[str, NDArray[Any]]) -> None:
-    """Let a mesh have groups that are checked, such as those of loaders: each (N,) int32."""
+    """Give a mesh checked groups, such as a loader's: each (N,) int32."""
     frozen_groups = {name: frozen(faces) for name, faces in groups.items()}
     mesh._groups = CheckedDict(mesh, _take_changed, frozen_groups)
 
@@ -24,5 +24,5 @@ def put_groups(mesh: Mesh, groups: dict[str, NDArray[Any]]) -> None:
 def _take_changed(
     mesh: Mesh, groups: dict[str, Any], put: Callable[[dict[str, Any]], None]
 ) -> None:
-    """Let a mesh's own dict hold other groups."""
+    """Replace the content of a mesh's own dict of groups."""
     put(check_groups(groups, len(mesh.faces)))

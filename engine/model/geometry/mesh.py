@@ -1,10 +1,10 @@
-"""Geometry: vertices, triangles, lines and points, with the materials they are drawn with.
+"""Meshes: vertices, triangles, lines and points, with their materials.
 
-A `Mesh` checks what it is given once, keeps it as read-only C-contiguous arrays of fixed types, and
-derives normals, edges and polygons on demand. Nothing ever holds an index out of range. Every
-assignment raises ``version``, which tells the renderer to renew what it made of the mesh.
-Conventions: object space, right-handed, counter-clockwise faces are seen from their front, texture
-coordinates have their origin at the bottom left.
+A `Mesh` checks its arguments once, keeps them as read-only C-contiguous arrays with fixed dtypes,
+and derives normals, edges and polygons on demand. No index is ever out of range. Every assignment
+raises ``version``, so the renderer knows to rebuild its own data. Conventions: object space,
+right-handed; front faces are counter-clockwise; texture coordinates have their origin at the bottom
+left.
 """
 
 from __future__ import annotations
@@ -63,18 +63,18 @@ class Mesh(Closed):
     Parameters
     ----------
     positions : (V, 3) float
-        Vertices in object space. Not-finite ones are allowed, with a warning; what uses them is not
+        Vertices in object space. Non-finite ones give a warning; primitives that use them are not
         drawn.
     faces : (F, 3) int, optional
         Vertex indices of the triangles.
     normals : (V, 3) float, optional
-        Vertex normals; without them they are computed.
+        Vertex normals; computed if left out.
     uvs : (V, 2) float, optional
         Texture coordinates, (0, 0) at the image's bottom left.
     uvs1 : (V, 2) float, optional
-        A second set of them, for the textures that name it.
+        A second set, for textures that use it.
     tangents : (V, 4) float, optional
-        Which way is right in the image of normal maps, and 1 or -1: up is this times
+        The tangent (the normal map's right) and 1 or -1: the bitangent (its up) is this sign times
         ``cross(normal, tangent)``.
     colors : (V, 3) or (V, 4) int or float, optional
         Vertex colours: integers 0..255 are sRGB, floats are linear light; integers that are all 0
@@ -88,30 +88,30 @@ class Mesh(Closed):
     points : (P,) int, optional
         Vertex indices of points.
     edge_visible : (F, 3) bool, optional
-        Whether the edge from vertex k to vertex (k + 1) % 3 of a face is one of the model's edges;
-        False for the diagonals of polygons. All are if left out.
+        Whether the edge from vertex k to vertex (k + 1) % 3 of a face is an edge of the model;
+        False for the diagonals of polygons. By default, all are.
     position_ids : (V,) int, optional
-        Vertices with the same number are one point of the surface that was split for another
-        attribute, such as a texture seam. Computed normals and the edges respect it.
+        Vertices with the same number are one point of the surface, split for another attribute such
+        as a texture seam. Computed normals and edges treat them as one.
     joints : (V, N) int, optional
-        The joints that move a vertex, as numbers in the `Skin` of the node that shows the mesh.
+        The joints that move a vertex, as indices into the `Skin` of the mesh's node.
     weights : (V, N) float, optional
-        How much each of them does: not negative; of each vertex one is not 0. They are kept as
-        shares of their sum.
+        The weight of each joint: not negative, and not all 0 for a vertex. Rows are normalised to a
+        sum of 1.
     morph_targets : iterable of MorphTarget, optional
-        What nodes may add to the vertices, each times a weight of ``node.morph_weights``.
+        Offsets that a node adds to the vertices, each times its weight in ``node.morph_weights``.
     crease_angle : float
-        Radians, 0 to pi: where normals are computed, an edge whose triangles meet at more than this
-        is drawn sharp. Pi, the usual value, makes all smooth; loaders take 35 degrees. It is of no
-        effect on meshes with joints or morph targets, which are smooth.
+        Radians, 0 to pi: computed normals make an edge sharp if its triangles meet at a greater
+        angle. Pi, the default, keeps every edge smooth; loaders use 35 degrees. Meshes with joints
+        or morph targets ignore it and are smooth.
     name : str
 
     Attributes
     ----------
     positions, faces, normals, uvs, uvs1, tangents, colors, material_ids, lines, points
     edge_visible, position_ids
-        As above, read-only: float32, int32, uint8 or bool. Assigning replaces one; arrays that go
-        together must keep matching lengths.
+        As above, read-only: float32, int32, uint8 or bool. Assign to replace one; lengths must
+        still match.
     joints : (V, N) uint16 or None
     weights : (V, N) float32 or None
         Read-only; `set_influences` replaces both.
@@ -119,15 +119,15 @@ class Mesh(Closed):
     crease_angle : float
     materials : list of Material
     groups : dict of str to (N,) int32
-        Face indices of named parts; none once the number of faces changes.
+        Face indices of named parts; emptied when the number of faces changes.
     warnings : list of str
-        What the loader left out or replaced.
+        The loader's warnings: what it omitted or replaced.
     version : int
 
     Raises
     ------
     InvalidArgumentError
-        A wrong shape or type, lengths that do not match, an index out of range.
+        A shape, type or length is wrong, or an index is out of range.
     """
 
     name: str
@@ -150,7 +150,7 @@ class Mesh(Closed):
     _morph_targets: tuple[MorphTarget, ...] = ()
     _groups: dict[str, NDArray[np.int32]]
     _FORGOTTEN = ("_derived", "_origin")
-    # The set of coordinates by which tangents are found when it is drawn without any, or None.
+    # The UV set that tangents are computed from when the mesh is drawn without any, or None.
     _tangent_uv_set: int | None = None
 
     def __init__(
@@ -181,7 +181,7 @@ class Mesh(Closed):
         self.warnings = []
         self._arrays: dict[str, np.ndarray | None] = dict.fromkeys(_movers.VERTEX_AXES)
         self._morph_targets = ()
-        # With what each was computed from.
+        # Each with the arrays it was computed from.
         self._derived: dict[str, tuple[list[Any], np.ndarray]] = {}
         self._materials = CheckedList(self, _take_materials, _check_materials(materials))
         self._crease_angle = check_crease_angle(crease_angle)
@@ -205,16 +205,16 @@ class Mesh(Closed):
 
     @property
     def joints(self) -> NDArray[np.uint16] | None:
-        """(V, N) uint16, or None."""
+        """Joint indices, (V, N) uint16, or None."""
         return self._arrays.get("joints")
 
     @property
     def weights(self) -> NDArray[np.float32] | None:
-        """(V, N) float32, whose rows sum to 1, or None."""
+        """Joint weights, (V, N) float32, whose rows sum to 1, or None."""
         return self._arrays.get("weights")
 
     def set_influences(self, joints: ArrayLike | None, weights: ArrayLike | None) -> None:
-        """Say which joints move each vertex, and how much; None takes both away.
+        """Set the joints of each vertex and their weights; None removes both.
 
         Parameters
         ----------
@@ -225,14 +225,14 @@ class Mesh(Closed):
         Raises
         ------
         InvalidArgumentError
-            Shapes do not match, a joint is no number below 65536, a weight is negative or not
-            finite, or a vertex has none.
+            Shapes do not match, a joint is not below 65536, a weight is negative or not finite, or
+            all weights of a vertex are 0.
         """
         self._put(_movers.check_influences(joints, weights, len(self.positions)))
 
     @property
     def morph_targets(self) -> tuple[MorphTarget, ...]:
-        """What may be added to the vertices, in the order of the weights; assign at any time."""
+        """The morph targets, in the order of their weights; assignable at any time."""
         return self._morph_targets
 
     @morph_targets.setter
@@ -244,9 +244,9 @@ class Mesh(Closed):
 
     @property
     def normals(self) -> NDArray[np.float32]:
-        """Vertex normals (V, 3) float32: the given ones, or angle-weighted ones, computed once.
+        """Vertex normals (V, 3) float32: the given ones, or else angle-weighted, computed once.
 
-        Computed ones are smooth over all creases: `with_creases` has those that are drawn.
+        Computed normals ignore creases; `with_creases` returns the normals that are drawn.
         """
         return derived(self, "normals")
 
@@ -256,12 +256,12 @@ class Mesh(Closed):
 
     @property
     def has_normals(self) -> bool:
-        """Whether normals were given; False means that they are computed."""
+        """Whether normals were given; if False, they are computed."""
         return self._given_normals is not None
 
     @property
     def crease_angle(self) -> float:
-        """Radians; where normals are computed, edges sharper than this are drawn sharp."""
+        """Crease angle in radians: where normals are computed, edges above it are drawn sharp."""
         return self._crease_angle
 
     @crease_angle.setter
@@ -271,36 +271,36 @@ class Mesh(Closed):
 
     @property
     def face_normals(self) -> NDArray[np.float32]:
-        """One unit normal per face, (F, 3) float32, the same for all triangles of a polygon."""
+        """One unit normal per face, (F, 3) float32; all triangles of a polygon share one."""
         return derived(self, "face_normals")
 
     @property
     def polygons(self) -> NDArray[np.int32]:
-        """The polygon that each face is part of, (F,) int32 from 0 on, never decreasing.
+        """The polygon of each face, (F,) int32 from 0 on, never decreasing.
 
-        Triangles that stand one after the other and share an edge hidden in both are one polygon.
+        Consecutive triangles that share an edge hidden in both form one polygon.
         """
         return derived(self, "polygons")
 
     def edges(self) -> NDArray[np.int32]:
-        """Return the visible edges of the faces, each once: (E, 2) int32 vertex indices.
+        """Return each visible edge of the faces once: (E, 2) int32 vertex indices.
 
-        An edge counts as visible if it is visible in any face. They stand in the order of their
-        first appearance; vertices with the same position id count as one.
+        An edge is visible if any face shows it. Edges are in order of first appearance; vertices
+        with the same position ID count as one.
         """
         return derived(self, "edges")
 
     @property
     def bounds(self) -> NDArray[np.float64]:
-        """Smallest and largest finite coordinates, (2, 3) float64; zeros if there are none."""
+        """Minimum and maximum of the finite coordinates, (2, 3) float64; zeros without any."""
         return derived(self, "bounds")
 
     @property
     def materials(self) -> list[Material]:
-        """The materials that ``material_ids`` refer to; at least one.
+        """The materials that ``material_ids`` index; at least one.
 
-        The list may be changed in place, but never so that a face has no material left: give
-        ``material_ids`` others first.
+        The list can be changed in place, as long as every face keeps a material: change
+        ``material_ids`` first.
         """
         return self._materials
 
@@ -313,7 +313,7 @@ class Mesh(Closed):
 
     @property
     def groups(self) -> dict[str, NDArray[np.int32]]:
-        """Face indices of named parts, each (N,) int32."""
+        """Face indices of the named parts, each (N,) int32."""
         return self._groups
 
     @groups.setter
@@ -329,26 +329,26 @@ class Mesh(Closed):
         *,
         poses: Iterable[ArrayLike | Sequence[ArrayLike]] | None = None,
     ) -> Mesh:
-        """Return one mesh that holds everything of several, in their order.
+        """Return one mesh that holds several meshes, in their order.
 
-        What only some of them have is filled in: computed normals, zero texture coordinates,
-        white vertex colours. Materials that are the same object are kept once. One mesh is drawn
-        faster than many small ones; `InstancedMesh` is for copies of the same.
+        Attributes that only some meshes have are filled in: computed normals, zero texture
+        coordinates, white vertex colours. Equal material objects are kept once. One mesh draws
+        faster than many small ones; for copies of one mesh use `InstancedMesh`.
 
         Parameters
         ----------
         meshes : iterable of Mesh
-            One may be there many times.
+            A mesh may occur more than once.
         name : str
         poses : iterable, optional
-            Where each mesh goes: a 4x4 matrix, or translation (3,), rotation (quaternion x, y, z,
+            The pose of each mesh: a 4x4 matrix, or translation (3,), rotation (quaternion x, y, z,
             w) and scale (a number or (3,)). Normals are transformed by the inverse transpose; a
-            pose that mirrors turns the faces over, so that their fronts stay outside.
+            mirroring pose reverses the faces, so that their fronts stay outside.
 
         Raises
         ------
         InvalidArgumentError
-            One is no mesh, a pose is not affine, or there are not as many poses as meshes.
+            An item is not a mesh, a pose is not affine, or the numbers of poses and meshes differ.
         """
         from ._concatenation import concatenate, placed
 
@@ -360,21 +360,20 @@ class Mesh(Closed):
         return concatenate(cls, meshes, name)
 
     def with_creases(self) -> Mesh:
-        """Return the mesh with the normals that it is drawn with, by its ``crease_angle``.
+        """Return the mesh with the normals it is drawn with, by its ``crease_angle``.
 
         Returns
         -------
         mesh : Mesh
             Faces in the same order; vertices are split where triangles meet at more than the angle,
-            the added ones behind the others. The mesh itself if it has normals, if its angle is
-            pi, or if it has joints or morph targets.
+            and added behind the others. Returns the mesh itself if it has normals, joints or morph
+            targets, or if its angle is pi.
 
         Notes
         -----
-        Method: triangles round a point that share an edge that is no crease have one normal there,
-        the sum of theirs weighted by their angles at the point. Points are what has exactly the
-        same coordinates. Triangles that are turned against each other, which is no crease, get
-        opposite normals.
+        Triangles around a point that share smooth edges get one normal there: the sum of their
+        normals, weighted by their angles at the point. Vertices with exactly the same coordinates
+        are one point. Neighbours with opposite winding are no crease; they get opposite normals.
         """
         return mesh_with_creases(self)
 
@@ -385,23 +384,23 @@ class Mesh(Closed):
         Parameters
         ----------
         uv_set : {0, 1}
-            Of ``uvs`` or ``uvs1``: those of the normal map.
+            The set that the normal map uses, ``uvs`` or ``uvs1``.
 
         Returns
         -------
         mesh : Mesh
-            Faces in the same order; vertices are split where the image is mirrored, or goes two
-            ways.
+            Faces in the same order; vertices are split where the texture is mirrored, or its
+            direction is ambiguous.
 
         Raises
         ------
         InvalidArgumentError
-            There are no such texture coordinates.
+            The mesh lacks these texture coordinates.
 
         Notes
         -----
-        Method: M. Mikkelsen, Simulation of Wrinkled Surfaces Revisited, 2008, which normal maps are
-        baked for (MikkTSpace). Without tangents, faces use a direction of their own.
+        Method: M. Mikkelsen, Simulation of Wrinkled Surfaces Revisited, 2008 (MikkTSpace), for
+        which normal maps are baked. Without tangents, each face uses its own direction.
         """
         from ._tangents import mesh_with_tangents
 
@@ -409,12 +408,12 @@ class Mesh(Closed):
 
     @classmethod
     def from_trimesh(cls, geometry: Any) -> Mesh:
-        """Return the mesh of what the package trimesh holds.
+        """Return a mesh converted from a trimesh object.
 
         Parameters
         ----------
         geometry : trimesh.Trimesh, PointCloud, Path3D or Scene
-            The parts of a scene are joined, each at its place.
+            The parts of a scene are joined, each at its pose.
 
         Returns
         -------
@@ -425,14 +424,14 @@ class Mesh(Closed):
         Raises
         ------
         InvalidArgumentError
-            It is none of these.
+            The object is none of these.
         """
         from ...io.trimesh_conversion import mesh_from_trimesh
 
         return mesh_from_trimesh(geometry)
 
     def to_trimesh(self) -> Any:
-        """Return the mesh for the package trimesh, which must be installed.
+        """Return the mesh as a trimesh object; the package trimesh must be installed.
 
         Returns
         -------
@@ -443,7 +442,7 @@ class Mesh(Closed):
         Raises
         ------
         ImportError
-            There is no trimesh: ``pip install engine3d[formats]``.
+            trimesh is not installed: ``pip install engine3d[formats]``.
         """
         from ...io.trimesh_conversion import mesh_to_trimesh
 
@@ -453,7 +452,7 @@ class Mesh(Closed):
     def save(
         self, path: str | os.PathLike[str] | BinaryIO, *, format: str | None = None, **options: Any
     ) -> None:
-        """Write the mesh to a file; parameters and exceptions of `save_mesh`."""
+        """Write the mesh to a file; see `save_mesh` for parameters and exceptions."""
         from ...io.writers import save_mesh
 
         save_mesh(self, path, format=format, **options)
@@ -465,7 +464,7 @@ class Mesh(Closed):
         own_containers(self)
 
     def _repr_png_(self) -> bytes | None:
-        """A picture for notebooks; see `thumbnail`."""
+        """Return a picture for notebooks; see `thumbnail`."""
         from ...rendering.thumbnail import thumbnail
 
         return thumbnail(self)
@@ -477,14 +476,14 @@ class Mesh(Closed):
         return f"Mesh({', '.join(parts)}, name={self.name!r})"
 
     def _replace(self, what: str, array: Any) -> None:
-        """Check an array against those that are there, and put it in its place."""
-        while True:  # until nothing was assigned between the check and this
+        """Check an array against the mesh's others, and replace it."""
+        while True:  # until nothing is assigned between the check and the replacement
             others = dict(self._arrays)
             check_fit(self, what, array, others)
             fresh = {what: array}
             ids = others.get("material_ids")
             anew = what == "faces" and (ids is None or len(ids) != len(array))
-            if anew:  # pages of zeros that nobody reads never come
+            if anew:  # untouched zero pages are never allocated
                 zeros = frozen(np.zeros(len(array), np.int32))
                 fresh["material_ids"] = check_indices(zeros, "material_ids")
             if exchange(self._arrays, others, fresh):
@@ -494,7 +493,7 @@ class Mesh(Closed):
         self._changed()
 
     def _put(self, fresh: dict[str, Any]) -> None:
-        """Put arrays in their places together, which have a row for each vertex."""
+        """Replace several arrays at once, each with a row for each vertex."""
         while True:
             others: dict[str, Any] = dict(self._arrays)
             for what, array in fresh.items():
@@ -509,26 +508,26 @@ class Mesh(Closed):
 
     def _changed(self) -> None:
         self._origin = None
-        self._derived = {}  # that of twins stays
+        self._derived = {}  # twins keep theirs
         renew(self)
 
 
 def own_containers(mesh: Mesh) -> None:
-    """Make plain lists and dicts, which copies and the editor put in, a mesh's own."""
+    """Replace plain lists and dicts, set by copies and the editor, with the mesh's own types."""
     mesh._materials = CheckedList(mesh, _take_materials, mesh._materials)
     put_groups(mesh, mesh._groups)
 
 
 def scalars_of(mesh: Mesh) -> dict[str, NDArray[np.number]]:
-    """Return what loaders put in: numbers of the vertices, (V,) or (V, N) by name.
+    """Return per-vertex numbers stored by loaders, (V,) or (V, N) by name.
 
-    Viewers colour by them.
+    The viewers colour meshes by them.
     """
     return mesh._scalars
 
 
 def _take_materials(mesh: Mesh, materials: list[Any], put: Callable[[list[Any]], None]) -> None:
-    """Let a mesh's own list hold other materials."""
+    """Replace the content of a mesh's own list of materials."""
     if not materials:
         raise InvalidArgumentError(
             f"{mesh!r} needs a material: replace them all at once, materials[:] = [...]"
@@ -540,7 +539,7 @@ def _take_materials(mesh: Mesh, materials: list[Any], put: Callable[[list[Any]],
 
 
 def _require_used(mesh: Mesh, count: int) -> None:
-    """Raise if a face of a mesh refers to no material of so many."""
+    """Raise if a face refers to a material beyond the given count."""
     if count < len(mesh._materials):
         what = f"material_ids of {mesh!r}"
         require_range(mesh.material_ids, count, what, "materials")

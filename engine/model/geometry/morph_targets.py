@@ -1,6 +1,6 @@
-"""A morph target: what is added to the vertices of a mesh, times a weight.
+"""Morph targets: offsets added to the vertices of a mesh, times a weight.
 
-In: offsets of positions and of what goes with them. Out: the same, checked and read-only.
+In: offsets of positions, normals and tangents. Out: the same, checked and read-only.
 """
 
 from __future__ import annotations
@@ -18,19 +18,19 @@ _Offsets: TypeAlias = NDArray[np.float32] | None
 
 
 class MorphTarget(Closed):
-    """Offsets of a mesh's vertices; it stays as it was made.
+    """Offsets of a mesh's vertices; immutable.
 
     Parameters
     ----------
     positions, normals, tangents : (V, 3) float, optional
-        A row for each vertex of the mesh; left out, the target leaves these as they are. The
-        fourth number of a tangent never changes.
+        One row a vertex; the target does not change an attribute that is left out. The fourth
+        number of a tangent never changes.
     name : str
 
     Raises
     ------
     InvalidArgumentError
-        A wrong shape, rows that do not match, an offset that is not finite, or none at all.
+        A shape is wrong, the numbers of rows differ, an offset is not finite, or none is given.
     """
 
     def __init__(
@@ -58,21 +58,21 @@ class MorphTarget(Closed):
 
     @property
     def positions(self) -> _Offsets:
-        """(V, 3) float32, or None."""
+        """Offsets of positions, (V, 3) float32, or None."""
         return self._positions
 
     @property
     def normals(self) -> _Offsets:
-        """(V, 3) float32, or None."""
+        """Offsets of normals, (V, 3) float32, or None."""
         return self._normals
 
     @property
     def tangents(self) -> _Offsets:
-        """(V, 3) float32, or None."""
+        """Offsets of tangents, (V, 3) float32, or None."""
         return self._tangents
 
     def rows(self, numbers: NDArray[np.integer]) -> MorphTarget:
-        """Return the target of a mesh whose vertices are those of some rows of this one's."""
+        """Return the target for a mesh whose vertices are the given rows of this one's."""
         numbers = check_indices(numbers, "numbers")
         require_range(numbers, len(self), "numbers", "vertices")
         parts = (self._positions, self._normals, self._tangents)

@@ -1,6 +1,6 @@
-"""The arrays that say how a mesh's vertices move: joints with their weights, and morph targets.
+"""The arrays that deform a mesh: joints with their weights, and morph targets.
 
-In: whatever a caller gives. Out: checked arrays, by their names in the mesh.
+In: arguments of a caller. Out: checked arrays, by their names in the mesh.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from ...base.numbers import as_array, floats
 from ...errors import InvalidArgumentError
 from .morph_targets import MorphTarget
 
-#: Which axis of each array counts the vertices.
+#: The vertex axis of each array.
 VERTEX_AXES = {
     "joints": 0,
     "weights": 0,
@@ -27,7 +27,7 @@ _MOST_JOINT = 2**16 - 1
 
 
 def check_influences(joints: Any, weights: Any, count: int) -> dict[str, np.ndarray | None]:
-    """Return joints (V, N) uint16 and weights (V, N) float32, whose rows sum to 1; both or none."""
+    """Return joints (V, N) uint16 and weights (V, N) float32 of row sums 1; both or neither."""
     if joints is None and weights is None:
         return {"joints": None, "weights": None}
     if joints is None or weights is None:
@@ -48,12 +48,12 @@ def check_influences(joints: Any, weights: Any, count: int) -> dict[str, np.ndar
 
 
 def shares(weights: np.ndarray) -> np.ndarray:
-    """Return weights (V, N) float64 as shares of the sum of their row, float32.
+    """Return weights (V, N) float32, each row divided by its sum.
 
     Raises
     ------
     InvalidArgumentError
-        One is negative or not finite, or a row has none.
+        A weight is negative or not finite, or a row is all 0.
     """
     if not (np.isfinite(weights) & (weights >= 0.0)).all():
         row = int(np.argmin((np.isfinite(weights) & (weights >= 0.0)).all(axis=1)))
@@ -70,7 +70,7 @@ def shares(weights: np.ndarray) -> np.ndarray:
 
 
 def check_targets(value: Any, count: int) -> tuple[MorphTarget, ...]:
-    """Return morph targets that have a row for each of so many vertices."""
+    """Return morph targets, checked to have one row for each of ``count`` vertices."""
     if not isinstance(value, Iterable):
         raise InvalidArgumentError(f"morph_targets must be several MorphTarget, not {value!r}")
     targets = tuple(value)
@@ -86,7 +86,7 @@ def check_targets(value: Any, count: int) -> tuple[MorphTarget, ...]:
 
 
 def stacked(targets: tuple[MorphTarget, ...], count: int) -> dict[str, np.ndarray | None]:
-    """Return the offsets of all targets, (T, V, 3) float32, with zeros where one has none."""
+    """Return the offsets of all targets, (T, V, 3) float32, zero where a target has none."""
     return {
         "morph_positions": _stack([target.positions for target in targets], count),
         "morph_normals": _stack([target.normals for target in targets], count),

@@ -1,6 +1,6 @@
 """The core's handle of a mesh's arrays.
 
-In: the arrays of a `Mesh`, as they were at one moment. Out: a `NativeMesh` that borrows them.
+In: the arrays of a `Mesh` at one moment. Out: a `NativeMesh` that borrows them.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from .vertex_attributes import vertex_attributes
 
 
 def find_tangents_when_drawn(mesh: Mesh, uv_set: int) -> None:
-    """Let a mesh have the tangents that its file leaves out, by a set of its coordinates."""
+    """Mark a mesh whose file lacks tangents: they are computed from a UV set when it is drawn."""
     mesh._tangent_uv_set = uv_set
 
 
 def drawn_arrays(mesh: Mesh, arrays: dict[str, Any]) -> dict[str, Any]:
-    """Return the arrays of a mesh as they are drawn: with the tangents that its file leaves out.
+    """Return the arrays of a mesh as drawn: with computed tangents where the file lacks them.
 
-    They are found when it is drawn first: many meshes never are, and reading stays fast.
+    They are computed at the first draw: many meshes are never drawn, and loading stays fast.
     """
     uv_set = mesh._tangent_uv_set
     if uv_set is None or arrays["tangents"] is not None or not len(arrays["faces"]):
@@ -43,7 +43,7 @@ def make_native_mesh(
     ----------
     arrays : dict of str to ndarray
     threads : int
-        That cut it into clusters; 0: all.
+        Threads that cut the mesh into clusters; 0: all.
     movers : (V,) int32, optional
         Vertices with different numbers move differently: clusters keep them apart.
     """
@@ -61,6 +61,6 @@ def make_native_mesh(
 
 
 def _core_name(name: str, array: np.ndarray) -> str:
-    """Return the core's name of an attribute; it includes the type if there may be several."""
+    """Return the core's name of an attribute, with its dtype if several are possible."""
     kind = "u8" if array.dtype == np.uint8 else "f32"
     return name if name in VERTEX_ATTRIBUTES else f"{name}_{kind}"

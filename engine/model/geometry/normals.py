@@ -1,8 +1,8 @@
 """Normals of vertices and faces, computed from positions and faces.
 
 In: positions (V, 3) in object space and faces (F, 3), counter-clockwise seen from outside. Out:
-unit normals, float32. Everything runs in float64, element by element and in the order of the faces,
-and is rounded once at the end, so that the result is the same on every processor.
+unit normals, float32. All arithmetic is float64, element by element in the order of the faces, and
+rounded once at the end, so that every processor gives the same result.
 
 Vertex normals are weighted by angle (Thuermer and Wuethrich, "Computing Vertex Normals from
 Polygonal Facets", 1998): they do not depend on how polygons were cut into triangles. A vertex
@@ -15,10 +15,11 @@ import numpy as np
 
 from ..._native import loaders as native
 
-# A group of triangles whose area vectors cancel by more than half is no polygon but a curved patch.
+# If a group of triangles has area vectors that cancel by more than half, it is a curved patch, not
+# a polygon.
 _PLANARITY = 0.5
 
-# Faces that are added up at a time; the sums depend on it in their last bits.
+# Faces summed at a time; it affects the last bits of the sums.
 _BLOCK = 1 << 16
 
 
@@ -50,7 +51,7 @@ def face_area_vectors(positions: np.ndarray, faces: np.ndarray) -> np.ndarray:
 def smooth_sums(
     positions: np.ndarray, faces: np.ndarray, groups: np.ndarray, count: int
 ) -> np.ndarray:
-    """Add up by group what each corner of each face adds to the normal of its vertex.
+    """Sum, by group, the contribution of each face corner to the normal of its vertex.
 
     Parameters
     ----------
@@ -64,9 +65,9 @@ def smooth_sums(
     Returns
     -------
     sums : (count, 3) float64
-        Not normalised: the unit normal of a face times its angle at the corner, zero for faces
-        without area or with a vertex that is not finite. Added up in the order of the faces, block
-        by block.
+        Not normalised: the sum of each face's unit normal times its angle at the corner, zero for
+        faces without area or with a non-finite vertex. Summed in the order of the faces, block by
+        block.
     """
     if positions.dtype != np.float32:
         positions = positions.astype(np.float64, copy=False)
@@ -90,7 +91,7 @@ def vertex_normals(
 
     Returns
     -------
-    normals : (V, 3) float32, unit length, or zero where no face tells a direction
+    normals : (V, 3) float32, unit length, or zero without a face of nonzero area
     """
     if position_ids is None:
         sums = smooth_sums(positions, faces, faces, len(positions))
@@ -101,7 +102,7 @@ def vertex_normals(
 
 
 def group_sums(vectors: np.ndarray, groups: np.ndarray, count: int) -> np.ndarray:
-    """Add up vectors by group.
+    """Sum vectors by group.
 
     Parameters
     ----------
@@ -113,7 +114,7 @@ def group_sums(vectors: np.ndarray, groups: np.ndarray, count: int) -> np.ndarra
 
     Returns
     -------
-    sums : (count, 3) float64, added up in the order of the vectors
+    sums : (count, 3) float64, summed in the order of the vectors
     """
     sums = np.empty((count, 3), np.float64)
     for axis in range(3):
@@ -126,7 +127,8 @@ def face_normals(
 ) -> np.ndarray:
     """Return one normal per face, the same for all triangles of a polygon.
 
-    The normal of a polygon is that of the sum of its triangles' area vectors (Newell's normal).
+    The normal of a polygon is the direction of the sum of its triangles' area vectors (Newell's
+    normal).
 
     Parameters
     ----------
@@ -157,7 +159,7 @@ def _lengths(vectors: np.ndarray) -> np.ndarray:
 
 
 def unit_vectors(vectors: np.ndarray) -> np.ndarray:
-    """Scale (N, 3) vectors to length one; zero stays zero, and what is too long becomes zero."""
+    """Scale (N, 3) vectors to unit length; zero stays zero, and overflowing lengths give zero."""
     length = _lengths(vectors)
     length[length == 0] = 1
     long = ~np.isfinite(length)

@@ -1,7 +1,7 @@
-"""Where a mesh comes from, so that a scene can be saved by naming it instead of its arrays.
+"""Origins of meshes: a scene can be saved by naming them instead of writing their arrays.
 
-In: a mesh as a loader or a primitive made it. Out: what names it, for as long as none of its arrays
-is replaced; and whether its materials and groups are still those that it came with.
+In: a mesh from a loader or a primitive. Out: its origin, as long as none of its arrays is replaced;
+and whether its materials and groups are unchanged.
 """
 
 from __future__ import annotations
@@ -18,20 +18,20 @@ if TYPE_CHECKING:
 
 
 class FileOrigin(NamedTuple):
-    """A mesh of a file.
+    """The file that a mesh comes from.
 
     Attributes
     ----------
     path : str
         Absolute.
     format : str or None
-        What the file was read as whatever it looks like.
+        The format forced by the caller, if any.
     part : (str, int) or None
-        The object's name, and how many objects of that name stand before it; None: all, joined.
+        The object's name, and how many objects of that name precede it; None: all, joined.
     is_missing : bool
-        Whether the mesh only keeps the place of one that is not there.
+        Whether the mesh is a placeholder for a missing file.
     crease_angle : float
-        Radians, of normals that the file lacks.
+        Radians, for normals that the file lacks.
     """
 
     path: str
@@ -42,12 +42,12 @@ class FileOrigin(NamedTuple):
 
 
 class PrimitiveOrigin(NamedTuple):
-    """A mesh of `engine3d.primitives`.
+    """The function of `engine3d.primitives` that made a mesh.
 
     Attributes
     ----------
     name : str
-        Of the function.
+        The function's name.
     arguments : dict
         Numbers and lists of numbers.
     """
@@ -57,14 +57,14 @@ class PrimitiveOrigin(NamedTuple):
 
 
 class Came(NamedTuple):
-    """An origin, and the rest of what came from there.
+    """An origin, with the name, materials and groups the mesh had when it was made.
 
     Attributes
     ----------
     origin : FileOrigin or PrimitiveOrigin
     name : str
     materials : list
-        What each material held.
+        The content of each material.
     groups : dict
     """
 
@@ -75,19 +75,19 @@ class Came(NamedTuple):
 
 
 def remember_origin(mesh: Mesh, origin: FileOrigin | PrimitiveOrigin) -> None:
-    """Note where a mesh comes from, unless that is known."""
+    """Record the origin of a mesh, unless one is recorded already."""
     if mesh._origin is None:
         materials = [_held(material) for material in mesh.materials]
         mesh._origin = Came(origin, mesh.name, materials, dict(mesh.groups))
 
 
 def noted_origin(mesh: Mesh) -> Came | None:
-    """Return where the arrays of a mesh come from, whatever its groups are by now."""
+    """Return the origin of a mesh's arrays, even if its groups have changed."""
     return mesh._origin
 
 
 def origin_of(mesh: Mesh) -> Came | None:
-    """Return where a mesh comes from; None if it is another by now."""
+    """Return the origin of a mesh; None once it has changed."""
     came = mesh._origin
     if came is None or came.groups.keys() != mesh.groups.keys():
         return None
@@ -96,15 +96,15 @@ def origin_of(mesh: Mesh) -> Came | None:
 
 
 def has_own_materials(mesh: Mesh, came: Came) -> bool:
-    """Whether the materials are still what they were when the mesh came."""
+    """Return whether the materials are unchanged since the mesh was made."""
     held = [_held(material) for material in mesh.materials]
     return same(held, came.materials)
 
 
 def _held(material: Material) -> dict[str, Any]:
-    """Return what a material holds, with the contents of its textures."""
+    """Return the content of a material, with the content of its textures."""
     held = {key: value for key, value in vars(material).items() if key != "version"}
-    held["extras"] = kept(held["extras"]) if held["extras"] else {}  # may be changed in place
+    held["extras"] = kept(held["extras"]) if held["extras"] else {}  # can be changed in place
     for slot in TEXTURE_SLOTS:
         if (texture := held[slot]) is not None:
             held[slot] = _held_by(texture)

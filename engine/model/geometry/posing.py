@@ -1,7 +1,7 @@
-"""A mesh with a pose applied to its vertices.
+"""Applies a pose to the vertices of a mesh.
 
-In: a mesh and an affine matrix. Out: a mesh that looks the same at the identity as the given one at
-the pose. Computed in float64 and rounded once.
+In: a mesh and an affine matrix. Out: a mesh that at the identity looks like the given one at the
+pose. Computed in float64 and rounded once.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def posed_mesh(mesh: Mesh, pose: np.ndarray) -> Mesh:
-    """Return a mesh with a pose applied; a mirroring one turns its faces over."""
+    """Return a mesh with a pose applied; a mirroring pose reverses its faces."""
     if np.array_equal(pose, np.eye(4)):
         return mesh
     rows = [pose[k, :3] for k in range(3)]
@@ -54,7 +54,7 @@ def posed_mesh(mesh: Mesh, pose: np.ndarray) -> Mesh:
 
 
 def _posed_tangents(tangents: np.ndarray, pose: np.ndarray, mirrored: bool) -> np.ndarray:
-    """Tangents move with the surface; where this is mirrored, up is on the other side of them."""
+    """Return the tangents transformed; a mirroring pose flips the bitangent's sign."""
     posed = np.empty_like(tangents)
     posed[:, :3] = unit_vectors(transform_directions(pose, tangents[:, :3]))
     posed[:, 3] = -tangents[:, 3] if mirrored else tangents[:, 3]

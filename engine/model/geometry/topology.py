@@ -1,8 +1,8 @@
 """Edges and polygons of a triangle mesh, from its faces and their edge flags.
 
-In: faces (F, 3), the visibility of their edges (F, 3), and which vertices are the same point. Out:
-the edges that a wireframe draws, each once, and the polygon each triangle was cut from. Entry k of
-a face's flags is the edge from its vertex k to its vertex (k + 1) % 3.
+In: faces (F, 3), the visibility of their edges (F, 3), and position IDs. Out: each edge of the
+wireframe once, and the polygon that each triangle was cut from. Entry k of a face's flags is the
+edge from its vertex k to its vertex (k + 1) % 3.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ def visible_edges(
     edge_visible: np.ndarray | None = None,
     position_ids: np.ndarray | None = None,
 ) -> np.ndarray:
-    """Return the edges that are visible in at least one face, each once.
+    """Return each edge that is visible in at least one face once.
 
     Parameters
     ----------
@@ -27,13 +27,13 @@ def visible_edges(
     edge_visible : (F, 3) bool, optional
         None means that all are visible.
     position_ids : (V,) int, optional
-        Vertices with the same number are one point: their edges are one edge.
+        Vertices with the same number are one point, so their edges coincide.
 
     Returns
     -------
     edges : (E, 2) int32
-        Vertex indices as they stand in the first face that shows the edge, in that order.
-        Edges from a point to itself are left out.
+        Vertex indices from the first face that shows the edge, in order of appearance. Edges from a
+        point to itself are left out.
     """
     faces = np.ascontiguousarray(faces, np.int32)
     if position_ids is None:
@@ -56,8 +56,8 @@ def polygon_ids(
 ) -> np.ndarray:
     """Return the number of the polygon that each face belongs to.
 
-    Triangles that stand one after the other and are joined by shared edges hidden in both are one
-    polygon. Polygons are numbered in the order of their first faces.
+    Consecutive triangles joined by shared edges hidden in both are one polygon. Polygons are
+    numbered in the order of their first faces.
 
     Parameters
     ----------
@@ -73,8 +73,8 @@ def polygon_ids(
         return np.arange(count, dtype=np.int32)
     first, second = _hidden_edge_pairs(faces, edge_visible, position_ids)
     label = _components(count, first, second)
-    # A component whose faces do not stand together (flags in files may say anything) falls apart
-    # into its runs of neighbours.
+    # If the faces of a component are not consecutive (files may flag any edge), split it into its
+    # runs.
     joined = np.zeros(count, bool)
     size = np.bincount(label, minlength=count)
     last = np.zeros(count, np.int64)
@@ -92,7 +92,7 @@ def half_edges(faces: np.ndarray) -> np.ndarray:
 
 
 def _edge_keys(edges: np.ndarray, position_ids: np.ndarray | None) -> Any:
-    """One number an undirected edge, and which edges join two different points."""
+    """Return a key for each undirected edge, and whether the edge joins two different points."""
     ends = edges if position_ids is None else position_ids[edges]
     ends = ends.astype(np.int64)
     low, high = ends.min(axis=1), ends.max(axis=1)
@@ -102,7 +102,7 @@ def _edge_keys(edges: np.ndarray, position_ids: np.ndarray | None) -> Any:
 def _hidden_edge_pairs(
     faces: np.ndarray, edge_visible: np.ndarray, position_ids: np.ndarray | None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of faces, first < second, that share an edge hidden in exactly these two."""
+    """Return pairs of faces, first < second, that share an edge hidden in exactly these two."""
     hidden = np.flatnonzero(~edge_visible.ravel())
     keys, proper = _edge_keys(half_edges(faces)[hidden], position_ids)
     hidden, keys = hidden[proper], keys[proper]

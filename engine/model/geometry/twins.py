@@ -1,7 +1,7 @@
-"""Meshes that hold what another holds: twins, of which loaders make many, and meshes loaded again.
+"""Twins: meshes that share another's arrays; loaders make many. Also reloads meshes in place.
 
-In: a mesh, and materials or arrays that fit. Out: another of the same arrays, or the given one with
-other content. Nothing is checked again.
+In: a mesh, and materials or arrays that fit it. Out: another mesh with the same arrays, or the
+given mesh with new content. Nothing is checked again.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from .movers import VERTEX_AXES
 
 
 def twin_of(mesh: Mesh, materials: Iterable[Material], name: str) -> Mesh:
-    """Return another mesh of the same arrays and what follows from them.
+    """Return another mesh that shares the arrays and the data derived from them.
 
     A copy takes ten times as long.
     """
@@ -31,14 +31,14 @@ def twin_of(mesh: Mesh, materials: Iterable[Material], name: str) -> Mesh:
 
 
 def put_arrays(mesh: Mesh, arrays: dict[str, Any]) -> None:
-    """Let a mesh that nobody else knows yet have arrays that another had."""
+    """Give a mesh that nobody else holds yet the arrays of another."""
     mesh._arrays.update(arrays)
 
 
 def take_over(mesh: Mesh, other: Mesh) -> None:
-    """Let a mesh hold everything of another but its name."""
+    """Replace the whole content of a mesh, except its name, with another's."""
     gone = dict.fromkeys(VERTEX_AXES)
-    mesh._arrays.update({**gone, **other._arrays})  # one step: they fit at every moment
+    mesh._arrays.update({**gone, **other._arrays})  # one step: the arrays match at every moment
     mesh._morph_targets = other._morph_targets
     mesh._crease_angle = other._crease_angle
     mesh._derived = {}

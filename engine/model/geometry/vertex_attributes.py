@@ -1,7 +1,7 @@
-"""The attributes of vertices besides positions and normals, each of `Mesh`'s listed there once.
+"""The vertex attributes besides positions and normals, each declared once in `Mesh`.
 
-In: a type of meshes, or a mesh. Out: what is known of each attribute, or its arrays. Whatever
-copies, joins or draws meshes takes all of them. The core lists them in csrc/include/e3d_mesh.h.
+In: a mesh type, or a mesh. Out: its attributes, or their arrays. Code that copies, joins or draws
+meshes handles them all through here. The core lists them in csrc/include/e3d_mesh.h.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from ._arrays import ArrayAttribute, Given, Kept
 
 
 class VertexAttribute(ArrayAttribute[Given, Kept]):
-    """An array that may be there, with a row for each vertex.
+    """An optional array with a row for each vertex.
 
     Parameters
     ----------
     check : callable
     fill : float
-        What vertices have where others of the mesh have something; of bytes, 255 is 1.
+        The value for vertices that lack the attribute; in bytes, 1 is 255.
     """
 
     def __init__(self, check: Callable[[Any, str], Any], *, fill: float) -> None:
@@ -30,7 +30,7 @@ class VertexAttribute(ArrayAttribute[Given, Kept]):
         self._fill = fill
 
     def filler(self, count: int, like: np.ndarray) -> np.ndarray:
-        """Return rows for vertices that have nothing, of the kind that others have."""
+        """Return rows of the fill value, with the width and dtype of another array."""
         one = 255 if like.dtype == np.uint8 else 1
         return np.full((count, *like.shape[1:]), self._fill * one, like.dtype)
 
@@ -43,7 +43,7 @@ def vertex_attributes(mesh_type: type) -> dict[str, VertexAttribute[Any, Any]]:
 
 
 def attributes_of(mesh: Any) -> dict[str, np.ndarray]:
-    """Return the arrays that a mesh has, as parameters of another."""
+    """Return the attribute arrays that a mesh has, as parameters for another."""
     kind: type = type(mesh)
     held = {name: mesh._arrays[name] for name in vertex_attributes(kind)}
     return {name: array for name, array in held.items() if array is not None}

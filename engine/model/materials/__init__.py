@@ -1,1 +1,1 @@
-"""The looks of surfaces: materials, textures, and how colours are given and shown."""
+"""Appearance of surfaces: materials, textures, colours and their display values."""

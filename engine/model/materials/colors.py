@@ -1,8 +1,8 @@
-"""Colours as people write them, turned into the linear light that the core computes with.
+"""Conversion of colours as people write them to linear light, which the core computes in.
 
 In: a colour of three numbers. Floats are linear light; 8-bit values (``uint8`` arrays, Python
-integers in 0..255) are sRGB. Out: three float32 in linear light. The sRGB curve is that of
-IEC 61966-2-1, as a table of 256 values: 8-bit colours need no other.
+integers in 0..255) are sRGB. Out: three float32 in linear light. The sRGB curve is that of IEC
+61966-2-1, as a table for the 256 8-bit values.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from ...choices import Color, ColorLike, ColorSpace, SurfaceColor
 from ...errors import InvalidArgumentError, warn
 
 COLOR_SPACES: tuple[ColorSpace, ...] = get_args(ColorSpace)
-_LEAST_SUSPECT = 16.0  # whole floats from here on look like 8-bit values
+_LEAST_SUSPECT = 16.0  # whole-number floats from here on look like 8-bit values
 _is_suspicious: ContextVar[bool] = ContextVar("_is_suspicious", default=True)
 
 
@@ -41,7 +41,7 @@ def srgb_to_linear_table() -> np.ndarray:
 
 
 def check_color(value: ColorLike, what: str = "color") -> Color:
-    """Return ``value`` unchanged as a tuple, or raise if it is not a colour.
+    """Return ``value`` as a tuple, or raise if it is not a colour.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def check_color(value: ColorLike, what: str = "color") -> Color:
 
 
 def check_surface_color(value: ColorLike, what: str = "color") -> SurfaceColor:
-    """Return ``value`` unchanged as a tuple, or raise if it is not a colour with or without alpha.
+    """Return ``value`` as a tuple, or raise if it is not a colour, with or without alpha.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def check_surface_color(value: ColorLike, what: str = "color") -> SurfaceColor:
 
 
 def split_alpha(color: SurfaceColor) -> tuple[Color, float]:
-    """Return a colour of three numbers that means the same, and its alpha, 1 where it has none."""
+    """Return a colour's three components and its alpha, which is 1 if it has none."""
     if len(color) == 3:
         return color, 1.0
     rgb = color[:3]
@@ -116,7 +116,7 @@ def _components(value: ColorLike, what: str) -> tuple[Any, ...]:
 
 @contextmanager
 def certainly_linear() -> Iterator[None]:
-    """Within it, no float is suspected: a file's format says that all are linear."""
+    """Disable the warning about 8-bit floats: the file's format declares its floats linear."""
     before = _is_suspicious.set(False)
     try:
         yield
@@ -125,7 +125,7 @@ def certainly_linear() -> Iterator[None]:
 
 
 def warn_of_8bit_floats(colors: np.ndarray, what: str) -> None:
-    """Warn where floats, which are linear light, are all whole numbers as 8-bit colours are."""
+    """Warn if floats, which mean linear light, are all whole numbers, as 8-bit colours are."""
     if not _is_suspicious.get():
         return
     high = colors.max(initial=0)
@@ -160,7 +160,7 @@ def eight_bit_or_float(colors: np.ndarray, what: str) -> np.ndarray:
 
 
 def float32_of(values: np.ndarray) -> np.ndarray:
-    """Round to float32; what is too large becomes infinite."""
+    """Round to float32; overflow becomes infinite."""
     with np.errstate(over="ignore", invalid="ignore"):
         return values.astype(np.float32, copy=False)
 
@@ -171,9 +171,9 @@ def linear_color(value: ColorLike, color_space: ColorSpace = "srgb") -> np.ndarr
     Parameters
     ----------
     value : sequence of 3 numbers
-        Floats are linear and taken as they are. Integers are 8-bit sRGB, except that integers
-        which are all 0 or 1 mean the same as ``0.0`` and ``1.0``, so that ``(1, 1, 1)`` is white;
-        NumPy's ``uint8`` are 8-bit sRGB always. One float among integers makes all floats.
+        Floats are linear. Integers are 8-bit sRGB, except that integers all 0 or 1 mean ``0.0`` and
+        ``1.0``, so that ``(1, 1, 1)`` is white; NumPy's ``uint8`` is always 8-bit sRGB. One float
+        among integers makes all of them floats.
     color_space : {"srgb", "linear"}
         With ``"linear"`` an 8-bit value c means c/255, without the sRGB curve.
 
@@ -187,7 +187,7 @@ def linear_color(value: ColorLike, color_space: ColorSpace = "srgb") -> np.ndarr
     """
     if color_space not in COLOR_SPACES:
         raise InvalidArgumentError(f"color_space must be one of {COLOR_SPACES}: {color_space!r}")
-    components = _three(value, "color")  # whoever keeps it was warned
+    components = _three(value, "color")  # its owner was already warned
     if not is_8bit(components):
         return float32_of(np.array(components, np.float64))
     if color_space == "linear":
@@ -206,7 +206,7 @@ def srgb_bytes(colors: np.ndarray) -> np.ndarray:
     Returns
     -------
     colors : (N, 4) uint8
-        Bytes unchanged; of floats the nearest ones, alpha scaled.
+        Bytes unchanged; floats encoded to the nearest byte, alpha scaled.
     """
     if colors.dtype == np.uint8:
         return colors
@@ -217,7 +217,7 @@ def srgb_bytes(colors: np.ndarray) -> np.ndarray:
 
 
 def is_8bit(components: Sequence[Any]) -> bool:
-    """Tell whether a colour of Python or NumPy scalars is meant as 8-bit values."""
+    """Return whether a colour of Python or NumPy scalars holds 8-bit values."""
     if not all(isinstance(c, numbers.Integral) for c in components):
         return False
     return max(components) > 1 or all(isinstance(c, np.uint8) for c in components)
@@ -233,7 +233,7 @@ def _sequence(value: Any, what: str) -> list[Any]:
 
 
 def _scalar(component: Any) -> Any:
-    """Python scalars for everything but uint8, whose type says that it is an 8-bit value."""
+    """Return a Python scalar, except for uint8, whose type marks an 8-bit value."""
     if isinstance(component, np.generic) and not isinstance(component, np.uint8):
         return component.item()
     return component

@@ -1,7 +1,7 @@
-"""Colours as the screen shows them, for modes whose colours do not go through the sRGB encoder.
+"""Display values of colours, for modes whose colours bypass the sRGB encoder.
 
-In: a colour as people write it. Out: display values, 8-bit codes over 255, so that a background or
-a line has the same bytes in every mode.
+In: a colour as people write it. Out: display values (8-bit codes over 255), so that a background or
+line colour has the same bytes in every mode.
 """
 
 from __future__ import annotations
@@ -15,16 +15,17 @@ from .colors import linear_color
 
 
 def shading_color(value: tuple[Any, ...], color_space: ColorSpace) -> tuple[float, float, float]:
-    """Return a colour in the space that lighting computes in."""
+    """Return a colour in the space in which lighting is computed."""
     return _shading_color(value, tuple(map(type, value)), color_space)
 
 
 def display_color(value: tuple[Any, ...], color_space: ColorSpace) -> tuple[float, float, float]:
-    """Return the display values that the colour has after a lit frame's encoder."""
+    """Return the display values of a colour after a lit frame's encoder."""
     return _display_color(value, tuple(map(type, value)), color_space)
 
 
-# The types are part of the key: 255 is an sRGB code, 255.0 a very bright light, and both are equal.
+# The types are part of the key: 255 and 255.0 compare equal, but 255 is an sRGB code and 255.0 a
+# very bright light.
 @functools.lru_cache(maxsize=256)
 def _shading_color(value: tuple[Any, ...], types: tuple[type, ...], color_space: ColorSpace) -> Any:
     return tuple(linear_color(value, color_space).tolist())
@@ -41,7 +42,7 @@ def _display_color(value: tuple[Any, ...], types: tuple[type, ...], color_space:
 def exact_display_color(
     value: tuple[Any, ...], color_space: ColorSpace
 ) -> tuple[float, float, float]:
-    """Return the display values of a colour, clamped, without rounding them to 8-bit codes."""
+    """Return the display values of a colour, clamped but not rounded to 8-bit codes."""
     linear = shading_color(value, color_space)
     if color_space == "linear":
         red, green, blue = (min(component, 1.0) for component in linear)
@@ -51,7 +52,7 @@ def exact_display_color(
 
 
 def srgb_value(value: float) -> float:
-    """Return the sRGB value of a linear one, both in 0..1, clamped (IEC 61966-2-1)."""
+    """Return the sRGB value of a linear value, both in 0..1, clamped (IEC 61966-2-1)."""
     value = min(max(value, 0.0), 1.0)
     if value <= 0.0031308:
         return 12.92 * value

@@ -1,14 +1,14 @@
-"""The material of a surface: the numbers and the textures that shading reads.
+"""Materials: the numbers and textures that shading reads.
 
-A `Material` is plain data, with the fields of glTF 2.0. Colours are kept as they were given (floats
-are linear light, 8-bit integers sRGB; see `colors`) and become linear when the renderer reads
-them. Whatever a file says beyond this is kept in ``extras``.
+A `Material` is plain data, with the fields of glTF 2.0. Colours are kept as given (floats are
+linear light, 8-bit integers sRGB; see `colors`) and converted to linear when the renderer reads
+them. ``extras`` keeps everything else that a file says.
 
-A new number is a row here, and a member of e3d_physical (csrc/include/e3d_material.h): of the same
-name where the core takes it as it is, else rendering/draw_list/native_materials.py says what it
-becomes. A new texture is a row here and one of E3D_EACH_TEXTURE_SLOT, in the same order; what it
-varies is a row in csrc/kernels/types/texture_slots.h. The rest is what kernels and reference make
-of both.
+To add a number, add a row here and a member of e3d_physical (csrc/include/e3d_material.h): with the
+same name if the core takes the value unchanged, else with a conversion in
+rendering/draw_list/native_materials.py. To add a texture, add a row here and one of
+E3D_EACH_TEXTURE_SLOT, in the same order, and a row in csrc/kernels/types/texture_slots.h for the
+value it varies. Kernels and reference implement the rest.
 """
 
 from __future__ import annotations
@@ -52,12 +52,13 @@ Flag: TypeAlias = Parameter[bool, bool]
 
 @made_of_parameters
 class Material(Versioned):
-    """Surface properties shared by the faces that name it.
+    """Surface properties of the faces that refer to it.
 
     With ``metallic`` or ``roughness`` a material is physically based: lit by the model of glTF 2.0
-    (its appendix B: GGX, Smith, Schlick). Without, it is lit by Lambert's and Blinn's and Phong's.
-    A texture of a slot multiplies what the slot is named after, by the channels given below. What
-    glTF has as an extension is named after it: ``clearcoat`` is of KHR_materials_clearcoat.
+    (its appendix B: GGX, Smith, Schlick). Otherwise it is lit by the models of Lambert and
+    Blinn-Phong. A texture multiplies the property that its slot is named after, by the channels
+    given below. Properties of glTF extensions bear their names: ``clearcoat`` comes from
+    KHR_materials_clearcoat.
 
     Parameters
     ----------
@@ -74,8 +75,8 @@ class Material(Versioned):
 
     Notes
     -----
-    Textures of colours are read as their ``color_space`` says; the bytes of all others are numbers,
-    whatever it says.
+    Colour textures are decoded by their ``color_space``; all others hold plain numbers and ignore
+    it.
     """
 
     _is_implied = False  # see `imply`
@@ -293,7 +294,7 @@ class Material(Versioned):
         default=None, is_color=False, gltf="iridescence/iridescenceThicknessTexture", doc="G."
     )
 
-    if not TYPE_CHECKING:  # which make it of the parameters
+    if not TYPE_CHECKING:  # the parameters generate the constructor
 
         def __init__(self, **values) -> None:
             refuse_unknown(Material, values, PARAMETERS)
@@ -331,7 +332,7 @@ _SAID = tuple(name for name in PARAMETERS if name not in _UNSAID)
 
 
 def placed_textures_of(material: Material) -> dict[str, PlacedTexture]:
-    """Return the textures that a material has, by slot, with the coordinates they are read at."""
+    """Return a material's textures by slot, with their placements."""
     held = vars(material)
     return {
         slot: texture if isinstance(texture, PlacedTexture) else PlacedTexture(texture)
@@ -341,38 +342,39 @@ def placed_textures_of(material: Material) -> dict[str, PlacedTexture]:
 
 
 def textures_of(material: Material) -> dict[str, Texture]:
-    """Return the textures that a material has, by slot."""
+    """Return a material's textures by slot."""
     return {slot: placed.texture for slot, placed in placed_textures_of(material).items()}
 
 
 def put_texture(material: Material, slot: str, texture: Texture) -> None:
-    """Put another texture into a slot that has one, at the same coordinates."""
+    """Replace the texture of a slot that has one, and keep its placement."""
     held = getattr(material, slot)
     is_placed = isinstance(held, PlacedTexture)
     setattr(material, slot, replace(held, texture=texture) if is_placed else texture)
 
 
 def copy_of(material: Material) -> Material:
-    """Return a copy in a fraction of the time of `copy`: files may ask for very many."""
+    """Return a copy, much faster than `copy`: files may ask for very many."""
     copy = type(material).__new__(type(material))
     vars(copy).update(vars(material), extras=dict(material.extras))
     return copy
 
 
 def imply(material: Material) -> None:
-    """Note that a file names no material where this one is: a file that is written needs none."""
+    """Mark a material as implied: its file names none, so a written file needs none either."""
     material._is_implied = True
 
 
 def is_implied(material: Material) -> bool:
-    """Whether the file that a material comes from does not name it."""
+    """Return whether a material is implied: its file does not name it."""
     return material._is_implied
 
 
 def says_something(material: Material) -> bool:
-    """Return whether anything of a material but its name differs from a default one.
+    """Return whether a material differs from a default one in more than its name.
 
-    Its facets and sides do not count: an STL file sets them without a word on materials.
+    Flat shading and double-sidedness do not count: STL loading sets them without any material in
+    the file.
     """
     return bool(textures_of(material)) or _words(material) != _DEFAULT_WORDS
 
@@ -383,7 +385,7 @@ def _words(material: Material) -> list[Any]:
 
 
 def _word(value: Any) -> Any:
-    """A value, or of a colour what it is in linear light."""
+    """Return a value, or the linear light of a colour."""
     if not isinstance(value, tuple):
         return value
     rgb, alpha = split_alpha(value)

@@ -1,8 +1,8 @@
-"""Parameters of a material, each said once, as a row; see `Material`.
+"""Parameters of a material, each declared once, as a row; see `Material`.
 
-In: for each parameter its kind, what it is by default, a sentence, and what files call it. Out: the
-attribute that checks what is assigned, and of all rows together the constructor's signature and the
-class's docstring. Renderer, files, clips and editor read the rows for what else they need to know.
+In: each parameter's kind, default, description and name in files. Out: the attribute that checks
+assignments and, from all rows together, the constructor's signature and the class's docstring.
+Renderer, files, clips and editor read everything else from the rows.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from .textures import PlacedTexture, Texture
 
 if TYPE_CHECKING:
     from typing_extensions import dataclass_transform
-else:  # only type checkers read it
+else:  # only for type checkers
 
     def dataclass_transform(**how):
         return lambda decorator: decorator
@@ -51,15 +51,15 @@ class Kind(NamedTuple):
     Attributes
     ----------
     check : callable
-        As `CheckedAttribute` wants it.
+        The check function for `CheckedAttribute`.
     type : str
-        The annotation of the parameter.
+        The parameter's annotation.
     words : str
-        The same in docstrings.
+        The type as written in docstrings.
     low, high : float
-        From where to where clips and the editor may change it.
+        The range within which clips and the editor may change it.
     width : int
-        How many numbers it is; 0 if it is something else.
+        How many numbers a value has; 0 if it is not numeric.
     """
 
     check: Callable[[Any, str], Any]
@@ -71,7 +71,7 @@ class Kind(NamedTuple):
 
 
 def _above(least: float, words: str, *others: float) -> Callable[[float, str], float]:
-    """A check of finite numbers from ``least`` on, and of a few others."""
+    """Return a check that accepts finite numbers from ``least`` on, and a few given others."""
 
     def check(value: float, what: str) -> float:
         number = real(value)
@@ -123,20 +123,20 @@ TEXTURE = Kind(_check_texture, "SlotTexture", "Texture or PlacedTexture, optiona
 
 
 class Parameter(CheckedAttribute[Given, Kept]):
-    """A row: an attribute that is a keyword argument of the constructor as well.
+    """A row: an attribute that is also a keyword argument of the constructor.
 
     Parameters
     ----------
     kind : Kind
     default
-        What the constructor takes where nothing is given.
+        The constructor's default.
     doc : str
-        What it means.
+        The description.
     unit : str
-        Of numbers that have one.
+        The unit of a number, if any.
     gltf : str
-        Where files of glTF have it: ``"sheen/key"`` of the extension KHR_materials_sheen, or
-        ``"key"`` of the material itself. What follows a dot is beside a texture.
+        Where glTF files keep it: ``"sheen/key"`` in the extension KHR_materials_sheen, or ``"key"``
+        in the material itself. A name after a dot is a property of the texture's reference.
     """
 
     def __init__(
@@ -147,31 +147,31 @@ class Parameter(CheckedAttribute[Given, Kept]):
 
     @property
     def part(self) -> str:
-        """The part of a material of glTF that it is in, an extension mostly."""
+        """The part of a glTF material that holds it, usually an extension."""
         part = self.gltf.rpartition("/")[0]
         return part if part in ("pbrMetallicRoughness", "") else f"KHR_materials_{part}"
 
     @property
     def title(self) -> str:
-        """What it is called where people read it."""
+        """The name shown to people."""
         return self._name.replace("_", " ").replace("color", "colour").capitalize()
 
     @property
     def words(self) -> str:
-        """What values it takes."""
+        """The values it takes, in words."""
         return f"{self.kind.words}, in {self.unit}" if self.unit else self.kind.words
 
 
 class TextureSlot(Parameter[SlotTexture, SlotTexture]):
-    """A texture of a material; the core lists them in csrc/include/e3d_material.h.
+    """A texture slot of a material; the core lists the slots in csrc/include/e3d_material.h.
 
     Parameters
     ----------
     is_color : bool
-        Whether its bytes are colours, to be read as the texture's ``color_space`` says; those of
-        the others are numbers, and read as they are.
+        Whether the texture holds colours, decoded by its ``color_space``; other textures hold plain
+        numbers.
     default, doc, gltf
-        As of `Parameter`.
+        As in `Parameter`.
     """
 
     def __init__(self, *, is_color: bool, default: None, doc: str, gltf: str = "") -> None:
@@ -180,7 +180,7 @@ class TextureSlot(Parameter[SlotTexture, SlotTexture]):
 
 
 def parameters_of(cls: type) -> dict[str, Parameter[Any, Any]]:
-    """Return the rows of a class by name, in their order."""
+    """Return the rows of a class by name, in order."""
     return {name: row for name, row in vars(cls).items() if isinstance(row, Parameter)}
 
 
@@ -188,9 +188,9 @@ def parameters_of(cls: type) -> dict[str, Parameter[Any, Any]]:
     kw_only_default=True, eq_default=False, field_specifiers=(Parameter, TextureSlot)
 )
 def made_of_parameters(cls: Class) -> Class:
-    """Give a class's constructor the signature, and the class the docstring, that its rows tell.
+    """Build a class's constructor signature and docstring from its rows.
 
-    In the docstring, the parameters take the place of the line "Each attribute below."
+    In the docstring, the parameters replace the line "Each attribute below."
     """
     rows = parameters_of(cls)
     mine = inspect.Parameter("self", inspect.Parameter.POSITIONAL_OR_KEYWORD)
@@ -202,7 +202,7 @@ def made_of_parameters(cls: Class) -> Class:
     ]
     made = inspect.unwrap(cls.__init__)  # type: ignore[misc]  # a class's own
     made.__signature__ = inspect.Signature([mine, *keywords], return_annotation="None")
-    if cls.__doc__ is not None:  # which -OO leaves out
+    if cls.__doc__ is not None:  # -OO removes docstrings
         entries = "\n".join(
             f"{name} : {row.words}\n    {row.doc}".rstrip() for name, row in rows.items()
         )

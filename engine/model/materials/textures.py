@@ -1,9 +1,8 @@
-"""Images that surfaces are painted with.
+"""Textures: images that cover surfaces.
 
-A `Texture` holds 8-bit RGBA pixels and says how they are to be read: colour space, filter and what
-lies beyond the edges. Pixels are stored top row first, as image files are; texture coordinates have
-their origin at the bottom left, and the core does that flip. Mip levels are the core's affair: it
-makes them anew when ``version`` has changed.
+A `Texture` holds 8-bit RGBA pixels and says how to sample them: colour space, filter and wrap.
+Pixels are stored top row first, as in image files; texture coordinates have their origin at the
+bottom left, and the core flips them. The core makes mip levels anew when ``version`` changes.
 """
 
 from __future__ import annotations
@@ -30,7 +29,7 @@ from .colors import COLOR_SPACES
 
 FILTERS: tuple[Filter, ...] = get_args(Filter)
 WRAPS: tuple[Wrap, ...] = get_args(Wrap)
-#: One for both coordinates, or one along u and one along v.
+#: One wrap for both coordinates, or one along u and one along v.
 SideWraps: TypeAlias = Wrap | tuple[Wrap, Wrap]
 MAX_SIDE = 16384
 MAX_ANISOTROPY = 16
@@ -38,7 +37,7 @@ MAX_LOD_BIAS = 16
 
 
 def _check_wrap(value: SideWraps, what: str) -> SideWraps:
-    """Return the wrap of both coordinates, or a pair where they differ."""
+    """Return one wrap if both coordinates have the same, or else a pair."""
     if not isinstance(value, (tuple, list)):
         return choose(value, WRAPS, what)
     if len(value) != 2:
@@ -76,16 +75,16 @@ class TextureOptions(TypedDict, total=False):
 
 
 class ImageFile(NamedTuple):
-    """Where the pixels of a texture come from, so that it can be saved by naming it.
+    """The source of a texture's pixels, so that it can be saved by naming it.
 
     Attributes
     ----------
     path : str or None
         Absolute.
     content : bytes or None
-        Of what is part of another file.
+        The image's bytes, if it is embedded in another file.
     is_missing : bool
-        Whether the file is not there, and other pixels take its place.
+        Whether the file is missing and placeholder pixels stand in for it.
     """
 
     path: str | None = None
@@ -94,7 +93,7 @@ class ImageFile(NamedTuple):
 
 
 class Texture(Closed):
-    """An image and the way to sample it.
+    """An image and how to sample it.
 
     Parameters
     ----------
@@ -105,16 +104,15 @@ class Texture(Closed):
         How the RGB bytes encode light; alpha is always linear.
     filter : {"trilinear", "bilinear", "nearest"}
     wrap : {"repeat", "clamp", "mirror"} or pair of these
-        What lies beyond the edges; of a pair, along u and along v. An equal pair is kept as the
+        Address mode beyond the edges; a pair gives it along u and along v. An equal pair is kept as
         one name.
     name : str
     anisotropy : int
-        At how many places along its footprint a pixel reads the texture at most, 1 to 16. 1 reads
-        one place, and blurs surfaces that recede. Only of trilinear textures: others have no
-        smaller images to read.
+        Maximum anisotropy, 1 to 16: how many places along its footprint a pixel samples at most. 1
+        blurs receding surfaces. Only trilinear textures use it: others have no mip levels.
     lod_bias : float
-        Added to the level that trilinear textures are read at, -16 to 16: each -1 reads an image
-        twice as wide, which is sharper and flickers more.
+        Added to the mip level of trilinear textures, -16 to 16: each -1 reads an image twice as
+        wide, which is sharper and flickers more.
 
     Attributes
     ----------
@@ -130,7 +128,7 @@ class Texture(Closed):
 
     name: str
     version: int
-    _file: ImageFile  # that holds these pixels
+    _file: ImageFile  # the file of these pixels
     color_space: CheckedAttribute[ColorSpace, ColorSpace] = CheckedAttribute(one_of(COLOR_SPACES))
     filter: CheckedAttribute[Filter, Filter] = CheckedAttribute(one_of(FILTERS))
     wrap: CheckedAttribute[SideWraps, SideWraps] = CheckedAttribute(_check_wrap)
@@ -184,12 +182,12 @@ class Texture(Closed):
 
 
 def image_file_of(texture: Texture) -> ImageFile:
-    """Return where the pixels of a texture come from; of no file once they were replaced."""
+    """Return the file that a texture's pixels come from; none once they are replaced."""
     return texture._file
 
 
 def remember_image_file(texture: Texture, file: ImageFile) -> None:
-    """Note where the pixels of a texture come from."""
+    """Record the file that a texture's pixels come from."""
     texture._file = file
 
 
@@ -199,23 +197,23 @@ UV_SETS = 2  # of a mesh: `uvs` and `uvs1`
 @hints_keywords
 @dataclass(frozen=True)
 class PlacedTexture:
-    """A texture in a slot of a material, with the coordinates that it is read at.
+    """A texture in a material's slot, with its texture coordinates and their transform.
 
-    They are a vertex's, scaled, then rotated, then moved, as KHR_texture_transform has it: with the
-    origin at the top left and v downwards,
-    ``u' = sx * u * cos + sy * v * sin + tx`` and ``v' = -sx * u * sin + sy * v * cos + ty``.
+    A vertex's coordinates are scaled, then rotated, then translated, as in KHR_texture_transform:
+    with the origin at the top left and v downwards, ``u' = sx * u * cos + sy * v * sin + tx`` and
+    ``v' = -sx * u * sin + sy * v * cos + ty``.
 
     Parameters
     ----------
     texture : Texture
     uv_set : {0, 1}
-        Of `Mesh.uvs` and `Mesh.uvs1`.
+        0 for `Mesh.uvs`, 1 for `Mesh.uvs1`.
     offset : (2,) float
         tx and ty, in sides of the image.
     rotation : float
         Radians, counter-clockwise about the origin.
     scale : (2,) float
-        sx and sy: how often the image is repeated over what it would cover.
+        sx and sy: how often the image repeats within its original extent.
 
     Raises
     ------
@@ -249,12 +247,12 @@ class PlacedTexture:
 
     @property
     def is_moved(self) -> bool:
-        """Whether coordinates are not read as they are."""
+        """Whether texture coordinates are transformed."""
         return (self.offset, self.rotation, self.scale) != ((0.0, 0.0), 0.0, (1.0, 1.0))
 
     @property
     def matrix(self) -> NDArray[np.float64]:
-        """The matrix that places coordinates whose origin is at the bottom left: (2, 3) float64."""
+        """The transform of coordinates whose origin is at the bottom left: (2, 3) float64."""
         (sx, sy), (tx, ty) = self.scale, self.offset
         c, s = cos(self.rotation), sin(self.rotation)
         return np.array([[sx * c, -(sy * s), sy * s + tx], [sx * s, sy * c, 1 - sy * c - ty]])
@@ -273,7 +271,7 @@ def _two(value: Sequence[float], what: str) -> tuple[float, float]:
 def as_rgba(pixels: ArrayLike) -> NDArray[np.uint8]:
     """Return an image of one to four channels as (H, W, 4) uint8, C-contiguous and read-only.
 
-    Alpha is 255 where the image has none. The result never shares memory that can be written to.
+    Alpha is 255 if the image has none. The result never shares writable memory.
     """
     if isinstance(pixels, (str, os.PathLike)):
         raise InvalidArgumentError(f"a Texture is made of pixels: use load_texture({pixels!r})")

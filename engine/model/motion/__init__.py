@@ -1,1 +1,1 @@
-"""Motion: skins and morph targets that bend meshes, clips of keyframes, and what plays them."""
+"""Motion: skins and morph targets that deform meshes, keyframe clips, and their player."""

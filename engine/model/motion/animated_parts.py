@@ -1,7 +1,7 @@
-"""The parts of a scene's nodes that clips move, and other properties: a row for each.
+"""The node parts and other properties that clips animate: one row for each.
 
-In: clips; then rows of values. Out: nodes that are there, properties that are so. What they were at
-first is remembered.
+In: clips; then rows of values. Out: nodes and properties set to these values. Their values before
+the first write are remembered.
 """
 
 from __future__ import annotations
@@ -16,28 +16,28 @@ from ..scene.scene import Scene
 from .clips import PATHS, AnimationClip, Channel
 from .properties import Property, PropertyChannel
 
-#: Of what is no part of a node's pose, the path; the rows are the properties.
+#: The path of all channels that are not part of a node's pose; its rows are the properties.
 PROPERTIES = "properties"
-#: Values by path: (rows, N) float64; of weights and properties a list of (T,) arrays.
+#: Values by path: (rows, N) float64; for weights and properties, a list of (T,) arrays.
 Values: TypeAlias = dict[str, Any]
 
 
 def row_of(channel: Channel | PropertyChannel) -> tuple[str, Node | Property]:
-    """Return the path whose rows a channel is of, and what its row is of."""
+    """Return the path that a channel belongs to, and the object of its row."""
     if isinstance(channel, PropertyChannel):
         return PROPERTIES, Property(channel.target, channel.path)
     return channel.path, channel.node
 
 
 class AnimatedParts:
-    """All that some clips move.
+    """Everything that a set of clips animates.
 
     Attributes
     ----------
     rows : dict of str to dict of Node or Property to int
-        The row of each, by path.
+        The row of each object, by path.
     rest : dict
-        The values that the nodes had when this was made.
+        The nodes' values when this was created.
     """
 
     def __init__(self, scene: Scene, clips: Iterable[AnimationClip]) -> None:
@@ -56,7 +56,7 @@ class AnimatedParts:
         return {path: np.zeros(len(rows), np.bool_) for path, rows in self.rows.items()}
 
     def write(self, scene: Scene, values: Values, masks: dict[str, np.ndarray]) -> None:
-        """Give the nodes of the rows that are masked their values."""
+        """Write the values of the masked rows to their nodes."""
         arrays = scene.data.arrays
         slots = self._slots_in(scene)
         for path in ("translation", "rotation", "scale"):
@@ -87,7 +87,7 @@ class AnimatedParts:
                 held.put(numbers)
 
     def _slots_in(self, scene: Scene) -> dict[str, np.ndarray]:
-        """The slots of all rows, -1 for nodes that were removed."""
+        """Return the slots of all rows, -1 for removed nodes."""
         data = scene.data
         state = data.arrays, data.removals
         if self._slots is None or self._slots[0] != state:

@@ -1,7 +1,7 @@
-"""Clips: how nodes of a scene change in time.
+"""Clips: how the nodes of a scene change over time.
 
-In: keys, each a time and a value, of parts of nodes. Out: the same, checked and read-only. Clips
-hold channels of other properties (`properties.py`) as well.
+In: keys (time and value) for parts of nodes. Out: the same, checked and read-only. Clips also hold
+channels of other properties (`properties.py`).
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _WIDTHS = {"translation": 3, "rotation": 4, "scale": 3}
 
 
 class Channel(Keyed):
-    """Keys of one part of one node; it stays as it was made.
+    """Keys of one part of one node; immutable.
 
     Parameters
     ----------
@@ -32,17 +32,17 @@ class Channel(Keyed):
     path : {"translation", "rotation", "scale", "weights"}
         The part of the node; weights are its ``morph_weights``.
     times : (K,) float
-        Seconds, increasing. Before the first and after the last, the part stays as it is there.
+        Seconds, increasing. The value is constant before the first and after the last key.
     values : (K, N) float, or (K, 3, N) for splines
-        N is 3, 4 (quaternions x, y, z, w) or the number of morph targets. Of splines: the tangent
-        towards each key, the value there, and the tangent away from it, per second.
+        N is 3, 4 (quaternions x, y, z, w) or the number of morph targets. A spline has the
+        in-tangent, the value and the out-tangent of each key, per second.
     interpolation : {"linear", "step", "cubicspline"}
         Rotations turn the shorter way round, at a constant rate.
 
     Raises
     ------
     InvalidArgumentError
-        A wrong shape, times that do not increase, a number that is not finite, a rotation of zeros.
+        A shape is wrong, times do not increase, a number is not finite, or a rotation is all 0.
     """
 
     def __init__(
@@ -82,13 +82,13 @@ class AnimationClip(Closed):
     Parameters
     ----------
     channels : iterable of Channel and PropertyChannel
-        Of nodes of one scene, and of what they hold.
+        Channels of one scene's nodes, and of their materials, cameras and lights.
     name : str
 
     Raises
     ------
     InvalidArgumentError
-        One is no channel.
+        An item is not a channel.
     """
 
     def __init__(self, channels: Iterable[Channel | PropertyChannel], name: str = "") -> None:

@@ -1,7 +1,7 @@
-"""Between two values: straight lines, the shorter way round, cubic splines.
+"""Interpolation between two values: linear, spherical (slerp) or by cubic splines.
 
-In: values at keys, as float64 arrays with a row each, and shares of the way. Out: float64, with the
-same bits on every machine (R76). Sources: glTF 2.0, Appendix C; Shoemake 1985 (slerp).
+In: values at keys, as float64 arrays with a row each, and interpolation factors. Out: float64, with
+the same bits on every machine (R76). Sources: glTF 2.0, Appendix C; Shoemake 1985 (slerp).
 """
 
 from __future__ import annotations
@@ -12,18 +12,18 @@ import numpy as np
 
 from ...base import linalg
 
-_STRAIGHT = 1e-6  # of the sine of an angle: below it, the way is straight
+_STRAIGHT = 1e-6  # of the sine of an angle: below it, interpolate linearly
 
 
 class Turns(NamedTuple):
-    """Ways from rotations to others, the shorter way round.
+    """Pairs of rotations to interpolate along the shorter arc.
 
     Attributes
     ----------
     starts, ends : (N, 4) float64
-        Unit quaternions on the same side.
+        Unit quaternions in the same hemisphere.
     angles, sines : (N,) float64
-        Of the angle between both.
+        The angle between each pair, and its sine.
     """
 
     starts: np.ndarray
@@ -32,11 +32,11 @@ class Turns(NamedTuple):
     sines: np.ndarray
 
     def rows(self, numbers: np.ndarray) -> Turns:
-        """Return some of the ways."""
+        """Return some of the pairs."""
         return Turns(*(part[numbers] for part in self))
 
     def at(self, shares: np.ndarray) -> np.ndarray:
-        """Return the rotations at shares (N,) of the ways, at a constant rate: (N, 4)."""
+        """Return the rotations at fractions (N,), at constant angular velocity: (N, 4)."""
         left = 1.0 - shares
         straight = self.sines < _STRAIGHT
         safe = np.where(straight, 1.0, self.sines)
@@ -46,7 +46,7 @@ class Turns(NamedTuple):
 
 
 def turns(a: np.ndarray, b: np.ndarray) -> Turns:
-    """Return the turns from rotations to others: (N, 4) quaternions of any length but zero."""
+    """Return the pairs from and to given rotations: (N, 4) quaternions of any nonzero length."""
     a, b = unit(a), unit(b)
     cosines = _dot(a, b)
     b = np.where((cosines < 0.0)[:, np.newaxis], -b, b)
@@ -56,12 +56,12 @@ def turns(a: np.ndarray, b: np.ndarray) -> Turns:
 
 
 def slerp(a: np.ndarray, b: np.ndarray, share: float) -> np.ndarray:
-    """Return the rotation between two, the shorter way round.
+    """Return the spherical interpolation of two rotations along the shorter arc.
 
     Parameters
     ----------
     a, b : (4,) float64
-        Quaternions of any length but zero.
+        Quaternions of any nonzero length.
     share : float
         0 is a, 1 is b.
 
@@ -73,7 +73,7 @@ def slerp(a: np.ndarray, b: np.ndarray, share: float) -> np.ndarray:
 
 
 def straight(a: np.ndarray, b: np.ndarray, shares: np.ndarray) -> np.ndarray:
-    """Return the values (N, C) at shares (N,) of the straight ways from some to others."""
+    """Return the linear interpolation (N, C) of two values at fractions (N,)."""
     shares = shares[:, np.newaxis]
     return a * (1.0 - shares) + b * shares
 
@@ -81,14 +81,14 @@ def straight(a: np.ndarray, b: np.ndarray, shares: np.ndarray) -> np.ndarray:
 def spline(
     before: np.ndarray, after: np.ndarray, shares: np.ndarray, spans: np.ndarray
 ) -> np.ndarray:
-    """Return the values of cubic splines.
+    """Return values of cubic splines.
 
     Parameters
     ----------
     before, after : (N, 3, C) float64
-        At both keys: tangent towards it, value, tangent away from it.
+        In-tangent, value and out-tangent of both keys.
     shares, spans : (N,) float64
-        Share of the way from key to key, and how long that is.
+        Fraction of the time between the keys, and that time.
 
     Returns
     -------
@@ -104,7 +104,7 @@ def spline(
 
 
 def unit(quaternions: np.ndarray) -> np.ndarray:
-    """Return quaternions (N, 4) at unit length; what has none stays as it is."""
+    """Return quaternions (N, 4) at unit length; zeros stay zero."""
     square = _dot(quaternions, quaternions)
     length = np.sqrt(np.where((square > 0.0) & (square < np.inf), square, 1.0))
     return quaternions / length[:, np.newaxis]

@@ -1,7 +1,8 @@
-"""Keys of many channels of one kind, sampled together.
+"""Samples the keys of many similar channels together.
 
 In: channels with the same path, interpolation and width; a time for each. Out: a row of values for
-each. A value depends on the time alone; where the last sample was only makes the next one faster.
+each. A value depends on the time alone; the position of the last sample only speeds up the next
+search.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ class KeyframeTable:
         self.channels = tuple(channels)
         first = channels[0]
         self.path, self._interpolation = first.path, first.interpolation
-        # Channels that have the same keys share them.
+        # Channels with the same keys share them.
         keys = {(id(c.times), id(c.values)): c for c in channels}
         counts = np.array([len(channel.times) for channel in keys.values()])
         ends = np.cumsum(counts)
@@ -51,7 +52,7 @@ class KeyframeTable:
         if self._interpolation == "step":
             return self._values[at]
         spans = self._times[after] - self._times[at]
-        with np.errstate(over="ignore"):  # keys may be very close
+        with np.errstate(over="ignore"):  # keys may be very close in time
             shares = (times - self._times[at]) / np.where(after > at, spans, 1.0)
         shares = np.where(after > at, np.minimum(np.maximum(shares, 0.0), 1.0), 0.0)
         if self._turns is not None:
@@ -62,19 +63,19 @@ class KeyframeTable:
         return unit(value) if self.path == "rotation" else value
 
     def _find(self, times: np.ndarray) -> np.ndarray:
-        """The last keys that are not after the times, or the first keys."""
+        """Return the last key not after each time, or the first key."""
         at = self._at
         right = (self._times[at] <= times) | (at == self._first)
         right &= (at == self._last) | (times < self._times[np.minimum(at + 1, self._last)])
         wrong = np.flatnonzero(~right)
         if len(wrong):
-            at = at.copy()  # another thread may be looking
+            at = at.copy()  # another thread may be reading it
             at[wrong] = self._search(times[wrong], self._first[wrong], self._last[wrong])
             self._at = at
         return at
 
     def _search(self, times: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
-        """Bisection of all at once."""
+        """Search all tables at once by bisection."""
         while (low < high).any():
             middle = (low + high + 1) >> 1
             early = self._times[middle] <= times
@@ -84,7 +85,7 @@ class KeyframeTable:
 
 
 def tables_of(channels: Sequence[Channel | PropertyChannel]) -> list[KeyframeTable]:
-    """Return the channels in tables of one kind each."""
+    """Return the channels sorted into tables of one kind each."""
     kinds: dict[tuple[str, str, int], list[Channel | PropertyChannel]] = {}
     for channel in channels:
         kind = channel.path, channel.interpolation, channel.values.shape[-1]

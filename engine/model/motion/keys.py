@@ -1,4 +1,4 @@
-"""Times and values of keys, as channels take them: float64, read-only, copied only if need be."""
+"""Times and values of keys, as channels take them: float64, read-only, copied only if needed."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ INTERPOLATIONS = get_args(Interpolation)
 
 
 class Keyed(Closed):
-    """A thing with keys, as channels have them; whoever makes one checks the keys."""
+    """Base of channels with keys; their makers check the keys."""
 
     _interpolation: Interpolation
     _times: NDArray[np.float64]
@@ -49,7 +49,7 @@ def check_times(value: ArrayLike) -> np.ndarray:
 
 
 def frozen_or_copied(value: ArrayLike, what: str) -> np.ndarray:
-    """Return numbers as a read-only float64 array: the given one, if nobody can write to it."""
+    """Return numbers as a read-only float64 array; copy them if anybody could write to them."""
     if isinstance(value, np.ndarray) and value.dtype == np.float64 and is_frozen(value):
         if value.flags.c_contiguous:
             return value

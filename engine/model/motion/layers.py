@@ -1,6 +1,6 @@
-"""A layer: clips that play together, and how layers fade into one another.
+"""Animation layers: clips that play together, and the cross-fade between layers.
 
-In: clips with the rows of what they move, and a time. Out: values of all rows.
+In: clips with the rows they animate, and a time. Out: values of all rows.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ class Layer:
     ----------
     clips : tuple of AnimationClip
     masks : dict of str to (rows,) bool
-        What they move, by path.
+        The rows that the clips animate, by path.
     fade : float
-        Seconds in which this takes the place of the layers before.
+        Seconds of the cross-fade from the layers before.
     since : float
-        How long it had played when the newest layer began.
+        Seconds it had played when the newest layer began.
     """
 
     def __init__(
@@ -57,7 +57,7 @@ class Layer:
             self.masks[path][rows] = True
 
     def values(self, time: float, loop: Loop) -> Values:
-        """Return the values of all rows at a time since the newest layer began."""
+        """Return the values of all rows, at a time counted from the newest layer's start."""
         values = {path: rest.copy() for path, rest in self._parts.rest.items()}
         time = self.since + time
         for k, table in enumerate(self._tables):
@@ -76,13 +76,13 @@ class Layer:
         return values
 
     def share(self, time: float) -> float:
-        """Return how far this has taken the place of what was before, 0 … 1."""
+        """Return the layer's weight in the cross-fade from earlier ones, 0 … 1."""
         played = abs(self.since + time)
         return 1.0 if played >= self.fade else played / self.fade
 
 
 def looped(times: np.ndarray, durations: np.ndarray, loop: Loop) -> np.ndarray:
-    """Return the times of clips (C,) that go on after their ends, within their durations."""
+    """Return the times of clips (C,) looped into their durations."""
     if loop == "once":
         return np.minimum(np.maximum(times, 0.0), durations)
     spans = np.where(durations > 0.0, durations, 1.0)
@@ -97,7 +97,7 @@ def looped(times: np.ndarray, durations: np.ndarray, loop: Loop) -> np.ndarray:
 
 
 def mixed(layers: list[Layer], time: float, loop: Loop) -> Values:
-    """Return the values of layers that fade into one another, the newest last."""
+    """Return the values of cross-fading layers, the newest last."""
     shares = [layer.share(time) for layer in layers]
     first = max((k for k, share in enumerate(shares) if share >= 1.0), default=0)
     values = layers[first].values(time, loop)

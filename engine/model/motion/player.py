@@ -1,8 +1,8 @@
-"""Plays clips: moves the nodes of a scene to their poses at a time.
+"""Plays clips: poses the nodes of a scene at a time.
 
 In: clips, and the time. Out: translations, rotations, scales and morph weights of nodes, and other
-properties. What they are depends on the clips that play and their times alone, never on the frames
-before, with the same bits on every machine. All channels are found together.
+properties. The values depend only on the playing clips and their times, never on earlier frames,
+with the same bits on every machine. All channels are sampled together.
 """
 
 from __future__ import annotations
@@ -35,16 +35,16 @@ class AnimationPlayer(Clock):
     ----------
     scene : Scene
     clips : iterable of AnimationClip, optional
-        ``scene.animations`` if left out. None plays until `play`.
+        By default ``scene.animations``. Nothing plays until `play` is called.
 
     Attributes
     ----------
     time : float
-        Seconds since the clip's start, as far as `advance` and `seek` brought it.
+        Seconds since the clip's start, set by `advance` and `seek`.
     speed : float
-        Seconds of the clip in a second; negative plays backwards.
+        Playback speed; negative plays backwards.
     loop : {"repeat", "once", "ping-pong"}
-        What comes after the end: the start, nothing, or the way back.
+        What happens at the end: start again, stop, or play backwards.
     paused : bool
         Whether `advance` does nothing.
 
@@ -58,7 +58,7 @@ class AnimationPlayer(Clock):
         self._clips = _check_clips(scene.animations.values() if clips is None else clips, scene)
         self.speed = 1.0
         self.loop = "repeat"
-        self._layers: list[Layer] = []  # the last one plays, those before are faded out
+        self._layers: list[Layer] = []  # the last one plays, the earlier ones fade out
         self._parts = AnimatedParts(scene, self._clips)
 
     @property
@@ -67,12 +67,12 @@ class AnimationPlayer(Clock):
 
     @property
     def playing(self) -> tuple[AnimationClip, ...]:
-        """The clips that play now, without those that are faded out."""
+        """The playing clips, without those that are fading out."""
         return self._layers[-1].clips if self._layers else ()
 
     @property
     def duration(self) -> float:
-        """Seconds of the longest clip that plays; 0 if none does."""
+        """Duration in seconds of the longest playing clip; 0 if none plays."""
         return max((clip.duration for clip in self.playing), default=0.0)
 
     @property
@@ -99,17 +99,18 @@ class AnimationPlayer(Clock):
         fade: float = 0.0,
         offsets: float | Iterable[float] = 0.0,
     ) -> None:
-        """Play a clip from its start, or go on after `pause`.
+        """Play a clip from its start, or continue after `pause`.
 
         Parameters
         ----------
         clip : str, int, AnimationClip or several of these, optional
-            By name, number or itself; several play at once, the later ones having the last word
-            on what several move. Left out, what played before goes on; at first, the first clip.
+            A name, an index or the clip itself. Several play at once; where they animate the same
+            part, the last one wins. By default, the previous clip continues, or the first one
+            starts.
         fade : float
-            Seconds in which what played before fades into this.
+            Seconds of the cross-fade from the previous clip.
         offsets : float or iterable of float
-            Seconds that a clip, or each of several, is ahead of `time`.
+            Seconds by which a clip, or each of several, is ahead of `time`.
 
         Raises
         ------
@@ -135,11 +136,11 @@ class AnimationPlayer(Clock):
         self._move()
 
     def pause(self) -> None:
-        """Stay where everything is, until `play`."""
+        """Stop everything where it is, until `play`."""
         self.paused = True
 
     def stop(self) -> None:
-        """Play nothing, and put back what was moved to where it was."""
+        """Stop playing, and restore the nodes' original values."""
         self._put_back(self._layers)
         self._layers = []
 
@@ -176,7 +177,7 @@ class AnimationPlayer(Clock):
         self._parts.write(self._scene, self._parts.rest, self._masks(layers))
 
     def _masks(self, layers: list[Layer]) -> dict[str, np.ndarray]:
-        """What layers move."""
+        """Return the rows that layers animate, as masks."""
         masks = self._parts.none()
         for layer in layers:
             for path, moved in layer.masks.items():

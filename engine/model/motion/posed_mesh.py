@@ -1,7 +1,7 @@
-"""A mesh as a node shows it: bent by joints, changed by morph targets.
+"""A mesh as its node shows it: deformed by joints and morph targets.
 
-In: a mesh; matrices and weights, which C takes. Out: its handle for drawing, its box, and, for who
-asks, a `Mesh` with the vertices where they are now.
+In: a mesh; matrices and weights, which C takes. Out: its handle for drawing, its box and, on
+request, a `Mesh` with the deformed vertices.
 """
 
 from __future__ import annotations
@@ -21,29 +21,29 @@ from ..geometry.movers import VERTEX_AXES
 from ..geometry.native_meshes import make_native_mesh
 from ..geometry.twins import put_arrays
 
-_MOST_COLUMNS = 8  # that C numbers at once
+_MOST_COLUMNS = 8  # that C numbers in one call
 _rests: WeakKeyDictionary[Mesh, tuple[dict[str, Any], NativeRest]] = WeakKeyDictionary()
 
 
 class PosedMesh:
-    """A mesh that is posed.
+    """A mesh with a pose of joints and morph weights.
 
     Attributes
     ----------
     mesh : Mesh
-        At rest.
+        The mesh at rest.
     native : NativePose
     """
 
     def __init__(self, mesh: Mesh) -> None:
         self.mesh = mesh
         self._made_of: dict[str, Any] = {}
-        self._version = -1  # of the mesh, when its arrays were last looked at
+        self._version = -1  # the mesh's version when its arrays were last checked
         self._now: tuple[NativeMesh, Mesh] | None = None
         self.renew()
 
     def renew(self) -> bool:
-        """Begin anew where arrays of the mesh are others; return whether they are."""
+        """Rebuild the pose if the mesh's arrays have changed; return whether they have."""
         version = self.mesh.version
         if version == self._version:
             return False
@@ -60,11 +60,11 @@ class PosedMesh:
 
     @property
     def arrays(self) -> dict[str, Any]:
-        """The mesh's arrays that the pose was made of."""
+        """The mesh's arrays that the pose was made from."""
         return self._made_of
 
     def handle(self, face_normals: bool, edges: bool, threads: int) -> NativeMesh:
-        """Return the handle to draw, with what a picture reads of it."""
+        """Return the handle to draw, with the derived arrays that a picture reads."""
         native = self.native
         if face_normals and not native.face_normals:
             native.want_face_normals()
@@ -81,7 +81,7 @@ class PosedMesh:
         return box
 
     def now(self) -> Mesh:
-        """Return a mesh with the vertices where they are, the same as long as they stay there."""
+        """Return a mesh with the deformed vertices; the same object until they move."""
         current = self.native.current
         if current is None:
             pose_meshes([self.native], None, 1)
@@ -128,7 +128,7 @@ def _rest_of(mesh: Mesh, arrays: dict[str, Any]) -> NativeRest:
 
 
 def _movers_of(arrays: dict[str, Any]) -> np.ndarray:
-    """Number the vertices; those alike are moved alike, wherever they are."""
+    """Number the vertices such that vertices with the same joints and weights get one number."""
     count = len(arrays["positions"])
     rows = []
     if arrays.get("joints") is not None:
@@ -142,7 +142,7 @@ def _movers_of(arrays: dict[str, Any]) -> np.ndarray:
 
 
 def _number_rows(rows: np.ndarray) -> np.ndarray:
-    """Number rows of uint32, equal ones alike; of wide ones first the parts."""
+    """Number rows of uint32, equal rows alike; number the parts of wide rows first."""
     if rows.shape[1] <= _MOST_COLUMNS:
         return native_loaders.number_rows(np.ascontiguousarray(rows), False)[0]
     starts = range(0, rows.shape[1], _MOST_COLUMNS)

@@ -1,7 +1,7 @@
-"""Properties that clips change besides poses: of materials, cameras, lights, and of nodes some.
+"""Properties that clips can animate besides poses: of materials, cameras, lights and some of nodes.
 
-In: a thing and the name of one of its properties; numbers. Out: the numbers that the property is
-now; the property set to numbers, as near to them as it may be.
+In: an object and a property's name; numbers. Out: the property's current numbers; the property set
+to the nearest numbers it allows.
 """
 
 from __future__ import annotations
@@ -24,20 +24,21 @@ from ..scene.lights import DIRECT_LIGHTS
 from ..scene.nodes import Node
 from .keys import INTERPOLATIONS, Keyed, check_times, frozen_or_copied
 
-_LEAST = 1e-9  # of what must be greater than 0
+_LEAST = 1e-9  # for numbers that must be greater than 0
 _WIDEST = math.pi - 1e-6
 
 
 class Range(NamedTuple):
-    """The values that a property may have.
+    """The values that a property allows.
 
     Attributes
     ----------
     low, high : float
     width : int
-        How many numbers it is.
+        How many numbers a value has.
     is_kept : bool
-        Whether it never is beyond its keys, as splines may be: other properties limit it.
+        Whether values are clamped to the range of the keys, which splines may exceed: another
+        property limits this one.
     """
 
     low: float = -math.inf
@@ -49,7 +50,7 @@ class Range(NamedTuple):
 _POSITIVE, _COLOR = Range(0.0), Range(0.0, width=3)
 _DEPTH = Range(_LEAST, is_kept=True)
 _CONE = Range(0.0, math.pi / 2, is_kept=True)
-_LIGHT = {  # as far as a kind has it
+_LIGHT = {  # the properties of all light kinds
     "color": _COLOR,
     "intensity": _POSITIVE,
     "range": Range(_LEAST),
@@ -81,7 +82,7 @@ _WEIGHT = "weights."
 
 
 class Property(NamedTuple):
-    """A property of a thing, as several channels may name it.
+    """A property of an object; several channels may name it.
 
     Attributes
     ----------
@@ -93,12 +94,12 @@ class Property(NamedTuple):
     path: str
 
     def held(self) -> Any:
-        """Return what the property is."""
+        """Return the property's value."""
         name = self.path.partition(".")[0]
         return getattr(self.target, "morph_weights" if name == "weights" else name)
 
     def numbers(self) -> NDArray[np.float64]:
-        """Return it as numbers, colours in linear light."""
+        """Return the value as numbers, colours in linear light."""
         target, path = self.target, self.path
         if path.startswith(_WEIGHT):
             weights, number = self.held(), int(path[len(_WEIGHT) :])
@@ -110,7 +111,7 @@ class Property(NamedTuple):
         if isinstance(value, tuple) and not place:
             return linear_color(value).astype(np.float64)
         if value is None:
-            return np.ones(1)  # metallic or roughness, where only the other one is said
+            return np.ones(1)  # metallic or roughness, if only the other one is set
         return np.array(value, np.float64).reshape(-1)
 
     def put(self, numbers: NDArray[np.float64]) -> None:
@@ -132,14 +133,14 @@ class Property(NamedTuple):
             self._set(path, values if limits.width > 1 else values[0])
 
     def restore(self, held: Any) -> None:
-        """Set the property to what it was."""
+        """Restore the property's earlier value."""
         name = self.path.partition(".")[0]
         self._set("morph_weights" if name == "weights" else name, held)
 
     def _set(self, name: str, value: Any) -> None:
         before = getattr(self.target, name)
         if type(before) is type(value) and np.array_equal(before, value):
-            return  # what changes is made anew by renderers
+            return  # renderers rebuild only what changes
         with certainly_linear():
             setattr(self.target, name, value)
 
@@ -153,12 +154,12 @@ class Property(NamedTuple):
 
 
 def range_of(target: Any, path: str) -> Range:
-    """Return what a property of a thing may be.
+    """Return the range of an object's property.
 
     Raises
     ------
     InvalidArgumentError
-        Clips change no such thing, or no such property of it.
+        Clips cannot animate this object or property.
     """
     if isinstance(target, Node):
         number = path[len(_WEIGHT) :] if isinstance(path, str) and path.startswith(_WEIGHT) else ""
@@ -183,28 +184,28 @@ def _placed(held: Texture | PlacedTexture) -> PlacedTexture:
 
 
 class PropertyChannel(Keyed):
-    """Keys of a property of a material, a camera, a light or a node; it stays as it was made.
+    """Keys of a property of a material, camera, light or node; immutable.
 
     Parameters
     ----------
     target : Material, PerspectiveCamera, OrthographicCamera, Node or a light
     path : str
-        The attribute: of materials and lights each number and colour, such as ``"roughness"`` (a
-        material's ``"color"`` has four numbers), and where a texture is, such as
-        ``"normal_texture.offset"``, ``".rotation"`` or ``".scale"``; of cameras ``"yfov"`` or
-        ``"ymag"``, ``"znear"``, ``"zfar"``; of nodes ``"visible"``, which is at 0.5 and more, and
-        one morph weight, ``"weights.0"``. Colours are linear light.
+        The attribute. Materials and lights: any number or colour, such as ``"roughness"`` (a
+        material's ``"color"`` has four numbers), and a texture's transform, such as
+        ``"normal_texture.offset"``, ``".rotation"`` or ``".scale"``. Cameras: ``"yfov"`` or
+        ``"ymag"``, ``"znear"``, ``"zfar"``. Nodes: ``"visible"`` (true from 0.5 on), and single
+        morph weights, ``"weights.0"``. Colours are linear light.
     times : (K,) float
-        As of `Channel`.
+        As in `Channel`.
     values : (K, N) float, or (K, 3, N) for splines
-        N is how many numbers the property is. What a spline has beyond what the property may be
-        becomes the nearest that it may be.
+        N is how many numbers a value has. Values of a spline outside the property's range are
+        clamped.
     interpolation : {"linear", "step", "cubicspline"}
 
     Raises
     ------
     InvalidArgumentError
-        There is no such property, or as of `Channel`.
+        There is no such property, or as in `Channel`.
     """
 
     def __init__(
@@ -234,12 +235,12 @@ class PropertyChannel(Keyed):
 
     @property
     def reach(self) -> tuple[float, float]:
-        """The least and the greatest number of all keys."""
+        """The smallest and largest number of all keys."""
         keys = self._values[:, 1] if self._interpolation == "cubicspline" else self._values
         return float(keys.min()), float(keys.max())
 
     def _within(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return a value between keys that is not beyond them, if the property may not be."""
+        """Clamp a value to the range of the keys, if the property requires it."""
         if self._hull is None:
             return values
         return np.minimum(np.maximum(values, self._hull[0]), self._hull[1])

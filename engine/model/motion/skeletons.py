@@ -1,7 +1,7 @@
-"""The nodes between a skin's joints and what they all hang from.
+"""Skeletons: the nodes between a skin's joints and their common ancestor.
 
-In: joints of a scene. Out: the nodes on the ways to them, those above first, and the node from
-which all these ways begin: the anchor, whose own pose moves all joints alike.
+In: joints of a scene. Out: the nodes on the paths to the joints, parents first, and the anchor: the
+lowest node above all joints, whose own pose moves all joints alike.
 """
 
 from __future__ import annotations
@@ -12,18 +12,18 @@ import numpy as np
 
 from .skins import Skin
 
-WORLD = -2  # the joints have no node above them all
+WORLD = -2  # the joints have no common ancestor node
 
 
 class Skeleton(NamedTuple):
-    """The data from which C finds the matrices of a skin's joints.
+    """The data from which C computes the matrices of a skin's joints.
 
     Attributes
     ----------
     anchor : int
-        Slot of the node that all joints are below; `WORLD` if there is none.
+        Slot of the joints' common ancestor; `WORLD` if there is none.
     slots, above : (L,) int32
-        Nodes on the ways to the joints, and the row that each hangs from; -1: the anchor.
+        Slots of the nodes on the paths to the joints, and each one's parent row; -1: the anchor.
     ends : (J,) int32
         The row of each joint.
     inverse_binds : (J, 12) float64
@@ -37,7 +37,7 @@ class Skeleton(NamedTuple):
 
 
 def skeleton_of(skin: Skin, joints: list[int], parents: np.ndarray) -> Skeleton:
-    """Return the skeleton of a skin, of whose joints and all nodes' parents the slots are given."""
+    """Return the skeleton of a skin, given the slots of its joints and of all nodes' parents."""
     anchor = _anchor(joints, parents)
     rows: dict[int, int] = {}
     above: list[int] = []
@@ -65,12 +65,12 @@ def _above(parents: np.ndarray, slot: int) -> int:
 
 
 def _anchor(joints: list[int], parents: np.ndarray) -> int:
-    """The lowest node that all joints are below, none of them itself."""
+    """Return the lowest node above all joints, itself not a joint."""
     common = _ways_up(_above(parents, joints[0]), parents)
     shared = set(common)
     for joint in joints[1:]:
         slot = _above(parents, joint)
-        while slot not in shared:  # the world is in all
+        while slot not in shared:  # all joints are below the world
             slot = _above(parents, slot)
         if slot != common[0]:
             common = common[common.index(slot) :]

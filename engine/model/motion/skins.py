@@ -1,6 +1,7 @@
-"""A skin: the nodes whose poses bend a mesh.
+"""Skins: the nodes whose poses deform a mesh.
 
-In: nodes as joints, and where the mesh's rest pose has them. Out: the same, checked and read-only.
+In: nodes as joints, and the mesh's rest pose relative to them. Out: the same, checked and
+read-only.
 """
 
 from __future__ import annotations
@@ -19,23 +20,24 @@ from ..scene.nodes import Node
 
 
 class Skin(Closed):
-    """Joints for the vertices of meshes; give it to nodes as ``node.skin``.
+    """Joints for the vertices of meshes; assign it to ``node.skin``.
 
-    A vertex stands, in the world, at the sum over its joints of ``weight * joint.world_pose @
-    inverse_bind @ position``. Where the node of the mesh stands changes nothing, as in glTF.
+    A vertex's world position is the sum over its joints of ``weight * joint.world_pose @
+    inverse_bind @ position``. The pose of the mesh's own node has no effect, as in glTF.
 
     Parameters
     ----------
     joints : iterable of Node
-        Nodes of one scene; ``mesh.joints`` holds their numbers in this list.
+        Nodes of one scene; ``mesh.joints`` holds indices into this list.
     inverse_binds : (J, 4, 4) float, optional
-        joint-from-mesh at rest, affine. Left out, the joints' world poses now are those at rest.
+        joint-from-mesh at rest, affine. By default, the joints' current world poses are the rest
+        pose.
     name : str
 
     Raises
     ------
     InvalidArgumentError
-        No joints, one is no node of the scene of the others, or a matrix is not affine and finite.
+        There are no joints, they are not nodes of one scene, or a matrix is not affine and finite.
     """
 
     def __init__(

@@ -1,6 +1,6 @@
-"""Walking: where one can stand in a scene, and how one moves there.
+"""Navigation: where one can walk in a scene, and a walker that moves there.
 
-`NavigationGrid` finds the ground of any mesh or scene; `Walker` walks on it, never through a wall.
+`NavigationGrid` finds the ground of any mesh or scene; `Walker` walks on it, never through walls.
 """
 
 from .grid import NavigationGrid

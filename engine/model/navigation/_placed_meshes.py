@@ -1,7 +1,7 @@
-"""The meshes of a thing to walk in, each with its place in the world.
+"""Flattens a scene, meshes or instances into meshes with world poses.
 
 In: a `Mesh`, an `InstancedMesh`, a `Scene` or a sequence of meshes. Out: (mesh, world_from_mesh)
-one by one, instances too; and the box around all.
+one by one, including instances; and the box around all.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _IDENTITY = np.eye(4)
 
 
 def placed_meshes(thing: Any) -> list[tuple[Mesh, np.ndarray]]:
-    """Return the meshes that have faces and the (4, 4) float64 matrices that place them."""
+    """Return the meshes that have faces, and their world poses, (4, 4) float64."""
     if isinstance(thing, Scene):
         thing.data.update()
         nodes = [node for node in thing.nodes if node.shown]

@@ -1,7 +1,7 @@
 """The walkable surfaces of meshes, on a grid of square cells.
 
 In: meshes with named materials, Y up. Out: for each cell its layers (ground, a bridge over it, …),
-from below upward, in arrays that never change. C finds the layers (`csrc/scene/navigation/`).
+from below upward, in read-only arrays. C finds the layers (`csrc/scene/navigation/`).
 """
 
 from __future__ import annotations
@@ -34,32 +34,30 @@ Choice: TypeAlias = Collection[str] | Callable[[Material], bool] | None
 class NavigationGrid(Closed):
     """The ground of a scene, seen from above.
 
-    A cell's layer is a surface whose slope is small enough, at the cell's centre, with room for a
-    head above it. It is walkable if its material is and nothing comes as near as a radius to the
-    cell between the height of a step and that of a head. What moves or changes later is not seen:
-    build the grid anew.
+    A layer of a cell is a surface that at the cell's centre is flat enough and has headroom above
+    it. It is walkable if its material is, and if no obstacle between step height and headroom is
+    within the radius. Later changes of the scene are not seen: build a new grid.
 
     Parameters
     ----------
     thing : Scene, Mesh, InstancedMesh or sequence of these meshes
-        Y is up. Of a scene, everything visible.
+        Y is up. Of a scene, the visible meshes.
     cell : float
         Side of a cell in world units.
     walkable : collection of str, or callable, optional
-        Names of the materials that one walks on, or a function from a `Material` to bool. By
-        default all are.
+        Names of walkable materials, or a function from a `Material` to bool. By default all are.
     ignore : collection of str, or callable, optional
-        Materials that are not there for one who walks, such as leaves.
+        Materials that do not block the way, such as leaves.
     bounds : (2, 2) float, optional
         Least and greatest (x, z) of the grid; by default those of the meshes.
     max_slope : float
-        The steepest angle of ground, in radians, less than a quarter turn.
+        The steepest walkable slope, in radians, less than a quarter turn.
     step : float
-        What one steps over and up, in world units.
+        The highest step one can climb or cross, in world units.
     headroom : float
-        How high one is.
+        The free height needed, in world units.
     radius : float
-        How near walls may come.
+        The smallest distance to walls, in world units.
 
     Attributes
     ----------
@@ -142,26 +140,26 @@ class NavigationGrid(Closed):
     def sample_ground(
         self, x: ArrayLike, z: ArrayLike, y: ArrayLike | None = None
     ) -> tuple[Any, Any]:
-        """Return how high the ground is somewhere, and whether one can stand there.
+        """Return the height of the ground at points, and whether it is walkable.
 
         Parameters
         ----------
         x, z : float or (N,) float
             World coordinates.
         y : float or (N,) float, optional
-            Where one stands: asks for the highest layer at most a step above. Left out, the highest
-            of all is found.
+            The current height: selects the highest layer at most a step above. By default, the
+            highest layer.
 
         Returns
         -------
         height : float or (N,) float64
-            NaN where there is no such layer, or no grid.
+            NaN where there is no such layer, and outside the grid.
         walkable : bool or (N,) bool
 
         Raises
         ------
         InvalidArgumentError
-            What is given are no numbers, or not as many of each.
+            An argument is not a number, or the shapes differ.
         """
         x, z = floats(x, "x"), floats(z, "z")
         limit = np.inf if y is None else floats(y, "y") + self.step
@@ -177,7 +175,7 @@ class NavigationGrid(Closed):
         return heights.reshape(x.shape), walkable.reshape(x.shape)
 
     def _layers(self, x: Any, z: Any, limit: Any) -> tuple[np.ndarray, np.ndarray]:
-        """The highest layer below a limit at each point, or -1, and its height there."""
+        """Return the highest layer below a limit at each point, or -1, and its height there."""
         rows, columns = self.shape
         with np.errstate(over="ignore", invalid="ignore"):
             i = np.floor((x - self.origin[0]) / self.cell)
@@ -204,10 +202,10 @@ class NavigationGrid(Closed):
         Parameters
         ----------
         row, column : int
-            The cell; beside the grid nobody stands.
+            The cell; outside the grid, the result is None.
         x, z, y : float
-            A point, in or near the cell. The layer counts that is nearest in height, if it is a
-            step away at most.
+            A point in or near the cell. Only the layer nearest in height counts, if it is at most a
+            step away.
         """
         return self._standing(row, column, real(x), real(z), real(y))
 
@@ -224,12 +222,12 @@ class NavigationGrid(Closed):
 
     @checks_types
     def height(self, layer: int, row: int, column: int, x: float, z: float) -> float:
-        """Return how high the plane of a cell's layer is at a point.
+        """Return the height of a layer's plane at a point.
 
         Raises
         ------
         InvalidArgumentError
-            There is no such layer, or an argument is no number.
+            There is no such layer, or an argument is not a number.
         """
         if not 0 <= layer < len(self.heights):
             raise InvalidArgumentError(f"layer must be in 0..{len(self.heights) - 1}, not {layer}")
@@ -257,7 +255,7 @@ def _sizes(cell: Any, step: Any, headroom: Any) -> tuple[float, float, float]:
 
 
 def _area(placed: Any, bounds: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Least and greatest x and z."""
+    """Return the smallest and largest x and z."""
     if bounds is None:
         if not placed:
             raise InvalidArgumentError("there are no faces to walk on")
@@ -271,7 +269,7 @@ def _area(placed: Any, bounds: Any) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _kinds(materials: list[Material], walkable: Choice, ignore: Choice) -> np.ndarray:
-    """The flags of each material, (N,) uint8."""
+    """Return the flags of each material, (N,) uint8."""
     kinds = [
         0
         if _chosen(material, ignore)
@@ -282,7 +280,7 @@ def _kinds(materials: list[Material], walkable: Choice, ignore: Choice) -> np.nd
 
 
 def _check_choice(choice: Choice, what: str) -> None:
-    """Raise unless it chooses materials."""
+    """Raise unless the argument can select materials."""
     if choice is None or callable(choice):
         return
     several = isinstance(choice, Collection) and not isinstance(choice, (str, bytes))

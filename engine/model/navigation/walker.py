@@ -1,8 +1,8 @@
-"""One who walks on a navigation grid: asks before each step, slides along what blocks.
+"""A walker on a navigation grid: it tests each step, and slides along obstacles.
 
-In: a `NavigationGrid`, a place to start, wishes to move. Out: a position that is walkable at all
-times. Wishes are cut into steps of half a cell, and each is followed through every cell that
-it passes, so no wall is too thin and no step too long.
+In: a `NavigationGrid`, a start, and moves. Out: a position that is always walkable. A move is cut
+into steps of half a cell, and each step is traced through every cell it crosses, so no wall is too
+thin and no step too long.
 """
 
 from __future__ import annotations
@@ -22,10 +22,9 @@ from .grid import NavigationGrid
 
 #: Length of a step in cells.
 _STRIDE = 0.5
-#: Steps in one move: a wish that is longer goes as far as that.
+#: The most steps in one move; a longer move is cut off there.
 _MOST_STEPS = 4096
-#: Nearer than so many cells to the grid's edge, a new grid is asked for; then not again for half
-#: as many.
+#: Within this many cells of the edge, ask for a new grid; then not again for half as many.
 _EDGE = 80
 
 
@@ -36,26 +35,26 @@ class Walker(Closed):
     ----------
     grid : NavigationGrid
     x, z : float
-        Where to start: there, or on the nearest walkable cell.
+        The start; the nearest walkable cell is used.
     y : float, optional
-        About how high; by default the highest layer that is walkable there.
+        The approximate height; by default the highest walkable layer.
     eye_height : float
-        Eyes over the ground.
+        Height of the eyes above the ground.
     survey : callable, optional
-        From x and z to the `NavigationGrid` around there, with cells that lie as those of ``grid``.
-        Called whenever one comes near the grid's edge, so that the ground may be endless.
+        Returns the `NavigationGrid` around x and z, with cells aligned to those of ``grid``. Called
+        near the grid's edge, so that the ground can be endless.
 
     Attributes
     ----------
     grid : NavigationGrid
     x, y, z : float
-        Where the feet are; y is the ground's height.
+        Position of the feet; y is the ground's height.
     eye_height : float
 
     Raises
     ------
     InvalidArgumentError
-        Nothing is walkable, or a number is not finite.
+        No cell is walkable, or a number is not finite.
     """
 
     grid: NavigationGrid
@@ -87,12 +86,12 @@ class Walker(Closed):
 
     @property
     def eye(self) -> NDArray[np.float64]:
-        """Where the eyes are, (3,) float64."""
+        """Position of the eyes, (3,) float64."""
         return np.array([self.x, self.y + self.eye_height, self.z])
 
     @checks_types
     def move(self, dx: float, dz: float) -> bool:
-        """Go by (dx, dz), or along what blocks the way; returns whether that was anywhere."""
+        """Move by (dx, dz), or slide along obstacles; return whether the walker moved."""
         dx, dz = real(dx), real(dz)
         strides = math.hypot(dx, dz) / (_STRIDE * self.grid.cell)
         if not math.isfinite(strides) or strides == 0.0:
@@ -101,7 +100,7 @@ class Walker(Closed):
         x, z = dx / count, dz / count
         before = self.x, self.z
         for _ in range(min(count, _MOST_STEPS)):
-            # Along the longer part first: that is where the walker rather wants to go.
+            # Slide along the longer component first, which is closer to the wanted direction.
             parts = ((x, 0.0), (0.0, z)) if abs(x) >= abs(z) else ((0.0, z), (x, 0.0))
             self._look_around()
             if not (self._step(x, z) or self._step(*parts[0]) or self._step(*parts[1])):
@@ -109,7 +108,7 @@ class Walker(Closed):
         return (self.x, self.z) != before
 
     def _look_around(self) -> None:
-        """Go over to the grid around here if this one ends near by."""
+        """Switch to a new grid if the edge of this one is near."""
         if self._survey is None:
             return
         column, row = _cell(self.grid, self.x, self.z)
@@ -125,7 +124,7 @@ class Walker(Closed):
             self.grid, self._layer = grid, layer
 
     def _step(self, dx: float, dz: float) -> bool:
-        """Go by less than a cell if every cell on the way lets one pass."""
+        """Move by less than a cell if every cell crossed is walkable."""
         if dx == 0.0 and dz == 0.0:
             return False
         x, z = self.x + dx, self.z + dz
@@ -139,7 +138,7 @@ class Walker(Closed):
         return True
 
     def _ground(self, x: float, z: float) -> float:
-        """Return the height at a point near by of the ground under the feet."""
+        """Return the height of the ground at a nearby point, on the walker's layer."""
         column, row = _cell(self.grid, self.x, self.z)
         return self.grid._height(self._layer, row, column, x, z)
 
@@ -147,21 +146,21 @@ class Walker(Closed):
         return f"Walker(x={self.x:g}, y={self.y:g}, z={self.z:g})"
 
 
-_BEYOND = 1e15  # cells from the grid: farther is as far
+_BEYOND = 1e15  # cells from the grid: clamp coordinates there
 
 
 def _cells_between(grid: NavigationGrid, x0: float, z0: float, x1: float, z1: float) -> Any:
-    """Yield the cells that a segment enters, in order, the last one last; not where it starts.
+    """Yield the cells that a segment enters, in order, without the start and with the end.
 
-    A segment shorter than a cell enters at most two. Where it goes through a corner it is taken
-    round by the cells on both sides: a wall may stand on either.
+    A segment shorter than a cell enters at most two. Through a corner, it visits the cells on both
+    sides, since either may hold a wall.
     """
     i0, j0 = _cell(grid, x0, z0)
     i1, j1 = _cell(grid, x1, z1)
     if i0 != i1 and j0 != j1:
         edge_x = grid.origin[0] + max(i0, i1) * grid.cell
         edge_z = grid.origin[1] + max(j0, j1) * grid.cell
-        # The products are the segment's parameters where it crosses the edges, up to a factor.
+        # The products are the segment's parameters at its crossings with the edges, up to a factor.
         at_x, at_z = abs(edge_x - x0) * abs(z1 - z0), abs(edge_z - z0) * abs(x1 - x0)
         if at_x <= at_z:
             yield j0, i1
@@ -171,7 +170,7 @@ def _cells_between(grid: NavigationGrid, x0: float, z0: float, x1: float, z1: fl
 
 
 def _cell(grid: NavigationGrid, x: float, z: float) -> tuple[int, int]:
-    """Column and row of a point; beside the grid, too."""
+    """Return the column and row of a point, also outside the grid."""
     left, top = grid.origin.tolist()
     return _floor((x - left) / grid.cell), _floor((z - top) / grid.cell)
 
@@ -180,9 +179,9 @@ def _floor(number: float) -> int:
     return math.floor(min(max(number, -_BEYOND), _BEYOND))
 
 
-@np.errstate(over="ignore")  # all places are equally far from beyond all counting
+@np.errstate(over="ignore")  # beyond overflow, all places are equally far
 def _nearest(grid: NavigationGrid, x: float, z: float, y: float | None) -> Any:
-    """The walkable layer nearest to a point, and x and z of the nearest place on it."""
+    """Return the walkable layer nearest to a point, and x and z of the nearest place on it."""
     layers = np.flatnonzero(grid.walkable)
     if not len(layers):
         raise InvalidArgumentError("nothing in the navigation grid is walkable")
@@ -191,13 +190,13 @@ def _nearest(grid: NavigationGrid, x: float, z: float, y: float | None) -> Any:
     centers = [grid.origin[0] + (columns + 0.5) * grid.cell]
     centers.append(grid.origin[1] + (rows + 0.5) * grid.cell)
     heights = grid.heights[layers].astype(np.float64)
-    # Anywhere in a cell is as near as its centre.
+    # Any place within a cell is as near as its centre.
     dx, dz = (
         np.maximum(np.abs(c - p) - 0.5 * grid.cell, 0.0)
         for c, p in zip(centers, (x, z), strict=True)
     )
     up = 0.0 if y is None else heights - float(y)
-    # A point on an edge is in one cell only, whichever way the distances were rounded.
+    # A point on an edge belongs to one cell only, however the distances were rounded.
     here = (columns == _cell(grid, x, z)[0]) & (rows == _cell(grid, x, z)[1])
     distance = np.where(here, 0.0, dx * dx + dz * dz) + up * up
     best = np.lexsort((-heights, ~here, distance))[0]

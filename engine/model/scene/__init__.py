@@ -1,1 +1,1 @@
-"""Trees of nodes, and what nodes carry: instances, lights, cameras; how these come from a file."""
+"""Scenes: trees of nodes that hold meshes, instances, lights and cameras."""

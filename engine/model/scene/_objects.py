@@ -1,11 +1,11 @@
-"""The objects of a scene's nodes: each mesh and each set of instances once, under a number.
+"""The objects of a scene's nodes: each mesh or set of instances once, under a number.
 
 In: objects, as nodes come and go. Out: their numbers, and their boxes in object space, renewed when
-an object changed. A number is used again only after ``version`` has grown. What a change costs
-depends on what changed, not on how many objects there are.
+an object changes. A number is reused only after ``version`` has grown. The cost of a change depends
+on the change, not on the number of objects.
 
-Threads that ask at once for what is not known yet each find it, and find the same: nothing counts
-as done before its result is in its place.
+Threads that compute the same missing value at once get the same result: nothing counts as done
+before its result is stored.
 """
 
 from __future__ import annotations
@@ -25,22 +25,22 @@ if TYPE_CHECKING:
     from .shown import Drawn
 
 Part: TypeAlias = Mesh | InstancedMesh
-_REMEMBERED = 1024  # numbers that got other objects
+_REMEMBERED = 1024  # how many reassigned numbers are remembered
 NO_BOX = np.array((np.inf,) * 3 + (-np.inf,) * 3 + (0.0,) * 3)
 
 
 class ObjectTable:
-    """The objects of a scene that can be drawn.
+    """The drawable objects of a scene.
 
     Attributes
     ----------
     objects : list of Mesh, InstancedMesh or None
         By number; None where a number is free.
     boxes : (N, OBJECT_BOX) float64
-        By number: lowest and highest corner, and how far from 0 coordinates are that they were made
-        of; lowest above highest where nothing can show. There may be more rows than numbers.
+        By number: lowest and highest corner, and the largest absolute coordinates; lowest above
+        highest if the object is empty. There may be more rows than numbers.
     version : int
-        Grows by one when a number gets another object.
+        Grows by one when a number is given another object.
     """
 
     def __init__(self) -> None:
@@ -52,23 +52,23 @@ class ObjectTable:
         self._uses: list[int] = []
         self._free: list[int] = []
         self._watch = Watch()
-        # Numbers of what each mesh or set of instances is drawn by.
+        # The numbers of the objects that draw each mesh or set of instances.
         self._drawn: dict[Part, set[int]] = {}
-        self._parts: dict[int, list[Part]] = {}  # what a number draws
-        self._renewed: list[int] = []  # the numbers that got other objects, the latest last
-        self._given: list[int] = []  # the version at which each number got its object
-        self._unboxed: set[int] = set()  # the numbers whose boxes are not renewed since
+        self._parts: dict[int, list[Part]] = {}  # the things that each number draws
+        self._renewed: list[int] = []  # the numbers given other objects, the latest last
+        self._given: list[int] = []  # the version at which each number was given its object
+        self._unboxed: set[int] = set()  # the numbers whose boxes are out of date
 
     @property
     def shapes(self) -> NativeShapes:
-        """The shapes of objects for rays; they are set when a ray first asks."""
+        """The objects' shapes for rays; created when a ray first asks."""
         shapes = self._shapes
         if shapes is None:
             shapes = self._shapes = NativeShapes(len(self.objects))
         return shapes
 
     def take(self, obj: object) -> int:
-        """Return the number of an object for one more node; -1 for what is never drawn."""
+        """Return an object's number for one more node; -1 if the object is never drawn."""
         if not isinstance(obj, (Mesh, InstancedMesh, PosedMesh)):
             return -1
         number = self._numbers.get(obj)
@@ -89,15 +89,15 @@ class ObjectTable:
         return number
 
     def number_of(self, obj: Drawn) -> int:
-        """Return the number of an object that some node draws."""
+        """Return the number of an object that a node draws."""
         return self._numbers[obj]
 
     def forget_shapes(self) -> None:
-        """Say that what is drawn has other faces, or has them elsewhere."""
+        """Forget the shapes: an object's faces have changed or moved."""
         self._shapes = None
 
     def release(self, obj: Any) -> None:
-        """Say that a node of the object is gone."""
+        """Release an object's number for one node."""
         number = self._numbers.get(obj)
         if number is None:
             return
@@ -110,7 +110,7 @@ class ObjectTable:
                 self._look_away(part, number)
 
     def renewed_since(self, version: int) -> set[int] | None:
-        """Return the numbers that got other objects since a version; None if that is forgotten."""
+        """Return the numbers given other objects since a version; None if forgotten."""
         count = self.version - version
         return set(self._renewed[-count:] if count else ()) if count <= len(self._renewed) else None
 
@@ -119,7 +119,7 @@ class ObjectTable:
         return set(self._drawn.get(thing, ()))
 
     def refresh(self, arrays: NodeArrays) -> None:
-        """Renew the boxes, and touch the nodes in ``arrays`` whose boxes are others now."""
+        """Renew the boxes, and mark the nodes in ``arrays`` whose boxes changed."""
         found = self._watch.found()
         if not found and not self._unboxed:
             return
@@ -137,7 +137,7 @@ class ObjectTable:
                 self._unboxed.add(number)
 
     def _numbers_of(self, changed: list[tuple[Any, int]]) -> set[int]:
-        """The numbers of what is drawn by things that changed."""
+        """Return the numbers of the objects that draw the changed things."""
         numbers: set[int] = set()
         for thing, _ in changed:
             numbers |= self.drawn_by(thing)
@@ -146,7 +146,7 @@ class ObjectTable:
         return numbers
 
     def _follow(self, instances: InstancedMesh, number: int) -> None:
-        """Look at the mesh that is drawn now, and no longer at the one before."""
+        """Watch the mesh that the instances draw now instead of the earlier one."""
         mesh = instances.mesh
         self._look_at(mesh, number)
         parts, self._parts[number] = self._parts[number], [instances, mesh]
@@ -155,7 +155,7 @@ class ObjectTable:
                 self._look_away(part, number)
 
     def _make_room(self) -> None:
-        """Have a row for each number; fresh ones differ from every box."""
+        """Make room for a row per number; new rows are NaN and so differ from every box."""
         if len(self.boxes) < len(self.objects):
             move_boxes(self, np.full((2 * len(self.objects), OBJECT_BOX), np.nan))
 

@@ -1,7 +1,7 @@
-"""A part of a node's pose as it is read: an array for sums that cannot be changed in place.
+"""A part of a node's pose as read: a read-only array whose ``+=`` and the like assign.
 
-``node.translation += step`` moves the node: the sum is another array, which is assigned. What would
-change a part of the array alone, and so nothing of the node, is an error that says what to do.
+``node.translation += step`` moves the node: it computes a new array and assigns it. Writing to
+single elements would not change the node, so it raises an error that says what to do instead.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ class PosePart(np.ndarray):
             )
         super().__setitem__(key, value)
 
-    # What these return is assigned, and any numbers may be: `__add__` and others say less.
+    # The results are assigned to the node and may be any numbers; `__add__` and others promise
+    # less.
     def __iadd__(self, other: Any) -> Any:  # type: ignore[misc]
         return super().__iadd__(other) if self.flags.writeable else np.asarray(self) + other
 

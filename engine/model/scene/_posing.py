@@ -1,7 +1,7 @@
-"""The nodes of a scene whose meshes are bent, and which of them must be posed again.
+"""The nodes of a scene whose meshes are deformed, and which of them must be posed again.
 
-In: nodes with skins or weights of morph targets. Out: posed meshes, which the scene's arrays draw
-instead of the meshes at rest, and their boxes. What did not move is not posed again.
+In: nodes with skins or morph weights. Out: posed meshes, which the scene's arrays draw instead of
+the meshes at rest, and their boxes. Only what moved is posed again.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ class Posing:
     Attributes
     ----------
     moment : int
-        Grows whenever a mesh was posed anew.
+        Grows whenever a mesh is posed anew.
     numbers : (N,) int32
-        The objects of `ObjectTable` that are posed.
+        The posed objects' numbers in `ObjectTable`.
     poses : list of NativePose
-        Of each.
+        The pose of each.
     """
 
     def __init__(self) -> None:
@@ -44,32 +44,32 @@ class Posing:
         self.numbers = np.empty(0, np.int32)
         self.poses: list[NativePose] = []
         self._nodes: WeakValueDictionary[int, Node] = WeakValueDictionary()
-        self._here: list[Node] = []  # those of them that are in the scene, by their ids
+        self._here: list[Node] = []  # those in the scene, by ID
         self._watch = Watch()  # of their meshes
         self._posed: list[PosedMesh] = []
-        # The arrays and the links that skeletons are of.
+        # The arrays and links that the skeletons were found in.
         self._linked: tuple[Any, ...] | None = None
         self._changes = -1
 
     def take(self, node: Node) -> None:
-        """Look at a node from now on: it has what may bend its mesh."""
+        """Start to track a node that has a skin or morph weights."""
         self._nodes[node.id] = node
         self._linked = None
 
     def leave(self, node: Node) -> None:
-        """Look at a node no longer."""
+        """Stop tracking a node."""
         if self._nodes.pop(node.id, None) is not None:
             self._linked = None
 
     def update(self, data: SceneData, threads: int) -> None:
-        """Pose what moved since the last time."""
+        """Pose everything that moved since the last call."""
         arrays = data.arrays
         is_other_tree = self._linked != (arrays, arrays.links)
         if is_other_tree:
             self._find_nodes()
         changed = self._watch.found()
         if is_other_tree or changed:
-            # First the meshes: what is linked is what they are now.
+            # Meshes first: the links below depend on them.
             are_others = self._follow_meshes(data)
             if is_other_tree or are_others:
                 self._link(data)
@@ -87,12 +87,12 @@ class Posing:
         self._changes = arrays.changes
 
     def _find_nodes(self) -> None:
-        """Find the nodes that are in the scene, and look at their meshes."""
+        """Find the nodes that are in the scene, and watch their meshes."""
         self._here = [node for _, node in sorted(self._nodes.items()) if node._scene is not None]
         self._watch = Watch(node._object for node in self._here)
 
     def _follow_meshes(self, data: SceneData) -> bool:
-        """Let nodes show their meshes as these are now; return whether any shows another."""
+        """Switch nodes between posed and plain meshes; return whether any changed."""
         are_others = False
         for node in self._here:
             drawn = node._drawn
@@ -104,7 +104,7 @@ class Posing:
         return are_others
 
     def _link(self, data: SceneData) -> None:
-        """Find the joints of all skins in the tree as it is now."""
+        """Find the joints of all skins in the current tree."""
         arrays = data.arrays
         drawn = [(node, node._drawn) for node in self._here]
         placed = [(node, posed) for node, posed in drawn if isinstance(posed, PosedMesh)]
@@ -125,11 +125,11 @@ class Posing:
         self.moment += 1
 
     def _find_joints(self, node: Node, native: NativePose, data: SceneData) -> int | None:
-        """Tell a node's pose its joints; return the anchor's slot, or None without a skin."""
+        """Set the joints of a node's pose; return the anchor's slot, or None without a skin."""
         skin = node._skin
         joints: list[int] = [] if skin is None else data.slots_of(skin.joints).tolist()
         if skin is None or -1 in joints or not 0 < native.rest.joints <= len(joints):
-            native.forget_skeleton()  # the mesh became another, or joints were removed
+            native.forget_skeleton()  # the mesh was replaced, or joints were removed
             return None
         skeleton = skeleton_of(skin, joints, data.arrays.columns["parent"])
         native.set_skeleton(*skeleton[1:])
@@ -137,7 +137,7 @@ class Posing:
 
 
 def check_skin(value: Skin | None, node: Node) -> Skin | None:
-    """Check a skin for a node."""
+    """Check that a value is a skin of the node's scene, or None."""
     if value is None:
         return None
     if not isinstance(value, Skin):
@@ -149,7 +149,7 @@ def check_skin(value: Skin | None, node: Node) -> Skin | None:
 
 
 def check_fit(obj: Any, skin: Skin) -> None:
-    """Check that a skin has the joints that an object refers to."""
+    """Check that a skin has all the joints that an object refers to."""
     if not isinstance(obj, Mesh) or obj.joints is None:
         raise InvalidArgumentError("a skin needs a Mesh with joints and weights")
     used = int(obj.joints[obj.weights != 0].max(initial=0)) + 1
@@ -160,7 +160,7 @@ def check_fit(obj: Any, skin: Skin) -> None:
 
 
 def check_morph_weights(value: ArrayLike | None, obj: Any) -> NDArray[np.float64] | None:
-    """Check weights of an object's morph targets: a read-only (T,) float64 array."""
+    """Return the weights of an object's morph targets, checked: read-only (T,) float64."""
     if value is None:
         return None
     targets = obj.morph_targets if isinstance(obj, Mesh) else ()
@@ -170,13 +170,13 @@ def check_morph_weights(value: ArrayLike | None, obj: Any) -> NDArray[np.float64
 
 
 def may_bend(node: Node) -> bool:
-    """Whether a node has what bends a mesh, if its mesh is one that can be bent."""
+    """Return whether a node holds a mesh and has a skin or morph weights."""
     has_means = node._skin is not None or node._morph_weights is not None
     return has_means and isinstance(node._object, Mesh)
 
 
 def _is_bent(node: Node) -> bool:
-    """Whether a node shows its mesh bent."""
+    """Return whether a node shows its mesh deformed."""
     mesh = node._object
     if not isinstance(mesh, Mesh):
         return False
@@ -185,7 +185,7 @@ def _is_bent(node: Node) -> bool:
 
 
 def posed_for(node: Node) -> PosedMesh | None:
-    """Return what a node shows instead of its mesh, or None for the mesh itself."""
+    """Return the posed mesh that a node shows, or None if it shows the mesh itself."""
     posed, mesh = node._drawn, node._object
     if not isinstance(mesh, Mesh) or not _is_bent(node):
         return None
@@ -196,7 +196,7 @@ def posed_for(node: Node) -> PosedMesh | None:
 
 
 def set_weights(posed: PosedMesh, weights: NDArray[np.float64] | None) -> None:
-    """Give a posed mesh its weights: zeros without any, or if its targets are others by now."""
+    """Set a posed mesh's weights; zeros if there are none or their number does not fit."""
     targets = posed.native.rest.targets
     if weights is None or len(weights) != targets:
         weights = np.zeros(targets)

@@ -1,4 +1,4 @@
-"""Queries of a scene: what rays meet, what a pixel shows, which colliders are where."""
+"""Queries of a scene: raycasts, picking and collider overlaps."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class SceneQueries:
-    """The questions that a `Scene` answers."""
+    """The query methods of a `Scene`."""
 
     def raycast(
         self,
@@ -27,22 +27,22 @@ class SceneQueries:
         max_distance: float = math.inf,
         cull: Cull = "none",
     ) -> RayHit | None:
-        """Return where a ray first meets a face of what is visible.
+        """Return the first intersection of a ray with a face of the visible objects.
 
         Parameters
         ----------
         origin, direction : (3,) float
-            World space; the direction may have any length but zero.
+            World space; the direction may have any nonzero length.
         max_distance : float
             World units.
         cull : {"none", "back", "front"}
-            Which faces the ray passes through: none, or those that show it their back or front.
+            Which faces the ray ignores: none, back faces or front faces.
 
         Returns
         -------
         hit : RayHit or None
-            Node, instance, face, distance, position, normal and barycentric coordinates. Of faces
-            at the same distance it is the first in the order of drawing.
+            Node, instance, face, distance, position, normal and barycentric coordinates. Among
+            faces at the same distance, the first in drawing order wins.
 
         Raises
         ------
@@ -65,7 +65,7 @@ class SceneQueries:
         Parameters
         ----------
         origins, directions : (N, 3) or (3,) float
-            World space. One origin may serve for many directions, and the other way round.
+            World space. One origin broadcasts to many directions, and vice versa.
         max_distance : float
         cull : {"none", "back", "front"}
 
@@ -83,11 +83,10 @@ class SceneQueries:
         return raycast_many(self, origins, directions, max_distance, cull)
 
     def pick(self, frame: Frame, x: int, y: int) -> RayHit | None:
-        """Return what a pixel of a frame of this scene shows.
+        """Return the object that a pixel of a frame of this scene shows.
 
-        A frame with the outputs ``object_id``, ``instance_id`` and ``triangle_id`` tells exactly.
-        Without these, the answer is what the ray through the pixel's centre meets in the scene as
-        it is now.
+        A frame with the outputs ``object_id``, ``instance_id`` and ``triangle_id`` gives an exact
+        answer. Otherwise, a ray is cast through the pixel's centre into the scene as it is now.
 
         Parameters
         ----------
@@ -98,8 +97,8 @@ class SceneQueries:
         Returns
         -------
         hit : RayHit or None
-            The distance is from the camera, or without perspective from the near plane. For a
-            line or a point, ``face`` is -1 and the position is unknown (NaN).
+            The distance is measured from the camera, or from the near plane without perspective.
+            For a line or a point, ``face`` is -1 and the position is NaN.
 
         Raises
         ------
@@ -110,7 +109,7 @@ class SceneQueries:
         return pick(self, frame, x, y)
 
     def overlap_box(self, low: ArrayLike, high: ArrayLike) -> tuple[Node, ...]:
-        """Return the visible nodes whose colliders have a point in a box.
+        """Return the visible nodes whose colliders intersect a box.
 
         Parameters
         ----------
@@ -131,7 +130,7 @@ class SceneQueries:
         return overlap_box(self, low, high)
 
     def overlap_sphere(self, center: ArrayLike, radius: float) -> tuple[Node, ...]:
-        """Return the visible nodes whose colliders have a point in a ball; as `overlap_box`.
+        """Return the visible nodes whose colliders intersect a ball; as `overlap_box`.
 
         Parameters
         ----------
@@ -145,12 +144,12 @@ class SceneQueries:
     def raycast_colliders(
         self, origin: ArrayLike, direction: ArrayLike, *, max_distance: float = math.inf
     ) -> ColliderHit | None:
-        """Return where a ray first meets the collider of a visible node.
+        """Return the first intersection of a ray with the collider of a visible node.
 
         Parameters
         ----------
         origin, direction : (3,) float
-            World space; the direction may have any length but zero.
+            World space; the direction may have any nonzero length.
         max_distance : float
 
         Returns

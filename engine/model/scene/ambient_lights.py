@@ -1,8 +1,7 @@
-"""Lights that shine from all around: plain data that a scene's nodes turn, but do not place.
+"""Ambient lights: plain data, turned by their nodes; their position has no effect.
 
-A `HemisphereLight` has a colour above and one below, a `LightProbe` spherical harmonics of light
-that was measured or computed somewhere. What they add to `Scene.ambient` is in docs/exactness,
-section 21.
+A `HemisphereLight` has a colour above and one below; a `LightProbe` holds spherical harmonics of
+measured or computed light. docs/exactness, section 21, has the terms they add to `Scene.ambient`.
 """
 
 from __future__ import annotations
@@ -30,16 +29,17 @@ def _coefficients(value: ArrayLike, what: str) -> np.ndarray:
 
 
 class HemisphereLight(Closed):
-    """Light of one colour from above and another from below, which blend in between.
+    """Light with one colour from above and another from below, blended in between.
 
-    Above is the +Y of its node. It has no place and is in no shadow; ambient occlusion dims it.
+    Above is the +Y of its node. Its position has no effect, and nothing shadows it; ambient
+    occlusion dims it.
 
     Parameters
     ----------
     sky_color, ground_color : sequence of 3 numbers
     intensity : float
-        Multiplies both; a white surface that faces the sky shows ``sky_color * intensity``,
-        whatever its material. (In three.js, which divides by pi, it is pi times as much.)
+        Multiplies both; a white surface that faces the sky shows ``sky_color * intensity``, with
+        any material. (three.js divides by pi, so its values are pi times larger.)
 
     Attributes
     ----------
@@ -73,18 +73,19 @@ class HemisphereLight(Closed):
 
 
 class LightProbe(Closed):
-    """Light from all around as nine spherical harmonics, such as three.js's `LightProbe` has.
+    """Light from all around as nine spherical harmonics, as in three.js's `LightProbe`.
 
-    It has no place and is in no shadow; ambient occlusion dims it. Its node turns it.
+    Its position has no effect, and nothing shadows it; ambient occlusion dims it. Its node turns
+    it.
 
     Parameters
     ----------
     coefficients : (9, 3) float
         Red, green and blue of radiance in linear light, for the real harmonics of degree 0, 1 and 2
         in the order 1; y, z, x; xy, yz, 3z² - 1, xz, x² - y², each of unit norm over the sphere.
-        Radiance that is L everywhere is ``2 * sqrt(pi) * L`` and eight zeros.
+        A uniform radiance L is ``2 * sqrt(pi) * L`` and eight zeros.
     intensity : float
-        Multiplies them.
+        Multiplies the coefficients.
 
     Attributes
     ----------

@@ -1,7 +1,7 @@
-"""Nodes that move by themselves: spins and keyframes, as functions of the time.
+"""Simple animation of nodes, spins and keyframes, as functions of time.
 
-In: nodes, how they move, and the time. Out: their poses. A pose depends on the time alone, never on
-the frames before, with the same bits on every machine. Spins are found for all nodes together.
+In: nodes, their motions, and the time. Out: their poses. A pose depends only on the time, never on
+earlier frames, with the same bits on every machine. All spins are evaluated together.
 """
 
 from __future__ import annotations
@@ -27,19 +27,19 @@ _SLOWEST = 6  # far nodes move at least every 2**6 updates
 
 
 class Animator(Clock):
-    """Moves nodes of a scene.
+    """Moves nodes of a scene by spins and keyframes.
 
     Parameters
     ----------
     scene : Scene
     full_rate_distance : float
         `advance` moves nodes within this distance of the eye every time, nodes up to twice as far
-        every second time, and so on, down to every 64th time. Infinite: all nodes every time.
+        every second time, and so on, down to every 64th time. Infinity moves all nodes every time.
 
     Attributes
     ----------
     time : float
-        Seconds; what `seek` set, and `advance` moved on.
+        Seconds, set by `seek` and increased by `advance`.
     paused : bool
         Whether `advance` does nothing.
 
@@ -60,7 +60,7 @@ class Animator(Clock):
 
     @property
     def full_rate_distance(self) -> float:
-        """How far from the eye nodes move at every update, as it was given."""
+        """Distance from the eye within which nodes move at every update, as given."""
         return self._full_rate_distance
 
     def spin(
@@ -71,17 +71,17 @@ class Animator(Clock):
         axis: ArrayLike = (0, 1, 0),
         phase: float = 0.0,
     ) -> None:
-        """Let nodes turn at a constant rate, from the rotations that they have now.
+        """Rotate nodes at a constant rate, from their current rotations.
 
         Parameters
         ----------
         nodes : Node or iterable of Node
         period : float
-            Seconds of a turn; negative turns the other way.
+            Seconds per turn; negative reverses the direction.
         axis : (3,) float
-            In the node's own space; counter-clockwise seen from its tip.
+            Axis in the node's own space; the turn is counter-clockwise seen from its tip.
         phase : float
-            How far it is turned at time 0, in turns.
+            Rotation at time 0, in turns.
 
         Raises
         ------
@@ -101,7 +101,7 @@ class Animator(Clock):
         scales: ArrayLike | None = None,
         repeat: bool = True,
     ) -> None:
-        """Let a node follow keyframes.
+        """Animate a node by keyframes.
 
         Parameters
         ----------
@@ -110,10 +110,10 @@ class Animator(Clock):
             Seconds, increasing.
         translations : (K, 3) float, optional
         rotations : (K, 4) float, optional
-            Quaternions x, y, z, w; between them the shorter way, at a constant rate.
+            Quaternions x, y, z, w; interpolated along the shorter arc at a constant rate.
         scales : (K, 3) float, optional
         repeat : bool
-            Start again after the last keyframe, instead of staying there.
+            Whether to restart after the last keyframe instead of holding it.
 
         Raises
         ------
@@ -123,19 +123,19 @@ class Animator(Clock):
         self._add([], [Track(node, times, translations, rotations, scales, repeat)])
 
     def _add(self, spins: list[Spin], tracks: list[Track]) -> None:
-        """Let what is described move as well."""
+        """Add motions to those of the animator."""
         self._spins += spins
         self._tracks += tracks
         self._moving = None
 
     def advance(self, seconds: float, eye: ArrayLike | None = None) -> None:
-        """Let time go on, unless paused.
+        """Advance the time and move the nodes, unless paused.
 
         Parameters
         ----------
         seconds : float
         eye : (3,) float, optional
-            World position of the viewer: nodes far from there move less often.
+            World position of the viewer: distant nodes move less often.
         """
         if self._goes_on(seconds):
             self._updates += 1
@@ -143,7 +143,7 @@ class Animator(Clock):
 
     def _move(self, eye: np.ndarray | None = None) -> None:
         if self._moving is None or self._moving.removals != self._scene.data.removals:
-            # Spins that only an animator remembers are gone for good.
+            # If only the animator remembers a spin, its node is gone for good.
             self._spins = [spin for spin in self._spins if spin.node is not None]
             self._tracks = [track for track in self._tracks if track.node is not None]
             self._moving = _Moving(self._scene, self._spins, self._tracks)
@@ -154,7 +154,7 @@ class Animator(Clock):
             moving.tracks[number].move(self.time)
 
     def _due(self, rows: np.ndarray, eye: np.ndarray | None) -> np.ndarray:
-        """Return which of the nodes in some slots move this time, by number."""
+        """Return the indices of those slots whose nodes move this time."""
         if eye is None or math.isinf(self._full_rate_distance):
             return np.arange(len(rows))
         self._scene.data.update()
@@ -170,22 +170,22 @@ Motions: TypeAlias = "tuple[tuple[Spin, ...], tuple[Track, ...]]"
 
 
 def motions_of(animator: Animator) -> Motions:
-    """Return all spins and keyframes, also those of nodes that are not in the scene just now."""
+    """Return all spins and keyframes, including those of nodes currently out of the scene."""
     return tuple(animator._spins), tuple(animator._tracks)
 
 
 def set_motions(animator: Animator, motions: Motions) -> None:
-    """Let an animator move what is described, and nothing else."""
+    """Replace all motions of an animator."""
     spins, tracks = motions
     animator._spins, animator._tracks = list(spins), list(tracks)
     animator._moving = None
 
 
 class _Described:
-    """How one node moves; the node may have gone.
+    """The motion of one node, which may have been removed.
 
-    A removed node may come back (`Scene.restore`), so its motion is kept as long as anybody keeps
-    the node.
+    A removed node may come back (`Scene.restore`), so its motion is kept as long as the node
+    exists.
     """
 
     def __init__(self, node: Node) -> None:
@@ -197,19 +197,19 @@ class _Described:
 
 
 def _node_of(described: _Described) -> Node:
-    """Return the node of what moves, which the scene holds."""
+    """Return the node of a motion; the scene holds it."""
     return cast("Node", described.node)
 
 
 class Spin(_Described):
-    """A constant rate of turning of one node.
+    """A rotation of one node at a constant rate.
 
     Attributes
     ----------
     rotation : (4,) float64
-        At phase 0.
+        The rotation at phase 0.
     axis, period, phase
-        As they were given to `Animator.spin`.
+        As given to `Animator.spin`.
     """
 
     def __init__(
@@ -224,10 +224,10 @@ class Spin(_Described):
 
 
 class _Moving:
-    """The descriptions of motion whose nodes are in the scene."""
+    """The motions whose nodes are in the scene."""
 
     def __init__(self, scene: Scene, spins: list[Spin], tracks: list[Track]) -> None:
-        self.removals = scene.data.removals  # grows also where a node comes back
+        self.removals = scene.data.removals  # also grows when a node comes back
         self.spins = _Spins(scene, [spin for spin in spins if _is_in(scene, spin)])
         self.tracks = [track for track in tracks if _is_in(scene, track)]
 
@@ -253,7 +253,7 @@ class _Spins:
             return
         with np.errstate(over="ignore", invalid="ignore"):
             turns = time * self._rates[due] + self._phases[due]
-        turns[~np.isfinite(turns)] = 0.0  # beyond all counting
+        turns[~np.isfinite(turns)] = 0.0  # the time overflowed
         half = math.pi * (turns - np.floor(turns))
         turn = np.empty((len(due), 4))
         turn[:, :3] = self._axes[due] * linalg.sin(half)[:, np.newaxis]
@@ -263,7 +263,7 @@ class _Spins:
 
 
 class Track(_Described):
-    """Keyframes of one node: arrays as they were given to `Animator.track`, or None."""
+    """Keyframes of one node: arrays as given to `Animator.track`, or None."""
 
     def __init__(
         self,

@@ -1,9 +1,9 @@
-"""Cameras: how view space becomes clip space.
+"""Cameras: projections from view space to clip space.
 
 In: fields of view, sizes, distances. Out: 4x4 float64 projection matrices (clip_from_view) with
-OpenGL's clip volume. A camera has no place of its own: its pose (world-from-camera) is its node's;
-it looks along its -Z with +Y up. Everything here is float64 arithmetic of single operations, so
-that a matrix has the same bits on every machine.
+OpenGL's clip volume. A camera has no pose of its own: its node's pose is world-from-camera; it
+looks along its -Z with +Y up. All arithmetic is float64, in single operations, so that a matrix has
+the same bits on every machine.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ from ...base.validation import (
 )
 from ...errors import InvalidArgumentError
 
-#: Nearer near planes are of models that are too small for the clip space of others.
+#: Near planes below this belong to models that are too small for the usual clip space.
 _SMALL = 2.0**-18
-_MOST = 100  # a power that floats take
+_MOST = 100  # the highest power of two by which matrices are scaled
 
 
 def far_depth(camera: Camera) -> float:
@@ -42,7 +42,7 @@ def far_depth(camera: Camera) -> float:
 
 
 def _far(value: float | None, what: str) -> float:
-    """A far plane: a positive number, or infinity or None for none."""
+    """Return the distance of a far plane: positive, or infinity for None."""
     if value is None:
         return math.inf
     number = real(value)
@@ -59,7 +59,7 @@ def _check_range(camera: PerspectiveCamera | OrthographicCamera | IntrinsicsCame
 
 
 def _check_size(width: int, height: int) -> None:
-    """Check a picture's sides, which are integers nearly always: this is done for every frame."""
+    """Check an image's sides, quickly if they are integers: every frame does this."""
     if width.__class__ is height.__class__ is int and 0 < width < 2**31 and 0 < height < 2**31:
         return
     for side, what in ((width, "width"), (height, "height")):
@@ -67,9 +67,9 @@ def _check_size(width: int, height: int) -> None:
 
 
 def _enlarged(matrix: NDArray[np.float64], znear: float) -> NDArray[np.float64]:
-    """A projection of what may be tiny: the same, times a power of two if the near plane is near.
+    """Scale a projection by a power of two if its near plane is very near.
 
-    What has a w of less than a millionth is clipped away (WMIN in docs/exactness).
+    Points with a w below a millionth are clipped (WMIN in docs/exactness).
     """
     if znear >= _SMALL:
         return matrix
@@ -132,11 +132,11 @@ class PerspectiveCamera(Camera):
     znear, zfar : float
         Distances of the near and far planes, ``0 < znear < zfar``; ``zfar`` may be infinite.
     aspect : float, optional
-        Width over height; the image's own if left out.
+        Width over height; by default the image's.
     reversed_depth : bool
-        Keep depth such that what is far away has as many significant digits as what is near: -1 at
-        the near plane, 0 at the far one, which is no limit then. Things close together are told
-        apart from far away, however near the near plane is.
+        Reversed depth, with equal relative precision near and far: -1 at the near plane, 0 at the
+        far plane, which then clips nothing. Distant surfaces close together stay distinct, however
+        near the near plane is.
 
     Raises
     ------
@@ -186,9 +186,9 @@ class OrthographicCamera(Camera):
     Parameters
     ----------
     ymag : float
-        Half the height of what is seen, in world units.
+        Half the visible height, in world units.
     xmag : float, optional
-        Half the width; from ``ymag`` and the image's aspect if left out.
+        Half the width; by default from ``ymag`` and the image's aspect.
     znear, zfar : float
         As for `PerspectiveCamera`, but they may be 0 or negative, and not infinite.
 
@@ -226,7 +226,7 @@ class OrthographicCamera(Camera):
 
 
 class IntrinsicsCamera(Camera):
-    """A pinhole camera given in pixels, as calibration gives it.
+    """A pinhole camera given in pixels, as calibration tools give it.
 
     Parameters
     ----------
@@ -234,14 +234,14 @@ class IntrinsicsCamera(Camera):
         Focal lengths in pixels.
     cx, cy : float
         Principal point in pixels from the image's left and top edges. The centre of the top left
-        pixel is (0.5, 0.5): add 0.5 to numbers that put it at (0, 0), as OpenCV's do.
+        pixel is (0.5, 0.5): add 0.5 to values from OpenCV, which puts it at (0, 0).
     znear, zfar : float
         As for `PerspectiveCamera`.
 
     Notes
     -----
-    The camera still looks along -Z with +Y up. A pose from software whose cameras look along +Z
-    with +Y down (OpenCV, COLMAP) is converted by negating its second and third columns.
+    The camera still looks along -Z with +Y up. To convert a pose from software whose cameras look
+    along +Z with +Y down (OpenCV, COLMAP), negate its second and third columns.
 
     Raises
     ------

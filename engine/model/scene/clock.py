@@ -1,4 +1,4 @@
-"""The time of what moves a scene: it is set, or goes on unless it is paused."""
+"""The clock of animations: set by seeking, or advanced unless paused."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .scene import Scene
 
 
 class Clock(Closed):
-    """Base of what moves a scene as time goes on.
+    """Base of classes that move a scene over time.
 
     Parameters
     ----------
@@ -19,7 +19,7 @@ class Clock(Closed):
     Attributes
     ----------
     time : float
-        Seconds, as far as `seek` and `advance` brought it.
+        Seconds, set by `seek` and increased by `advance`.
     paused : bool
         Whether `advance` does nothing.
 
@@ -44,21 +44,21 @@ class Clock(Closed):
         raise TypeError(f"an {name} belongs to its Scene: it cannot be copied or pickled")
 
     def seek(self, time: float) -> None:
-        """Move everything to where it is at a time, in seconds."""
+        """Set the time in seconds, and move everything to its state then."""
         self.time = finite(time, "time")
         self._move()
 
     def advance(self, seconds: float) -> None:
-        """Let time go on, unless paused, and move everything."""
+        """Advance the time, unless paused, and move everything."""
         if self._goes_on(seconds):
             self._move()
 
     def _goes_on(self, seconds: float) -> bool:
-        """Let time go on, unless paused; return whether it did."""
+        """Advance the time, unless paused; return whether it advanced."""
         if not self.paused:
             self.time += finite(seconds, "seconds") * self._speed
         return not self.paused
 
     def _move(self) -> None:
-        """Move everything to where it is at `time`."""
+        """Move everything to its state at `time`."""
         raise NotImplementedError

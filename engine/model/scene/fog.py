@@ -1,6 +1,6 @@
-"""Fog: what is far away takes on a colour.
+"""Fog: blends distant surfaces into a colour.
 
-In: a colour, and how fast it closes in. Out: a value that a scene holds, and that never changes.
+In: a colour, and distances or a density. Out: an immutable value that a scene holds.
 docs/exactness, section 20, has the formulas.
 """
 
@@ -16,16 +16,16 @@ from ..materials.colors import check_color
 
 @dataclass(frozen=True)
 class Fog:
-    """Fog that grows evenly: none up to a distance, nothing else from another one on.
+    """Linear fog: none up to the near distance, full from the far distance on.
 
-    Distances are along the view axis, as ``frame.depth`` has them. Between both, colours go
-    straight to that of the fog; three.js's ``Fog`` eases in and out.
+    Distances are along the view axis, like ``frame.depth``. In between, colours blend linearly to
+    that of the fog; three.js's ``Fog`` uses a smooth step.
 
     Parameters
     ----------
     color : sequence of 3 numbers
-        What shows where nothing else does any longer, whatever exposure and tone mapping are. That
-        of the background hides where the scene ends.
+        The colour at full fog, independent of exposure and tone mapping. The background's colour
+        hides the end of the scene.
     near, far : float
         World units; near is less than far.
 
@@ -48,17 +48,17 @@ class Fog:
 
 @dataclass(frozen=True)
 class ExponentialFog:
-    """Fog that begins at the camera and never ends.
+    """Exponential fog, which begins at the camera.
 
-    Of a colour ``exp(-(density * depth)**2)`` is left. That is three.js's ``FogExp2`` and OpenGL's
-    ``GL_EXP2``; depth is the distance along the view axis, as ``frame.depth`` has it.
+    A fraction ``exp(-(density * depth)**2)`` of a colour remains, as in three.js's ``FogExp2`` and
+    OpenGL's ``GL_EXP2``; depth is the distance along the view axis, like ``frame.depth``.
 
     Parameters
     ----------
     color : sequence of 3 numbers
-        As that of `Fog`.
+        As in `Fog`.
     density : float
-        Per world unit: at a depth of ``1.5 / density`` a tenth of a colour is left.
+        Per world unit: at a depth of ``1.5 / density`` a tenth of a colour remains.
 
     Raises
     ------

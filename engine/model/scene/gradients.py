@@ -1,7 +1,7 @@
-"""A background that goes from one colour to another.
+"""Gradient backgrounds.
 
-In: two colours. Out: a value that a scene holds as its background, and that never changes.
-docs/exactness, R122, has the formula.
+In: two colours. Out: an immutable value that a scene holds as its background. docs/exactness, R122,
+has the formula.
 """
 
 from __future__ import annotations
@@ -16,9 +16,8 @@ from ..materials.colors import check_color
 class Gradient:
     """A background from one colour at the top of the picture to another at its bottom.
 
-    Steps from row to row look even: display values are interpolated, as in a style sheet. They are
-    dithered to 8 bits by a fixed pattern, so that no bands show. The scene's exposure and tone
-    mapping leave it alone, as they do a plain colour.
+    Steps from row to row look even: display values are interpolated, as in CSS. A fixed pattern
+    dithers them to 8 bits, so that no bands show. Exposure and tone mapping do not affect it.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
-"""One mesh drawn many times in one go.
+"""Instanced meshes: one mesh drawn many times in one call.
 
-In: a mesh, a pose for each instance, perhaps a colour for each. Out: read-only float32 arrays that
-the core reads directly; they are rounded to float32 once, here.
+In: a mesh, a pose for each instance, optionally a colour for each. Out: read-only arrays that the
+core reads directly; poses are rounded to float32 once, here.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from ...errors import InvalidArgumentError
 from ..geometry.mesh import Mesh
 from ..materials.colors import eight_bit_or_float, float32_of
 
-#: So many instances are worth a tree of their boxes when a picture is drawn.
+#: Drawing builds a tree of boxes for at least this many instances.
 MANY = 1024
 
 
@@ -33,7 +33,7 @@ def _check_mesh(value: Mesh, what: str) -> Mesh:
 
 
 class InstancedMesh(Closed):
-    """A mesh at many poses: one node of a scene, drawn far faster than one node per pose.
+    """A mesh at many poses: one node of a scene, which draws far faster than a node per pose.
 
     Parameters
     ----------
@@ -60,13 +60,13 @@ class InstancedMesh(Closed):
     version: int
     _poses: NDArray[np.float32]
     _colors: NDArray[Any] | None
-    # Poses and positions, and what follows from them.
+    # Poses and positions, with the box derived from them.
     _box_of: tuple[Any, ...] | None = None
     _tree_of: tuple[Any, ...] | None = None
     _FORGOTTEN = ("_box_of", "_tree_of")
 
     def __init__(self, mesh: Mesh, poses: ArrayLike, *, colors: ArrayLike | None = None) -> None:
-        self._ids: np.ndarray | None = None  # what instance_id shows; None: the rows' numbers
+        self._ids: np.ndarray | None = None  # values of instance_id; None: the row numbers
         self.mesh = mesh
         self.replace(poses, colors)
 
@@ -104,7 +104,7 @@ class InstancedMesh(Closed):
         renew(self)
 
     def bounds_in_node(self) -> NDArray[np.float64] | None:
-        """Return the box around all instances in the node's space, (2, 3) float64, or None."""
+        """Return the box around all instances in node space, (2, 3) float64, or None."""
         box = box_in_node(self)
         return box[:6].reshape(2, 3).copy() if box[0] <= box[3] else None
 
@@ -122,7 +122,7 @@ def flat_poses(instances: InstancedMesh) -> NDArray[np.float32]:
 
 
 def shown_ids(instances: InstancedMesh) -> NDArray[np.int32] | None:
-    """Return what ``instance_id`` shows, (N,); None: the rows' numbers."""
+    """Return the values of ``instance_id``, (N,); None: the row numbers."""
     return instances._ids
 
 
@@ -132,13 +132,13 @@ def replace_by_rows(
     poses: NDArray[np.float32],
     colors: NDArray[Any] | None,
 ) -> None:
-    """Draw some rows of others' poses and colours, under the numbers that they have there."""
+    """Draw the given rows of another's poses and colours, under their original numbers."""
     instances.replace(poses[rows], None if colors is None else colors[rows])
     instances._ids = rows.astype(np.int32)
 
 
 def instance_matrices(poses: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Return poses of instances, (N, 4, 4) or (N, 4), as matrices, (N, 4, 4)."""
+    """Convert poses of instances, (N, 4, 4) or (N, 4), to matrices, (N, 4, 4)."""
     given = poses.astype(np.float64)
     if given.ndim == 3:
         return given
@@ -150,7 +150,7 @@ def instance_matrices(poses: NDArray[np.float32]) -> NDArray[np.float64]:
 
 
 def instance_tree(instances: InstancedMesh) -> tuple[NativeTree, NDArray[np.float32]]:
-    """Return the tree of the instances' boxes, and the poses that it is of, as C reads them."""
+    """Return the tree of the instances' boxes, and its poses as C reads them."""
     state = instances._poses, instances.mesh.positions
     known = instances._tree_of
     if known is None or not _same(known[0], state):
@@ -160,7 +160,7 @@ def instance_tree(instances: InstancedMesh) -> tuple[NativeTree, NDArray[np.floa
 
 
 def box_in_node(instances: InstancedMesh) -> NDArray[np.float64]:
-    """Return the box around all instances, (OBJECT_BOX,); kept until something in it changes."""
+    """Return the box around all instances, (OBJECT_BOX,); cached until they change."""
     state = instances._poses, instances.mesh.positions
     known = instances._box_of
     if known is None or not _same(known[0], state):
@@ -171,14 +171,14 @@ def box_in_node(instances: InstancedMesh) -> NDArray[np.float64]:
 
 
 def _boxes(instances: InstancedMesh, poses: NDArray[np.float32]) -> NDArray[np.float64]:
-    """The boxes of the instances in the node's space, (N, BOX); poses as C reads them."""
+    """Return the boxes of the instances in node space, (N, BOX), from poses as C reads them."""
     boxes = np.empty((len(poses), BOX))
     instance_boxes(poses, mesh_box(instances.mesh), boxes)
     return boxes
 
 
 def _same(known: tuple[Any, ...], state: tuple[Any, ...]) -> bool:
-    """Whether what is known follows from these very arrays."""
+    """Return whether cached data was derived from these very arrays."""
     return all(map(operator.is_, known, state))
 
 

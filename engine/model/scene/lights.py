@@ -1,9 +1,9 @@
-"""Lights: plain data that a scene's nodes place in the world.
+"""Direct lights: plain data, placed in the world by the scene's nodes.
 
-A light has a colour (floats are linear light, 8-bit integers sRGB) times an intensity. Directional
-lights shine along their node's rotated ``direction``, point lights from their node's origin, spot
-lights from there along its -Z. docs/exactness, sections 9 and 12, has the formulas;
-docs/conventions.md says in which units intensities are.
+A light's colour (floats are linear light, 8-bit integers sRGB) is multiplied by its intensity.
+Directional lights shine along their node's rotated ``direction``, point lights from their node's
+origin, spot lights from there along its -Z. docs/exactness, sections 9 and 12, has the formulas;
+docs/conventions.md has the units of intensities.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def _angle(value: float, what: str) -> float:
 
 
 class DirectLight(CastsShadows):
-    """Base of lights that shine from one side: what all of them have."""
+    """Base of lights that shine from one direction or position."""
 
     color: ColorAttribute = CheckedAttribute(check_color)
     intensity: NumberAttribute = CheckedAttribute(not_negative)
@@ -65,11 +65,11 @@ class DirectLight(CastsShadows):
 
     @property
     def kind(self) -> str:
-        """What the core and files call such a light: a name of `DIRECT_LIGHTS`."""
+        """The kind's name in the core and in files: a key of `DIRECT_LIGHTS`."""
         return next(name for name, kind in DIRECT_LIGHTS.items() if isinstance(self, kind))
 
     def check(self) -> None:
-        """Raise unless ``shadow_radius`` and ``shadow_map_size`` go together."""
+        """Raise unless ``shadow_radius`` fits ``shadow_map_size``."""
         self._check_shadow()
 
 
@@ -79,32 +79,32 @@ class DirectionalLight(DirectLight):
     Parameters
     ----------
     direction : (3,) float
-        The way the light travels, in the space of its node; of any length but zero.
+        The direction in which the light travels, in node space; any nonzero length.
     color : sequence of 3 numbers
     intensity : float
-        Multiplies the colour; a white surface that faces the light gets ``color * intensity``. Of
-        physical materials it is in lux: such a surface shows it over pi.
+        Multiplies the colour; a white surface that faces the light shows ``color * intensity``. For
+        physical materials it is in lux: such a surface shows it divided by pi.
     unit : {"photometric", "white"}
-        With ``"white"``, physical materials take the intensity as the others do.
+        With ``"white"``, the intensity means the same for physical materials as for others.
     shadow : {False, True, "exact"}
-        Whether what stands in its way keeps the light off what is behind. True: by maps that are
-        drawn from the light, as in three.js. ``"exact"``: wholly, wherever a ray from the surface
-        to the light meets a face, so that edges are hard, and without a map, a bias or anything
-        else to choose; up to 32 lights. Nodes cast and receive shadows by their own switches.
+        Whether objects shadow the surfaces behind them. True uses shadow maps, as in three.js.
+        ``"exact"`` traces a ray from each sample to the light: edges are hard, and there is no map,
+        bias or other parameter to choose; up to 32 lights. Each node can disable casting and
+        receiving shadows.
     shadow_map_size : int
         Texels a side, 32 to 8192, of each map.
     shadow_bias : float
-        Is added to the depth that is compared, of a range of 1 from the nearest to the farthest.
+        Depth bias, added before the comparison, in units of the map's depth range.
     shadow_normal_bias : float
-        World units by which samples move along their normals before they are looked up. Both are
-        beside what the size of a texel asks for, which is done by itself, so that 0 looks right.
+        World units by which samples move along their normals before the lookup. Both biases add to
+        an automatic bias for the texel size, so that 0 looks right.
     shadow_radius : float
-        How far the comparisons around a sample are apart, in texels, 0 to 16.
+        Distance between the comparisons around a sample, in texels, 0 to 16.
     shadow_taps : {1, 3, 5}
-        Comparisons a side: 1, 3 x 3 or 5 x 5, each between four texels.
+        Comparisons per side: 1, 3 x 3 or 5 x 5, each interpolated between four texels.
     shadow_cascades : int
-        Most maps, 1 to 8: the last shows the whole scene, each before it what the camera sees to a
-        quarter of the depth. A scene that is small beside that takes fewer.
+        Maximum number of cascades, 1 to 8: the last map covers the whole scene, each earlier one
+        the view to a quarter of the next one's depth. Small scenes use fewer.
 
     Attributes
     ----------
@@ -139,14 +139,14 @@ class DirectionalLight(DirectLight):
 
     @classmethod
     def sun(cls, sun_direction: ArrayLike, turbidity: float = 3.0) -> DirectionalLight:
-        """Return the light of the sun, as it shines from `Environment.sky`.
+        """Return the sunlight that belongs to `Environment.sky`.
 
         Parameters
         ----------
         sun_direction : (3,) float
             Towards the sun.
         turbidity : float
-            How hazy the air is, 2 to 10; the lower the sun, the more of blue and green it takes.
+            Turbidity of the air, 2 to 10; the lower the sun, the more blue and green it absorbs.
 
         Raises
         ------
@@ -173,18 +173,18 @@ class PointLight(DirectLight):
     ----------
     color : sequence of 3 numbers
     intensity : float
-        As for `DirectionalLight`; at distance 1 but with ``"window"``. Of physical materials it is
-        in candela.
+        As for `DirectionalLight`, at distance 1 unless the falloff is ``"window"``. For physical
+        materials it is in candela.
     range : float
-        World units; the light adds exactly nothing from this distance on. May be infinite but with
+        World units; beyond this distance the light is exactly 0. May be infinite except with
         ``"window"``.
     falloff : {"inverse_square", "window", "gltf"}
-        Attenuation at distance d: ``1 / d**2``, or ``(1 - d**2 / range**2)**2``, or, as
-        KHR_lights_punctual has it, ``(1 - (d / range)**4) / d**2``.
+        Attenuation at distance d: ``1 / d**2``, ``(1 - d**2 / range**2)**2``, or, as in
+        KHR_lights_punctual, ``(1 - (d / range)**4) / d**2``.
     unit : {"photometric", "white"}
         As for `DirectionalLight`.
     shadow, shadow_map_size, shadow_bias, shadow_normal_bias, shadow_radius, shadow_taps
-        As for `DirectionalLight`; six maps, the faces of a cube.
+        As for `DirectionalLight`; the light has six maps, the faces of a cube.
 
     Attributes
     ----------
@@ -218,7 +218,7 @@ class PointLight(DirectLight):
         self.check()
 
     def check(self) -> None:
-        """Raise unless ``range`` and ``falloff`` go together, and what there is of shadows."""
+        """Raise unless ``range`` fits ``falloff`` and the shadow parameters fit."""
         if self.falloff == "window" and math.isinf(self.range):
             raise InvalidArgumentError("falloff 'window' needs a finite range")
         self._check_shadow()
@@ -233,24 +233,24 @@ class PointLight(DirectLight):
 class SpotLight(DirectLight):
     """A light that shines from one point into a cone, along the -Z of its node.
 
-    As KHR_lights_punctual has it: all of it inside of the inner cone, nothing outside of the outer
-    one, and in between the square of how far the cosine of the angle has come. Attenuation at
-    distance d is ``(1 - (d / range)**4) / d**2``.
+    As in KHR_lights_punctual: full intensity inside the inner cone, none outside the outer cone,
+    and in between the square of a linear ramp in the cosine of the angle. Attenuation at distance d
+    is ``(1 - (d / range)**4) / d**2``.
 
     Parameters
     ----------
     color : sequence of 3 numbers
     intensity : float
-        As for `PointLight`, along the axis.
+        As for `PointLight`, on the axis.
     range : float
-        World units; the light adds exactly nothing from this distance on. May be infinite.
+        World units; beyond this distance the light is exactly 0. May be infinite.
     inner_cone_angle, outer_cone_angle : float
         Radians from the axis: 0 <= inner < outer <= pi/2.
     unit : {"photometric", "white"}
         As for `DirectionalLight`.
     shadow, shadow_map_size, shadow_bias, shadow_normal_bias, shadow_radius, shadow_taps
-        As for `DirectionalLight`; one map.
-        What is more than 84 degrees off the axis gets all of the light.
+        As for `DirectionalLight`; the light has one map. More than 84 degrees off the axis, nothing
+        is shadowed.
 
     Attributes
     ----------
@@ -295,7 +295,7 @@ class SpotLight(DirectLight):
         self._check_shadow()
 
     def cone(self) -> tuple[float, float]:
-        """Return the cosine of the outer angle, and 1 over what the inner one's is more."""
+        """Return the cosine of the outer angle, and 1 over its difference to the inner cosine."""
         inner, outer = cos(self.inner_cone_angle), cos(self.outer_cone_angle)
         return outer, 1.0 / max(0.001, inner - outer)
 
@@ -307,7 +307,7 @@ class SpotLight(DirectLight):
         )
 
 
-#: By what the core and files call them.
+#: Lights by their kinds in the core and in files.
 DIRECT_LIGHTS: dict[str, type[DirectLight]] = {
     "directional": DirectionalLight,
     "point": PointLight,

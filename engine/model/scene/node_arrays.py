@@ -1,7 +1,7 @@
-"""The nodes of a scene as arrays: a row per node, in the order in which they were added.
+"""The nodes of a scene as arrays: a row per node, in the order of adding.
 
 In: slots. Out: arrays that C keeps up to date (csrc/scene/). A removed node keeps its slot until
-rows are packed into new arrays: those of the nodes, and of the removed ones that may come back.
+the rows are packed into new arrays, with the rows of nodes and of removed nodes that may come back.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import numpy as np
 
 from ..._native.scene_graph import ALIVE, BOX, NativeGraph
 
-#: Name of the array -> type and length of a row.
+#: Name of each array -> dtype and shape of a row.
 _COLUMNS = {
     "parent": (np.int32, ()),
     "first_child": (np.int32, ()),
@@ -21,7 +21,7 @@ _COLUMNS = {
     "previous": (np.int32, ()),
     "object": (np.int32, ()),
     "id": (np.int32, ()),
-    "object_id": (np.int32, ()),  # what frames show: the node's own id, or that of another
+    "object_id": (np.int32, ()),  # the ID in frames: the node's own, or another's
     "flags": (np.uint8, ()),
     "pose": (np.float64, (12,)),
     "rotation": (np.float64, (4,)),
@@ -35,21 +35,21 @@ _COLUMNS = {
     "anchor": (np.int32, ()),
     "unshadowed": (np.uint8, ()),  # CASTS_NONE and RECEIVES_NONE
 }
-#: Columns that C gets with each call that reads them.
+#: Columns that C receives with each call that reads them.
 _NOT_ATTACHED = ("object_id", "unshadowed")
-#: What a node has to do with shadows: nothing set is all of it.
+#: Flags that switch a node's shadows off; 0 casts and receives them.
 CASTS_NONE, RECEIVES_NONE = 1, 2
 _LINKS = ("parent", "first_child", "last_child", "next", "previous", "anchor")
 _ROOM = 16
 
 
 class NodeArrays(NativeGraph):
-    """Arrays of nodes, with room for more.
+    """Growable arrays of nodes.
 
     Attributes
     ----------
     columns : dict of str to ndarray
-        As csrc/include/e3d_scene.h names them; only the first ``count`` rows are nodes.
+        Named as in csrc/include/e3d_scene.h; only the first ``count`` rows are nodes.
     nodes : list of Node or None
         The handle of each slot; None while the node is removed.
     """
@@ -60,7 +60,7 @@ class NodeArrays(NativeGraph):
         self._make_room(_ROOM)
 
     def append(self, node: Any, parent: int, number: int, identity: int) -> int:
-        """Make a node at the identity; return its slot."""
+        """Add a node at the identity; return its slot."""
         if self.count == self.room:
             self._make_room(2 * self.room)
         slot = self.add(parent, number, identity)
@@ -69,19 +69,20 @@ class NodeArrays(NativeGraph):
         return slot
 
     def world_poses(self, slots: np.ndarray) -> np.ndarray:
-        """Return world-from-node of some slots, (N, 4, 4) float64, as of the last update."""
+        """Return world-from-node of given slots, (N, 4, 4) float64, as of the last update."""
         return matrices_of(self.columns["world"][slots])
 
     def packed(self, removed: list[int]) -> tuple[NodeArrays, np.ndarray]:
-        """Return new arrays of the nodes, and of some removed ones that may come back.
+        """Return new arrays with the nodes and the removed nodes that may come back.
 
-        Also returns the new slot of each old one, -1 for those given up. No node is told yet.
+        Also return the new slot of each old one, -1 for freed slots. The nodes themselves are not
+        changed yet.
         """
         count = self.count
         stays = self.columns["flags"][:count] & ALIVE != 0
         stays[removed] = True
         rows = np.flatnonzero(stays)
-        slots = np.full(count + 1, -1, np.int32)  # the last one is that of "none", -1
+        slots = np.full(count + 1, -1, np.int32)  # the last entry maps -1, "none", to itself
         slots[rows] = np.arange(len(rows), dtype=np.int32)
         other = NodeArrays()
         other._make_room(max(_ROOM, 2 * len(rows)))
@@ -105,7 +106,7 @@ class NodeArrays(NativeGraph):
 
 
 def matrices_of(rows: np.ndarray) -> np.ndarray:
-    """Return 4x4 matrices of their first three rows, (N, 12)."""
+    """Return 4x4 matrices from their first three rows, (N, 12)."""
     matrices = np.zeros((len(rows), 4, 4))
     matrices[:, :3] = rows.reshape(-1, 3, 4)
     matrices[:, 3, 3] = 1.0

@@ -1,9 +1,8 @@
-"""A node: the handle of one row of a scene's arrays.
+"""Nodes: handles of rows in a scene's arrays.
 
-In: poses and their parts, parents, visibility, one node at a time; `Scene.select` does it for many.
-Out: the same, read-only, and what follows from what is above: world pose, `shown`, bounds. World
-poses are products in a fixed order of operations, found when asked for and kept until something
-above moves.
+In: poses and their parts, parents and visibility, one node at a time; `Scene.select` handles many.
+Out: the same, read-only, and derived values: world pose, `shown`, bounds. World poses are products
+in a fixed order of operations, computed on demand and cached until the node or an ancestor moves.
 """
 
 from __future__ import annotations
@@ -37,7 +36,7 @@ if TYPE_CHECKING:
     from .lights import Light
     from .scene import Scene
 
-    #: What a node holds.
+    #: The objects that a node can hold.
     SceneObject: TypeAlias = Mesh | InstancedMesh | Camera | Light
 
 
@@ -46,8 +45,8 @@ class Node:
     """An object's place in a scene; made by `Scene.add`.
 
     ``pose`` is parent-from-node, a 4x4 matrix; ``translation``, ``rotation`` (quaternion x, y, z,
-    w), ``euler`` and ``scale`` are the same pose in parts. Assign any of them at any time; the
-    arrays that are read are read-only. Setting a part of a pose that is sheared drops the shear.
+    w), ``euler`` and ``scale`` are its parts. Assign any of them at any time; the arrays returned
+    are read-only. Setting a part of a sheared pose drops the shear.
     """
 
     __slots__ = (
@@ -75,7 +74,7 @@ class Node:
     # Set by the scene, which has a row for each node.
     _arrays: NodeArrays
     _slot: int
-    # What bends the mesh, and what is drawn then.
+    # The skin, the morph weights, and the object drawn with them.
     _skin: Skin | None
     _morph_weights: NDArray[np.float64] | None
     _posed: PosedMesh | None
@@ -92,33 +91,33 @@ class Node:
         self._scene = scene
         self._arrays, self._slot = scene.data.arrays, -1  # its row, once it has one
         self._object = obj
-        self._drawn: SceneObject | PosedMesh | None = obj  # what is shown of it
+        self._drawn: SceneObject | PosedMesh | None = obj  # the object drawn for it
         self._skin: Skin | None = None
         self._morph_weights: NDArray[np.float64] | None = None
         self._name = name
         self._collider = None
-        self._taken: tuple[Node, ...] = ()  # the nodes below that were removed with this one
-        self._taken_with: Node | None = None  # the node above that this one was removed with
+        self._taken: tuple[Node, ...] = ()  # the descendants removed with this node
+        self._taken_with: Node | None = None  # the ancestor this node was removed with
         self._pose_version = self._world_version = -1
-        self._read_pose = None  # as it was when the translation was last read
+        self._read_pose = None  # the pose when the translation was last read
         self._id = number
 
     @property
     def id(self) -> int:
-        """What frames show as ``object_id``; counts up from 0 in the order of adding."""
+        """The node's ``object_id`` in frames; counts up from 0 in the order of adding."""
         return self._id
 
     @property
     def scene(self) -> Scene | None:
-        """The scene that the node is in; None once it was removed."""
+        """The node's scene; None once the node is removed."""
         return self._scene
 
     @property
     def object(self) -> SceneObject | None:
-        """Mesh, InstancedMesh, Camera, one of the lights, or None for a group.
+        """The node's Mesh, InstancedMesh, Camera or light; None for a group.
 
-        Assign another, or None, at any time: the node keeps its id, name, pose and children. A
-        collider of the node's own mesh needs a mesh there.
+        Assign another, or None, at any time: the node keeps its ID, name, pose and children. A
+        collider that uses the node's own mesh requires a mesh.
         """
         return self._object
 
@@ -131,11 +130,11 @@ class Node:
 
     @property
     def skin(self) -> Skin | None:
-        """The joints that bend the node's mesh, or None.
+        """The joints that deform the node's mesh, or None.
 
-        The mesh needs ``joints`` and ``weights``. It then stands where the joints put it, wherever
-        the node itself is. A mesh may be shown by many nodes, each with a skin of its own. Whatever
-        else the node holds meanwhile is shown as it is.
+        The mesh needs ``joints`` and ``weights``. The joints then place it; the node's own pose has
+        no effect. Many nodes can show one mesh, each with its own skin. Other kinds of objects
+        ignore the skin.
         """
         return self._skin
 
@@ -145,7 +144,7 @@ class Node:
 
     @property
     def morph_weights(self) -> NDArray[np.float64] | None:
-        """How much of each morph target is added to the node's mesh, (T,) float64; None is 0."""
+        """The weight of each morph target of the node's mesh, (T,) float64; None is 0."""
         return self._morph_weights
 
     @morph_weights.setter
@@ -164,7 +163,7 @@ class Node:
 
     @property
     def parent(self) -> Node | None:
-        """The node that this one moves with; assigning keeps ``pose``, see `reparent`."""
+        """The node's parent; assigning keeps ``pose``, see `reparent`."""
         slot = self._arrays.parent_of(self._slot)
         return None if slot < 0 else self._arrays.nodes[slot]
 
@@ -174,7 +173,7 @@ class Node:
 
     @property
     def children(self) -> tuple[Node, ...]:
-        """The nodes directly below, in the order in which they came there."""
+        """The node's children, in the order in which they were attached."""
         nodes = self._arrays.nodes
         below = (nodes[slot] for slot in self._arrays.children(self._slot))
         return tuple(node for node in below if node is not None)
@@ -189,7 +188,7 @@ class Node:
         keep_world_pose: bool = False,
         before: Node | None = None,
     ) -> None:
-        """Give the node, with everything below it, another parent.
+        """Move the node, with its subtree, to another parent.
 
         Parameters
         ----------
@@ -199,14 +198,14 @@ class Node:
             Change ``pose`` so that the node stays where it is in the world, up to rounding;
             otherwise ``pose`` stays and the node moves.
         before : Node, optional
-            A child of the parent: the node takes its place among ``parent.children``, instead of
-            the last. The order of drawing stays that of the ids.
+            A child of the parent: the node is inserted before it in ``parent.children`` instead of
+            at the end. Drawing order stays the order of IDs.
 
         Raises
         ------
         InvalidArgumentError
-            The parent is the node itself, below it, or of another scene, or its world pose has no
-            inverse; or ``before`` is no other child of the parent.
+            The parent is the node itself, a descendant or in another scene, or its world pose has
+            no inverse; or ``before`` is not another child of the parent.
         """
         scene = self._scene
         if parent is not None and not (isinstance(parent, Node) and parent._scene is scene):
@@ -240,7 +239,7 @@ class Node:
 
     @property
     def translation(self) -> NDArray[np.float64]:
-        """(3,) float64."""
+        """Translation, (3,) float64."""
         pose = self.pose
         if pose is not self._read_pose:
             self._read_pose, self._translation = pose, pose[:3, 3].view(PosePart)
@@ -263,7 +262,7 @@ class Node:
     def euler(self) -> NDArray[np.float64]:
         """The rotation as angles in radians about x, y and z, (3,) float64.
 
-        Turns about x, then about the new y, then about the newest z, which is the default order of
+        It turns about x, then about the new y, then about the newest z: the default order of
         `linalg.euler_to_quaternion`.
         """
         return frozen(linalg.quaternion_to_euler(np.asarray(self.rotation))).view(PosePart)
@@ -274,7 +273,7 @@ class Node:
 
     @property
     def scale(self) -> NDArray[np.float64]:
-        """Factors along the node's axes, (3,) float64; one number may be assigned."""
+        """Scale factors along the node's axes, (3,) float64; one number may be assigned."""
         return self._arrays.scale(self._slot).view(PosePart)
 
     @scale.setter
@@ -283,7 +282,7 @@ class Node:
 
     @property
     def visible(self) -> bool:
-        """False hides the node and everything below it."""
+        """Visibility; False hides the node and its subtree."""
         return self._arrays.get_flag(self._slot, VISIBLE)
 
     @visible.setter
@@ -293,14 +292,14 @@ class Node:
 
     @property
     def shown(self) -> bool:
-        """Whether the node and all nodes above it are visible."""
+        """Whether the node and all its ancestors are visible."""
         return self._arrays.shown(self._slot)
 
     @property
     def static(self) -> bool:
-        """Whether the node is meant to stay where it is: a note for programs; it may be moved.
+        """A hint for programs that the node stays where it is; the renderer ignores it.
 
-        Nodes of the same mesh are drawn together whether they are static or not.
+        The node can still be moved.
         """
         return self._arrays.get_flag(self._slot, STATIC)
 
@@ -310,7 +309,7 @@ class Node:
 
     @property
     def cast_shadows(self) -> bool:
-        """Whether what the node holds keeps light off others; its children have their own switch.
+        """Whether the node's object casts shadows; children have their own switch.
 
         See `DirectionalLight`. Lines and points cast no shadows.
         """
@@ -322,7 +321,7 @@ class Node:
 
     @property
     def receive_shadows(self) -> bool:
-        """Whether shadows fall on what the node holds; its children have their own switch."""
+        """Whether the node's object receives shadows; children have their own switch."""
         return self._takes_part(RECEIVES_NONE)
 
     @receive_shadows.setter
@@ -354,8 +353,8 @@ class Node:
     def bounds(self) -> NDArray[np.float64] | None:
         """The box around the node's own object in world space, (2, 3) float64.
 
-        None if nothing of it can show: the node holds no mesh, an empty one, or is hidden. The box
-        encloses the object's own box, not its vertices, so it is loose where the node is turned.
+        None if the node shows nothing: it holds no mesh or an empty one, or is hidden. The box
+        encloses the transformed object box, not the vertices, so it is loose for rotated nodes.
         """
         if self._scene is None:
             return None
@@ -368,7 +367,7 @@ class Node:
         return f"<Node {self.id} {self.name!r}: {what}>"
 
     def _in_scene(self) -> Scene:
-        """The scene that the node is in."""
+        """The node's scene; raises if the node was removed."""
         if self._scene is None:
             raise InvalidArgumentError("the node was removed from its scene")
         return self._scene
@@ -377,7 +376,7 @@ class Node:
         return not self._arrays.columns["unshadowed"][self._slot] & bit
 
     def _take_part(self, bit: int, on: bool) -> None:
-        """Let the node cast or receive shadows, or not."""
+        """Set or clear a flag that keeps the node from casting or receiving shadows."""
         if self._takes_part(bit) != on:
             self._arrays.columns["unshadowed"][self._slot] ^= bit
             self._arrays.changes += 1
@@ -388,13 +387,13 @@ def _hangs_under(node: Node | None, parent: Node | None) -> bool:
 
 
 def with_below(node: Node) -> list[Node]:
-    """Return a node and all below it: those above first, siblings in their order."""
+    """Return a node and its descendants: parents first, siblings in order."""
     nodes = node._arrays.nodes
     return [nodes[slot] for slot in node._arrays.below(node._slot)]
 
 
 def next_sibling(node: Node) -> Node | None:
-    """Return the child of the node's parent that stands after it."""
+    """Return the node's next sibling."""
     if node.parent is None:
         return None
     slot = int(node._arrays.columns["next"][node._slot])
@@ -402,7 +401,7 @@ def next_sibling(node: Node) -> Node | None:
 
 
 def check_pose(value: ArrayLike) -> NDArray[np.float64]:
-    """Check an affine matrix; return it as (4, 4) float64."""
+    """Return an affine matrix, checked, as (4, 4) float64."""
     matrix = matrix4(value, "pose")
     if matrix[3].tolist() != [0.0, 0.0, 0.0, 1.0]:
         raise InvalidArgumentError("pose must be affine: its last row is 0 0 0 1")
@@ -410,7 +409,7 @@ def check_pose(value: ArrayLike) -> NDArray[np.float64]:
 
 
 def check_rotation(value: ArrayLike) -> NDArray[np.float64]:
-    """Check a quaternion; return it as (4,) float64."""
+    """Return a quaternion, checked, as (4,) float64."""
     try:
         rotation = finite_floats(value, "rotation", (4,))
     except InvalidArgumentError:
@@ -426,11 +425,11 @@ def check_rotation(value: ArrayLike) -> NDArray[np.float64]:
 
 
 def check_euler(value: ArrayLike) -> NDArray[np.float64]:
-    """Check three angles; return them as a read-only (3,) float64 array."""
+    """Return three angles, checked, as a read-only (3,) float64 array."""
     return vector3(angles(value, "euler"), "euler")
 
 
 def check_scale(value: ArrayLike) -> NDArray[np.float64]:
-    """Check one factor or three; return three as (3,) float64."""
+    """Return one scale factor or three, checked, as (3,) float64."""
     factors = floats(value, "scale")
     return vector3(np.broadcast_to(factors, (3,)) if factors.ndim == 0 else factors, "scale")

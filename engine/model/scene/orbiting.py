@@ -1,7 +1,7 @@
 """Camera poses around a target, from angles.
 
 In: a target, a distance, an azimuth, an elevation and an up direction (world space, radians). Out:
-poses. They come from the angles, not from a ``look_at``, so that straight up and down are no
+poses. They are computed from the angles, not by ``look_at``, so that straight up and down are no
 special cases; sines are rounded to 14 decimals, which makes right angles exact. The same inputs
 give the same bits on every machine.
 """
@@ -30,7 +30,7 @@ def orbit(
     *,
     up: ArrayLike = (0.0, 1.0, 0.0),
 ) -> NDArray[np.float64]:
-    """Return the poses of cameras that stand around a target and look at it.
+    """Return the poses of cameras around a target that look at it.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def orbit(
     elevation : float or (N,) float
         Angles above the horizon in radians, from -pi / 2 to pi / 2.
     up : (3,) float
-        The world's up direction, of any length but zero.
+        The world's up direction, of any nonzero length.
 
     Returns
     -------
@@ -87,12 +87,12 @@ def orbit_axes(up: ArrayLike, azimuth: float, elevation: float) -> NDArray[np.fl
 
 
 def home_axes(up: ArrayLike) -> NDArray[np.float64]:
-    """Return the axes that azimuth and elevation are measured from.
+    """Return the axes from which azimuth and elevation are measured.
 
     Parameters
     ----------
     up : (3,) float
-        The up direction in world space, of any length but zero.
+        The up direction in world space, of any nonzero length.
 
     Returns
     -------

@@ -1,7 +1,7 @@
-"""The poses of nodes below their parents, kept so that restoring them gives the same bits.
+"""Saves and restores poses of nodes with the same bits.
 
-In: nodes of a scene. Out: their poses, and rotation and scale where the pose follows from these to
-the bit: a rotation that was given is then the same again, which the matrix alone does not tell.
+In: nodes of a scene. Out: their poses, and also rotation and scale if the pose follows from them to
+the bit: so the rotation that was given is restored, which the matrix alone does not determine.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from .scene import Scene
 
 
 class Placements:
-    """The poses of some nodes, as they are when this is made.
+    """The poses of some nodes at the moment of creation.
 
     Parameters
     ----------
     scene : Scene
     nodes : sequence of Node
-        Of the scene.
+        Nodes of the scene.
 
     Attributes
     ----------
@@ -32,7 +32,7 @@ class Placements:
     rotations : (N, 4) float64
     scales : (N, 3) float64
     has_parts : (N,) bool
-        Whether the pose is exactly that of translation, rotation and scale.
+        Whether translation, rotation and scale give exactly the pose.
     """
 
     def __init__(self, scene: Scene, nodes: Sequence[Node]) -> None:
@@ -46,7 +46,7 @@ class Placements:
         self.has_parts = same.all(axis=(1, 2))
 
     def put(self, scene: Scene) -> None:
-        """Bring the nodes back to where they were."""
+        """Restore the nodes' poses."""
         scene.select(self.nodes).poses = self.poses
         rows = np.flatnonzero(self.has_parts)
         if len(rows):
@@ -55,7 +55,7 @@ class Placements:
             selection.scales = self.scales[rows]
 
     def same(self, other: Placements) -> bool:
-        """Whether these are the same nodes at the same places."""
+        """Return whether another holds the same nodes with the same poses."""
         return self.nodes == other.nodes and all(
             getattr(self, name).tobytes() == getattr(other, name).tobytes()
             for name in ("poses", "rotations", "scales", "has_parts")
@@ -63,7 +63,7 @@ class Placements:
 
 
 def _composed(rotations: NDArray[np.float64], scales: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The upper left of the matrices that `linalg.compose` makes, (N, 3, 3)."""
+    """Return the upper left of the matrices of `linalg.compose`, (N, 3, 3)."""
     with np.errstate(all="ignore"):
         matrices = linalg.quaternion_to_matrix(rotations)
         return matrices[:, :3, :3] * scales[:, np.newaxis, :]

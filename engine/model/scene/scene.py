@@ -1,8 +1,8 @@
-"""A scene: a tree of nodes that place meshes, lights and cameras in the world.
+"""Scenes: trees of nodes that place meshes, lights and cameras in the world.
 
-In: objects and poses, at any time. Out: nodes in the order they were added, which is the order of
-drawing. The nodes are handles of rows of arrays, from which C finds world poses, visibility and
-bounds of what changed; the scene counts its changes, so that a renderer renews only what it must.
+In: objects and poses, at any time. Out: nodes in the order of adding, which is the drawing order. A
+node is the handle of a row of arrays, from which C computes the changed world poses, visibility and
+bounds; the scene counts its changes, so that a renderer renews only what it must.
 """
 
 from __future__ import annotations
@@ -41,38 +41,38 @@ class Scene(Surroundings, SceneQueries):
     Parameters
     ----------
     background : sequence of 3 numbers, Gradient, Environment or None
-        What is behind everything: a colour, two, or the environment as the camera sees it; None is
+        The background: a colour, a gradient, or the environment as the camera sees it; None is
         transparent black (alpha 0).
     ambient : sequence of 3 numbers
-        Light that reaches every surface from all sides; to physical materials, surroundings that
-        look so everywhere.
+        Light that reaches every surface from all sides; physical materials also reflect it, as
+        uniform surroundings.
     light_clamp : (low, high), optional
-        Limits of the light that a surface receives (ambient included) before its colour multiplies
-        it, such as (0.1, 1). Physical materials have no such limits.
+        Limits of the light that a surface receives (ambient included), before its colour is
+        applied, such as (0.1, 1). Physical materials ignore them.
     exposure : float
-        Stops: what lit surfaces show is multiplied by ``2**exposure``.
+        Stops: the light of lit surfaces is multiplied by ``2**exposure``.
 
     Attributes
     ----------
     background, ambient, light_clamp, exposure
         As above; assign at any time.
     environment : Environment or None
-        Light from all around; physically based materials reflect it.
+        Image-based lighting; physically based materials reflect it.
     environment_intensity : float
-        Factor of the environment's radiance, 1 by default; as a background, too.
+        Factor on the environment's radiance, also as background; 1 by default.
     environment_rotation : float
-        Radians about +Y, counter-clockwise seen from above; as a background, too.
+        Radians about +Y, counter-clockwise seen from above; also turns the background.
     background_blur : float
-        0..1: how blurred an environment is as the background, 1 most.
+        Blur of an environment as background, 0..1.
     fog : Fog, ExponentialFog or None
-        What becomes of colours with distance, in modes "lit" and "unlit".
+        Fog, in modes "lit" and "unlit".
     animations : dict of str to AnimationClip
-        Clips of a file, by name, for an `AnimationPlayer`.
+        The file's clips by name, for an `AnimationPlayer`.
     warnings : list of str
-        What was left out or replaced where the scene was made from a file.
+        The loader's warnings: what it omitted or replaced.
     animator : Animator or None
-        Moves the nodes as the scene's file says, and is written with the scene. Nothing happens by
-        itself: call its `Animator.seek` or `Animator.advance`. Can be assigned.
+        Moves the nodes as the scene's file says, and is saved with the scene. Call its
+        `Animator.seek` or `Animator.advance`; nothing moves otherwise. Assignable.
 
     Raises
     ------
@@ -80,7 +80,7 @@ class Scene(Surroundings, SceneQueries):
     """
 
     warnings: list[str]
-    if TYPE_CHECKING:  # for the engine's own parts; as it isn't declared, programs can't assign it
+    if TYPE_CHECKING:  # for the engine's own parts; undeclared, so that programs can't assign it
         data: SceneData
 
     def __init__(
@@ -112,7 +112,7 @@ class Scene(Surroundings, SceneQueries):
 
     @animator.setter
     def animator(self, value: Animator | None) -> None:
-        # Only an Animator has motions; its module builds on this one.
+        # Only an Animator has motions; its module imports this one.
         fits = value is None or (hasattr(value, "_spins") and value._scene is self)
         if not fits:
             raise InvalidArgumentError("animator must be an Animator of this scene, or None")
@@ -134,29 +134,28 @@ class Scene(Surroundings, SceneQueries):
         cast_shadows: bool = True,
         receive_shadows: bool = True,
     ) -> Node:
-        """Put an object into the scene.
+        """Add a node for an object to the scene.
 
         Parameters
         ----------
         obj : Mesh, InstancedMesh, Camera, a light of any kind, or None
-            The same object may be added many times. None adds a node that groups others, or gets
-            its ``object`` later.
+            The same object may be added many times. None adds a group node, or a node whose
+            ``object`` is assigned later.
         name : str, optional
-            The object's own name if left out.
+            By default the object's name.
         parent : Node, optional
-            A node of this scene; the new node moves with it.
+            A node of this scene that the new node moves with.
         pose : (4, 4) float, optional
             parent-from-node; or give the parts instead:
         translation : (3,) float, optional
         rotation : (4,) float, optional
             Quaternion x, y, z, w.
         euler : (3,) float, optional
-            Instead of ``rotation``: angles in radians about x, y and z. Turns about x, then about
-            the new y, then about the newest z, as `Node.euler` and three.js do; degrees go through
-            ``numpy.radians``.
+            Instead of ``rotation``: angles in radians about x, then the new y, then the newest z,
+            as in `Node.euler` and three.js; convert degrees with ``numpy.radians``.
         scale : float or (3,) float, optional
         static : bool
-            The node is meant to stay where it is; see `Node.static`.
+            A hint that the node stays where it is; see `Node.static`.
         cast_shadows, receive_shadows : bool
             See `Node.cast_shadows`.
 
@@ -198,7 +197,7 @@ class Scene(Surroundings, SceneQueries):
         return node
 
     def remove(self, node: Node) -> None:
-        """Take a node and everything below it out of the scene; see `restore`.
+        """Remove a node and its subtree from the scene; see `restore`.
 
         Raises
         ------
@@ -212,25 +211,25 @@ class Scene(Surroundings, SceneQueries):
     def restore(
         self, node: Node, *, parent: Node | None = None, before: Node | None = None
     ) -> None:
-        """Put a removed node back, with everything that was below it when it was removed.
+        """Restore a removed node, with the subtree that was removed with it.
 
-        All of them keep their ids, and so their places in the order of drawing, and what they were
-        given meanwhile.
+        All of them keep their IDs, and so their places in drawing order, and changes made
+        meanwhile.
 
         Parameters
         ----------
         node : Node
-            What `remove` was called with.
+            The node that `remove` was called with.
         parent : Node, optional
-            The node that it hangs under from now on; left out, the scene itself.
+            The new parent; by default the scene itself.
         before : Node, optional
             As in `Node.reparent`.
 
         Raises
         ------
         InvalidArgumentError
-            The node was not removed from this scene, or only together with one above it; or the
-            parent does not fit.
+            The node was not removed from this scene, or only as part of another's subtree; or the
+            parent is invalid.
         """
         if not (isinstance(node, Node) and self.data.may_restore(node)):
             raise InvalidArgumentError(
@@ -245,21 +244,21 @@ class Scene(Surroundings, SceneQueries):
 
     @property
     def nodes(self) -> tuple[Node, ...]:
-        """All nodes, in the order they were added."""
+        """All nodes, in the order of adding."""
         return self.data.nodes
 
     @checks_types
     def find(self, name: str) -> Node | None:
-        """Return the first node of that name, or None where there is none."""
+        """Return the first node with a name, or None."""
         return self.data.find(name)
 
     def select(self, nodes: Iterable[Node] | None = None) -> NodeSelection:
-        """Return a selection of nodes, to read or to move them together as arrays.
+        """Return a selection of nodes, whose poses are read and written as arrays.
 
         Parameters
         ----------
         nodes : iterable of Node, optional
-            All nodes of the scene, as they are now, if left out.
+            By default all current nodes of the scene.
 
         Returns
         -------
@@ -268,7 +267,7 @@ class Scene(Surroundings, SceneQueries):
         Raises
         ------
         InvalidArgumentError
-            A node is not in this scene; also later, once one was removed.
+            A node is not in this scene; also raised later, once one is removed.
         """
         if nodes is not None and not isinstance(nodes, Iterable):
             raise InvalidArgumentError(f"nodes must be an iterable of Node, not {nodes!r}")
@@ -290,7 +289,7 @@ class Scene(Surroundings, SceneQueries):
         raise TypeError("a Scene cannot be copied or pickled: add its objects to another Scene")
 
     def _repr_png_(self) -> bytes | None:
-        """A picture for notebooks; see `thumbnail`."""
+        """Return a picture for notebooks; see `thumbnail`."""
         from ...rendering.thumbnail import thumbnail
 
         return thumbnail(self)
@@ -302,12 +301,12 @@ class Scene(Surroundings, SceneQueries):
 def _take_animations(
     scene: Scene, clips: dict[Any, Any], put: Callable[[dict[Any, Any]], None]
 ) -> None:
-    """Let a scene's own dict hold other clips."""
+    """Replace the content of a scene's own dict of clips."""
     from ..motion.clips import check_clips
 
     put(check_clips(clips))
 
 
 def _unfound(node: object) -> str:
-    """Return what was given for a node: mostly the result of `Scene.find` for an unknown name."""
+    """Return the description of a non-node argument: usually `Scene.find` did not find its name."""
     return "None, which find() returns of an unknown name" if node is None else shown(node)

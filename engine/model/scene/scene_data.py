@@ -1,8 +1,8 @@
-"""What a scene keeps of its nodes, for those who pose, draw, query and save it.
+"""The internal data of a scene's nodes, for posing, drawing, queries and saving.
 
-In: nodes that come, go and hold other objects. Out: their arrays, the objects that they draw, and
-those of them that are lights, cameras or colliders. It counts what changes, so that who made
-something of it renews only what must be.
+In: nodes that come, go and change objects. Out: their arrays, the objects they draw, and which of
+them hold lights, cameras or colliders. Counters of changes let users of the data renew only what
+they must.
 """
 
 from __future__ import annotations
@@ -42,33 +42,33 @@ if TYPE_CHECKING:
     from .scene import Scene
 
 _OBJECT_TYPES = (Mesh, InstancedMesh, Camera, *LIGHTS)
-_LEAST_REMOVED = 1024  # slots of removed nodes that are not worth packing
+_LEAST_REMOVED = 1024  # fewer slots of removed nodes are not worth packing
 
 
 class SceneData:
-    """What is known of the nodes of one scene: `Scene.data`.
+    """Internal data of one scene's nodes: `Scene.data`.
 
-    It is for the engine's own parts, not for programs that use it: it may change in any version,
-    and nothing in it is checked.
+    For the engine's own parts, not for programs: it may change in any version, and nothing in it is
+    checked.
 
     Attributes
     ----------
     arrays : NodeArrays
-        A row per node. Other arrays take their place when slots of removed nodes are given up.
+        A row per node. Packing removed nodes replaces the arrays.
     objects : ObjectTable
-        What nodes draw.
+        The objects that nodes draw.
     posing : Posing or None
-        The nodes whose meshes are bent; None until one is.
+        The nodes with deformed meshes; None until there is one.
     cameras, lights, colliders : dict of int to Node
-        The nodes that hold one, by id, in the order of adding.
+        The nodes that hold one, by ID, in the order of adding.
     placed_colliders : object
-        What collider_queries.py made of the colliders; None once they are others.
+        Data of collider_queries.py about the colliders; None once they change.
     removals : int
-        How often a node, or what it held, went.
+        How often a node or its object was removed.
     renames : int
-        How often a node got another name.
+        How often a node was renamed.
     untextured : frozenset of Material
-        What is drawn without its textures.
+        Materials drawn without their textures.
     """
 
     untextured: frozenset[Material] = frozenset()
@@ -84,19 +84,19 @@ class SceneData:
         self.removals = self.renames = 0
         self._ids = itertools.count()
         self._removed = 0  # slots of removed nodes
-        self._removed_lately = 0  # of these, since slots were last given up
-        self._gone: WeakSet[Node] = WeakSet()  # nodes that were removed, but for those below them
-        self._nodes: tuple[Node, ...] | None = ()  # these two are made when asked for
+        self._removed_lately = 0  # of these, since the last packing
+        self._gone: WeakSet[Node] = WeakSet()  # removed nodes, without their descendants
+        self._nodes: tuple[Node, ...] | None = ()  # both are computed on demand
         self._names: dict[str, Node] | None = None
 
     @property
     def node_count(self) -> int:
-        """How many nodes are in the scene."""
+        """Number of nodes in the scene."""
         return self.arrays.count - self._removed
 
     @property
     def nodes(self) -> tuple[Node, ...]:
-        """All nodes, in the order in which they were added."""
+        """All nodes, in the order of adding."""
         nodes = self._nodes
         if nodes is None:
             nodes = tuple(node for node in self.arrays.nodes if node is not None)
@@ -104,23 +104,23 @@ class SceneData:
         return nodes
 
     def find(self, name: str) -> Node | None:
-        """Return the first node of a name, or None."""
+        """Return the first node with a name, or None."""
         names = self._names
         if names is None:
             names = {}
             for node in self.nodes:
                 names.setdefault(node.name, node)
-            self._names = names  # whole: another thread may ask meanwhile
+            self._names = names  # assigned when complete: another thread may read it meanwhile
         return names.get(name)
 
     def node_of(self, number: int) -> Node | None:
-        """Return the node of an id, if it is in the scene."""
+        """Return the node with an ID, if it is in the scene."""
         ids = self.arrays.columns["id"][: self.arrays.count]
         slot = int(np.searchsorted(ids, number))
         return self.arrays.nodes[slot] if slot < len(ids) and ids[slot] == number else None
 
     def slots_of(self, nodes: Iterable[Node]) -> NDArray[np.int32]:
-        """Return the rows of nodes in ``arrays``, -1 for those that are not in the scene."""
+        """Return the rows of nodes in ``arrays``, -1 for nodes not in the scene."""
         arrays = self.arrays
         slots = [
             node._slot if node._arrays is arrays and node._scene is not None else -1
@@ -129,11 +129,11 @@ class SceneData:
         return np.array(slots, np.int32)
 
     def names(self) -> list[str]:
-        """Return the name of each row of ``arrays``, empty where a node was removed."""
+        """Return the name of each row of ``arrays``, empty for removed nodes."""
         return ["" if node is None else node._name for node in self.arrays.nodes]
 
     def camera_node(self) -> Node | None:
-        """Return the first visible node that holds a camera: what is drawn through by default."""
+        """Return the first visible node with a camera, which is the default for drawing."""
         for node in self.cameras.values():
             if node.shown:
                 return node
@@ -144,15 +144,15 @@ class SceneData:
         return [(node._object, node._slot) for node in list(self.lights.values())]
 
     def lights_state(self) -> tuple[Any, ...]:
-        """Return what is another once `placed_lights` are others, or elsewhere in the arrays."""
+        """Return a state that differs once `placed_lights` change or move in the arrays."""
         return self.arrays, self.removals, len(self.lights)
 
     def census(self) -> tuple[Any, ...]:
-        """Return what is another once a node has come or gone."""
+        """Return a state that differs once a node has come or gone."""
         return self.arrays.count, self.removals
 
     def update(self, threads: int = 1) -> None:
-        """Make world poses, visibility and bounds of all nodes true; threads: 0 is all."""
+        """Update world poses, visibility and bounds of all nodes; threads: 0 is all."""
         if self.posing is not None:
             self.posing.update(self, threads)
         self.objects.refresh(self.arrays)
@@ -164,7 +164,7 @@ class SceneData:
         return box_around(self.arrays)
 
     def add(self, scene: Scene, obj: SceneObject | None, name: str, parent: Node | None) -> Node:
-        """Make a node of the scene, which has its parent's pose."""
+        """Add a node to the scene, at its parent's pose."""
         node = Node(scene, obj, name, next(self._ids))
         above = -1 if parent is None else parent._slot
         node._slot = self.arrays.append(node, above, self.objects.take(obj), node.id)
@@ -175,7 +175,7 @@ class SceneData:
         return node
 
     def remove(self, node: Node) -> None:
-        """Take out a node, and all below it; each keeps its slot as long as somebody holds it."""
+        """Remove a node and its subtree; each keeps its slot as long as anybody holds the node."""
         arrays, taken = self.arrays, []
         for slot in arrays.remove(node._slot):
             gone, arrays.nodes[slot] = arrays.nodes[slot], None
@@ -196,15 +196,15 @@ class SceneData:
             self._pack()
 
     def may_restore(self, node: Node) -> bool:
-        """Whether `remove` was called with a node, and it has not come back."""
+        """Return whether `remove` was called with a node that has not come back."""
         return node in self._gone
 
     def removed_with(self, node: Node) -> Node:
-        """Return what `remove` was called with when a node went."""
+        """Return the node that `remove` was called with when this node was removed."""
         return node if node._taken_with is None else node._taken_with
 
     def restore(self, scene: Scene, node: Node) -> None:
-        """Put a removed node back into the scene, with all that went with it."""
+        """Restore a removed node to the scene, with the subtree removed with it."""
         taken, arrays = (node, *node._taken), self.arrays
         for slot, back in zip(arrays.restore(node._slot), taken, strict=True):
             arrays.nodes[slot] = back
@@ -219,7 +219,7 @@ class SceneData:
         self._nodes = self._names = None
 
     def _pack(self) -> None:
-        """Give up the slots of removed nodes that nobody holds any more."""
+        """Free the slots of removed nodes that nobody holds any more."""
         gone = [node for top in self._gone for node in (top, *top._taken)]
         self.arrays, slots = self.arrays.packed([node._slot for node in gone])
         self._removed, self._removed_lately = len(gone), 0
@@ -227,7 +227,7 @@ class SceneData:
             node._arrays, node._slot = self.arrays, int(slots[node._slot])
 
     def _list(self, node: Node) -> None:
-        """Keep the nodes of cameras and of lights, in the order in which the nodes were added."""
+        """Register nodes with cameras and lights, in the order of adding."""
         listed = self.cameras if isinstance(node._object, Camera) else self.lights
         if isinstance(node._object, (Camera, *LIGHTS)):
             last = max(listed, default=-1)
@@ -238,7 +238,7 @@ class SceneData:
                 listed.update(ordered)
 
     def list_collider(self, node: Node) -> None:
-        """Keep the nodes that have colliders, in the order of adding."""
+        """Register nodes with colliders, in the order of adding."""
         self.placed_colliders = None
         if node.collider is None:
             self.colliders.pop(node.id, None)
@@ -247,12 +247,12 @@ class SceneData:
             self.colliders = dict(sorted(self.colliders.items()))
 
     def forget_names(self) -> None:
-        """Say that a node has another name."""
+        """Drop the cached names, because a node was renamed."""
         self._names = None
         self.renames += 1
 
     def hold(self, node: Node, obj: SceneObject | None) -> None:
-        """Let a node hold another object."""
+        """Replace the object that a node holds."""
         check_object(obj)
         node._object = obj
         self.show(node)
@@ -262,7 +262,7 @@ class SceneData:
         self.removals += 1
 
     def show(self, node: Node) -> None:
-        """Let a node draw what it holds, as its skin and its morph weights bend it."""
+        """Update what a node draws: its object, deformed by its skin and morph weights."""
         before, looks = node._drawn, may_bend(node)
         if looks and self.posing is None:
             self.posing = Posing()
@@ -277,17 +277,17 @@ class SceneData:
         self.placed_colliders = None
 
     def show_as(self, node: Node, other: Node) -> None:
-        """Let frames show another node's id for a node."""
+        """Show a node under another node's ID in frames."""
         self.arrays.columns["object_id"][node._slot] = other.id
         self.arrays.changes += 1
 
     def set_skin(self, node: Node, skin: Skin | None) -> None:
-        """Let joints bend what a node holds."""
+        """Set the skin that deforms a node's mesh."""
         node._skin = check_skin(skin, node)
         self.show(node)
 
     def set_morph_weights(self, node: Node, weights: ArrayLike | None) -> None:
-        """Let a node add morph targets to its mesh."""
+        """Set a node's morph weights."""
         node._morph_weights = check_morph_weights(weights, node._object)
         if isinstance(node._drawn, PosedMesh) and node._morph_weights is not None:
             set_weights(node._drawn, node._morph_weights)
@@ -297,14 +297,14 @@ class SceneData:
 
 
 def box_around(arrays: Any) -> NDArray[np.float64]:
-    """Return the box around what rows of nodes show, as of their last update."""
+    """Return the box around the visible objects of given rows, as of the last update."""
     box = np.empty(OBJECT_BOX)
     around = union(arrays.columns["bounds"][: arrays.count], box)
     return box[:6].reshape(2, 3) if around else np.zeros((2, 3))
 
 
 def check_object(obj: Any) -> None:
-    """Check that a node may hold an object."""
+    """Check that a node can hold an object."""
     if obj is not None and not isinstance(obj, _OBJECT_TYPES):
         allowed = ", ".join(kind.__name__ for kind in _OBJECT_TYPES)
         raise InvalidArgumentError(f"obj must be {allowed} or None (a group), not {shown(obj)}")

@@ -1,7 +1,6 @@
-"""Many nodes of a scene at once: their poses, parts, switches and boxes as arrays.
+"""Selections: poses, parts, switches and boxes of many nodes at once, as arrays.
 
-In: arrays with one row per node. Out: copies. Nothing here loops over nodes in Python but making a
-selection, once.
+In: arrays with one row per node. Out: copies. Only creating a selection loops over nodes in Python.
 """
 
 from __future__ import annotations
@@ -24,10 +23,10 @@ if TYPE_CHECKING:
 
 
 class NodeSelection(Closed):
-    """Some nodes of a scene, to read or to move together; made by `Scene.select`.
+    """Some nodes of a scene, read and moved together; made by `Scene.select`.
 
-    Whatever is assigned has a row for each node, in the order of the selection, or is one row for
-    all. What is read is a copy.
+    An assigned array has a row for each node, in the order of the selection, or one row for all.
+    Reading returns copies.
 
     Attributes
     ----------
@@ -40,11 +39,11 @@ class NodeSelection(Closed):
         self.nodes = tuple(nodes)
         self._scene = scene
         self._removals = -1
-        self._slots = self._rows  # which checks the nodes
+        self._slots = self._rows  # this checks the nodes
 
     @property
     def _rows(self) -> np.ndarray:
-        """The nodes' slots, as they are now."""
+        """The nodes' current slots."""
         scene = self._scene
         if self._removals != scene.data.removals:
             for node in self.nodes:
@@ -97,7 +96,7 @@ class NodeSelection(Closed):
 
     @property
     def scales(self) -> NDArray[np.float64]:
-        """Factors along the nodes' axes, (N, 3) float64; (N, 1) or a number may be assigned."""
+        """Scale factors along the nodes' axes, (N, 3) float64; (N, 1) or a number works too."""
         return self._part("scale")
 
     @scales.setter
@@ -107,7 +106,7 @@ class NodeSelection(Closed):
 
     @property
     def visible(self) -> NDArray[np.bool_]:
-        """(N,) bool: the nodes' own switches."""
+        """The nodes' own visibility, (N,) bool."""
         return self._scene.data.arrays.columns["flags"][self._rows] & VISIBLE != 0
 
     @visible.setter
@@ -129,7 +128,7 @@ class NodeSelection(Closed):
 
     @property
     def bounds(self) -> NDArray[np.float64]:
-        """The boxes of `Node.bounds`, (N, 2, 3) float64; NaN where a node has none."""
+        """The boxes of `Node.bounds`, (N, 2, 3) float64; NaN if a node has none."""
         self._scene.data.update()
         bounds = self._scene.data.arrays.columns["bounds"][self._rows, :6]
         bounds[bounds[:, 0] > bounds[:, 3]] = np.nan

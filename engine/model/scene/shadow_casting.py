@@ -1,4 +1,4 @@
-"""The shadow parameters of all lights, in three.js's words."""
+"""The shadow parameters of all lights, named as in three.js."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ CountAttribute: TypeAlias = CheckedAttribute[int, int]
 
 
 def count_of(least: int, most: int) -> Callable[[int, str], int]:
-    """Return a check that a value is a whole number of a range."""
+    """Return a check for whole numbers in a range."""
     return lambda value, what: whole_number(value, what, least, most)
 
 
 def _shadow(value: LightShadow, what: str) -> LightShadow:
-    # 0 and 1 are equal to False and True, and kept as these.
+    # 0 and 1 equal False and True; keep them as these.
     checked = one_of(SHADOWS)(value, what)
     return bool(checked) if checked in (False, True) else checked
 
@@ -47,7 +47,7 @@ def _radius(value: float, what: str) -> float:
 
 
 class CastsShadows(Closed):
-    """Base of lights: what shadows they cast, if any."""
+    """Base of lights: their shadow parameters."""
 
     version: int
     shadow: ShadowAttribute = CheckedAttribute(_shadow)
@@ -58,7 +58,7 @@ class CastsShadows(Closed):
     shadow_taps: TapsAttribute = CheckedAttribute(one_of(TAPS))
 
     def _keep(self, arguments: dict[str, Any]) -> None:
-        """Keep the arguments of a constructor: each is the attribute of its name."""
+        """Store the arguments of a constructor as attributes of the same names."""
         for name, value in arguments.items():
             if name != "self":
                 setattr(self, name, value)
@@ -73,9 +73,10 @@ class CastsShadows(Closed):
 
 
 def shadow_margin(light: CastsShadows) -> int:
-    """Return how many texels at the sides of a light's map are there for comparisons alone.
+    """Return how many texels at each side of a light's map are reserved for comparisons.
 
-    Beside half of these, samples of directional lights move along their normals: R91.
+    They make room for the reach of comparisons and, for directional lights, for the offset of
+    samples along their normals (R91).
     """
     reach = light.shadow_radius * (light.shadow_taps - 1) / 2 + 1
     return math.ceil(2.8 * reach)

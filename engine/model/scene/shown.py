@@ -1,7 +1,7 @@
-"""The object that a node shows, as it is bent now, and its pose.
+"""The object that a node shows, in its current deformation, and its pose.
 
-In: a node whose scene is up to date. Out: a mesh and its world pose. For rays, colliders and all
-others that look at vertices.
+In: a node whose scene is up to date. Out: a mesh and its world pose. Rays, colliders and everything
+else that reads vertices use it.
 """
 
 from __future__ import annotations
@@ -19,24 +19,24 @@ if TYPE_CHECKING:
     from .node_arrays import NodeArrays
     from .nodes import Node, SceneObject
 
-    #: What of a node is drawn.
+    #: The drawable objects of a node.
     Drawn: TypeAlias = Mesh | InstancedMesh | PosedMesh
 
 Held = TypeVar("Held")
 
 
 def shown_object(node: Node) -> SceneObject | None:
-    """Return the node's object; of a mesh that is bent, one with the vertices as they are."""
+    """Return the node's object; for a deformed mesh, one with its current vertices."""
     return as_shown(node._drawn)
 
 
 def as_shown(drawn: Held | PosedMesh) -> Held | Mesh:
-    """Return what is drawn as an object of a node."""
+    """Return the drawn object as a mesh or instances."""
     return drawn.now() if isinstance(drawn, PosedMesh) else drawn
 
 
 def placing_poses(arrays: NodeArrays, slots: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return the world poses (N, 4, 4) that place what nodes draw, as of the last update."""
+    """Return the world poses (N, 4, 4) of what nodes draw, as of the last update."""
     anchors = arrays.columns["anchor"][slots]
     poses = arrays.world_poses(np.where(anchors < 0, slots, anchors))
     poses[anchors == slots] = np.eye(4)
@@ -44,5 +44,5 @@ def placing_poses(arrays: NodeArrays, slots: NDArray[np.int32]) -> NDArray[np.fl
 
 
 def placing_pose(node: Node) -> NDArray[np.float64]:
-    """Return the world pose that places what a node draws."""
+    """Return the world pose of what a node draws."""
     return placing_poses(node._arrays, np.array([node._slot], np.int32))[0]

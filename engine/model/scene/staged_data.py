@@ -1,8 +1,7 @@
-"""What a staged scene keeps: that of a scene and that of what is beside it, as one.
+"""The data of a staged scene: a scene's data and that of the nodes beside it, joined.
 
-In: the data of two scenes, and what of the first is hidden. Out: what a renderer reads of a scene.
-The rows of both trees stand one below the other in arrays of their own; only what changed is copied
-there.
+In: the data of two scenes, and the hidden nodes of the first. Out: the data that a renderer reads.
+Arrays of its own hold the rows of both trees, one after the other; only changes are copied.
 """
 
 from __future__ import annotations
@@ -25,28 +24,28 @@ from .shown import as_shown
 if TYPE_CHECKING:
     from ._posing import Posing
 
-#: The columns that are read of a scene that is drawn.
+#: The columns that drawing reads.
 _COLUMNS = (
     *("parent", "object", "object_id", "flags", "world", "bounds"),
     *("world_version", "anchor", "unshadowed"),
 )
-_LEAST_ROOM = 64  # for objects of a scene; twice as much when it is not enough
+_LEAST_ROOM = 64  # room for objects of a scene; doubled when it is not enough
 
 
 class StagedData:
-    """What renderers read of a `SceneData`, of two of them.
+    """The data of two scenes, joined, as renderers read it from a `SceneData`.
 
     Attributes
     ----------
     own, added : SceneData
-        Of the scene, and of what is beside it.
+        The data of the scene, and of the nodes beside it.
     keeps_lights, shows_textures : bool
-        Whether the scene's own lights shine, and its materials have their textures.
+        Whether the scene's own lights shine, and its materials show their textures.
     hidden : frozenset of Node
     part_of : callable or None
-        As they were given to `StagedScene.hide`.
+        As given to `StagedScene.hide`.
     arrays, objects
-        As of `SceneData`; what was added comes after what is the scene's own.
+        As in `SceneData`; the added ones follow the scene's own.
     """
 
     def __init__(self, own: SceneData, added: SceneData) -> None:
@@ -59,23 +58,23 @@ class StagedData:
 
     @property
     def trees(self) -> tuple[SceneData, SceneData]:
-        """Both."""
+        """The data of both scenes."""
         return self.own, self.added
 
     @property
     def first_added_id(self) -> int:
-        """The id from which on pictures tell of what was added."""
+        """The first ID of the added nodes in frames."""
         arrays = self.own.arrays
         return int(arrays.columns["id"][arrays.count - 1]) + 1 if arrays.count else 0
 
-    # What follows is as of `SceneData`.
+    # The members below are those of `SceneData`.
 
     def bounds(self) -> NDArray[np.float64]:
         self.update()
         return box_around(self.arrays)
 
     def update(self, threads: int = 1) -> None:
-        """Make both trees true, and then what is joined of them."""
+        """Update both trees, then join them."""
         for tree in self.trees:
             tree.update(threads)
         self.objects.join(self)
@@ -113,7 +112,7 @@ class StagedData:
         return self.keeps_lights, self.own.arrays.count, *trees
 
 
-#: What rows are made of.
+#: The state that rows were made from.
 State: TypeAlias = tuple[Any, ...]
 
 
@@ -125,7 +124,7 @@ class _JoinedRows:
     columns : dict of str to ndarray
     count : int
     changes, updated : (tuple, tuple)
-        What the rows of each tree are made of: now, and when they were joined.
+        The state of each tree's rows: now, and when they were joined.
     """
 
     def __init__(self, staged: StagedData) -> None:
@@ -145,7 +144,7 @@ class _JoinedRows:
         state = _state_of(staged, *(tree.arrays.updated for tree in staged.trees))
         if state == before:
             return
-        self.updated = ((), ())  # for if anything below raises
+        self.updated = ((), ())  # in case anything below raises
         count = sum(tree.arrays.count for tree in staged.trees)
         if count != self.count or not self.columns:
             self.count, before = count, ((), ())
@@ -182,7 +181,7 @@ class _JoinedRows:
     def select(
         self, frustum: NDArray[np.float64], widen: float, flat: bool, bits: NDArray[np.uint64]
     ) -> int:
-        """As of `NodeArrays`; what was added is always taken."""
+        """Select as `NodeArrays` does; added nodes are always selected."""
         arrays = self._made_of().own.arrays
         own = bits[: (arrays.count + 63) // 64]
         tested = arrays.select(frustum, widen, flat, own)
@@ -193,7 +192,7 @@ class _JoinedRows:
 
 
 def _state_of(staged: StagedData, own: int, added: int) -> tuple[State, State]:
-    """What the rows of a scene, and those of what was added, are made of, at some changes."""
+    """Return the states of the scene's rows and of the added rows, at given changes."""
     scene, beside, objects = staged.own.arrays, staged.added.arrays, staged.objects
     return (
         (scene, scene.count, own, staged.hidden, objects.renewals),
@@ -207,15 +206,15 @@ class _JoinedObjects:
     Attributes
     ----------
     objects : list
-        Those of the scene, room for more of them, parts of them, and those that were added.
+        The scene's objects, room for more, partial versions of them, and the added objects.
     version : tuple
-        Another one when a number gets another object.
+        Differs when a number is given another object.
     parts : dict of int to int
-        By the number of an object of the scene that of what is drawn in its place.
+        For scene objects by number, the number of the partial version drawn instead.
     first_added : int
-        The first number of what was added.
+        The first number of the added objects.
     renewals : int
-        How often parts were made.
+        How often partial versions were made.
     """
 
     def __init__(self) -> None:
@@ -226,15 +225,16 @@ class _JoinedObjects:
         self.renewals = 0
         self._own: Any = None
         self._added: Any = None
-        self._made: dict[int, tuple[State, Any]] = {}  # by number what a part is made of, and it
+        # by number, each part with the state it was made from
+        self._made: dict[int, tuple[State, Any]] = {}
 
     def forget_parts(self) -> None:
-        """Make all parts anew."""
+        """Make all partial versions anew."""
         self._made, self.parts = {}, {}
         self.renewals += 1
 
     def join(self, staged: StagedData) -> None:
-        """Follow what the trees draw now."""
+        """Update the table to what the trees draw now."""
         self._own, self._added = (tree.objects for tree in staged.trees)
         while self._room < len(self._own.objects):
             self._room *= 2
@@ -250,7 +250,7 @@ class _JoinedObjects:
             self.version = version
 
     def _make_parts(self, part_of: Callable[[Any], Any], posing: Any) -> None:
-        """Find what is drawn of each object, where that is not all of it."""
+        """Find the partial version of each object that is not drawn whole."""
         moment = None if posing is None else posing.moment
         posed = () if posing is None else posing.numbers.tolist()
         before = self._made
@@ -269,7 +269,7 @@ class _JoinedObjects:
             self.parts = {number: self._room + place for place, number in enumerate(cut)}
 
     def renewed_since(self, version: State) -> set[int] | None:
-        """As of `ObjectTable`."""
+        """Return what `ObjectTable.renewed_since` returns, for both trees."""
         own = self._own.renewed_since(version[0])
         added = self._added.renewed_since(version[1]) if version[2:] == self.version[2:] else None
         if own is None or added is None:
@@ -277,11 +277,11 @@ class _JoinedObjects:
         return own | {self.first_added + number for number in added}
 
     def drawn_by(self, thing: Any) -> set[int]:
-        """As of `ObjectTable`."""
+        """Return what `ObjectTable.drawn_by` returns, for both trees."""
         added = self._added.drawn_by(thing)
         return self._own.drawn_by(thing) | {self.first_added + number for number in added}
 
 
-#: What renderers read.
+#: The data that renderers read.
 AnyData: TypeAlias = SceneData | StagedData
 NodeRows: TypeAlias = NodeArrays | _JoinedRows

@@ -1,7 +1,7 @@
-"""A scene and what is put beside it, drawn as one: neither holds anything of the other.
+"""A scene drawn together with nodes beside it, without changing the scene.
 
-In: a scene; nodes that are drawn after its own, values that take the place of its own, and what of
-it is hidden. Out: what a renderer reads of a scene, and the scene itself as it was.
+In: a scene; nodes drawn after its own, values that override its own, and its hidden nodes. Out: the
+data that a renderer reads; the scene itself is unchanged.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ from .surroundings import SCENE_VALUES, Surroundings
 
 
 class StagedScene(Surroundings):
-    """A scene, and what is drawn with it.
+    """A scene, and the nodes drawn with it.
 
     Parameters
     ----------
     scene : Scene
-        Stays as it is.
+        The scene; it is not changed.
 
     Attributes
     ----------
@@ -32,12 +32,12 @@ class StagedScene(Surroundings):
     beside : Scene
         Its nodes are drawn after those of the scene, with ids above theirs.
     background, ambient, light_clamp, exposure, …
-        As of `Scene`: those of the scene, until they are assigned.
+        As in `Scene`: the scene's own values, until they are assigned.
     """
 
     scene: Scene
     beside: Scene
-    data: StagedData  # for the engine's own parts, as of `Scene`
+    data: StagedData  # for the engine's own parts, as in `Scene`
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
@@ -51,39 +51,39 @@ class StagedScene(Surroundings):
         return getattr(self.scene, name)
 
     def clear(self) -> None:
-        """Take away all that is beside the scene."""
+        """Remove all nodes beside the scene."""
         self.beside = Scene()
         self.data.added = self.beside.data
 
     def keep_lights(self, kept: bool) -> None:
-        """Let the lights of the scene shine, or not."""
+        """Switch the scene's own lights on or off."""
         self.data.keeps_lights = kept
 
     def show_textures(self, shown: bool) -> None:
-        """Draw the materials of the scene with their textures, or without."""
+        """Switch the textures of the scene's materials on or off."""
         self.data.shows_textures = shown
 
     def hide(self, nodes: Iterable[Node], part_of: Callable[[Any], Any] | None = None) -> None:
-        """Leave nodes of the scene out of pictures, but not those below them; all others show.
+        """Hide nodes of the scene, but not their children; all other nodes show.
 
         Parameters
         ----------
         nodes : iterable of Node
         part_of : callable, optional
-            Called with a `Mesh` or `InstancedMesh`; returns what is drawn of it.
+            Called with a `Mesh` or `InstancedMesh`; returns the part of it to draw.
         """
         self.data.hidden, self.data.part_of = frozenset(nodes), part_of
         self.data.objects.forget_parts()
 
     def own_pixels(self, object_id: NDArray[np.int32]) -> NDArray[np.bool_]:
-        """Return which pixels of a frame's ``object_id`` show something of the scene itself."""
+        """Return which pixels of a frame's ``object_id`` show the scene's own nodes."""
         return (object_id >= 0) & (object_id < self.data.first_added_id)
 
     @property
     def bounds(self) -> NDArray[np.float64]:
-        """As of `Scene`."""
+        """The scene's bounds, as in `Scene`."""
         return self.data.bounds()
 
 
-#: What renderers draw.
+#: The scenes that renderers draw.
 AnyScene: TypeAlias = Scene | StagedScene

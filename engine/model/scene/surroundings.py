@@ -1,4 +1,4 @@
-"""The surroundings of a scene: background, light from all around, fog, exposure.
+"""The surroundings of a scene: background, environment, ambient light, fog, exposure.
 
 In: values, at any time. Out: the same, checked.
 """
@@ -18,7 +18,7 @@ from ..materials.colors import check_color
 from .fog import ExponentialFog, Fog
 from .gradients import Gradient
 
-#: What pictures depend on besides nodes; frames, files and the editor go by this list.
+#: Everything besides nodes that pictures depend on; frames, files and the editor use this list.
 SCENE_VALUES = (
     "background",
     "ambient",
@@ -33,12 +33,12 @@ SCENE_VALUES = (
 MAX_EXPOSURE = 64
 
 
-#: What shows where nothing is drawn.
+#: The kinds of backgrounds.
 Background: TypeAlias = Color | Gradient | Environment | None
 
 
 class Surroundings(Closed):
-    """The part of a `Scene` that these values are; its docstring tells what they mean."""
+    """The surroundings of a `Scene`; its docstring describes them."""
 
     def __init__(
         self,

@@ -1,7 +1,7 @@
 """The resources of scenes: meshes, materials, textures, and how many nodes use each.
 
-In: scenes. Out: counts. Nodes that share an object are counted together, so that a scene of tens of
-thousands of nodes costs what its different objects cost.
+In: scenes. Out: counts. Nodes that share an object are counted together, so that the cost depends
+on the number of distinct objects, not of nodes.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .scene import Scene
 
 
 def uses_in(scenes: Iterable[Scene]) -> dict[Any, int]:
-    """Return how many nodes use each mesh, material and texture, in the order of their numbers."""
+    """Return how many nodes use each mesh, material and texture, in order of their numbers."""
     uses: dict[Any, int] = {}
     for scene in scenes:
         arrays = scene.data.arrays
@@ -35,7 +35,7 @@ def uses_in(scenes: Iterable[Scene]) -> dict[Any, int]:
 
 
 def users_of(scene: Scene, thing: Any) -> tuple[Node, ...]:
-    """Return the nodes that use a mesh, material or texture, in the order of the scene."""
+    """Return the nodes that use a mesh, material or texture, in scene order."""
     numbers = {n for n, obj in enumerate(scene.data.objects.objects) if thing in resources_of(obj)}
     arrays = scene.data.arrays
     rows = np.flatnonzero(np.isin(arrays.columns["object"][: arrays.count], list(numbers)))
@@ -44,7 +44,7 @@ def users_of(scene: Scene, thing: Any) -> tuple[Node, ...]:
 
 
 def resources_of(obj: Any) -> dict[Any, None]:
-    """Return the mesh, materials and textures that an object of a node is made of, each once."""
+    """Return the mesh, materials and textures of a node's object, each once."""
     mesh = obj.mesh if isinstance(obj, (InstancedMesh, PosedMesh)) else obj
     if not isinstance(mesh, Mesh):
         return {}

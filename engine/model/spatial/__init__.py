@@ -1,1 +1,1 @@
-"""Rays and picking in a scene. Trees of boxes in C do the searching."""
+"""Raycasts, picking and colliders in a scene. Trees of boxes in C do the searching."""

@@ -1,7 +1,6 @@
-"""The shapes of meshes and instances for rays: trees of boxes, made when a ray first meets them.
+"""Shapes of meshes and instances for rays: trees of boxes, built when a ray first needs them.
 
-In: `Mesh`, `InstancedMesh`. Out: native trees, made anew when arrays are others, forgotten with
-the object.
+In: `Mesh`, `InstancedMesh`. Out: native trees, rebuilt when arrays change, freed with the object.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ _triangles: WeakKeyDictionary[Mesh, tuple[tuple[Any, ...], NativeTree]] = WeakKe
 
 
 def triangle_tree(mesh: Mesh, arrays: dict[str, Any] | None = None) -> NativeTree:
-    """Return the tree of a mesh's faces as they are now, or as they were in some arrays."""
+    """Return the tree of a mesh's faces, for its current arrays or the given ones."""
     arrays = arrays_of(mesh) if arrays is None else arrays
     positions, faces = arrays["positions"], arrays["faces"]
     made_of, tree = _triangles.get(mesh, ((None, None), None))
@@ -34,7 +33,7 @@ def triangle_tree(mesh: Mesh, arrays: dict[str, Any] | None = None) -> NativeTre
 
 
 def faces_in_box(mesh: Mesh, low: np.ndarray, high: np.ndarray) -> np.ndarray:
-    """Return the numbers of the faces whose boxes meet a box of the mesh's space."""
+    """Return the numbers of the faces whose boxes intersect a box in mesh space."""
     bits = np.zeros((len(mesh.faces) + 63) // 64, np.uint64)
     triangle_tree(mesh).overlaps(low, high, bits)
     return np.flatnonzero(np.unpackbits(bits.view(np.uint8), bitorder="little"))
@@ -43,7 +42,7 @@ def faces_in_box(mesh: Mesh, low: np.ndarray, high: np.ndarray) -> np.ndarray:
 def way_to_face(
     mesh: Mesh, pose: np.ndarray, origin: np.ndarray, direction: np.ndarray, farthest: float
 ) -> float:
-    """Return how far a ray of unit length goes to a face of a mesh; infinite if farther."""
+    """Return the distance along a unit ray to a face of a mesh; infinite if it misses."""
     arrays = arrays_of(mesh)
     tree = triangle_tree(mesh, arrays)
     return tree.nearest_triangle(
@@ -52,7 +51,7 @@ def way_to_face(
 
 
 def tell(shapes: NativeShapes, number: int, obj: Any) -> None:
-    """Pass the shape of a scene's object to the core, as it is at one moment."""
+    """Pass the current shape of a scene's object to the core."""
     mesh, poses, tree = as_shown(obj), None, None
     if isinstance(obj, InstancedMesh):
         mesh, (tree, poses) = obj.mesh, instance_tree(obj)

@@ -1,7 +1,7 @@
-"""Triangles against boxes and spheres, many at once.
+"""Intersection tests of triangles with boxes and spheres, many at once.
 
-In: corners (N, 3, 3) float64. Out: (N,) bool. Sources: Akenine-Moeller 2001 (thirteen axes that may
-separate), Ericson 2005 (closest point).
+In: corners (N, 3, 3) float64. Out: (N,) bool. Sources: Akenine-Moeller 2001 (thirteen separating
+axes), Ericson 2005 (closest point).
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from ...base import linalg
 
 
 def triangles_meet_box(corners: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
-    """Return which triangles have a point in a box; touching counts."""
+    """Return which triangles intersect a box; touching counts."""
     half = (high - low) * 0.5
     v = corners - (low + high) * 0.5
     edges = np.roll(v, -1, axis=1) - v
@@ -29,16 +29,16 @@ def triangles_meet_box(corners: np.ndarray, low: np.ndarray, high: np.ndarray) -
 
 
 def sphere_meets_triangles(corners: np.ndarray, center: np.ndarray, radius: float) -> np.ndarray:
-    """Return which triangles have a point in a ball; touching counts."""
+    """Return which triangles intersect a ball; touching counts."""
     nearest = closest_points(corners, center) - center
     return linalg.dot(nearest, nearest) <= radius * radius
 
 
 def closest_points(corners: np.ndarray, point: np.ndarray) -> np.ndarray:
-    """Return the point of each triangle that is nearest to a point, (N, 3).
+    """Return the point of each triangle that is closest to a given point, (N, 3).
 
-    Inside of the triangle's prism that is its foot on the plane, elsewhere the nearest of three
-    edges.
+    Inside the triangle's prism it is the projection onto the plane, elsewhere the closest point of
+    the three edges.
     """
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     normal = linalg.cross(b - a, c - a)

@@ -1,8 +1,8 @@
-"""Finds the colliders of a scene that a box, a sphere or a ray meets.
+"""Queries for the colliders of a scene that a box, sphere or ray intersects.
 
-In: queries in world space. Out: the nodes whose colliders are met, in the order in which the nodes
-were added. A tree of the colliders' boxes finds those that may be met; then everything is float64,
-an element at a time, and goes through the mesh's own tree for its faces.
+In: queries in world space. Out: the nodes whose colliders intersect, in the order of adding. A tree
+of the colliders' boxes finds candidates; the exact tests are float64, element by element, and use
+the mesh's own tree for its faces.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ from ._shapes import faces_in_box, way_to_face
 from ._triangles import sphere_meets_triangles, triangles_meet_box
 from .colliders import BoxCollider, ColliderHit, MeshCollider, SphereCollider
 
-_quiet = np.errstate(over="ignore", invalid="ignore")  # what overflows is infinitely far away
+_quiet = np.errstate(over="ignore", invalid="ignore")  # overflow means infinitely far away
 
 
 class _Placed:
-    """The colliders of a scene where they are now: world boxes and spheres, and a tree of them."""
+    """The colliders of a scene where they are now: world boxes, spheres, and a tree of them."""
 
     def __init__(self, data: SceneData) -> None:
         self.nodes = list(data.colliders.values())
@@ -42,13 +42,13 @@ class _Placed:
         self._radii = np.full(count, -1.0)  # of spheres
         self._watch = Watch()
         self.meshes: dict[int, Mesh] = {}
-        self._bent: list[int] = []  # rows of what stands where joints and morph targets put it
+        self._bent: list[int] = []  # rows placed by joints and morph targets
         for row, node in enumerate(self.nodes):
             self._describe(row, node)
         self._moment = _moment(data) if self._bent else 0
 
     def _describe(self, row: int, node: Node) -> None:
-        """Keep what a collider is in its node's space."""
+        """Store a collider's shape in node space."""
         collider: Any = node.collider
         if isinstance(collider, SphereCollider):
             self._middles[row], self._radii[row] = collider.center, collider.radius
@@ -65,12 +65,12 @@ class _Placed:
         self._middles[row], self._halves[row] = (low + high) * 0.5, (high - low) * 0.5
 
     def is_of(self, data: SceneData) -> bool:
-        """Whether these are the scene's colliders still."""
+        """Return whether these are still the scene's colliders."""
         posed = not self._bent or self._moment == _moment(data)
         return posed and self._removals == data.removals and not self._watch.found()
 
     def follow(self, arrays: NodeArrays) -> None:
-        """Find where the colliders are, if anything moved."""
+        """Update the colliders' places if anything moved."""
         state = arrays, arrays.updated
         if self._state == state:
             return
@@ -93,13 +93,13 @@ class _Placed:
         self._state = state
 
     def in_box(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
-        """Rows of colliders whose boxes may meet a box, in order."""
+        """Return the rows of colliders whose boxes may intersect a box, in order."""
         bits = self._bits()
         self._tree.overlaps(low, high, bits)
         return self._rows_of(bits)
 
     def on_ray(self, origin: np.ndarray, direction: np.ndarray, farthest: float) -> np.ndarray:
-        """Rows of colliders whose boxes a ray may meet, in order."""
+        """Return the rows of colliders whose boxes a ray may hit, in order."""
         bits = self._bits()
         self._tree.on_ray(origin, direction, farthest, bits)
         return self._rows_of(bits)
@@ -112,12 +112,12 @@ class _Placed:
 
 
 def _moment(data: SceneData) -> int:
-    """What grows when meshes were bent anew."""
+    """Return a counter that grows when meshes are deformed anew."""
     return 0 if data.posing is None else data.posing.moment
 
 
 def _placed(data: SceneData) -> _Placed:
-    """The colliders, found anew when something moved or a mesh changed."""
+    """Return the colliders, updated if something moved or a mesh changed."""
     data.update()
     placed: _Placed | None = data.placed_colliders
     if placed is None or not placed.is_of(data):
@@ -127,7 +127,7 @@ def _placed(data: SceneData) -> _Placed:
 
 
 def _mesh_of(node: Node) -> Any:
-    """The mesh that a node's collider depends on."""
+    """Return the mesh that a node's collider depends on."""
     collider = node.collider
     if isinstance(collider, MeshCollider):
         return collider.mesh or node.object
@@ -183,10 +183,10 @@ def _mesh_meets_sphere(mesh: Mesh, pose: Any, center: Any, radius: float) -> boo
 
 
 def _corners_near(mesh: Mesh, pose: Any, low: Any, high: Any) -> np.ndarray:
-    """Corners in the world of the faces whose boxes are near a world box, (N, 3, 3)."""
+    """Return world corners of the faces whose boxes are near a world box, (N, 3, 3)."""
     try:
         back = linalg.inverse(pose)
-    except InvalidArgumentError:  # flat: no space to go back into
+    except InvalidArgumentError:  # flat: the pose has no inverse
         faces = np.arange(len(mesh.faces))
     else:
         middle = linalg.transform_points(back, (low + high) * 0.5)
@@ -228,7 +228,7 @@ def raycast_colliders(
 
 
 def _into_boxes(boxes: np.ndarray, origin: Any, direction: Any) -> np.ndarray:
-    """Return where a ray enters boxes (N, 2, 3): 0 from inside, infinite if it misses."""
+    """Return where a ray enters boxes (N, 2, 3): 0 from inside, infinite on a miss."""
     with np.errstate(divide="ignore", invalid="ignore"):
         ways = (boxes - origin) / direction
     along = direction != 0.0
@@ -241,7 +241,7 @@ def _into_boxes(boxes: np.ndarray, origin: Any, direction: Any) -> np.ndarray:
 def _into_spheres(
     centers: np.ndarray, radii: np.ndarray, origin: Any, direction: Any
 ) -> np.ndarray:
-    """Return where a unit ray enters spheres: 0 from inside, infinite if it misses."""
+    """Return the distance at which a unit ray enters spheres: 0 from inside, infinite on a miss."""
     away = centers - origin
     along = linalg.dot(away, direction)
     beside = linalg.dot(away, away) - along * along

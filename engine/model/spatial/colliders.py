@@ -1,7 +1,7 @@
-"""Shapes that nodes put around themselves, to be found by boxes, spheres and rays.
+"""Colliders: shapes of nodes for queries by boxes, spheres and rays.
 
-In: a collider assigned to ``node.collider``. Out: `Scene.overlap_box` and the like find the node by
-it (collider_queries.py).
+In: a collider assigned to ``node.collider``. Out: `Scene.overlap_box` and the other queries find
+the node by it (collider_queries.py).
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class BoxCollider(Closed):
     Parameters
     ----------
     low, high : (3,) float, optional
-        Corners in the node's space; those of the node's own mesh if left out.
+        Corners in node space; by default those of the node's mesh.
     """
 
     box: NDArray[np.float64] | None
@@ -44,7 +44,7 @@ class BoxCollider(Closed):
 
 
 class SphereCollider(Closed):
-    """A sphere around a point of the node's space; its radius grows with the largest scale.
+    """A sphere around a point in node space; its radius grows with the largest scale.
 
     Parameters
     ----------
@@ -61,12 +61,12 @@ class SphereCollider(Closed):
 
 
 class MeshCollider(Closed):
-    """The faces of a mesh, from both sides; they have no inside.
+    """The faces of a mesh, from both sides; a mesh collider has no inside.
 
     Parameters
     ----------
     mesh : Mesh, optional
-        The node's own if left out.
+        By default the node's mesh.
     """
 
     mesh: Mesh | None
@@ -82,13 +82,13 @@ Collider: TypeAlias = BoxCollider | SphereCollider | MeshCollider
 
 @shows_annotations
 class ColliderHit(NamedTuple):
-    """Where a ray meets a collider.
+    """The intersection of a ray with a collider.
 
     Attributes
     ----------
     node : Node
     distance : float
-        From the ray's origin; 0 if that is inside of a box or a sphere.
+        From the ray's origin; 0 if it lies inside a box or sphere.
     position : (3,) float64
     """
 
@@ -98,7 +98,7 @@ class ColliderHit(NamedTuple):
 
 
 def check_collider(obj: Any, collider: Any) -> None:
-    """Raise unless a node that holds an object can have the collider."""
+    """Raise unless a node with a given object can have the collider."""
     kinds = (BoxCollider, SphereCollider, MeshCollider)
     if collider is not None and not isinstance(collider, kinds):
         raise InvalidArgumentError(

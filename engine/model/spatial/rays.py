@@ -1,7 +1,7 @@
-"""Rays against the faces of a scene.
+"""Raycasts against the faces of a scene.
 
-In: a scene, rays in world space. Out: the nearest hits. C searches, through trees of nodes,
-instances and triangles, in float64: the same bits on every machine.
+In: a scene, rays in world space. Out: the nearest hits. C searches trees of nodes, instances and
+triangles, in float64: the same bits on every machine.
 """
 
 from __future__ import annotations
@@ -23,19 +23,19 @@ from ._shapes import tell
 
 @shows_annotations
 class RayHit(NamedTuple):
-    """Where a ray meets a face.
+    """The intersection of a ray with a face.
 
     Attributes
     ----------
     node : Node
     instance : int
-        Row of the instances; 0 for a plain mesh.
+        Row in the instances; 0 for a plain mesh.
     face : int
         Index into ``mesh.faces``.
     distance : float
         From the ray's origin, in world units.
     position, normal : (3,) float64
-        World space; the unit normal of the face's front.
+        World space; the unit normal of the front face.
     barycentric : (3,) float64
         Weights of the face's vertices.
     """
@@ -51,14 +51,14 @@ class RayHit(NamedTuple):
 
 @shows_annotations
 class RayHits(NamedTuple):
-    """Where many rays meet faces: a row per ray.
+    """The intersections of many rays with faces: a row per ray.
 
     Attributes
     ----------
     object_id, instance, face : (N,) int32
-        -1 where a ray meets nothing.
+        -1 where a ray misses.
     distance : (N,) float64
-        Infinite where a ray meets nothing; the other arrays are then zero.
+        Infinite where a ray misses; the other arrays are then zero.
     position, normal, barycentric : (N, 3) float64
     """
 

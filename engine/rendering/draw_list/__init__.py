@@ -1,1 +1,1 @@
-"""The draw list: what a scene shows, as the core draws it; kept from picture to picture."""
+"""The draw list: the visible objects of a scene as the core draws them, kept between frames."""

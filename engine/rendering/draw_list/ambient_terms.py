@@ -1,10 +1,10 @@
-"""Hemisphere lights and light probes of a frame as one polynomial of the normal.
+"""Hemisphere lights and light probes of a frame, summed into one polynomial of the normal.
 
-In: lights and how their nodes turn them. Out: the nine terms of R130 in docs/exactness, three
-channels each. All of it is float64 arithmetic of single operations (R131, R132).
+In: lights and their nodes' rotations. Out: the nine terms of R130 in docs/exactness, three channels
+each. All arithmetic is float64, in single operations (R131, R132).
 
 The constants are those of Ramamoorthi and Hanrahan, "An Efficient Representation for Irradiance
-Environment Maps", 2001, over pi.
+Environment Maps", 2001, divided by pi.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ _Rows = list[list[float]]
 def ambient_terms(
     lights: Iterable[tuple[AmbientLight, Sequence[float]]], color_space: ColorSpace
 ) -> _Rows:
-    """Return the sum of what lights add.
+    """Return the sum of the lights' terms.
 
     Parameters
     ----------
     lights : iterable of (light, pose)
-        With the first three rows of the world pose of its node, 12 floats.
+        Each light with the first three rows of its node's world pose, 12 floats.
     color_space : {"srgb", "linear"}
-        How 8-bit colours are read.
+        How 8-bit colours are decoded.
 
     Returns
     -------
@@ -56,7 +56,7 @@ def ambient_terms(
 
 
 def _of_hemisphere(light: HemisphereLight, up: Sequence[float], color_space: ColorSpace) -> _Rows:
-    """R131."""
+    """Return the terms of a hemisphere light (R131)."""
     sky = shading_color(light.sky_color, color_space)
     ground = shading_color(light.ground_color, color_space)
     half = [0.5 * (a + b) for a, b in zip(sky, ground, strict=True)]
@@ -65,7 +65,7 @@ def _of_hemisphere(light: HemisphereLight, up: Sequence[float], color_space: Col
 
 
 def _of_probe(light: LightProbe, axes: Sequence[Sequence[float]]) -> _Rows:
-    """R132: each channel as a vector and a symmetric matrix without trace, which are turned."""
+    """Return the rotated terms of a probe (R132): per channel, a vector and a traceless matrix."""
     channels = [_turned(values, axes) for values in light.coefficients.T.tolist()]
     return [list(row) for row in zip(*channels, strict=True)]
 

@@ -1,8 +1,8 @@
-"""Finds closed meshes, which surely show only fronts: they enclose a volume, seen from outside.
+"""Finds closed meshes: they enclose a volume, fronts outside, so their backs are hidden.
 
-In: meshes. Out: whether their backs show through holes alone, and where these are: who looks into
-them is found by csrc/scene/apertures.c. A mesh with alpha shows its inside through itself, and one
-that is bent may turn its inside out: of these, both sides count.
+In: meshes. Out: the holes through which backs can be seen, if there are only these;
+csrc/scene/apertures.c finds cameras that look into them. A mesh with alpha shows its inside, and a
+deformed mesh may turn inside out: such meshes never count as closed.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from ...model.geometry.derived import arrays_of
 from ...model.geometry.mesh import Mesh
 
 _READ = ("positions", "faces", "joints", "morph_positions")
-_MOST_SIDES = 4096  # of holes: what has more is no volume with a few holes
+_MOST_SIDES = 4096  # of holes: a mesh with more is no volume with a few holes
 _known: WeakKeyDictionary[Mesh, tuple[list[Any], Holes | None]] = WeakKeyDictionary()
 
 
@@ -28,9 +28,9 @@ class Holes(NamedTuple):
     Attributes
     ----------
     ends : (holes,) int32
-        Where the points of each rim end.
+        The end of each rim's points.
     points : (N, 3) float64
-        Round each hole, in the way in which the triangles run there; in the mesh's space.
+        Around each hole, in the winding order of its triangles; in the mesh's space.
     """
 
     ends: np.ndarray
@@ -38,15 +38,15 @@ class Holes(NamedTuple):
 
 
 def holes_of(mesh: Mesh) -> Holes | None:
-    """Return the holes of a mesh that encloses a volume but for them, its fronts outside.
+    """Return the holes of a mesh that is closed except for them, with fronts outside.
 
-    A ray from outside goes into such a volume before it comes out: unless it goes in through a
-    hole, it meets a front first.
+    A ray from outside enters such a volume before it leaves it: it hits a front face first, unless
+    it enters through a hole.
 
     Returns
     -------
     holes : Holes or None
-        None if there is no such volume. Found once for the mesh's arrays.
+        None if the mesh encloses no volume. Computed once for the mesh's arrays.
     """
     if any(material.alpha_mode != "opaque" for material in mesh.materials):
         return None
@@ -68,7 +68,7 @@ def _holes(positions: np.ndarray, faces: np.ndarray) -> Holes | None:
         return None
     points, faces = positions[first], places[faces]
     rims = _rims(sides)
-    for rim in rims:  # a lid: a fan of triangles from the middle
+    for rim in rims:  # a lid: a fan of triangles around the centre
         middle = points[rim].mean(axis=0, keepdims=True)
         lid = np.stack([np.roll(rim, -1), rim, np.full_like(rim, len(points))], axis=1)
         points, faces = np.concatenate([points, middle]), np.concatenate([faces, lid])
@@ -80,13 +80,13 @@ def _holes(positions: np.ndarray, faces: np.ndarray) -> Holes | None:
 
 
 def _are_rings(sides: np.ndarray) -> bool:
-    """Whether at each place one open side ends and one begins."""
+    """Return whether at each place exactly one open edge ends and one begins."""
     begins, ends = np.sort(sides, axis=0).T
     return bool((begins == ends).all() and (begins[1:] != begins[:-1]).all())
 
 
 def _rims(sides: np.ndarray) -> list[np.ndarray]:
-    """Open sides (N, 2), which form rings, as the rings of their places."""
+    """Return the rims that open edges (N, 2) form, as rings of places."""
     after = dict(sides.tolist())
     rims = []
     while after:

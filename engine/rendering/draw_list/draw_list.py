@@ -1,9 +1,9 @@
-"""From a scene to what the core draws: draws, materials and lights, renewed where they changed.
+"""Keeps the core's draw list of a scene up to date: draws, materials and lights.
 
-In: a `Scene` and what the picture needs of its meshes. Out: a `NativeDrawList` that is up to date.
-Between frames it keeps the part of the list that tells of objects, and what that was made from;
-nodes are placed by C, from the arrays of the scene. Python looks at the objects that came, went or
-changed, at all of them only where many did, and never at every node.
+In: a `Scene` and the mesh data that the picture needs. Out: an up-to-date `NativeDrawList`. Between
+frames it keeps the listed objects and what they were made from; C places the nodes, from the arrays
+of the scene. Python looks at the objects that came, went or changed (at all of them only if many
+did), and never at every node.
 """
 
 from __future__ import annotations
@@ -35,33 +35,33 @@ if TYPE_CHECKING:
     from ...model.scene._posing import Posing
     from ...model.scene.shown import Drawn
 
-#: What a listed object is made of: a mesh, and the instances that it is drawn at.
+#: The sources of a listed object: a mesh, and the instances that draw it.
 Things: TypeAlias = tuple[()] | tuple[Mesh] | tuple[Mesh, InstancedMesh]
 
 
 class Listing(NamedTuple):
-    """How a picture's objects are listed."""
+    """How to list a picture's objects."""
 
-    needs: MeshNeeds  # which of the two kinds of normals a mesh needs is decided for each mesh
+    needs: MeshNeeds  # each mesh decides between its two kinds of normals
     normals: Normals
-    by_mesh: bool  # materials of meshes that enclose no volume show both sides
+    by_mesh: bool  # materials of open meshes show both sides
 
 
 class DrawList:
-    """The draw list of one renderer, for the scene that it drew last.
+    """The draw list of one renderer, for the scene it drew last.
 
     Parameters
     ----------
     color_space : {"srgb", "linear"}
-        How 8-bit colours of materials and lights are read.
+        How 8-bit colours of materials and lights are decoded.
     threads : int
-        That cut meshes into clusters, and move nodes; 0: all.
+        Threads that cut meshes into clusters and move nodes; 0: all.
 
     Attributes
     ----------
     native : NativeDrawList
     renewals : int
-        Grows when objects or materials changed, or meshes were bent anew.
+        Grows when objects, materials or deformed meshes change.
     lights : LightList
     """
 
@@ -69,42 +69,42 @@ class DrawList:
         self.native = NativeDrawList()
         self._color_space, self._threads = color_space, threads
         self._data: Callable[[], AnyData | None] = lambda: None
-        self._objects_version: Any = -1  # of the objects, which may be of either kind of scene
+        self._objects_version: Any = -1  # version of the objects, from either kind of scene
         self._listing = Listing(MeshNeeds(), "auto", by_mesh=False)
         self._untextured: frozenset[Material] = frozenset()
-        # Numbers of the objects that enclose a volume.
+        # The numbers of closed objects.
         self._closed: set[int] = set()
-        self._with_holes: set[int] = set()  # of these, those that have holes
+        self._with_holes: set[int] = set()  # the closed objects that have holes
         self._watch = Watch()
-        self._changed: list[Any] = []  # of what is watched, since the list was made
+        self._changed: list[Any] = []  # watched things that changed since the list was made
         self._materials = MaterialList(self.native, color_space, self._watch)
-        # What the objects were made of, by number: things, materials' ids.
+        # The sources of each object, by number: things, and IDs of materials.
         self._listed: list[tuple[Things, tuple[int, ...]]] = []
-        self._left = 0  # how often an object went, or took other materials, since all were listed
+        self._left = 0  # objects removed or given other materials since all were listed
         self._marks = False
         self._trees = InstanceTrees(self.native)
         self._placement = Placement(self.native)
-        # What poses the scene's meshes, and its moment.
+        # The poses of the scene's meshes, and their moment.
         self._posed: tuple[Posing, int] | None = None
         self.lights = LightList(self.native, color_space)
         self.renewals = 0
 
     @property
     def changes(self) -> int:
-        """Grows whenever `update` finds that something else is to be drawn, or elsewhere."""
+        """Grows whenever `update` finds that a draw has changed or moved."""
         return self._placement.changes
 
     def update(
         self, data: AnyData, listing: Listing, headlight: Headlight | None, placing: Placing
     ) -> None:
-        """Make the native list draw a scene.
+        """Make the native list draw a scene in its current state.
 
         Parameters
         ----------
         data : AnyData
         listing : Listing
         headlight : tuple of three vectors, or None
-            Colour, lux and direction towards the light, for a scene that has no light.
+            Colour, lux and direction towards the light, for scenes without lights.
         placing : Placing
         """
         data.update(self._threads)
@@ -118,7 +118,7 @@ class DrawList:
         self.lights.update(data, headlight)
 
     def _follow_poses(self, data: AnyData) -> None:
-        """Draw meshes that were bent anew as they are now."""
+        """Update meshes whose deformation changed."""
         posing = data.posing
         posed = None if posing is None else (posing, posing.moment)
         if posed != self._posed and posing is not None:
@@ -128,9 +128,9 @@ class DrawList:
         self._posed = posed
 
     def open_apertures(self, data: AnyData, view: View, size: tuple[int, int]) -> int | None:
-        """Let backs show where the camera may look into holes of meshes that enclose a volume.
+        """Let backs show where the camera may look into holes of closed meshes.
 
-        Elsewhere they may be left out, of materials that do not show both sides anyway.
+        Elsewhere the backs of closed meshes may be culled, unless a material is double-sided.
 
         Parameters
         ----------
@@ -142,8 +142,8 @@ class DrawList:
         Returns
         -------
         count : int or None
-            How many apertures there are; None if backs may show anywhere, because the near plane
-            may cut such a mesh or no mesh encloses a volume.
+            The number of apertures; None if backs may show anywhere, because the near plane may cut
+            a closed mesh or no mesh is closed.
         """
         if not self._closed:
             return None
@@ -154,15 +154,15 @@ class DrawList:
 
     @property
     def has_holes(self) -> bool:
-        """Whether a mesh that encloses a volume has holes, which a light may look into."""
+        """Whether a closed mesh has holes, which a light may look into."""
         return bool(self._with_holes)
 
     def shows(self, data: AnyData) -> bool:
-        """Whether everything in the scene is still as and where it was at the last update."""
+        """Return whether nothing in the scene has changed or moved since the last update."""
         return self._placement.shows(data.arrays) and self._lists(data)
 
     def _lists(self, data: AnyData) -> bool:
-        """Whether the objects are those of the scene, as they are now."""
+        """Return whether the list has the scene's current objects."""
         self._changed += self._watch.changed()
         return (
             self._data() is data
@@ -171,7 +171,7 @@ class DrawList:
         )
 
     def _renew(self, data: AnyData, listing: Listing) -> None:
-        """Make the list of objects anew, or only what changed of it."""
+        """Rebuild the list of objects, or only its changed parts."""
         self.renewals += 1
         self._changed += self._watch.changed()
         same = self._data() is data and self._listing == listing
@@ -187,7 +187,7 @@ class DrawList:
         self._data = weakref.ref(data)
 
     def _numbers_that_changed(self, data: AnyData) -> set[int] | None:
-        """Numbers of objects that are others or changed; None where all are to be listed anew."""
+        """Return the numbers of changed objects; None if all must be listed anew."""
         objects = data.objects
         numbers = objects.renewed_since(self._objects_version)
         if numbers is None:
@@ -197,17 +197,17 @@ class DrawList:
                 numbers |= objects.drawn_by(thing)
             elif isinstance(thing, Material) and self._materials.is_listed_otherwise(thing):
                 numbers |= self._numbers_with(thing)
-        # Materials that nothing shows any longer are let go of when the list is made anew.
+        # Materials that are no longer used are dropped when the list is rebuilt.
         few = 4 * (self._left + len(numbers)) <= len(objects.objects)
         return numbers if few or not numbers else None
 
     def _numbers_with(self, material: Material) -> set[int]:
-        """Numbers of the objects that a material was listed with."""
+        """Return the numbers of the objects that were listed with a material."""
         key = id(material)
         return {number for number, (_, surfaces) in enumerate(self._listed) if key in surfaces}
 
     def _replace(self, data: AnyData, numbers: list[int]) -> None:
-        """Renew the materials that changed, and the objects of some numbers."""
+        """Renew the changed materials, and the objects with given numbers."""
         self._materials.renew(self._changed)
         self._changed = []
         if numbers:
@@ -268,16 +268,16 @@ class DrawList:
             self._set_instances(number, obj)
 
     def _holes_of(self, obj: Drawn) -> Holes | None:
-        """The holes of an object that encloses a volume but for them."""
+        """Return the holes of an object that is closed except for them."""
         if not self._listing.by_mesh or isinstance(obj, PosedMesh):
             return None
         holes = holes_of(_mesh_of(obj))
         if holes is not None and len(holes.ends) and not isinstance(obj, Mesh):
-            return None  # each instance would have to be looked at
+            return None  # each instance would need a look
         return holes
 
     def _set_instances(self, number: int, obj: InstancedMesh) -> None:
-        colors: Any = obj.colors  # of either type, as asked below
+        colors: Any = obj.colors  # of either type, as tested below
         eight_bit = colors is not None and colors.dtype == np.uint8
         self.native.set_instances(
             number,
@@ -288,14 +288,14 @@ class DrawList:
         )
 
     def _note(self, number: int, things: Things, surfaces: tuple[int, ...]) -> None:
-        """Remember what would make a listed object out of date."""
+        """Watch everything that would make a listed object out of date."""
         if number == len(self._listed):
             self._listed.append(((), ()))
         self._left += self._listed[number][1] not in ((), surfaces)
         self._listed[number] = things, surfaces
 
     def _forget(self, data: AnyData, number: int) -> None:
-        """Look no longer at what a number's object was made of, where no other is."""
+        """Stop watching the sources of a number's object, unless another object uses them."""
         if number < len(self._listed):
             for thing in self._listed[number][0]:
                 if not data.objects.drawn_by(thing):
@@ -307,7 +307,7 @@ def _mesh_of(obj: Drawn) -> Mesh:
 
 
 def _needs_of(mesh: Mesh, needs: MeshNeeds, normals: Normals) -> MeshNeeds:
-    """Return which arrays of this mesh are read, given its materials' flat shading."""
+    """Return which arrays of a mesh are needed, given its materials' flat shading."""
     smooth, flat = needs.vertex_normals, needs.face_normals
     if normals == "auto":
         flat = flat and any(material.flat_shading for material in mesh.materials)

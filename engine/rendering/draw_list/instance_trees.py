@@ -1,4 +1,4 @@
-"""Trees over many instances, made once these have stayed as they are for some frames."""
+"""Trees over many instances, built once the instances have not changed for some frames."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ...model.scene.instances import MANY, InstancedMesh, instance_tree
 if TYPE_CHECKING:
     from ...model.scene.shown import Drawn
 
-_SETTLED = 3  # frames in which they did not change
+_SETTLED = 3  # frames without a change
 
 
 class InstanceTrees:
@@ -19,17 +19,17 @@ class InstanceTrees:
     Attributes
     ----------
     made : bool
-        Whether there are any.
+        Whether there are any trees.
     """
 
     def __init__(self, native: NativeDrawList) -> None:
         self._native = native
-        self._many: dict[int, InstancedMesh] = {}  # by the object's number
+        self._many: dict[int, InstancedMesh] = {}  # by object number
         self._frames = 0
         self.made = False
 
     def note(self, number: int, obj: Drawn | None) -> None:
-        """Take notice of an object that is listed under a number from now on."""
+        """Register an object that is listed under a number from now on."""
         many = obj if isinstance(obj, InstancedMesh) and len(obj) >= MANY else None
         if many is not None or number in self._many:
             self._unsettle()
@@ -38,7 +38,7 @@ class InstanceTrees:
                 self._many[number] = many
 
     def settle(self) -> bool:
-        """Make the trees, if it is time; return whether they were made now."""
+        """Build the trees if it is time; return whether they were built now."""
         if self.made or not self._many:
             return False
         self._frames += 1

@@ -1,11 +1,11 @@
-"""Finds the meshes that are the glowing parts of lamps: they let their lamp's light pass.
+"""Finds the meshes that are the glowing parts of lamps: their own light passes through them.
 
-In: a scene that is up to date, a point or spot light of it. Out: the slots of nodes that cast no
-shadow of this light, though they cast those of others.
+In: an up-to-date scene, and one of its point or spot lights. Out: the slots of nodes that cast no
+shadow of this light, though they cast those of other lights.
 
-A light that stands in a bulb would light nothing, if the bulb kept it in. A mesh whose box holds
-the light lets it pass if it emits and its node is above or below that of the light in the tree; or,
-wherever it is in the tree, if it glows all over and the light is in the middle half of its box.
+A bulb would otherwise block the light inside it. A mesh whose box contains the light lets it pass
+if it emits light and its node is above or below that of the light in the tree; or, wherever it is
+in the tree, if it emits all over and the light is in the middle half of its box.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ...model.scene.staged_data import AnyData, NodeRows
 
 
 def lamp_slots(data: AnyData, light: int, place: Sequence[float]) -> tuple[int, ...]:
-    """Return the slots of what lets a light pass.
+    """Return the slots of the nodes that let a light pass.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ def lamp_slots(data: AnyData, light: int, place: Sequence[float]) -> tuple[int, 
     light : int
         The slot of the light's node.
     place : (3,) sequence of float
-        Of the light, in world space.
+        The light's position, in world space.
     """
     arrays, objects = data.arrays, data.objects.objects
     columns, count = arrays.columns, arrays.count
@@ -54,12 +54,12 @@ def _emits(material: Material) -> bool:
 
 
 def _glows(material: Material) -> bool:
-    """Whether a material emits all over, as a texture can't tell."""
+    """Return whether a material emits everywhere, which rules out emissive textures."""
     return _emits(material) and material.emissive_texture is None
 
 
 def _is_above(arrays: NodeRows, slot: int, other: int) -> bool:
-    """Whether a node is above another one in the tree."""
+    """Return whether a node is an ancestor of another."""
     parents = arrays.columns["parent"]
     while other >= 0 and other != slot:
         other = int(parents[other])

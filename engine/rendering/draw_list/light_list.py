@@ -1,9 +1,9 @@
-"""The lights of a frame: those of a scene that show, where they are now.
+"""The lights of a frame: a scene's visible lights, at their current places.
 
-Those that shine from all around become one polynomial (ambient_terms.py), the others a list.
+Ambient lights become one polynomial (ambient_terms.py), direct lights a list.
 
-In: a `Scene` that is up to date. Out: the lights of a `NativeDrawList`, renewed where they changed:
-Python looks at every light that moved, and at the others' versions only.
+In: an up-to-date `Scene`. Out: the lights of a `NativeDrawList`, renewed where they changed: Python
+looks at every light that moved, but only at the versions of the others.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from ...model.scene.lights import DirectionalLight, DirectLight
 from ...model.scene.staged_data import AnyData
 from .ambient_terms import ambient_terms
 
-#: Unit direction towards a light that is turned, and the place of one that has a position.
+#: Unit direction towards a directional light, and position of a light that has one.
 Where: TypeAlias = tuple[Sequence[float] | None, Sequence[float] | None]
-#: Colour, lux and direction towards the light of a scene that has none.
+#: Colour, lux and direction towards the light of a scene without lights.
 Headlight: TypeAlias = tuple[Sequence[float], Sequence[float], Sequence[float]]
 
 _HEADLIGHT = DirectionalLight()
-_NOT_KNOWN = (object(),)  # equal to nothing that a scene has, not even to no light at all
+_NOT_KNOWN = (object(),)  # equal to nothing in a scene, not even to the absence of lights
 
 
 class LightList:
@@ -40,7 +40,7 @@ class LightList:
     ----------
     native : NativeDrawList
     color_space : {"srgb", "linear"}
-        How 8-bit colours are read.
+        How 8-bit colours are decoded.
     """
 
     def __init__(self, native: NativeDrawList, color_space: ColorSpace) -> None:
@@ -48,23 +48,23 @@ class LightList:
         self._color_space = color_space
         self._slots_of: tuple[object, ...] | None = None
         self._slots = np.empty(0, np.int32)
-        self._lights: list[DirectLight] = []  # not their nodes, which hold the scene
+        self._lights: list[DirectLight] = []  # not their nodes, which would keep the scene alive
         self._around_slots = np.empty(0, np.int32)
-        self._around: list[AmbientLight] = []  # likewise
+        self._around: list[AmbientLight] = []  # also without nodes
         self.forget()
 
     def forget(self) -> None:
-        """List all lights anew at the next update."""
+        """Force listing all lights anew at the next update."""
         self._listed: tuple[object, ...] | None = None
         self._shown = np.empty(0, bool)
-        # Of each light that shows what it is, and where.
+        # By slot, each visible light and its place.
         self._at: dict[int, tuple[DirectLight, Where]] = {}
         self._changes: object = 0
         self._placed = np.empty(0, np.uint32)
         self._added: tuple[object, ...] = _NOT_KNOWN
 
     def update(self, data: AnyData, headlight: Headlight | None) -> None:
-        """Make the native lights those of a scene; ``headlight`` is for one that has none."""
+        """Update the native lights to a scene's; ``headlight`` is for scenes without lights."""
         state = data.lights_state()
         if self._slots_of != state:
             self._find_slots(data)
@@ -74,7 +74,7 @@ class LightList:
             headlight = None
         shines = None if headlight is None else headlight[:2]
         listed = self._slots_of, [light.version for light in self._lights], shines
-        same, self._listed = self._listed == listed, None  # for if anything below raises
+        same, self._listed = self._listed == listed, None  # in case anything below raises
         if self._lights:
             changes = data.arrays.updated
             if not same or self._changes != changes:
@@ -91,7 +91,7 @@ class LightList:
         self._listed = listed
 
     def _renew(self, data: AnyData, same: bool) -> None:
-        """List lights that show, if they are not the same as before, and place those that moved."""
+        """List the visible lights if they have changed, and place those that moved."""
         columns = data.arrays.columns
         shown = columns["flags"][self._slots] & SHOWN != 0
         slots = self._slots[shown]
@@ -112,7 +112,7 @@ class LightList:
         self._shown, self._placed = shown, placed
 
     def _add_around(self, data: AnyData) -> None:
-        """Sum up the light from all around, where anything of it changed."""
+        """Sum the ambient lights, if any of them changed."""
         added: tuple[object, ...] = ()
         if self._around:
             columns = data.arrays.columns
@@ -122,7 +122,7 @@ class LightList:
             added = self._slots_of, shown, placed, versions
         if added == self._added:
             return
-        self._added = _NOT_KNOWN  # for if anything below raises
+        self._added = _NOT_KNOWN  # in case anything below raises
         terms = None
         if added and any(shown):
             poses = columns["world"][self._around_slots].tolist()
@@ -150,7 +150,7 @@ class LightList:
         self._add_native(color, lux, light)
 
     def _add_native(self, color: Sequence[float], lux: Sequence[float], light: DirectLight) -> None:
-        """Add a light; what its kind does not have is as with those that reach everywhere."""
+        """Add a light; parameters that its kind lacks get values without effect."""
         falloff = FALLOFFS[getattr(light, "falloff", "gltf")]
         cone = light.cone() if hasattr(light, "cone") else (0.0, 0.0)
         reach = getattr(light, "range", math.inf)
@@ -158,19 +158,19 @@ class LightList:
         self._native.add_light(kind, color, lux, range=reach, falloff=falloff, cone=cone)
 
     def placed(self) -> list[tuple[int, DirectLight, Where]]:
-        """Return the lights that show: number, light, and the pair of where it shines from.
+        """Return the visible direct lights: number, light, and direction and position.
 
-        That is the unit direction towards a light that is turned, and the place of one that has a
-        position; else None.
+        A directional light has a unit direction towards it, others a position; the other value is
+        None.
         """
         return [(number, *at) for number, at in sorted(self._at.items())]
 
     def slot_of(self, number: int) -> int:
-        """Return the slot of a light that shows, by its number."""
+        """Return the slot of a visible light, by its number."""
         return int(self._slots[self._shown][number])
 
     def _place(self, number: int, light: DirectLight, pose: list[float]) -> None:
-        """Put a light where the first three rows of its world pose say."""
+        """Place a light by the first three rows of its world pose."""
         towards: Sequence[float] | None = None
         position: Sequence[float] | None = None
         traits = LIGHT_TRAITS[light.kind]

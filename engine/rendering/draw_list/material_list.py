@@ -1,7 +1,7 @@
-"""The materials of a draw list: where each stands there, set anew where it or a texture changed.
+"""The materials of a draw list, set anew when a material or texture changes.
 
-In: materials of meshes. Out: materials of a `NativeDrawList`, and a `Watch` that looks at them and
-at their textures.
+In: materials of meshes. Out: materials of a `NativeDrawList`, and a `Watch` on them and their
+textures.
 """
 
 from __future__ import annotations
@@ -18,41 +18,42 @@ from .native_materials import set_material
 
 
 class MaterialList:
-    """The materials of one native draw list, which has none yet.
+    """The materials of one native draw list, initially none.
 
     Parameters
     ----------
     native : NativeDrawList
     color_space : {"srgb", "linear"}
-        How 8-bit colours are read.
+        How 8-bit colours are decoded.
     watch : Watch
 
     Attributes
     ----------
     untextured : frozenset of Material
-        Set without their textures.
+        Materials set without their textures.
     """
 
     def __init__(self, native: NativeDrawList, color_space: ColorSpace, watch: Watch) -> None:
         self._native, self._color_space, self._watch = native, color_space, watch
         self.untextured: frozenset[Material] = frozenset()
-        # For each material its places, their owners, and whether both sides show anyway.
+        # For each material its places, their owners, and whether both sides are forced to show.
         self._places: dict[Material, list[tuple[int, int, bool]]] = {}
-        # Which normals materials asked for, and whether they are opaque.
+        # For each material, the normals it needs and whether it is opaque.
         self._traits: dict[Material, tuple[bool, bool]] = {}
         self._textured: dict[Material, set[Texture]] = {}
         self._users: dict[Texture, set[Material]] = {}
-        # Where lists of materials begin, by their ids, and whether both sides show anyway.
+        # The start of each list of materials, by their IDs and whether both sides are forced to
+        # show.
         self._bases: dict[tuple[tuple[int, ...], bool], int] = {}
 
     def base_of(self, materials: list[Material], both: bool) -> int:
-        """Return the number of the first of a mesh's materials, which are listed now.
+        """Return the number of the first of a mesh's materials; list them if necessary.
 
         Parameters
         ----------
         materials : list of Material
         both : bool
-            Whether both sides show, whatever the materials say.
+            Whether both sides show regardless of the materials.
         """
         key = tuple(map(id, materials)), both
         if key not in self._bases:
@@ -64,11 +65,11 @@ class MaterialList:
         return self._bases[key]
 
     def is_listed_otherwise(self, material: Material) -> bool:
-        """Return whether meshes with a material are to be listed anew, for it changed so much."""
+        """Return whether a material changed so much that meshes with it must be listed anew."""
         return self._traits[material] != _traits_of(material)
 
     def renew(self, changed: Iterable[Any]) -> None:
-        """Set the materials that changed, and those of textures that did."""
+        """Update the materials that changed or whose textures changed."""
         changed = list(changed)
         materials = {thing for thing in changed if isinstance(thing, Material)}
         for material in materials.union(*(self._users.get(thing, ()) for thing in changed)):
@@ -84,7 +85,7 @@ class MaterialList:
         set_material(self._native, index, number, material, placed, self._color_space, two_sided)
 
     def _note_textures(self, material: Material, textures: set[Texture]) -> None:
-        """Look at the textures of a material, and no longer at those that no material has now."""
+        """Watch the textures of a material, and stop watching those that no material uses now."""
         for gone in self._textured.pop(material, set()) - textures:
             self._users[gone].discard(material)
             if not self._users[gone]:

@@ -1,8 +1,8 @@
-"""The core's side of meshes, textures and environments, made when first needed and kept.
+"""Native handles of meshes, textures and environments, created on demand and cached.
 
-In: `Mesh`, `Texture`, `Environment`. Out: their native handles, made anew when arrays are others
-(and one for each way to decode a texture), forgotten with the object. The arrays that only some
-pictures need (normals, edges) are added to a mesh's handle when one does.
+In: `Mesh`, `Texture`, `Environment`. Out: their native handles, recreated when arrays change (a
+texture has one for each way to decode it), and freed with the object. Arrays that only some
+pictures need (normals, edges) are added to a mesh's handle on demand.
 """
 
 from __future__ import annotations
@@ -46,11 +46,11 @@ _textures: WeakKeyDictionary[Texture, dict[bool, tuple[tuple[Any, ...], NativeTe
 
 
 def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
-    """Return the handle of a mesh as it is now, with what is needed; 0 threads are all.
+    """Return a mesh's current handle with the needed arrays; 0 threads are all.
 
-    Threads that ask at once for the first time may each make one: these are alike.
+    Threads that ask at once for the first time may each create one; these are alike.
     """
-    arrays: dict[str, Any] = arrays_of(mesh)  # at one moment: another may be assigned meanwhile
+    arrays: dict[str, Any] = arrays_of(mesh)  # from one moment: another may be assigned meanwhile
     angle = mesh.crease_angle
     state = {**arrays, "crease_angle": angle}
     known = _meshes.get(mesh)
@@ -75,12 +75,12 @@ def native_mesh(mesh: Mesh, needs: MeshNeeds, threads: int) -> NativeMesh:
 
 
 def is_new(texture: Texture) -> bool:
-    """Whether no handle of a texture has been made yet."""
+    """Return whether a texture has no handle yet."""
     return texture not in _textures
 
 
 def native_texture(texture: Texture, color_space: ColorSpace) -> NativeTexture:
-    """Return the handle of a texture as it is now, for renderers of one colour space."""
+    """Return a texture's current handle, for renderers with a given colour space."""
     pixels = texture.pixels
     sampling = texture.filter, texture.side_wraps, texture.anisotropy, texture.lod_bias
     decode = color_space == "srgb" and texture.color_space == "srgb"
@@ -95,7 +95,7 @@ def native_texture(texture: Texture, color_space: ColorSpace) -> NativeTexture:
 
 
 def native_environment(environment: Environment, threads: int) -> NativeEnvironment:
-    """Return the handle of an environment, blurred for each roughness; 0 threads are all."""
+    """Return an environment's handle, prefiltered for each roughness; 0 threads are all."""
     native = _environments.get(environment)
     if native is None:
         native = _environments[environment] = NativeEnvironment(environment.pixels, threads)

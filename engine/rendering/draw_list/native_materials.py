@@ -1,4 +1,4 @@
-"""Materials as the core takes them: constants computed once in float64, textures by slot.
+"""Materials as the core takes them: constants precomputed in float64, textures by slot.
 
 In: a `Material` with its textures. Out: one material of a `NativeDrawList`.
 """
@@ -20,10 +20,10 @@ from ...model.materials.parameters import TextureSlot
 from ...model.materials.textures import PlacedTexture
 from .native_handles import is_new, native_texture
 
-_SMALLEST_SHININESS = 1e-3  # the core wants an exponent above 0; this one shows as 0 would
-_LEAST_LEFT = 2.0**-126  # of light that is absorbed: its logarithm is finite
-_LARGE = 512 * 512  # pixels of a texture whose levels take as long as starting a thread, and longer
-# Parameters with the same name in the core have the same number, or the same colour, there.
+_SMALLEST_SHININESS = 1e-3  # the core requires an exponent above 0; this one looks like 0
+_LEAST_LEFT = 2.0**-126  # of transmitted light: its logarithm is finite
+_LARGE = 512 * 512  # pixels: above this, making the mip levels takes longer than starting a thread
+# The numbers and colours that the core takes unchanged under the same name.
 _SAME = [name for name in PHYSICAL_NUMBERS if name in PARAMETERS]
 _SAME_NUMBERS = [name for name in _SAME if PARAMETERS[name].kind.width == 1]
 _SAME_COLORS = [name for name in _SAME if PARAMETERS[name].kind.width == 3]
@@ -38,22 +38,22 @@ def set_material(
     color_space: ColorSpace,
     two_sided: bool,
 ) -> None:
-    """Set a material of a native draw list, or the next one.
+    """Set a material of a native draw list, or append one.
 
     Parameters
     ----------
     native : NativeDrawList
     index : int
-        Its number there.
+        Its number in the list.
     id : int
-        What the output material_id says.
+        Its value in the output ``material_id``.
     material : Material
     textures : dict of str to PlacedTexture
-        Its own, by slot.
+        The material's textures, by slot.
     color_space : {"srgb", "linear"}
-        How 8-bit colours are read.
+        How 8-bit colours are decoded.
     two_sided : bool
-        Whether both sides of its faces show, whatever is culled.
+        Whether both sides of its faces show, whatever the option ``cull``.
     """
     strength = material.emissive_strength if material.is_physical else 1.0
     emissive = shading_color(material.emissive, color_space)
@@ -77,15 +77,15 @@ def set_material(
 
 
 def make_textures(materials: Iterable[Material], color_space: ColorSpace, threads: int) -> None:
-    """Make the first handles of large textures side by side, before materials ask one by one.
+    """Create the first handles of large textures in parallel.
 
     Parameters
     ----------
     materials : iterable of Material
     color_space : {"srgb", "linear"}
-        How 8-bit colours are read.
+        How 8-bit colours are decoded.
     threads : int
-        How many may be made at once; 0: as many as there are CPUs.
+        The most handles to create at once; 0: the number of CPUs.
     """
     wanted = dict.fromkeys(
         (placed.texture, _space(slot, color_space))
@@ -106,13 +106,13 @@ def _space(slot: str, color_space: ColorSpace) -> ColorSpace:
 def _use(
     slot: str, placed: PlacedTexture, color_space: ColorSpace
 ) -> tuple[NativeTexture, int, list[float] | None]:
-    """A texture of a slot: its handle, its set of coordinates, and the matrix of these."""
+    """Return a slot's texture: its handle, UV set and transform."""
     handle = native_texture(placed.texture, _space(slot, color_space))
     return handle, placed.uv_set, placed.matrix.ravel().tolist() if placed.is_moved else None
 
 
 def _physical(material: Material, color_space: ColorSpace) -> dict[str, Any]:
-    """The numbers of a physically based material."""
+    """Return the numbers of a physically based material."""
     root = (1.0 - material.ior) / (1.0 + material.ior)
     tint = shading_color(material.specular_color, color_space)
     left = shading_color(material.attenuation_color, color_space)
@@ -134,5 +134,5 @@ def _physical(material: Material, color_space: ColorSpace) -> dict[str, Any]:
 
 
 def _absorption(left: float, depth: float) -> float:
-    """Return log2 of the share of light left after a unit, if ``left`` is there after ``depth``."""
+    """Return log2 of the light left after one unit, if ``left`` remains after ``depth``."""
     return min(0.0, math.log2(max(left, _LEAST_LEFT)) / depth)

@@ -1,6 +1,6 @@
-"""Places the listed nodes: those that may show, at the poses that they have now.
+"""Places the listed nodes that may be visible, at their current poses.
 
-In: the arrays of a scene's nodes, and what the picture leaves out. Out: the draws of a
+In: the arrays of a scene's nodes, and the picture's culling options. Out: the draws of a
 `NativeDrawList`, placed by C.
 """
 
@@ -16,12 +16,12 @@ from .._memo import Memo
 
 
 class Placing(NamedTuple):
-    """The selection and the cameras of a picture's nodes."""
+    """Which nodes to place, and the frustum to cull them by."""
 
-    frustum: np.ndarray | None = None  # clip_from_world: what is outside is left out
-    marks: float = 0.0  # how far lines and points reach beyond, as a share of half the image
-    flat: bool = False  # boxes are tested one by one, without their trees
-    batching: bool = True  # nodes of one mesh are drawn as one
+    frustum: np.ndarray | None = None  # clip_from_world: nodes outside are culled
+    marks: float = 0.0  # how far lines and points may extend, as a fraction of half the image
+    flat: bool = False  # test boxes one by one, without their trees
+    batching: bool = True  # draw nodes of one mesh together
 
 
 class Placement:
@@ -30,7 +30,7 @@ class Placement:
     Attributes
     ----------
     changes : int
-        Grows whenever something is drawn elsewhere.
+        Grows whenever a draw moves.
     """
 
     def __init__(self, native: NativeDrawList) -> None:
@@ -42,32 +42,32 @@ class Placement:
         self.changes = 0
 
     def forget(self) -> None:
-        """Place all that is listed anew."""
+        """Force placing all nodes anew."""
         self._placed.forget()
 
     def shows(self, arrays: NodeRows) -> bool:
-        """Whether everything is still where it was."""
+        """Return whether nothing has moved."""
         return self._placed.is_of(arrays, arrays.changes)
 
     def place(self, arrays: NodeRows, placing: Placing, has_marks: bool, anew: bool) -> None:
-        """List the draws of what may show, where it is now.
+        """Place the draws of potentially visible nodes at their current poses.
 
         Parameters
         ----------
         arrays : NodeArrays
         placing : Placing
         has_marks : bool
-            Whether anything is drawn as lines or points.
+            Whether any lines or points are drawn.
         anew : bool
-            Whether draws are listed though the same nodes may show.
+            Whether to list draws even if the same nodes may be visible.
         """
         frustum, marks, flat, batching = placing
         how = 1.0 + marks if has_marks else 1.0, flat, batching
-        # Changes after the update show in the next frame.
+        # Changes made after the update show in the next frame.
         moved = self._placed.differs(arrays, arrays.updated)
         if not moved and self._frustum is frustum and self._how == how:
             return
-        self._placed.forget()  # for if anything below raises
+        self._placed.forget()  # in case anything below raises
         selection, tested = None, 0
         if frustum is not None:
             selection = np.empty((arrays.count + 63) // 64, np.uint64)

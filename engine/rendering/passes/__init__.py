@@ -1,1 +1,1 @@
-"""The passes of a picture, each with the same methods, and their list."""
+"""The rendering passes of a frame."""

@@ -1,7 +1,7 @@
-"""The passes of a picture: which it has, in which order, and the arrays that they share.
+"""The list of all passes: which ones a picture needs, their order, and their shared arrays.
 
-In: the options and outputs of a picture. Out: its passes, drawn one after the other. Arrays of
-passes are used again from frame to frame.
+In: the options and outputs of a picture. Out: its passes, drawn one after the other. Passes reuse
+their arrays from frame to frame.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from .output_passes import SURFACE, ColorPass, SurfacePass
 from .protocol import Pass, Tools
 from .shadow_maps import ShadowMaps
 
-_MAX_KEPT = 16  # plans of programs that draw several kinds of pictures in turns
+_MAX_KEPT = 16  # for programs that alternate between kinds of pictures
 Arrays: TypeAlias = dict[str, np.ndarray]
-#: All passes, in the order in which they are drawn.
+#: All passes, in drawing order.
 PASSES: tuple[type[Pass], ...] = (
     ShadowMaps,
     ExactShadows,
@@ -37,20 +37,20 @@ PASSES: tuple[type[Pass], ...] = (
 
 
 class Plan(NamedTuple):
-    """The plan that pictures of the same options, outputs and size share."""
+    """The plan of all pictures with the same options, outputs and size."""
 
     passes: list[Pass]
-    listed: tuple[str, ...]  # outputs that draw lists are made for
-    outputs: Shapes  # of the frame
-    others: Shapes  # outputs that passes read, though the frame has them not
-    arrays: Shapes  # of the passes
-    uses: list[Use]  # what passes take of memory
+    listed: tuple[str, ...]  # outputs that the draw list is made for
+    outputs: Shapes  # the frame's outputs
+    others: Shapes  # outputs that passes read but the frame lacks
+    arrays: Shapes  # other arrays of the passes
+    uses: list[Use]  # memory that passes use
 
 
 def plan_of(
     passes: list[Pass], options: RenderOptions, outputs: tuple[str, ...], size: tuple[int, int]
 ) -> Plan:
-    """Return which of the passes a picture has, and their arrays."""
+    """Return the passes that a picture needs, and their arrays."""
     chosen: list[Pass] = []
     wanted = set(outputs)
     for one in reversed(passes):
@@ -68,7 +68,7 @@ def plan_of(
 
 
 def _add_arrays(plan: Plan, one: Pass, size: tuple[int, int], uncounted: Shapes) -> None:
-    """Add the arrays of a pass, and what it takes of memory: of what several read, the first."""
+    """Add the arrays and memory of a pass; passes that read the same array share it."""
     surfaces = {
         name: shapes_of((name.removeprefix(SURFACE),), *size).popitem()[1]
         for name in one.reads
@@ -90,16 +90,16 @@ class Passes:
         self._memory = tools.memory
         self._all = [make(tools) for make in PASSES]
         self._pool = OutputPool()
-        # By the identity of options, and what else decides: these, the plan, and all its memory.
+        # By identity of options and the other inputs: these, the plan, and its total memory.
         self._plans: dict[tuple[object, ...], tuple[RenderOptions, Plan, list[Use]]] = {}
 
     def plan(self, options: RenderOptions, outputs: tuple[str, ...], size: tuple[int, int]) -> Plan:
-        """Return the plan of a picture, whose memory is checked.
+        """Return the plan of a picture, and check its memory.
 
         Raises
         ------
         InvalidArgumentError
-            It takes more memory than a frame may.
+            The plan exceeds a frame's memory limit.
         """
         key = id(options), outputs, size, limits.MAX_FRAME_BYTES
         kept = self._plans.get(key)
@@ -114,12 +114,12 @@ class Passes:
         return plan
 
     def arrays(self, plan: Plan, outputs: Arrays) -> tuple[Arrays, Arrays]:
-        """Return what colours are drawn into, a frame's outputs and others; and all else."""
+        """Return the arrays that colours are drawn into, and all other arrays."""
         if not plan.uses:
             return outputs, {}
         taken = self._pool.take(plan.others | plan.arrays)
         return outputs | {name: taken.pop(name) for name in plan.others}, taken
 
     def forget(self) -> None:
-        """Free what is not in use."""
+        """Free unused arrays."""
         self._pool.forget()

@@ -1,7 +1,7 @@
-"""Ambient occlusion: the share of light from all around that reaches each pixel.
+"""Ambient occlusion: the fraction of ambient light that reaches each pixel.
 
-In: depths of what the picture shows, at one sample a pixel, and its view. Out: a share of light for
-each pixel, which the core multiplies ambient light by (docs/exactness, section 21).
+In: the picture's depths, one sample per pixel, and its view. Out: a factor for each pixel, by which
+the core multiplies ambient light (docs/exactness, section 21).
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .._view import View
 from ..options import RenderOptions, shows_light
 from .protocol import Pass, Picture
 
-#: How far things count where nothing is said, as a share of the diagonal of the scene's box.
+#: The default radius, as a fraction of the diagonal of the scene's box.
 RADIUS_SHARE = 0.1
 
 
@@ -32,7 +32,7 @@ class PixelRays(NamedTuple):
 
 
 def pixel_rays(view: View, width: int, height: int) -> PixelRays | None:
-    """Return where the pixels of a picture look; None for a projection that has no such rays."""
+    """Return the rays of a picture's pixels; None if the projection has no such rays."""
     matrix = view.projection
     is_perspective = view.eye[3] != 0.0
     scale = -matrix[3, 2] if is_perspective else matrix[3, 3]
@@ -50,19 +50,19 @@ def pixel_rays(view: View, width: int, height: int) -> PixelRays | None:
 
 
 def radius_of(options: RenderOptions, bounds: NDArray[np.float64]) -> float:
-    """Return how far away things count, in world units; ``bounds`` are the scene's."""
+    """Return the occlusion radius in world units; ``bounds`` are the scene's."""
     if options.ambient_occlusion_radius is not None:
         return options.ambient_occlusion_radius
     return RADIUS_SHARE * float(linalg.length(bounds[1] - bounds[0]))
 
 
 def view_scale(view: View) -> float:
-    """Return the length in view space of a unit of the world, if the camera's pose is scaled."""
+    """Return the view-space length of a world unit, for cameras with scaled poses."""
     return float(linalg.length(view.view_from_world[2, :3]))
 
 
 class AmbientOcclusion(Pass):
-    """Finds the ambient visibility of each pixel from its metric depth, 0 where nothing shows."""
+    """Computes each pixel's ambient visibility from metric depth, which is 0 for background."""
 
     reads = ("surface_depth", "scene")
     writes = ("ambient_visibility",)

@@ -1,4 +1,4 @@
-"""Bloom: what is brighter than a screen can show glows (docs/exactness, R124).
+"""Bloom: a glow around light too bright for the screen (docs/exactness, R124).
 
 In: the radiance of a frame. Out: the frame's colour, changed.
 """
@@ -14,7 +14,7 @@ from .protocol import Pass, Picture
 
 
 class Bloom(Pass):
-    """Lays the glow of what was drawn over its colour."""
+    """Adds the glow of bright surfaces to the colour."""
 
     reads = ("radiance", "color")
     writes = ("color",)

@@ -1,9 +1,9 @@
-"""Exact shadows: which lights have them, and what may hide these lights.
+"""Exact shadows: the lights that have them, and the nodes that cast them.
 
-In: a scene whose draw list is up to date, its lights without shadows or with maps. Out: the native
-draw list holds what casts shadows, in the picture or not. The core finds, sample by sample, whether
-any of it is between the sample and the light (docs/exactness, section 17); what it found out
-about the casters it keeps for as long as they have the same version.
+In: an up-to-date draw list, its lights without shadows or with maps. Out: the native draw list
+holds the casters, inside the picture or not. For each sample, the core tests whether a caster is
+between it and the light (docs/exactness, section 17); data about casters is kept as long as their
+version is unchanged.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ _versions = itertools.count(1)
 
 
 class ExactShadows(Pass):
-    """Lets lights whose ``shadow`` is "exact" have it.
+    """Enables exact shadows for lights whose ``shadow`` is "exact".
 
-    There may be more such lights than the core takes, or their shadows may take more memory than a
-    frame may: these are InvalidArgumentErrors.
+    Raises InvalidArgumentError if there are more such lights than the core takes, or if their
+    shadows exceed a frame's memory limit.
     """
 
     reads = ("scene",)
@@ -55,15 +55,15 @@ class ExactShadows(Pass):
     def _spared(
         self, scene: AnyScene, number: int, place: Sequence[float] | None
     ) -> tuple[int, ...]:
-        """The slots of what does not hide a light."""
+        """Return the slots that do not shadow a light."""
         if place is None:
             return ()
         return lamp_slots(scene.data, self.tools.draw_list.lights.slot_of(number), place)
 
     def _list_casters(self, arrays: NodeRows, spared: list[tuple[int, ...]]) -> None:
-        """List the casters, unless they are listed; a version is theirs until one is another.
+        """List the casters unless they are listed; their version grows when any of them changes.
 
-        ``spared`` are, for each light, the slots of what does not hide it.
+        ``spared`` holds, for each light, the slots that do not shadow it.
         """
         draw_list = self.tools.draw_list
         if not self._moment.differs(arrays, arrays.updated, draw_list.renewals, spared):

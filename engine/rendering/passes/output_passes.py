@@ -1,6 +1,6 @@
-"""The passes that draw outputs, by the core in one call without the GIL.
+"""The passes that draw outputs, each in one call of the core without the GIL.
 
-The same core draws both, with its backend and threads, so that the scalar reference stays apart
+The same core draws both, with its backend and threads, so that the scalar reference stays separate
 from the kernels.
 """
 
@@ -13,15 +13,15 @@ from ..._native.rasterizer import NativeOptions, NativeStats
 from ..frame import OUTPUTS
 from .protocol import Pass, Picture
 
-#: Before the names of outputs: those of the surfaces.
+#: Prefix of outputs that hold surfaces only.
 SURFACE = "surface_"
 _ONE_SAMPLE = 1, 0
 
 
 class SurfacePass(Pass):
-    """Draws outputs that other passes read, before the picture, at the middle of each pixel.
+    """Draws, before the picture, outputs that other passes read, at each pixel's centre.
 
-    They are of the surfaces that the picture keeps: the nearest that aren't blended (R16).
+    They show the nearest surfaces that aren't blended (R16).
     """
 
     writes = tuple(SURFACE + name for name in OUTPUTS if name != "color")
@@ -36,7 +36,7 @@ class SurfacePass(Pass):
 
 
 class ColorPass(Pass):
-    """Draws the picture: the frame's outputs, and others that passes after it read."""
+    """Draws the picture: the frame's outputs, and others that later passes read."""
 
     reads = ("shadow_maps", "exact_shadows", "ambient_visibility")
     writes = tuple(OUTPUTS)

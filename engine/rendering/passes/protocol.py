@@ -1,7 +1,7 @@
-"""The protocol of passes; a pass is one step of a picture, such as shadow maps, colours or glow.
+"""The interface of passes; a pass is one step of a picture, such as shadow maps or bloom.
 
-In: a picture as far as earlier passes have it. Out: what the pass writes. all_passes.py lists them
-in their order, and gives each the arrays that it declares.
+In: a picture, drawn by the earlier passes. Out: the arrays that the pass writes. all_passes.py
+lists the passes in order, and allocates the arrays that each declares.
 """
 
 from __future__ import annotations
@@ -32,23 +32,24 @@ class Tools(NamedTuple):
     backend: int
     threads: int
     is_srgb: bool
-    samples: tuple[int, int]  # of a pixel: along an axis, and multisampled in each
+    samples: tuple[int, int]  # per pixel: along an axis, and multisamples of each
 
 
 @dataclass(slots=True)
 class Picture:
-    """A picture that is being drawn; the draw list is up to date with its scene."""
+    """A picture in progress; the draw list is up to date with its scene."""
 
     scene: AnyScene
     options: RenderOptions
     frame_options: FrameOptions
     view: View
     size: tuple[int, int]
-    frozen_clip_from_world: NDArray[np.float64] | None  # the frustum that holds what is drawn
+    frozen_clip_from_world: NDArray[np.float64] | None  # the frustum to cull by, if frozen
     shadow_cull: FrameCull  # which faces cast no shadow
-    targets: dict[str, np.ndarray] = field(init=False)  # outputs: the frame's, and others
-    arrays: dict[str, np.ndarray] = field(init=False)  # all else that passes declare
-    depth_range: tuple[float, float] = (0.0, 1.0)  # white and black in mode "depth"
+    targets: dict[str, np.ndarray] = field(init=False)  # the frame's and other outputs
+    arrays: dict[str, np.ndarray] = field(init=False)  # other arrays that passes declare
+    # metric depths shown white and black in mode "depth"
+    depth_range: tuple[float, float] = (0.0, 1.0)
     shadow_maps: tuple[int, int] = (0, 0)  # how many there are, and how many were drawn
     drawn: NativeStats = field(init=False)
 
@@ -59,12 +60,12 @@ class Pass:
     Attributes
     ----------
     reads : tuple of str
-        What it takes: names of outputs, which are drawn for it if nobody asked for them; such names
-        after ``surface_``, of arrays at the middle of each pixel, which are there before the
-        colours; what earlier passes write; and ``scene``, which others must leave alone meanwhile.
+        Its inputs: names of outputs, which are drawn even if the frame lacks them; names with the
+        prefix ``surface_``, for arrays at pixel centres drawn before the colours; results of
+        earlier passes; and ``scene``, which nobody may change meanwhile.
     writes : tuple of str
     name, advice : str
-        What an error calls it, and what takes less memory.
+        Its name in errors, and advice for using less memory.
     """
 
     reads: tuple[str, ...] = ()
@@ -75,20 +76,20 @@ class Pass:
         self.tools = tools
 
     def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
-        """Whether a picture has the pass: by default, if what it writes is wanted.
+        """Return whether a picture needs the pass: by default, if something it writes is wanted.
 
         Parameters
         ----------
         options : RenderOptions
         wanted : set of str
-            The frame's outputs, and what later passes of the picture read.
+            The frame's outputs, and the inputs of the picture's later passes.
         """
         return not wanted.isdisjoint(self.writes)
 
     def arrays(self, width: int, height: int) -> Shapes:
-        """Return the arrays that it needs, besides those that it reads."""
+        """Return the arrays that it needs, besides its inputs."""
         return {}
 
     def draw(self, picture: Picture) -> None:
-        """Write what the pass writes."""
+        """Draw the pass's results."""
         raise NotImplementedError

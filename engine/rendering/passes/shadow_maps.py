@@ -1,8 +1,8 @@
-"""The maps of shadows of a scene's lights, drawn anew where what they show changed.
+"""Shadow maps of a scene's lights, redrawn when something they show changes.
 
-In: a scene whose draw list is up to date, and what the camera sees. Out: the lights of the native
-draw list have their maps. A map is kept while neither its light, nor what it shows, nor, of
-directional lights, the part of the world that it covers has changed.
+In: an up-to-date draw list, and the camera's view. Out: the native draw list's lights have their
+maps. A map is kept until its light, the casters it shows or, for directional lights, the part of
+the world it covers changes.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ from ..options import RenderOptions, shows_light
 from .protocol import Pass, Picture, Tools
 from .shadow_views import VIEWS, MapView, ShadowViews
 
-#: The scene's nodes, their changes, the list's renewals, the side culled, and slots to spare.
+#: The scene's nodes, their changes, the list's renewals, the culled side, and the spared slots.
 Moment: TypeAlias = tuple[NodeRows, object, int, int, tuple[int, ...]]
 
 
 class _LightMaps:
-    """The maps of one light: their depths and ranges, and of each what it was drawn of."""
+    """The maps of one light: depths, ranges, and the state each was drawn from."""
 
     def __init__(self, count: int, size: int) -> None:
         side = shadow_ranges_side(size)
@@ -41,9 +41,9 @@ class _LightMaps:
         return self.depths.shape == (count, size, size)
 
     def find_ranges(self, taps: int, step: int) -> NDArray[np.uint32] | None:
-        """The ranges of all maps; None where one is new.
+        """Return the ranges of all maps; None if one is new.
 
-        They are found when a map is looked up for the second time: to find them takes about as
+        Ranges are computed at the second lookup of a map, because computing them takes about as
         long as they save in a frame.
         """
         for depths, ranges, drawn in zip(self.depths, self.ranges, self.drawn, strict=True):
@@ -57,9 +57,9 @@ class _LightMaps:
 
 
 class _Drawn:
-    """The state that a map was drawn from: the moment of the scene, then the nodes themselves.
+    """The state that a map was drawn from: the scene's moment, then the nodes themselves.
 
-    And by which comparisons it is looked up, if its ranges are found.
+    If its ranges are known, also the comparisons used to look it up.
     """
 
     def __init__(self) -> None:
@@ -69,10 +69,10 @@ class _Drawn:
 
 
 class ShadowMaps(Pass):
-    """Draws the maps of lights, for pictures with lit surfaces.
+    """Draws the shadow maps of lights, for pictures with lit surfaces.
 
-    A light's shadow_radius may be too wide for its maps, or the maps may take more memory than a
-    frame may: these are InvalidArgumentErrors.
+    Raises InvalidArgumentError if a light's shadow_radius is too wide for its maps, or if the maps
+    exceed a frame's memory limit.
     """
 
     reads = ("scene",)
@@ -81,7 +81,7 @@ class ShadowMaps(Pass):
     def __init__(self, tools: Tools) -> None:
         super().__init__(tools)
         self._kept: dict[int, _LightMaps] = {}
-        # From where each light's maps are drawn, by its number, and what that was found from.
+        # By light number: the views of its maps, and the inputs they were computed from.
         self._found: dict[int, tuple[tuple[object, ...], ShadowViews | None]] = {}
 
     def is_in(self, options: RenderOptions, wanted: set[str]) -> bool:
@@ -121,7 +121,7 @@ class ShadowMaps(Pass):
     def _views_of(
         self, number: int, light: DirectLight, pose: Where, bounds: NDArray[np.float64], view: View
     ) -> ShadowViews | None:
-        """From where a light's maps are drawn: as before, if nothing that decides it changed."""
+        """Return the views of a light's maps; reused if no input changed."""
         layout = LIGHT_TRAITS[light.kind].maps
         seen_by = view if layout == "cascades" else None
         found_from = light, light.version, pose, bounds.tobytes(), seen_by
@@ -150,7 +150,7 @@ class ShadowMaps(Pass):
             step=step,
             ranges=kept.find_ranges(taps, step),
             margin=views.margin,
-            bias=2.0 * light.shadow_bias,  # depths are from -1 to 1
+            bias=2.0 * light.shadow_bias,  # depths range from -1 to 1
             normal_bias=light.shadow_normal_bias,
             axes=views.axes,
             depth=views.depth,

@@ -1,10 +1,10 @@
-"""From where the maps of shadows are drawn, and where samples are in them.
+"""Views of shadow maps: the projection of each map, and the lookup of samples in it.
 
-In: a light, where it is, the box around the scene, and for directional lights what the camera sees.
-Out: `ShadowViews`: matrices to draw each map with (R95, R96 of docs/exactness), and the numbers by
-which the core finds samples in it (R92). These are float32, so the matrices are made of what they
-round to. Source of the cascades: Zhang et al. 2006 (parallel-split shadow maps); that they are as
-large as spheres, and move by whole texels, is Valient 2008.
+In: a light, its pose, the box around the scene, and for directional lights the camera's view. Out:
+`ShadowViews`: matrices to draw each map with (R95, R96 of docs/exactness), and the numbers by which
+the core looks up samples in it (R92). These are float32, so the matrices are computed from the
+rounded values. Sources for cascades: Zhang et al. 2006 (parallel-split shadow maps); Valient 2008
+(spherical bounds that move by whole texels).
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from ...model.scene.lights import DirectionalLight, PointLight, SpotLight
 from ...model.scene.shadow_casting import shadow_margin
 from .._view import View
 
-_RATIO = 4.0  # each map of a directional light shows so many times as far as the one before
-_PLAY = 1.0 / 8.0  # of a map's side: by such steps it follows the camera
-_WIDEST = 10.0  # tangent of the widest angle that a spot light's map shows
-_NEAREST = 2.0**-12  # of the farthest: what is nearer to a point or spot light casts no shadow
-#: The faces of a point light's cube, +x, -x, +y, -y, +z, -z: to the right, down, ahead.
+_RATIO = 4.0  # each cascade reaches this many times as far as the one before
+_PLAY = 1.0 / 8.0  # of a map's side: the step by which it follows the camera
+_WIDEST = 10.0  # tangent of the widest angle of a spot light's map
+_NEAREST = 2.0**-12  # of the farthest: nearer objects cast no shadow of a point or spot light
+#: The faces of a point light's cube, +x, -x, +y, -y, +z, -z: right, down and ahead.
 _FACES = (
     ((0, 0, 1), (0, -1, 0), (1, 0, 0)),
     ((0, 0, -1), (0, -1, 0), (-1, 0, 0)),
@@ -41,7 +41,7 @@ Numbers = Sequence[float] | NDArray[np.float64]
 
 
 class MapView(NamedTuple):
-    """What one map is drawn with."""
+    """The matrices to draw one map with."""
 
     clip_from_world: NDArray[np.float64]
     view_from_world: NDArray[np.float64]
@@ -57,7 +57,7 @@ class ShadowViews(NamedTuple):
     places : list of (float, float, float)
         Scale, x and y of `e3d_shadow_map`.
     axes : (3, 3) float64
-        To the right, down and ahead; of point lights those of the world, which are not read.
+        Right, down and ahead; for point lights the world's, which are not read.
     depth : (float, float)
     margin : int
     """
@@ -74,7 +74,7 @@ def _single(value: float) -> float:
 
 
 def _dot(a: Numbers, b: Numbers) -> float:
-    """The scalar product, from left to right."""
+    """Return the scalar product, summed from left to right."""
     total = float(a[0]) * float(b[0])
     for one, other in zip(a[1:], b[1:], strict=True):
         total += float(one) * float(other)
@@ -82,7 +82,7 @@ def _dot(a: Numbers, b: Numbers) -> float:
 
 
 def _rounded_up(value: float, steps: int) -> float:
-    """The next of so many numbers between powers of two: small changes mostly change nothing."""
+    """Round up to a few values per power of two, so that small changes usually have no effect."""
     if not value > 0.0:
         return 1.0
     mantissa, exponent = math.frexp(value)
@@ -90,7 +90,7 @@ def _rounded_up(value: float, steps: int) -> float:
 
 
 def _axes_along(ahead: Sequence[float]) -> Axes:
-    """Unit vectors to the right, down and ahead, as float32 has them."""
+    """Return unit vectors right, down and ahead, rounded to float32."""
     x, y, z = ahead
     up = (0.0, 0.0, 1.0) if abs(y) > 0.999 else (0.0, 1.0, 0.0)
     right = normalize(cross((x, y, z), up))
@@ -99,7 +99,7 @@ def _axes_along(ahead: Sequence[float]) -> Axes:
 
 
 def _extent(axis: NDArray[np.float64], bounds: NDArray[np.float64]) -> tuple[float, float]:
-    """From where to where a box lies along an axis."""
+    """Return the extent of a box along an axis."""
     center, half = (bounds[0] + bounds[1]) * 0.5, (bounds[1] - bounds[0]) * 0.5
     middle = _dot(axis, center)
     reach = _dot(np.abs(axis), half)
@@ -107,7 +107,7 @@ def _extent(axis: NDArray[np.float64], bounds: NDArray[np.float64]) -> tuple[flo
 
 
 def _view_of(axes: Axes, position: Numbers) -> NDArray[np.float64]:
-    """view_from_world of an eye that looks ahead."""
+    """Return view_from_world of an eye that looks ahead."""
     matrix = np.eye(4)
     matrix[:3, :3] = axes[0], -axes[1], -axes[2]
     for row in range(3):
@@ -119,7 +119,7 @@ def _view_of(axes: Axes, position: Numbers) -> NDArray[np.float64]:
 
 
 class _Square(NamedTuple):
-    """The square that a map shows: texels in a unit of the world, and the place of its middle."""
+    """The square that a map covers: texels per world unit, and its centre."""
 
     scale: float
     column: int
@@ -127,7 +127,7 @@ class _Square(NamedTuple):
 
 
 def _square(side: float, middle: tuple[float, float], inside: int, play: float) -> _Square:
-    """A square of that side, moved to the next step, of a map with so many texels inside."""
+    """Return a square of a given side, snapped to the step, for a map with given inner texels."""
     scale = _single((inside - 1) / (side * (1.0 + play)))
     step = max(int(side * play * scale), 1)
     column, row = (round(at * scale / step) * step for at in middle)
@@ -137,16 +137,16 @@ def _square(side: float, middle: tuple[float, float], inside: int, play: float) 
 def _slices(
     view: View, bounds: NDArray[np.float64], count: int
 ) -> list[tuple[float, tuple[float, ...]]]:
-    """Spheres around what the camera sees from depth to depth: side of the square, and middle.
+    """Return spheres around the camera's view from depth to depth: side of the square, and centre.
 
-    The depths are shares of the scene's diagonal, so that they stay as they are when the camera
-    moves. What is farther away is for a map of the whole scene.
+    The depths are fractions of the scene's diagonal, so that they do not change when the camera
+    moves. Anything farther is left to the map of the whole scene.
     """
     near, far = view.depth_range(bounds)
     reach = length(bounds[1] - bounds[0])
     ends = [reach * _RATIO ** (k - count) for k in range(1, count)]
     starts = [0.0, *ends[:-1]]
-    if view.eye[3] == 0.0 and count > 1:  # without perspective, what is far away is no smaller
+    if view.eye[3] == 0.0 and count > 1:  # without perspective, distant objects are not smaller
         starts, ends = [near], [near + _rounded_up(far - near, 1)]
     view_from_clip = linalg.inverse(view.projection)
     corners = [(x, y) for x in (-1.0, 1.0) for y in (-1.0, 1.0)]
@@ -171,14 +171,14 @@ def _unproject(
 
 
 def _at_depth(line: list[NDArray[np.float64]], depth: float) -> NDArray[np.float64]:
-    """Return the point at a depth in view space on the line through two points."""
+    """Return the point at a view-space depth on the line through two points."""
     first, second = line
     share = (-depth - first[2]) / (second[2] - first[2])
     return first + (second - first) * share
 
 
 def _sphere(points: list[NDArray[np.float64]]) -> tuple[NDArray[np.float64], float]:
-    """A small sphere around four points and four others behind them: its middle and radius."""
+    """Return centre and radius of a small sphere around four points and four others behind them."""
     front, back = sum(points[:4], np.zeros(3)) / 4.0, sum(points[4:], np.zeros(3)) / 4.0
     wide = [max(length(p - at) for p in of) for of, at in ((points[:4], front), (points[4:], back))]
     deep = length(back - front)
@@ -193,11 +193,11 @@ def _cascades(
     bounds: NDArray[np.float64],
     view: View,
 ) -> ShadowViews:
-    """The maps of a light that is infinitely far away.
+    """Return the maps of a directional light.
 
-    The last map shows the whole scene, each before it a sphere around a part of what the camera
-    sees, whichever way it looks, where that is smaller. It moves by whole texels, so that edges
-    stay where they are. Along the light it reaches from the first thing of the scene to the last.
+    The last map covers the whole scene; each earlier one covers, if smaller, a sphere around a part
+    of the camera's view, whichever way it looks. It moves by whole texels, so that edges do not
+    flicker. Along the light it covers the whole scene.
     """
     axes = _axes_along(tuple(-part for part in pose[0]))
     size, margin = light.shadow_map_size, shadow_margin(light)
@@ -240,7 +240,7 @@ def _cascades(
 def _between(
     light: PointLight | SpotLight, nearest: float, farthest: float
 ) -> tuple[float, float] | None:
-    """The depths between which a map shows; None where nothing is."""
+    """Return the depth range that a map covers; None if it is empty."""
     farthest = min(_rounded_up(farthest, 4), light.range) if farthest > 0.0 else 0.0
     if not farthest > 0.0:
         return None
@@ -275,7 +275,7 @@ def _local_views(
     between: tuple[float, float],
 ) -> ShadowViews:
     size = light.shadow_map_size
-    # Comparisons reach to so many texels beyond, and rounding a little farther.
+    # Comparisons reach this many texels beyond, and slightly farther by rounding.
     margin = math.ceil(light.shadow_radius * (light.shadow_taps - 1) / 2 + 1.5)
     scale = _single((size / 2 - margin - 0.5) / tangent)
     near, far = between
@@ -292,7 +292,7 @@ def _ahead(
     bounds: NDArray[np.float64],
     view: View,
 ) -> ShadowViews | None:
-    """The map of a spot light, which shows its cone; None where there is nothing in front of it."""
+    """Return the map of a spot light, which covers its cone; None if nothing is in front of it."""
     to_light, position = pose
     axes = _axes_along(tuple(-part for part in to_light))
     here = _dot(axes[2], np.asarray(position, np.float64))
@@ -312,11 +312,11 @@ def _cube(
     bounds: NDArray[np.float64],
     view: View,
 ) -> ShadowViews | None:
-    """The six maps around a light; None where there is nothing."""
+    """Return the six maps around a point light; None if nothing is there."""
     position = pose[1]
     low, high = np.asarray(position) - bounds[0], bounds[1] - np.asarray(position)
     farthest = float(max(low.max(), high.max()))
-    nearest = -float(min(low.min(), high.min()))  # positive where the light is outside of the box
+    nearest = -float(min(low.min(), high.min()))  # positive if the light is outside the box
     between = _between(light, nearest, farthest)
     if between is None:
         return None
@@ -325,8 +325,8 @@ def _cube(
     )
 
 
-#: From where the maps of a light are drawn, by their layout, which tells what light and pose it is:
-#: these, the scene's box, the camera.
+#: The functions that place a light's maps, by layout (directional, spot or point); each takes
+#: light, pose, scene box and camera view.
 VIEWS: dict[str, Callable[[Any, Any, NDArray[np.float64], View], ShadowViews | None]] = {
     "cascades": _cascades,
     "cube": _cube,

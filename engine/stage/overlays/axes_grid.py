@@ -1,7 +1,7 @@
 """A grid around the scene with numbers and units along its edges.
 
-In: the box around a scene, and where it is seen from. Out: lines on the three sides of the box that
-are behind the scene, as a `Mesh`; and text over the picture.
+In: the box around a scene, and the view direction. Out: lines on the three sides of the box behind
+the scene, as a `Mesh`; and text over the picture.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ from .ticks import ticks
 
 _MOST_TICKS = 6
 _LINE, _EDGE = (120, 125, 135, 255), (165, 170, 180, 255)
-#: From the edge to its numbers, in letters.
+#: Distance from an edge to its numbers, in letters.
 _GAP = 1.5
-#: From number to number above each other, in heights of letters.
+#: Distance between numbers above each other, in letter heights.
 _APART = 1.4
 
 #: Pixels: left, top, right and bottom.
@@ -38,7 +38,7 @@ class AxesGrid(NamedTuple):
     low, high : (3,) float64
         The box, in world space.
     origin : (3,) float64
-        What is added to world space to have the file's coordinates.
+        Offset from world space to the file's coordinates.
     unit : str
     """
 
@@ -48,18 +48,18 @@ class AxesGrid(NamedTuple):
     unit: str
 
     def numbers(self, axis: int) -> list[float]:
-        """Return the file's coordinates of the grid's lines across an axis."""
+        """Return the file coordinates of the grid lines across an axis."""
         low = float(self.low[axis] + self.origin[axis])
         high = float(self.high[axis] + self.origin[axis])
         return ticks(low, high, _MOST_TICKS) if low < high else [low]
 
     def far_sides(self, toward_eye: np.ndarray) -> tuple[bool, bool, bool]:
-        """Return for each axis whether its higher side is the one behind the scene.
+        """Return, for each axis, whether its higher side is behind the scene.
 
         Parameters
         ----------
         toward_eye : (3,) float
-            From the box's middle, world space.
+            Direction from the box's centre, in world space.
         """
         x, y, z = (bool(value < 0.0) for value in toward_eye)
         return x, y, z
@@ -67,7 +67,7 @@ class AxesGrid(NamedTuple):
     def lines(self, far: tuple[bool, bool, bool]) -> Mesh:
         """Return the lines on the far sides."""
         points, colors = [], []
-        for across in range(3):  # the axis that a side is at right angles to
+        for across in range(3):  # the axis perpendicular to the side
             for along in range(3):
                 if along == across:
                     continue
@@ -86,7 +86,7 @@ class AxesGrid(NamedTuple):
         return Mesh(np.array(points), lines=lines, colors=rows, name="axes grid")
 
     def label(self, frame: Frame, far: tuple[bool, bool, bool], scale: int, theme: Theme) -> None:
-        """Write the numbers along one edge of each axis, and the axis's name and unit."""
+        """Write the numbers along one edge of each axis, with the axis's name and unit."""
         canvas = frame.canvas()
         middle, _ = frame.project((self.low + self.high) / 2)
         taken: list[Box] = []
@@ -97,10 +97,10 @@ class AxesGrid(NamedTuple):
                     self._write(label, canvas, taken, scale, theme)
 
     def _edge(self, frame: Frame, axis: int, far: tuple[bool, bool, bool]) -> np.ndarray | None:
-        """The edge along an axis that has its numbers, (2, 3); None where none is in sight.
+        """Return the labelled edge along an axis, (2, 3); None if none is visible.
 
-        Of the two edges that bound a far side and a near one, the one farther down, or for one that
-        stands upright farther left.
+        It chooses, among the two edges between a far and a near side, the lower one or, for an
+        upright axis, the left one.
         """
         first, second = (other for other in range(3) if other != axis)
         edges = []
@@ -122,10 +122,10 @@ class AxesGrid(NamedTuple):
     def _labels(
         self, frame: Frame, axis: int, edge: np.ndarray, middle: np.ndarray, scale: int
     ) -> list[_Label]:
-        """The name of an axis, and its numbers as far as there is room."""
+        """Return the labels of an axis: its name, and the numbers that fit."""
         numbers = self.numbers(axis)
         step = numbers[1] - numbers[0] if len(numbers) > 1 else 1.0
-        unit = self.unit.replace("µ", "u")  # the font has no other
+        unit = self.unit.replace("µ", "u")  # the font lacks µ
         texts = [(value - self.origin[axis], number_text(value, step)) for value in numbers]
         name = "XYZ"[axis] + (f" [{unit}]" if unit else "")
         cell = np.array(text_size("M", scale), np.float64)
@@ -134,7 +134,7 @@ class AxesGrid(NamedTuple):
         outward = np.array([direction[1], -direction[0]])
         length = float(np.sqrt((outward * outward).sum()))
         if length < 2 * cell[0]:
-            return []  # seen from its end
+            return []  # seen end on
         outward *= np.sign((outward * (pixels.mean(axis=0) - middle)).sum() or 1.0) / length
         widest = cell[0] * max(len(text) for _, text in texts)
         gap = _GAP * cell[0]
@@ -155,14 +155,14 @@ class AxesGrid(NamedTuple):
         wide: float,
         high: float,
     ) -> int:
-        """Every how many numbers stand apart from each other along an edge of so many pixels."""
+        """Return the stride at which numbers fit along an edge of a given length in pixels."""
         needed = outward[1] * (wide + high) + outward[0] * high * _APART
         return max(1, math.ceil(needed * (len(texts) - 1) / length))
 
     def _write(
         self, label: _Label, canvas: Canvas, taken: list[Box], scale: int, theme: Theme
     ) -> None:
-        """Write a text outward of a point, unless another one is there."""
+        """Write a text outward from a point, unless it would overlap another."""
         size = np.array(text_size(label.text, scale), np.float64)
         reach = label.gap + abs(label.outward[0]) * size[0] / 2
         corner = np.asarray(label.at) + label.outward * reach - size / 2
@@ -176,7 +176,7 @@ class AxesGrid(NamedTuple):
 
 
 class _Label(NamedTuple):
-    """A text, the pixel that it is about, and in which direction and how far away it stands."""
+    """A text, its anchor pixel, and the direction and distance of its offset."""
 
     text: str
     at: np.ndarray

@@ -1,6 +1,6 @@
-"""The grid around what is shown, which goes to the far sides as the camera moves.
+"""The grid around the scene, on the sides away from the camera.
 
-In: a scene to view. Out: a node beside it, and text over the picture.
+In: a scene for viewing. Out: a node beside it, and text over the picture.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from .theme import Theme
 
 
 class BoxGrid:
-    """The grid around a scene; nothing before it is shown.
+    """The grid around a scene; hidden until it is shown.
 
     Parameters
     ----------
     viewed : ViewedScene
-        As it first stands.
+        The scene in its first pose.
     staged : StagedScene
-        Of its scene.
+        The staged scene of it.
     """
 
     def __init__(self, viewed: ViewedScene, staged: StagedScene) -> None:
@@ -46,7 +46,7 @@ class BoxGrid:
         return self._node is not None and self._node.visible
 
     def follow(self, view: Viewpoint, shown: bool) -> None:
-        """Show the grid as it is seen by a view, or hide it."""
+        """Update the grid for a view, or hide it."""
         if shown and not np.isfinite([self._grid.low, self._grid.high]).all():
             return
         if shown:
@@ -61,6 +61,6 @@ class BoxGrid:
             self._node.visible = shown
 
     def label(self, frame: Frame, scale: int, theme: Theme) -> None:
-        """Write the numbers of the grid, if it is shown in the frame."""
+        """Write the numbers of the grid, if it is in the frame."""
         if self._node is not None and self._far is not None:
             self._grid.label(frame, self._far, scale, theme)

@@ -1,7 +1,7 @@
-"""Colour maps: from numbers to colours.
+"""Colour maps: tables that map numbers to colours.
 
-In: the name of a map, a picture whose middle row is one, or places and colours. Out: a table of
-colours. The maps of matplotlib and of Google's turbo are interpolated between a few of their own
+In: the name of a map, a picture whose middle row is a map, or positions with colours. Out: a table
+of colours. The maps of matplotlib and Google's turbo are interpolated between a few of their
 colours; both are free for any use (CC0 and Apache-2.0).
 """
 
@@ -17,7 +17,7 @@ from ...errors import InvalidArgumentError
 from ...io.loaders import load_texture
 
 SIZE = 256
-#: What has no number.
+#: The colour of missing numbers.
 MISSING = (128, 128, 128)
 _COLORS = {
     "viridis": "440154 482878 3e4a89 31688e 26828e 1f9e89 35b779 6ece58 b5de2b fde725",
@@ -31,7 +31,7 @@ _COLORS = {
 }
 COLORMAPS = tuple(_COLORS)
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
-_PART = re.compile(r"[^,(]+(?:\([^)]*\))?")  # rgb(1,2,3) is one
+_PART = re.compile(r"[^,(]+(?:\([^)]*\))?")  # keeps rgb(1,2,3) together
 
 
 def colormap(name: str) -> NDArray[np.uint8]:
@@ -40,20 +40,20 @@ def colormap(name: str) -> NDArray[np.uint8]:
     Parameters
     ----------
     name : str
-        One of `COLORMAPS`, the path of a picture, or places with their colours, as f3d has them:
-        ``0,#000000,1,white``, or with three numbers from 0 to 1 a colour ``0,0,0,0,1,1,1,1``.
+        One of `COLORMAPS`, the path of a picture, or positions with colours, as in f3d:
+        ``0,#000000,1,white`` or, with three numbers from 0 to 1 per colour, ``0,0,0,0,1,1,1,1``.
 
     Returns
     -------
     colors : (N, 3) uint8
-        sRGB, that of the least number first.
+        sRGB, lowest number first.
 
     Raises
     ------
     InvalidArgumentError
-        There is neither such a map nor such a file, or the places do not ascend from 0 to 1.
+        There is neither such a map nor such a file, or the positions do not ascend from 0 to 1.
     FileFormatError
-        The file is no picture.
+        The file is not a picture.
     """
     if name in _COLORS:
         given = np.array([list(bytes.fromhex(color)) for color in _COLORS[name].split()], float)
@@ -68,14 +68,14 @@ def colormap(name: str) -> NDArray[np.uint8]:
 
 
 def _table(places: NDArray[np.float64], colors: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """Interpolate between colours at places from 0 to 1."""
+    """Interpolate between colours at positions from 0 to 1."""
     wanted = np.linspace(0.0, 1.0, SIZE)
     columns = [np.interp(wanted, places, colors[:, k]) for k in range(3)]
     return np.rint(np.stack(columns, axis=1)).astype(np.uint8)
 
 
 def _placed(text: str) -> NDArray[np.uint8]:
-    """The table of places and colours."""
+    """Return the table for positions with colours."""
     from PIL import ImageColor
 
     parts = [part.strip() for part in _PART.findall(text)]

@@ -1,6 +1,6 @@
-"""The lines of culling over a picture: boxes, the tree of boxes, a frustum.
+"""Debug lines of culling over a picture: boxes, the tree of boxes, a frustum.
 
-In: a scene, a camera, a frame of the same view. Out: lines on the frame, whatever is before them.
+In: a scene, a camera, a frame of the same view. Out: lines on the frame, without depth test.
 """
 
 from __future__ import annotations
@@ -18,11 +18,12 @@ from ...rendering.frame import Frame
 DEBUG_DRAWINGS = (None, "boxes", "tree of boxes", "frustum")
 BOX = (90, 220, 255, 255)
 FRUSTUM = (255, 220, 60, 255)
-#: Boxes of branches: by their level in the tree, from the leaves up, over and over.
+#: Colours of tree branches by level, from the leaves up, cyclically.
 LEVELS = ((255, 120, 90, 255), (255, 190, 80, 255), (170, 230, 90, 255), (200, 140, 255, 255))
-#: More boxes than these would be a blot, and more that lie inside each other.
+#: More boxes would be unreadable, and nested ones sooner.
 MOST_BOXES, MOST_IN_TREES = 20_000, 4_000
-#: Nearer than this share of the farthest corner a line is cut: it goes behind the camera.
+#: Lines are clipped at this fraction of the farthest corner's distance, before they pass behind the
+#: camera.
 NEAREST = 1e-4
 #: The edges of a box, by the bits of its corners.
 _EDGES = np.array([(a, a | bit) for a in range(8) for bit in (1, 2, 4) if not a & bit])
@@ -36,16 +37,16 @@ class Lines(NamedTuple):
 
 
 def box_lines(scene: Scene) -> list[Lines]:
-    """Return the boxes of the objects that show."""
+    """Return the boxes of visible objects."""
     boxes = [box for node in scene.nodes if (box := node.bounds) is not None][:MOST_BOXES]
     return [Lines(_edges(np.array(boxes)), BOX)] if boxes else []
 
 
 def tree_lines(scene: Scene) -> list[Lines]:
-    """Return the boxes that culling has in its trees, leaves and branches, by their level.
+    """Return the boxes of the culling trees, leaves and branches, by level.
 
-    There is a tree of the scene's nodes, and one of the instances of each node that has many. Of
-    more boxes than would show, those of the lowest levels are left out.
+    The scene's nodes have one tree, and so have the instances of each node with many. If there are
+    too many boxes, the lowest levels are left out.
     """
     scene.data.update()
     trees = [([_corners(level) for level in scene.data.arrays.boxes_by_level()], np.eye(4))]
@@ -66,7 +67,7 @@ def tree_lines(scene: Scene) -> list[Lines]:
 
 
 def _corners(rows: np.ndarray) -> np.ndarray:
-    """Return the finite ones of boxes (N, 6) as corners (N, 2, 3) float64."""
+    """Return the finite boxes among (N, 6) as corners (N, 2, 3) float64."""
     return rows[np.isfinite(rows).all(axis=1)].reshape(-1, 2, 3).astype(np.float64)
 
 
@@ -93,7 +94,7 @@ def draw_lines(frame: Frame, lines: list[Lines], width: float = 1) -> None:
 
 
 def _before(frame: Frame, segments: np.ndarray) -> np.ndarray:
-    """Return the parts of segments that are before the camera."""
+    """Return the parts of segments in front of the camera."""
     depths = frame.project(segments.reshape(-1, 3))[1].reshape(-1, 2)
     least = NEAREST * float(np.abs(depths).max(initial=1e-9))
     kept = (depths > least).any(axis=1)

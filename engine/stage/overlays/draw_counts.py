@@ -1,6 +1,6 @@
-"""The counts of a frame: nodes, clusters and triangles, stage by stage.
+"""The counters of a frame: nodes, clusters and triangles at each stage.
 
-In: `Frame.stats`. Out: a table and a sentence for the overlay, a line for the log.
+In: `Frame.stats`. Out: a table and a sentence for the overlay, and a line for the log.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 COUNTED = ("nodes", "clusters", "triangles")
-#: What a column is called, and how the names of its counters end.
+#: Titles of the columns, and suffixes of their counters.
 STAGES = {
     "total": "",
     "in frustum": "_in_frustum",
@@ -23,7 +23,7 @@ def count_names() -> set[str]:
 
 
 def count_table(stats: dict[str, Any]) -> list[str]:
-    """Return the table, a line each for its head and for what is counted."""
+    """Return the table: a header line, and a line for each counter."""
     rows = [f"{'':<9}" + "".join(f"{stage:>12}" for stage in STAGES)]
     for what in COUNTED:
         numbers = (stats[what + ending] for ending in STAGES.values())
@@ -32,7 +32,7 @@ def count_table(stats: dict[str, Any]) -> list[str]:
 
 
 def told_tests(stats: dict[str, Any], culling: str) -> str:
-    """Say by how many tests the nodes in view were found."""
+    """Return a sentence on how many tests found the nodes in view."""
     tested = stats["boxes_tested"]
     boxes = f"{tested:,} box{'' if tested == 1 else 'es'} tested"
     how = {
@@ -45,7 +45,7 @@ def told_tests(stats: dict[str, Any], culling: str) -> str:
 
 
 def count_line(stats: dict[str, Any]) -> str:
-    """Return the same in one line, with tests, materials and lights."""
+    """Return the counts in one line, with tests, materials and lights."""
     parts = []
     for what in COUNTED:
         stages = (f"{stats[what + ending]} {stage}" for stage, ending in STAGES.items())

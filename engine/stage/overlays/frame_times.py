@@ -1,7 +1,7 @@
-"""The times of the last frames, for the title and for the statistics.
+"""Recent frame times, for the title and the statistics.
 
-In: for each frame, how long it took to draw and until it was shown. Out: means over the frames of
-the last moment. Frames from before a rest don't count: they tell nothing of what is shown now.
+In: for each frame, its drawing time and the time until it was shown. Out: means over the last
+second. Frames from before a pause don't count.
 """
 
 from __future__ import annotations
@@ -9,19 +9,19 @@ from __future__ import annotations
 import time
 from collections import deque
 
-#: How far back frames count, and how many of them at most.
+#: How long frames count, and how many at most.
 RECENT_SECONDS = 1.0
 RECENT_FRAMES = 120
 
 
 class FrameRate:
-    """How many pictures a second were shown in the last second."""
+    """The number of pictures shown in the last second."""
 
     def __init__(self) -> None:
         self._shown: deque[float] = deque()
 
     def add(self) -> None:
-        """Count a picture that is shown now."""
+        """Count a picture shown now."""
         self._shown.append(time.monotonic())
         self._forget()
 
@@ -32,7 +32,7 @@ class FrameRate:
 
     @property
     def value(self) -> float:
-        """Pictures a second; 0 while fewer than two are recent."""
+        """Pictures per second; 0 if fewer than two are recent."""
         self._forget()
         if len(self._shown) < 2:
             return 0.0
@@ -49,7 +49,7 @@ class FrameTimes:
         self._frames: deque[tuple[float, float, float]] = deque(maxlen=RECENT_FRAMES)
 
     def add(self, drawing: float, shown: float) -> None:
-        """Count a frame that took ``drawing`` seconds to draw, ``shown`` until it was shown."""
+        """Add a frame that took ``drawing`` seconds to draw, ``shown`` until it was shown."""
         now = time.monotonic()
         while self._frames and self._frames[0][0] < now - RECENT_SECONDS:
             self._frames.popleft()
@@ -57,17 +57,17 @@ class FrameTimes:
 
     @property
     def count(self) -> int:
-        """How many frames are recent."""
+        """Number of recent frames."""
         return len(self._frames)
 
     @property
     def seconds(self) -> float:
-        """Mean time that the recent frames took to draw and to show; 0 if there was none."""
+        """Mean time to draw and show a recent frame; 0 if there is none."""
         return self._mean(2)
 
     @property
     def drawing_seconds(self) -> float:
-        """Mean time that the recent frames took to draw; 0 if there was none."""
+        """Mean time to draw a recent frame; 0 if there is none."""
         return self._mean(1)
 
     def _mean(self, column: int) -> float:
@@ -75,7 +75,7 @@ class FrameTimes:
         return sum(frame[column] for frame in frames) / len(frames) if frames else 0.0
 
     def text(self, idle: bool) -> str:
-        """Return what a title says: of the recent frames, or of the last one while none is due."""
+        """Return the text for a title: for the recent frames, or the last one if none is recent."""
         if not self._frames:
             return ""
         if idle:

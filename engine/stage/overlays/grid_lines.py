@@ -1,4 +1,4 @@
-"""The grid under the model, as lines of the scene.
+"""The grid under the model, as lines in the scene.
 
 In: the scene's bounds and up direction. Out: a `Mesh` of lines with a colour a vertex, world space.
 """
@@ -17,7 +17,7 @@ from ..views.viewpoint import Sphere
 
 MINOR_COLOR = (92, 96, 104, 255)
 MAJOR_COLOR = (140, 146, 158, 255)
-#: The grid reaches this many radii from its middle, in about this many squares.
+#: The grid's half side in radii, and its approximate number of squares.
 REACH = 1.6
 SQUARES = 20
 MAJOR_EVERY = 5
@@ -31,16 +31,16 @@ def grid_step(radius: float) -> float:
 
 
 def grid(lowest: float, sphere: Sphere, up: ArrayLike) -> Mesh:
-    """Return a square grid that lies under the scene.
+    """Return a square grid under the scene.
 
     Parameters
     ----------
     lowest : float
-        How high the grid lies along the up direction.
+        Height of the grid along the up direction.
     sphere : Sphere
-        The scene's bounding sphere; sets the grid's size.
+        The scene's bounding sphere; determines the grid's size.
     up : (3,) sequence of float
-        The world's up direction; the grid is at right angles to it.
+        The world's up direction, perpendicular to the grid.
 
     Returns
     -------

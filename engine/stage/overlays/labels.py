@@ -1,6 +1,6 @@
-"""Text over a picture: the numbers of the grid, the bar of numbers, axes, metadata.
+"""Text over a picture: grid numbers, colour bar, axes, metadata.
 
-In: a frame and what it shows. Out: the same frame.
+In: a frame and its scene. Out: the same frame, with labels.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ def draw_labels(
     split: bool,
     text_scale: Callable[[Frame], int],
 ) -> None:
-    """Write what the settings say over a frame.
+    """Draw the labels that the settings ask for over a frame.
 
     Parameters
     ----------
     frame : Frame
     view : Viewpoint
-        From where it was drawn.
+        The viewpoint that it was drawn from.
     staging : Staging
     split : bool
-        Whether outputs stand side by side.
+        Whether outputs are shown side by side.
     text_scale : callable
-        Returns the scale of texts over a picture.
+        Returns the scale of texts for a picture.
     """
     settings, viewed, theme = staging.settings, staging.viewed, staging.theme
     bar = viewed.bar if settings.bar else None

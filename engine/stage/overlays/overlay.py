@@ -1,7 +1,7 @@
-"""Text and marks over the picture: statistics, metadata, messages, the axes.
+"""Text and marks over the picture: statistics, metadata, messages, axes.
 
-In: a `Canvas` over the frame's pixels. Out: the same pixels, drawn on. Text sits on
-translucent blocks in the corners; lines that are wider than the picture are wrapped.
+In: a `Canvas` over the frame's pixels. Out: the same pixels, drawn on. Text is on translucent
+blocks in the corners; lines wider than the picture are wrapped.
 """
 
 from __future__ import annotations
@@ -19,22 +19,22 @@ from .theme import DARK, Theme
 PADDING = 8
 MARGIN = 10
 LINE_GAP = 3
-#: Pictures at least this high get text twice the size.
+#: Pictures of at least this height get text of twice the size.
 LARGE_HEIGHT = 1400
-#: Larger text stays legible where this many characters fit into a line.
+#: Larger text is used only if this many characters fit into a line.
 FEWEST_COLUMNS = 40
-#: X, Y and Z, the usual red, green and blue, light enough for a dark background.
+#: X, Y and Z in the usual red, green and blue, light enough for a dark background.
 AXIS_COLORS = ((235, 80, 80, 255), (95, 205, 95, 255), (95, 140, 255, 255))
 AXIS_LENGTH = 34
 
 
 def text_scale(canvas: Canvas, screen: int = 1) -> int:
-    """Return the factor on the font's size that suits the picture, on a screen of some scale."""
+    """Return the font scale for a picture, on a screen of some scale."""
     return text_scale_for(canvas.width, canvas.height, screen)
 
 
 def text_scale_for(width: int, height: int, screen: int = 1) -> int:
-    """Return the same for a picture of some size."""
+    """Return the font scale for a picture of some size."""
     scale = max(screen, 2 if height >= LARGE_HEIGHT else 1)
     return max(1, min(scale, width // (FEWEST_COLUMNS * text_size("M")[0])))
 
@@ -52,14 +52,13 @@ def draw_block(
     Parameters
     ----------
     canvas : Canvas
-        Over the frame.
+        The canvas over the frame.
     lines : list of str
-        The text. What is wider than the picture goes on in the next line; what is higher ends with
-        a line of dots.
+        The text. Too wide lines are wrapped; too many lines end with a line of dots.
     corner : str
         Such as ``"top left"``, ``"bottom right"``, ``"bottom"`` or ``"middle"``.
     scale : int, optional
-        Factor on the font's size; by default what suits the picture.
+        Factor on the font's size; by default chosen for the picture.
     theme : Theme
     """
     scale = scale or text_scale(canvas)
@@ -104,7 +103,7 @@ def place(canvas: Canvas, width: int, height: int, corner: str) -> tuple[int, in
 
 
 def short_statistics(times: FrameTimes, stats: dict[str, Any]) -> str:
-    """Return what most people want to know of the last frame, in one line."""
+    """Return a one-line summary of the last frame's statistics."""
     drawn, total = stats["triangles_drawn"], stats["triangles"]
     parts = [f"{times.drawing_seconds * 1000:.1f} ms to draw", f"{drawn:,} of {total:,} triangles"]
     if times.count > 1:
@@ -135,7 +134,7 @@ def statistics_lines(
     place : str
         Where the camera is.
     culling : str
-        What was left out before it was drawn.
+        The culling method.
     """
     rate = 1.0 / seconds if seconds > 0.0 else 0.0
     lines = [
@@ -153,21 +152,21 @@ def statistics_lines(
     entries = []
     for name, value in stats.items():
         if name in tabled or name == "plan":
-            continue  # what the plan names is for those who change the rasteriser
+            continue  # the plan's names are only for developers of the rasteriser
         text = f"{value:.3f}" if isinstance(value, float) else f"{value}"
         entries.append(f"{name.replace('_', ' '):<19}{text:>11}")
     return lines + _in_two_columns(entries)
 
 
 def _in_two_columns(entries: list[str]) -> list[str]:
-    """Return lines of two entries each, the first half of them on the left."""
+    """Return lines of two entries each, with the first half in the left column."""
     half = (len(entries) + 1) // 2
     pairs = zip_longest(entries[:half], entries[half:], fillvalue="")
     return ["   ".join(pair).rstrip() for pair in pairs]
 
 
 def draw_axes(canvas: Canvas, view: Viewpoint, scale: int | None = None) -> None:
-    """Draw the world's axes, as the camera sees their directions, in the bottom left corner."""
+    """Draw the world's axes, as seen by the camera, in the bottom left corner."""
     scale = scale or text_scale(canvas)
     length = AXIS_LENGTH * scale
     reach = length + 14 * scale

@@ -1,9 +1,8 @@
-"""The bar that tells which colour stands for which number: where it is, and what it looks like.
+"""The colour bar that maps colours to numbers: its layout and drawing.
 
 In: a picture's size, a `ScalarBar`, and a `Canvas` over the frame's pixels. Out: the bar's place,
-beside which the model is framed; the same pixels, drawn on. The bar stands at the right where it
-takes a quarter of the width at most, and lies at the bottom else, in small pictures without title
-or numbers.
+which framing keeps free; the same pixels, drawn on. The bar is upright at the right if it takes at
+most a quarter of the width, else flat at the bottom, in small pictures without title or numbers.
 """
 
 from __future__ import annotations
@@ -21,13 +20,13 @@ from .theme import DARK, Theme
 from .ticks import label, ticks
 
 _SHARE, _MOST_TICKS = 0.6, 6
-_FINEST, _TICK = 6, 4  # pixels for each of the font: how thick the bar is, and a tick long
-_UNITS = 40  # thickness, margin and padding are this part of the picture's smaller side
+_FINEST, _TICK = 6, 4  # pixels per font pixel: thickness of the bar, length of a tick
+_UNITS = 40  # thickness, margin and padding are this fraction of the picture's smaller side
 _MOST, _MOST_FLAT = 0.25, 1 / 3  # of the picture
 
 
 class BarPlace(NamedTuple):
-    """Where the parts of a bar are, in pixels.
+    """The layout of a bar, in pixels.
 
     Attributes
     ----------
@@ -35,12 +34,12 @@ class BarPlace(NamedTuple):
         The block behind it.
     upright : bool
     title : list of str
-        Its lines; none where there is no room.
+        Its lines; empty if there is no room.
     length, thick, padding, margin : int
-        Of the colours, and around them and the block.
+        Sizes of the colours, of the space around them, and around the block.
     numbers : list of float
     labels : list of str
-        None where there is no room.
+        Empty if there is no room.
     """
 
     left: int
@@ -64,14 +63,14 @@ class BarPlace(NamedTuple):
 
 
 def place_bar(width: int, height: int, bar: ScalarBar, scale: int = 1) -> BarPlace:
-    """Return where a bar is in a picture of some size, with texts of some scale."""
+    """Return the layout of a bar in a picture of some size, with texts of some scale."""
     upright = _upright(width, height, bar, scale)
     fits = width - upright.left <= _MOST * width and upright.top >= 0
     return upright if fits else _flat(width, height, bar, scale)
 
 
 def _edges(width: int, height: int, scale: int) -> tuple[int, int, int]:
-    """Return the thickness of a bar, and the widths of padding and margin."""
+    """Return the thickness of a bar, its padding and its margin."""
     unit = min(width, height) // _UNITS
     return max(unit, _FINEST * scale), min(max(unit, 2), PADDING), min(max(unit, 3), MARGIN)
 
@@ -91,7 +90,7 @@ def _upright(width: int, height: int, bar: ScalarBar, scale: int) -> BarPlace:
     thick, padding, margin = _edges(width, height, scale)
     length = max(int(height * _SHARE), 2)
     numbers, labels = _numbers(bar, length // (2 * cell_height))
-    if len(numbers) < 2:  # one alone says little: closer together, they still fit
+    if len(numbers) < 2:  # a single one says little: with less spacing, more fit
         numbers, labels = _numbers(bar, length // cell_height)
     columns = max(int(_MOST * width - margin - 2 * padding) // cell_width, 1)
     title = textwrap.wrap(bar.title, columns, break_long_words=False, break_on_hyphens=False)
@@ -147,7 +146,7 @@ def draw_scalar_bar(canvas: Canvas, bar: ScalarBar, scale: int = 1, theme: Theme
 
 
 def _colors(bar: ScalarBar, length: int) -> list[list[int]]:
-    """The colour of each pixel along the bar, that of the lowest number first."""
+    """Return the colour of each pixel along the bar, lowest number first."""
     return bar.colors[np.linspace(0, len(bar.colors) - 1, length).round().astype(int)].tolist()
 
 

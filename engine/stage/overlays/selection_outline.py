@@ -1,7 +1,7 @@
-"""The selection: named in a corner, and outlined in the picture.
+"""The selection: its name in a corner, and its outline in the picture.
 
-In: a `RayHit`, and frames that hold object and instance IDs. Out: lines of text; the same pixels,
-with an outline round what shows of the selected object.
+In: a `RayHit`, and frames with object and instance IDs. Out: lines of text; the same pixels, with
+an outline around the visible part of the selected object.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from ...model.scene.instances import InstancedMesh
 from ...model.spatial.rays import RayHit
 from ...rendering.frame import Frame, Output
 
-#: What a frame must hold to be clicked at, and to show an outline.
+#: The outputs that a frame needs for clicks, and for an outline.
 CLICK_OUTPUTS: tuple[Output, ...] = ("color", "object_id", "instance_id", "triangle_id")
 OUTLINE_OUTPUTS: tuple[Output, ...] = ("color", "object_id", "instance_id")
 OUTLINE = (255, 160, 40, 255)
@@ -23,13 +23,13 @@ WIDTH = 2
 
 
 def selection_lines(hit: RayHit, origin: Sequence[float] = (0.0, 0.0, 0.0)) -> list[str]:
-    """Return what a corner of the window says of what was clicked at.
+    """Return the description of the clicked object.
 
     Parameters
     ----------
     hit : RayHit
     origin : (3,) sequence of float
-        Where the scene's origin is in the file's coordinates, which are shown.
+        The scene's origin in the file's coordinates, which are shown.
     """
     thing = hit.node.object
     lines = [hit.node.name or f"object {hit.node.id}"]
@@ -48,7 +48,7 @@ def selection_lines(hit: RayHit, origin: Sequence[float] = (0.0, 0.0, 0.0)) -> l
 
 
 def draw_outline(frame: Frame, hit: RayHit, width: int = WIDTH) -> None:
-    """Draw a line round what a frame shows of the selected object, or of the selected instance."""
+    """Draw an outline around the visible part of the selected object or instance."""
     inside = frame.object_id == hit.node.id
     if isinstance(hit.node.object, InstancedMesh):
         inside &= frame.instance_id == hit.instance
@@ -56,7 +56,7 @@ def draw_outline(frame: Frame, hit: RayHit, width: int = WIDTH) -> None:
 
 
 def outline_pixels(frame: Frame, inside: np.ndarray, width: int = WIDTH) -> None:
-    """Draw a line round pixels of a frame, (H, W) of bool."""
+    """Draw an outline around pixels of a frame, (H, W) of bool."""
     rows, columns = (np.flatnonzero(inside.any(axis=axis)) for axis in (1, 0))
     if not rows.size:
         return
@@ -69,7 +69,7 @@ def outline_pixels(frame: Frame, inside: np.ndarray, width: int = WIDTH) -> None
 
 
 def _grown(inside: np.ndarray, width: int) -> np.ndarray:
-    """Return the pixels that are at most ``width`` rows and columns from one that is inside."""
+    """Return the pixels within ``width`` rows and columns of a set pixel."""
     for axis in (0, 1):
         grown = inside.copy()
         for step in range(1, width + 1):

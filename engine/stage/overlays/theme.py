@@ -1,4 +1,4 @@
-"""Dark and light: the colours behind models, and of the texts over the picture."""
+"""Dark and light themes: colours of backgrounds and of texts over the picture."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ class Theme(NamedTuple):
     ----------
     name : str
     background : tuple of 3 int
-        Behind models in the look ``"plain"``.
+        The background in the look ``"plain"``.
     gradient : Gradient
-        Behind models in the look ``"studio"``.
+        The background in the look ``"studio"``.
     text, block : tuple of 4 int
-        Of texts, and of the translucent blocks behind them.
+        Colours of texts, and of the translucent blocks behind them.
     key, title : tuple of 4 int
-        Of what stands out in them: names of keys, headings.
+        Highlight colours of texts: names of keys, headings.
     """
 
     name: str

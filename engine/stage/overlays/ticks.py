@@ -1,17 +1,17 @@
-"""Round numbers along a range, as axes and bars name them."""
+"""Round numbers along a range, for axes and bars."""
 
 from __future__ import annotations
 
 import math
 
-# Numbers beyond these have powers of ten.
+# Numbers beyond these are written with powers of ten.
 _FINEST, _LARGEST = 1e-5, 1e9
 
 
 def ticks(low: float, high: float, most: int) -> list[float]:
-    """Return multiples of 1, 2 or 5 times a power of ten from ``low`` to ``high``, at most so many.
+    """Return multiples of 1, 2 or 5 times a power of ten in a range, at most ``most``.
 
-    Of a range that is too narrow for numbers between them, both ends.
+    If the range is too narrow for distinct numbers, return both ends.
     """
     rough = (high - low) / max(most, 1)
     if not 0.0 < rough < math.inf or low + rough == low:
@@ -24,7 +24,7 @@ def ticks(low: float, high: float, most: int) -> list[float]:
 
 
 def label(value: float, step: float) -> str:
-    """Return a number with as many digits as tell it from the next one, ``step`` away."""
+    """Return a number with just enough digits to differ from the next one, ``step`` away."""
     if value == 0.0:
         return "0"
     power = math.floor(math.log10(step) + 1e-9)

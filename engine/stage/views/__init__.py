@@ -1,1 +1,1 @@
-"""From where a model is seen, and how one moves."""
+"""Viewpoints of a model, and the controllers that move them."""

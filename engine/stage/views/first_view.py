@@ -1,4 +1,4 @@
-"""From where a model is looked at first: as it likes, as somebody asked, or through its camera."""
+"""The first view of a model: its own, the user's, or that of a camera in its file."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class FirstView:
-    """The first view of a model; what isn't given is chosen so that all of it shows.
+    """The settings of a model's first view; missing ones are chosen so that the whole model shows.
 
     Attributes
     ----------
@@ -31,9 +31,9 @@ class FirstView:
     position, focal_point : (3,) float or None
         In the file's coordinates.
     direction, up : (3,) float or None
-        In which the camera looks, and that points up in the picture; a position has the last word.
+        View direction, and up direction in the picture; a position overrides the view direction.
     camera : int or None
-        Through which of the model's cameras, whatever else is said.
+        The model's camera to look through; overrides all other settings.
     """
 
     yfov: float = DEFAULT_YFOV
@@ -48,13 +48,14 @@ class FirstView:
     camera: int | None = None
 
     def place(self, view_renderer: ViewRenderer, *, turns: bool = True) -> Viewpoint:
-        """Return the view of what a renderer shows.
+        """Return the view of a renderer's scene.
 
         Parameters
         ----------
         view_renderer : ViewRenderer
         turns : bool
-            Whether all shows however the model turns; else it fills the picture as it stands.
+            Whether the model must fit however it turns; otherwise its current pose fills the
+            picture.
 
         Raises
         ------
@@ -94,7 +95,7 @@ def _camera_node(view_renderer: ViewRenderer, index: int) -> Node:
 
 
 def view_of_scene(view_renderer: ViewRenderer) -> Viewpoint | None:
-    """Return the view of the scene's first visible camera; None without one that has an eye."""
+    """Return the view of the scene's first visible camera; None if none has an eye."""
     node = view_renderer.viewed.scene.data.camera_node()
     if node is None:
         return None

@@ -1,8 +1,8 @@
-"""The walking controller: keys move, mouse and arrows look, as in a first-person game.
+"""The first-person controller: keys move, mouse and arrows look.
 
-In: which keys are down (by position on the keyboard) and how far the mouse went, in pixels.
-Out: a camera position and two angles, taken from a `Viewpoint` on entering and given back on
-leaving, so that neither change moves the picture.
+In: pressed keys (by position on the keyboard) and mouse movement in pixels. Out: a camera position
+and two angles, taken from a `Viewpoint` on entering and given back on leaving, so that neither
+change moves the picture.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from ...model.scene.orbiting import home_axes
 from .orbit import MAX_DISTANCE
 from .viewpoint import QUARTER_TURN, Sphere, Viewpoint
 
-#: Key positions (named as on a US keyboard) and the way each goes: right, up, forward.
+#: Key positions (named as on a US keyboard) and their directions: right, up, forward.
 MOVES = {
     "W": (0, 0, 1),
     "S": (0, 0, -1),
@@ -25,12 +25,12 @@ MOVES = {
     "E": (0, 1, 0),
     "Q": (0, -1, 0),
 }
-#: Key positions that look about: right and up.
+#: Key positions that turn the view: right and up.
 LOOKS = {"Up": (0, 1), "Down": (0, -1), "Left": (-1, 0), "Right": (1, 0)}
 RADIANS_A_PIXEL = 0.0025
-#: How fast the arrows turn the gaze.
+#: Turning speed of the arrow keys.
 RADIANS_A_SECOND = 1.6
-#: Scene radii per second; Shift goes faster, the wheel changes the speed by the step.
+#: Scene radii per second; the factor of Shift, and the factor per wheel step.
 RADII_A_SECOND = 0.6
 FAST = 4.0
 SPEED_STEP = 1.15
@@ -39,14 +39,14 @@ MAX_PITCH = QUARTER_TURN - 0.01
 
 
 class FpsController:
-    """A camera that walks.
+    """A walking camera without a ground.
 
     Parameters
     ----------
     view : Viewpoint
-        Where to start; also gives the up direction and the field of view.
+        The start; also gives the up direction and the field of view.
     bounds : Sphere
-        The scene's bounds; its radius sets the walking speed.
+        The scene's bounds; its radius determines the walking speed.
     """
 
     def __init__(self, view: Viewpoint, bounds: Sphere):
@@ -55,14 +55,14 @@ class FpsController:
         self.enter(view)
 
     def enter(self, view: Viewpoint) -> None:
-        """Take the position and direction of ``view``."""
+        """Take over the position and direction of ``view``."""
         self.position = view.position()
         self.up = view.up
         self.yaw = view.azimuth
         self.pitch = max(-MAX_PITCH, min(MAX_PITCH, -view.elevation))
 
     def leave(self, view: Viewpoint) -> None:
-        """Put ``view`` where the walker stands; its target lies ahead, abreast of the scene."""
+        """Move ``view`` to the walker; its target is ahead, at the scene's distance."""
         self.place(view)
         ahead = -view.rotation()[:, 2]
         to_center = np.array(self.bounds.center) - self.position
@@ -71,7 +71,7 @@ class FpsController:
         view.target = self.position + ahead * view.distance
 
     def place(self, view: Viewpoint) -> None:
-        """Give ``view`` the walker's position and angles, at the distance that it has."""
+        """Set ``view`` to the walker's position and angles, and keep its distance."""
         view.azimuth = self.yaw
         view.elevation = -self.pitch
         view.target = self.position - view.rotation()[:, 2] * view.distance
@@ -85,20 +85,20 @@ class FpsController:
         self.pitch = max(-MAX_PITCH, min(MAX_PITCH, self.pitch + up))
 
     def change_speed(self, steps: float) -> None:
-        """Walk faster (or slower, if negative) from now on."""
+        """Increase the walking speed (decrease it if negative)."""
         self.speed *= SPEED_STEP**steps
 
     def walk(self, positions: Collection[str], seconds: float, fast: bool = False) -> bool:
-        """Move and turn for ``seconds`` as the keys that are down say.
+        """Move and turn for ``seconds`` according to the pressed keys.
 
         Parameters
         ----------
         positions : set of str
-            Keys that are down, by position (see `MOVES` and `LOOKS`).
+            Pressed keys, by position (see `MOVES` and `LOOKS`).
         seconds : float
             Time since the last call.
         fast : bool
-            Whether Shift is down.
+            Whether Shift is pressed.
 
         Returns
         -------
@@ -115,7 +115,7 @@ class FpsController:
         return self._move((right, up, ahead), reach, seconds) or bool(across or rise)
 
     def _move(self, way: tuple[int, int, int], reach: float, seconds: float) -> bool:
-        """Go ``reach`` units along right, up and forward; returns whether that is anywhere."""
+        """Move ``reach`` units along right, up and forward; return whether that moves at all."""
         length = math.sqrt(sum(part * part for part in way))
         if not length:
             return False
@@ -125,7 +125,7 @@ class FpsController:
         return True
 
     def _heading(self) -> np.ndarray:
-        """Return right, up and forward as rows: forward follows the gaze, up the world."""
+        """Return right, up and forward as rows: forward follows the view, up the world."""
         side, up, back = home_axes(self.up)
         sin_y, cos_y = math.sin(self.yaw), math.cos(self.yaw)
         level = -(side * sin_y + back * cos_y)

@@ -1,8 +1,8 @@
-"""The free part of a picture, beside a bar at its right or at its bottom.
+"""The part of a picture that a bar at its right or bottom leaves free.
 
-In: which part is taken, and how a view sees. Out: views that show the model in the rest. Planes of
-the frustum that lie unevenly about the line of sight become even ones by a shear along it, so what
-fits a model into even planes serves for both.
+In: the part taken, and a view. Out: views that show the model in the rest. A shear along the line
+of sight turns asymmetric frustum planes into symmetric ones, so the same fitting code serves for
+both.
 """
 
 from __future__ import annotations
@@ -14,26 +14,26 @@ import numpy as np
 from ...base import linalg
 from ...rendering.support_functions import SupportFunction
 
-_LEAST = 0.2  # of the picture: less is not kept for the model
+_LEAST = 0.2  # of the picture: the model gets at least this much
 
 
 class Taken(NamedTuple):
-    """Which shares of a picture's width and height the model leaves free."""
+    """Fractions of a picture's width and height that a bar takes from the model."""
 
     right: float = 0.0
     bottom: float = 0.0
 
     @property
     def around_middle(self) -> tuple[float, float]:
-        """Free shares of the width, evenly on both sides of the middle, and of the height."""
+        """Return free fractions of the width, symmetric about the middle, and of the height."""
         return max(1.0 - 2.0 * self.right, _LEAST), max(1.0 - self.bottom, _LEAST)
 
     def narrowed(self, slopes: tuple[float, float]) -> tuple[float, float]:
-        """Return the slopes of even planes around what is left."""
+        """Return the slopes of symmetric planes around the free part."""
         return slopes[0] * (1.0 - self.right), slopes[1] * (1.0 - self.bottom)
 
     def shift(self, slopes: tuple[float, float]) -> tuple[float, float]:
-        """Return how far right and up of what is left the picture's middle is, from 1 away."""
+        """Return by how much, at distance 1, to shift the view so that the free part is centred."""
         return slopes[0] * self.right, -slopes[1] * self.bottom
 
 
@@ -43,7 +43,7 @@ NOTHING = Taken()
 def sheared(
     support: SupportFunction, axes: np.ndarray, center: np.ndarray, shift: tuple[float, float]
 ) -> SupportFunction:
-    """Return the support function of what a view sees aside, moved to before it.
+    """Return the support function of a sheared subject, which centres it in front of a view.
 
     Parameters
     ----------
@@ -51,9 +51,9 @@ def sheared(
     axes : (3, 3) float64
         Right, up and back.
     center : (3,) float64
-        Stays where it is.
+        The fixed point of the shear.
     shift : (float, float)
-        As `Taken.shift` returns it.
+        As returned by `Taken.shift`.
     """
     if shift == (0.0, 0.0):
         return support

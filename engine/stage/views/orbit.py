@@ -1,8 +1,8 @@
-"""The orbit controller: mouse drags turn, move and approach a `Viewpoint` round its target.
+"""The orbit controller: mouse drags rotate, pan and dolly a `Viewpoint` around its target.
 
-In: drags and wheel steps in pixels. Out: the view, changed in place.
-The gestures are three.js's OrbitControls: a drag over the window's height turns once round; a pan
-keeps the point under the pointer under it, and so does the wheel.
+In: drags and wheel steps in pixels. Out: the view, changed in place. The gestures are those of
+three.js's OrbitControls: a drag over the window's height makes one turn; panning and the wheel keep
+the point under the pointer.
 """
 
 from __future__ import annotations
@@ -11,17 +11,17 @@ import math
 
 from .viewpoint import QUARTER_TURN, Viewpoint
 
-#: One wheel step, or twenty pixels of a dolly drag, scales the distance by this.
+#: Distance factor of one wheel step, or of twenty pixels of a dolly drag.
 DOLLY_STEP = 0.95
 DOLLY_PIXELS_A_STEP = 20.0
-#: More wheel steps at once than this are as good as this.
+#: More wheel steps at once have no further effect.
 MAX_STEPS = 500
 MIN_DISTANCE = 1e-6
 MAX_DISTANCE = 1e9
 
 
 class OrbitController:
-    """Turns a view round its target.
+    """Rotates a view around its target.
 
     Parameters
     ----------
@@ -33,12 +33,12 @@ class OrbitController:
         self.view = view
 
     def rotate(self, dx: float, dy: float, height: int) -> None:
-        """Turn by a drag of (dx, dy) pixels in a window ``height`` pixels high."""
+        """Rotate by a drag of (dx, dy) pixels in a window ``height`` pixels high."""
         full_turn = 2 * math.pi / max(height, 1)
         self.turn(-dx * full_turn, dy * full_turn)
 
     def turn(self, azimuth: float, elevation: float) -> None:
-        """Add to the angles (radians); the elevation stops overhead and underneath."""
+        """Add to the angles (radians); the elevation is clamped at the poles."""
         view = self.view
         view.azimuth = math.remainder(view.azimuth + azimuth, 2 * math.pi)
         view.elevation = max(-QUARTER_TURN, min(QUARTER_TURN, view.elevation + elevation))
@@ -52,7 +52,7 @@ class OrbitController:
         ----------
         steps : float
         at : (int, int), optional
-            A pixel: what it shows of the plane through the target stays there.
+            A pixel whose point in the target's plane stays fixed.
         size : (int, int), optional
             Width and height of the window in pixels.
         """
@@ -74,7 +74,7 @@ class OrbitController:
         self._shift(-dx, -dy, self.view.distance, height)
 
     def _shift(self, dx: float, dy: float, distance: float, height: int) -> None:
-        """Move the target by pixels of a plane at a distance."""
+        """Move the target by pixels in a plane at a given distance."""
         view = self.view
         world_a_pixel = 2 * distance * math.tan(view.yfov / 2) / max(height, 1)
         right, up, _ = view.rotation().T * world_a_pixel

@@ -1,9 +1,9 @@
-"""A camera placed around a target: what the orbit controller turns and the command line sets.
+"""A camera placed around a target, for the orbit controller and the command line.
 
 In: a target, a distance, two angles and an up direction (world space, radians).
 Out: a camera with clip planes that enclose the scene, and its 4x4 pose (``world_from_view``).
-Always holds: the elevation stays within a quarter turn of the horizon, the distance above zero.
-The pose comes from the angles: see `engine3d.model.scene.orbiting`.
+Invariants: the elevation is within a quarter turn of the horizon, the distance above zero. The pose
+is computed from the angles: see `engine3d.model.scene.orbiting`.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from ...rendering.framing import fit_frustum, frustum_reach
 from ...rendering.support_functions import SupportFunction, support_of_points
 from .free_region import NOTHING, Taken, sheared
 
-#: What ``up`` may be, as the command line spells it.
+#: Values of ``up``, as on the command line.
 UP_DIRECTIONS = {
     "+X": (1.0, 0.0, 0.0),
     "-X": (-1.0, 0.0, 0.0),
@@ -34,17 +34,17 @@ UP_DIRECTIONS = {
     "-Z": (0.0, 0.0, -1.0),
 }
 DEFAULT_YFOV = math.radians(35.0)
-#: Three-quarter view from the right and a little above: shows three sides of most models.
+#: Three-quarter view from the right and slightly above: shows three sides of most models.
 DEFAULT_AZIMUTH = math.radians(30.0)
 DEFAULT_ELEVATION = math.radians(18.0)
 QUARTER_TURN = math.pi / 2
-#: Space left round what is framed.
+#: Margin factor around framed scenes.
 FRAMING_MARGIN = 1.06
-#: What is less than this share of the picture's height is a dot.
+#: Objects smaller than this fraction of the picture's height count as dots.
 SMALLEST = 0.01
-#: A camera whose up direction is farther from ours than this cosine rolls.
+#: A camera rolls if its up direction deviates from the world's by more than this cosine.
 ROLLS = 1.0 - 1e-9
-#: Seen steeper than this from above or below, a step upward hardly shows.
+#: Steeper than this from above or below, an upward step is hardly visible.
 STEEPEST = 1e-6
 
 
@@ -70,8 +70,8 @@ class Viewpoint:
     up : (3,) tuple of float
         The world's up direction.
     yfov : float
-        Vertical field of view in radians. An orthographic view shows, at the target, what a
-        perspective one would.
+        Vertical field of view in radians. An orthographic view shows the same extent at the target
+        as a perspective one.
     orthographic : bool
         Whether the projection is parallel.
     """
@@ -93,11 +93,11 @@ class Viewpoint:
         return orbit_axes(self.up, self.azimuth, self.elevation)
 
     def position(self) -> np.ndarray:
-        """Return where the camera stands, (3,), in world space."""
+        """Return the camera's position, (3,), in world space."""
         return self.target + self.rotation()[:, 2] * self.distance
 
     def eye(self) -> np.ndarray:
-        """Return the camera's place and 1; if orthographic, the direction to it and 0."""
+        """Return the camera's position and 1; if orthographic, the direction to it and 0."""
         back = self.rotation()[:, 2]
         return np.array([*back, 0.0]) if self.orthographic else np.array([*self.position(), 1.0])
 
@@ -113,24 +113,26 @@ class Viewpoint:
     ) -> PerspectiveCamera | OrthographicCamera:
         """Return a camera whose clip planes enclose ``bounds`` as seen from here.
 
-        From inside, the near plane is at ``nearest`` or nearer, but not nearer than ``free``.
+        Inside the scene, the near plane is at most at ``nearest``, but no nearer than ``free``.
         """
         znear, zfar = clip_planes(self.position(), bounds, nearest, free)
         if self.orthographic:
             ymag = self.distance * math.tan(self.yfov / 2)
-            return OrthographicCamera(ymag, znear=-zfar, zfar=zfar)  # what is behind shows too
+            # points behind the camera show too
+            return OrthographicCamera(ymag, znear=-zfar, zfar=zfar)
         return PerspectiveCamera(self.yfov, znear=znear, zfar=zfar)
 
     def frame(self, points: np.ndarray, aspect: float = 1.0) -> None:
-        """Look at the middle of ``points`` from as near as all of them show.
+        """Look at the middle of ``points`` from the smallest distance that shows them all.
 
-        The target moves along the up direction only, to where the camera comes nearest: so it stays
-        on the axis through the middle, and turning about the axis does not move the scene sideways.
+        The target moves only along the up direction, to where the camera can be nearest: so it
+        stays on the axis through the middle, and turning about the axis does not move the scene
+        sideways.
 
         Parameters
         ----------
         points : (N, 3) ndarray of float64
-            What must be visible, in world space.
+            Points that must be visible, in world space.
         aspect : float
             Width over height of the picture.
         """
@@ -140,7 +142,7 @@ class Viewpoint:
         axes = self.rotation().T
         support, slopes = support_of_points(points), self._slopes(aspect)
         edges = frustum_reach(support, axes, middle, *slopes)
-        # A step of the target upward, as it moves on the screen and towards the camera.
+        # The effect of moving the target upward: on the screen, and towards the camera.
         rise, approach = _dot(up, axes[1]), _dot(up, axes[2])
         half = _dot(high - low, np.abs(up)) / 2
         height = max(-half, min(half, edges.y / rise)) if rise > STEEPEST else 0.0
@@ -154,7 +156,7 @@ class Viewpoint:
         self.distance = FRAMING_MARGIN * max(distance - height * approach, parallel) or 1.0
 
     def frame_beside(self, points: np.ndarray, aspect: float, taken: Taken) -> None:
-        """Like `frame`, in the free part; the target stays on the axis that views turn about."""
+        """Frame points in the free part of the picture; the target stays on the turning axis."""
         if taken == NOTHING:
             self.frame(points, aspect)
             return
@@ -168,18 +170,18 @@ class Viewpoint:
     def fit(
         self, support: SupportFunction, center: np.ndarray, aspect: float, taken: Taken = NOTHING
     ) -> None:
-        """Show something as large as possible, as it stands and from this direction.
+        """Show a subject as large as possible, in its current pose from this direction.
 
         Parameters
         ----------
         support : callable
-            What to show; see `engine3d.rendering.support_functions`.
+            The subject; see `engine3d.rendering.support_functions`.
         center : (3,) ndarray of float64
-            About the middle of it.
+            Its approximate centre.
         aspect : float
             Width over height of the picture.
         taken : Taken
-            What of the picture is for other things.
+            The part of the picture that is not free.
         """
         axes, slopes = self.rotation().T, self._slopes(aspect)
         shift, slopes = taken.shift(slopes), taken.narrowed(slopes)
@@ -195,7 +197,7 @@ class Viewpoint:
         self.target = center + axes[0] * x + axes[1] * y
 
     def stretch(self, aspect: float) -> float:
-        """Return how many times farther away the corner of a picture's plane is than its middle."""
+        """Return the distance of a picture plane's corner relative to that of its centre."""
         across, upward = self._slopes(aspect)
         return math.sqrt(1.0 + across * across + upward * upward)
 
@@ -212,7 +214,7 @@ class Viewpoint:
         return tuple((support(directions) - linalg.dot(directions, center)).tolist())
 
     def sees(self, sphere: Sphere, aspect: float) -> bool:
-        """Return whether a sphere reaches into the picture, and is more than a dot there."""
+        """Return whether a sphere is in the picture and larger than a dot."""
         right, up, back = linalg.dot(self.rotation().T, np.subtract(sphere.center, self.position()))
         slopes, ahead = self._slopes(aspect), -float(back)
         if self.orthographic:
@@ -220,13 +222,13 @@ class Viewpoint:
         if ahead + sphere.radius <= 0.0:
             return False
         for aside, slope in ((abs(float(right)), slopes[0]), (abs(float(up)), slopes[1])):
-            # The distance of the sphere's middle outside the frustum's side.
+            # Compares the distance of the sphere's centre from the frustum's side.
             if aside - ahead * slope > sphere.radius * math.sqrt(1.0 + slope * slope):
                 return False
         return sphere.radius > SMALLEST * slopes[1] * max(ahead, sphere.radius)
 
     def look_from(self, position: ArrayLike, focal_point: ArrayLike) -> None:
-        """Stand at ``position`` and look at ``focal_point`` (both (3,), world space)."""
+        """Move to ``position`` and look at ``focal_point`` (both (3,), world space)."""
         position = np.asarray(position, dtype=np.float64)
         with np.errstate(over="ignore"):
             offset = position - np.asarray(focal_point, dtype=np.float64)
@@ -243,9 +245,9 @@ class Viewpoint:
 
 
 def look_through(view: Viewpoint, node: Node, bounds: Sphere) -> None:
-    """Stand where a node's camera stands, look where it looks, and turn about what is there.
+    """Take the pose of a node's camera, and orbit around the subject in front of it.
 
-    Up stays up where the camera does not roll; else its own up direction counts from now on.
+    The up direction is kept if the camera does not roll; otherwise the camera's replaces it.
     """
     pose, camera = node.world_pose, node.object
     eye, ahead = pose[:3, 3], -linalg.normalize(pose[:3, 2])
@@ -277,12 +279,12 @@ def clip_planes(
 def with_clip_planes(
     camera: PerspectiveCamera | OrthographicCamera, near: float | None, far: float | None
 ) -> PerspectiveCamera | OrthographicCamera:
-    """Return a camera with other clip planes where they are given, at distances from it.
+    """Return a camera with given clip planes, at distances from it; None keeps its own.
 
     Raises
     ------
     InvalidArgumentError
-        The far one would not be behind the near one.
+        The far plane would not be behind the near plane.
     """
     if near is None and far is None:
         return camera

@@ -1,4 +1,4 @@
-"""The ground of a model: where one who is as tall as suits it can walk.
+"""The walkable ground of a model, for a walker of suitable height.
 
 In: the scene, its bounds and its up direction. Out: a `NavigationGrid` in the space of the walk,
 where Y is up, and a `Walker` on it.
@@ -19,25 +19,25 @@ from ...model.scene.shown import placing_pose, shown_object
 from ..visibility import DRAWABLE
 from .viewpoint import Sphere, Viewpoint
 
-#: One who walks is as tall as if the model's unit were the metre, but for small and large models:
-#: their radius is at least and at most so many of those metres.
+#: The walker's height assumes that the model's unit is the metre, except for small and large
+#: models: their radius is clamped to this many metres.
 LEAST_RADIUS, MOST_RADIUS = 4.0, 400.0
-#: Sizes in these metres, and how many cells a side of the grid has at most.
+#: Sizes in these metres, and the maximum number of grid cells per side.
 CELL, STEP, HEADROOM, RADIUS, EYES = 0.25, 0.4, 1.8, 0.25, 1.7
 MOST_CELLS = 1500
 
 
 class Ground(NamedTuple):
-    """The ground that one walks on.
+    """The ground to walk on.
 
     Attributes
     ----------
     axes : (3, 3) ndarray
         Right, up and back of the walk, in world space: its X, Y and Z.
     metre : float
-        World units of a metre of one who walks.
+        World units per metre of the walker.
     walker : Walker
-        At the place nearest to where the camera is.
+        A walker at the place nearest to the camera.
     """
 
     axes: np.ndarray
@@ -59,16 +59,16 @@ def find_ground(
     scene : Scene
     bounds : Sphere
     view : Viewpoint
-        Tells what is up, and where the camera is.
+        Gives the up direction and the camera's position.
     walkable : collection of str, optional
-        Names of the materials that one walks on; by default all.
+        Names of walkable materials; by default all.
     slope : float, optional
         The steepest ground in radians; by default `NavigationGrid`'s.
 
     Raises
     ------
     InvalidArgumentError
-        There is nowhere to stand.
+        No cell is walkable.
     """
     axes = home_axes(view.up)
     metre = min(max(1.0, bounds.radius / MOST_RADIUS), bounds.radius / LEAST_RADIUS)
@@ -91,7 +91,7 @@ def find_ground(
 
 
 def _turned(scene: Scene, axes: np.ndarray) -> Scene:
-    """Return a scene that holds what another shows, turned so that Y is up."""
+    """Return a scene with another's objects, rotated so that Y is up."""
     turned, pose = Scene(), np.eye(4)
     pose[:3, :3] = axes
     group = turned.add(pose=pose)
@@ -103,7 +103,7 @@ def _turned(scene: Scene, axes: np.ndarray) -> Scene:
 
 
 def told(grid: NavigationGrid) -> str:
-    """Return what to say of a grid."""
+    """Return a message about a grid."""
     rows, columns = grid.shape
     return (
         f"navigation grid: {columns} x {rows} = {rows * columns:,} cells, "

@@ -1,8 +1,8 @@
-"""The walking controller on the ground: one walks where the scene lets one, at the height of eyes.
+"""The ground controller: walks at eye height where the scene is walkable.
 
-In: a `Walker` of the scene, keys and the mouse as in `fps`. Out: a camera position that is never
-in a wall, over water or beside the grid. Steps are climbed smoothly. The walker has a space of its
-own, where Y is up.
+In: a `Walker` of the scene, keys and the mouse as in `fps`. Out: a camera position that is never in
+a wall, over water or outside the grid. Steps are climbed smoothly. The walker has its own space, in
+which Y is up.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ if TYPE_CHECKING:
 
     from ..view_renderer import ViewRenderer
 
-#: How long one turns where the way ends.
+#: Seconds of a turn where the way ends.
 _TURN_SECONDS = 0.3
-#: Metres a second.
+#: Metres per second.
 WALKING_SPEED = 3.5
-#: The share of a step's height that the eyes rise in a second, at first.
+#: The fraction of a step's height that the eyes rise per second, at first.
 RISE_A_SECOND = 12.0
-#: Metres that nobody sees.
+#: Metres too small to notice.
 LEVEL = 1e-3
 
 
@@ -44,9 +44,9 @@ class GroundController(FpsController):
     bounds : Sphere
         The scene's bounds.
     ground : Ground
-        Who walks where; starts where it stands.
+        The ground and its walker, whose position is the start.
     gaze : (float, float)
-        Where to look first: yaw and pitch in radians.
+        The first view direction: yaw and pitch in radians.
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class GroundController(FpsController):
 
     @property
     def grid(self) -> NavigationGrid:
-        """The grid that one walks on."""
+        """The navigation grid of the walker."""
         return self._walker.grid
 
     def _in_world(self) -> np.ndarray:
@@ -92,9 +92,9 @@ class GroundController(FpsController):
 
 
 def controller(view_renderer: ViewRenderer, view: Viewpoint) -> FpsController:
-    """Return what walks in the scene: on its ground, or flying where there is none.
+    """Return the walking controller of a scene, or a flying one if it has no ground.
 
-    A scene has a ground if it knows one itself, or if the user asked for walking on it.
+    A scene has a ground if it provides one itself, or if the user chose to walk on it.
     """
     viewed, settings, bounds = view_renderer.viewed, view_renderer.settings, view_renderer.bounds
     if viewed.walker is not None:
@@ -107,7 +107,7 @@ def controller(view_renderer: ViewRenderer, view: Viewpoint) -> FpsController:
 
 
 def walk(view_renderer: ViewRenderer, view: Viewpoint, count: int) -> Iterator[np.ndarray]:
-    """Yield ``count`` pictures of somebody who walks ahead, and turns right where the way ends."""
+    """Yield ``count`` pictures of a walk straight ahead that turns right where the way ends."""
     seconds = seconds_a_frame(view_renderer, count)
     walker = controller(view_renderer, view)
     view = view.copy()

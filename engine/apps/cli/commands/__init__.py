@@ -1,7 +1,7 @@
-"""The commands, a row each: parser, help and completion follow.
+"""The table of commands, from which parser, help and completion are built.
 
-A command is a function of its own name in the module of that name, which is imported only when it
-runs, so that ``--help`` is quick; what adds its options, only when it is asked for.
+A command is a function in the module of the same name, which is imported only to run it, so that
+``--help`` is fast; its options' module is imported only on request.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 
 class Command(NamedTuple):
-    """A row of the list.
+    """A row of the table.
 
     Attributes
     ----------
@@ -66,7 +66,7 @@ def _add_completion(command: argparse.ArgumentParser) -> None:
 
 
 def _of_modules(*names: str) -> Callable[[argparse.ArgumentParser], None]:
-    """Return what imports modules of options, and lets each add its own."""
+    """Return a function that imports modules of options, and lets each add its own."""
 
     def add(command: argparse.ArgumentParser) -> None:
         for name in names:

@@ -1,4 +1,4 @@
-"""``engine3d batch``: many pictures by many processes; those that are there stay."""
+"""``engine3d batch``: draws many pictures in many processes; finished ones stay."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _SHOWN = 20  # failures that are listed
 def batch(args: argparse.Namespace) -> int:
     """Run the command; return the exit status."""
     manifest = read_manifest(args.manifest)
-    # The command's own output is not mixed with what scripts print.
+    # Keep prints of scripts out of the command's own output.
     with _Progress(len(manifest.tasks)) as progress, contextlib.redirect_stdout(sys.stderr):
         summary = run(
             manifest.tasks,
@@ -35,7 +35,7 @@ def batch(args: argparse.Namespace) -> int:
 
 
 def _report(summary: Summary) -> int:
-    """Say what became of the batch; return the exit status."""
+    """Print the summary of the batch; return the exit status."""
     failed = summary.failures
     for name, error in failed[:_SHOWN]:
         say(f"error: {name}: {error}")
@@ -48,7 +48,7 @@ def _report(summary: Summary) -> int:
 
 
 class _Progress:
-    """A bar on a terminal, and a line for each picture that is drawn again."""
+    """A progress bar on a terminal, and a line for each picture that is drawn again."""
 
     def __init__(self, total: int) -> None:
         self._total = total

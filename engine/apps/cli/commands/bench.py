@@ -15,7 +15,7 @@ from ...bench import figures, measuring
 from ...scenes import workloads
 from ..outputs import STANDARD_OUTPUT, check_folder
 
-#: Seconds that a row takes at most: more would tell nothing new.
+#: Maximum seconds per row: more would not improve the figures.
 LONGEST = 2.0
 
 
@@ -39,7 +39,7 @@ def bench(args: argparse.Namespace) -> int:
 
 
 def _backends(names: list[str]) -> list[str]:
-    """The backends asked for, checked before anything is drawn."""
+    """Return the chosen backends, checked before anything is drawn."""
     if "all" in names:
         return backends()[::-1]
     for name in names:
@@ -48,12 +48,12 @@ def _backends(names: list[str]) -> list[str]:
 
 
 def _thread_counts(args) -> list[int]:
-    """One thread and all, unless asked otherwise."""
+    """Return the thread counts to measure: by default one and all."""
     return args.threads or ([0] if usable_processors() == 1 else [1, 0])
 
 
 def _measure(args, cases) -> Iterator[dict]:
-    """Yield the rows; none takes more than its share of the remaining time."""
+    """Yield the rows; each takes at most its share of the remaining time."""
     cases = [(*case, threads) for case in cases for threads in _thread_counts(args)]
     end = time.perf_counter() + args.seconds
     made = None

@@ -1,4 +1,4 @@
-"""``engine3d city``: a city of any size, written as a model."""
+"""``engine3d city``: writes a procedural city of any size as a model."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""``engine3d completion``: a script that lets a shell complete commands, options and their values.
+"""``engine3d completion``: prints a shell script that completes commands, options and values.
 
-In: the parser, which is the one list of all of them. Out: a script for bash, zsh or fish.
+In: the parser, which defines them all. Out: a script for bash, zsh or fish.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ FILE_METAVARS = ("FILE", "FILE|NAME", "MODEL", "IN", "OUT")
 
 @dataclass
 class Option:
-    """An option as a shell sees it.
+    """An option, as needed for completion.
 
     ``value`` is None for a flag, ``"file"``, ``"free"``, or the words to choose from.
     """
@@ -27,7 +27,7 @@ class Option:
 
 @dataclass
 class Command:
-    """A command, its options, and the words of its argument: none means files."""
+    """A command, its options, and the choices of its argument: none means files."""
 
     name: str
     help: str
@@ -44,7 +44,7 @@ def completion(args: argparse.Namespace) -> int:
 
 
 def command_list(parser) -> list[Command]:
-    """Return the commands; the first has no name and holds what goes before a command."""
+    """Return the commands; the first, without a name, holds the global options."""
     subparsers = next(a for a in parser._actions if isinstance(a, argparse._SubParsersAction))
     helps = {action.dest: action.help or "" for action in subparsers._choices_actions}
     commands = [Command("", "", _options(parser))]
@@ -110,7 +110,7 @@ def _names(command: Command) -> str:
 
 
 def _bash_values(command: Command) -> Iterator[str]:
-    """Yield what completes the values of a command's options."""
+    """Yield the completion of option values of a command."""
     for option in command.options:
         if option.value is None or option.optional:
             continue
@@ -153,7 +153,7 @@ def zsh_script(listed: list[Command]) -> Iterator[str]:
         yield "            ;;"
     yield "    esac"
     yield "}"
-    # A file of $fpath is run as the function's first call; a sourced one only defines it.
+    # A file in $fpath runs as the function's first call; a sourced one only defines it.
     yield 'if [ "$funcstack[1]" = _engine3d ]; then'
     yield '    _engine3d "$@"'
     yield "else"

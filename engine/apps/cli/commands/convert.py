@@ -1,4 +1,4 @@
-"""``engine3d convert``: a model file written in another format."""
+"""``engine3d convert``: writes a model file in another format."""
 
 from __future__ import annotations
 
@@ -53,19 +53,19 @@ def convert(args: argparse.Namespace) -> int:
 
 
 def _mesh(model, how: dict, format: str | None, extension: str, options: dict):
-    """What saves the one mesh that a model is."""
+    """Return the function that saves a model as a single mesh."""
     mesh = load_mesh(model, **how)
     return lambda output: save_mesh(mesh, output, format=format, **options)
 
 
 def _scene(model, how: dict, format: str | None, extension: str, options: dict):
-    """Make the scene of a whole model: its nodes, cameras, lights, skins and animations."""
+    """Return the scene of a whole model: nodes, cameras, lights, skins and animations."""
     scene = load_scene(model, **how)
     return lambda output: save_scene_as(scene, output, extension)
 
 
 def _output(args: argparse.Namespace) -> str:
-    """Return the output: OUT and ``-o`` are two ways to name it."""
+    """Return the output, named by OUT or ``-o``."""
     named = [name for name in (args.output, args.output_option) if name is not None]
     if not named:
         example = shlex.join([args.model, os.path.splitext(args.model)[0] + ".ply"])
@@ -76,7 +76,7 @@ def _output(args: argparse.Namespace) -> str:
 
 
 def _checked_extension(output: str, format: str | None) -> str:
-    """The extension of the format, in lower case; refuses, before any work, what has none."""
+    """Return the format's extension in lower case; refuse names without one before any work."""
     known = {extension: item.name for item in formats() for extension in item.extensions}
     if output == STANDARD_OUTPUT:
         if format is None:

@@ -1,4 +1,4 @@
-"""``engine3d diff``: two pictures or two folders of them compared, with reg-cli's options."""
+"""``engine3d diff``: compares two pictures or folders of pictures, with reg-cli's options."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def _compare(args: argparse.Namespace) -> list[Result]:
     )
     found = compared_folders.pairs(*args.pictures)
     for path in filter(None, (args.report, args.json, args.junit)):
-        make_folder_of(path)  # before the work: it may be impossible
+        make_folder_of(path)  # before the work, since it may fail
     threads = args.concurrency or os.cpu_count() or 1
     are_folders = os.path.isdir(args.pictures[0])
     compared = compared_folders.compare_all(found, rules, threads, keep_going=are_folders)
@@ -70,7 +70,7 @@ def _compare(args: argparse.Namespace) -> list[Result]:
 
 
 def _print(results: list[Result]) -> None:
-    """Print a line for each picture, and how many there are of each kind."""
+    """Print a line for each picture, and the totals."""
     for status in _ORDER:
         for result in results:
             if result.status == status:

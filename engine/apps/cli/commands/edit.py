@@ -1,4 +1,4 @@
-"""``engine3d edit``: a window with panels in which a scene is put together."""
+"""``engine3d edit``: opens the editor window with its panels."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def edit(args: argparse.Namespace) -> int:
     except ImportError as error:
         if (error.name or "").partition(".")[0] != "imgui_bundle":
             raise
-        # Another error than this one: the package is there, but a library of the system is not.
+        # For other errors the package exists, but a system library is missing.
         is_there = not isinstance(error, ModuleNotFoundError)
         lacks = f"it does not load: {error}" if is_there else "pip install 'engine3d[editor]'"
         raise Engine3DError(f"the editor needs Dear ImGui: {lacks}") from None

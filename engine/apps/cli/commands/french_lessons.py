@@ -1,7 +1,7 @@
 """The French texts of ``engine3d learn``: titles, captions and the keys.
 
-A caption of a lesson holds numbers; in the texts below, {} stands for each of them, in their order.
-Captions are drawn: their font has glyphs for ASCII and the letters of French only.
+In the texts below, {} stands for each number of a caption, in order. Captions are drawn with a font
+for ASCII and French letters only.
 """
 
 from __future__ import annotations
@@ -186,11 +186,11 @@ _NUMBER = re.compile(r"(?<![\w.-])-?\d+(?:\.\d+)?")
 
 
 def title_in_french(number: int) -> str:
-    """Return the title of a lesson, whose index is from 0."""
+    """Return the French title of a lesson, by its index from 0."""
     return f"{number + 1:2}. {TITLES[number]}"
 
 
 def caption_in_french(caption: str) -> str:
-    """Return a caption in French; one that is not known stays as it is."""
+    """Return a caption in French; unknown ones are unchanged."""
     french = CAPTIONS.get(_NUMBER.sub("{}", caption))
     return caption if french is None else french.format(*_NUMBER.findall(caption))

@@ -1,6 +1,6 @@
-"""``engine3d info``: the lists that a model file holds, its bounds and its warnings.
+"""``engine3d info``: prints the contents of a model file, its bounds and warnings.
 
-``--system`` reports of the machine and the installation instead.
+``--system`` describes the machine and the installation instead.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def info(args: argparse.Namespace) -> int:
             continue
         reports.append(report)
         if not args.json:
-            # Names from the file must neither steer the terminal nor look like other lines.
+            # Names from the file must neither control the terminal nor look like other lines.
             print("\n".join(map(printable, report_lines(report))))
     if args.json:
         print(json.dumps(reports if len(args.models) > 1 else reports[0], indent=2))
@@ -57,7 +57,7 @@ def _info_of_system(as_json: bool) -> int:
 
 
 def describe(path, root: str | None = None) -> dict:
-    """Return what a file holds, in types that JSON knows.
+    """Return the contents of a file as JSON types.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ def describe(path, root: str | None = None) -> dict:
 
 
 def _of_tree(tree: TreeRecord) -> dict:
-    """Return what a file says of its tree."""
+    """Return a file's contents from its tree."""
     return {
         "triangles": triangle_count(tree),
         "bounds": rest_bounds(tree),
@@ -120,7 +120,7 @@ def _of_tree(tree: TreeRecord) -> dict:
 
 
 def _of_objects(document: Document) -> dict:
-    """The same of a file that holds objects."""
+    """Return a file's contents from its objects."""
     meshes = {id(mesh): mesh for _, mesh, _ in document.objects}
     materials = {id(m): m for mesh in meshes.values() for m in mesh.materials}
     return {
@@ -150,7 +150,7 @@ def _of_material(material: Material) -> dict:
 
 
 def _bounds(objects) -> list[list[float]] | None:
-    """Return the box round the objects in file coordinates."""
+    """Return the box around the objects in file coordinates."""
     boxes = [_box(mesh, pose) for _, mesh, pose in objects if len(mesh.positions)]
     if not boxes:
         return None

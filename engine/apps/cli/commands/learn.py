@@ -1,7 +1,7 @@
-"""``engine3d learn``: the lessons of the course, step by step in a window.
+"""``engine3d learn``: shows the lessons of the course, step by step in a window.
 
-The lessons are programs of `engine3d.lessons`, which is installed as data. They are run as scripts,
-and import each other as such, so their folder is a place to import from.
+The lessons are programs in `engine3d.lessons`, installed as data. They run as scripts and import
+each other, so their folder is on the import path.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from . import french_lessons
 SIZE = (1200, 720)
 
 
-#: What the window and the command say, by language.
+#: Texts of the window and the command, by language.
 KEYS = {
     "en": "Arrows: steps. N and P: lessons. Q: leave. The program: {}",
     "fr": french_lessons.KEYS,
@@ -58,28 +58,28 @@ def learn(args: argparse.Namespace) -> int:
 
 
 def say(text: str) -> None:
-    """Print a line; letters that the terminal's encoding lacks become question marks."""
+    """Print a line; letters missing in the terminal's encoding become question marks."""
     encoding = sys.stdout.encoding or "utf-8"
     print(text.encode(encoding, "replace").decode(encoding))
 
 
 def usual_language(environment: Mapping[str, str]) -> str:
-    """Return the language of the user's locale, if there are lessons in it; else English."""
+    """Return the language of the user's locale if lessons exist in it; else English."""
     names = (environment.get(name, "") for name in ("LC_ALL", "LC_MESSAGES", "LANG"))
     locale = next(filter(None, names), "")
-    # The list of LANGUAGE counts before the locale, unless that is C.
+    # LANGUAGE overrides the locale, unless that is C.
     chosen = (environment.get("LANGUAGE") or locale) if locale else ""
     return "fr" if chosen.split(":")[0].lower().startswith("fr") else "en"
 
 
 def find_programs() -> list[Path]:
-    """Return the programs of the lessons, in their order."""
+    """Return the programs of the lessons, in order."""
     folder = Path(str(files("engine3d.lessons")))
     return sorted(folder.glob("[0-9][0-9]_*.py"))
 
 
 def title_of(programs: list[Path], number: int, language: str = "en") -> str:
-    """Return the number of a lesson and the first sentence of its program, or its French title."""
+    """Return a lesson's number and title: its program's first sentence, or the French title."""
     if language == "fr":
         return french_lessons.title_in_french(number)
     program = programs[number]
@@ -88,7 +88,7 @@ def title_of(programs: list[Path], number: int, language: str = "en") -> str:
 
 
 def choose(wanted: str, programs: list[Path]) -> int:
-    """Return the index of a lesson that is given by number or name, such as 3 or lines."""
+    """Return the index of a lesson given by number or name, such as 3 or lines."""
     names = [program.stem for program in programs]
     for number, name in enumerate(names):
         if wanted in (name, name[3:], name[:2], str(number + 1)):
@@ -108,7 +108,7 @@ def write(program: Path, folder: str, language: str) -> int:
 
 
 def show(programs: list[Path], number: int, language: str) -> None:
-    """Show lessons in a window, one of them first.
+    """Show lessons in a window, starting with a given one.
 
     Raises
     ------
@@ -128,20 +128,20 @@ def show(programs: list[Path], number: int, language: str) -> None:
 
 
 def shared_by_lessons(program: Path) -> ModuleType:
-    """Return the module that a lesson shares with the others, from the lessons' own folder."""
+    """Return the module that the lessons share, from their folder."""
     if str(program.parent) not in sys.path:
         sys.path.insert(0, str(program.parent))
     return importlib.import_module("lesson")
 
 
 def steps_of(program: Path) -> Iterator[tuple]:
-    """Yield the steps of a lesson as its program does: a caption, then pictures."""
+    """Yield the steps of a lesson from its program: a caption, then pictures."""
     shared_by_lessons(program)
     yield from runpy.run_path(str(program))["steps"]()
 
 
 def draw(program: Path, language: str) -> Iterator[np.ndarray]:
-    """Yield the steps of a lesson, each with what lies beside it and its caption."""
+    """Yield the steps of a lesson, each with its side pictures and caption."""
     for caption, *pictures in steps_of(program):
         if language == "fr":
             caption = french_lessons.caption_in_french(caption)

@@ -1,4 +1,4 @@
-"""``engine3d render``: a picture or a turntable to a file or to standard output."""
+"""``engine3d render``: writes a picture or turntable to a file or to standard output."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def render(args: argparse.Namespace) -> int:
         _check(job)
     if len(found) == 1 and not args.watch:
         return _render(found[0])
-    # Files are watched from before they are read: what changes meanwhile is drawn again.
+    # Watch files from before they are read: changes meanwhile cause a new drawing.
     files = [[FileWatch(name) for name in job.models] for job in found] if args.watch else None
     status = draw_each(_render, found)
     if files is not None:
@@ -55,11 +55,12 @@ def render(args: argparse.Namespace) -> int:
 
 
 def _watch(watched: list[tuple[argparse.Namespace, list[FileWatch]]]) -> None:
-    """Draw again what shows a file that was written, until somebody interrupts."""
+    """Redraw the pictures of changed files until interrupted."""
     while True:
         time.sleep(CHECK_SECONDS)
         for job, files in watched:
-            changed = [file.changed() for file in files]  # all of them: each tells it once
+            # check all, since each reports a change only once
+            changed = [file.changed() for file in files]
             if any(changed) and not any(file.missing for file in files):
                 if not tried(_render, job) and job.output is not None:
                     remark(f"wrote {job.output}")
@@ -90,7 +91,7 @@ def _render(args: argparse.Namespace) -> int:
 
 
 def _check(args: argparse.Namespace) -> None:
-    """Refuse, before any work, what cannot be written."""
+    """Refuse impossible outputs before any work."""
     if args.reference_threshold is not None and args.reference is None:
         raise UsageError("--reference-threshold goes with --reference")
     if None not in (args.turntable, args.animation) and args.turntable != args.animation:
@@ -116,7 +117,7 @@ def _check(args: argparse.Namespace) -> None:
 
 
 def _meant(models: list[str]) -> str:
-    """Return the command with ``-o`` where one of several models is plainly a picture."""
+    """Return the corrected command, with ``-o``, if one of several models is plainly a picture."""
     suffixes = (*PICTURE_SUFFIXES, *ANIMATION_SUFFIXES)
     pictures = [name for name in models if name.lower().endswith(suffixes)]
     others = [name for name in models if name not in pictures]
@@ -126,7 +127,7 @@ def _meant(models: list[str]) -> str:
 
 
 def _count(args: argparse.Namespace) -> int | None:
-    """How many pictures are asked for; None for one, as a picture."""
+    """Return the number of pictures; None for a single one."""
     return args.animation if args.turntable is None else args.turntable
 
 
@@ -145,7 +146,7 @@ def _write_pictures(args: argparse.Namespace, view_renderer: ViewRenderer, view)
 
 
 def _print_picture(view_renderer: ViewRenderer, view) -> None:
-    """Show a picture in the terminal, at the size that it has room for."""
+    """Show a picture in the terminal, fitted to its size."""
     from ...terminal.printing import print_picture
 
     def draw(size):
@@ -164,7 +165,7 @@ def _write_picture(args: argparse.Namespace, frame) -> None:
 
 
 def _compare(args: argparse.Namespace, pixels) -> int:
-    """Compare with the reference if one was given; return the exit status."""
+    """Compare with the reference, if given; return the exit status."""
     if args.reference is None:
         return 0
     from ....io.loaders import load_texture

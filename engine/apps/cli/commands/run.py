@@ -1,4 +1,4 @@
-"""``engine3d run``: a window, or without a screen an animation in a file."""
+"""``engine3d run``: opens a window, or without a screen writes an animation."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from ..usage import UsageError
 from ..verbose_report import Report, warn_of_nothing
 
 WINDOW_SIZE = (1280, 720)
-#: What a turntable gets that nobody asked for: small, so that it is there soon.
+#: Default size of a turntable in place of a window: small, to be fast.
 FILE_SIZE = (640, 360)
 FILE_FRAMES = 48
 FILE_SAMPLES = 4
@@ -45,7 +45,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _run(args: argparse.Namespace, found: list[argparse.Namespace], reason: str | None) -> int:
-    """Show the first of several, or write one of them."""
+    """Show the first of several models, or write one of them."""
     report = Report(args.verbose)
     viewed = scene_options.viewed_scene(args, default_scene="default")
     report.loaded(viewed)
@@ -83,7 +83,7 @@ def _check(args: argparse.Namespace) -> None:
 
 
 def _missing_screen() -> str | None:
-    """Return why no window can open, as far as that shows without loading SDL, or None."""
+    """Return why no window can open, without loading SDL, or None."""
     from ...viewer.sdl import find_screen
 
     try:
@@ -94,7 +94,7 @@ def _missing_screen() -> str | None:
 
 
 def _viewing(args: argparse.Namespace) -> Viewing:
-    """Return how the options say that a model is drawn and walked on."""
+    """Return the drawing and walking settings from the options."""
     return options.viewing(
         args,
         walks=args.camera == "fps" or args.walkable is not None or args.slope is not None,
@@ -106,7 +106,7 @@ def _viewing(args: argparse.Namespace) -> Viewing:
 def _show(
     args: argparse.Namespace, found: list[argparse.Namespace], viewed, report: Report
 ) -> None:
-    """Open a window and stay until it closes."""
+    """Open a window and run it until it closes."""
     from ....stage.views.walkable_ground import told
     from ...desktop.recent_files import RecentFiles
     from ...viewer.model_files import ModelFiles
@@ -146,11 +146,11 @@ def _show(
 
 
 def _run_viewer(viewer, args: argparse.Namespace) -> None:
-    """Show frames; say why the first one shows nothing, if it does not."""
+    """Run the viewer; print why the first frame is blank, if it is."""
     if args.frames == 0:
         return
     viewer.run(1)
-    # A terminal takes no other lines meanwhile.
+    # In a terminal viewer, no other lines can be printed.
     ask = ViewRenderer.why_blank if args.terminal else warn_of_nothing
     reason = ask(viewer.view_renderer)
     if reason is not None:
@@ -159,7 +159,7 @@ def _run_viewer(viewer, args: argparse.Namespace) -> None:
 
 
 def _window(args: argparse.Namespace, viewed):
-    """Return a window, or the terminal in its place."""
+    """Return a window, or the terminal that replaces it."""
     if args.terminal:
         from ...terminal.terminal_window import TerminalWindow
 
@@ -171,7 +171,7 @@ def _window(args: argparse.Namespace, viewed):
 
 
 def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report) -> int:
-    """Write an animation instead, and say where; ``reason`` tells why no window opened."""
+    """Write an animation instead, and print its path; ``reason`` says why no window opened."""
     count = args.frames or FILE_FRAMES
     path = args.output or literal_name(_new_path(viewed, count))
     if reason is not None:
@@ -200,6 +200,6 @@ def _write(args: argparse.Namespace, viewed, reason: str | None, report: Report)
 
 
 def _new_path(viewed, count: int) -> Path:
-    """Return the name of a file that is not there yet, in the current folder."""
+    """Return an unused file name in the current folder."""
     stem = f"{Path(viewed.title).stem}-turntable"
     return numbered_path(Path(), stem, ".png" if count == 1 else ".gif")

@@ -1,4 +1,4 @@
-"""``engine3d sheet``: models from several sides on one sheet, and a report of what shows."""
+"""``engine3d sheet``: draws models from several sides on one sheet, with a report."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def _views(args: argparse.Namespace) -> str:
 
 
 def _check(args: argparse.Namespace) -> str | None:
-    """Refuse, before any work, what cannot be done; return where the report goes."""
+    """Refuse impossible options before any work; return the report's path."""
     try:
         check_views(_views(args), args.section or ())
     except InvalidArgumentError as error:

@@ -1,1 +1,1 @@
-"""The options of the commands, a module for each theme."""
+"""The options of the commands, one module for each theme."""

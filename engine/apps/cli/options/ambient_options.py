@@ -1,4 +1,4 @@
-"""The options of ambient occlusion: less light from all around in corners and hollows."""
+"""The options of ambient occlusion."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from .. import values
 
 
 def add_ambient(parser) -> None:
-    """Add ambient occlusion."""
+    """Add the options of ambient occlusion."""
     group = parser.add_argument_group("ambient light")
     group.add_argument(
         "-q",

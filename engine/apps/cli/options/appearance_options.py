@@ -1,4 +1,4 @@
-"""The options of how surfaces and lines are drawn."""
+"""The options for drawing surfaces and lines."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ WIREFRAMES = get_args(Wireframe)
 
 
 def add_appearance(parser) -> None:
-    """Add how surfaces and lines are drawn."""
+    """Add the options for drawing surfaces and lines."""
     group = parser.add_argument_group("look")
     group.add_argument("--mode", choices=MODES, help="what the pixels show")
     group.add_argument("--unlit", action="store_true", help="the same as --mode unlit")
@@ -103,7 +103,7 @@ def add_appearance(parser) -> None:
 
 
 def appearance_of(args: argparse.Namespace) -> dict:
-    """Return the fields of `Appearance` that the options name: those that are called alike."""
+    """Return the fields of `Appearance` set by options of the same names."""
     if args.unlit and args.mode not in (None, "unlit"):
         raise UsageError(f"--unlit does not go with --mode {args.mode}")
     if args.edges and args.wireframe == "only":
@@ -118,5 +118,5 @@ def appearance_of(args: argparse.Namespace) -> dict:
     return {
         name: value
         for name, value in named.items()
-        if value is not None and value is not False  # a switch that is off leaves it to the scene
+        if value is not None and value is not False  # an unset switch leaves the value to the scene
     }

@@ -7,7 +7,7 @@ from .picture_options import BACKENDS
 
 
 def add(command) -> None:
-    """Add the manifest, where pictures go, and who draws them."""
+    """Add the options for the manifest, the output and the workers."""
     command.add_argument("manifest", metavar="FILE", help="the manifest, a file of JSON")
     command.add_argument(
         "-o", "--output", metavar="FOLDER", required=True, help="the folder to write to; is made"

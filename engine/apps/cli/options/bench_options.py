@@ -10,7 +10,7 @@ from .picture_options import BACKENDS
 
 
 def add(command) -> None:
-    """Add what is measured, and how long."""
+    """Add the options for workloads and duration."""
     command.epilog = "workloads:"
     command.epilog += "".join(f"\n  {n:<15} {SCENES[n].about}" for n in WORKLOAD_NAMES)
     command.formatter_class = argparse.RawDescriptionHelpFormatter

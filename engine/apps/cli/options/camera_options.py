@@ -1,4 +1,4 @@
-"""The options of where to look from."""
+"""The options of the camera."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def add_up(group) -> None:
-    """Add what is up."""
+    """Add the option for the up direction."""
     group.add_argument(
         "--up",
         type=values.up_direction,
@@ -25,7 +25,7 @@ def add_up(group) -> None:
 
 
 def add_camera(parser) -> None:
-    """Add where to look from."""
+    """Add the options of the camera."""
     group = parser.add_argument_group("camera")
     add_up(group)
     group.add_argument(
@@ -89,7 +89,7 @@ def add_camera(parser) -> None:
 
 
 def first_view(args: argparse.Namespace) -> FirstView:
-    """Return from where the options say to look first."""
+    """Return the first view that the options describe."""
     from ....stage.views.first_view import DEFAULT_YFOV, FirstView
 
     angle, index, position = args.camera_view_angle, args.camera_index, args.camera_position

@@ -6,7 +6,7 @@ from .. import values
 
 
 def add(command) -> None:
-    """Add where the city goes, and which one it is."""
+    """Add the options for the city and its output."""
     command.add_argument("output", metavar="OUT", help="the file to write")
     command.add_argument(
         "--triangles",

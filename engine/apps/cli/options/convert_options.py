@@ -8,7 +8,7 @@ MODEL_FORMATS = ("glb", "gltf", "obj", "ply", "stl")
 
 
 def add(command) -> None:
-    """Add what is read, and what is written."""
+    """Add the options for input and output."""
     command.add_argument(
         "model", metavar="IN", help="the file to read, of any format; - for standard input"
     )

@@ -6,7 +6,7 @@ from .. import values
 
 
 def add(command) -> None:
-    """Add what is compared, what may differ, and what is written."""
+    """Add the options for inputs, tolerances and outputs."""
     command.add_argument(
         "pictures",
         metavar="PICTURES",

@@ -1,4 +1,4 @@
-"""The options of what is around and behind things: environments, backgrounds and fog."""
+"""The options of environments, backgrounds and fog."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ NONE = "none"
 
 
 def add_environment(parser) -> None:
-    """Add light from all around."""
+    """Add the options of environments."""
     group = parser.add_argument_group("environment")
     group.add_argument(
         "--environment",
@@ -50,7 +50,7 @@ def add_environment(parser) -> None:
 
 
 def surroundings(args: argparse.Namespace):
-    """Return the `Surroundings` that the options name."""
+    """Return the `Surroundings` that the options describe."""
     from ....stage.chosen_surroundings import Surroundings
 
     shows = args.background is not None
@@ -72,7 +72,7 @@ def surroundings(args: argparse.Namespace):
 
 
 def _environment(name: str | None):
-    """The environment of a file, or the built-in one of that name."""
+    """Return the environment of a file, or the built-in one with that name."""
     from ....model.environments.environment import Environment, named_environment
 
     if name is None or name == NONE:
@@ -81,7 +81,7 @@ def _environment(name: str | None):
 
 
 def add_backdrop(parser) -> None:
-    """Add backgrounds and fog."""
+    """Add the options of backgrounds and fog."""
     group = parser.add_argument_group("background and fog")
     group.add_argument(
         "--background-gradient",
@@ -113,7 +113,7 @@ def add_backdrop(parser) -> None:
 
 
 def background(args: argparse.Namespace):
-    """Return the background that the options name: a colour, a `Gradient` or None."""
+    """Return the background of the options: a colour, a `Gradient` or None."""
     if getattr(args, "background_gradient", None) is None:  # some commands have no gradients
         return args.background_color
     others = {
@@ -130,8 +130,8 @@ def background(args: argparse.Namespace):
 
 
 def fog(args: argparse.Namespace) -> dict:
-    """Return the fields of `Settings` that the options of fog name."""
-    if "fog" not in args:  # some commands have none
+    """Return the fields of `Settings` set by the fog options."""
+    if "fog" not in args:  # some commands have no fog
         return {}
     from ....model.scene.fog import ExponentialFog, Fog
 

@@ -1,4 +1,4 @@
-"""The options of textures that recede, and of the shapes and sizes of lines and points."""
+"""The options of texture filtering, and of shapes and sizes of lines and points."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .. import values
 
 
 def add_texture_filters(group) -> None:
-    """Add how textures are read."""
+    """Add the options of texture filtering."""
     group.add_argument(
         "--anisotropy",
         type=values.anisotropy,
@@ -28,7 +28,7 @@ def add_texture_filters(group) -> None:
 
 
 def add_line_shapes(group) -> None:
-    """Add the shapes and the unit of lines and points."""
+    """Add the options for the shapes and the unit of lines and points."""
     group.add_argument(
         "--line-shape",
         choices=get_args(LineShape),
@@ -49,7 +49,7 @@ def add_line_shapes(group) -> None:
 
 
 def filtering(args: argparse.Namespace):
-    """Return the `Filtering` that the options name."""
+    """Return the `Filtering` that the options describe."""
     from ....stage.filtering import Filtering
 
     return Filtering(anisotropy=args.anisotropy, lod_bias=args.lod_bias, is_usual=True)

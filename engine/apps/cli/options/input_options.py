@@ -1,6 +1,6 @@
-"""The options of what is read: by which reader, how large, several files together or one by one.
+"""The options of input: reader, size limit, several files together or one by one.
 
-In: names of files and folders, as they were given. Out: jobs, each of which shows some of them.
+In: names of files and folders. Out: jobs, each of which shows some of the files.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _SCENE = ".e3d.json"
 
 
 def add_inputs(group) -> None:
-    """Add what is read, and how."""
+    """Add the options of input."""
     group.add_argument(
         "--multi-file-mode",
         choices=("all", "single"),
@@ -48,7 +48,7 @@ def add_inputs(group) -> None:
 
 
 def add_root(group) -> None:
-    """Add where files that models name may be."""
+    """Add the option for the folder of files that models name."""
     group.add_argument(
         "--root",
         metavar="FOLDER",
@@ -60,7 +60,7 @@ def add_root(group) -> None:
 def jobs(args: argparse.Namespace) -> list[argparse.Namespace]:
     """Return the arguments of each picture or window: one for all files, or one for each.
 
-    The models of a job are files; its output is a name without variables.
+    In a job, the models are files, and the output is a name without variables.
     """
     has_folder = any(os.path.isdir(name) for name in args.models)
     models = _expanded(args.models, args.recursive_dir_add) if has_folder else args.models
@@ -83,17 +83,17 @@ def jobs(args: argparse.Namespace) -> list[argparse.Namespace]:
 
 
 def _common_folder(names: Sequence[str]) -> str:
-    """The innermost folder that holds all that was given; "" where there is none."""
+    """Return the innermost folder that contains all inputs; "" if there is none."""
     paths = [os.path.abspath(name) for name in names if name != STANDARD_INPUT]
     folders = [path if os.path.isdir(path) else os.path.dirname(path) for path in paths]
     try:
         return os.path.commonpath(folders)
-    except ValueError:  # nothing but standard input, or several drives
+    except ValueError:  # only standard input, or several drives
         return ""
 
 
 def _folder_below(top: str, name: str) -> str:
-    """The folder of a model, as a path from `top` on; "" in that folder itself."""
+    """Return a model's folder relative to `top`; "" for `top` itself."""
     if not top or name == STANDARD_INPUT:
         return ""
     folder = os.path.relpath(os.path.dirname(os.path.abspath(name)), top)
@@ -133,7 +133,7 @@ def _title(args: argparse.Namespace) -> str:
 
 
 def _expanded(names: Sequence[str], deep: bool) -> list[str]:
-    """Return the names with folders replaced by the models in them."""
+    """Return the names, with folders replaced by the models in them."""
     found: list[str] = []
     for name in names:
         if not os.path.isdir(name):
@@ -158,12 +158,12 @@ def _models_in(folder: str, deep: bool) -> list[str]:
 
 
 def _is_model(name: str, extensions: tuple[str, ...]) -> bool:
-    """Whether a file's name is that of a model; of JSON files only scenes are."""
+    """Return whether a file name is that of a model; of JSON files, only scenes are."""
     return name.endswith(extensions) and (not name.endswith(".json") or name.endswith(_SCENE))
 
 
 def check_inputs(args: argparse.Namespace) -> None:
-    """Raise if a file is larger than it may be, or is to be read as a format that there isn't."""
+    """Raise if a file is too large, or the requested format does not exist."""
     if args.force_reader is not None:
         from ....io.loaders import formats
 

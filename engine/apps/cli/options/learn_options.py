@@ -6,7 +6,7 @@ LANGUAGES = ("en", "fr")
 
 
 def add(command) -> None:
-    """Add which lesson, in which language, and where it goes."""
+    """Add the options for lesson, language and output."""
     command.add_argument(
         "lesson",
         metavar="LESSON",

@@ -1,15 +1,15 @@
-"""The options of light: lights instead of others, and shadows."""
+"""The options of lights and shadows."""
 
 from __future__ import annotations
 
 from .. import values
 
-#: What the lights' ``shadow`` is to be, by its name here.
+#: Values of lights' ``shadow``, by their names here.
 SHADOWS = {"none": False, "map": True, "exact": "exact"}
 
 
 def add_light(parser) -> None:
-    """Add the light."""
+    """Add the options of lights."""
     group = parser.add_argument_group("light")
     group.add_argument(
         "--light-position",

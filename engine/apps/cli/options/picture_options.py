@@ -1,4 +1,4 @@
-"""The options of the picture: its size, look and samples, what is over it, and what draws it."""
+"""The options of the picture: size, look, samples, overlays, and backend."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from ....choices import Backend, Samples
 from .. import values
 from ..usage import UsageError
 
-#: By look, the method and the samples of pictures and turntables, if neither is asked for.
+#: Default antialiasing method and samples of pictures and turntables, by look.
 PICTURES = {"studio": ("msaa", 4), "plain": ("ssaa", 1)}
-#: The method of a window, whose samples follow the time (apps/viewer/sampling.py).
+#: The antialiasing of a window, whose samples depend on the time (apps/viewer/sampling.py).
 WINDOW = "msaa"
-#: The samples of a method that is asked for without a number.
+#: The default samples of an explicitly chosen method.
 USUAL = 4
 _NONE = "none"
 _SUPERSAMPLES = (1, 4, 16)
-#: How models are shown; the first is the default.
+#: The looks of models; the first is the default.
 LOOKS = tuple(PICTURES)
 BACKENDS = get_args(Backend)
 
 
 def add_drawing(group) -> None:
-    """Add what draws."""
+    """Add the options for the backend."""
     group.add_argument(
         "--backend",
         choices=BACKENDS,
@@ -39,7 +39,7 @@ def add_drawing(group) -> None:
 
 
 def add_picture(parser) -> None:
-    """Add the picture's size and what draws it."""
+    """Add the options for the picture's size and drawing."""
     group = parser.add_argument_group("picture")
     group.add_argument(
         "--resolution",
@@ -88,7 +88,7 @@ def add_picture(parser) -> None:
 
 
 def _add_antialiasing(group) -> None:
-    """Add how many samples a pixel has, and what happens at each."""
+    """Add the options for samples per pixel and the antialiasing method."""
     group.add_argument(
         "--samples",
         type=int,
@@ -139,7 +139,7 @@ def antialiasing(
 
 
 def theme(args) -> dict:
-    """Return the fields of `Settings` that ``--theme`` names."""
+    """Return the fields of `Settings` set by ``--theme``."""
     from ....stage.overlays.theme import THEMES
 
     named = {theme.name: theme for theme in THEMES}.get(args.theme)

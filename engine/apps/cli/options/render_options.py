@@ -1,4 +1,4 @@
-"""The options of ``render`` alone: what it writes."""
+"""The options of ``render`` alone, for its output."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The options of ``run`` alone: the window, or what stands in its place."""
+"""The options of ``run`` alone, for its window or output."""
 
 from __future__ import annotations
 

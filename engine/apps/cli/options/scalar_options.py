@@ -1,4 +1,4 @@
-"""The options of colours that stand for numbers, and of the grid with units around a model."""
+"""The options for colouring by numbers, and for the axes grid."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _DEFAULT_MAP = "viridis"
 
 
 def add_scalars(parser) -> None:
-    """Add colouring by numbers."""
+    """Add the options for colouring by numbers."""
     group = parser.add_argument_group("numbers")
     group.add_argument(
         "-s",
@@ -80,7 +80,7 @@ def add_scalars(parser) -> None:
 
 
 def coloring(args: argparse.Namespace):
-    """Return the `ScalarColoring` that the options name, or None."""
+    """Return the `ScalarColoring` that the options describe, or None."""
     if "scalar_coloring" not in args:  # some commands have no such options
         return None
     if all(getattr(args, name) is None or getattr(args, name) is False for name in COLORING):
@@ -96,5 +96,5 @@ def coloring(args: argparse.Namespace):
 
 
 def shown(args: argparse.Namespace) -> dict:
-    """Return the fields of `Settings` that the options of numbers name."""
+    """Return the fields of `Settings` set by these options."""
     return {name: getattr(args, name, False) for name in ("axes_grid", "bar")}

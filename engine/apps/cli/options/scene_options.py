@@ -1,4 +1,4 @@
-"""The options of what to show, models or a scene, and what they open."""
+"""The options for choosing models or a built-in scene, and opening them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..usage import UsageError
 from . import scalar_options
 from .input_options import add_inputs, check_inputs
 
-#: Options that say how models are read or dressed; built-in scenes are neither.
+#: Options about reading or dressing models, which built-in scenes do not have.
 OF_MODELS = (
     *("texture", "variant", "animation_index", "animation_time", "crease_angle"),
     *("force_reader", "max_size", "root", *scalar_options.COLORING),
@@ -21,7 +21,7 @@ OF_MODELS = (
 
 
 def add(parser) -> None:
-    """Add what to show."""
+    """Add the options for models and scenes."""
     group = parser.add_argument_group("what to show")
     group.add_argument(
         "models",
@@ -104,7 +104,7 @@ def add(parser) -> None:
 
 
 def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
-    """Return the `ViewedScene` that the options name; ``default_scene`` if they name none."""
+    """Return the chosen `ViewedScene`; ``default_scene`` if none is chosen."""
     if args.models and args.scene is not None:
         raise UsageError("give a MODEL or --scene, not both")
     if args.side_by_side and len(args.models) < 2:
@@ -113,7 +113,7 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
     if not args.models:
         for option in OF_MODELS:
             given = getattr(args, option, None)
-            if given is not None and given is not False:  # 0 is given, too
+            if given is not None and given is not False:  # 0 counts as given
                 raise UsageError(f"--{option.replace('_', '-')} needs a MODEL")
         if args.scene is None and default_scene is None:
             raise UsageError("give a MODEL or --scene NAME")
@@ -133,7 +133,7 @@ def viewed_scene(args: argparse.Namespace, default_scene: str | None = None):
 
 
 def _of_scene(args: argparse.Namespace) -> dict:
-    """Return the options that were given of those that only some scenes have."""
+    """Return the given options that apply only to some scenes."""
     given = {}
     for name, scene in SCENES.items():
         for option in scene.options:
@@ -145,7 +145,7 @@ def _of_scene(args: argparse.Namespace) -> dict:
 
 
 def opening(args: argparse.Namespace) -> dict:
-    """Return how the options say that models are to be opened."""
+    """Return the arguments for opening models."""
     creases = {} if args.crease_angle is None else {"crease_angle": args.crease_angle}
     return {
         **creases,
@@ -163,12 +163,12 @@ def opening(args: argparse.Namespace) -> dict:
 
 
 def _variant(given: str | None) -> str | int | None:
-    """A name, or a number where it is one."""
+    """Return a name, or a number if the text is one."""
     return int(given) if given is not None and given.isdecimal() else given
 
 
 def _animation(args: argparse.Namespace):
-    """Return what lets a model that is opened play its animations, or stand at a time of them."""
+    """Return a function that plays an opened model's animations, or holds them at a time."""
     from ....stage.played_clips import play_clips, stand_at
 
     plays = getattr(args, "animation", None) is not None or args.command == "run"

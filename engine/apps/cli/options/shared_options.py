@@ -1,7 +1,7 @@
-"""The options that ``run`` and ``render`` share, and what they say.
+"""The options shared by ``run`` and ``render``.
 
-In: an argparse parser. Out: the same parser with options, each group from the file of its theme;
-`viewing` turns what was parsed into what draws. Spellings follow f3d where it has the option.
+In: an argparse parser. Out: the same parser with options, each group from its theme's module;
+`viewing` converts parsed options to drawing settings. Spellings follow f3d for options that it has.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 def add(command) -> None:
-    """Add what ``run`` and ``render`` both have besides what to show and where it goes."""
+    """Add the options that ``run`` and ``render`` share, besides inputs and outputs."""
     config.add_config(command)
     picture_options.add_picture(command)
     appearance_options.add_appearance(command)
@@ -46,7 +46,7 @@ def add(command) -> None:
 
 
 class Viewing(NamedTuple):
-    """How a model is to be drawn.
+    """The drawing settings of a model.
 
     Attributes
     ----------
@@ -81,7 +81,7 @@ class Viewing(NamedTuple):
         *,
         transparent: bool = False,
     ) -> ViewRenderer:
-        """Return what draws a model.
+        """Return the renderer of a model.
 
         Parameters
         ----------
@@ -111,7 +111,7 @@ class Viewing(NamedTuple):
 
 
 def viewing(args: argparse.Namespace, **more) -> Viewing:
-    """Return what the options say; ``more`` are further fields of `Settings`."""
+    """Return the settings of the options; ``more`` are further fields of `Settings`."""
     return Viewing(
         settings(args, **more),
         camera_options.first_view(args),

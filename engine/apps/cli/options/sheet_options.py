@@ -12,7 +12,7 @@ from .picture_options import add_drawing
 
 
 def add(parser) -> None:
-    """Add what to show, how, and where it is written."""
+    """Add the options for models, drawing and output."""
     parser.add_argument(
         "models", metavar="MODEL", nargs="+", help="model files; - for standard input"
     )

@@ -1,4 +1,4 @@
-"""The options of what becomes of light on its way to the picture: exposure, tone mapping, glow."""
+"""The options of exposure, tone mapping and bloom."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .. import values
 
 
 def add_tone(parser) -> None:
-    """Add how light becomes colours."""
+    """Add the options of exposure, tone mapping and bloom."""
     group = parser.add_argument_group("tone")
     group.add_argument(
         "--tone-mapping",

@@ -1,4 +1,4 @@
-"""The editor's window: panels by Dear ImGui, drawn by the engine's own rasteriser.
+"""The editor's window: Dear ImGui panels, drawn by the engine's own rasteriser.
 
-It needs ``pip install engine3d[editor]``, and is imported by ``engine3d edit`` only.
+It needs ``pip install engine3d[editor]``, and only ``engine3d edit`` imports it.
 """

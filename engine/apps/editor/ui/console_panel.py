@@ -1,6 +1,6 @@
-"""The console: what was done and said, filtered, and a prompt for Python on the scene.
+"""The console panel: the log with filters, and a Python prompt.
 
-In: the document's console and prompt. Out: lines to run. Only the rows that show are laid out.
+In: the document's console and prompt. Out: lines to run. Only visible rows are laid out.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _COLORS = {
 
 
 class ConsolePanel:
-    """Shows the log, and takes lines of Python.
+    """Shows the log, and accepts lines of Python.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ class ConsolePanel:
             self._workspace.lines_to_run.append(line)
 
     def _edit(self, data) -> int:
-        """Put an earlier line, or what a name may go on as, in place of the text."""
+        """Replace the text by an earlier line or a completion."""
         prompt = self._workspace.document.prompt
         text = data.buf
         if data.event_flag == imgui.InputTextFlags_.callback_history:

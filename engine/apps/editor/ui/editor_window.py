@@ -1,7 +1,7 @@
-"""The editor's window: its loop, its panels, their places.
+"""The editor's window: its loop, its panels, and their layout.
 
-In: a file, and what the user does. Out: pictures. A picture is drawn after something happened, and
-a few more until everything has settled; then the loop sleeps.
+In: a file, and user input. Out: pictures. After an event a few pictures are drawn, until everything
+has settled; then the loop sleeps.
 """
 
 from __future__ import annotations
@@ -31,20 +31,20 @@ from .style import choose_style
 from .workspace import Workspace
 
 WINDOW_SIZE = (1600, 900)
-#: How long the loop sleeps while nothing happens: a signal that ends the editor waits no longer,
-#: and while a text cursor blinks, a picture is drawn as often.
+#: Sleep time of the idle loop: the longest delay of a signal that ends the editor, and the drawing
+#: interval while a text cursor blinks.
 IDLE_SECONDS = 0.4
-#: Seconds after which the window tells that Python runs.
+#: Seconds after which the window reports that Python is running.
 PATIENCE = 1.0
 RUNNING = "Python runs: Esc stops it"
-#: How long the loop sleeps while a picture of a file is being made.
+#: Sleep time of the loop while a file's thumbnail is being made.
 WAITING_SECONDS = 0.02
-#: How many pictures an event is worth: panels place what depends on each other one after another.
+#: Pictures drawn per event: panels adapt to one another over several pictures.
 SETTLING = 3
 
 
 class EditorWindow:
-    """The editor.
+    """The editor window.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ class EditorWindow:
         io = imgui.get_io()
         io.config_flags |= imgui.ConfigFlags_.docking_enable
         io.config_flags |= imgui.ConfigFlags_.nav_enable_keyboard
-        # The windows that a failed panel left open are closed: see `_draw_panel`.
+        # ImGui closes the windows that a failed panel left open: see `_draw_panel`.
         io.config_error_recovery_enable_assert = False
         io.config_error_recovery_enable_debug_log = False
         io.config_windows_move_from_title_bar_only = True
@@ -102,7 +102,7 @@ class EditorWindow:
         self._pictures_due = SETTLING
 
     def run(self) -> int:
-        """Show the editor until the user closes it, or a signal ends it.
+        """Run the editor until the user closes it, or a signal ends it.
 
         Returns
         -------
@@ -143,15 +143,15 @@ class EditorWindow:
         self._draw()
 
     def _run_lines(self) -> None:
-        """Run what was entered in the console: here, where ImGui lays nothing out."""
+        """Run entered console lines, outside ImGui's layout."""
         self._pictures_due = SETTLING
         self._started = time.monotonic()
         self._has_told = False
         self.workspace.run_lines()
-        self._last = time.monotonic()  # the key that was pressed was not held down meanwhile
+        self._last = time.monotonic()  # pressed keys were not held during the run
 
     def _stops(self) -> bool:
-        """Whether the user wants what runs to stop; what else happens meanwhile waits."""
+        """Return whether the user wants to stop running code; other events are queued."""
         happened = self.window.events()
         self._late += [event for event in happened if not _is_stop_key(event)]
         if not self._has_told and time.monotonic() - self._started > PATIENCE:
@@ -197,7 +197,7 @@ class EditorWindow:
             imguizmo.im_guizmo.begin_frame()
             self._lay_out()
             imgui.render()
-        except BaseException:  # such as Ctrl-C: no frame may stay open when Python ends
+        except BaseException:  # such as Ctrl-C: no ImGui frame may stay open when Python ends
             imgui.internal.error_recovery_try_to_recover_state(begun)
             imgui.end_frame()
             raise
@@ -206,14 +206,14 @@ class EditorWindow:
         self.window.present(self._pixels)
         if self._is_unfinished():
             self._pictures_due = max(self._pictures_due, 1)
-        # ImGui takes no key or button both down and up in one picture: the rest waits for the next.
+        # ImGui cannot take a press and a release in one picture: the rest waits for the next.
         if not self._context.input_events_queue.empty():
             self._pictures_due = SETTLING
         if self.window.title != self._title():
             self.window.title = self._title()
 
     def _is_unfinished(self) -> bool:
-        """Whether the next picture shows something else, though nothing happens."""
+        """Return whether the next picture will differ without any event."""
         if self._files.is_waiting:
             time.sleep(WAITING_SECONDS)
         waits = self._resources.is_waiting or self._files.is_waiting
@@ -239,19 +239,19 @@ class EditorWindow:
         self._guarded(lambda: press_keys(self._entries))
 
     def _guarded(self, lay_out: Callable[[], object]) -> None:
-        """Lay something out; an error of it is told."""
+        """Run a layout function, and report its errors."""
         state = _recovery_state()
         alpha = imgui.get_style().alpha
         try:
             lay_out()
         except Exception as error:
             imgui.internal.error_recovery_try_to_recover_state(state)
-            # ImGui takes an open `begin_disabled(False)` for another thing, and hides everything.
+            # ImGui treats an open `begin_disabled(False)` differently, and hides everything.
             imgui.get_style().alpha = alpha
             self._tell(error)
 
     def _tell(self, error: Exception) -> None:
-        """Tell of an error, once, and go on: what isn't saved must not be lost."""
+        """Report an error once, and continue: unsaved work must not be lost."""
         text = "".join(traceback.format_exception(error))
         if text not in self._told:
             self._told.add(text)
@@ -273,14 +273,14 @@ class EditorWindow:
 
 
 def _recovery_state() -> imgui.internal.ErrorRecoveryState:
-    """The stack of what ImGui has begun, to be closed if something fails."""
+    """Return ImGui's stack, for cleanup after a failure."""
     state = imgui.internal.ErrorRecoveryState()
     imgui.internal.error_recovery_store_state(state)
     return state
 
 
 def _is_stop_key(event) -> bool:
-    """Whether an event is a key that stops what runs: Esc, or Ctrl+C."""
+    """Return whether an event is Esc or Ctrl+C, which stop running code."""
     if not isinstance(event, events.KeyDown):
         return False
     return event.key == "Escape" or (event.control and event.key == "C")

@@ -1,6 +1,6 @@
-"""A dialog that chooses a file: folders, kinds, a search, what was opened lately, a picture.
+"""The file dialog: folders, file kinds, search, recent files, and a thumbnail.
 
-In: what the file is for. Out: a path, given to whoever asked.
+In: the purpose of the file. Out: a path, passed to a callback.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ PICTURE = 192
 
 
 class FileDialog:
-    """Asks for a file.
+    """A dialog for choosing a file.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ class FileDialog:
         self._folder = self._listing.path
 
     def draw(self) -> None:
-        """Lay the dialog out, if it is open."""
+        """Lay out the dialog, if it is open."""
         self.is_waiting = False
         if self._opens:
             imgui.open_popup(self._title)
@@ -99,7 +99,7 @@ class FileDialog:
         if shown:
             self._draw_places()
             self._draw_lists()
-            if self._title:  # no file was chosen by a double click
+            if self._title:  # not if a double click chose a file
                 self._draw_answer()
             imgui.end_popup()
 
@@ -153,7 +153,7 @@ class FileDialog:
             imgui.end_child()
 
     def _draw_picture(self) -> None:
-        """Lay out the picture of the file under the mouse, or else of the chosen one."""
+        """Lay out the thumbnail of the file under the mouse, or else the chosen one."""
         path = self._hovered or os.path.join(self._folder, self._name)
         pixels, self.is_waiting = self._pictures.get(path) if path else (None, False)
         if pixels is None:
@@ -206,7 +206,7 @@ class FileDialog:
                 self._finish()
         elif twice:
             self._go(item.path)
-        elif not self._is_new:  # whose name stays
+        elif not self._is_new:  # a new file's name stays
             self._name = item.name
 
     def _draw_answer(self) -> None:

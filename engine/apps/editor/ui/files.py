@@ -1,6 +1,6 @@
-"""Opening and saving, with the questions that go with it: what is not saved, what is there already.
+"""Opening and saving, with questions about unsaved changes and existing files.
 
-In: what the user asked for. Out: the workspace's document, opened or saved.
+In: the user's requests. Out: the workspace's document, opened or saved.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ _SCENES = (SCENE_EXTENSION,)
 
 
 def _kinds() -> dict[str, tuple[str, ...]]:
-    """What can be opened: extensions by name."""
+    """Return the kinds of files that can be opened: extensions by name."""
     meshes = tuple(end for item in formats("mesh") for end in item.extensions)
     return {"Scenes and models": (*_SCENES, *meshes), "Scenes": _SCENES, "All files": ()}
 
 
 class Files:
-    """Asks for files, and before something is lost.
+    """Asks for files, and before anything is lost.
 
     Parameters
     ----------
@@ -50,37 +50,37 @@ class Files:
 
     @property
     def is_waiting(self) -> bool:
-        """Whether a picture of a file is being made."""
+        """Whether a file's thumbnail is being made."""
         return self._dialog.is_waiting
 
-    # What the user asks for
+    # User requests
 
     def new(self) -> None:
-        """Begin with an empty scene, once the old one is saved or given up."""
+        """Start an empty scene, after saving or discarding the old one."""
         self._unless_lost(self._workspace.new)
 
     def open(self) -> None:
-        """Ask for a file, and edit it."""
+        """Ask for a file, and open it."""
         self._unless_lost(lambda: self._dialog.ask("Open a file", _kinds(), self._workspace.open))
 
     def add(self) -> None:
-        """Ask for a file, and add what it holds to the scene."""
+        """Ask for a file, and add its content to the scene."""
         self._dialog.ask("Add a file", _kinds(), self._workspace.add_file)
 
     def load_texture(self, material: Material, slot: str) -> None:
-        """Ask for an image, and make it a texture of a material."""
+        """Ask for an image, and use it as a texture of a material."""
         kinds = {"Images": tuple(end for item in formats("image") for end in item.extensions)}
         self._dialog.ask(
             "Load an image", kinds, lambda path: self._workspace.load_texture(path, material, slot)
         )
 
     def load_mesh(self, node: Node) -> None:
-        """Ask for a model, and let a node hold all of it as one mesh."""
+        """Ask for a model, and give it to a node as one mesh."""
         kinds = {"Models": tuple(end for item in formats("mesh") for end in item.extensions)}
         self._dialog.ask("Load a mesh", kinds, lambda path: self._workspace.load_mesh(path, node))
 
     def save(self, then: Callable[[], object] = lambda: None) -> None:
-        """Save the scene, or ask where to; do something once it is saved."""
+        """Save the scene, or ask where to; then run a follow-up action."""
         if self._workspace.document.path is None:
             self.save_as(then)
         else:
@@ -98,11 +98,11 @@ class Files:
         )
 
     def exit(self) -> None:
-        """Close the editor, once the scene is saved or given up."""
+        """Close the editor, after saving or discarding the scene."""
         self._unless_lost(lambda: setattr(self._workspace, "wants_exit", True))
 
     def offer_recovery(self) -> None:
-        """Ask about the latest scene that an editor left behind, if there is one."""
+        """Offer the latest recovery copy, if there is one."""
         with self._workspace.console.warnings_noted():
             copies = left_behind()
         if copies:
@@ -151,7 +151,7 @@ class Files:
     # Laying out
 
     def draw(self) -> None:
-        """Lay out what is being asked."""
+        """Lay out the current question."""
         self._dialog.draw()
         if self._opens:
             imgui.open_popup("Question")
@@ -171,7 +171,7 @@ class Files:
         imgui.end_popup()
 
     def _chosen_answer(self) -> str | None:
-        """Lay the answers out; return the one that was given.
+        """Lay out the answers; return the chosen one.
 
         Enter and Space give the one that has the focus, at first the first one. Esc gives the last
         one, which changes nothing.
@@ -179,7 +179,7 @@ class Files:
         first, *_, last = self._answers
         chosen = last if imgui.is_key_pressed(imgui.Key.escape, False) else None
         if imgui.is_window_appearing():
-            imgui.set_nav_cursor_visible(True)  # else Enter is heard only after an arrow key
+            imgui.set_nav_cursor_visible(True)  # otherwise Enter works only after an arrow key
         for name in self._answers:
             if imgui.button(name):
                 chosen = name

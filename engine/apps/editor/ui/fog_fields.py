@@ -1,6 +1,6 @@
-"""The fields of a scene's fog.
+"""The property fields of a scene's fog.
 
-In: a scene. Out: another fog for it, as a fog never changes; what is dragged goes by the numbers.
+In: a scene. Out: a new fog for it, since fog is immutable; drags are identified by field numbers.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def draw_fog(
     assign: Callable[[Fog | ExponentialFog | None], None],
     follow_drag: Callable[[], None],
 ) -> None:
-    """Lay out which fog there is, and what it is like.
+    """Lay out the kind of fog and its parameters.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def _numbers_of(fog: Fog | ExponentialFog) -> dict[str, float]:
 
 
 def _with(fog: Fog | ExponentialFog, name: str, value: float) -> Fog | ExponentialFog:
-    """A fog with another number; near and far push each other."""
+    """Return a fog with one number changed; near and far push each other."""
     if name == "near":
         return replace(fog, near=value, far=max(fog.far, value + max(_LEAST, value * _LEAST)))
     if name == "far":
@@ -74,7 +74,7 @@ def _with(fog: Fog | ExponentialFog, name: str, value: float) -> Fog | Exponenti
 
 
 def _new_fog(kind: type, scene: Scene, radius: float) -> Fog | ExponentialFog | None:
-    """The fog that a scene gets first: thick behind what it shows, seen from a little way off."""
+    """Return the initial fog of a scene: dense behind it, seen from nearby."""
     color = fog_color(scene.background) or (200, 205, 212)
     reach = max(radius, _LEAST)
     if kind is Fog:

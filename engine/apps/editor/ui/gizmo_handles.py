@@ -1,6 +1,6 @@
-"""The handles that move, turn and scale the selection: ImGuizmo draws them and follows the mouse.
+"""The gizmo for moving, rotating and scaling the selection, by ImGuizmo.
 
-In: the workspace, where the picture of the scene is. Out: commands; a drag is one step.
+In: the workspace, and the rectangle of the scene's picture. Out: commands; a drag is one step.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class GizmoHandles:
         self._start: np.ndarray | None = None
 
     def draw(self, corner, size: tuple[int, int]) -> bool:
-        """Draw what moves the selection; return whether the mouse is on it."""
+        """Draw the gizmo; return whether the mouse is on it."""
         workspace = self._workspace
         nodes = workspace.document.selection.topmost()
         if workspace.tools.chosen == "select" or not nodes:
@@ -60,7 +60,7 @@ class GizmoHandles:
         if new.tobytes() == old.tobytes():
             return
         change = linalg.multiply(new, linalg.inverse(old))
-        if tool == "move":  # exactly: what is multiplied by an inverse turns a little
+        if tool == "move":  # exactly, since multiplying by an inverse adds a small rotation
             change = linalg.translation(new[:3, 3] - old[:3, 3])
         label = counted(tool.capitalize(), nodes)
         workspace.do(MoveNodes(workspace.scene, nodes, in_world(change), label), drag=self._drag)
@@ -69,10 +69,10 @@ class GizmoHandles:
         return self._workspace.tools.snaps != imgui.get_io().key_ctrl
 
     def _manipulated(self, gizmo, pose: np.ndarray, size: tuple[int, int]) -> np.ndarray | None:
-        """Return the gizmo's new pose, in single precision; None if it leaves the pose."""
+        """Return the gizmo's new pose, in single precision; None if unchanged."""
         workspace = self._workspace
         view, bounds = workspace.view, workspace.bounds
-        # Lights and cameras may stand before the near plane, which meshes decide.
+        # Lights and cameras may be in front of the near plane, which depends on meshes.
         reach = float(linalg.length(view.position() - bounds.center)) + bounds.radius
         camera = view.camera(bounds._replace(radius=reach))
         matrices = [

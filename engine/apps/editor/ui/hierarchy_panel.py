@@ -1,6 +1,6 @@
-"""The tree of nodes: what is selected, renamed, dragged elsewhere, hidden; what a search finds.
+"""The panel of the node tree: selection, renaming, dragging, visibility, search.
 
-In: the workspace. Out: commands. Of a long list only the rows that show are laid out.
+In: the workspace. Out: commands. Only visible rows are laid out.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class HierarchyPanel:
         self._seen = -1
 
     def rename(self, node: Node) -> None:
-        """Let the user type a new name."""
+        """Start editing a node's name."""
         self._renamed, self._name, self._focuses = node, node.name, True
         self._workspace.hold_keys()
         self._workspace.panels.closed.discard("Hierarchy")
@@ -82,7 +82,7 @@ class HierarchyPanel:
             imgui.end_popup()
 
     def _scroll_to_selected(self, rows) -> None:
-        """Show the row of what was selected elsewhere."""
+        """Scroll to a node that was selected elsewhere."""
         selection = self._workspace.document.selection
         if selection.version == self._seen:
             return
@@ -222,7 +222,7 @@ class HierarchyPanel:
 
 
 def draw_add_menu(workspace: Workspace, parent: Node | None = None) -> None:
-    """Lay out what can be added to the scene, below a node or at the top."""
+    """Lay out the menu of things to add, below a node or at the top."""
     for name in ADDED:
         if imgui.menu_item_simple(name):
             add(workspace, name, parent)

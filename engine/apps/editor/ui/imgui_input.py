@@ -1,4 +1,4 @@
-"""Hands the user's input to Dear ImGui, and ImGui's requests to the window.
+"""Passes user input to Dear ImGui, and ImGui's requests to the window.
 
 In: events (`engine3d.events`). Out: ImGui's input; the pointer's shape, the clipboard.
 """
@@ -50,7 +50,7 @@ _MODIFIERS = {
 
 
 def _keys() -> dict[str, imgui.Key]:
-    """ImGui's keys by the names of ours."""
+    """Return ImGui's keys by our key names."""
     names = dict(_NAMES)
     names.update({name: name.lower() for name in _SAME})
     names.update({letter: letter.lower() for letter in "ABCDEFGHIJKLMNOPQRSTUVWXYZ"})
@@ -96,7 +96,7 @@ class ImguiInput:
         self._window.clipboard = text
 
     def feed(self, event) -> None:
-        """Hand one event to ImGui."""
+        """Pass one event to ImGui."""
         io = imgui.get_io()
         if isinstance(event, events.MouseMotion):
             io.add_mouse_pos_event(event.x, event.y)
@@ -116,7 +116,7 @@ class ImguiInput:
             io.add_focus_event(False)
 
     def _feed_key(self, io, event, down: bool) -> None:
-        if isinstance(event, events.KeyDown):  # which tells also what was pressed elsewhere
+        if isinstance(event, events.KeyDown):  # this event also reports keys pressed elsewhere
             io.add_key_event(imgui.Key.mod_ctrl, event.control)
             io.add_key_event(imgui.Key.mod_shift, event.shift)
         if event.position in _MODIFIERS:
@@ -126,7 +126,7 @@ class ImguiInput:
             io.add_key_event(key, down)
 
     def follow_pointer(self) -> None:
-        """Give the pointer the shape that ImGui asks for."""
+        """Set the pointer shape that ImGui requests."""
         shape = self._shapes.get(int(imgui.get_mouse_cursor()), "arrow")
         if shape != self._pointer:
             self._window.show_pointer(shape)
@@ -134,11 +134,11 @@ class ImguiInput:
 
 
 def of_one_picture(happened: list, holds: bool = False) -> tuple[list, list]:
-    """Return the events that one picture may take in, and those that wait for the next one.
+    """Split events into those for this picture and those for the next one.
 
-    ImGui knows how Ctrl, Shift and Alt are at the end of what it takes in: one that is let go of
-    right after a key was pressed would not count for that key. Keys with names, such as Return, may
-    give the focus to another field, to which what comes next belongs.
+    ImGui only knows the state of Ctrl, Shift and Alt at the end of its input: a modifier released
+    right after a key press would not count for that key. Named keys, such as Return, may move the
+    focus to another field, which gets the following input.
 
     Parameters
     ----------

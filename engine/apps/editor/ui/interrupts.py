@@ -1,8 +1,8 @@
-"""Signals that ask the editor to end, and code that goes on too long and can be stopped.
+"""Handles signals that end the editor, and interrupts long-running code.
 
-In: signals, a function that tells whether to stop, another that keeps what is not saved. Out:
-`KeyboardInterrupt` in the code, or the number of the signal. The system's alarm (setitimer) makes
-Python ask between two of its instructions: what runs in one call of C is stopped once that is over.
+In: signals, a function that says whether to stop, another that keeps unsaved work. Out:
+`KeyboardInterrupt` in the code, or the signal's number. The system's alarm (setitimer) makes Python
+check between two instructions: a running C call is stopped only after it returns.
 """
 
 from __future__ import annotations
@@ -16,26 +16,26 @@ from collections.abc import Callable, Iterator
 
 from ....base.system import ending_signals, has_alarm
 
-#: Seconds before it is asked for the first time, and from then on between two times.
+#: Seconds before the first check, and between checks.
 FIRST, PERIOD = 0.2, 0.1
-#: How long the editor may take to end by itself once a signal asked it to, in seconds.
+#: Seconds the editor gets to end by itself after a signal.
 GRACE = 0.6
 _ENDING = ending_signals()
 _HAS_ALARM = has_alarm()
-_BASE = 128  # plus the signal's number is the exit status, as shells count
+_BASE = 128  # added to the signal's number for the exit status, as in shells
 
 
 def _set_alarm(seconds: float) -> None:
-    """Let the alarm come after so long, and then again and again; 0: no more.
+    """Start the alarm after a delay, then repeatedly; 0 stops it.
 
-    Where the system has none, as Windows, what goes on too long is not stopped.
+    On systems without alarms, such as Windows, long-running code is not stopped.
     """
     if _HAS_ALARM:
         signal.setitimer(signal.ITIMER_REAL, seconds, PERIOD if seconds else 0.0)
 
 
 class Interrupts:
-    """Follows signals while it is open.
+    """Handles signals while it is open.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ class Interrupts:
 
     @contextlib.contextmanager
     def stoppable(self, stops: Callable[[], bool]) -> Iterator[None]:
-        """Raise `KeyboardInterrupt` in the code within, once ``stops()`` is true."""
+        """Raise `KeyboardInterrupt` in the block once ``stops()`` is true."""
         if not self._before:  # nobody listens to signals
             yield
             return

@@ -1,6 +1,6 @@
-"""The menu bar and the keys: what they do stands here once for both.
+"""The menu bar and keyboard shortcuts, both defined by the same entries.
 
-In: the workspace. Out: the same, changed. Keys are those of Blender and Unity where both agree.
+In: the workspace. Out: the changed workspace. Shortcuts are those on which Blender and Unity agree.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class Entry(NamedTuple):
 
 
 def entries(workspace: Workspace, files: Files, hierarchy: HierarchyPanel) -> list[Entry]:
-    """Return all lines of all menus."""
+    """Return all entries of all menus."""
 
     def rename():
         if workspace.document.selection.active is not None:
@@ -91,7 +91,7 @@ def draw_menus(workspace: Workspace, listed: list[Entry]) -> None:
 
 
 def _draw_window_menu(workspace: Workspace) -> None:
-    """Lay out which panels are open."""
+    """Lay out the menu of open panels."""
     for name in PANELS:
         changed, is_open = imgui.menu_item(name, "", name not in workspace.panels.closed)
         if changed:
@@ -102,13 +102,14 @@ def _draw_window_menu(workspace: Workspace) -> None:
 
 
 def press_keys(listed: list[Entry]) -> None:
-    """Do what the keys that were pressed stand for, unless somebody types."""
+    """Run the actions of pressed shortcuts, unless a text field is active."""
     io = imgui.get_io()
     popup = imgui.is_popup_open("", imgui.PopupFlags_.any_popup)
     if io.want_text_input or popup or imgui.is_mouse_down(1):
         return
     for entry in listed:
-        if entry.keys == "Space" and io.nav_visible:  # presses what the keys have chosen
+        # Space activates the item that keyboard navigation has chosen
+        if entry.keys == "Space" and io.nav_visible:
             continue
         *modifiers, key = entry.keys.split("+")
         held = io.key_ctrl == ("Ctrl" in modifiers) and io.key_shift == ("Shift" in modifiers)

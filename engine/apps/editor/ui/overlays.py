@@ -1,6 +1,6 @@
-"""Overlays over the scene on demand: lights and cameras, boxes, frusta, normals.
+"""Optional overlays over the scene: lights and cameras, boxes, frusta, normals.
 
-In: the frame that is shown, and the scene. Out: lines of ImGui's; nothing of it hides behind faces.
+In: the shown frame, and the scene. Out: ImGui lines, drawn without depth test.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ _BOX = (0.35, 0.8, 1.0, 0.8)
 _FRUSTUM = (1.0, 0.9, 0.4, 0.8)
 _NORMAL = (0.5, 1.0, 0.5, 0.7)
 _MARK = (1.0, 0.9, 0.5, 0.9)
-#: More normals than this hide the mesh.
+#: More normals would hide the mesh.
 MOST_NORMALS = 4000
 MARK_PIXELS = 5.0
-#: A frustum without an end is drawn as far as this, in radii of the scene.
+#: An infinite frustum is drawn up to this many scene radii.
 LONGEST = 4.0
 
 
@@ -47,7 +47,7 @@ class Overlays:
         self.shown = {"marks": True, "boxes": False, "frusta": True, "normals": False}
 
     def draw_menu(self) -> None:
-        """Lay out what can be shown."""
+        """Lay out the menu of overlays."""
         if imgui.button("Show"):
             imgui.open_popup("show")
         if imgui.begin_popup("show"):
@@ -56,7 +56,7 @@ class Overlays:
             imgui.end_popup()
 
     def draw(self, frame: Frame, corner) -> None:
-        """Draw what is shown, over a frame whose top left corner is there in the window."""
+        """Draw the chosen overlays over a frame with its top left corner at a window position."""
         lines = imgui.get_window_draw_list()
         lines.push_clip_rect(corner, (corner.x + frame.width, corner.y + frame.height), True)
         if self.shown["marks"]:
@@ -87,7 +87,7 @@ class Overlays:
                 lines.add_text((at[0] + 2 * MARK_PIXELS, at[1] - MARK_PIXELS), color, node.name)
 
     def _frustum(self, node: Node, frame: Frame) -> np.ndarray:
-        """The eight corners of what a camera sees, in world space."""
+        """Return the eight corners of a camera's frustum, in world space."""
         projection = node.object.projection(frame.width, frame.height)
         unprojected = linalg.inverse(projection)
         corners = 2.0 * _CORNERS - 1.0
@@ -96,7 +96,7 @@ class Overlays:
         reach = LONGEST * self._workspace.bounds.radius
         near, far = points[::2], points[1::2]  # the last index is that of depth
         length = float(np.abs(far).max())
-        if not length <= reach:  # infinite, or so far away that the lines would say nothing
+        if not length <= reach:  # infinite, or too far away for meaningful lines
             points[1::2] = near * (reach / max(float(np.abs(near).max()), 1e-12))
         return linalg.transform_points(node.world_pose, points)
 
@@ -127,7 +127,7 @@ def _draw_edges(lines, frame: Frame, corner, points: np.ndarray, color) -> None:
 
 
 def _draw_lines(lines, frame: Frame, corner, starts, ends, color) -> None:
-    """Draw lines of the world; what has an end behind the camera is left out."""
+    """Draw world lines; lines with an end behind the camera are left out."""
     (a, near), (b, far) = frame.project(starts), frame.project(ends)
     shown = (near > 0) & (far > 0) & np.isfinite(a).all(1) & np.isfinite(b).all(1)
     shift = np.array([corner.x, corner.y])

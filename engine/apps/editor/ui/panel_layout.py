@@ -1,7 +1,7 @@
-"""The layout: places of panels, closed ones, and the steps of snapping; saved from time to time.
+"""The layout: panel places, closed panels, and snapping steps; saved periodically.
 
-In: the workspace, Dear ImGui's windows. Out: one file in ImGui's own format, in which the editor's
-settings are a section that ImGui passes over.
+In: the workspace, Dear ImGui's windows. Out: one file in ImGui's own format, with the editor's
+settings in a section that ImGui ignores.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ _LARGEST = 1 << 20  # bytes
 
 
 def layout_path() -> Path:
-    """Return where the layout is kept."""
+    """Return the path of the layout file."""
     return user_path("state", "editor.ini")
 
 
 def load_layout(workspace: Workspace) -> bool:
-    """Take over what was kept; return whether there was something."""
+    """Load the saved layout; return whether there was one."""
     try:
         text = read_small(layout_path(), _LARGEST).decode("utf-8")
     except UnicodeError:
@@ -46,7 +46,7 @@ def load_layout(workspace: Workspace) -> bool:
 
 
 def save_layout(workspace: Workspace) -> None:
-    """Keep the layout; if that fails, it is the usual one next time."""
+    """Save the layout; on failure, the default is used next time."""
     path = layout_path()
     lines = [_HEAD, f"closed={','.join(sorted(workspace.panels.closed))}"]
     lines += [f"{tool}={step!r}" for tool, step in workspace.tools.steps.items()]
@@ -60,7 +60,7 @@ def save_layout(workspace: Workspace) -> None:
 
 
 def _read_settings(workspace: Workspace, text: str) -> None:
-    """Take over what can be understood of the editor's own section."""
+    """Read the known settings of the editor's section."""
     parser = configparser.ConfigParser(interpolation=None, strict=False)
     with contextlib.suppress(configparser.Error):
         parser.read_string(f"[settings]\n{text}")
@@ -76,10 +76,10 @@ def _read_settings(workspace: Workspace, text: str) -> None:
 
 
 def place_panels(space: int, size: tuple[int, int]) -> None:
-    """Give the panels their usual places."""
+    """Put the panels at their default places."""
     builder = imgui.internal
     builder.dock_builder_remove_node(space)
-    # Plain numbers: members of two enumerations, whose sum Python before 3.11.4 cannot name.
+    # Plain numbers: Python before 3.11.4 cannot name the sum of members of two enumerations.
     is_space = int(builder.DockNodeFlagsPrivate_.dock_space)
     is_seen_through = int(imgui.DockNodeFlags_.passthru_central_node)
     builder.dock_builder_add_node(space, is_space | is_seen_through)
@@ -101,7 +101,7 @@ def place_panels(space: int, size: tuple[int, int]) -> None:
 
 
 def begin_panel(workspace: Workspace, name: str) -> bool:
-    """Begin a panel, which the user may close; return whether what it holds is to be laid out."""
+    """Begin a closable panel; return whether to lay out its content."""
     shown, is_open = imgui.begin(name, True)
     if not is_open:
         workspace.panels.closed.add(name)

@@ -1,6 +1,6 @@
-"""The panel of the active node: its name, pose, object and materials, all of which can be changed.
+"""The panel of the active node's editable properties: name, pose, object and materials.
 
-In: the selection. Out: commands; what the mouse drags is one step from press to release.
+In: the selection. Out: commands; a mouse drag is one step from press to release.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _COLLIDERS = {
     "mesh": lambda mesh: MeshCollider(),
 }
 _KINDS = {BoxCollider: "box", SphereCollider: "sphere", MeshCollider: "mesh"}
-# For lights, the values of their kind; for numbers, how fast they are dragged.
+# Names of shadow values for lights; drag speeds of numbers.
 _SHADOWS = {False: "none", True: "map", "exact": "exact"}
 _LIGHT_COLORS = {"sky_color": "Sky", "ground_color": "Ground", "color": "Colour"}
 _LIGHT_NUMBERS = {
@@ -81,14 +81,14 @@ class PropertiesPanel:
         self._workspace.do(SetValues(things, values), drag=self._drag)
 
     def _follow_drag(self) -> None:
-        """Note that the mouse took hold of the last item."""
+        """Note that the mouse grabbed the last item."""
         if imgui.is_item_activated():
             self._drag = self._workspace.next_drag()
 
     # Kinds of values
 
     def _numbers(self, label: str, values, speed: float, factor: float = 1.0) -> list | None:
-        """Lay three numbers out; return them where one changed, the others to the bit."""
+        """Lay out three numbers; return them if one changed, the others to the bit."""
         shown = [float(value) * factor for value in values]
         changed, new = imgui.drag_float3(label, shown, speed)
         self._follow_drag()
@@ -146,7 +146,7 @@ class PropertiesPanel:
             draw_fog(scene, radius, lambda fog: self._set([scene], {"fog": fog}), self._follow_drag)
 
     def _draw_environment(self, scene: Scene) -> None:
-        """Lay out the light from all around: a built-in environment, or that of a file."""
+        """Lay out the environment: a built-in one, or from a file."""
         now = scene.environment
         name = "none" if now is None else now.built_in or now.name or "from a file"
         if imgui.begin_combo("Environment", name):
@@ -224,7 +224,7 @@ class PropertiesPanel:
         self._draw_collider(node, mesh)
 
     def _draw_shape(self, node: Node, mesh: Mesh | None) -> None:
-        """Lay out which mesh a node holds, from which file another one comes."""
+        """Lay out the mesh of a node, and the file to replace it from."""
         self._choose("Shape", "mesh", mesh, lambda chosen: {"object": chosen}, [node])
         if imgui.button("Load new ..."):
             self._files.load_mesh(node)
@@ -235,7 +235,7 @@ class PropertiesPanel:
                 self._workspace.do(SetValues([node], values, "Remove the mesh"))
 
     def _choose(self, label: str, kind: str, now, values, things) -> None:
-        """Lay out a choice among the resources of a kind; ``values(chosen)`` are then assigned."""
+        """Lay out a choice of resources of a kind; then assign ``values(chosen)``."""
         name = "none" if now is None else now.name or "unnamed"
         if not imgui.begin_combo(label, name):
             return
@@ -327,10 +327,10 @@ class PropertiesPanel:
         imgui.end_combo()
 
     def _draw_range(self, light: Light) -> None:
-        """Lay out how far a light reaches; one that reaches everywhere gets the scene's size."""
+        """Lay out the range of a light; an infinite one gets the scene's size."""
         if math.isfinite(light.range):
             self._number(light, "range", "Range", 0.1, 0.001)
-        # A window ends at the range, so it needs one.
+        # A window falloff ends at the range, so it needs one.
         imgui.begin_disabled(getattr(light, "falloff", None) == "window")
         changed, endless = imgui.checkbox("Infinite range", not math.isfinite(light.range))
         imgui.end_disabled()
@@ -354,13 +354,13 @@ class PropertiesPanel:
 
 
 def _ball(mesh: Mesh) -> tuple[float, np.ndarray]:
-    """The radius and the middle of a sphere that is as wide as a mesh."""
+    """Return radius and centre of a sphere as wide as a mesh."""
     low, high = mesh.bounds
     return max(float(np.max(high - low)) / 2, 1e-6), (low + high) / 2
 
 
 def _counts(row: Parameter, material: Material) -> bool:
-    """Whether a material of its kind shows what the row says: only physical ones are all glTF's."""
+    """Return whether a parameter affects a material: most of glTF's need a physical one."""
     if material.is_physical:
         return bool(row.gltf) or not row.kind.width
     return not row.part.startswith("KHR")

@@ -1,7 +1,7 @@
-"""The panel of the scene's resources: meshes, materials and textures, with pictures, sizes, users.
+"""The panel of the scene's resources: meshes, materials and textures, with thumbnails and users.
 
-In: the workspace's resources. Out: rows, of which only those that show are laid out; a click
-selects the users.
+In: the workspace's resources. Out: rows, of which only visible ones are laid out; a click selects
+the users.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from .panel_layout import begin_panel
 from .workspace import Workspace
 
 PICTURE = 48
-#: How long pictures may take of one frame, in seconds; the others come with the next ones.
+#: Seconds for thumbnails per frame; the rest follow in later frames.
 PATIENCE = 0.02
 
 
@@ -88,7 +88,7 @@ class ResourcesPanel:
             imgui.text_unformatted(text)
 
     def _picture(self, entry: Entry) -> int:
-        """The number of an entry's picture; 0 while there is none yet."""
+        """Return the number of an entry's thumbnail; 0 if it is not ready."""
         pixels = self._thumbnails.get_if_time(entry.thing, self._deadline)
         held, number = self._numbers.get(id(entry.thing), (None, 0))
         if pixels is None:

@@ -1,7 +1,7 @@
-"""The scene, drawn into its panel: the mouse turns the camera, selects, and drags the selection.
+"""The scene panel: the mouse turns the camera, selects, and drags the selection.
 
-In: the workspace, the mouse as ImGui has it. Out: a picture, drawn again only when it would be
-another one; commands.
+In: the workspace, the mouse state from ImGui. Out: a picture, redrawn only if it would change;
+commands.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ from .panel_layout import begin_panel
 from .scene_tools import draw_tools
 from .workspace import Workspace
 
-#: A press and a release no farther apart than so many pixels are a click.
+#: A press and release within this many pixels are a click.
 CLICK_PIXELS = 4.0
 MOST_SIDE = 8192
-#: Keys that move the camera while the right button is held: along which of its axes, which way.
+#: Keys that move the camera while the right button is held: axis and direction.
 FLYING = {"w": (2, -1), "s": (2, 1), "a": (0, -1), "d": (0, 1), "q": (1, -1), "e": (1, 1)}
-#: Radii of the scene a second, and the longest time that one picture may take of it.
+#: Scene radii per second, and the maximum time step of one picture.
 FLYING_SPEED, LONGEST_STEP = 0.5, 0.1
 RECTANGLE = (1.0, 0.7, 0.2, 0.9)
 
@@ -70,7 +70,7 @@ class ScenePanel:
             self._renderer = None
 
     def node_under_mouse(self) -> Node | None:
-        """Return the node that shows where the mouse is, if it is over the scene."""
+        """Return the node under the mouse, if the mouse is over the scene."""
         if self._frame is None or not self._is_hovered:
             return None
         mouse = imgui.get_io().mouse_pos
@@ -144,7 +144,7 @@ class ScenePanel:
         self._drawn = key
 
     def _draw_times(self, corner) -> None:
-        """Tell what the last picture of the scene took."""
+        """Show the times of the scene's last picture."""
         triangles = self._frame.stats["triangles"]
         text = f"{1e3 * self._seconds:.1f} ms, {triangles:,} triangles"
         if self._workspace.document.moves:
@@ -155,7 +155,7 @@ class ScenePanel:
         imgui.get_window_draw_list().add_text(place, color, text)
 
     def _selected_ids(self) -> list[int]:
-        """The numbers of the selected nodes and of all below them."""
+        """Return the IDs of the selected nodes and their subtrees."""
         ids = []
         for node in self._workspace.document.selection.topmost():
             ids += [below.id for below in with_below(node)]
@@ -164,14 +164,14 @@ class ScenePanel:
     # The mouse
 
     def _turn_camera(self, hovered: bool, corner, size: tuple[int, int]) -> None:
-        """Follow the wheel and what is pressed on the picture."""
+        """Handle the wheel and mouse buttons on the picture."""
         io, orbit = imgui.get_io(), self._workspace.orbit
         if hovered and io.mouse_wheel:
             at = io.mouse_pos.x - corner.x, io.mouse_pos.y - corner.y
             orbit.dolly(io.mouse_wheel, at, size)
         held = [imgui.is_mouse_down(button) for button in range(3)]
         self.is_flying = False
-        # A press counts from the next picture on: what moved before it turns nothing.
+        # A press counts from the next picture on: earlier motion turns nothing.
         if self._pressed is not None and held[1]:
             self._fly(io, size[1])
         elif self._pressed is not None and (held[2] or (io.key_alt and held[0])):
@@ -181,7 +181,7 @@ class ScenePanel:
             imgui.set_window_focus()
 
     def _drag_camera(self, io, height: int) -> None:
-        """Turn the camera around what it looks at, move it with Shift, approach with Ctrl."""
+        """Orbit the camera, pan with Shift, dolly with Ctrl."""
         orbit = self._workspace.orbit
         dx, dy = io.mouse_delta.x, io.mouse_delta.y
         if io.key_shift:
@@ -192,7 +192,7 @@ class ScenePanel:
             orbit.rotate(dx, dy, height)
 
     def _fly(self, io, height: int) -> None:
-        """Look around from where the camera is, and move it by keys."""
+        """Look around from the camera's position, and move it by keys."""
         workspace = self._workspace
         view, position = workspace.view, workspace.view.position()
         workspace.orbit.rotate(io.mouse_delta.x / 2, io.mouse_delta.y / 2, height)
@@ -207,7 +207,7 @@ class ScenePanel:
         view.target = position - axes[:, 2] * view.distance + step * speed * seconds
 
     def _select(self, corner) -> None:
-        """Select what was clicked at, or what a rectangle holds."""
+        """Select the clicked node, or the nodes in a rectangle."""
         io = imgui.get_io()
         if not any(imgui.is_mouse_down(button) for button in range(3)):
             pressed, self._pressed = self._pressed, None

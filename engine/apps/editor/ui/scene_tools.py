@@ -1,6 +1,6 @@
-"""The row above the scene: tools, steps to snap to, how the scene is shown, time.
+"""The toolbar above the scene: tools, snapping steps, display modes, time.
 
-In: the workspace. Out: the same, changed. What does not fit into the row begins another one.
+In: the workspace. Out: the changed workspace. Items that do not fit wrap to another row.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from .workspace import Workspace
 
 MODES = get_args(Mode)
 TOOLS = {"select": "Q", "move": "W", "turn": "E", "scale": "R"}
-#: What the step of each tool is counted in, and how fast the mouse changes it.
+#: The unit of each tool's step, and its drag speed.
 _UNITS = {"move": ("units", 0.01), "turn": ("degrees", 0.5), "scale": ("per cent", 0.5)}
 _LEAST, _MOST = 1e-4, 1e6
 
@@ -49,7 +49,7 @@ def draw_tools(workspace: Workspace, overlays: Overlays) -> None:
 
 
 def _beside(label: str, width: float = 0.0, *, boxes: int = 0) -> None:
-    """Let the next item stand beside the last one if there is room."""
+    """Place the next item on the same row if there is room."""
     style = imgui.get_style()
     width += imgui.calc_text_size(label).x + 2.0 * style.frame_padding.x
     width += boxes * (imgui.get_frame_height() + style.item_inner_spacing.x)
@@ -59,7 +59,7 @@ def _beside(label: str, width: float = 0.0, *, boxes: int = 0) -> None:
 
 
 def _draw_steps(workspace: Workspace) -> None:
-    """Lay out by which steps the tools snap."""
+    """Lay out the snapping steps of the tools."""
     if imgui.button("Steps"):
         imgui.open_popup("steps")
     if not imgui.begin_popup("steps"):
@@ -72,12 +72,12 @@ def _draw_steps(workspace: Workspace) -> None:
             label, workspace.tools.steps[tool], speed, _LEAST, _MOST, "%.4g", clamp
         )
         if changed:
-            workspace.tools.steps[tool] = float(f"{step:.4g}")  # as it is shown
+            workspace.tools.steps[tool] = float(f"{step:.4g}")  # as displayed
     imgui.end_popup()
 
 
 def _draw_time(workspace: Workspace) -> None:
-    """Lay out what lets time go on."""
+    """Lay out the time controls."""
     _beside("Pause")
     imgui.begin_disabled(not workspace.document.moves)
     if imgui.button("Pause" if workspace.plays else "Play"):

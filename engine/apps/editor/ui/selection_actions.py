@@ -1,4 +1,4 @@
-"""The actions of menus, keys and panels on the selection; each is one step that can be undone."""
+"""Actions on the selection for menus, keys and panels; each is one undoable step."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from ..node_commands import (
 from ..value_commands import SetValues
 from .workspace import Workspace
 
-#: What can be added, by what menus call it.
+#: Things that can be added, by menu label.
 ADDED: dict[str, Callable[[], Any]] = {
     "Empty": lambda: None,
     "Box": primitives.box,
@@ -38,7 +38,7 @@ ADDED: dict[str, Callable[[], Any]] = {
 
 
 def add(workspace: Workspace, what: str, parent: Node | None = None) -> None:
-    """Add a node that holds something new, where the camera looks at, or below a node."""
+    """Add a node with a new object, at the camera's target, or below a node."""
     name = what.lower()
     place = (0.0, 0.0, 0.0) if parent is not None else workspace.view.target
 
@@ -51,7 +51,7 @@ def add(workspace: Workspace, what: str, parent: Node | None = None) -> None:
 
 
 def _do_to_selected(workspace: Workspace, command) -> None:
-    """Give the command that a class makes of the scene and the selected nodes, if there are any."""
+    """Run a command class on the scene and the selected nodes, if there are any."""
     nodes = workspace.document.selection.nodes
     if nodes:
         workspace.do(command(workspace.scene, nodes))
@@ -68,12 +68,12 @@ def duplicate(workspace: Workspace) -> None:
 
 
 def group(workspace: Workspace) -> None:
-    """Put the selected nodes under a new one."""
+    """Put the selected nodes below a new one."""
     _do_to_selected(workspace, GroupNodes)
 
 
 def put_on_ground(workspace: Workspace) -> None:
-    """Let the selected nodes down on what is below them."""
+    """Drop the selected nodes onto what is below them."""
     nodes = workspace.document.selection.nodes
     if nodes:
         move = on_ground(workspace.scene, workspace.view.up)
@@ -81,7 +81,7 @@ def put_on_ground(workspace: Workspace) -> None:
 
 
 def toggle_visible(workspace: Workspace) -> None:
-    """Hide the selected nodes, or show them again."""
+    """Hide or show the selected nodes."""
     nodes = workspace.document.selection.nodes
     if nodes:
         visible = not workspace.document.selection.active.visible
@@ -89,6 +89,6 @@ def toggle_visible(workspace: Workspace) -> None:
 
 
 def select_all(workspace: Workspace) -> None:
-    """Select all nodes, or none if all are."""
+    """Select all nodes, or none if all are selected."""
     selection, nodes = workspace.document.selection, workspace.scene.nodes
     selection.set(() if len(selection) == len(nodes) else nodes)

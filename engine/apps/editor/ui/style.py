@@ -1,4 +1,4 @@
-"""How the editor looks: colours, sizes, the font."""
+"""The editor's appearance: colours, sizes, the font."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ FONT_PIXELS = 16.0
 
 
 def choose_style(scale: int) -> None:
-    """Set the style of the current context up, for a screen so many times finer than usual."""
+    """Set up the style of the current context, for a given screen scale."""
     imgui.style_colors_dark()
     style = imgui.get_style()
-    # Corners and edges that fall on pixels need no antialiasing, which would take its time.
+    # Pixel-aligned corners and edges need no antialiasing, which would cost time.
     style.window_border_size = 0.0
     popup = style.color_(imgui.Col_.popup_bg)
     style.set_color_(imgui.Col_.popup_bg, imgui.ImVec4(popup.x, popup.y, popup.z, 1.0))

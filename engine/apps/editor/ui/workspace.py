@@ -1,6 +1,6 @@
-"""The workspace that the panels share: the document, the camera, how the scene is shown.
+"""The workspace shared by the panels: the document, the camera, the display settings.
 
-In: what panels do. Out: the same for all panels. Nothing here draws.
+In: actions of panels. Out: the shared state. It draws nothing.
 """
 
 from __future__ import annotations
@@ -36,15 +36,15 @@ from ..value_commands import SetValues
 
 #: The panels, by their titles.
 PANELS = ("Hierarchy", "Scene", "Properties", "Resources", "Console")
-#: How many pictures it takes until a field has the focus that it was given.
+#: Pictures drawn until a field receives the focus.
 FOCUSING = 6
-#: How far one picture may move time on, in seconds, however long it took.
+#: Maximum time step of one picture, in seconds.
 LONGEST_STEP = 0.1
 
 
 @dataclass
 class Tools:
-    """What the mouse does to what is selected.
+    """The active tool for the selection.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class Tools:
 
 @dataclass
 class Panels:
-    """How the panels are.
+    """The state of the panels.
 
     Attributes
     ----------
@@ -85,7 +85,7 @@ class Panels:
 
 
 class Workspace:
-    """A document being edited, and how it is looked at.
+    """An edited document with its display state.
 
     Attributes
     ----------
@@ -156,11 +156,11 @@ class Workspace:
         return self.document.console
 
     def new(self) -> None:
-        """Begin with an empty scene."""
+        """Start an empty scene."""
         self._take(SceneDocument(console=self.console))
 
     def begin(self, path: str) -> None:
-        """Edit a file's scene, or a new one where there is no such scene yet.
+        """Edit a file's scene, or a new one if the file does not exist.
 
         Raises
         ------
@@ -169,7 +169,7 @@ class Workspace:
         self._edit(SceneDocument.begin(path, console=self.console), path)
 
     def open(self, path: str) -> bool:
-        """Edit a file's scene; where that fails the console tells why."""
+        """Edit a file's scene; errors go to the console."""
         try:
             document = SceneDocument.open(path, console=self.console)
         except Engine3DError as error:
@@ -187,7 +187,7 @@ class Workspace:
             self.frame(())
 
     def recover(self, copy: Recovery) -> None:
-        """Edit what an editor left behind when it ended without a word."""
+        """Edit a recovery copy of a crashed editor."""
         try:
             document = SceneDocument.recover(copy, console=self.console)
         except Engine3DError as error:
@@ -196,7 +196,7 @@ class Workspace:
         self._take(document)
 
     def add_file(self, path: str, onto: Node | None = None) -> bool:
-        """Add a model to the scene, or paint a node with an image; the console tells what fails."""
+        """Add a model to the scene, or apply an image to a node; errors go to the console."""
         try:
             with self.console.warnings_noted():
                 command = drop_file(self.scene, path, onto=onto)
@@ -207,7 +207,7 @@ class Workspace:
         return self.do(command)
 
     def load_texture(self, path: str, material: Material, slot: str) -> bool:
-        """Make an image a texture of a material; where that fails the console tells why."""
+        """Use an image as a texture of a material; errors go to the console."""
         try:
             texture = load_texture(path)
         except Engine3DError as error:
@@ -217,7 +217,7 @@ class Workspace:
         return self.do(SetValues([material], {slot: texture}, label))
 
     def load_mesh(self, path: str, node: Node) -> bool:
-        """Let a node hold a file's mesh; where that fails the console tells why."""
+        """Give a file's mesh to a node; errors go to the console."""
         try:
             with self.console.warnings_noted():
                 mesh = load_mesh(path)
@@ -228,27 +228,27 @@ class Workspace:
         return self.do(SetValues([node], {"object": mesh}, label))
 
     def save(self, path: str | None = None, *, overwrite: bool = False) -> bool:
-        """Save the scene; where that fails the console tells why."""
+        """Save the scene; errors go to the console."""
         saved = self.document.save(path, overwrite=overwrite)
         if saved and self.document.path is not None:
             self.recent.add(self.document.path)
         return saved
 
     def tick(self) -> None:
-        """Keep a copy of what is not saved, if one is due; to be called often."""
+        """Autosave if due; call this often."""
         self._autosave.tick()
 
     def keep_copy(self) -> None:
-        """Keep a copy of what is not saved, for the next editor."""
+        """Save a recovery copy of unsaved work for the next editor."""
         if self.document.is_modified:
             self._autosave.save()
 
     def close(self) -> None:
-        """Give up what is not saved, and the copy of it."""
+        """Discard unsaved work and its recovery copy."""
         self._autosave.discard()
 
     def do(self, command: Command, *, drag: Hashable = None) -> bool:
-        """Do a command of the document."""
+        """Run a command of the document."""
         self.changes += 1
         return self.document.do(command, drag=drag)
 
@@ -258,12 +258,12 @@ class Workspace:
         self.document.undo()
 
     def redo(self) -> None:
-        """Do again what was undone."""
+        """Redo the last undone step."""
         self.changes += 1
         self.document.redo()
 
     def run_lines(self) -> None:
-        """Run the lines of Python that were entered."""
+        """Run the entered lines of Python."""
         while self.lines_to_run:
             self.changes += 1
             self.document.prompt.push(self.lines_to_run.pop(0))
@@ -272,17 +272,17 @@ class Workspace:
 
     @property
     def is_moving(self) -> bool:
-        """Whether the next picture shows another moment."""
+        """Whether the next picture shows another time."""
         return self.plays and self.document.moves
 
     def animate(self, seconds: float) -> None:
-        """Let time go on, if it does."""
+        """Advance the time, if it plays."""
         if self.is_moving:
             self.document.animator.advance(min(seconds, LONGEST_STEP), self.view.position())
             self.moments += 1
 
     def play_or_pause(self) -> None:
-        """Let time go on, or stand still."""
+        """Start or pause the time."""
         self.plays = not self.plays
         if self.plays and not self.document.moves:
             self.plays = False
@@ -294,19 +294,19 @@ class Workspace:
             self.document.animator.seek(0.0)
 
     def hold_keys(self) -> None:
-        """Let what is typed wait until a field has the focus."""
+        """Queue typed text until a field has the focus."""
         self.panels.pictures_to_focus = FOCUSING
 
     def next_drag(self) -> int:
-        """Return what the commands of one movement of the mouse have in common."""
+        """Return a key shared by all commands of one mouse drag."""
         self._drags += 1
         return self._drags
 
     @property
     def bounds(self) -> Sphere:
-        """A sphere round the box of all that is visible, found when something changed.
+        """A sphere around the box of all visible objects, cached until a change.
 
-        The smallest sphere would take seconds of thousands of nodes, at every step of a drag.
+        For thousands of nodes, the smallest sphere would take seconds at every step of a drag.
         """
         key = self.changes, self.scene.data.arrays.changes
         if self._bounds is None or self._bounds[0] != key:
@@ -316,7 +316,7 @@ class Workspace:
         return self._bounds[1]
 
     def frame(self, nodes: tuple[Node, ...]) -> None:
-        """Look at some nodes, or at the whole scene."""
+        """Frame some nodes, or the whole scene."""
         boxes = [_corners(node.bounds) for node in nodes if node.bounds is not None]
         boxes += [node.world_pose[:3, 3][None] for node in nodes]
         points = np.concatenate(boxes or [_corners(self.scene.bounds)])
@@ -327,5 +327,5 @@ class Workspace:
 
 
 def _corners(box: np.ndarray) -> np.ndarray:
-    """The eight corners of a box, (2, 3): (8, 3)."""
+    """Return the eight corners of a box, (2, 3): (8, 3)."""
     return box[np.indices((2, 2, 2)).reshape(3, -1).T, np.arange(3)]

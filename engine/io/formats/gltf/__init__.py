@@ -1,1 +1,1 @@
-"""glTF and GLB, both ways."""
+"""glTF and GLB, for reading and writing."""

@@ -1,8 +1,8 @@
-"""glTF 2.0, as .gltf and .glb.
+"""Reader of glTF 2.0, as .gltf and .glb.
 
 In: the bytes of a file, and the buffers and images that it names. Out: a `Document` whose tree
-holds the file as plain data; its objects are what the shown scene shows. What the file says besides
-is told in warnings. Source: Khronos, "glTF 2.0 Specification", 2021.
+holds the file as plain data, and whose objects are those of the default scene. Warnings name
+unsupported content. Source: Khronos, "glTF 2.0 Specification", 2021.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ from .gltf_primitives import GltfPrimitives
 from .gltf_textures import GltfTextures
 from .gltf_vrm import facing_forward
 
-# One of these stands near the beginning of such a file, whichever of its lists comes first.
+# One of these words occurs near the start of a glTF file, whichever list comes first.
 _WORDS = (b'"asset"', b'"accessors"', b'"bufferView"', b'"extensionsUsed"')
 
 
 def read_gltf(source: Source, split: bool = False) -> Document:
     """Read a glTF file, as `Reader.read`.
 
-    With ``split``, nodes' poses are kept apart, and meshes are as they are stored; otherwise poses,
-    skins and morph targets are applied.
+    With ``split``, poses are kept apart and meshes stay as stored; otherwise poses, skins and morph
+    targets are applied.
     """
     file = GltfFile(source)
     check_extensions(file)
@@ -59,7 +59,7 @@ def read_gltf(source: Source, split: bool = False) -> Document:
 
 
 def _read_tree(file: GltfFile, buffers: GltfBuffers, scalars: bool) -> tuple[TreeRecord, list[str]]:
-    """Read the tree, and the names of the file's own attributes."""
+    """Return the tree, and the names of custom attributes."""
     accessors = GltfAccessors(file, buffers)
     lists = {
         "skins": read_skins(file, accessors),
@@ -94,7 +94,7 @@ def _read_tree(file: GltfFile, buffers: GltfBuffers, scalars: bool) -> tuple[Tre
 
 
 def _draws(tree: TreeRecord) -> Iterator[bool]:
-    """Whether each shown node shows vertices."""
+    """Return whether each shown node with a mesh has vertices."""
     for shown in shown_nodes(tree):
         mesh = tree.nodes[shown.number].mesh
         if shown.visible and mesh is not None:

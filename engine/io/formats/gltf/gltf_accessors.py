@@ -1,8 +1,7 @@
-"""The numbers of a glTF file, from wherever its accessors say that they are.
+"""Accessors: the numeric arrays of a glTF file.
 
-In: a `GltfFile` and its buffers. Out: arrays. An accessor without bytes of its own stands for any
-number of zeros, and any number of meshes may use some of its rows: `GltfBuffers.count` limits what
-is made.
+In: a `GltfFile` and its buffers. Out: arrays. An accessor without data means any number of zeros,
+and any number of meshes may use its rows: `GltfBuffers.count` limits the total.
 """
 
 from __future__ import annotations
@@ -18,12 +17,12 @@ from .gltf_file import DamagedError, Entry, GltfFile, once, whole_of
 
 _TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _INDEX_TYPES = (5121, 5123, 5125)
-_LARGE = 1 << 12  # numbers, from which on memory is worth the call that gets it
+_LARGE = 1 << 12  # from this many numbers on, allocate large memory pages
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 
 class GltfAccessors:
-    """The accessors of a file, each looked up once.
+    """The accessors of a file, each resolved once.
 
     Parameters
     ----------
@@ -40,25 +39,25 @@ class GltfAccessors:
         self._kept: dict[int, np.ndarray | DamagedError] = {}
 
     def count(self, numbers: int) -> None:
-        """Note that so many numbers are made besides: see `GltfBuffers.count`."""
+        """Count numbers that are created in addition; see `GltfBuffers.count`."""
         self._buffers.count(numbers)
 
     def raw(self, index: Any, where: str, *widths: int) -> np.ndarray:
-        """Return an accessor as (N, width), of its own type; may be part of the file's bytes.
+        """Return an accessor as (N, width), in its own dtype; it may be a view of the file's bytes.
 
         Parameters
         ----------
         index : int
         where : str
-            The place that names it.
+            The place that refers to it.
         *widths : int
-            How many columns it may have: 16 of a matrix.
+            Allowed numbers of columns: 16 for a matrix.
         """
         index = self.check(index, where, *widths)
         return once(self._kept, index, lambda: self._values(index))
 
     def check(self, index: Any, where: str, *widths: int) -> int:
-        """Return the number of an accessor that has one of some numbers of columns."""
+        """Return the number of an accessor, checked for its number of columns."""
         index = self.file.number_in("accessors", index, where)
         kind = self.file.entries("accessors")[index].get("type")
         if not isinstance(kind, str) or _WIDTHS.get(kind, 0) not in widths:
@@ -68,7 +67,7 @@ class GltfAccessors:
         return index
 
     def typed(self, values: np.ndarray, index: int) -> np.ndarray:
-        """Return what was unpacked elsewhere, of the type that its accessor announces."""
+        """Return unpacked values in the dtype that the accessor announces."""
         kind = self._type(self._entry(index), f"accessors[{index}]")
         if kind.kind == "f" or values.dtype == kind:
             return values.astype(kind, copy=False)
@@ -76,28 +75,28 @@ class GltfAccessors:
         return np.nan_to_num(values).clip(range_of.min, range_of.max).astype(kind)
 
     def floats(self, index: Any, where: str, *widths: int) -> np.ndarray:
-        """Return an accessor as (N, width) float32; integers that stand for 0..1 or -1..1 as such.
+        """Return an accessor as (N, width) float32; normalised integers become 0..1 or -1..1.
 
-        Parameters are those of `raw`.
+        Parameters as in `raw`.
         """
         return self.as_floats(self.raw(index, where, *widths), index)
 
     def as_floats(
         self, values: np.ndarray, index: int, rows: slice | np.ndarray = slice(None)
     ) -> np.ndarray:
-        """Return some rows of what an accessor describes, as `floats` does.
+        """Convert some rows of an accessor as `floats` does.
 
         Parameters
         ----------
         values : (N, width) array
         index : int
-            The accessor, which says what integers stand for.
+            The accessor, which says whether integers are normalised.
         rows : slice or (M,) int
         """
         is_all = isinstance(rows, slice)
         values = values[rows]
         self._buffers.count(values.size)
-        # Some exporters set it for floats, too, for which it has no meaning.
+        # Some exporters also set it for floats, where it has no meaning.
         if not self._is_normalized(index) or values.dtype.kind == "f":
             return _copied(values) if is_all else values.astype(np.float32, copy=False)
         return np.maximum(values / np.float32(np.iinfo(values.dtype).max), np.float32(-1))
@@ -105,7 +104,7 @@ class GltfAccessors:
     def as_numbers(
         self, values: np.ndarray, index: int, rows: slice | np.ndarray = slice(None)
     ) -> np.ndarray:
-        """Like `as_floats`, but integers that are not normalised stay integers."""
+        """Convert as `as_floats`, but keep integers that are not normalised."""
         if self._is_normalized(index):
             return self.as_floats(values, index, rows)
         values = values[rows]
@@ -113,19 +112,19 @@ class GltfAccessors:
         return values.copy()
 
     def width(self, index: Any, where: str) -> int:
-        """Return how many columns an accessor has; 0 if it is of a type that nothing here needs."""
+        """Return an accessor's number of columns; 0 for unsupported types."""
         kind = self.file.entry("accessors", index, where).get("type")
         return _WIDTHS.get(kind, 0) if isinstance(kind, str) else 0
 
     def _is_normalized(self, index: int) -> bool:
-        """Whether an accessor's integers stand for 0..1 or -1..1."""
+        """Return whether an accessor's integers mean 0..1 or -1..1."""
         return self._entry(index).get("normalized") is True
 
     def _entry(self, index: int) -> Entry:
         return self.file.entry("accessors", index, "accessors")
 
     def indices(self, index: Any, where: str) -> np.ndarray:
-        """Return an accessor of indices as (N,), of an unsigned type."""
+        """Return an accessor of indices as (N,), with an unsigned dtype."""
         values = self.raw(index, where, 1)
         if values.dtype.kind != "u":
             raise self.file.damaged(f"accessors[{index}], indices, is not unsigned")
@@ -152,7 +151,7 @@ class GltfAccessors:
     def _stored(
         self, entry: Entry, name: str, count: int, width: int, kind: np.dtype
     ) -> np.ndarray:
-        """Rows that stand in a buffer view, or zeros."""
+        """Return rows stored in a buffer view, or zeros."""
         if "bufferView" not in entry:
             return np.zeros((count, width), kind)
         data = self._buffers.view(entry["bufferView"], name)
@@ -168,7 +167,7 @@ class GltfAccessors:
         return np.ndarray((count, width), kind, data, start, (stride, kind.itemsize))
 
     def _changed(self, values: np.ndarray, sparse: Entry, name: str) -> np.ndarray:
-        """A copy with some rows replaced."""
+        """Return a copy with the sparse rows replaced."""
         count = self.file.whole(sparse, "count", f"{name}.sparse")
         if not 0 < count <= len(values):
             raise self.file.damaged(f"{name}.sparse changes {count} of {len(values)} rows")
@@ -187,7 +186,7 @@ class GltfAccessors:
 
 
 def _copied(values: np.ndarray) -> np.ndarray:
-    """The values as float32, in memory of their own."""
+    """Return a float32 copy of the values."""
     if values.size < _LARGE:
         return values.astype(np.float32, order="C")
     made = large_array(values.shape, np.float32)

@@ -1,6 +1,6 @@
-"""Images that Basis Universal packed, where the package opengl-basisu is installed.
+"""Basis Universal images, decoded by the optional package opengl-basisu.
 
-In: the bytes of a .ktx2 or .basis file. Out: its pixels. The package is given a process of its own,
+In: the bytes of a .ktx2 or .basis file. Out: its pixels. The package runs in a separate process,
 see `limited_process`.
 """
 
@@ -17,29 +17,29 @@ from ...reading.limited_process import in_limited_process
 from ...reading.sources import Source
 from ..images import check_image_size
 
-#: The extensions that name such images.
+#: The extensions for such images.
 READ = ("KHR_texture_basisu", "GOOGLE_texture_basis")
 _KTX2, _BASIS = b"\xabKTX 20\xbb\r\n\x1a\n", b"sB"
-# In the header of a KTX2 file: width and height as words.
+# Position of width and height in the header of a KTX2 file, and the header's size.
 _SIZE_AT, _HEADER = 20, 80
 
 
 class NotInstalledError(Exception):
-    """Says what to install."""
+    """Raised if the package is missing; the text says what to install."""
 
 
 def is_installed() -> bool:
-    """Return whether there is a package that unpacks such images."""
+    """Return whether the package is installed."""
     return importlib.util.find_spec("opengl_basisu") is not None
 
 
 def is_packed(data: bytes) -> bool:
-    """Return whether these are the bytes of such an image."""
+    """Return whether the bytes are such an image."""
     return data.startswith((_KTX2, _BASIS))
 
 
 def read_packed(source: Source) -> np.ndarray:
-    """Unpack an image.
+    """Decode an image.
 
     Returns
     -------
@@ -66,7 +66,7 @@ def read_packed(source: Source) -> np.ndarray:
 
 
 def _read_here(source: Source, split: bool) -> np.ndarray:
-    """Unpack the largest level in this process."""
+    """Decode the largest level in this process."""
     import opengl_basisu
 
     try:
@@ -75,6 +75,6 @@ def _read_here(source: Source, split: bool) -> np.ndarray:
         return texture.transcode("rgba8").data
     except FileFormatError:
         raise
-    # The package has exceptions of its own, and lets others of C++ through.
+    # The package has its own exceptions, and passes on C++ exceptions.
     except Exception as error:
         raise FileFormatError(f"damaged image: {error}", source.path) from None

@@ -1,7 +1,7 @@
-"""The bytes of a glTF file's buffers and buffer views, wherever it says that they are.
+"""Buffers and buffer views of a glTF file.
 
-In: a `GltfFile`. Out: bytes, each buffer read once, compressed views unpacked once. Nothing is
-allocated for what the file announces before it was found to hold it.
+In: a `GltfFile`. Out: bytes, each buffer read once, compressed views unpacked once. Announced sizes
+are checked against the file before any allocation.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from ...reading.text import shown
 from . import gltf_meshopt
 from .gltf_file import DamagedError, Entry, GltfFile, once
 
-# Several primitives may share what takes a byte a number, honestly.
+# In honest files, even shared numbers take at least one byte for this many of them.
 _NUMBERS_PER_BYTE = 4
 
 
@@ -29,13 +29,13 @@ class GltfBuffers:
     ----------
     file : GltfFile
     source : Source
-        Where it is from.
+        The source of the file.
 
     Attributes
     ----------
     limit : int
-        How many numbers the file may be made into, each counted whenever it is asked for. Grows
-        with the files that are read.
+        How many numbers may be made from the file, counted at every request. Grows with the files
+        that are read.
     """
 
     def __init__(self, file: GltfFile, source: Source) -> None:
@@ -49,12 +49,12 @@ class GltfBuffers:
         self.limit = MAX_REPEATED + _NUMBERS_PER_BYTE * source.size
 
     def count(self, numbers: int) -> None:
-        """Note that so many numbers are made of the file.
+        """Count numbers made from the file.
 
         Raises
         ------
         FileFormatError
-            They are more than it may be made into.
+            The total exceeds the limit.
         """
         self._given += numbers
         if self._given > self.limit:
@@ -63,12 +63,12 @@ class GltfBuffers:
             )
 
     def allow(self, size: int, where: str) -> None:
-        """Note that something is unpacked to so many bytes, before it is.
+        """Count unpacked bytes, before unpacking.
 
         Raises
         ------
         FileFormatError
-            They are more than such a file may become.
+            The total exceeds the limit for the file's size.
         """
         self._unpacked_bytes += size
         most = sources.MAX_UNPACKED_BASE + sources.MAX_UNPACKED_RATIO * self._file_bytes
@@ -79,7 +79,7 @@ class GltfBuffers:
         self.limit += _NUMBERS_PER_BYTE * size
 
     def view(self, index: Any, where: str) -> memoryview:
-        """Return the bytes of a buffer view, unpacked if they are compressed."""
+        """Return the bytes of a buffer view, decompressed if necessary."""
         index = self._file.number_in("bufferViews", index, where)
         view = self._file.entries("bufferViews")[index]
         name = f"bufferViews[{index}]"
@@ -89,12 +89,12 @@ class GltfBuffers:
         return once(self._unpacked, index, lambda: self._unpack(packed, name))
 
     def _unpack(self, packed: Entry, name: str) -> memoryview:
-        """The bytes of a view that says how it is packed."""
+        """Return the decompressed bytes of a compressed view."""
         self.allow(gltf_meshopt.unpacked_size(self._file, packed, name), name)
         return gltf_meshopt.unpacked(self._file, self._range(packed, name), packed, name)
 
     def _range(self, entry: Entry, name: str) -> memoryview:
-        """The part of a buffer that an entry names."""
+        """Return the range of a buffer that an entry refers to."""
         start = self._file.whole(entry, "byteOffset", name, 0)
         length = self._file.whole(entry, "byteLength", name)
         buffer = self._buffer(entry.get("buffer"), name)
@@ -105,7 +105,7 @@ class GltfBuffers:
         return buffer[start : start + length]
 
     def named(self, uri: Any, where: str) -> bytes:
-        """Return what a URI stands for: data in itself, or a file in the model's folder.
+        """Return the content of a URI: embedded data, or a file in the model's folder.
 
         Raises
         ------

@@ -1,8 +1,8 @@
-"""Primitives that Draco packed, where the package DracoPy is installed.
+"""Draco-compressed primitives, decoded by the optional package DracoPy.
 
-In: a `GltfFile` and its buffers. Out: the vertices and indices of each primitive. DracoPy is given
-a process of its own, see `limited_process`: a few bytes can stand for any number of vertices. All
-primitives of a file are unpacked together, since a process takes a while to start.
+In: a `GltfFile` and its buffers. Out: the vertices and indices of each primitive. DracoPy runs in a
+separate process, see `limited_process`: a few bytes can encode any number of vertices. All
+primitives of a file are decoded together, since a process is slow to start.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ from .gltf_buffers import GltfBuffers
 from .gltf_file import DamagedError, Entry, GltfFile, whole_of
 
 DRACO = "KHR_draco_mesh_compression"
-#: The extensions that are read here.
+#: The extension handled here.
 READ = (DRACO,)
-# Corners or None, and arrays by their numbers; or what is wrong.
+# Vertex indices or None, and arrays by their numbers; or an error message.
 _Found: TypeAlias = tuple[np.ndarray | None, dict[int, np.ndarray]] | str
 
 
 @dataclass
 class Unpacked:
-    """One primitive.
+    """A decoded primitive.
 
     Attributes
     ----------
     arrays : dict of str to (V, N) array
-        By the names that the primitive has for them, of the types that they were packed as.
+        The attributes by name, with the dtypes of the compressed data.
     corners : (C,) uint32 or None
         None for points.
     """
@@ -44,7 +44,7 @@ class Unpacked:
 
 
 class GltfDraco:
-    """The packed primitives of a file, unpacked when the first is asked for.
+    """The compressed primitives of a file, decoded on first use.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class GltfDraco:
         self._meshes: dict[int, _Found] | None = None
 
     def unpacked(self, entry: Entry, where: str) -> Unpacked | None:
-        """Return what a primitive holds; None if it is not packed, or also in the file as it is."""
+        """Return a primitive's decoded data; None if an uncompressed form exists."""
         packing = self._packing(entry, where)
         if packing is None:
             return None
@@ -102,7 +102,7 @@ class GltfDraco:
         return DRACO in self._file.tree.get("extensionsRequired", ())
 
     def _has_plain(self, entry: Entry, where: str) -> bool:
-        """Whether the positions are in the file besides."""
+        """Return whether the file also has the positions uncompressed."""
         attributes = self._file.part(entry, "attributes", where)
         accessor = self._file.entry("accessors", attributes.get("POSITION"), where)
         return "bufferView" in accessor
@@ -111,7 +111,7 @@ class GltfDraco:
         file: GltfFile = self._file
         views: dict[int, bytes] = {}
         for mesh in file.entries("meshes"):
-            with suppress(DamagedError):  # which is told where it is read
+            with suppress(DamagedError):  # reported where the primitive is read
                 for primitive in file.entries("primitives", mesh):
                     with suppress(DamagedError):
                         self._add_view(primitive, views)
@@ -127,14 +127,14 @@ class GltfDraco:
 
 
 def _unpack_here(source: Source, split: bool) -> dict[int, _Found]:
-    """Unpack views."""
+    """Decode views."""
     import DracoPy
 
     found: dict[int, _Found] = {}
     for index, data in pickle.loads(source.data).items():
         try:
             mesh = DracoPy.decode(data)
-        # DracoPy has an exception of its own, and lets others of C++ through.
+        # DracoPy has its own exception, and passes on C++ exceptions.
         except Exception as error:
             found[index] = str(error)
             continue

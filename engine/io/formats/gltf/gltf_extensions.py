@@ -1,7 +1,7 @@
-"""Extensions that a glTF file needs or uses and that are not read.
+"""Checks for unsupported extensions of a glTF file.
 
-In: a `GltfFile`. Out: an error for an extension that it cannot be read without; one warning for
-each other extension.
+In: a `GltfFile`. Out: an error for an unsupported extension that the file requires; one warning for
+each other.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ _MODULES = (
     *(gltf_textures, gltf_vrm),
 )
 READ = frozenset().union(*(module.READ for module in _MODULES))
-# Extensions that change only how surfaces look or move; the rest of the file is right without.
+# Extensions that affect only appearance or metadata; the rest of the file is right without them.
 _OF_LOOKS = ("KHR_materials_", "KHR_xmp")
 
 
 def check_extensions(file: GltfFile) -> None:
-    """Refuse a file that cannot be read without an unknown extension; tell of the others.
+    """Refuse a file that requires an unsupported extension; warn of the others.
 
     Raises
     ------
@@ -46,7 +46,7 @@ def check_extensions(file: GltfFile) -> None:
 
 
 def _of_materials(file: GltfFile) -> list[str]:
-    """Return the extensions of materials, listed or not: files may forget the list."""
+    """Return the extensions used by materials, listed or not: files may forget the list."""
     return [
         name
         for index, material in enumerate(file.entries("materials"))

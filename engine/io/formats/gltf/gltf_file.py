@@ -1,9 +1,8 @@
-"""A glTF file taken apart: its JSON and, of a .glb, its binary chunk.
+"""The structure of a glTF file: its JSON and, for .glb, its binary chunk.
 
-In: the bytes of a file. Out: the JSON as objects, each checked when it is asked for, and an error
-that names the place of what is wrong in it. What the rest can do without is left out with a
-warning; only where nothing would be left to draw, the first such error is raised. Source: Khronos,
-"glTF 2.0 Specification", 2021.
+In: the bytes of a file. Out: the JSON's objects, each checked when requested, and errors that name
+the damaged place. Optional parts are left out with a warning; if nothing remains to draw, the first
+error is raised. Source: Khronos, "glTF 2.0 Specification", 2021.
 """
 
 from __future__ import annotations
@@ -26,18 +25,18 @@ _LISTS = (
     *("accessors", "animations", "bufferViews", "buffers", "cameras", "images", "materials"),
     *("meshes", "nodes", "samplers", "scenes", "skins", "textures"),
 )
-# Entries of these lists that are not objects are left out: a picture can do without them.
+# Non-object entries of these lists are left out: they are optional for a picture.
 _SPARE_LISTS = {"animations", "cameras", "images", "materials", "samplers", "skins", "textures"}
 _JSON, _BINARY = 0x4E4F534A, 0x004E4942
 _Key = TypeVar("_Key")
 _Value = TypeVar("_Value")
 
-#: An object of the JSON, in which anything may stand.
+#: An object of the JSON with arbitrary content.
 Entry: TypeAlias = dict[str, Any]
 
 
 class DamagedError(FileFormatError):
-    """A place of a file is damaged; its other places may be sound."""
+    """A part of a file is damaged; other parts may be sound."""
 
 
 class GltfFile:
@@ -50,7 +49,7 @@ class GltfFile:
     Attributes
     ----------
     path : str
-        What messages call it.
+        The path as messages show it.
     kind : {"glb", "gltf"}
     tree : dict
         The JSON.
@@ -58,12 +57,12 @@ class GltfFile:
         The binary chunk of a .glb, if it has one.
     warnings : WarningList
     lost : DamagedError or None
-        Why the first thing that would be drawn was left out.
+        The first reason why something drawable was left out.
 
     Raises
     ------
     FileFormatError
-        It is no glTF file, or of another version than 2.
+        It is not a glTF file, or not version 2.
     """
 
     def __init__(self, source: Source) -> None:
@@ -89,23 +88,23 @@ class GltfFile:
         return FileFormatError(message, self.path)
 
     def damaged(self, message: str) -> DamagedError:
-        """Return an error that names the file, of a place that is damaged."""
+        """Return an error that names the file and a damaged part."""
         return DamagedError(f"damaged: {message}", self.path)
 
     def leave_out(self, where: str, error: DamagedError) -> None:
-        """Tell that something is left out, and why."""
+        """Warn that something is left out, and why."""
         reason = error.message.removeprefix("damaged: ")
         for own in (f"{where}: ", f"{where} "):
             reason = reason.removeprefix(own)
         self.warnings.add_once(f"{where} is left out: {reason}")
 
     def lose(self, where: str, error: DamagedError) -> None:
-        """Tell that something which would be drawn is left out."""
+        """Warn that something drawable is left out."""
         self.lost = self.lost or error
         self.leave_out(where, error)
 
     def sound(self, where: str, read: Callable[..., _Value], *args: Any) -> _Value | None:
-        """Return what a function reads at a place; None, with a warning, if that is damaged."""
+        """Return a function's result for a part of the file; None, with a warning, if damaged."""
         try:
             return read(*args)
         except DamagedError as error:
@@ -113,7 +112,7 @@ class GltfFile:
             return None
 
     def entries(self, name: str, parent: Entry | None = None, where: str = "") -> list[Entry]:
-        """Return a list of objects of the JSON, or of an object in it; empty if it is left out."""
+        """Return a list of objects in the JSON, or in an object of it; empty if missing."""
         if parent is None and name in self._checked:
             return self._checked[name]
         entries = (self.tree if parent is None else parent).get(name, [])
@@ -129,25 +128,25 @@ class GltfFile:
         return entries
 
     def extension(self, name: str) -> Entry:
-        """Return what the file says of itself by an extension; empty if it is left out."""
+        """Return the file's own data for an extension; empty if missing."""
         return self.part(self.part(self.tree, "extensions", ""), name, "extensions")
 
     def entry(self, name: str, index: Any, where: str) -> Entry:
-        """Return the object that an index means; ``where`` is the place that names it."""
+        """Return the object with an index; ``where`` is the place that refers to it."""
         entries = self._checked[name]
-        if type(index) is int and 0 <= index < len(entries):  # most often, and very often
+        if type(index) is int and 0 <= index < len(entries):  # the common case, and very frequent
             return entries[index]
         return entries[self.index(index, len(entries), name, where)]
 
     def number_in(self, name: str, value: Any, where: str) -> int:
-        """Return the number of an entry of a list of the file."""
+        """Return the index of an entry in one of the file's lists, checked."""
         count = len(self._checked[name])
         if type(value) is int and 0 <= value < count:
             return value
         return self.index(value, count, name, where)
 
     def index(self, value: Any, count: int, name: str, where: str) -> int:
-        """Return the number of one of ``count`` things."""
+        """Return an index below ``count``, checked."""
         value = whole_of(value)
         if type(value) is not int or not 0 <= value < count:
             raise self.damaged(f"{where} names {name}[{_short(value)}], there are {count}")
@@ -164,7 +163,7 @@ class GltfFile:
         return self.entries("lights", lights, f"extensions.{LIGHTS}.")
 
     def name(self, entry: Entry, where: str) -> str:
-        """Return what something is called; empty if it has no name, or one that is no text."""
+        """Return a thing's name; empty if it has none or the name is not a text."""
         value = entry.get("name", "")
         if isinstance(value, str):
             return value
@@ -172,14 +171,14 @@ class GltfFile:
         return ""
 
     def part(self, parent: Entry, name: str, where: str) -> Entry:
-        """Return an object in an object; empty if it is left out."""
+        """Return an object inside an object; empty if missing."""
         part = parent.get(name, {})
         if not isinstance(part, dict):
             raise self.damaged(f"{where}{'.' * bool(where)}{name} is no object")
         return part
 
     def spare_part(self, parent: Entry, name: str, where: str) -> Entry:
-        """Return an object in an object; empty, with a warning, if it is no object."""
+        """Return an object inside an object; empty, with a warning, if it is not an object."""
         part = parent.get(name)
         if part is None or isinstance(part, dict):
             return part or {}
@@ -187,7 +186,7 @@ class GltfFile:
         return {}
 
     def whole(self, entry: Entry, name: str, where: str, default: int | None = None) -> int:
-        """Return a whole number that is not negative."""
+        """Return a non-negative integer, checked."""
         value = entry.get(name, default)
         if type(value) is not int:
             value = whole_of(value)
@@ -198,7 +197,7 @@ class GltfFile:
     def numbers(
         self, entry: Entry, name: str, where: str, default: tuple[float, ...]
     ) -> tuple[float, ...]:
-        """Return as many finite numbers as ``default`` has."""
+        """Return finite numbers, as many as ``default`` has."""
         values = entry.get(name, default)
         is_sound = isinstance(values, (list, tuple)) and len(values) == len(default)
         if not is_sound or not all(_is_number(value) for value in values):
@@ -206,14 +205,14 @@ class GltfFile:
         return tuple(float(value) for value in values)
 
     def number(self, entry: Entry, name: str, where: str, default: float) -> float:
-        """Return a finite number."""
+        """Return a finite number, checked."""
         value = entry.get(name, default)
         if not _is_number(value):
             raise self.damaged(f"{where}.{name} is {_short(value)}, no finite number")
         return float(value)
 
     def number_list(self, entry: Entry, name: str, where: str) -> tuple[float, ...] | None:
-        """Return any number of finite numbers; None if they are left out."""
+        """Return a list of finite numbers of any length; None if missing."""
         values = entry.get(name)
         if values is None:
             return None
@@ -222,7 +221,7 @@ class GltfFile:
         return tuple(map(float, values))
 
     def _first_chunk(self, data: memoryview) -> memoryview:
-        """The bytes of the JSON; takes note of the binary chunk."""
+        """Return the bytes of the JSON; store the binary chunk."""
         if len(data) < _HEADER + _CHUNK_HEADER:
             raise self.damaged("the file ends within its header")
         version, length = struct.unpack_from("<II", data, 4)
@@ -246,7 +245,7 @@ class GltfFile:
         return data[first:end]
 
     def _has_chunk(self, data: memoryview, wanted: int) -> bool:
-        """Whether a chunk of a kind stands in the rest of a file."""
+        """Return whether the rest of a file contains a chunk of a given type."""
         place = 0
         while place + _CHUNK_HEADER <= len(data):
             size, kind = struct.unpack_from("<II", data, place)
@@ -280,7 +279,7 @@ class GltfFile:
 
 
 def once(kept: dict[_Key, _Value | DamagedError], key: _Key, make: Callable[[], _Value]) -> _Value:
-    """Return what was made for a key before, or make it; of what is damaged the error is kept."""
+    """Return the cached result for a key, or compute it; errors of damaged parts are cached too."""
     found = kept.get(key)
     if found is None:
         try:
@@ -294,7 +293,7 @@ def once(kept: dict[_Key, _Value | DamagedError], key: _Key, make: Callable[[], 
 
 
 def _parts_of(version: str) -> tuple[int, int]:
-    """Major and minor version; of what is none, more than any."""
+    """Return major and minor version; a huge pair if invalid."""
     major, _, minor = version.partition(".")
     parts = major, minor or "0"
     are_sound = all(part.isascii() and part.isdigit() and len(part) < 10 for part in parts)
@@ -302,7 +301,7 @@ def _parts_of(version: str) -> tuple[int, int]:
 
 
 def whole_of(value: Any) -> Any:
-    """Return a number without a fraction as an integer, as JSON may write it: 1.0, 1e0."""
+    """Return a number without a fraction as an integer; JSON may write it as 1.0 or 1e0."""
     return int(value) if isinstance(value, float) and value.is_integer() else value
 
 

@@ -1,7 +1,7 @@
-"""Cameras and lights of a glTF file, as its nodes place them.
+"""Cameras and lights of a glTF file, which its nodes place.
 
 In: a `GltfFile`. Out: a `LensRecord` for each camera, a `LampRecord` for each light of
-KHR_lights_punctual; of those that make no sense a warning.
+KHR_lights_punctual; a warning for invalid ones.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from .gltf_lists import SoundList, sound_list
 
 
 def read_cameras(file: GltfFile) -> SoundList:
-    """Return the cameras that see something: whose angle, size and distances make sense."""
+    """Return the cameras whose angle, size and distances are valid."""
     return sound_list(file, "cameras", file.entries("cameras"), partial(_camera, file))
 
 
@@ -54,7 +54,7 @@ def _needed(file: GltfFile, part: Entry, name: str, where: str) -> float:
 
 
 def read_lights(file: GltfFile) -> SoundList:
-    """Return the lights that have a kind, and are not darker than dark."""
+    """Return the lights that have a kind and valid values."""
     return sound_list(file, f"{LIGHTS}.lights", file.lights(), partial(_light, file))
 
 
@@ -72,7 +72,7 @@ def _light(file: GltfFile, entry: Entry, where: str) -> LampRecord:
         spot = file.part(entry, "spot", where)
         inner = file.number(spot, "innerConeAngle", where, inner)
         outer = file.number(spot, "outerConeAngle", where, outer)
-        # Exporters write pi / 2 with a digit too many.
+        # Exporters round pi / 2 up in its last digits.
         outer = math.pi / 2 if 0 < outer - math.pi / 2 < 1e-6 else outer
         if not (inner >= 0 and 0 < outer <= math.pi / 2):
             raise file.damaged(f"{where} has a cone from {inner:g} to {outer:g}")

@@ -1,7 +1,7 @@
-"""Lists of a glTF file whose entries a picture can do without: cameras, lights, skins, animations.
+"""Optional lists of a glTF file: cameras, lights, skins, animations.
 
-In: the entries, and what reads one. Out: the records of those that are sound, and their numbers;
-the others are left out with a warning.
+In: the entries, and a function that reads one. Out: the records of sound entries, and their
+numbers; others are left out with a warning.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from .gltf_file import Entry, GltfFile
 
 
 class SoundList(NamedTuple):
-    """The records of a list.
+    """The records of a list's sound entries.
 
     Attributes
     ----------
     records : tuple
     number_of : dict of int to int
-        From the number that the file has for an entry to that of its record.
+        Maps the file's number of an entry to that of its record.
     """
 
     records: tuple[Any, ...]
@@ -29,7 +29,7 @@ class SoundList(NamedTuple):
 def sound_list(
     file: GltfFile, name: str, entries: list[Entry], read: Callable[[Entry, str], Any]
 ) -> SoundList:
-    """Return what is read of a list, each entry by ``read(entry, where)``."""
+    """Return the records of a list, each read by ``read(entry, where)``."""
     records: list[Any] = []
     number_of: dict[int, int] = {}
     for index, entry in enumerate(entries):

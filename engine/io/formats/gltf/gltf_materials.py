@@ -1,9 +1,9 @@
 """The materials of a glTF file.
 
-In: a `GltfFile` and its textures. Out: a `Material` for each number, all fields of the core format
-and of the extensions in `READ`; what makes no sense is left out with a warning.
-KHR_materials_pbrSpecularGlossiness becomes what KHR_materials_ior and KHR_materials_specular say of
-it: no metal, an index of refraction of 0, the specular colour.
+In: a `GltfFile` and its textures. Out: a `Material` for each number, with all fields of the core
+format and of the extensions in `READ`; invalid values are left out with a warning.
+KHR_materials_pbrSpecularGlossiness is converted as KHR_materials_ior and KHR_materials_specular
+describe: no metal, an index of refraction of 0, the specular colour.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _VARIANTS = "KHR_materials_variants"
 
 
 class Numbers(NamedTuple):
-    """A number, or several, of a part of a material."""
+    """A numeric property in a part of a material."""
 
     field: str
     key: str
@@ -33,7 +33,7 @@ class Numbers(NamedTuple):
 
 
 class Map(NamedTuple):
-    """A texture of a part of a material, and a number that stands beside it."""
+    """A texture in a part of a material, with the number stored beside it."""
 
     field: str
     key: str
@@ -41,13 +41,13 @@ class Map(NamedTuple):
     beside_key: str = ""
 
 
-# The defaults of files, where they differ from those of `Material`.
+# The defaults in files, where they differ from those of `Material`.
 _LEFT_OUT: dict[str, float | tuple[float, ...]]
 _LEFT_OUT = {"color": (1.0, 1.0, 1.0, 1.0), "metallic": 1.0, "roughness": 1.0}
 
 
 def _parts() -> dict[str, tuple[Numbers | Map, ...]]:
-    """The parameters of `Material` by the parts of a file that they are in, textures last."""
+    """Return the parameters of `Material` by their part of the file, textures last."""
     rows = {field: row for field, row in PARAMETERS.items() if row.gltf}
     texts = [(*row.gltf.partition("."), field) for field, row in rows.items()]
     beside = {texture: (field, key) for texture, dot, key, field in texts if dot}
@@ -71,12 +71,12 @@ _GLOSSY_PARTS = (
     Map("texture", "diffuseTexture"),
     Map("specular_color_texture", "specularGlossinessTexture"),
 )
-#: The extensions that are read here.
+#: The extensions handled here.
 READ = {*(name for name in PARTS if name.startswith("KHR")), _GLOSSY, _UNLIT, _VARIANTS}
 
 
 class GltfMaterials:
-    """The materials of a file, each made once.
+    """The materials of a file, each created once.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ class GltfMaterials:
     def all(self) -> tuple[Material, ...]:
         """Return all materials of the file, for meshes with normals.
 
-        Those that nothing uses and that say the same are the same.
+        Unused materials with equal content share one object.
         """
         used = {index for index, *_ in self._made}
         unused: dict[str, Material] = {}
@@ -110,7 +110,7 @@ class GltfMaterials:
         return tuple(found)
 
     def made(self) -> dict[int, tuple[Material, ...]]:
-        """Return all that each material of the file became so far."""
+        """Return all variants created so far for each material."""
         found: dict[int, tuple[Material, ...]] = {}
         for (index, *_), material in self._made.items():
             if index is not None:
@@ -130,13 +130,13 @@ class GltfMaterials:
         Parameters
         ----------
         index : int or None
-            None for that of what has no material.
+            None for the default material.
         where : str
-            The place that names it.
+            The place that refers to it.
         flat : bool
-            It is for triangles without normals.
+            Whether it is for triangles without normals.
         uv_sets : tuple of int
-            The sets of texture coordinates of the file that the mesh has.
+            The file's UV sets that the mesh has.
         """
         entry = {} if index is None else self._file.entry("materials", index, where)
         key = index, flat, uv_sets
@@ -147,7 +147,7 @@ class GltfMaterials:
         return self._made[key]
 
     def number(self, primitive: Entry, where: str) -> int | None:
-        """Return the material that a primitive names; None if it names none that there is."""
+        """Return the number of a primitive's material; None if it has no valid one."""
         if primitive.get("material") is None:
             return None
         place = f"{where}.material"
@@ -156,14 +156,14 @@ class GltfMaterials:
         )
 
     def uv_sets(self, primitive: Entry, where: str) -> set[int]:
-        """Return the sets of texture coordinates that the materials of a primitive use."""
+        """Return the UV sets that the materials of a primitive use."""
         usual = self.number(primitive, where)
         indices = [] if usual is None else [usual]
         indices += [material for material, _ in self.variants(primitive, where)]
         return set().union(*(self._uv_sets(index, where) for index in indices))
 
     def variants(self, primitive: Entry, where: str) -> list[tuple[int, list[int]]]:
-        """Return the other materials of a primitive, each with the variants that it is of."""
+        """Return the alternative materials of a primitive, each with its variants."""
         extensions = self._file.spare_part(primitive, "extensions", where)
         if _VARIANTS not in extensions:
             return []
@@ -184,7 +184,7 @@ class GltfMaterials:
         return found
 
     def variant_names(self) -> tuple[str, ...]:
-        """Return the names of the file's sets of materials."""
+        """Return the names of the file's material variants."""
         if self._variant_names is None:
             names = self._file.sound(f"extensions.{_VARIANTS}", self._read_variant_names)
             self._variant_names = names or ()
@@ -207,7 +207,7 @@ class GltfMaterials:
         return self._sets[index]
 
     def _named_textures(self) -> set[int]:
-        """The textures that materials name, as far as there are such textures."""
+        """Return the existing textures that materials refer to."""
         count = len(self._file.entries("textures"))
         infos = [
             info
@@ -219,7 +219,7 @@ class GltfMaterials:
         return {index for index in named if 0 <= index < count}
 
     def _parts(self, entry: Entry, where: str) -> Iterator[tuple[Entry, tuple[Numbers | Map, ...]]]:
-        """The parts that a material has, and what may stand in them."""
+        """Return the parts of a material, with their possible properties."""
         file = self._file
         extensions = file.spare_part(entry, "extensions", where)
         glossy = _GLOSSY in extensions
@@ -235,7 +235,7 @@ class GltfMaterials:
             yield file.spare_part(extensions, _GLOSSY, where), _GLOSSY_PARTS
 
     def _infos(self, entry: Entry, where: str) -> list[Entry]:
-        """What a material says of its textures."""
+        """Return a material's texture references."""
         return [
             self._file.spare_part(part, item.key, where)
             for part, items in self._parts(entry, where)
@@ -316,7 +316,7 @@ class GltfMaterials:
 
 
 def undrawn_kinds(material: Material) -> set[str]:
-    """Return what a material says that is not drawn, as keys of `undrawn.KINDS`."""
+    """Return the undrawn features of a material, as keys of `undrawn.KINDS`."""
     is_metal = material.metallic == 1.0 and material.metallic_roughness_texture is None
     if not material.transmission or is_metal:
         return set()
@@ -325,7 +325,7 @@ def undrawn_kinds(material: Material) -> set[str]:
 
 
 def _from_glossiness(values: dict[str, Any], glossiness: float) -> dict[str, Any]:
-    """Turn a specular-glossiness material into a metallic-roughness one."""
+    """Convert a specular-glossiness material to metallic-roughness."""
     found: dict[str, Any] = {"metallic": 0.0, "roughness": 1.0 - glossiness, "ior": 0.0}
     held: Texture | PlacedTexture | None = values.get("specular_color_texture")
     if held is not None:

@@ -1,9 +1,9 @@
 """The meshes of a glTF file.
 
-In: a `GltfFile` and what reads its primitives. Out: a `MeshRecord` each. The primitives of a mesh
-that carry the same attributes become one `Mesh`, with a material for each; others become further
-parts of the record. Meshes of the same primitives share their arrays. A primitive that is damaged
-is left out with a warning.
+In: a `GltfFile` and the reader of its primitives. Out: a `MeshRecord` each. Primitives of a mesh
+with the same attributes become one `Mesh`, with a material each; others become further parts of the
+record. Meshes of the same primitives share their arrays. A primitive that is damaged is left out
+with a warning.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ from .gltf_file import DamagedError, Entry, GltfFile
 from .gltf_materials import GltfMaterials
 from .gltf_primitives import GltfPrimitives, Primitive
 
-# For meshes that bend, of up to so many faces, tangents are found while reading.
+# For deformable meshes with up to this many faces, tangents are computed at loading.
 MOST_BENDING = 1 << 17
 _MORPHS = ("positions", "normals", "tangents")
 _NO_MATERIAL = Material()
 
-# A primitive, what the file says of it, and its place there.
+# A primitive, its JSON entry, and its place there.
 _Member: TypeAlias = tuple[Primitive, Entry, str]
-# The material of a primitive, and those of variants.
+# The material of a primitive, and those of its variants.
 _Chosen: TypeAlias = tuple[Material, dict[int, Material]]
 
 
@@ -61,7 +61,7 @@ class GltfMeshes:
     ) -> None:
         self._file, self._buffers = file, buffers
         self._primitives, self._materials = primitives, materials
-        self._parts: dict[tuple[object, ...], Mesh] = {}  # of primitives that are kept
+        self._parts: dict[tuple[object, ...], Mesh] = {}  # for cached primitives
         self._variant_materials = 0
 
     def all(self) -> tuple[MeshRecord, ...]:
@@ -110,13 +110,13 @@ class GltfMeshes:
         return weights
 
     def _part(self, name: str, members: list[_Member], target_names: list[str]) -> MeshRecord:
-        """Primitives that carry the same as one mesh."""
+        """Return primitives with the same attributes as one mesh."""
         primitives = [primitive for primitive, _, _ in members]
         kind = primitives[0].kind
         flat = kind == "faces" and "normals" not in primitives[0].arrays
         chosen = [self._chosen(*member, flat=flat) for member in members]
         uv_set = None if kind != "faces" or flat else _tangent_set_of(chosen)
-        # The primitives' arrays are theirs as long as the primitives are kept for others.
+        # The arrays stay alive as long as the primitives are cached.
         key = (*(id(primitive.arrays) for primitive in primitives), *target_names, uv_set)
         if self._primitives.are_kept(primitives):
             if key not in self._parts:
@@ -131,7 +131,7 @@ class GltfMeshes:
     def _made(
         self, primitives: list[Primitive], target_names: list[str], uv_set: int | None
     ) -> Mesh:
-        """A mesh of several primitives, whose materials are not those that it will have."""
+        """Return a mesh of several primitives, with provisional materials."""
         counts = [len(primitive.arrays["positions"]) for primitive in primitives]
         starts = np.cumsum([0, *counts])[:-1]
         arrays = {
@@ -172,8 +172,8 @@ class GltfMeshes:
         return mesh
 
     def _variants(self, chosen: list[_Chosen], name: str) -> dict[int, tuple[Material, ...]]:
-        """The materials of each variant that is named; none, with a warning, of far too many."""
-        named: dict[int, dict[int, Material]] = {}  # the materials of each, by primitive
+        """Return the materials of each variant; none, with a warning, if there are too many."""
+        named: dict[int, dict[int, Material]] = {}  # for each variant, the materials by primitive
         for number, (_, others) in enumerate(chosen):
             for variant, material in others.items():
                 named.setdefault(variant, {})[number] = material
@@ -194,11 +194,11 @@ class GltfMeshes:
         return found
 
     def _with_tangents(self, mesh: Mesh, uv_set: int | None) -> Mesh:
-        """A mesh whose tangents will be found when it is drawn; of one that bends, they are."""
+        """Return a mesh whose tangents are computed at drawing, or now if it is deformable."""
         if uv_set is None or (mesh.uvs1 if uv_set else mesh.uvs) is None:
             return mesh
         if scalars_of(mesh):
-            return mesh  # it will be coloured by them, without maps
+            return mesh  # it will be coloured by scalars, without textures
         if mesh.joints is None and not mesh.morph_targets:
             find_tangents_when_drawn(mesh, uv_set)
             return mesh
@@ -220,9 +220,9 @@ class GltfMeshes:
     def _morphs(
         self, primitives: list[Primitive], counts: list[int], names: list[str]
     ) -> list[MorphTarget]:
-        """The morph targets of joined primitives: what only some change is 0 for the others."""
+        """Return the morph targets of joined primitives; missing offsets are 0."""
         found = []
-        # A primitive with fewer targets does not move by the targets that it lacks.
+        # A primitive with fewer targets is not moved by the missing ones.
         held = ([*p.morphs, *({},) * (len(names) - len(p.morphs))] for p in primitives)
         for name, *targets in zip(names, *held, strict=True):
             deltas = {}
@@ -235,7 +235,7 @@ class GltfMeshes:
                             for part, count in zip(parts, counts, strict=True)
                         ]
                     )
-            if not deltas:  # a target that changes nothing still has its weight
+            if not deltas:  # a target without effect still has its weight
                 deltas["positions"] = np.zeros((sum(counts), 3), np.float32)
             found.append(MorphTarget(**deltas, name=name))
         return found
@@ -248,16 +248,16 @@ class GltfMeshes:
 
 
 def _kind_of(primitive: Primitive) -> tuple[object, ...]:
-    """Return the kind that all primitives of a mesh share."""
+    """Return the properties that all primitives of one mesh must share."""
     joints = 0 if primitive.joints is None else primitive.joints.shape[1]
     material = None if primitive.kind == "faces" else primitive.material
-    # The materials of other sets of texture coordinates are others, of these one may be drawn.
+    # Different UV sets need different materials, even if only one set is drawn.
     scalars = tuple((name, values.shape[1]) for name, values in sorted(primitive.scalars.items()))
     return primitive.kind, tuple(primitive.arrays), joints, material, scalars
 
 
 def tangent_set(material: Material) -> int | None:
-    """The texture coordinates that need tangents; None if nothing does, or these are turned."""
+    """Return the UV set that needs tangents; None if none does, or if it is rotated."""
     maps = material.normal_texture, material.clearcoat_normal_texture, material.anisotropy_texture
     found = next((texture for texture in maps if texture is not None), None)
     if isinstance(found, PlacedTexture):
@@ -266,7 +266,7 @@ def tangent_set(material: Material) -> int | None:
 
 
 def _tangent_set_of(chosen: list[_Chosen]) -> int | None:
-    """The texture coordinates that any material of a mesh needs tangents for."""
+    """Return the UV set for which any material of a mesh needs tangents."""
     materials = [usual for usual, _ in chosen]
     materials += [material for _, others in chosen for material in others.values()]
     return next((found for m in materials if (found := tangent_set(m)) is not None), None)

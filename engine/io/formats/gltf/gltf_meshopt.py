@@ -1,6 +1,6 @@
-"""Buffer views that meshopt packed: EXT_meshopt_compression and KHR_meshopt_compression.
+"""Meshopt-compressed buffer views: EXT_meshopt_compression and KHR_meshopt_compression.
 
-In: what a view says of itself. Out: how large it becomes, and its bytes; C unpacks them.
+In: a view's description. Out: its uncompressed size, and its bytes; C decompresses them.
 """
 
 from __future__ import annotations
@@ -9,12 +9,12 @@ from ...._native.loaders import unpack_meshopt
 from ...reading.text import shown
 from .gltf_file import Entry, GltfFile
 
-#: The extensions that are read here.
+#: The extensions handled here.
 READ = ("KHR_meshopt_compression", "EXT_meshopt_compression")
 
 
 def packing_of(file: GltfFile, view: Entry, where: str) -> Entry | None:
-    """Return what a view says of how it is packed; None if it is not."""
+    """Return a view's compression parameters; None if it is uncompressed."""
     extensions = file.part(view, "extensions", where)
     for name in READ:
         if name in extensions:
@@ -23,19 +23,19 @@ def packing_of(file: GltfFile, view: Entry, where: str) -> Entry | None:
 
 
 def unpacked_size(file: GltfFile, packing: Entry, where: str) -> int:
-    """Return how many bytes a view becomes."""
+    """Return the uncompressed size of a view in bytes."""
     count, stride = (file.whole(packing, name, where) for name in ("count", "byteStride"))
     return count * stride
 
 
 def unpacked(file: GltfFile, data: memoryview, packing: Entry, where: str) -> memoryview:
-    """Return the bytes of a view.
+    """Return the uncompressed bytes of a view.
 
     Parameters
     ----------
     file : GltfFile
     data : memoryview
-        As they are packed.
+        The compressed bytes.
     packing : dict
         See `packing_of`.
     where : str

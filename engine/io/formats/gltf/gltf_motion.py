@@ -1,7 +1,7 @@
 """Skins and animations of a glTF file.
 
-In: a `GltfFile` and its accessors. Out: a `SkinRecord` and a `ClipRecord` each. What makes no sense
-is left out with a warning.
+In: a `GltfFile` and its accessors. Out: a `SkinRecord` and a `ClipRecord` each. Invalid parts are
+left out with a warning.
 """
 
 from __future__ import annotations
@@ -28,21 +28,22 @@ from .gltf_file import DamagedError, Entry, GltfFile, once
 from .gltf_lists import SoundList, sound_list
 from .gltf_pointers import POINTER, target_of
 
-# By their names in files.
+# Interpolations by their names in files.
 _INTERPOLATIONS: dict[str, Interpolation] = {name.upper(): name for name in get_args(Interpolation)}
 _PATHS: dict[str, MotionPath] = {name: name for name in get_args(MotionPath)}
 _WIDTHS = {"translation": 3, "rotation": 4, "scale": 3}
 _MOST_TOLD = 200
-# A pointer to a mesh moves all nodes that show it; a channel of each takes so many numbers' memory.
+# A pointer to a mesh animates all nodes that show it; each channel takes the memory of this many
+# numbers.
 _NUMBERS_PER_CHANNEL = 64
-# Parts of a key of a spline: the tangent towards it, its value, the tangent away from it.
+# The numbers of a spline's key: in-tangent, value, out-tangent.
 _SPLINE = 3
 # Times and values.
 _Keys: TypeAlias = tuple[np.ndarray, np.ndarray]
 
 
 def read_skins(file: GltfFile, accessors: GltfAccessors) -> SoundList:
-    """Return the skins that have joints, and as many matrices."""
+    """Return the skins with joints and a matching number of matrices."""
     return sound_list(file, "skins", file.entries("skins"), partial(_skin, file, accessors))
 
 
@@ -60,7 +61,7 @@ def _skin(file: GltfFile, accessors: GltfAccessors, entry: Entry, where: str) ->
         if len(columns) < len(joints):
             raise file.damaged(f"{where} has {len(columns)} matrices, {len(joints)} joints")
         matrices = columns.reshape(-1, 4, 4).transpose(0, 2, 1).astype(np.float64)
-        matrices[:, 3] = (0.0, 0.0, 0.0, 1.0)  # which files may only have rounded
+        matrices[:, 3] = (0.0, 0.0, 0.0, 1.0)  # files may hold rounded values
         if not np.isfinite(matrices).all():
             raise file.damaged(f"{where} has matrices that are not finite")
     else:
@@ -75,7 +76,7 @@ def read_clips(
     meshes: tuple[MeshRecord, ...],
     lists: dict[str, SoundList],
 ) -> tuple[ClipRecord, ...]:
-    """Return the animations, without the channels that make no sense.
+    """Return the animations, without their invalid channels.
 
     Parameters
     ----------
@@ -91,16 +92,16 @@ def read_clips(
 
 
 def _named(pointer: str) -> str:
-    """A pointer as it is told, whole unless it is very long."""
+    """Return a pointer for a message, shortened if it is very long."""
     return repr(pointer if len(pointer) <= _MOST_TOLD else f"{pointer[:_MOST_TOLD]}...")
 
 
 def _later(
     channel: ChannelRecord | PropertyRecord, seconds: float, made: dict[tuple[int, int], _Keys]
 ) -> ChannelRecord | PropertyRecord:
-    """A channel whose keys come later; of those that fall together the last one is left.
+    """Return a channel with its keys shifted later; of coinciding keys, the last is kept.
 
-    ``made`` has the arrays of others, for those that have the same.
+    ``made`` caches arrays, for channels that share them.
     """
     key = id(channel.times), id(channel.values)
     if key not in made:
@@ -111,7 +112,7 @@ def _later(
 
 
 class _Sampled(NamedTuple):
-    """The data of a sampler; ``is_later``: which times differ from the next one, None for all."""
+    """The data of a sampler; ``is_later`` marks times that differ from the next, None marks all."""
 
     times: np.ndarray
     values: np.ndarray
@@ -120,7 +121,7 @@ class _Sampled(NamedTuple):
 
 
 class _Clips:
-    """Reads animations; the values that several channels name are read once."""
+    """Reads animations; values shared by several channels are read once."""
 
     def __init__(
         self,
@@ -134,8 +135,8 @@ class _Clips:
         self._nodes, self._meshes, self._lists = nodes, meshes, lists
         self._times: dict[int, tuple[np.ndarray, np.ndarray | None] | DamagedError] = {}
         self._values: dict[int, np.ndarray | DamagedError] = {}
-        self._keys: dict[tuple[int, int, str, int], _Keys] = {}  # by ids of what is kept
-        self._flags: list[np.ndarray] = []  # whose ids are in use
+        self._keys: dict[tuple[int, int, str, int], _Keys] = {}  # by IDs of cached objects
+        self._flags: list[np.ndarray] = []  # kept alive because their IDs are in use
         self._turns: dict[int, tuple[np.ndarray, np.ndarray]] = {}
         self._shown_by: dict[int, list[int]] = {}  # the nodes of each mesh
         for index, node in enumerate(nodes):
@@ -143,7 +144,7 @@ class _Clips:
                 self._shown_by.setdefault(node.mesh, []).append(index)
 
     def clip(self, entry: Entry, where: str) -> ClipRecord | None:
-        """Return a clip; None if no channel is usable; each of these was reported."""
+        """Return a clip; None if no channel is usable; each fault is reported."""
         file = self._file
         for name in ("channels", "samplers"):
             if name not in entry:
@@ -183,7 +184,7 @@ class _Clips:
     def _channel(
         self, channel: Entry, samplers: list[Entry], clip: str, where: str
     ) -> tuple[np.ndarray, list[ChannelRecord | PropertyRecord]]:
-        """The times of a channel, and what it moves."""
+        """Return the times of a channel, and the records of what it animates."""
         file = self._file
         number = file.index(channel.get("sampler"), len(samplers), "samplers", where)
         sampled = self._sampled(samplers[number], f"{clip}.samplers[{number}]")
@@ -212,7 +213,7 @@ class _Clips:
     def _pointed(
         self, pointer: Any, sampled: _Sampled, where: str
     ) -> list[ChannelRecord | PropertyRecord]:
-        """What moves what a pointer means."""
+        """Return the channels for the target of a pointer."""
         file, target = self._file, target_of(self._file, pointer, where)
         if target is None:
             file.warnings.add(f"{where} moves {_named(pointer)}, which is not played: left out")
@@ -225,10 +226,10 @@ class _Clips:
         if kind in ("camera", "light"):
             records = self._lists[f"{kind}s"].number_of
             if number not in records:
-                return []  # left out, which was told
+                return []  # left out, and already reported
             nodes = [records[number]]
         if path == "visible":
-            # One that says so in time is seen or not, and nothing in between.
+            # An animated visibility is either on or off.
             sampled = sampled._replace(values=(sampled.values != 0).astype(np.float32))
             self._flags.append(sampled.values)
             if sampled.interpolation != "step":
@@ -244,7 +245,7 @@ class _Clips:
         ]
 
     def _shaped(self, sampled: _Sampled, width: int, where: str) -> _Keys:
-        """Times and values, a row of so many numbers for each time; the same arrays for all."""
+        """Return times and values with a fixed number of columns; cached for all users."""
         key = id(sampled.times), id(sampled.values), sampled.interpolation, width
         found = self._keys.get(key)
         if found is None:
@@ -262,7 +263,7 @@ class _Clips:
         return (times, values) if is_later is None else (times[is_later], values[is_later])
 
     def _turning(self, values: np.ndarray, where: str) -> np.ndarray:
-        """Return rotations, none of which is the null quaternion."""
+        """Return rotations without null quaternions."""
         keys = values if values.ndim == 2 else values[:, 1]
         is_none = ~keys.any(axis=1)
         if not is_none.any():
@@ -274,7 +275,7 @@ class _Clips:
         return values
 
     def _width(self, path: str, node: int, where: str) -> int:
-        """How many numbers there are for each time."""
+        """Return how many numbers each time has."""
         if path != "weights":
             return _WIDTHS[path]
         mesh = self._nodes[node].mesh
@@ -306,7 +307,7 @@ class _Clips:
         if raw.dtype.kind != "f":
             raise self._file.damaged(f"{where} has times that are no floats")
         times = self._accessors.as_floats(raw, index)[:, 0]
-        least = float(np.diff(times).min(initial=np.inf))  # not a number where one time is none
+        least = float(np.diff(times).min(initial=np.inf))  # NaN if any time is NaN
         ends = [float(time) for time in (*times[:1], *times[-1:])]
         if not ends or not (least >= 0 and all(map(math.isfinite, ends))):
             raise self._file.damaged(f"{where} has times that go back, or are none")

@@ -1,8 +1,8 @@
-"""The nodes of a glTF file: the tree that its scene shows, and what each of them names.
+"""The nodes of a glTF file: the tree of its scene, and the objects of each node.
 
-In: a `GltfFile`. Out: a `NodeRecord` each, and the nodes that the scene begins with. Nodes may be
-nested to any depth; one that two others name, or that names itself, is an error. One that stands
-nowhere is hidden with what is below it; what a node names and is not there is left out.
+In: a `GltfFile`. Out: a `NodeRecord` each, and the root nodes of the scene. Nodes may be nested to
+any depth; a node with two parents, or in a cycle, is an error. A node with an invalid pose is
+hidden with its subtree; missing references are left out.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .gltf_file import LIGHTS, DamagedError, Entry, GltfFile, once
 from .gltf_lists import SoundList
 
 INSTANCING, VISIBILITY = "EXT_mesh_gpu_instancing", "KHR_node_visibility"
-#: The extensions that are read here.
+#: The extensions handled here.
 READ = (INSTANCING, VISIBILITY, LIGHTS)
 _POSE_PARTS = {"TRANSLATION": 3, "ROTATION": 4, "SCALE": 3}
 _COLORS = "_COLOR_0"
@@ -54,12 +54,12 @@ def read_nodes(
 
 
 def read_roots(file: GltfFile, nodes: tuple[NodeRecord, ...]) -> tuple[int, ...]:
-    """Return the nodes that the file's scene begins with.
+    """Return the root nodes of the file's scene.
 
     Raises
     ------
     FileFormatError
-        The nodes below them are no tree.
+        The nodes below them do not form a tree.
     """
     scenes = file.entries("scenes")
     if scenes:
@@ -76,7 +76,7 @@ def read_roots(file: GltfFile, nodes: tuple[NodeRecord, ...]) -> tuple[int, ...]
 
 
 def _check_tree(file: GltfFile, nodes: tuple[NodeRecord, ...], roots: tuple[int, ...]) -> None:
-    """Raise unless each node is below one other at most, and none below itself."""
+    """Raise unless each node has at most one parent, and no node is its own ancestor."""
     above = [-1] * len(nodes)
     for index, node in enumerate(nodes):
         for child in node.children:
@@ -91,7 +91,7 @@ def _check_tree(file: GltfFile, nodes: tuple[NodeRecord, ...], roots: tuple[int,
 
 
 def _reached(file: GltfFile, nodes: tuple[NodeRecord, ...], roots: tuple[int, ...]) -> bytearray:
-    """A one for each node that stands below these, or is one of them; each is so once."""
+    """Return flags for the nodes reachable from the given ones; each may be reached once."""
     seen = bytearray(len(nodes))
     waiting = list(roots)
     while waiting:
@@ -109,7 +109,7 @@ def with_fitting(
     meshes: tuple[MeshRecord, ...],
     skins: tuple[SkinRecord, ...],
 ) -> tuple[NodeRecord, ...]:
-    """Return nodes without the skins and weights that do not fit their meshes."""
+    """Return nodes without skins and weights that do not fit their meshes."""
     highest: dict[int, int | DamagedError] = {}
     found = list(nodes)
     for index, node in enumerate(nodes):
@@ -134,7 +134,7 @@ def with_fitting(
 
 
 def _highest_joint(record: MeshRecord) -> int:
-    """The last joint that moves a vertex; -1 if none does."""
+    """Return the highest joint index of any vertex; -1 if none."""
     moving = [
         np.where(part.mesh.weights > 0, part.mesh.joints, 0).max(initial=0)
         for part in record.parts
@@ -179,7 +179,7 @@ class _Nodes:
         )
 
     def _shown(self, node: Entry, extensions: Entry, where: str) -> dict[str, Any]:
-        """The mesh of a node, and its instances."""
+        """Return the mesh of a node, and its instances."""
         if "mesh" not in node:
             return {}
         try:
@@ -195,7 +195,7 @@ class _Nodes:
         return self._file.sound(f"{where}.weights", self._file.number_list, node, "weights", where)
 
     def _spare(self, node: Entry, name: str, list_name: str, where: str) -> int | None:
-        """The record of what a node names and can do without."""
+        """Return the record of an optional reference of a node."""
         if name not in node:
             return None
         number = self._file.sound(
@@ -214,7 +214,7 @@ class _Nodes:
         return None if number is None else self._lists["lights"].number_of.get(number)
 
     def _instances(self, extensions: Entry, mesh: int, where: str) -> dict[str, Any]:
-        """The poses and colours of instances; none where the mesh is drawn once."""
+        """Return the poses and colours of instances; none if the mesh is drawn once."""
         if INSTANCING not in extensions:
             return {}
         file, accessors, where = self._file, self._accessors, f"{where}.{INSTANCING}"
@@ -222,19 +222,19 @@ class _Nodes:
         for name in attributes:
             if name not in (*_POSE_PARTS, _COLORS):
                 file.warnings.add_once(f"what instances say of {shown(name)} is left out")
-        # Nodes that say the same have the same arrays.
+        # Nodes with equal entries share arrays.
         key = repr(attributes)
         poses, parts = once(self._poses, key, partial(self._instance_poses, attributes, where))
         if (mesh, key) not in self._drawn:
             self._drawn.add((mesh, key))
-            accessors.count(16 * len(poses))  # of a scene, which has them for each mesh
+            accessors.count(16 * len(poses))  # a scene has them for each mesh
         kept = self._instance_colors
         read = partial(_colors, accessors, attributes, where, len(poses))
         colors = file.sound(f"{where}.{_COLORS}", once, kept, key, read)
         return {"instances": poses, "instance_parts": parts, "instance_colors": colors}
 
     def _instance_poses(self, attributes: Entry, where: str) -> tuple[np.ndarray, _Parts]:
-        """The poses of instances, and the parts that they are made of."""
+        """Return the poses of instances, and their parts."""
         file, accessors = self._file, self._accessors
         held = {
             name: accessors.floats(attributes[name], where, width).astype(np.float64)
@@ -255,7 +255,7 @@ class _Nodes:
 
 
 def _place(file: GltfFile, node: Entry, where: str) -> dict[str, Any]:
-    """The parts of a node's pose."""
+    """Return the parts of a node's pose."""
     found: dict[str, Any] = {
         name: file.numbers(node, name, where, (0.0,) * count)
         for name, count in (("translation", 3), ("rotation", 4), ("scale", 3))
@@ -282,7 +282,7 @@ def _references(file: GltfFile, entry: Entry, name: str, where: str) -> tuple[in
 def _colors(
     accessors: GltfAccessors, attributes: Entry, where: str, count: int
 ) -> np.ndarray | None:
-    """(N, 4) float32, linear, as three.js and others read the attribute; None if there are none."""
+    """Return linear colours, (N, 4) float32, as three.js reads them; None without any."""
     if _COLORS not in attributes:
         return None
     colors = np.nan_to_num(accessors.floats(attributes[_COLORS], where, 3, 4)).clip(0, 1)
@@ -293,7 +293,7 @@ def _colors(
 
 
 def poses_of(translations: np.ndarray, rotations: np.ndarray, scales: np.ndarray) -> np.ndarray:
-    """Return matrices (N, 4, 4) of (N, 3), (N, 4) and (N, 3); no rotation for a null quaternion."""
+    """Return matrices (N, 4, 4) of translations, quaternions (null: no rotation) and scales."""
     square = (rotations * rotations).sum(axis=1)
     is_none = ~((square > 0) & (square < np.inf))
     rotations = np.where(is_none[:, np.newaxis], (0.0, 0.0, 0.0, 1.0), rotations)

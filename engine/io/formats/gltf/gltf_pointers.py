@@ -1,8 +1,8 @@
-"""JSON pointers of KHR_animation_pointer, and the part of a tree that each means.
+"""JSON pointers of KHR_animation_pointer, and the properties they refer to.
 
-In: a pointer. Out: the thing, its property and how many numbers that is; and the pointer of a
-property, for who writes one. Sources: Khronos, KHR_animation_pointer and "glTF 2.0 Asset Object
-Model"; RFC 6901.
+In: a pointer. Out: the object, its property and the number of components; or, for writing, the
+pointer of a property. Sources: Khronos, KHR_animation_pointer and "glTF 2.0 Asset Object Model";
+RFC 6901.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from .gltf_nodes import VISIBILITY
 from .gltf_textures import TRANSFORM
 
 POINTER = "KHR_animation_pointer"
-#: The extensions that are read here.
+#: The extension handled here.
 READ = (POINTER,)
 _POSE = {"translation": 3, "rotation": 4, "scale": 3}
 _PLACE = {"offset": 2, "rotation": 1, "scale": 2}
@@ -39,18 +39,18 @@ _LIGHT_LIST = f"extensions/{LIGHTS}/lights"
 
 
 class Target(NamedTuple):
-    """The property that a pointer means.
+    """The property that a pointer refers to.
 
     Attributes
     ----------
     kind : {"node", "mesh", "material", "camera", "light"}
     number : int
-        In the file's list of these.
+        The index in the file's list.
     path : str
         "translation", "rotation", "scale" and "weights" of a node, "weights" of a mesh; else the
         path of a `PropertyRecord`.
     width : int
-        How many numbers it is; 0 for one each morph target.
+        The number of components; 0 means one for each morph target.
     """
 
     kind: str
@@ -60,7 +60,7 @@ class Target(NamedTuple):
 
 
 def _material_pointers() -> dict[str, tuple[str, int]]:
-    """Return paths behind a material's number -> its property, and how many numbers."""
+    """Return a map from paths after a material's number to properties and their widths."""
     found: dict[str, tuple[str, int]] = {}
     for part, items in PARTS.items():
         place = f"extensions/{part}/" if part.startswith("KHR") else f"{part}/" if part else ""
@@ -80,12 +80,12 @@ _MATERIALS = _material_pointers()
 
 
 def target_of(file: GltfFile, pointer: Any, where: str) -> Target | None:
-    """Return what a pointer means; None if it is nothing that can change here.
+    """Return the target of a pointer; None if it cannot be animated here.
 
     Raises
     ------
     DamagedError
-        It is no pointer, or points to what is not there.
+        It is not a pointer, or its target does not exist.
     """
     if not isinstance(pointer, str) or not pointer.startswith("/"):
         raise file.damaged(f"{where} has no pointer")
@@ -145,17 +145,17 @@ _FINDERS = {
 
 
 def pointer_of(kind: str, number: int, path: str, lens: str = "") -> str | None:
-    """Return the pointer of a property; None if files have no place for it.
+    """Return the pointer of a property; None if files cannot express it.
 
     Parameters
     ----------
     kind : {"node", "material", "camera", "light"}
     number : int
-        In the list of the file.
+        The index in the file's list.
     path : str
         See `PropertyRecord`.
     lens : str
-        Of a camera: "perspective" or "orthographic".
+        For cameras: "perspective" or "orthographic".
     """
     if kind == "node":
         is_weight = path.startswith("weights.")

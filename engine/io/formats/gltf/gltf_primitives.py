@@ -1,8 +1,8 @@
-"""Triangles, lines and points of a glTF file.
+"""Primitives of a glTF file: triangles, lines and points.
 
-In: a primitive of a mesh. Out: a `Primitive`: its elements and what its vertices carry, as a `Mesh`
-takes them; None for what has no positions. Vertices that nothing uses are left out; so are morph
-targets, joints and what else moves vertices, with a warning, where they are damaged.
+In: a primitive of a mesh. Out: a `Primitive`: its elements and vertex attributes, as a `Mesh` takes
+them; None without positions. Unused vertices are dropped; damaged morph targets, joints and other
+deformation data are left out with a warning.
 """
 
 from __future__ import annotations
@@ -24,41 +24,42 @@ from .gltf_materials import GltfMaterials
 from .gltf_sharing import SharedArrays
 
 _POINTS, _LINES, _LOOP, _LINE_STRIP, _TRIANGLES, _STRIP, _FAN = range(7)
-#: The extensions that are read here.
+#: The extension handled here.
 READ = ("KHR_mesh_quantization",)
-# Each takes some kilobytes, or a part of a millisecond, however little the file says of it.
+# Each takes some kilobytes, and a fraction of a millisecond, however small its entry.
 _MAX_PRIMITIVES = 10_000
-# A list of so small a share of all vertices is sorted; of a larger one, each is marked.
+# If elements use a smaller fraction of all vertices than this, sort their indices; otherwise mark
+# each vertex.
 _FEW = 4
 _INFLUENCES = 4
-_WIDTHS = (1, 2, 3, 4)  # of attributes of the file's own
-# What becomes of an array.
+_WIDTHS = (1, 2, 3, 4)  # of custom attributes
+# A conversion of an array.
 _Change: TypeAlias = Callable[[np.ndarray], np.ndarray]
-# Of the vertices those in use, and elements with the numbers that these get.
+# The rows of used vertices, and the elements renumbered to them.
 _Compact: TypeAlias = tuple[slice | np.ndarray, np.ndarray]
 _MORPHED = {"POSITION": "positions", "NORMAL": "normals", "TANGENT": "tangents"}
 
 
 @dataclass
 class Primitive:
-    """One primitive.
+    """One primitive of a mesh.
 
     Attributes
     ----------
     kind : {"faces", "lines", "points"}
     elements : (E, 3), (E, 2) or (E,) int32
-        Vertices.
+        Vertex indices.
     arrays : dict of str to array
-        What the vertices carry, by the names that `Mesh` has for it.
+        The vertex attributes, by their names in `Mesh`.
     joints : (V, J) uint16 or None
     weights : (V, J) float32 or None
     morphs : list of dict of str to (V, 3) float32
-        What each morph target adds to positions, normals, tangents.
+        Each morph target's offsets of positions, normals, tangents.
     material : int or None
     uv_sets : tuple of int
-        The sets of texture coordinates of the file that ``uvs`` and ``uvs1`` are.
+        The file's UV sets that became ``uvs`` and ``uvs1``.
     scalars : dict of str to (V, N) number
-        Attributes of the file's own, if they are asked for.
+        Custom attributes, if requested.
     """
 
     kind: str
@@ -73,7 +74,7 @@ class Primitive:
 
 
 class GltfPrimitives:
-    """Reads the primitives of a file. What several of them share is made once.
+    """Reads the primitives of a file. Shared data is created once.
 
     Parameters
     ----------
@@ -89,9 +90,9 @@ class GltfPrimitives:
     lists : list of list of dict
         The primitives of each mesh.
     left_out : list of str
-        Places of the primitives that have no positions.
+        Places of the primitives without positions.
     own : set of str
-        Names of attributes that the file has for itself.
+        Names of the file's custom attributes.
     """
 
     def __init__(
@@ -116,7 +117,7 @@ class GltfPrimitives:
         self.own: set[str] = set()
 
     def read(self, entry: Entry, where: str) -> Primitive | None:
-        """Return a primitive, which ``where`` names in errors.
+        """Return a primitive; ``where`` is its place for errors.
 
         Raises
         ------
@@ -135,7 +136,7 @@ class GltfPrimitives:
         return replace(found, material=material)
 
     def are_kept(self, primitives: list[Primitive]) -> bool:
-        """Whether all of some primitives are kept, since others of the file are the same."""
+        """Return whether all given primitives are cached, because others in the file equal them."""
         return all(id(primitive.arrays) in self._kept for primitive in primitives)
 
     def _made(self, entry: Entry, uv_sets: tuple[int, ...], where: str) -> Primitive:
@@ -166,7 +167,7 @@ class GltfPrimitives:
         return primitive
 
     def _uv_sets(self, entry: Entry, where: str) -> tuple[int, ...]:
-        """The two sets of texture coordinates that the materials of a primitive use."""
+        """Return the two UV sets that the materials of a primitive use."""
         used = self._materials.uv_sets(entry, where)
         if used <= {0, 1}:
             return (0, 1)
@@ -175,7 +176,7 @@ class GltfPrimitives:
         return tuple(sorted(used))[:2]
 
     def _tell(self, kind: str, message: str) -> None:
-        """Warn of something once a file."""
+        """Issue a warning once per file."""
         if kind not in self._told:
             self._told.add(kind)
             self._file.warnings.add(message)
@@ -203,14 +204,14 @@ class GltfPrimitives:
     def _spare(
         self, vertices: _Vertices, name: str, *widths: int, changed: _Change | None = None
     ) -> np.ndarray | None:
-        """An attribute that a primitive can do without; None if it is not there, or damaged."""
+        """Return an optional attribute; None if it is missing or damaged."""
         if name not in vertices.attributes:
             return None
         read = partial(vertices.floats, name, *widths, changed=changed)
         return self._file.sound(f"{vertices.where}.{name}", read)
 
     def _influences(self, vertices: _Vertices, where: str) -> tuple[np.ndarray, np.ndarray] | None:
-        """Joints and weights of all sets side by side; None if there are none."""
+        """Return joints and weights of all sets side by side; None if there are none."""
         joints: list[np.ndarray] = []
         weights = []
         while f"JOINTS_{len(joints)}" in vertices.attributes:
@@ -225,11 +226,11 @@ class GltfPrimitives:
         if not joints:
             return None
         usable = _usable(np.concatenate(weights, axis=1))
-        # Files leave any number beside a weight of 0.
+        # Files may contain any joint index where the weight is 0.
         return np.where(usable > 0, np.concatenate(joints, axis=1), 0), usable
 
     def _morphs(self, vertices: _Vertices, entry: Entry, where: str) -> list[dict[str, np.ndarray]]:
-        """Return each morph target's deltas; a damaged one keeps its place, and adds nothing."""
+        """Return each morph target's offsets; a damaged target keeps its index and adds nothing."""
         file = self._file
         targets = file.sound(f"{where}.targets", file.entries, "targets", entry, f"{where}.") or []
         found = []
@@ -239,7 +240,7 @@ class GltfPrimitives:
         return found
 
     def _morph(self, vertices: _Vertices, target: Entry, where: str) -> dict[str, np.ndarray]:
-        """Another set of attributes, which count only where the mesh itself has them."""
+        """Return one target's offsets, only for attributes that the mesh itself has."""
         for name in target:
             if name not in _MORPHED:
                 self._tell(name, f"{where}: what it adds to {name} is left out")
@@ -253,7 +254,7 @@ class GltfPrimitives:
 
 
 def primitive_lists(file: GltfFile) -> list[list[Entry]]:
-    """Return the primitives of each mesh; none, with a warning, of one that makes no sense.
+    """Return the primitives of each mesh; none, with a warning, if the list is invalid.
 
     Raises
     ------
@@ -280,7 +281,7 @@ def _primitives_of(file: GltfFile, entry: Entry, where: str) -> list[Entry]:
 
 
 class _Vertices:
-    """The attributes of a primitive's vertices; ``rows`` are the ones asked for."""
+    """The attributes of a primitive's vertices; ``rows`` selects vertices."""
 
     def __init__(
         self,
@@ -299,11 +300,11 @@ class _Vertices:
 
     @property
     def is_indexed(self) -> bool:
-        """Whether the elements name their vertices."""
+        """Whether the primitive has indices."""
         return "indices" in self._entry
 
     def corners(self) -> np.ndarray:
-        """The vertices (C,) that the elements name one after the other."""
+        """Return the vertices (C,) in element order."""
         if self._unpacked is not None and self._unpacked.corners is not None:
             corners = self._unpacked.corners
         elif not self.is_indexed:
@@ -320,7 +321,7 @@ class _Vertices:
         return made
 
     def elements(self, mode: int) -> _Compact:
-        """The rows of the vertices in use, and triangles or segments of the numbers they get."""
+        """Return the rows of used vertices, and triangles or segments renumbered to them."""
 
         def make() -> _Compact:
             return compact(_elements(self.corners(), mode), self.total)
@@ -330,7 +331,7 @@ class _Vertices:
         return self._shared.get("elements", self._entry.get("indices"), make, mode, self.total)
 
     def raw(self, name: str, *widths: int) -> np.ndarray:
-        """An attribute as it is stored."""
+        """Return an attribute as stored."""
         values = self._stored(name, *widths)
         return values[self.rows]
 
@@ -346,14 +347,14 @@ class _Vertices:
         return values
 
     def floats(self, name: str, *widths: int, changed: _Change | None = None) -> np.ndarray:
-        """An attribute as float32, of all vertices one array for whoever has the same.
+        """Return an attribute as float32; primitives with the same data share one array.
 
         Parameters
         ----------
         name : str
         *widths : int
         changed : callable, optional
-            What a new array becomes.
+            A conversion of a new array.
         """
 
         def make() -> np.ndarray:
@@ -365,12 +366,12 @@ class _Vertices:
         return self._once(changed, self.attributes[name], make)
 
     def numbers(self, name: str) -> np.ndarray:
-        """An attribute of the file's own, integers as they are unless they stand for others."""
+        """Return a custom attribute; integers stay integers unless normalised."""
         values = self._stored(name, *_WIDTHS)
         return self._accessors.as_numbers(values, self.attributes[name], self.rows)
 
     def deltas(self, index: int, where: str) -> np.ndarray:
-        """Return the deltas that a morph target adds to an attribute."""
+        """Return a morph target's offsets of an attribute."""
 
         def make() -> np.ndarray:
             values = self._accessors.raw(index, where, 3)
@@ -393,7 +394,7 @@ class _Vertices:
 
 
 def _geometry_of(entry: Entry) -> str:
-    """Return a primitive without its materials; equal ones share arrays."""
+    """Return a primitive's key without materials; equal keys share arrays."""
     extensions = entry.get("extensions")
     packing = extensions.get(DRACO) if isinstance(extensions, dict) else None
     keys = ("attributes", "indices", "mode", "targets")
@@ -401,7 +402,7 @@ def _geometry_of(entry: Entry) -> str:
 
 
 def _accessors_of(entry: Entry) -> list[float]:
-    """The accessors that a primitive names; what is no number is left out."""
+    """Return the accessors of a primitive; invalid indices are left out."""
     targets = entry.get("targets")
     parts = [entry.get("attributes"), *(targets if isinstance(targets, list) else [])]
     named = [index for part in parts if isinstance(part, dict) for index in part.values()]
@@ -409,7 +410,7 @@ def _accessors_of(entry: Entry) -> list[float]:
 
 
 def compact(elements: np.ndarray, total: int) -> _Compact:
-    """The rows of the vertices in use, and the elements with the numbers that these get."""
+    """Return the rows of used vertices, and the elements renumbered to them."""
     if elements.size * _FEW < total:
         rows, flat = np.unique(elements, return_inverse=True)
         return rows, flat.reshape(elements.shape).astype(np.int32)
@@ -421,28 +422,28 @@ def compact(elements: np.ndarray, total: int) -> _Compact:
 
 
 def _flipped(values: np.ndarray) -> np.ndarray:
-    """Texture coordinates whose origin is at the bottom left."""
+    """Return texture coordinates with their origin at the bottom left."""
     uvs = finite_uvs(values)
     np.subtract(np.float32(1), uvs[:, 1], out=uvs[:, 1])
     return uvs
 
 
 def _with_alpha(values: np.ndarray) -> np.ndarray:
-    """Colours (V, 4)."""
+    """Return colours with alpha, (V, 4)."""
     colors = np.nan_to_num(values).clip(0, 1)
     opaque = np.ones((len(colors), 4 - colors.shape[1]), np.float32)
     return np.concatenate([colors, opaque], axis=1)
 
 
 def _usable(weights: np.ndarray) -> np.ndarray:
-    """Return weights; the first joint moves the vertices that have none."""
+    """Return weights; vertices whose weights are all 0 follow their first joint."""
     weights = np.where(np.isfinite(weights) & (weights > 0), weights, np.float32(0))
     weights[~weights.any(axis=1), 0] = 1
     return weights
 
 
 def _elements(corners: np.ndarray, mode: int) -> np.ndarray:
-    """Triangles, segments or points; corners that are too few for a last one are left out."""
+    """Return triangles, segments or points; an incomplete last element is dropped."""
     if mode == _POINTS:
         return corners
     if mode < _TRIANGLES:
@@ -459,7 +460,7 @@ def _elements(corners: np.ndarray, mode: int) -> np.ndarray:
 
 
 def _segments(corners: np.ndarray, mode: int) -> np.ndarray:
-    """Segments (L, 2)."""
+    """Return segments (L, 2)."""
     if mode == _LINES:
         return corners[: len(corners) // 2 * 2].reshape(-1, 2)
     ends = np.roll(corners, -1)

@@ -1,8 +1,8 @@
-"""Arrays that several primitives of a glTF file share.
+"""Arrays shared by several primitives of a glTF file.
 
-In: the accessors that each of them names, and what makes an array. Out: the array, the same for
-whoever asks for the same; so a file is made into no more numbers than it has. What only one
-primitive names is not kept.
+In: the accessors of each primitive, and functions that build arrays. Out: one array for all that
+request the same; so a file never expands to more numbers than it holds. Arrays of a single
+primitive are not cached.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ...._native.loaders import frozen
 
 
 class SharedArrays:
-    """Arrays that were made from accessors, for primitives that name the same ones.
+    """A cache of arrays built from accessors, for primitives that share accessors.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ class SharedArrays:
         self._made: dict[tuple[Hashable, ...], Any] = {}
 
     def get(self, role: Hashable, index: Any, make: Callable[[], Any], *rest: Hashable) -> Any:
-        """Return what ``make()`` made before of the same accessor in the same role, or makes now.
+        """Return the cached result of ``make()`` for an accessor and role, or call it.
 
         Parameters
         ----------
@@ -39,7 +39,7 @@ class SharedArrays:
             The accessor.
         make : callable
         *rest : hashable
-            What else the result depends on.
+            Further inputs of the result.
         """
         if not isinstance(index, (int, float)) or self._uses[index] < 2:
             return make()
@@ -50,7 +50,7 @@ class SharedArrays:
 
 
 def _sealed(made: Any) -> Any:
-    """Arrays that nobody can write to: meshes copy others."""
+    """Return the arrays read-only, so that meshes need not copy them."""
     if type(made) is tuple:
         return tuple(map(_sealed, made))
     return frozen(made) if isinstance(made, np.ndarray) else made

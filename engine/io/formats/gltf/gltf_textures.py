@@ -1,8 +1,8 @@
 """The images and textures of a glTF file.
 
-In: a `GltfFile` and its buffers. Out: a `Texture` for each image with each sampler, which keeps the
-image's own bytes; placed where a material places it. An image that is missing, damaged or too large
-is a warning, and materials have none then. Images are decoded side by side.
+In: a `GltfFile` and its buffers. Out: a `Texture` for each pair of image and sampler, which keeps
+the encoded image; with the transform that a material gives it. A missing, damaged or oversized
+image gives a warning, and no texture. Images are decoded in parallel.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from ....model.materials.parameters import SlotTexture
 
 TRANSFORM, _WEBP = "KHR_texture_transform", "EXT_texture_webp"
-#: The extensions that are read here.
+#: The extensions handled here.
 READ = (TRANSFORM, _WEBP, *gltf_basisu.READ)
 _WRAPS: dict[int, Wrap] = {33071: "clamp", 33648: "mirror", 10497: "repeat"}
 _NEAREST, _LINEAR = 9728, 9729
@@ -46,7 +46,7 @@ _SAMPLING = {
     "wrapT": tuple(_WRAPS),
 }
 _MOST_THREADS = 4
-# What images begin with: PNG, JPEG, WebP.
+# Signatures of PNG, JPEG and WebP images.
 _USUAL = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"RIFF")
 
 
@@ -66,7 +66,7 @@ class GltfTextures:
         self._sources: dict[int, int | None] = {}
 
     def decode(self, textures: set[int]) -> None:
-        """Decode the images of some textures, all at once."""
+        """Decode the images of some textures in parallel."""
         wanted = dict.fromkeys(self._image_of(texture) for texture in sorted(textures))
         images = [image for image in wanted if image is not None and image not in self._images]
         if not images:
@@ -79,7 +79,7 @@ class GltfTextures:
             self._images[image] = None if isinstance(result, str) else result
 
     def get(self, info: Entry, where: str) -> Texture | None:
-        """Return the texture that a material's ``info`` names; None if its image is left out."""
+        """Return the texture for a material's ``info``; None if its image is left out."""
         index = self._file.number_in("textures", info.get("index"), where)
         entry = self._file.entries("textures")[index]
         self.decode({index})
@@ -96,14 +96,14 @@ class GltfTextures:
         return self._textures[key]
 
     def placed(self, info: Entry, where: str, uv_sets: tuple[int, ...]) -> SlotTexture:
-        """Return a texture with the coordinates that it is read at.
+        """Return a texture with its UV set and transform.
 
         Parameters
         ----------
         info : dict
         where : str
         uv_sets : tuple of int
-            The sets of the file that the mesh has.
+            The file's UV sets that the mesh has.
         """
         texture = self.get(info, where)
         if texture is None:
@@ -115,7 +115,7 @@ class GltfTextures:
         return found if found.uv_set or found.is_moved else texture
 
     def _place(self, info: Entry, where: str) -> dict[str, Any]:
-        """How the coordinates are moved."""
+        """Return the transform of the texture coordinates."""
         transform = self._transform(info, where)
         return {
             "offset": self._file.numbers(transform, "offset", where, (0.0, 0.0)),
@@ -124,7 +124,7 @@ class GltfTextures:
         }
 
     def uv_set(self, info: Entry, where: str) -> int:
-        """Return the set of texture coordinates that ``info`` names; 0 if that is no number."""
+        """Return the UV set of ``info``; 0 if invalid."""
         return self._file.sound(f"{where}.texCoord", self._uv_set, info, where) or 0
 
     def _uv_set(self, info: Entry, where: str) -> int:
@@ -136,7 +136,7 @@ class GltfTextures:
         return self._file.spare_part(extensions, TRANSFORM, where)
 
     def _image_of(self, index: int) -> int | None:
-        """The image of a texture; told once if it has none."""
+        """Return the image of a texture; warn once if it has none."""
         if index in self._sources:
             return self._sources[index]
         file, where = self._file, f"textures[{index}]"
@@ -156,7 +156,7 @@ class GltfTextures:
         return image
 
     def _sampling(self, entry: Entry, where: str) -> tuple[tuple[Wrap, Wrap], Filter]:
-        """The wraps along both sides, and the filter."""
+        """Return the wraps along both sides, and the filter."""
         sampler: Entry = {}
         if "sampler" in entry:
             place = f"{where}.sampler"
@@ -174,7 +174,7 @@ class GltfTextures:
         return wrap, "trilinear" if has_levels else "bilinear"
 
     def _decoded(self, image: int) -> Texture | str:
-        """The image as a texture, or why there is none."""
+        """Return the image as a texture, or the reason why there is none."""
         where = f"images[{image}]"
         entry = self._file.entries("images")[image]
         uri = entry.get("uri")
@@ -200,14 +200,14 @@ class GltfTextures:
 
 
 def _read_image(source: Source) -> np.ndarray:
-    """Decode an image; those that glTF allows without importing all formats."""
+    """Decode an image; glTF's usual formats do not import all others."""
     if source.data.startswith(_USUAL):
         return read_image(source)
     return find_reader(source, "image").read(source)
 
 
 def changed(texture: Texture, pixels: np.ndarray, name: str) -> Texture:
-    """Return a texture of other pixels that is sampled like this one."""
+    """Return a texture with other pixels and the same sampling."""
     return Texture(frozen(pixels), wrap=texture.wrap, filter=texture.filter, name=name)
 
 

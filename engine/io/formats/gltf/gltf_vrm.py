@@ -1,8 +1,8 @@
-"""Avatars of VRM 0, which face the other way.
+"""VRM 0 avatars, which face backwards.
 
-In: a tree whose file has the extension VRM. Out: the same below a node that turns it by half a
-turn, so that it faces +Z as glTF's models do. Those of VRM 1 (VRMC_vrm) face +Z by themselves.
-Source: VRM Consortium, "VRM 0.0 Specification".
+In: a tree whose file has the extension VRM. Out: the same below a node that rotates it by half a
+turn, so that it faces +Z as glTF models do. VRM 1 avatars (VRMC_vrm) already face +Z. Source: VRM
+Consortium, "VRM 0.0 Specification".
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from ...reading.documents import NodeRecord, TreeRecord
 from .gltf_file import GltfFile
 
 _OLD, _NEW = "VRM", "VRMC_vrm"
-#: The extensions that are read here.
+#: The extension handled here.
 READ = (_OLD,)
 _HALF_TURN = (0.0, 1.0, 0.0, 0.0)
 
 
 def facing_forward(file: GltfFile, tree: TreeRecord) -> TreeRecord:
-    """Return a tree that faces +Z, whatever its file says of avatars."""
+    """Return a tree that faces +Z, rotated if its file is VRM 0."""
     extensions = file.spare_part(file.tree, "extensions", "the file")
     if _OLD not in extensions or _NEW in extensions or not tree.roots:
         return tree

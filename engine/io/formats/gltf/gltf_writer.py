@@ -1,4 +1,4 @@
-"""glTF 2.0: scenes and meshes, as .glb, or as .gltf with all in one file.
+"""Writer of glTF 2.0: scenes and meshes, as .glb, or as self-contained .gltf.
 
 In: a scene, or a mesh. Out: a file that holds its tree, materials, textures, cameras, lights, skins
 and animations. Source: Khronos, "glTF 2.0 Specification", 2021.
@@ -28,13 +28,13 @@ _URI = "data:application/octet-stream;base64,"
 
 
 def write_scene(scene: Scene, extension: str, file: BinaryIO) -> list[str]:
-    """Write a scene to an open file; returns a line for each thing that this does not hold."""
+    """Write a scene to an open file; return a line for each thing that glTF cannot hold."""
     tree, told = tree_of_scene(scene)
     return [*told, *write_tree(tree, extension, file)]
 
 
 def save_scene_as(scene: Scene, path: str | BinaryIO, extension: str) -> None:
-    """Write a scene to a file or an open stream, as one of `EXTENSIONS`; tell what is lost."""
+    """Write a scene to a file or an open stream, as one of `EXTENSIONS`; warn of losses."""
     target: Any = path
     is_stream = hasattr(target, "write")
     name = "<stream>" if is_stream else str(target)
@@ -45,7 +45,7 @@ def save_scene_as(scene: Scene, path: str | BinaryIO, extension: str) -> None:
 
 
 def write_tree(tree: TreeRecord, extension: str, file: BinaryIO) -> list[str]:
-    """Write a tree to an open file, as one of `EXTENSIONS`; returns as `write_scene`."""
+    """Write a tree to an open file, as one of `EXTENSIONS`; return as `write_scene`."""
     made = GltfTree(tree)
     if extension == ".gltf":
         if made.arrays.size:
@@ -76,7 +76,7 @@ def _write_glb(made: GltfTree, file: BinaryIO) -> None:
 def _text(made: GltfTree, indent: int | None = None) -> bytes:
     try:
         text = _json(made.json, indent)
-    except (TypeError, ValueError, RecursionError):  # by what others say of their things
+    except (TypeError, ValueError, RecursionError):  # custom extras are not JSON
         made.told.append("extras that JSON does not hold are left out")
         text = _json(_without_odd_extras(made.json), indent)
     return text.encode("utf-8", "backslashreplace")
@@ -89,7 +89,7 @@ def _json(value: Any, indent: int | None) -> str:
 
 
 def _without_odd_extras(value: Any) -> Any:
-    """Return a part of the tree without extras that cannot be written."""
+    """Return a part of the tree without extras that JSON cannot hold."""
     if isinstance(value, list):
         return [_without_odd_extras(one) for one in value]
     if not isinstance(value, dict):
@@ -116,12 +116,12 @@ def _write_mesh(mesh: Mesh, file: BinaryIO, extension: str) -> list[str]:
 
 
 def write_glb(mesh: Mesh, path: str, files: Files) -> list[str]:
-    """Write a mesh as .glb; returns what such files do not hold."""
+    """Write a mesh as .glb; return a line for each loss."""
     return _write_mesh(mesh, files.create(path), ".glb")
 
 
 def write_gltf(mesh: Mesh, path: str, files: Files) -> list[str]:
-    """Write a mesh as .gltf; returns what such files do not hold."""
+    """Write a mesh as .gltf; return a line for each loss."""
     return _write_mesh(mesh, files.create(path), ".gltf")
 
 

@@ -1,7 +1,7 @@
-"""The binary part of a glTF file that is written: arrays and images, one behind another.
+"""The binary part of a written glTF file: arrays and images, one after another.
 
-In: arrays and bytes. Out: their numbers as accessors and buffer views, and the chunks themselves.
-What is the same array is written once.
+In: arrays and bytes. Out: their accessor and buffer view numbers, and the chunks. Equal arrays are
+written once.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 _TYPES = {"u1": 5121, "u2": 5123, "u4": 5125, "f4": 5126}
 _SHAPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
 _VERTICES, _INDICES = 34962, 34963
-_STEP = 4  # where arrays begin
+_STEP = 4  # alignment of arrays in bytes
 
 
 class GltfArrays:
@@ -23,7 +23,7 @@ class GltfArrays:
     Attributes
     ----------
     accessors, views : list of dict
-        As the JSON has them.
+        The lists in the JSON.
     chunks : list of bytes-like
     size : int
         Bytes of all chunks.
@@ -37,10 +37,10 @@ class GltfArrays:
         self._numbers: dict[tuple[Any, ...], int] = {}
 
     def vertices(self, array: np.ndarray, what: str) -> int:
-        """Return the accessor of an attribute, (V, N); positions with their bounds.
+        """Return the accessor of an attribute, (V, N); positions get bounds.
 
-        What holds the same has the same accessor, whether it is one array or several: a file that
-        is read and written again is the same, though it was read into other arrays.
+        Arrays with equal content share an accessor, so that a file read and written again stays the
+        same, even if reading split its arrays.
         """
         content = np.ascontiguousarray(array)
         known = what, content.dtype.str, content.shape, blake2b(content.data).digest()
@@ -49,7 +49,7 @@ class GltfArrays:
         return self._numbers[known]
 
     def indices(self, elements: np.ndarray) -> int:
-        """Return the accessor of indices, in as few bytes as hold them."""
+        """Return the accessor of indices, in the narrowest suitable type."""
         wide = elements.size and int(elements.max()) >= 0xFFFF
         return self.add(elements.ravel().astype("<u4" if wide else "<u2"), target=_INDICES)
 

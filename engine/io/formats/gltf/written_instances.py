@@ -1,6 +1,6 @@
-"""Poses of instances in parts, as EXT_mesh_gpu_instancing has them.
+"""Parts of instance poses, as EXT_mesh_gpu_instancing needs them.
 
-In: matrices. Out: translations, quaternions, scales, and whether the poses follow from these.
+In: matrices. Out: translations, quaternions, scales, and whether they reproduce the poses.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def parts_of_poses(poses: np.ndarray) -> PoseParts:
 
 
 def are_sheared(poses: np.ndarray, parts: PoseParts) -> bool:
-    """Whether any of the poses is more than its parts."""
+    """Return whether any pose differs from its parts."""
     composed = linalg.quaternion_to_matrix(parts.rotations)[:, :3, :3]
     composed = composed * parts.scales[:, np.newaxis, :]
     apart = np.abs(composed - poses[:, :3, :3]).max(axis=(1, 2), initial=0.0)
@@ -47,7 +47,7 @@ def are_sheared(poses: np.ndarray, parts: PoseParts) -> bool:
 
 
 def _quaternions(m: np.ndarray) -> np.ndarray:
-    """The quaternions of rotations (N, 3, 3), by the largest of their components."""
+    """Return the quaternions of rotations (N, 3, 3), by the largest of their components."""
     diagonal = m[:, (0, 1, 2), (0, 1, 2)]
     trace = diagonal[:, 0] + diagonal[:, 1] + diagonal[:, 2]
     largest = np.concatenate([diagonal, trace[:, np.newaxis]], axis=1).argmax(axis=1)

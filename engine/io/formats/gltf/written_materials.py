@@ -1,8 +1,7 @@
-"""Materials and textures of a glTF file that is written.
+"""The materials and textures of a written glTF file.
 
-In: `Material` objects. Out: their numbers, and the lists of the JSON. An image keeps the bytes that
-it came in while its pixels are the same; others become PNG. What is no physical material becomes
-one that looks alike.
+In: `Material` objects. Out: their numbers, and the lists of the JSON. An unchanged image keeps its
+encoded bytes; others become PNG. Non-physical materials are converted to similar physical ones.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ _FILTERS = {
     "trilinear": (_LINEAR, _LEVELS),
 }
 _TRANSFORM, _UNLIT = "KHR_texture_transform", "KHR_materials_unlit"
-# The first bytes of images -> their media type, and the extension that a texture needs for it.
+# Signatures of images -> media type, and the extension that a texture needs for it.
 _IMAGES = (
     (b"\x89PNG\r\n\x1a\n", "image/png", None),
     (b"\xff\xd8\xff", "image/jpeg", None),
@@ -46,14 +45,14 @@ class GltfMaterialList:
     Attributes
     ----------
     materials, textures, images, samplers : list of dict
-        As the JSON has them.
+        The lists in the JSON.
     extensions : set of str
-        Those that were used.
+        The extensions used.
     required : set of str
     converted : int
-        How many materials were none of the physical ones.
+        How many materials were converted to physical ones.
     lost : dict of str to int
-        What of how textures are read such files do not hold, and how many textures have it.
+        Sampling settings that glTF cannot hold, and how many textures have them.
     """
 
     def __init__(self, arrays: GltfArrays) -> None:
@@ -70,10 +69,10 @@ class GltfMaterialList:
         self._twins: dict[tuple[str, bool], list[int]] = {}
         self._images: dict[int, tuple[int, str | None]] = {}
         self._read: set[int] = set()
-        self._kept: list[Any] = []  # so that no other thing gets an id meanwhile
+        self._kept: list[Any] = []  # keeps IDs from being reused
 
     def number(self, material: Material) -> int | None:
-        """Return the number of a material; None for that of what has no material."""
+        """Return the number of a material; None for the default material."""
         if id(material) not in self._numbers:
             self._kept.append(material)
             self._numbers[id(material)] = self._add(material)
@@ -84,7 +83,7 @@ class GltfMaterialList:
         entry = self._entry(material)
         if not entry and is_implied(material):
             return -1
-        # A flat and a smooth material that are equal otherwise are told apart by the file's meshes.
+        # If a flat and a smooth material are otherwise equal, the file's meshes tell them apart.
         words, flat = repr(entry), material.flat_shading
         if twins := self._twins.get((words, not flat)):
             return twins.pop()
@@ -169,7 +168,7 @@ class GltfMaterialList:
         return _number_of(self.samplers, entry)
 
     def _image(self, texture: Texture) -> tuple[int, str | None]:
-        """The number of a texture's image, and the extension that it needs."""
+        """Return the number of a texture's image, and the extension it needs."""
         key = id(texture.pixels)
         if key not in self._images:
             self._kept.append(texture.pixels)
@@ -192,7 +191,7 @@ def _number_of(entries: list[dict[str, Any]], entry: dict[str, Any]) -> int:
 
 
 def _content(texture: Texture) -> tuple[bytes, str, str | None]:
-    """The bytes of a texture's image, their media type, and the extension that they need."""
+    """Return the bytes of a texture's image, their media type, and the extension they need."""
     path, content, is_missing = image_file_of(texture)
     if content is None and path is not None and not is_missing:
         content = _read(path)
@@ -204,7 +203,7 @@ def _content(texture: Texture) -> tuple[bytes, str, str | None]:
 
 
 def _read(path: str) -> bytes | None:
-    """The file that a texture came from, if it still is there."""
+    """Return the file that a texture came from, if it still exists."""
     try:
         if not os.path.isfile(path):
             return None
@@ -215,7 +214,7 @@ def _read(path: str) -> bytes | None:
 
 
 def _value(material: Material, field: str) -> Any:
-    """A number or several of a material, linear, as files have them."""
+    """Return one or several numbers of a material, linear, as in files."""
     if field == "color":
         return (*_linear(material.rgb), material.alpha)
     if field in ("metallic", "roughness"):
@@ -231,7 +230,7 @@ def _linear(color: tuple[Any, ...]) -> tuple[float, ...]:
 
 
 def _physical(material: Material) -> tuple[float, float]:
-    """Metallic and roughness; of a highlight of Blinn's, GGX's that is about as wide."""
+    """Return metallic and roughness; a Blinn highlight becomes a GGX one of similar width."""
     if material.is_physical:
         metallic = 1.0 if material.metallic is None else material.metallic
         return metallic, 1.0 if material.roughness is None else material.roughness

@@ -1,4 +1,4 @@
-"""Meshes of a glTF file that is written.
+"""The meshes of a written glTF file.
 
 In: `MeshRecord` objects. Out: their numbers, and the list of the JSON: a primitive for the faces of
 each material, one for lines, one for points.
@@ -26,7 +26,7 @@ _POINTS, _LINES = 0, 1
 _VARIANTS = "KHR_materials_variants"
 _INFLUENCES = 4
 _MOST_ROUNDS = 8
-_ANY_NORMAL = np.array((0, 0, 1), np.float32)  # of faces without an area
+_ANY_NORMAL = np.array((0, 0, 1), np.float32)  # for faces without an area
 _MORPHED = {"positions": "POSITION", "normals": "NORMAL", "tangents": "TANGENT"}
 
 
@@ -41,7 +41,7 @@ class GltfMeshList:
     Attributes
     ----------
     meshes : list of dict
-        As the JSON has them.
+        The list in the JSON.
     """
 
     def __init__(self, arrays: GltfArrays, materials: GltfMaterialList) -> None:
@@ -84,13 +84,13 @@ class GltfMeshList:
         return {**self._vertices(mesh, rows, mesh.faces[:0], flat=False), "mode": _POINTS}
 
     def _primitive(self, mesh: Mesh, elements: np.ndarray, *, flat: bool) -> dict[str, Any]:
-        """Faces or lines of one material, with the vertices that they need."""
+        """Return a primitive: faces or lines of one material, with their vertices."""
         rows, elements = compact(elements, len(mesh.positions))
         entry = self._vertices(mesh, rows, elements[:, :3], flat=flat)
         return {**entry, "indices": self._arrays.indices(elements)}
 
     def _dressed(self, entry: dict[str, Any], part: MeshRecord, number: int) -> dict[str, Any]:
-        """A primitive with its material, and those that variants have for it."""
+        """Return a primitive with its material, and those of variants."""
         material = self._materials.number(part.mesh.materials[number])
         if material is not None:
             entry["material"] = material
@@ -108,7 +108,7 @@ class GltfMeshList:
     def _vertices(self, mesh: Mesh, rows: Any, faces: np.ndarray, *, flat: bool) -> dict[str, Any]:
         """Return the attributes of some vertices that readers use."""
         arrays = {"POSITION": mesh.positions[rows]}
-        # Faces without normals are flat; there is no other word for it.
+        # Faces without normals are flat: glTF has no other way to say so.
         if not flat and (mesh.has_normals or len(mesh.faces)):
             faces = faces if faces.shape[1] == 3 else mesh.faces[:0]
             normals = _usable(mesh.normals[rows], arrays["POSITION"], faces)
@@ -125,7 +125,7 @@ class GltfMeshList:
             for name, array in arrays.items()
         }
         entry: dict[str, Any] = {"attributes": {**found, **self._influences(mesh, rows)}}
-        if mesh.morph_targets:  # all primitives of a mesh have as many
+        if mesh.morph_targets:  # all primitives of a mesh must have the same number
             entry["targets"] = [self._target(target, rows, found) for target in mesh.morph_targets]
         return entry
 
@@ -146,18 +146,18 @@ class GltfMeshList:
         return found
 
     def _target(self, target: Any, rows: Any, attributes: dict[str, int]) -> dict[str, int]:
-        """Return what a target adds to the existing attributes."""
+        """Return a target's offsets of the existing attributes."""
         held = {
             name: getattr(target, field) for field, name in _MORPHED.items() if name in attributes
         }
         added = {name: array[rows] for name, array in held.items() if array is not None}
-        if not added:  # a target that changes nothing still has its weight
+        if not added:  # a target without effect still has its weight
             added["POSITION"] = np.zeros((len(target), 3), np.float32)[rows]
         return {name: self._arrays.vertices(array, name) for name, array in added.items()}
 
 
 def _settled(weights: np.ndarray) -> np.ndarray:
-    """Weights that stay as they are when they are read as shares of their sum again."""
+    """Return weights that do not change when readers normalise them again."""
     for _ in range(_MOST_ROUNDS):
         read = shares(weights.astype(np.float64))
         if np.array_equal(read, weights):
@@ -167,7 +167,7 @@ def _settled(weights: np.ndarray) -> np.ndarray:
 
 
 def _with_tangents(mesh: Mesh) -> Mesh:
-    """A mesh that bends, with the tangents that readers would find for it; any other as it is."""
+    """Return a deformable mesh with the tangents readers would compute; others unchanged."""
     bends = mesh.joints is not None or bool(mesh.morph_targets)
     if not bends or mesh.tangents is not None or not 0 < len(mesh.faces) <= MOST_BENDING:
         return mesh
@@ -180,7 +180,7 @@ def _with_tangents(mesh: Mesh) -> Mesh:
 
 
 def _usable(normals: np.ndarray, positions: np.ndarray, faces: np.ndarray) -> np.ndarray | None:
-    """Normals that readers take; of faces there are some, or they would be flat."""
+    """Return valid normals; faces always get some, because they would be flat otherwise."""
     given = usable_normals(normals, positions, faces)
     if given is not None or not len(faces):
         return given
@@ -189,7 +189,7 @@ def _usable(normals: np.ndarray, positions: np.ndarray, faces: np.ndarray) -> np
 
 
 def _as_stored(array: np.ndarray, name: str) -> np.ndarray:
-    """An attribute as files have it: v from the top down, colours linear."""
+    """Return an attribute as stored in files: v from the top down, colours linear."""
     if name.startswith("TEXCOORD"):
         stored = array.copy()
         np.subtract(np.float32(1), array[:, 1], out=stored[:, 1])

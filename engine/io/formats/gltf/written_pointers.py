@@ -1,7 +1,7 @@
-"""Pointers for the properties that clips change besides poses, in a written glTF file.
+"""Pointers to properties that clips animate besides poses, in a written glTF file.
 
-In: the clips of a `TreeRecord`, and the JSON of all else. Out: the targets of their channels; in
-the JSON, whatever these point to, which a file has to say though it is as by default.
+In: the clips of a `TreeRecord`, and the JSON of all else. Out: the targets of their channels; the
+JSON gets explicit values for all pointed properties, even default ones.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from ...reading.documents import ClipRecord, PropertyRecord, TreeRecord
 from .gltf_pointers import POINTER, pointer_of
 from .written_materials import GltfMaterialList
 
-# Keys that have no default: what does not say them cannot change them.
+# Keys without a default: if missing, they cannot be animated.
 _WITHOUT_DEFAULT = ("zfar", "range")
 
 
@@ -28,7 +28,7 @@ class GltfPointers:
     Attributes
     ----------
     extensions : set of str
-        Those that the pointers go through.
+        The extensions that the pointers go through.
     """
 
     def __init__(self, tree: TreeRecord, materials: GltfMaterialList) -> None:
@@ -38,7 +38,7 @@ class GltfPointers:
         self.extensions: set[str] = set()
 
     def targets(self, clip: ClipRecord) -> Iterator[tuple[PropertyRecord, dict[str, Any]]]:
-        """Yield what changes, and the target of its channel; each pointer once."""
+        """Yield each animated property and its channel's target; each pointer once."""
         seen = set()
         for held in clip.properties:
             pointer = self._pointer(held)
@@ -64,14 +64,14 @@ class GltfPointers:
         return None if number is None else pointer_of(held.kind, number, held.path, lens)
 
     def _is_lacking(self, held: PropertyRecord) -> bool:
-        """Whether the file will not say what changes, since it is infinite at first."""
+        """Return whether the file omits an animated property, because it is infinite at first."""
         things = {"camera": self._tree.cameras, "light": self._tree.lights}.get(held.kind)
         if things is None or held.path not in _WITHOUT_DEFAULT:
             return False
         return getattr(things[held.number], held.path) == float("inf")
 
     def define(self, json: dict[str, Any]) -> list[str]:
-        """Put the objects that pointers go through into the JSON; return what is told."""
+        """Add the objects that pointers go through to the JSON; return warnings."""
         for pointer in self._pointers:
             place: Any = json
             for key in pointer.split("/")[1:-1]:

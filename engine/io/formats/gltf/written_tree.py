@@ -1,6 +1,6 @@
-"""The JSON of a glTF file that is written.
+"""The JSON of a written glTF file.
 
-In: a `TreeRecord`. Out: the JSON as Python has it, and the chunks of its buffer.
+In: a `TreeRecord`. Out: the JSON as Python objects, and the chunks of its buffer.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from .written_meshes import GltfMeshList
 from .written_pointers import GltfPointers
 
 _VARIANTS = "KHR_materials_variants"
-# The parts of an instance's pose.
+# The attributes of an instance's pose.
 _PARTS = ("TRANSLATION", "ROTATION", "SCALE")
 
 
 class GltfTree:
-    """The JSON of a tree, but for its buffer.
+    """The JSON of a tree, without its buffer.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ class GltfTree:
     json : dict
     arrays : GltfArrays
     told : list of str
-        A line for each thing that such files do not hold.
+        A line for each thing that glTF cannot hold.
     """
 
     def __init__(self, tree: TreeRecord) -> None:

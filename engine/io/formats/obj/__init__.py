@@ -1,1 +1,1 @@
-"""OBJ with its MTL, both ways."""
+"""OBJ with its MTL, for reading and writing."""

@@ -1,10 +1,10 @@
 """Wavefront MTL: the material libraries that OBJ files name.
 
 In: the bytes of a library. Out: materials by name. Colours are linear light, as the numbers are
-floats. Alpha is found in mtl_alpha.py, and what physically based materials and maps of normals are
-in mtl_physical.py. Whatever else a file says, d and Tr, and all maps with their options, is kept in
-the material's ``extras`` under the file's own keys. A line that makes no sense is a warning; a
-library never fails as a whole unless it is no text.
+floats. mtl_alpha.py handles alpha, and mtl_physical.py physically based materials and normal maps.
+All other statements, d and Tr, and all maps with their options are kept in the material's
+``extras`` under the file's own keys. An invalid line gives a warning; a library fails only if it is
+not text.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from ....choices import Wrap
 
 _UNDRAWN_NUMBERS = ("aniso", "anisor")
-# The warnings about maps that are not drawn, by their keywords in lower case.
+# Warnings about undrawn maps, by keyword in lower case.
 _UNDRAWN_MAPS = {
     "disp": "displacement",
     "map_disp": "displacement",
@@ -54,7 +54,7 @@ _UNDRAWN_MAPS = {
     "map_aniso": "anisotropy",
     "map_anisor": "anisotropy",
 }
-# Keys of ``extras`` that are ours: no statement's.
+# Our own keys of ``extras``, which are not statements.
 _RESERVED = {"maps", "opacity"}
 
 
@@ -64,14 +64,14 @@ def read_mtl(source: Source, textures: TextureCache, warnings: WarningList) -> d
     Parameters
     ----------
     source : Source
-        The library; images are looked for beside it first.
+        The library; images are searched beside it first.
     textures : TextureCache
     warnings : WarningList
 
     Returns
     -------
     materials : dict of str to Material
-        The first definition of a name counts. ``extras["maps"]`` holds each map's ``name`` and
+        The first definition of a name wins. ``extras["maps"]`` holds each map's ``name`` and
         options by its keyword.
 
     Raises
@@ -96,7 +96,7 @@ def _without_comment(rest: bytes) -> bytes:
 
 
 class _Gathered(NamedTuple):
-    """What was read of a material: its maps, and its other statements, by keyword."""
+    """The data read for a material: its maps, and its other statements, by keyword."""
 
     name: str
     line: int
@@ -105,17 +105,17 @@ class _Gathered(NamedTuple):
 
 
 class _Library:
-    """Takes the statements of a library, and makes materials of them."""
+    """Reads the statements of a library, and builds materials."""
 
     def __init__(self, source: Source, textures: TextureCache, warnings: WarningList) -> None:
         self._source, self._textures, self._warnings = source, textures, warnings
         self._materials: dict[str, Material] = {}
         self._current: _Gathered | None = None
         self._unknown: set[str] = set()
-        self._clear: list[int] = []  # the lines of materials that would not show
+        self._clear: list[int] = []  # lines of materials that would be invisible
 
     def read(self, keyword: str, rest: bytes, line: int) -> None:
-        """Take a statement."""
+        """Process a statement."""
         if keyword == "newmtl":
             self._finish()
             self._current = _Gathered(decoded(rest), line, {}, {})
@@ -162,7 +162,7 @@ class _Library:
         self._warnings.add(message, line, self._source.path)
 
     def _finish(self) -> None:
-        """Turn what was gathered of one material into a `Material`."""
+        """Turn the gathered data of one material into a `Material`."""
         current = self._current
         if current is None or current.name in self._materials:
             return
@@ -181,7 +181,7 @@ def _material(
     texture = load(maps.get("map_Kd"), False)
     color = values.get("Kd", (1.0, 1.0, 1.0))
     if texture is not None and not any(color):
-        # Exporters that know nothing but the image write Kd 0 0 0 beside it.
+        # Exporters that know only the image write Kd 0 0 0 beside it.
         color = (1.0, 1.0, 1.0)
     extras = {key: value for key, value in values.items() if key not in ("Kd", "Ks", "Ke", "Ns")}
     if "d" in values or "Tr" in values:
@@ -196,7 +196,7 @@ def _material(
         "texture": texture,
         "specular": _specular(values) if "Ks" in values else None,
         "shininess": max(values["Ns"], 0.0) if "Ns" in values else None,
-        # With a map of emitted light, a constant besides would be too much.
+        # With an emission map, the constant would add to it.
         "emissive": None if "map_Ke" in maps else values.get("Ke"),
         "extras": extras or None,
         **physical_fields(values, maps, load, _scale_and_offset),
@@ -209,7 +209,7 @@ def _material(
 
 
 def _opacity(values: dict[str, Any]) -> float:
-    """d, or 1 - Tr; Tr 1 alone is of programs that mean opaque by it."""
+    """Return d, or 1 - Tr; Tr 1 alone comes from programs that mean opaque."""
     transparency = values.get("Tr", 0.0)
     opacity = values.get("d", 1.0 if transparency >= 1 else 1.0 - transparency)
     return min(max(opacity, 0.0), 1.0)
@@ -229,7 +229,7 @@ def _finish_alpha(
 
 
 def _specular(values: dict[str, Any]) -> tuple[float, float, float]:
-    """Ks, unless the illumination model has no highlight or the exponent would light all."""
+    """Return Ks, unless the model has no highlight or the exponent would light everything."""
     has_highlight = values.get("illum", 2.0) >= 2 and values.get("Ns", 32.0) > 0
     return values.get("Ks", (0.0, 0.0, 0.0)) if has_highlight else (0.0, 0.0, 0.0)
 
@@ -256,13 +256,13 @@ def _texture(
 
 
 def undrawn_kinds(material: Material) -> set[str]:
-    """Return what a material says that is not drawn, as keys of `undrawn.KINDS`."""
+    """Return the undrawn features of a material, as keys of `undrawn.KINDS`."""
     extras = material.extras
     maps = extras.get("maps", {})
     drawn = PHYSICAL_MAPS if material.is_physical else ()
     undrawn = (key.lower() for key in maps if key not in drawn)
     kinds = {_UNDRAWN_MAPS[key] for key in undrawn if key in _UNDRAWN_MAPS}
-    # Most exporters name the image of the colour here, too.
+    # Most exporters repeat the colour image here.
     if maps.get("map_Ka", {}).get("name") not in (None, maps.get("map_Kd", {}).get("name")):
         kinds.add("ambient map")
     if any(extras.get(key) for key in _UNDRAWN_NUMBERS):

@@ -1,9 +1,9 @@
-"""The alpha of Wavefront materials: ``d``, ``Tr``, opacity maps, and images that have alpha.
+"""The alpha of Wavefront materials: ``d``, ``Tr``, opacity maps, and images with alpha.
 
-In: what an MTL library says of a material. Out: its `alpha_mode`, alpha and texture. The format
-knows no modes. A map whose values are black and white cuts out (foliage, fences); anything between
-is blended. An image of the colour with alpha cuts out if its alpha is black and white, too, as
-viewers do that blend it; any other alpha of it is taken for something else, such as a gloss map.
+In: an MTL library's statements on a material. Out: its `alpha_mode`, alpha and texture. The format
+has no modes. A black-and-white map is a mask (foliage, fences); maps with intermediate values are
+blended. A colour image's alpha is a mask if it is black and white; any other alpha is taken for
+something else, such as a gloss map.
 """
 
 from __future__ import annotations
@@ -13,27 +13,27 @@ import numpy as np
 from ....model.materials.material import Material
 from ....model.materials.textures import Texture
 
-#: The statements that name an opacity map, in lower case -> whether it holds transparency.
+#: Opacity map statements, in lower case -> whether the map holds transparency.
 OPACITY_MAPS = {"map_d": False, "map_opacity": False, "map_tr": True}
-_LOW, _HIGH = 8, 247  # what counts as nothing and as all, of 255
-_MOST_BETWEEN = 0.1  # of the texels of a mask: edges are smoothed
-_LEAST_EACH = 0.002  # of them in and out
+_LOW, _HIGH = 8, 247  # limits for transparent and opaque, of 255
+_MOST_BETWEEN = 0.1  # of a mask's texels: its edges are smoothed
+_LEAST_EACH = 0.002  # minimum fraction of transparent and of opaque texels
 
 
 def set_alpha(
     material: Material, opacity: float, opacity_map: Texture | None, inverted: bool
 ) -> None:
-    """Let a material be masked or blended where its file says so.
+    """Make a material masked or blended if its file says so.
 
     Parameters
     ----------
     material : Material
-        With its colour and texture.
+        The material, with its colour and texture.
     opacity : float
         0 to 1: ``d``, or 1 - ``Tr``.
     opacity_map : Texture or None
     inverted : bool
-        Whether the map is white where nothing shows.
+        Whether white in the map means transparent.
     """
     given = material.texture
     texture = given if isinstance(given, Texture) else None
@@ -50,7 +50,7 @@ def set_alpha(
 
 
 def _map_values(texture: Texture, inverted: bool) -> np.ndarray:
-    """(H, W) uint8: the map's alpha if it has any, else its red, of grey images the grey."""
+    """Return (H, W) uint8: the map's alpha if it has any, else its red channel."""
     pixels = texture.pixels
     values = pixels[:, :, 3] if (pixels[:, :, 3] != 255).any() else pixels[:, :, 0]
     return 255 - values if inverted else values
@@ -62,7 +62,7 @@ def _is_mask(alpha: np.ndarray) -> bool:
 
 
 def _with_alpha(texture: Texture | None, opacity_map: Texture, alpha: np.ndarray) -> Texture:
-    """The image of the colour with this alpha: in the larger of both sizes, by nearest texels."""
+    """Return the colour image with this alpha, at the larger of both sizes, by nearest texels."""
     given = opacity_map if texture is None else texture
     height = max(given.height, alpha.shape[0])
     width = max(given.width, alpha.shape[1])

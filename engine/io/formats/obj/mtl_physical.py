@@ -1,9 +1,8 @@
 """Physically based materials and normal maps of material libraries.
 
-In: the numbers of a material and its maps, and a way to load their images. Out: fields of
+In: the numbers of a material and its maps, and a function that loads their images. Out: fields of
 `Material`. The statements are those of the common extension of MTL (Pr, Pm, Ps, Pc, Pcr, norm and
-their maps). Heights of bump maps become normals: white stands as high above black as 1/64 of the
-image's side.
+their maps). Bump maps become normal maps: white is 1/64 of the image's width above black.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ _ROUGHNESS, _METALLIC = ("map_Pr",), ("map_Pm",)
 _ALL_IN_ONE = ("map_ORM", "map_RMA")
 _NORMALS = ("norm", "map_norm", "map_Kn")
 _BUMPS = ("map_Bump", "map_bump", "bump")
-#: Slots that one image fills by itself, by the statements that name it.
+#: Slots that a single image fills, by the statements that name it.
 _SLOTS = {
     "map_Ps": "sheen_color_texture",
     "map_Pc": "clearcoat_texture",
@@ -31,18 +30,18 @@ _SLOTS = {
     "map_Ke": "emissive_texture",
     "map_AO": "occlusion_texture",
 }
-#: All maps that are drawn of physically based materials.
+#: All maps drawn for physically based materials.
 PHYSICAL_MAPS = (*_ROUGHNESS, *_METALLIC, *_ALL_IN_ONE, *_SLOTS)
 _DEPTH = 1 / 64
-# Gives the image of a map, None where it is left out; the flag: codes are numbers, not colours.
+# Returns the image of a map, None if left out; the flag says that it holds numbers, not colours.
 _Load: TypeAlias = Callable[[MapEntry, bool], Texture | None]
-# Scale and offset, u and v of each.
+# Scale and offset, u and v each.
 _Place: TypeAlias = tuple[float, float, float, float]
-_MOST_NEUTRAL = 32  # how far the red and green of a map of normals are from the middle, on average
+_MOST_NEUTRAL = 32  # largest mean deviation of a normal map's red and green from the middle
 
 
 def is_physical(values: dict[str, Any], maps: dict[str, MapEntry]) -> bool:
-    """Whether a material says anything that only physically based ones have."""
+    """Return whether a material has any physically based statement."""
     named = (*_ROUGHNESS, *_METALLIC, *_ALL_IN_ONE, "map_Ps", "map_Pc", "map_Pcr")
     return any(key in values for key in _NUMBERS) or any(key in maps for key in named)
 
@@ -53,19 +52,19 @@ def physical_fields(
     load: _Load,
     place: Callable[[MapEntry], _Place],
 ) -> dict[str, Any]:
-    """Return what a material's statements mean, by the names of `Material`'s fields.
+    """Return a material's physical properties, as fields of `Material`.
 
     Parameters
     ----------
     values : dict of str to object
-        Numbers and colours by their keywords.
+        Numbers and colours by keyword.
     maps : dict of str to dict
         As `mtl_statements.parse_map` returns them.
     load : callable
-        ``load(map, is_data)``: the image of a map, or None where it is left out; with ``is_data``
-        codes are numbers, not colours.
+        ``load(map, is_data)`` returns the image of a map, or None if it is left out; with
+        ``is_data`` it holds numbers, not colours.
     place : callable
-        Scale and offset of a map (u, then v of each).
+        Returns scale and offset of a map (u, then v of each).
     """
     fields = _normal_fields(maps, load)
     if is_physical(values, maps):
@@ -93,7 +92,7 @@ def _number_fields(values: dict[str, Any]) -> dict[str, Any]:
 
 
 def _map_fields(values: dict[str, Any], maps: dict[str, MapEntry], load: _Load) -> dict[str, Any]:
-    """The maps of a physical material; the numbers beside them are their factors."""
+    """Return the maps of a physical material; the numbers beside them are factors."""
     fields: dict[str, Any] = {}
     for key, slot in _SLOTS.items():
         row = PARAMETERS[slot]
@@ -123,7 +122,7 @@ def _map_fields(values: dict[str, Any], maps: dict[str, MapEntry], load: _Load) 
 
 
 def _all_in_one(maps: dict[str, MapEntry], load: _Load) -> dict[str, Any] | None:
-    """Occlusion, roughness and metal in the channels of one image."""
+    """Return occlusion, roughness and metallic from the channels of one image."""
     held = _loaded(maps, ("map_ORM",), load)
     if held is None and (other := _loaded(maps, ("map_RMA",), load)) is not None:
         held = Texture(other[0].pixels[..., [2, 0, 1, 3]], wrap=other[0].wrap), other[1]
@@ -133,7 +132,7 @@ def _all_in_one(maps: dict[str, MapEntry], load: _Load) -> dict[str, Any] | None
 
 
 def _joined(rough: Texture | None, metal: Texture | None) -> np.ndarray:
-    """Roughness as green, metal as blue, at the size of the larger image."""
+    """Return roughness as green and metallic as blue, at the size of the larger image."""
     images = [texture.pixels for texture in (rough, metal) if texture is not None]
     height, width = max(image.shape[0] for image in images), max(image.shape[1] for image in images)
     pixels = np.full((height, width, 3), 255, np.uint8)
@@ -147,7 +146,7 @@ def _joined(rough: Texture | None, metal: Texture | None) -> np.ndarray:
 
 
 def _normal_fields(maps: dict[str, MapEntry], load: _Load) -> dict[str, Any]:
-    """Return the fields that all materials may have: a map of normals, or of heights."""
+    """Return the normal map of any material, converted from heights if necessary."""
     held = _loaded(maps, _NORMALS, load)
     if held is not None:
         return {"normal_texture": held, "normal_scale": _strength(held[1])}
@@ -164,14 +163,14 @@ def _normal_fields(maps: dict[str, MapEntry], load: _Load) -> dict[str, Any]:
 
 
 def normals_of_heights(heights: np.ndarray, repeats: bool) -> np.ndarray:
-    """Return the normals of a surface of some heights, as a normal map has them.
+    """Convert a height map to a normal map.
 
     Parameters
     ----------
     heights : (H, W) uint8
-        255 stands 1/64 of the image's width above 0.
+        255 is 1/64 of the image's width above 0.
     repeats : bool
-        Whether the image goes on at its other side.
+        Whether the image tiles.
 
     Returns
     -------
@@ -187,7 +186,7 @@ def normals_of_heights(heights: np.ndarray, repeats: bool) -> np.ndarray:
 
 
 def _holds_normals(pixels: np.ndarray) -> bool:
-    """Whether an image is one of normals: bluish, and neither red nor green on average."""
+    """Return whether an image is a normal map: bluish, with neutral red and green on average."""
     red, green, blue, _ = pixels.reshape(-1, 4).mean(axis=0).tolist()
     neutral = abs(red - 127.5) < _MOST_NEUTRAL and abs(green - 127.5) < _MOST_NEUTRAL
     return neutral and blue > max(red, green) + _MOST_NEUTRAL
@@ -196,7 +195,7 @@ def _holds_normals(pixels: np.ndarray) -> bool:
 def _loaded(
     maps: dict[str, MapEntry], keys: tuple[str, ...], load: _Load, is_data: bool = True
 ) -> tuple[Texture, MapEntry] | None:
-    """The first of some maps that a material has: its image, and its options."""
+    """Return the first of some maps that a material has: its image, and its options."""
     for key in keys:
         if key in maps and (texture := load(maps[key], is_data)) is not None:
             return texture, maps[key]
@@ -215,7 +214,7 @@ def _fraction(value: float) -> float:
 
 
 def _placed(texture: Texture, own: _Place, base: _Place) -> Texture | PlacedTexture:
-    """A texture at its own scale and offset, where coordinates are at those of the base colour."""
+    """Return a texture with its own scale and offset, relative to the base colour's."""
     if own == base or not (base[0] and base[1]):
         return texture
     scale = own[0] / base[0], own[1] / base[1]

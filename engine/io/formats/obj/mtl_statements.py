@@ -1,7 +1,7 @@
-"""The statements of MTL: keywords in any letter case, numbers, and maps with their options.
+"""The statements of MTL: case-insensitive keywords, numbers, and maps with their options.
 
-In: the words of a line. Out: values and maps by the format's own keywords. What a statement means
-is said in mtl.py and its neighbours.
+In: the words of a line. Out: values and maps by the format's own keywords. mtl.py and the modules
+beside it define the meaning of statements.
 """
 
 from __future__ import annotations
@@ -16,20 +16,20 @@ COLORS = {"Ka", "Kd", "Ks", "Ke", "Tf"}
 SCALARS = {"Ns", "Ni", "d", "Tr", "illum", "sharpness", "Pr", "Pm", "Ps", "Pc", "Pcr"}
 SCALARS |= {"aniso", "anisor", "Pcor"}
 _MAPS = {"bump", "disp", "decal", "refl", "norm"}
-#: Maps that are called so, and whatever else begins with ``map_``.
+#: Known maps; others begin with ``map_``.
 _KNOWN_MAPS = {"map_Ka", "map_Kd", "map_Ks", "map_Ke", "map_Ns", "map_d", "map_Tr", "map_opacity"}
 _KNOWN_MAPS |= {"map_Bump", "map_bump", "map_disp", "map_decal", "map_refl", "map_norm", "map_Kn"}
 _KNOWN_MAPS |= {"map_Pr", "map_Pm", "map_Ps", "map_Pc", "map_Pcr", "map_ORM", "map_RMA", "map_AO"}
 _KNOWN_MAPS |= {"map_aniso", "map_anisor", "map_aat"}
 _KNOWN = sorted({"newmtl", *COLORS, *SCALARS, *_MAPS, *_KNOWN_MAPS}, reverse=True)
 _SPELLINGS = {keyword.lower(): keyword for keyword in _KNOWN} | {word: word for word in _KNOWN}
-# Other statements about how a surface looks.
+# Other statements about appearance.
 _LOOKS = re.compile(
     r"k[a-z]\w?|.*(?:colou?r|diffuse|specular|shin|gloss|albedo|ambient|emi|opacity|alpha|transp|tex|"
     r"map|image|metal|rough|normal|bump).*",
     re.IGNORECASE,
 )
-# The words that follow each option of a map; the last three of -s, -o and -t may be left out.
+# The number of arguments of each map option; trailing ones of -s, -o and -t are optional.
 _OPTIONS = {
     "-blendu": 1,
     "-blendv": 1,
@@ -48,27 +48,27 @@ _OPTIONS = {
 }
 _NUMBERED = ("-s", "-o", "-t", "-mm")
 
-#: A map, as `parse_map` returns it.
+#: A map, as returned by `parse_map`.
 MapEntry: TypeAlias = dict[str, Any]
 
 
 def keyword_of(word: str) -> str:
-    """Return the format's spelling of a keyword, or the word where it has none."""
+    """Return the format's spelling of a keyword, or the word itself if unknown."""
     return _SPELLINGS.get(word) or _SPELLINGS.get(word.lower(), word)
 
 
 def is_map(keyword: str) -> bool:
-    """Whether a keyword names an image."""
+    """Return whether a keyword names an image."""
     return keyword in _MAPS or keyword[:4].lower() == "map_"
 
 
 def looks_like_a_look(keyword: str) -> bool:
-    """Whether a keyword that is not understood seems to be of a colour, of opacity or of a map."""
+    """Return whether an unknown keyword seems to be about colour, opacity or a map."""
     return keyword not in _SPELLINGS and _LOOKS.fullmatch(keyword) is not None
 
 
 def color_of(rest: bytes) -> tuple[float, float, float] | None:
-    """Three numbers, or one for all channels; None for anything else (``spectral``, ``xyz``)."""
+    """Return three numbers, or one for all channels; None for ``spectral`` and ``xyz``."""
     numbers = _numbers(rest.split()[:3])
     if numbers is None or len(numbers) not in (1, 3):
         return None
@@ -77,14 +77,14 @@ def color_of(rest: bytes) -> tuple[float, float, float] | None:
 
 
 def scalar_of(rest: bytes) -> float | None:
-    """The first number, or None."""
+    """Return the first number, or None."""
     words = [word for word in rest.split() if word != b"-halo"]
     numbers = _numbers(words[:1])
     return numbers[0] if numbers else None
 
 
 def _numbers(words: list[bytes]) -> list[float] | None:
-    """Finite floats that float32 can hold, or None."""
+    """Return finite floats that float32 can hold, or None."""
     try:
         numbers = [float(word) for word in words]
     except ValueError:
@@ -93,13 +93,13 @@ def _numbers(words: list[bytes]) -> list[float] | None:
 
 
 def parse_map(text: str) -> MapEntry:
-    """Take the arguments of a map statement apart.
+    """Parse the arguments of a map statement.
 
     Returns
     -------
     entry : dict
-        ``name`` (the file's, which may hold blanks; "" if there is none), and each option without
-        its dash, in lower case: a list of words. Options may stand before the name or behind it.
+        ``name`` (the file name, which may contain blanks; "" if missing), and each option without
+        its dash, in lower case, with a list of words. Options may precede or follow the name.
     """
     words = words_of(text)
     entry: MapEntry = {"name": ""}
@@ -113,13 +113,13 @@ def parse_map(text: str) -> MapEntry:
             entry |= {key: values for key, values in behind.items() if values}
             last = start
             break
-    # As written, since blanks in a name count.
+    # Verbatim, since blanks in a name count.
     entry["name"] = _between(text, position, last)
     return entry
 
 
 def _take_options(words: list[str], position: int, entry: MapEntry) -> int:
-    """Read options into an entry; return the place behind them."""
+    """Read options into an entry; return the position after them."""
     while position < len(words) and words[position].lower() in _OPTIONS:
         option = words[position].lower()
         position += 1
@@ -134,7 +134,7 @@ def _take_options(words: list[str], position: int, entry: MapEntry) -> int:
 
 
 def _between(text: str, first: int, last: int) -> str:
-    """The text of the words first..last-1, with what stands between them."""
+    """Return the text of the words first..last-1, with everything between them."""
     found = list(re.finditer(r"[^ \t\r\n\v\f]+", text))
     return text[found[first].start() : found[last - 1].end()]
 

@@ -1,8 +1,7 @@
-"""The material library and the images beside an OBJ file.
+"""Writer of the material library and images of an OBJ file.
 
-In: materials. Out: the text of a library, and the PNG files that it names. What a file said of a
-material beyond our own fields (``extras``) is written as it was read, but for the images of other
-maps, which stay where they are.
+In: materials. Out: the text of a library, and the PNG files that it names. Extra statements of a
+file (``extras``) are written as they were read; the images of undrawn maps are not copied.
 """
 
 from __future__ import annotations
@@ -23,25 +22,25 @@ from .mtl_statements import parse_map
 
 _COLORS = ("Ka", "Tf")
 _SCALARS = ("Ni", "sharpness", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor", "Pcor")
-# Keys of glTF, and ours, that are said by statements unless these are there already.
+# Our own and glTF's keys, replaced by statements unless these exist already.
 _SYNONYMS = {"metallicFactor": ("Pm",), "roughnessFactor": ("Pr",)}
 _SAID_ELSEWHERE = {"illum", "maps", *_SYNONYMS}
 _OWN_WORDS = {"newmtl", "Kd", "Ks", "Ns", "Ke", "d", "Tr", "opacity", "illum"}
 _OWN_WORDS |= {*_COLORS, *_SCALARS, *_SYNONYMS}
 _OWN_WORDS |= {"maps", "bump", "disp", "decal", "refl", "norm"}
-# Keys of extras that the material's alpha stands for.
+# Keys of extras that the material's alpha replaces.
 _ALPHA = {"d", "Tr", "opacity"}
-# Options of map_Kd that the texture coordinates and the texture have taken over.
+# Options of map_Kd already applied to the texture coordinates and the texture.
 _APPLIED = ("name", "s", "o", "clamp")
 
 
 def is_plain(materials: list[Material]) -> bool:
-    """Tell whether a reader makes the same of a file without a library."""
+    """Return whether reading without a library would give the same material."""
     return len(materials) == 1 and not materials[0].name and not says_something(materials[0])
 
 
 def material_names(materials: list[Material]) -> list[str]:
-    """Return a name for each material that a library can hold, all different."""
+    """Return a distinct, valid name for each material."""
     return unique(
         line_text(material.name) or f"material_{number}"
         for number, material in enumerate(materials)
@@ -49,14 +48,14 @@ def material_names(materials: list[Material]) -> list[str]:
 
 
 class Library:
-    """Writes a library, and its images beside it; they appear with the other ``files``.
+    """Writes a library and its images; they appear with the other ``files``.
 
     Attributes
     ----------
     unwritten : dict of str to list of str
-        Of which materials what could not be written.
+        What could not be written, and for which materials.
     not_copied : list of str
-        The images that it names but does not bring along.
+        Images that it names but does not copy.
     """
 
     def __init__(self, side_files: SideFiles, files: AtomicFiles) -> None:
@@ -137,7 +136,7 @@ class Library:
         self.unwritten.setdefault(thing, []).append(name)
 
     def _image(self, texture: Any) -> str:
-        """The name of a texture's file, which is written the first time."""
+        """Return the file name of a texture; write the file on first use."""
         name = self._image_names.get(id(texture))
         if name is None:
             path = self._side_files.next_image()
@@ -149,7 +148,7 @@ class Library:
 
 
 def _statement(key: Any, value: Any) -> str | None:
-    """The line that a reader makes these extras of, or None."""
+    """Return the line that reads back as these extras, or None."""
     if key in _COLORS:
         return f"{key} {_numbers(value)}" if _are_numbers(value, 3) else None
     if key in _SCALARS:
@@ -161,7 +160,7 @@ def _statement(key: Any, value: Any) -> str | None:
 
 
 def _map_statement(key: str, entry: dict[str, Any]) -> str | None:
-    """The line that a reader makes this map of, or None."""
+    """Return the line that reads back as this map, or None."""
     try:
         options = [
             f"-{option} {' '.join(words)}" for option, words in entry.items() if option != "name"

@@ -1,8 +1,8 @@
 """Wavefront OBJ: polygons, lines and points, with the materials of its libraries.
 
-In: the bytes of a file, and the libraries and images that it names. Out: a `Document`. The order of
-work: arrays of the file (in C), triangles, materials, normals, welding. Free-form curves and
-surfaces are left out with a warning; ``call`` and ``csh`` are never followed.
+In: the bytes of a file, and the libraries and images that it names. Out: a `Document`. The steps
+are: parsing (in C), triangulation, materials, normals, welding. Free-form curves and surfaces are
+left out with a warning; ``call`` and ``csh`` are never followed.
 """
 
 from __future__ import annotations
@@ -29,14 +29,14 @@ from .obj_states import ObjStates, run_lengths
 
 
 def read_obj(source: Source, split: bool = False) -> Document:
-    """Read an OBJ file, as `Reader.read`; an ``o`` statement begins an object."""
+    """Read an OBJ file, as `Reader.read`; an ``o`` statement starts an object."""
     warnings = WarningList(source.path)
     file = read_obj_file(source, warnings)
     states = ObjStates(file, warnings)
     cut = _cut(source, file, warnings)
     materials, material_ids = _materials(source, file, states, cut, warnings)
     triangles = _triangles(file.faces, cut, material_ids)
-    # The smoothing that the file gives holds whatever the angle.
+    # The file's smoothing groups apply regardless of the crease angle.
     crease_angle = SMOOTH if states.has_smoothing else source.crease_angle
     normals = _fill_normals(file, triangles, states, crease_angle)
     parts = ObjParts(file, triangles, normals, states, materials, crease_angle, moves=split)
@@ -45,7 +45,7 @@ def read_obj(source: Source, split: bool = False) -> Document:
 
 
 def _cut(source: Source, file: ObjFile, warnings: WarningList) -> Triangulation | None:
-    """Cut the faces into triangles; None if all are."""
+    """Triangulate the faces; return None if all are triangles."""
     if file.faces.are_triangles:
         return None
     budget = WorkBudget.for_file(source.size)
@@ -63,9 +63,9 @@ def _materials(
     cut: Triangulation | None,
     warnings: WarningList,
 ) -> tuple[list[Material], np.ndarray]:
-    """The materials in use, and the one of each triangle.
+    """Return the materials in use, and that of each triangle.
 
-    Without any there is one without a name; so there is for triangles before the first ``usemtl``.
+    Triangles without a ``usemtl`` get one unnamed material.
     """
     library = read_library(source, states.libraries, len(states.materials) > 0, warnings)
     materials, material_of_use = used_materials(states.materials, library, warnings)
@@ -101,10 +101,10 @@ def _triangles(faces: Elements, cut: Triangulation | None, material_ids: np.ndar
 def _fill_normals(
     file: ObjFile, triangles: Triangles, states: ObjStates, crease_angle: float
 ) -> np.ndarray | None:
-    """Give the triangles the normals that they lack; returns what their indices refer to."""
+    """Fill in missing normals of triangles; return the normals they index."""
     vertices = file.vertices
     if triangles.normals is None and not states.has_smoothing:
-        # The result of `fill_normals`, without looking at each triangle.
+        # This is the result of `fill_normals`, without visiting each triangle.
         return None
     if triangles.normals is not None and triangles.normals.min(initial=0) >= 0:
         return vertices.normals

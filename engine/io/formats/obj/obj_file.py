@@ -1,8 +1,7 @@
-"""An OBJ file as arrays: the C parser's result, its errors told in words.
+"""The parsed arrays of an OBJ file, from C, with errors in words.
 
 In: the bytes of a file. Out: vertices, the corners of faces, lines and points, zero-based and
-checked, and the statements that set something for the elements behind them. Every error names its
-line.
+checked, and the statements that set a state for later elements. Every error names its line.
 """
 
 from __future__ import annotations
@@ -19,27 +18,27 @@ from ...reading.sources import Source
 from ...reading.text import checked_text, shown
 from ...reading.warning_list import WarningList
 
-# Bytes between two looks at what else is to be done, such as Ctrl-C.
+# Bytes between checks for other events, such as Ctrl-C.
 _STEP = 4 << 20
-# The share of the work that is done when all bytes are read.
+# The fraction of the work done when all bytes are parsed.
 _PARSING = 0.8
 _ROWS = ("vertex", "texture coordinate", "normal")
 _LEAST = (3, 1, 3)
 
 
 class Elements(NamedTuple):
-    """Faces, lines or points.
+    """The faces, lines or points of a file.
 
     Attributes
     ----------
     sizes : (E,) int32
         The number of corners of each element.
     positions : (C,) int32
-        Of all corners, element after element: indices from 0.
+        Position indices of all corners, element after element, from 0.
     uvs, normals : (C,) int32 or None
-        The same, -1 for none; None if no corner has any.
+        Likewise, -1 for none; None if no corner has any.
     are_triangles : bool
-        Whether each has three corners.
+        Whether all elements have three corners.
     """
 
     sizes: np.ndarray
@@ -69,9 +68,9 @@ class ObjFile:
     vertices : Vertices
     faces, lines, points : Elements
     setters : (S,) `engine3d._native.loaders.SETTER`
-        The statements that set something, in the order of the file.
+        The statements that set a state, in file order.
     names : memoryview
-        The bytes that the names of ``setters`` are part of.
+        The bytes that contain the names of ``setters``.
     """
 
     vertices: Vertices
@@ -88,8 +87,8 @@ def read_obj_file(source: Source, warnings: WarningList) -> ObjFile:
     Raises
     ------
     FileFormatError
-        A number or an index is none, or a vertex does not exist. A texture coordinate or a normal
-        that does not exist is a warning, and the corner goes without.
+        A number or index is invalid, or a vertex does not exist. A missing texture coordinate or
+        normal gives a warning, and the corner has none.
     """
     reader = native.ObjReader(checked_text(source))
     while reader.read(_STEP):
@@ -127,7 +126,7 @@ def _error(problem: int, details: tuple[int, int, int, bytes], path: str) -> Exc
 def _elements(
     read: tuple[Any, ...], found: dict[str, Any], warnings: WarningList, *, of_faces: bool
 ) -> Elements:
-    """One kind of elements; warns of what was left out."""
+    """Return one kind of elements; warn of dropped content."""
     sizes, (positions, uvs, normals), are_triangles, (short, line), outside = read
     for which, (count, first, word) in enumerate(outside):
         if count:

@@ -1,7 +1,7 @@
-"""The materials that an OBJ file uses, from its libraries.
+"""The materials used by an OBJ file, from its libraries.
 
 In: the names in ``usemtl`` and ``mtllib`` with their lines. Out: `Material` objects. A library that
-is missing, damaged or out of bounds is a warning; its materials are plain then.
+is missing, damaged or outside the folder gives a warning; its materials are plain.
 """
 
 from __future__ import annotations
@@ -24,22 +24,22 @@ def read_library(
 ) -> dict[str, Material]:
     """Read all material libraries of a model.
 
-    If none of them is there, the one that bears the model's name takes their place.
+    If none exists, the library with the model's name replaces them.
 
     Parameters
     ----------
     source : Source
         The model.
     statements : Setters
-        All ``mtllib``.
+        All ``mtllib`` statements.
     is_used : bool
-        Whether the model names any material.
+        Whether the model uses any material.
     warnings : WarningList
 
     Returns
     -------
     library : dict of str to Material
-        Of materials with the same name, the first.
+        The first material of each name.
     """
     library: dict[str, Material] = {}
     files = LinkedFiles.of(source)
@@ -62,7 +62,7 @@ def read_library(
 
 
 def _namesake(source: Source, files: LinkedFiles, warnings: WarningList) -> list[str]:
-    """The library that bears the model's name: files are renamed, and some name no library."""
+    """Return the library with the model's name: files get renamed, and some name no library."""
     path = _found_or_none(files, f"{source.stem}.mtl") if source.stem else None
     if path is None:
         return []
@@ -73,12 +73,12 @@ def _namesake(source: Source, files: LinkedFiles, warnings: WarningList) -> list
 def used_materials(
     uses: Setters, library: dict[str, Material], warnings: WarningList
 ) -> tuple[list[Material], list[int]]:
-    """Return the materials that ``usemtl`` names, and the number of each use's material.
+    """Return the materials that ``usemtl`` names, and the material number of each use.
 
     Parameters
     ----------
     uses : Setters
-        All ``usemtl``.
+        All ``usemtl`` statements.
     """
     materials: list[Material] = []
     number: dict[str, int] = {}
@@ -101,7 +101,7 @@ def _named(
     line: int,
     warnings: WarningList,
 ) -> Material:
-    """The material of a name, or the only one whose name differs by letter case alone."""
+    """Return the material with a name, or the only one that differs just by letter case."""
     if name in library:
         return library[name]
     others = alike.get(name.casefold(), [])
@@ -114,9 +114,9 @@ def _named(
 
 
 def only_material(library: dict[str, Material], warnings: WarningList) -> Material | None:
-    """Return what a file of no ``usemtl`` is made of: the only material of its libraries.
+    """Return the material of a file without ``usemtl``: the only one in its libraries.
 
-    Of several, none is more likely than the others, and a warning says so.
+    If there are several, none is chosen, and a warning says so.
     """
     if not library:
         return None
@@ -129,7 +129,7 @@ def only_material(library: dict[str, Material], warnings: WarningList) -> Materi
 
 
 def _library_paths(names: str, files: LinkedFiles, line: int, warnings: WarningList) -> list[str]:
-    """``mtllib`` names one file, whose name may hold blanks, or several files."""
+    """Return the files of ``mtllib``: one whose name contains blanks, or several."""
     try:
         return [files.find(names)]
     except LinkedFileError:
@@ -154,7 +154,7 @@ def _found_or_none(files: LinkedFiles, name: str) -> str | None:
 
 
 def _near(files: LinkedFiles, name: str, line: int, warnings: WarningList) -> str | None:
-    """A file that stands in for a library."""
+    """Return a file that can replace a missing library."""
     try:
         path, note = files.find_near(name)
     except LinkedFileError as error:

@@ -1,7 +1,7 @@
 """The objects and groups of an OBJ file.
 
-In: everything that was read of the file. Out: one `Mesh` for all, or one for each ``o`` statement;
-the triangles of each group; the counts of a `Document`.
+In: the parsed file. Out: one `Mesh` for all, or one for each ``o`` statement; the triangles of each
+group; the counts of a `Document`.
 """
 
 from __future__ import annotations
@@ -21,26 +21,26 @@ from ...reading.warning_list import WarningList
 from .obj_file import Elements, ObjFile
 from .obj_states import ObjStates
 
-# No model has more; files that do are taken as one object, and a group name beyond is left out.
+# No real model has more; such files are loaded as one object, and further group names are dropped.
 _MAX_OBJECTS = 1000
 _MAX_GROUPS_OF_A_FACE = 16
 
 
 class ObjParts(NamedTuple):
-    """The contents of an OBJ file.
+    """The content of an OBJ file, ready to become meshes.
 
     Attributes
     ----------
     file : ObjFile
     triangles : Triangles
     normals : (N, 3) float or None
-        What ``triangles.normals`` refers to, if anything.
+        The normals that ``triangles.normals`` indexes, if any.
     states : ObjStates
     materials : list of Material
     crease_angle : float
-        Radians, of normals that neither the file nor its smoothing groups give.
+        Radians, for normals that neither the file nor its smoothing groups define.
     moves : bool
-        Whether objects far from the origin get one of their own.
+        Whether objects far from the origin are moved near it.
     """
 
     file: ObjFile
@@ -52,7 +52,7 @@ class ObjParts(NamedTuple):
     moves: bool = False
 
     def counts(self) -> dict[str, Any]:
-        """Return the lists of the file, as `Document.counts` shows them."""
+        """Return the list lengths of the file, for `Document.counts`."""
         file, states = self.file, self.states
         groups = [name for names in states.groups.names() for name in words_of(names)]
         colors = file.vertices.colors
@@ -72,12 +72,12 @@ class ObjParts(NamedTuple):
         }
 
     def whole(self, stem: str) -> DocumentObject:
-        """Return all as one object, named by its only ``o`` statement or else ``stem``."""
+        """Return everything as one object, named by its only ``o`` statement or else ``stem``."""
         file, objects = self.file, self.states.objects
         name = (objects.names()[0] if len(objects) == 1 else "") or stem
         points = file.points.positions
         if not (len(file.faces.sizes) or len(file.lines.sizes) or len(points)):
-            # Nothing but vertices: a point cloud.
+            # Only vertices: a point cloud.
             points = np.arange(len(file.vertices.positions))
         geometry = Geometry(
             file.vertices,
@@ -90,7 +90,7 @@ class ObjParts(NamedTuple):
         return self._built(geometry, name, self._starts(), slice(None))
 
     def objects(self, stem: str, warnings: WarningList) -> list[DocumentObject]:
-        """Return one object for each ``o`` that holds anything, and one for what stands before."""
+        """Return one object for each non-empty ``o``, and one for elements before the first."""
         setters = self.states.objects
         if not len(setters):
             return [self.whole(stem)]
@@ -146,16 +146,16 @@ class ObjParts(NamedTuple):
         return DocumentObject(name, mesh, pose)
 
     def _starts(self) -> np.ndarray:
-        """The first triangle behind each ``g``, and the number of triangles."""
+        """Return the first triangle after each ``g``, and the number of triangles."""
         faces = np.append(self.states.groups.before["faces"], len(self.file.faces.sizes))
         return self._first_triangles(faces)
 
     def _first_triangles(self, faces: np.ndarray) -> np.ndarray:
-        """The first triangle of each face, or behind it if it has none."""
+        """Return the first triangle of each face, or the next one for a face without triangles."""
         return np.searchsorted(self.triangles.polygons, faces)
 
     def _groups(self, starts: np.ndarray, chosen: slice) -> dict[str, np.ndarray]:
-        """Triangles of each group name; ``g`` may put what follows into several groups."""
+        """Return the triangles of each group name; one ``g`` may name several groups."""
         first, last, _ = chosen.indices(int(starts[-1]))
         starts = np.clip(starts, first, last) - first
         ranges: dict[str, list[np.ndarray]] = {}
@@ -171,7 +171,7 @@ class ObjParts(NamedTuple):
 
 
 def _segments(lines: Elements) -> np.ndarray:
-    """The segments (L, 2) of polylines, as position indices."""
+    """Return the segments (L, 2) of polylines, as position indices."""
     is_last = np.zeros(len(lines.positions), bool)
     ends = np.cumsum(lines.sizes)
     is_last[ends[lines.sizes > 0] - 1] = True

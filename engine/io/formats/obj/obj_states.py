@@ -1,7 +1,7 @@
-"""The statements of an OBJ file that set a state for the elements behind them.
+"""The statements of an OBJ file that set a state for later elements.
 
-In: an `ObjFile`. Out: which materials, libraries, objects, groups and smoothing groups are set
-where. Kinds of statement that are not understood are warned of once each.
+In: an `ObjFile`. Out: where materials, libraries, objects, groups and smoothing groups are set.
+Each unknown kind of statement gives one warning.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ class Setters:
     Attributes
     ----------
     lines : list of int
-        The line of each.
+        The line number of each.
     before : dict of str to (S,) int64
-        How many ``"faces"``, ``"lines"`` and ``"points"`` stand before each.
+        How many ``"faces"``, ``"lines"`` and ``"points"`` precede each.
     """
 
     def __init__(self, file: ObjFile, kind: int) -> None:
@@ -41,14 +41,14 @@ class Setters:
         return len(self._chosen)
 
     def words(self) -> list[bytes]:
-        """Return what follows each one's keyword; of those not understood, the keyword."""
+        """Return the text after each keyword; for unknown statements, the keyword."""
         starts = self._chosen["name"].tolist()
         lengths = self._chosen["name_length"].tolist()
         text = self._text
         return [bytes(text[s : s + n]) for s, n in zip(starts, lengths, strict=True)]
 
     def names(self) -> list[str]:
-        """Return the same as text; names may hold blanks."""
+        """Return the same as text; names may contain blanks."""
         if self._names is None:
             self._names = [decoded(word) for word in self.words()]
         return self._names
@@ -58,7 +58,7 @@ class Setters:
 
 
 class ObjStates:
-    """States by element.
+    """The states set for elements.
 
     Attributes
     ----------
@@ -78,7 +78,7 @@ class ObjStates:
 
     @property
     def has_smoothing(self) -> bool:
-        """Whether the file sets any smoothing group; without, all faces are in one."""
+        """Return whether the file sets any smoothing group; otherwise all faces are in one."""
         return len(self._smoothing) > 0
 
     def smoothing_groups(self, faces: int) -> np.ndarray:
@@ -99,7 +99,7 @@ class ObjStates:
 
 
 def run_lengths(setters: Setters, faces: int) -> np.ndarray:
-    """Return how many faces stand before the first statement, and behind each up to the next."""
+    """Return the number of faces before the first statement, and after each up to the next."""
     return np.diff(setters.before["faces"], prepend=0, append=faces)
 
 

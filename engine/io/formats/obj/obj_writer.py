@@ -1,8 +1,8 @@
-"""Wavefront OBJ: everything that a mesh holds, with its materials in a library beside it.
+"""Writer of Wavefront OBJ: all data of a mesh, with its materials in a library beside it.
 
 Each vertex has its own ``vt`` and ``vn``; vertices that are one point of the surface share a ``v``.
-So a reader that numbers the combinations finds the vertices in their old order. Faces are written
-as the polygons that they were cut from, where these have one material and the same groups.
+So a reader that numbers the combinations restores the old vertex order. Faces are written as their
+original polygons, if these have one material and the same groups.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _FACES_AT_ONCE = 1 << 16
 
 
 def write_obj(mesh: Mesh, path: str, files: Files) -> list[str]:
-    """Write an OBJ file and its library; returns what these do not hold."""
+    """Write an OBJ file and its library; return a line for each loss."""
     names, told = [], []
     unwritten: dict[str, list[str]] = {}
     side_files = None
@@ -54,7 +54,7 @@ def write_obj(mesh: Mesh, path: str, files: Files) -> list[str]:
 
 
 def _about(side_files: SideFiles, library: Library, mesh: Mesh, names: list[str]) -> list[str]:
-    """What to say of the library."""
+    """Return the messages about the library."""
     told = renamed("materials", [material.name for material in mesh.materials], names)
     if library.not_copied:
         images = ", ".join(map(repr, dict.fromkeys(library.not_copied)))
@@ -68,7 +68,7 @@ def _about(side_files: SideFiles, library: Library, mesh: Mesh, names: list[str]
 def _write_model(
     mesh: Mesh, file: Any, side_files: SideFiles | None, names: list[str]
 ) -> list[str]:
-    """Write the model's own text; returns what it does not hold."""
+    """Write the model's own text; return a line for each loss."""
     told = []
     file.write(b"# written by engine3d\n")
     if side_files is not None:
@@ -84,7 +84,7 @@ def _write_model(
 
 
 def _write_vertices(mesh: Mesh, file: Any) -> np.ndarray:
-    """Write the lists; returns the number of each vertex's position, from 1."""
+    """Write the vertex lists; return the position number of each vertex, from 1."""
     numbers, first = _positions(mesh)
     colors = None if mesh.colors is None else srgb_bytes(mesh.colors)
     positions = mesh.positions[first]
@@ -102,7 +102,7 @@ def _write_vertices(mesh: Mesh, file: Any) -> np.ndarray:
 
 
 def _positions(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """The number of each vertex's position, and the first vertex of each number."""
+    """Return the position number of each vertex, and the first vertex of each number."""
     count = len(mesh.positions)
     if mesh.position_ids is None or (mesh.uvs is None and not mesh.has_normals):
         return np.arange(count), np.arange(count)
@@ -113,14 +113,14 @@ def _positions(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
     keys = np.stack(parts, axis=1).astype(np.uint32)
     if mesh.has_normals:
         return number_rows(keys)
-    # Readers join the points along seams again; here only neighbours are sure to be one point of
-    # the file, and sharing no more than that keeps the vertices in their order.
+    # Readers join points along seams again; here only consecutive vertices can safely share a point
+    # of the file, which keeps the vertices in order.
     is_new = np.r_[True, (keys[1:] != keys[:-1]).any(axis=1)][:count]
     return np.cumsum(is_new) - 1, np.flatnonzero(is_new)
 
 
 def _write_faces(mesh: Mesh, file: Any, position_of: np.ndarray, names: list[str]) -> list[str]:
-    """Write the faces with their states; returns what these do not hold."""
+    """Write the faces with their states; return a line for each loss."""
     groups, labels, told = _group_sets(mesh)
     is_flat = np.array([material.flat_shading for material in mesh.materials])
     smooth = ~is_flat[mesh.material_ids] | mesh.has_normals
@@ -136,7 +136,7 @@ def _write_faces(mesh: Mesh, file: Any, position_of: np.ndarray, names: list[str
     states = states[first]
     starts = np.flatnonzero(np.r_[True, (states[1:] != states[:-1]).any(axis=1)])
     lines = _FaceLines(mesh, outlines, position_of)
-    # Without a word about smoothing, readers look for creases.
+    # Without smoothing statements, readers search for creases.
     old = (-1, 0, True if mesh.has_normals or mesh.crease_angle < SMOOTH else None)
     for start, end in zip(starts.tolist(), [*starts[1:].tolist(), len(first)], strict=True):
         new = tuple(states[start].tolist())
@@ -152,7 +152,7 @@ def _write_faces(mesh: Mesh, file: Any, position_of: np.ndarray, names: list[str
 
 
 def _declare_materials(mesh: Mesh, file: Any, names: list[str]) -> None:
-    """Name all materials in their order, unless the faces do; readers number them by first use."""
+    """Name all materials in order, unless the faces do; readers number them by first use."""
     used, first = np.unique(mesh.material_ids, return_index=True)
     in_order = len(used) == len(names) and (np.diff(first) > 0).all()
     if not in_order:
@@ -160,7 +160,7 @@ def _declare_materials(mesh: Mesh, file: Any, names: list[str]) -> None:
 
 
 def _group_sets(mesh: Mesh) -> tuple[np.ndarray, list[list[str]], list[str]]:
-    """The set of groups that each face is in, the names in each set, and what is not held."""
+    """Return each face's set of groups, the names in each set, and the losses."""
     sets = np.zeros(len(mesh.faces), np.int64)
     labels: list[list[str]] = [[]]
     groups = {name: faces for name, faces in mesh.groups.items() if len(faces)}
@@ -177,7 +177,7 @@ def _group_sets(mesh: Mesh) -> tuple[np.ndarray, list[list[str]], list[str]]:
 
 
 class _FaceLines:
-    """The lines of faces, which are made many at a time and written in runs."""
+    """The lines of faces, formatted in batches and written in runs."""
 
     def __init__(self, mesh: Mesh, outlines: Outlines, position_of: np.ndarray) -> None:
         self._outlines = outlines
@@ -192,7 +192,7 @@ class _FaceLines:
         self._ends = [0]
 
     def write(self, file: Any, start: int, end: int) -> None:
-        """Write the lines ``start`` to ``end - 1``; each call goes on where the last one ended."""
+        """Write the lines ``start`` to ``end - 1``; each call continues the previous one."""
         while start < end:
             if start == self._last:
                 self._make(start)

@@ -1,1 +1,1 @@
-"""PLY, both ways."""
+"""PLY, for reading and writing."""

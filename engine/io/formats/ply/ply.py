@@ -1,8 +1,8 @@
 """Stanford PLY: meshes, point clouds and line segments, as text or binary of either byte order.
 
-In: the bytes of a file. Out: a `Document` of one object. The order of work: header, rows, vertices,
-faces, materials, and the vertices split where corners of one vertex differ in texture coordinate or
-colour. Elements and properties of no meaning here are skipped.
+In: the bytes of a file. Out: a `Document` of one object. The steps are: header, rows, vertices,
+faces, materials, and splitting of vertices whose corners differ in texture coordinate or colour.
+Unknown elements and properties are skipped.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ from .ply_vertices import PlyVertices, numbers_of, read_vertices, scalar_names
 def read_ply(source: Source, split: bool = False) -> Document:
     """Read a PLY file, as `Reader.read`: one object.
 
-    With ``split``, coordinates far from the origin get another one.
+    With ``split``, coordinates far from the origin are moved near it.
     """
     warnings = WarningList(source.path)
     header = read_header(source, warnings)

@@ -1,8 +1,8 @@
-"""The numbers in the body of a PLY file, reached by their place.
+"""The body of a PLY file, with numbers accessed by position.
 
 In: the bytes of a file. Out: arrays of the numbers at given places. A place is a byte offset in a
-binary body, and the number of a word in a text body; everything else about the two is alike, so
-that `ply_tables` reads both in one way.
+binary body, or a word number in a text body; otherwise both are alike, so that `ply_tables` reads
+them in the same way.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ from .ply_header import PlyElement, PlyHeader
 _COMMENT = re.compile(rb"(?:^|(?<=[\r\n]))[ \t]*(?:comment|obj_info)\b[^\r\n]*")
 _WORD = re.compile(rb"\S+")
 _ORDER_HERE = "<" if sys.byteorder == "little" else ">"
-# The bytes that most first rows are shorter than.
+# Most first rows are shorter than this many bytes.
 _NEAR = 1 << 12
 
 
-# A list in each row: the places of single numbers before it, and the types of its length and items.
+# A list in each row: the size of the scalars before it, and the types of its length and items.
 ListInRow = tuple[int, str, str]
 
 
@@ -57,7 +57,7 @@ class ShortBodyError(Exception):
 
 
 class BadListError(Exception):
-    """The length of a list is no integer from 0 on: the row, and the place of the length."""
+    """A list's length is not an integer from 0 on; holds the row, and the place of the length."""
 
     def __init__(self, row: int, place: int) -> None:
         super().__init__(row, place)
@@ -70,7 +70,7 @@ class BinaryBody:
     Attributes
     ----------
     start, end : int
-        The first place, and the one behind the last.
+        The first place, and the place after the last.
     """
 
     def __init__(self, source: Source, header: PlyHeader) -> None:
@@ -84,7 +84,7 @@ class BinaryBody:
         return int(code[1])
 
     def walk(self, lists: list[ListInRow], tail: int, place: int, rows: int) -> WalkedRows:
-        """Go along rows, with ``tail`` places behind the last list of each.
+        """Walk along rows, with ``tail`` places after the last list of each.
 
         Raises `ShortBodyError` and `BadListError`.
         """
@@ -104,7 +104,7 @@ class BinaryBody:
         place: int,
         rows: int,
     ) -> WalkedRows:
-        """Go along rows in the bytes from ``base`` on."""
+        """Walk along rows in the bytes from ``base`` on."""
         sizes = [
             (before, self.size(count_type), count_type[0] == "i", self.size(item_type))
             for before, count_type, item_type in lists
@@ -121,9 +121,9 @@ class BinaryBody:
     def lengths_are(
         self, place: int, offset: int, stride: int, rows: int, code: str, length: int
     ) -> bool:
-        """Tell whether a list has ``length`` items in all rows, which are ``stride`` apart.
+        """Return whether a list has ``length`` items in all rows, which are ``stride`` apart.
 
-        The first row stands at ``place``, the lengths themselves ``offset`` behind it.
+        The first row is at ``place``, with the length at ``offset`` in it.
         """
         return all(
             native.ply_lengths_are(
@@ -141,7 +141,7 @@ class BinaryBody:
     def even_lists(
         self, place: int, rows: int, count_type: str, code: str, length: int
     ) -> np.ndarray | None:
-        """Return the items (rows, length) of rows of one list; None if they differ in length."""
+        """Return the items (rows, length) of single-list rows; None if lengths differ."""
         before = self.size(count_type)
         stride = before + length * self.size(code)
         items = native.large_array((rows, length), code)
@@ -162,9 +162,9 @@ class BinaryBody:
     def rows(
         self, place: int, offset: int, shape: tuple[int, int], stride: int, code: str
     ) -> np.ndarray:
-        """Return neighbouring numbers of rows that are ``stride`` apart.
+        """Return adjacent numbers of rows that are ``stride`` apart.
 
-        The first row stands at ``place``, its numbers ``offset`` behind it.
+        The first row is at ``place``, with the numbers at ``offset`` in it.
         """
         items = native.large_array(shape, code)
         if items.nbytes == stride * shape[0] and self._order == _ORDER_HERE:
@@ -176,31 +176,31 @@ class BinaryBody:
         return items
 
     def numbers(self, places: np.ndarray, code: str) -> np.ndarray:
-        """Return the numbers at ``places`` (any shape), which are all inside."""
+        """Return the numbers at ``places`` (any shape), which must all be inside."""
         if not len(places):
             return np.zeros(places.shape, code)
-        # A view of all numbers that begin at any byte.
+        # A view of numbers that start at every byte.
         count = self.end - self.size(code) + 1
         every = np.ndarray((count,), self._order + code, self._source.data, 0, (1,))
         return every[places].astype(code, copy=False)
 
     def column(self, start: int, rows: int, stride: int, code: str) -> np.ndarray:
-        """Return one number of each row, rows being ``stride`` apart, as a view."""
+        """Return one number of each row as a view; rows are ``stride`` apart."""
         if not rows:
             return np.zeros(0, code)
         return np.ndarray((rows,), self._order + code, self._source.data, start, (stride,))
 
     def line(self, place: int) -> None:
-        """Binary files have no lines."""
+        """Return no line: binary files have none."""
         return None
 
     def describe(self, place: int) -> str:
-        """Return words for a place in a message."""
+        """Return the description of a place for a message."""
         return f" at byte {place}"
 
 
 class TextBody:
-    """The numbers of a text body; comments may stand between its lines."""
+    """The numbers of a text body; comments may occur between lines."""
 
     def __init__(self, source: Source, header: PlyHeader) -> None:
         self._body = ended(memoryview(source.data)[header.body_start :])
@@ -259,7 +259,7 @@ class TextBody:
         return self._values[start :: max(stride, 1)][:rows]
 
     def line(self, place: int) -> int:
-        """Return the line that a number stands in; the last one for places behind the end."""
+        """Return the line of a number; the last line for places after the end."""
         body = _COMMENT.sub(lambda comment: b" " * len(comment[0]), self._body)
         words = islice(_WORD.finditer(body), place, None)
         found = next(words, None)
@@ -278,16 +278,16 @@ PlyBody: TypeAlias = BinaryBody | TextBody
 
 
 def open_body(source: Source, header: PlyHeader) -> PlyBody:
-    """Return the body of a file, to get numbers from."""
+    """Return the body of a file for reading numbers."""
     if not header.byte_order:
         return TextBody(source, header)
     if not all(map(_is_read_once, header.elements.values())):
-        # Everything at once is faster than from the file several times.
+        # Reading everything at once is faster than reading the file repeatedly.
         _ = source.data
     return BinaryBody(source, header)
 
 
 def _is_read_once(element: PlyElement) -> bool:
-    """Whether all properties of an element are read together."""
+    """Return whether all properties of an element are read together."""
     lists = [item for item in element.properties.values() if item.count_type is not None]
     return len(element.properties) == 1 if lists else len(element.properties) <= 3

@@ -1,4 +1,4 @@
-"""The colours of a PLY element, each property by its own type and range.
+"""The colours of a PLY element, converted by each property's type and range.
 
 In: the table of an element. Out: sRGB bytes or linear floats, as a `Mesh` takes them. Integers are
 display values, floats linear light, but programs differ: floats may be display values of 0 to 255,
@@ -25,14 +25,14 @@ _ALPHAS = ("alpha", "a", "diffuse_alpha")
 _SPLATS, _OPACITY = ("f_dc_0", "f_dc_1", "f_dc_2"), "opacity"
 # The constant spherical harmonic, 1 / (2 sqrt(pi)).
 _HARMONIC = 0.28209479177387814
-# Floats from here on are no light but display values; our own writer's are light whatever they are.
+# Floats from here on are display values, not light; our own writer's are always light.
 _LEAST_DISPLAY, _MOST_DISPLAY = 16.0, 256.0
-# Alphas that are larger than 1 by more than an error of rounding.
+# Alphas beyond 1 by more than a rounding error.
 _LEAST_WHOLE = 1.01
 
 
 def color_names(table: PlyTable) -> tuple[str, ...]:
-    """Return the names of the properties that are colours, alphas too; empty if there are none."""
+    """Return the names of colour properties, alphas included; empty if there are none."""
     names = next((names for names in _COLORS if table.has(*names)), ())
     return (*names, *_ALPHAS) if names else _ALPHAS
 
@@ -44,14 +44,14 @@ def read_colors(table: PlyTable, warnings: WarningList, is_own: bool = False) ->
     ----------
     table : PlyTable
     warnings : WarningList
-        Floats that are taken for display values are told of.
+        Gets a warning if floats are taken for display values.
     is_own : bool
-        Whether the file is of our own writer, whose floats are linear light.
+        Whether our own writer made the file; then floats are linear light.
 
     Returns
     -------
     colors : (N, 4) uint8 or float32, or None
-        sRGB bytes, or linear light if any of red, green and blue is that. None if there are none.
+        sRGB bytes, or linear light if any of red, green and blue is linear. None without colours.
     """
     names = next((names for names in _COLORS if table.has(*names)), None)
     if names is None:
@@ -77,13 +77,13 @@ def read_colors(table: PlyTable, warnings: WarningList, is_own: bool = False) ->
 
 
 def _is_light(block: np.ndarray) -> bool:
-    """Whether floats are certainly none of 0 to 255: what most files hold."""
+    """Return whether floats certainly do not range to 255, as in most files."""
     largest = float(block.max(initial=0))
     return largest < (_LEAST_WHOLE if block.shape[1] == 4 else _LEAST_DISPLAY)
 
 
 def _light(block: np.ndarray) -> np.ndarray:
-    """Linear light of floats, white for what is none."""
+    """Return floats as linear light, white where invalid."""
     with np.errstate(over="ignore"):
         colors = np.ones((len(block), 4), np.float32)
         colors[:, : block.shape[1]] = np.nan_to_num(block, nan=1.0)
@@ -91,7 +91,7 @@ def _light(block: np.ndarray) -> np.ndarray:
 
 
 class _Column(NamedTuple):
-    """A property: its name, its type and its numbers (N,)."""
+    """A property: its name, type and numbers (N,)."""
 
     name: str
     kind: str
@@ -99,12 +99,12 @@ class _Column(NamedTuple):
 
 
 class _Ranges:
-    """Tells what the numbers of properties mean, and warns of what is only likely.
+    """Determines the ranges of properties, and warns of guesses.
 
     Parameters
     ----------
     is_own : bool
-        Whether floats are linear light, whatever they are.
+        Whether floats are always linear light.
     warnings : WarningList
     """
 
@@ -112,9 +112,9 @@ class _Ranges:
         self._is_own, self._warnings = is_own, warnings
 
     def of_colors(self, columns: list[_Column]) -> list[float | None]:
-        """Return what stands for 255 in each column; None where it is linear light.
+        """Return the value that means 255 in each column; None if it is linear light.
 
-        Columns of one type have one range.
+        Columns of one type share a range.
         """
         found = {}
         for kind in {column.kind: None for column in columns}:
@@ -125,7 +125,7 @@ class _Ranges:
         return [found[column.kind] for column in columns]
 
     def shares(self, column: _Column) -> np.ndarray:
-        """Return alphas, (N,) float64 of 0 to 1."""
+        """Return alphas, (N,) float64 from 0 to 1."""
         full = self._full(column.name, column.kind, _largest(column.values), _LEAST_WHOLE)
         return _codes(column, full) / 255 if full else np.nan_to_num(column.values, nan=1.0)
 
@@ -150,7 +150,7 @@ class _Ranges:
 def _joined(
     columns: list[_Column], fulls: list[float | None], clear: np.ndarray | None
 ) -> np.ndarray:
-    """The colours of three columns, and alphas of 0 to 1."""
+    """Return the colours of three columns, with alphas of 0 to 1."""
     count = len(columns[0].values)
     known = [full for full in fulls if full is not None]
     if len(known) == len(fulls):
@@ -173,9 +173,9 @@ def _joined(
 
 
 def _codes(column: _Column, full: float) -> np.ndarray:
-    """Display values as whole numbers of 0 to 255, float64; white for what is not finite."""
+    """Return display values as whole numbers of 0 to 255, float64; non-finite ones white."""
     values = column.values.astype(np.float64) / (full / 255)
-    if column.kind == "i1":  # bytes whose sign was not meant
+    if column.kind == "i1":  # bytes that were meant unsigned
         values = np.where(values < 0, values + 256, values)
     return np.floor(np.clip(np.nan_to_num(values, nan=255.0), 0, 255) + 0.5)
 
@@ -186,12 +186,12 @@ def _largest(values: np.ndarray) -> float:
 
 
 def is_splats(table: PlyTable) -> bool:
-    """Whether vertices are 3D Gaussian splats: their colours are coefficients."""
+    """Return whether vertices are 3D Gaussian splats, whose colours are coefficients."""
     return table.has(*_SPLATS) and not any(table.has(*names) for names in _COLORS)
 
 
 def splat_colors(table: PlyTable, warnings: WarningList) -> np.ndarray:
-    """Read the colours of 3D Gaussian splats as one sees them from all sides.
+    """Read the view-independent colours of 3D Gaussian splats.
 
     Returns
     -------

@@ -23,7 +23,7 @@ _RESTART = -1
 
 
 class PlyFaces(NamedTuple):
-    """Triangles.
+    """The triangles of a PLY file.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class PlyFaces(NamedTuple):
         The number of each triangle's image.
     edge_visible : (T, 3) bool or None
     polygons : (T,) int or None
-        The face of the file that each is a part of; None where all are faces.
+        The file's face that each is part of; None if all faces are triangles.
     """
 
     corners: np.ndarray
@@ -50,12 +50,12 @@ class PlyFaces(NamedTuple):
 def read_faces(
     table: PlyTable | None, positions: np.ndarray, budget: WorkBudget, warnings: WarningList
 ) -> PlyFaces:
-    """Read the element ``face``, polygons cut into triangles.
+    """Read the element ``face``, and triangulate polygons.
 
     Raises
     ------
     FileFormatError
-        An index of a vertex that does not exist.
+        A vertex index is out of range.
     """
     name = _index_list(table)
     if table is None or name is None:
@@ -88,12 +88,12 @@ def read_faces(
 
 
 def face_scalar_names(table: PlyTable | None) -> list[str]:
-    """Return the names of the numbers of faces that `read_faces` does not read."""
+    """Return the names of face numbers that `read_faces` does not read."""
     return [] if table is None else names_but(table, {*_INDEX_LISTS, "texcoord", "texnumber"})
 
 
 def read_face_scalars(table: PlyTable | None, faces: PlyFaces) -> dict[str, np.ndarray]:
-    """Read the numbers of faces that are nothing of what `read_faces` reads, by name: (T, ...)."""
+    """Read the face numbers that `read_faces` does not read, by name: (T, ...)."""
     if table is None or not len(table):
         return {}
     found = numbers_of(table, face_scalar_names(table))
@@ -103,9 +103,9 @@ def read_face_scalars(table: PlyTable | None, faces: PlyFaces) -> dict[str, np.n
 
 
 def read_strips(table: PlyTable | None, count: int) -> np.ndarray:
-    """Read the element ``tristrips``: triangles (T, 3) int32, those without area left out.
+    """Read the element ``tristrips``: triangles (T, 3) int32, without degenerate ones.
 
-    Every strip begins anew behind an index of -1, and winds its first triangle as it stands.
+    An index of -1 starts a new strip, whose first triangle keeps its winding.
     """
     name = _index_list(table)
     if table is None or name is None:
@@ -146,10 +146,10 @@ def _index_list(table: PlyTable | None) -> str | None:
 def _checked(
     table: PlyTable, found: PlyList, count: int, others: tuple[int, ...] = ()
 ) -> np.ndarray:
-    """Vertex indices as int32; those in ``others`` are let through."""
+    """Return vertex indices as int32, checked; those in ``others`` are allowed."""
     values = found.values
     kind, size = values.dtype.kind, values.dtype.itemsize
-    # Without their sign, negative numbers are beyond every count.
+    # Viewed as unsigned, negative numbers exceed every count.
     if kind in "iu" and len(values) and values.view(f"u{size}").max() < count:
         return values.astype(np.int32, copy=False)
     if values.dtype == np.float64 and not others:
@@ -171,9 +171,9 @@ def _checked(
 
 
 def _corner_uvs(table: PlyTable, sizes: np.ndarray, warnings: WarningList) -> np.ndarray | None:
-    """The property ``texcoord`` of faces: two numbers per corner, (C, 2); None without it.
+    """Return the face property ``texcoord``: two numbers per corner, (C, 2); None without it.
 
-    A face with another number of them has none, which counts as zero.
+    A face with a wrong count of numbers has none, and gets zeros.
     """
     if not table.has("texcoord", lists=True):
         return None

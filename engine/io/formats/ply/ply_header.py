@@ -1,9 +1,8 @@
-"""The header of a PLY file: what its body is made of.
+"""The header of a PLY file, which describes its body.
 
 In: the bytes of a file. Out: a `PlyHeader`: the encoding, the elements with their properties, the
-images that comments name, and where the body begins. Nothing is believed yet: whether the body
-holds what is announced here is for the reader of the body to find out. Source: G. Turk, "The PLY
-Polygon File Format", 1994.
+images that comments name, and where the body begins. The reader of the body checks that the
+announced content exists. Source: G. Turk, "The PLY Polygon File Format", 1994.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from ...reading.sources import Source
 from ...reading.text import decoded, shown
 from ...reading.warning_list import WarningList
 
-#: The names of types -> their NumPy codes, without byte order.
+#: Type names -> NumPy codes, without byte order.
 TYPES = {
     "char": "i1",
     "int8": "i1",
@@ -38,16 +37,16 @@ TYPES = {
     "double": "f8",
     "float64": "f8",
 }
-#: The names of encodings -> the byte order of numbers, "" for text.
+#: Encoding names -> byte order of numbers, "" for text.
 ENCODINGS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 
-#: What our own writer says in its files.
+#: The comment of our own writer.
 OWN_COMMENT = b"comment written by engine3d"
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 _MAGIC = re.compile(rb"ply[ \t]*(\r\n|\n|\r)")
 _END = re.compile(rb"(?:^|(?<=[\r\n]))[ \t]*end_header[ \t]*(?:\r\n|\n|\r|$)")
 _MAX_DIGITS = 18
-# The bytes of most headers, and more.
+# More bytes than most headers have.
 _USUAL_SIZE = 1 << 16
 
 
@@ -59,9 +58,9 @@ class PlyProperty:
     ----------
     name : str
     type : str
-        NumPy code without byte order, such as ``"f4"``; of the list's items if it is a list.
+        NumPy code without byte order, such as ``"f4"``; for a list, that of its items.
     count_type : str or None
-        The code of a list's length; None if the property is a single number.
+        The code of a list's length; None for a single number.
     """
 
     name: str
@@ -77,7 +76,7 @@ class PlyElement:
     ----------
     name : str
     count : int
-        Rows that are announced.
+        The announced number of rows.
     properties : dict of str to PlyProperty
     """
 
@@ -95,9 +94,9 @@ class PlyHeader:
     byte_order : {"", "<", ">"}
         Empty for a text body.
     elements : dict of str to PlyElement
-        In the order of the body.
+        In body order.
     textures : list of str
-        What ``comment TextureFile`` names.
+        The names in ``comment TextureFile``.
     body_start : int
         Offset of the body's first byte.
     body_line : int
@@ -115,7 +114,7 @@ class PlyHeader:
 
 
 def is_ply(head: bytes) -> bool:
-    """Tell whether a file that begins with ``head`` is a PLY file."""
+    """Return whether a file that begins with ``head`` is a PLY file."""
     return _MAGIC.match(head.removeprefix(_BYTE_ORDER_MARK)) is not None
 
 
@@ -125,7 +124,7 @@ def read_header(source: Source, warnings: WarningList) -> PlyHeader:
     Raises
     ------
     FileFormatError
-        It is no PLY header, or announces what cannot be.
+        It is not a PLY header, or its content is impossible.
     """
     data = source.head(_USUAL_SIZE)
     end = _END.search(data)
@@ -141,7 +140,7 @@ def read_header(source: Source, warnings: WarningList) -> PlyHeader:
     line_end = magic[1]
     body_start = end.end()
     if line_end != b"\r\n" and data[body_start - 2 : body_start] == b"\r\n":
-        # The lines of this header end in CR alone; the line feed is the body's first byte.
+        # The header's lines end in CR alone; the line feed is the body's first byte.
         body_start -= line_end == b"\r"
     lines = data[magic.end() : end.start()].split(line_end)
     parser = _HeaderParser(source.path, warnings)
@@ -151,7 +150,7 @@ def read_header(source: Source, warnings: WarningList) -> PlyHeader:
 
 
 class _HeaderParser:
-    """Takes in the lines between ``ply`` and ``end_header``."""
+    """Parses the lines between ``ply`` and ``end_header``."""
 
     def __init__(self, path: str, warnings: WarningList) -> None:
         self._path = path

@@ -1,8 +1,8 @@
-"""The materials of a PLY file: one for each image that it names.
+"""The materials of a PLY file, one for each image it names.
 
 In: the names in ``comment TextureFile``, and the number of each triangle's image. Out: `Material`
-objects, and the one of each triangle. An image that is missing, damaged or out of the model's
-folder is a warning.
+objects, and that of each triangle. An image that is missing, damaged or outside the model's folder
+gives a warning.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _MAX_TEXTURES = 1000
 def read_materials(
     source: Source, names: list[str], has_uvs: bool, warnings: WarningList
 ) -> list[Material]:
-    """Return the materials, at least one; those of a model without any may have its own image."""
+    """Return the materials, at least one; a file without any may use its companion image."""
     if not names or not has_uvs:
         materials = [Material()]
         if has_uvs:
@@ -54,8 +54,8 @@ def _texture(
 
 
 def material_ids(numbers: np.ndarray | None, triangles: int, materials: int) -> np.ndarray:
-    """Return the material of each triangle: (T,) int32, the first for numbers of no image."""
+    """Return the material of each triangle: (T,) int32, the first for invalid image numbers."""
     if numbers is None:
-        return frozen(np.zeros(triangles, np.int32))  # so that the mesh takes it over
+        return frozen(np.zeros(triangles, np.int32))  # the mesh can keep it without copying
     is_known = (numbers >= 0) & (numbers < materials)
     return np.where(is_known, numbers, 0).astype(np.int32)

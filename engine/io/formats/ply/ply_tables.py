@@ -1,9 +1,9 @@
 """The rows of a PLY file's body as columns.
 
-In: the body of a file, and the elements that its header announces. Out: a `PlyTable` for
-each element that is asked for. Rows whose lists all have the length of those in the first row lie
-at equal distances and are read as they lie; others are walked along once. No row is believed in
-before the file was found long enough for it.
+In: the body of a file, and the elements that its header announces. Out: a `PlyTable` for each
+requested element. If all lists have the same lengths as in the first row, rows have equal sizes and
+are read as an array; other rows are walked along once. The file's length is checked against every
+row.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class PlyList(NamedTuple):
     values : (M,) number
         All items, row after row.
     length : int or None
-        How many items each row has, where that was found out.
+        The number of items in each row, if known to be equal.
     """
 
     sizes: np.ndarray
@@ -49,15 +49,15 @@ class _Layout(NamedTuple):
     Attributes
     ----------
     row_count : int
-        N.
+        The number of rows, N.
     stride : int or None
-        The distance of rows if all have the same shape.
+        The distance between rows if all have the same shape.
     rows : WalkedRows
         All rows; only the first if there is a stride.
     end : int
         The place behind the last row.
     items : (N, K) number or None
-        All items, where rows are nothing but one list, of the same length in each.
+        All items, if each row is a single list of the same length.
     """
 
     row_count: int
@@ -86,7 +86,7 @@ class PlyTable:
         return self._layout.row_count
 
     def has(self, *names: str, lists: bool = False) -> bool:
-        """Tell whether all these properties exist, as numbers or as lists."""
+        """Return whether all these properties exist, as numbers or lists."""
         found = [self.element.properties.get(name) for name in names]
         return all(p is not None and (p.count_type is not None) == lists for p in found)
 
@@ -107,9 +107,9 @@ class PlyTable:
         return self._body.numbers(self._list_ends(after - 1) + offset, code)
 
     def columns(self, *names: str) -> np.ndarray:
-        """Return several such properties beside each other: (N, len(names)).
+        """Return several such properties side by side: (N, len(names)).
 
-        float64, or the properties' own type where they are alike and stand beside each other.
+        float64, or the properties' own dtype if they share one and are adjacent.
         """
         block = self._block(names)
         if block is not None:
@@ -120,7 +120,7 @@ class PlyTable:
         return table
 
     def _block(self, names: tuple[str, ...]) -> np.ndarray | None:
-        """Columns that lie beside each other in rows of one shape, copied at once."""
+        """Return adjacent columns of equally shaped rows, copied at once."""
         code, layout = self.type(names[0]), self._layout
         size = self._body.size(code)
         after, offset = self._places[names[0]]
@@ -150,7 +150,7 @@ class PlyTable:
         return PlyList(np.broadcast_to(sizes, len(self)), values, length)
 
     def _rows(self, stride: int, start: int, shape: tuple[int, int], code: str) -> np.ndarray:
-        """Neighbouring numbers of all rows, of one shape; those of the first row at ``start``."""
+        """Return adjacent numbers of all rows of one shape; those of the first row at ``start``."""
         place = int(self._layout.rows.places[0])
         return native.frozen(self._body.rows(place, start - place, shape, stride, code))
 
@@ -184,7 +184,7 @@ def read_tables(source: Source, header: PlyHeader, body: PlyBody) -> dict[str, P
     Raises
     ------
     FileFormatError
-        The file ends before what is announced, or a list has an impossible length.
+        The file is shorter than announced, or a list has an impossible length.
     """
     tables = {}
     place = body.start
@@ -193,7 +193,7 @@ def read_tables(source: Source, header: PlyHeader, body: PlyBody) -> dict[str, P
         tables[name] = PlyTable(element, body, layout, source.path)
         place = layout.end
     if place < body.end and not header.byte_order:
-        # Rows of another width than announced: everything after the first would be wrong.
+        # Rows have another width than announced: everything after the first would be wrong.
         raise FileFormatError(
             f"{body.end - place} numbers more than the header announces",
             source.path,
@@ -203,7 +203,7 @@ def read_tables(source: Source, header: PlyHeader, body: PlyBody) -> dict[str, P
 
 
 def _places_in_row(element: PlyElement, body: PlyBody) -> dict[str, tuple[int, int]]:
-    """For each number the lists before it and its distance from the last; for lists, which one."""
+    """Return each number's lists before it and offset after the last; for lists, their index."""
     places, lists, offset = {}, 0, 0
     for name, item in element.properties.items():
         places[name] = (lists, offset)
@@ -247,7 +247,7 @@ def _find_rows(source: Source, element: PlyElement, body: PlyBody, start: int) -
 
 
 def _lists(element: PlyElement, body: PlyBody) -> tuple[list[ListInRow], int]:
-    """The lists of a row, and the number of places behind the last."""
+    """Return the lists of a row, and the number of places after the last."""
     lists, before = [], 0
     for item in element.properties.values():
         if item.count_type is None:
@@ -261,7 +261,7 @@ def _lists(element: PlyElement, body: PlyBody) -> tuple[list[ListInRow], int]:
 def _is_uniform(
     element: PlyElement, body: PlyBody, first: WalkedRows, stride: int, count: int
 ) -> bool:
-    """Whether the lists of all rows have the lengths of those in the first."""
+    """Return whether the lists of all rows have the lengths of those in the first."""
     lists, _ = _lists(element, body)
     for (_, count_type, _), begin, size in zip(lists, first.starts[0], first.sizes[0], strict=True):
         place = int(first.places[0])

@@ -1,8 +1,7 @@
 """The vertices of a PLY file: positions, normals, colours and texture coordinates.
 
-In: the table of the element ``vertex``. Out: arrays as a `Mesh` takes them. The names are those
-that programs in use write; properties with other names are numbers to
-colour by, if anybody asks for them.
+In: the table of the element ``vertex``. Out: arrays as a `Mesh` takes them. Property names follow
+common programs; other properties are numbers to colour by, on request.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from ...reading.warning_list import WarningList
 from .ply_colors import color_names, is_splats, read_colors, splat_colors
 from .ply_tables import PlyTable
 
-_WIDEST = 16  # lists of more items are no vectors
+_WIDEST = 16  # lists with more items are not vectors
 _UVS = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "texture_t"))
 
 
@@ -31,7 +30,7 @@ class PlyVertices(NamedTuple):
     colors : (V, 4) uint8 or float32, or None
     uvs : (V, 2) float32 or None
     position_ids : (V,) number or None
-        What our own writer says of vertices that are one point of the surface.
+        Our own writer's numbers for vertices that are one point of the surface.
     """
 
     positions: np.ndarray
@@ -44,7 +43,7 @@ class PlyVertices(NamedTuple):
 def read_vertices(table: PlyTable, warnings: WarningList, is_own: bool = False) -> PlyVertices:
     """Read the vertices; the table has ``x``, ``y`` and ``z``.
 
-    Other parameters are those of `read_colors`.
+    Other parameters as in `read_colors`.
     """
     positions = table.columns("x", "y", "z")
     normals = None
@@ -64,19 +63,19 @@ def read_vertices(table: PlyTable, warnings: WarningList, is_own: bool = False) 
 
 
 def scalar_names(table: PlyTable) -> list[str]:
-    """Return the names of the numbers of vertices that `read_vertices` does not read."""
+    """Return the names of vertex numbers that `read_vertices` does not read."""
     uvs = next((names for names in _UVS if table.has(*names)), ())
     return names_but(table, {"x", "y", "z", "nx", "ny", "nz", "position_id", *uvs})
 
 
 def names_but(table: PlyTable, taken: Collection[str]) -> list[str]:
-    """Return the names of an element's properties but for its colours and those in ``taken``."""
+    """Return the names of an element's properties, without its colours and those in ``taken``."""
     taken = {*taken, *color_names(table)}
     return [name for name in table.element.properties if name not in taken]
 
 
 def numbers_of(table: PlyTable, names: Iterable[str]) -> dict[str, np.ndarray]:
-    """Read some properties: (N,), or (N, K) of lists that all have K items; no other lists."""
+    """Read some properties: (N,), or (N, K) for lists of K items; other lists are skipped."""
     found = {}
     for name in names:
         if table.has(name):

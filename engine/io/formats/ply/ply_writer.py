@@ -1,7 +1,7 @@
-"""PLY: positions, normals, texture coordinates and colours of vertices; polygons, lines and points.
+"""Writer of PLY: vertices with attributes; polygons, lines and points.
 
-Faces are written as the polygons that they were cut from. ``position_id`` is a property of our own:
-vertices with the same number are one point of the surface. Binary files are little-endian.
+Faces are written as their original polygons. ``position_id`` is our own property: vertices with the
+same number are one point of the surface. Binary files are little-endian.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _BLOCK = 1 << 15
 
 
 def write_ply(mesh: Mesh, path: str, files: Files, ascii: bool = False) -> list[str]:
-    """Write a PLY file; returns what it does not hold."""
+    """Write a PLY file; return a line for each loss."""
     has_elements = len(mesh.faces) or len(mesh.lines)
     # Vertices alone are points.
     chosen = slice(None) if has_elements or not len(mesh.points) else mesh.points
@@ -41,7 +41,7 @@ def write_ply(mesh: Mesh, path: str, files: Files, ascii: bool = False) -> list[
 
 
 def _columns(mesh: Mesh) -> list[tuple[str, str, np.ndarray]]:
-    """Name, type and values of each property of the vertices."""
+    """Return name, type and values of each vertex property."""
     groups: list[tuple[tuple[str, ...], str, np.ndarray]]
     groups = [(("x", "y", "z"), "<f4", mesh.positions)]
     if mesh.has_normals:
@@ -85,7 +85,7 @@ def _write_binary(file: Any, columns: Any, outlines: Outlines, lines: np.ndarray
 
 
 def _face_bytes(outlines: Outlines) -> bytes:
-    """Rows of a count and as many indices."""
+    """Return rows of a count and that many indices."""
     sizes = outlines.sizes.astype(np.int64)
     count_code = np.dtype("u1" if sizes.max() < 256 else "<i4")
     lengths = count_code.itemsize + 4 * sizes

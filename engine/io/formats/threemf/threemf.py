@@ -1,8 +1,8 @@
 """3MF, the 3D Manufacturing Format: meshes for printers, with colours and textures.
 
-In: a ZIP package of XML. Out: a `Document` with an object for each mesh that the build places, by
-items and components of components. Coordinates stay those of the file, whose unit `Document.unit`
-names, and +Z is up; parts in other units are scaled to the first one's.
+In: a ZIP package of XML. Out: a `Document` with an object for each mesh in the build, placed by
+items and nested components. Coordinates are the file's, in `Document.unit`, with +Z up; parts in
+other units are scaled to the first part's.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ from .threemf_model import UNITS, ModelParser, ModelPart, ObjectRecord, Placemen
 
 _MODEL_TYPE = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
 _RELATIONS = "_rels/.rels"
-# Components may hold components, and each may be placed many times.
+# Components may contain components, and each may be placed many times.
 _MOST_DEPTH = 32
 _MOST_PLACED = 1 << 16
-# Parts of so many bytes, and so many times the file's size besides, are in memory as a whole.
+# Parts up to these sizes, absolute and relative to the file, are read into memory as a whole.
 _AT_ONCE, _RATIO_AT_ONCE = 4 << 20, 16
 
 
 def read_3mf(source: Source, split: bool = False) -> Document:
-    """Read a 3MF file, as `Reader.read`; each mesh that is placed is an object."""
+    """Read a 3MF file, as `Reader.read`; each placed mesh is an object."""
     if source.head(len(ZIP)) != ZIP:
         raise FileFormatError("not a 3mf file", source.path)
     warnings = WarningList(source.path)
@@ -49,7 +49,7 @@ def read_3mf(source: Source, split: bool = False) -> Document:
 
 
 class _Package:
-    """The parts of a file, each read once, and their meshes."""
+    """The parts of a file, each read once, with their meshes."""
 
     def __init__(self, source: Source, warnings: WarningList, split: bool) -> None:
         self._source, self._warnings, self._split = source, warnings, split
@@ -63,7 +63,7 @@ class _Package:
         self.unit = UNITS[self._first.unit][1]
 
     def _root_path(self) -> str:
-        """The part that holds the build: what the package names, or the only model in it."""
+        """Return the part with the build: the one the package names, or its only model."""
         found: list[str] = []
 
         def begin(name: str, attributes: Attributes, place: int) -> None:
@@ -95,7 +95,7 @@ class _Package:
         return self._parts[key]
 
     def placed(self) -> list[PosedPart]:
-        """Return the meshes that the build places; all of them if it places nothing."""
+        """Return the meshes that the build places; all meshes if it is empty."""
         items = self._first.items
         if not items:
             within = {c.object for entry in self._first.objects.values() for c in entry.components}
@@ -107,7 +107,7 @@ class _Package:
     def _place(
         self, placement: Placement, pose: np.ndarray, path: str, scale: float, depth: int
     ) -> None:
-        """Add the meshes of what is placed; ``scale`` is that of the part that places it."""
+        """Add the meshes of a placement; ``scale`` belongs to the placing part."""
         path = placement.path or path
         part, builder = self._part(path)
         record = part.objects.get(placement.object)
@@ -135,7 +135,7 @@ class _Package:
 
 
 def _resembles(head: bytes, size: int) -> bool:
-    """Whether it is a ZIP archive: no other format that is told by its look is one."""
+    """Return whether the file is a ZIP archive: no other format detected by content is one."""
     return head.startswith(ZIP)
 
 

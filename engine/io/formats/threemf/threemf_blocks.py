@@ -1,8 +1,8 @@
-"""The long lists of a 3MF file, read at once where they are written as all programs write them.
+"""Fast parsing of the long lists in a 3MF file, for their usual spelling.
 
-In: the XML of a part. Out: the same without the content of its lists of vertices and triangles, and
-that content as arrays. A list in which anything else stands is left where it is, for `ModelParser`
-to read element by element: both ways make the same of a file.
+In: the XML of a part. Out: the same without the content of its vertex and triangle lists, and that
+content as arrays. Lists in any other spelling stay in the XML, where `ModelParser` reads them
+element by element: both ways give the same result.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ...._native import loaders as native
 from ...reading.number_arrays import NotANumberError, ended, read_numbers
 
-# How elements are written: what begins one, stands between its numbers, and ends it.
+# The text of an element: its start, between its numbers, and its end.
 _VERTEX = (b'<vertex x="', b'" y="', b'" z="')
 _TRIANGLE = (b'<triangle v1="', b'" v2="', b'" v3="')
 _ENDS = (b'"/>', b'" />')
@@ -25,19 +25,19 @@ _LISTS = {
     b"triangles": (_TRIANGLE, b"0123456789"),
 }
 _BLANKS = b" \t\r\n"
-_FIRST, _LAST = 1, 4  # bytes that no XML holds take the place of the pieces
+_FIRST, _LAST = 1, 4  # bytes that cannot occur in XML mark these pieces
 _TAG = re.compile(rb"<(/?)(vertices|triangles)>")
 
 
 def cut_lists(text: bytes) -> tuple[bytes, dict[int, NDArray[np.float64]]]:
-    """Take the lists out of a text.
+    """Cut the lists out of a text.
 
     Returns
     -------
     text : bytes
-        With as many lines.
+        The rest, with the same number of lines.
     lists : dict of int to (N, 3) float64
-        By where in the new text the element begins that held the list.
+        The lists, by the offset in the new text of the element that held them.
     """
     pieces: list[bytes] = []
     lists: dict[int, NDArray[np.float64]] = {}
@@ -63,7 +63,7 @@ def cut_lists(text: bytes) -> tuple[bytes, dict[int, NDArray[np.float64]]]:
 
 
 def _numbers(content: bytes, form: Sequence[bytes], allowed: bytes) -> NDArray[np.float64] | None:
-    """The numbers of a list of elements of one form, (N, 3); None if anything else is in it."""
+    """Return the numbers of a list of uniform elements, (N, 3); None for other content."""
     marked = content
     for number, piece in enumerate(form):
         marked = marked.replace(piece, bytes([_FIRST + number]))
@@ -84,7 +84,7 @@ def _numbers(content: bytes, form: Sequence[bytes], allowed: bytes) -> NDArray[n
 
 
 def _is_regular(letters: NDArray[np.uint8], places: NDArray[np.int64]) -> bool:
-    """Whether marks come in their order, with a number in each place and blanks only outside."""
+    """Return whether marks are in order, with a number in each place and only blanks outside."""
     kinds = letters[places].reshape(-1, 4)
     if not (kinds == np.arange(_FIRST, _LAST + 1)).all():
         return False
@@ -96,6 +96,6 @@ def _is_regular(letters: NDArray[np.uint8], places: NDArray[np.int64]) -> bool:
     before = np.searchsorted(places, blanks)
     if (before % 4 != 0).any():
         return False
-    # Nothing but blanks stands between one element and the next, before the first, after the last.
+    # Only blanks may occur between elements, before the first, and after the last.
     room = np.diff(np.concatenate([[-1], places, [len(letters)]]))[::4] - 1
     return int(room.sum()) == len(blanks)

@@ -1,7 +1,7 @@
-"""Meshes of a 3MF file.
+"""The meshes of a 3MF file.
 
-In: objects and property groups as the XML has them. Out: a `Mesh` for each object, with a material
-for each base material and texture that it shows, and colours and texture coordinates of corners.
+In: objects and property groups from the XML. Out: a `Mesh` for each object, with a material for
+each base material and texture used, and colours and texture coordinates of corners.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from ...reading.zip_archives import ZipArchive
 from .threemf_model import ModelPart, ObjectRecord
 from .threemf_properties import WHITE, Color, PropertyGroup
 
-# Of a triangle's layers, the first one of these kinds is shown.
+# The first of a triangle's layers with one of these kinds is shown.
 _LAYERS = ("texture", "color", "base")
 
 
@@ -40,17 +40,17 @@ class _Corners:
 
 
 class _NoLookError(Exception):
-    """Why triangles do not look as they say."""
+    """Triangles cannot get their declared appearance; the text says why."""
 
 
 class MeshBuilder:
-    """Makes the meshes of one part.
+    """Builds the meshes of one part.
 
     Parameters
     ----------
     part : ModelPart
     archive : ZipArchive
-        Where images are.
+        The archive that contains images.
     source : Source
     warnings : WarningList
     """
@@ -64,13 +64,13 @@ class MeshBuilder:
         self._materials: dict[tuple[object, ...], Material] = {}
 
     def mesh(self, record: ObjectRecord, near: bool) -> tuple[Mesh, np.ndarray | None]:
-        """Return the mesh of an object, and what takes its coordinates back if they were moved.
+        """Return the mesh of an object, and the pose that undoes a move of its coordinates.
 
         Parameters
         ----------
         record : ObjectRecord
         near : bool
-            Give coordinates far from the origin another one.
+            Move coordinates far from the origin near it.
         """
         positions = np.array(record.positions, np.float64).reshape(-1, 3)
         corners = np.array(record.corners, np.int32).reshape(-1, 3)
@@ -117,7 +117,7 @@ class MeshBuilder:
         materials: list[Material],
         numbers: dict[int, int],
     ) -> None:
-        """Give one triangle, or all of them, a property: a group and an entry for each corner."""
+        """Assign a property to one triangle, or all: a group and an entry for each corner."""
         group, *indices = said
         try:
             kind, entries, material = self._resolved(group, tuple(indices))
@@ -170,7 +170,7 @@ class MeshBuilder:
     def _layer(
         self, group: PropertyGroup, corners: list[tuple[int, ...]]
     ) -> tuple[int, tuple[int, ...]]:
-        """The layer that shows of several, and the indices in it; the first where one says none."""
+        """Return the visible layer of several and its indices, by preference of kind."""
         layers = [self._part.groups.get(number) for number in group.layers]
         kinds = ["" if layer is None else layer.kind for layer in layers]
         shown_kind = next((kind for kind in _LAYERS if kind in kinds), None)
@@ -200,7 +200,7 @@ class MeshBuilder:
         *,
         is_clear: bool,
     ) -> Material:
-        """A material without a texture; each is made once."""
+        """Return a material without a texture, cached."""
         key = color, name, surface, is_clear
         if key not in self._materials:
             metallic, roughness = (None, None) if surface is None else surface
@@ -224,7 +224,7 @@ class MeshBuilder:
         return self._materials[key]
 
     def _texture(self, number: int) -> Texture | None:
-        """The texture of an image; one that cannot be read is warned of, and left out."""
+        """Return the texture of an image; an unreadable one is left out with a warning."""
         group = self._part.groups.get(number)
         image = None if group is None else group.image
         if image is None:

@@ -1,7 +1,7 @@
-"""The model parts of a 3MF file: objects, property groups and the build, as the XML has them.
+"""The model parts of a 3MF file: objects, property groups and the build, as in the XML.
 
-In: the XML of a part. Out: a `ModelPart`. Of the core specification 1.3 and the extensions for
-materials, production and beam lattices what is drawn is read; other elements are warnings.
+In: the XML of a part. Out: a `ModelPart`. It reads the drawable content of the core specification
+1.3 and the extensions for materials, production and beam lattices; other elements give warnings.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ UNITS = {
     "meter": (1.0, "m"),
 }
 _MOST_INDEX = 2**31 - 1
-# Elements that say nothing about how a model looks.
+# Elements without effect on the appearance.
 _SILENT = frozenset({"metadata", "metadatagroup"})
 
 
@@ -44,7 +44,7 @@ class Placement:
     object : int
     pose : (4, 4) float64
     path : str
-        The part that holds the object; empty for the one that names it.
+        The part that contains the object; empty for the referring part.
     """
 
     object: int
@@ -54,21 +54,21 @@ class Placement:
 
 @dataclass
 class ObjectRecord:
-    """An object: a mesh, or others put together.
+    """An object: a mesh, or a composition of others.
 
     Attributes
     ----------
     name : str
     group, index : int
-        The property of triangles without one of their own; -1 for none.
+        The default property of triangles; -1 for none.
     positions : array of float64
-        Three a vertex.
+        Three numbers per vertex.
     corners : array of int32
-        Three a triangle.
+        Three vertices per triangle.
     properties : dict of int to tuple
-        By triangle: group and the indices of three corners.
+        By triangle: the group, and the indices of three corners.
     beams : array of int32
-        Two a beam.
+        Two vertices per beam.
     components : list of Placement
     """
 
@@ -84,7 +84,7 @@ class ObjectRecord:
 
 @dataclass
 class ModelPart:
-    """All of a part.
+    """A model part: objects, property groups and the build.
 
     Attributes
     ----------
@@ -103,18 +103,18 @@ class ModelPart:
 
 
 class ModelParser:
-    """Takes the elements of a part; `begin` and `end` are what `read_xml` calls.
+    """Handles the elements of a part; `read_xml` calls `begin` and `end`.
 
     Parameters
     ----------
     warnings : WarningList
     lists : dict of int to (N, 3) float64
-        Vertices and triangles that were taken out of the text: see `cut_lists`.
+        Vertices and triangles cut out of the text; see `cut_lists`.
 
     Attributes
     ----------
     part : ModelPart
-        What was read.
+        The parsed part.
     """
 
     def __init__(self, warnings: WarningList, lists: dict[int, np.ndarray]) -> None:
@@ -147,7 +147,7 @@ class ModelParser:
         self._handlers |= self._properties.handlers(CORE)
 
     def begin(self, name: str, attributes: Attributes, place: int) -> None:
-        """Take the beginning of an element."""
+        """Handle the start of an element."""
         self._place = place
         if self._skipped:
             self._skipped += 1
@@ -164,7 +164,7 @@ class ModelParser:
         self._skipped = 1
 
     def end(self, name: str) -> None:
-        """Take the end of an element."""
+        """Handle the end of an element."""
         if self._skipped:
             self._skipped -= 1
         elif name == _name(CORE, "object"):
@@ -210,7 +210,7 @@ class ModelParser:
         record = self._current("vertex")
         try:
             x, y, z = attributes["x"], attributes["y"], attributes["z"]
-            if "_" in x or "_" in y or "_" in z:  # which Python would pass over
+            if "_" in x or "_" in y or "_" in z:  # Python would ignore underscores
                 raise ValueError(f"{x} {y} {z}")
             record.positions.extend((float(x), float(y), float(z)))
         except KeyError as error:
@@ -239,7 +239,7 @@ class ModelParser:
             record.properties[len(record.corners) // 3] = group, first, second, third
 
     def _property(self, attributes: Attributes, key: str, default: int) -> int:
-        """The index or id of a property, which a model can do without."""
+        """Return an optional index or ID of a property."""
         try:
             return whole(attributes, key, default)
         except XmlFault as fault:
@@ -269,7 +269,7 @@ def _check_vertex(index: int, record: ObjectRecord) -> None:
 
 
 def _nothing(attributes: Attributes) -> None:
-    """An element that only holds others."""
+    """Do nothing: the element only contains others."""
 
 
 def _name(namespace: str, local: str) -> str:
@@ -277,12 +277,12 @@ def _name(namespace: str, local: str) -> str:
 
 
 def whole(attributes: Attributes, key: str, default: int | None = None) -> int:
-    """Return an attribute that is an index or an id.
+    """Return an attribute that is an index or ID.
 
     Raises
     ------
     XmlFault
-        It is missing and there is no default, or no whole number.
+        It is missing without a default, or not an integer.
     """
     text = attributes.get(key)
     if text is None:
@@ -300,7 +300,7 @@ def _placement(attributes: Attributes) -> Placement:
 
 
 def _pose(text: str | None) -> np.ndarray:
-    """A transform: twelve numbers, three for each row of what rows of coordinates go through."""
+    """Return the pose of a transform: twelve numbers, rows of a matrix for row vectors."""
     pose = np.eye(4)
     if text is None:
         return pose

@@ -1,8 +1,8 @@
 """Property groups of 3MF files: base materials, colours, texture coordinates, and mixtures.
 
-In: elements of the XML. Out: `PropertyGroup` records, by id. Colours are sRGB with alpha, 0 to 255.
-All of it only says how triangles look: what makes no sense is a warning, and keeps its place in the
-order, white or at the origin, so that others keep theirs.
+In: elements of the XML. Out: `PropertyGroup` records, by ID. Colours are sRGB with alpha, 0 to 255.
+Properties affect only appearance: an invalid entry gives a warning and a placeholder, white or at
+the origin, so that the indices of others stay valid.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _TILES: dict[str, Wrap] = {"wrap": "repeat", "mirror": "mirror", "clamp": "clamp
 
 @dataclass
 class TextureRecord:
-    """An image of the package, and how it is read."""
+    """An image of the package, and how to sample it."""
 
     path: str
     wrap: tuple[Wrap, Wrap]
@@ -44,19 +44,19 @@ class PropertyGroup:
     Attributes
     ----------
     kind : {"base", "color", "texture", "multi", "image", "display"}
-        Images are no properties of triangles but what texture groups name, and so are display
-        properties.
+        Images and display properties are not used by triangles directly; texture groups and base
+        materials refer to them.
     names : list of str
-        Of base materials.
+        Names of base materials.
     entries : list
         Colours, (u, v), or the indices in each layer of ``layers``.
     texture : int
-        Of texture groups, the id of the image.
+        For texture groups, the ID of the image.
     layers : tuple of int
-        Of multi-properties, the ids of the groups.
+        For multi-properties, the IDs of the groups.
     image : TextureRecord or None
     display : int
-        Of base materials, the id of what their surfaces are like; -1 for none.
+        For base materials, the ID of their display properties; -1 for none.
     """
 
     kind: str
@@ -69,12 +69,12 @@ class PropertyGroup:
 
 
 class PropertyParser:
-    """Takes the elements that define properties.
+    """Handles the elements that define properties.
 
     Parameters
     ----------
     groups : dict of int to PropertyGroup
-        Filled.
+        The groups; the parser fills them.
     warnings : WarningList
     """
 
@@ -84,7 +84,7 @@ class PropertyParser:
         self._bases: tuple[list[Color], tuple[int, ...]] = [], ()
 
     def handlers(self, core: str) -> dict[str, Callable[[Attributes], object]]:
-        """Return what is to be called for which element."""
+        """Return the handler of each element."""
         of_core: dict[str, Callable[[Attributes], object]]
         of_core = {"basematerials": self._base_materials, "base": self._base}
         of_materials = {
@@ -106,7 +106,7 @@ class PropertyParser:
         return found
 
     def _sensible(self, read: Callable[..., Any], *words: Any, default: Any) -> Any:
-        """Return words converted by a reader; the default, with a warning, if it fails."""
+        """Return converted words; the default, with a warning, if the conversion fails."""
         try:
             return read(*words)
         except XmlFault as fault:
@@ -114,7 +114,7 @@ class PropertyParser:
             return default
 
     def _number_of(self, attributes: Attributes, key: str) -> int:
-        """The id in an attribute; that of nothing where it makes no sense."""
+        """Return the ID in an attribute; an ID of nothing if invalid."""
         return self._sensible(_index, attributes.get(key, ""), key, default=-1)
 
     def _open(self, kind: str, attributes: Attributes) -> PropertyGroup:
@@ -140,7 +140,7 @@ class PropertyParser:
 
     def _base(self, attributes: Attributes) -> None:
         name, color = attributes.get("name", ""), self._color_of(attributes, "displaycolor")
-        if color[3] == 0:  # some programs write so what is opaque
+        if color[3] == 0:  # some programs write opaque colours this way
             self._warnings.add(f"material {shown(name)}, which would not show, is drawn opaque")
             color = (*color[:3], 255)
         self._add("base", color, name)
@@ -184,7 +184,7 @@ class PropertyParser:
         self._add("base", mixed)
 
     def _mixed(self, values: str) -> Color:
-        """The colour of a composite: its parts' in their shares, in linear light."""
+        """Return the colour of a composite: its parts weighted in linear light."""
         entries, indices = self._bases
         shares = [_float(word, "values") for word in values.split()]
         shares = [max(share, 0.0) for share in shares[: len(indices)]]
@@ -243,7 +243,7 @@ def _number(attributes: Attributes, key: str, default: float | None = None) -> f
 
 
 def _color(text: str) -> Color:
-    """``#RRGGBB`` or ``#RRGGBBAA``."""
+    """Return a colour from ``#RRGGBB`` or ``#RRGGBBAA``."""
     digits = text[1:]
     try:
         if text[:1] != "#" or len(digits) not in (6, 8) or not digits.isalnum():

@@ -7,7 +7,6 @@
 #include "base/limits.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/transmits.h"
-#include "frame/shade/primitive.h"
 #include "frame/shade/surface.h"
 #include "frame/shade/texture_slots.h"
 #include "kernels/coverage.h"

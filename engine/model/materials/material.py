@@ -5,7 +5,7 @@ are linear light, 8-bit integers sRGB; see `colors`) and become linear when the 
 them. Whatever a file says beyond this is kept in ``extras``.
 
 A new number is a row here, and a member of e3d_physical (csrc/include/e3d_material.h): of the same
-name where the core takes it as it is, else rendering/draw_list/native_materials.py says what it
+name where the core takes it as it is, else rendering/draw_list/material_list.py says what it
 becomes. A new texture is a row here and one of E3D_EACH_TEXTURE_SLOT, in the same order; what it
 varies is a row in csrc/kernels/types/texture_slots.h. The rest is what kernels and reference make
 of both.

@@ -1,7 +1,7 @@
 """The values that arguments with few choices take, as types: editors complete them.
 
-Each is written once, here (outputs are in rendering/frame.py); what a module accepts at run time is
-the same list, which a test checks.
+Each is written once, here; what a module accepts at run time is the same list, which a test
+checks.
 The command line has its choices from here as well, and prints its help without loading NumPy.
 """
 
@@ -57,7 +57,8 @@ Samples = Literal[1, 2, 4, 8, 16]
 Antialias = Literal["ssaa", "msaa"]
 
 Mode = Literal["lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"]
-#: What the viewer and the command line draw besides: outputs as pictures.
+#: What the viewer and the command line draw besides: outputs as pictures. rendering/frame.py has
+#: the few outputs that are none of these.
 OutputMode = Literal[
     "albedo",
     "position",

@@ -10,7 +10,6 @@ Out: one Markdown page, the same on every machine. A test keeps it up to date.
 from __future__ import annotations
 
 import sys
-from itertools import groupby
 from pathlib import Path
 
 from generated_page import write_or_check
@@ -58,11 +57,10 @@ def condition(needs: list[str], forbids: list[str]) -> str:
 
 def rules_of_items() -> dict[str, str]:
     """Where each planned item holds: its conditions, as one sentence."""
-    conditions = groupby(plan_conditions(), key=lambda condition: condition[0])
-    return {
-        item: "; or ".join(condition(needs, forbids) for _, needs, forbids in group)
-        for item, group in conditions
-    }
+    found: dict[str, list[str]] = {}
+    for item, needs, forbids in plan_conditions():
+        found.setdefault(item, []).append(condition(needs, forbids))
+    return {item: "; or ".join(conditions) for item, conditions in found.items()}
 
 
 def example_rows() -> list[tuple[str, ...]]:

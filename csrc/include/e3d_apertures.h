@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "e3d_frame.h"
-#include "e3d_scene.h"
+#include "e3d_draw_list.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,7 +1,7 @@
-/* Scenes: trees of nodes in arrays, their poses, boxes and draws.
+/* Scenes: trees of nodes in arrays, their poses and boxes, and the rays that meet them.
  * In: arrays that the caller owns, one element or row a slot. A node keeps its slot until the caller packs the arrays; slots
  * stand in the order in which the nodes were added.
- * Out: the same arrays, up to date after e3d_graph_update, and the draws of e3d.h.
+ * Out: the same arrays, up to date after e3d_graph_update; e3d_draw_list.h makes draws of them.
  * Always: f64, one written order of operations (docs/exactness, section 1), so that a node's numbers do not depend on how many
  * others move with it. Only one thread at a time may use a graph. Affine matrices are three rows of four. */
 #pragma once
@@ -143,67 +143,6 @@ void e3d_tree_overlaps(const e3d_tree *tree, const double low[3], const double h
 /* Sets the bits of the items whose boxes a ray (unit direction) may meet within `farthest`. */
 void e3d_tree_ray(const e3d_tree *tree, const double origin[3], const double direction[3], double farthest,
                   uint64_t *bits);
-
-/* ---- Draws ---- */
-
-/* An object as nodes draw it. If it has a tree of e3d_instance_boxes, its instances outside the view are left out. */
-typedef struct e3d_placed {
-    e3d_draw draw;
-    const e3d_tree *instances;
-    int32_t encloses;        /* not 0: it encloses a volume, but for holes, with its fronts outside */
-    int32_t holes;
-    const int32_t *rim_ends; /* (holes,) */
-    /* (rim_ends[holes - 1], 3) the points around each hole, one hole after the other, in the direction of its triangles */
-    const double *rims;
-} e3d_placed;
-
-typedef struct e3d_node_rows {
-    int32_t count;
-    const uint8_t *flags;
-    const int32_t *object, *id;
-    const double *world;
-    const int32_t *anchor; /* as in e3d_graph */
-    const uint8_t *unshadowed; /* E3D_NODE_CASTS_NONE, E3D_NODE_RECEIVES_NONE; NULL: neither of any */
-    int32_t casting;       /* not 0: only objects that cast shadows are drawn */
-    const uint32_t *spared_lights; /* as in e3d_draw; NULL: none */
-} e3d_node_rows;
-
-/* The draw that merges one object's nodes: those that receive shadows, or those that don't. */
-typedef struct e3d_merged_draw {
-    int32_t nodes;      /* that are drawn */
-    int32_t draw;       /* the draw of all of them; -1: none yet */
-    int32_t first, end; /* the rows of those placed so far */
-} e3d_merged_draw;
-
-/* Zeroed at first; kept from frame to frame. */
-typedef struct e3d_draw_list {
-    e3d_draw *draws;
-    int32_t count, room;
-    int32_t *order;   /* as in e3d_frame; as many as draws if none were merged */
-    int32_t order_count, order_room;
-    int32_t nodes;    /* that are drawn */
-    double *worlds;   /* (nodes, 12) and (nodes,): of merged nodes, one draw after the other */
-    int32_t *ids, *slots;
-    int32_t node_room;
-    e3d_merged_draw *merged; /* two of each object: receivers of shadows, the others */
-    int32_t merged_room;
-    uint64_t *bits;   /* scratch */
-    int32_t words;
-    int64_t boxes_tested; /* of instances, and of the branches of their trees */
-} e3d_draw_list;
-
-void e3d_draw_list_free(e3d_draw_list *list);
-/* The primitives of all nodes that are shown, in view or not. */
-typedef struct e3d_totals {
-    int64_t clusters, triangles;
-} e3d_totals;
-e3d_totals e3d_graph_totals(const e3d_node_rows *rows, const e3d_placed *objects, int32_t object_count);
-
-/* Lists the draws of the nodes that show, in the order of slots: objects[number] with the node's ID and world pose. selection: a
- * bit a slot, or NULL for all; view: NULL draws all instances; merge: the nodes of one mesh share a draw. Returns 0 when memory
- * is out. */
-int e3d_graph_draws(e3d_draw_list *list, const e3d_node_rows *rows, const uint64_t *selection,
-                    const e3d_view_volume *view, const e3d_placed *objects, int32_t object_count, int merge);
 
 /* ---- Rays ---- */
 

@@ -20,6 +20,7 @@ from libc.string cimport memcmp, memcpy, memset
 from e3d cimport *
 from e3d_occlusion cimport *
 from e3d_posing cimport *
+from e3d_draw_list cimport *
 from e3d_scene cimport *
 from e3d_apertures cimport *
 

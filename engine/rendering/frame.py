@@ -20,7 +20,7 @@ from ..base.calls import checks_types
 from ..base.files.atomic_write import atomic_write, checked_path
 from ..base.foreign_names import refuses_foreign_names
 from ..base.validation import choose
-from ..choices import FrameCull, ImageFormat
+from ..choices import FrameCull, ImageFormat, OutputMode
 from ..errors import InvalidArgumentError, MissingOutputError
 from .picture_mark import TGA_MARK
 from .transparency import refuse_transparency
@@ -31,28 +31,10 @@ if TYPE_CHECKING:
     from ._view import View
     from .canvas import Canvas
 
-# The names of outputs, for type checkers. `Frame` has a property for each.
-Output = Literal[
-    "color",
-    "depth",
-    "ndc_depth",
-    "triangle_id",
-    "object_id",
-    "instance_id",
-    "material_id",
-    "albedo",
-    "normal",
-    "position",
-    "world_normal",
-    "world_position",
-    "uv",
-    "barycentric",
-    "metallic_roughness",
-    "emissive",
-    "tangent",
-    "radiance",
-]
-# Dtype and number of channels of each output (0: no third axis), as listed by the core.
+# What a frame may hold, for type checkers: colour, depths, what the core's modes show, and all that
+# the viewer shows besides. `Frame` has a property of each.
+Output = Literal["color", "depth", "ndc_depth", "triangle_id", "object_id", "normal", OutputMode]
+# Their dtypes and numbers of channels (0: no third axis), as the core lists them.
 OUTPUTS: dict[str, tuple[np.dtype[Any], int]] = {
     name: (np.dtype(dtype), channels if channels > 1 else 0)
     for name, (dtype, channels) in _native.OUTPUTS.items()

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import textwrap
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, get_args
@@ -158,10 +159,7 @@ class RenderOptions:
         Deferred shades each visible pixel once, forward shades pixels as they are drawn. Both give
         the same bytes.
     outputs : iterable of str
-        Which arrays the frame holds: ``color``, ``depth``, ``ndc_depth``, ``triangle_id``,
-        ``object_id``, ``instance_id``, ``material_id``, ``albedo``, ``normal``, ``position``,
-        ``world_normal``, ``world_position``, ``uv``, ``barycentric``, ``metallic_roughness``,
-        ``emissive``, ``tangent``, ``radiance``: see `Frame`.
+        Which arrays the frame holds: see `Frame`.
     normals : {"auto", "smooth", "flat", "facet"}
         Vertex or face normals; ``"auto"`` follows each material's ``flat_shading``. With
         ``"facet"`` each triangle is also lit once, at its centre.
@@ -266,6 +264,11 @@ class RenderOptions:
         return min(max(1.0, size * height / _ROWS), MAX_LINE)
 
 
+if RenderOptions.__doc__ is not None:  # which -OO leaves out
+    _outputs = f"holds: {', '.join(f'``{name}``' for name in OUTPUTS)}: see `Frame`."
+    RenderOptions.__doc__ = inspect.cleandoc(RenderOptions.__doc__).replace(
+        "holds: see `Frame`.", textwrap.fill(_outputs, 70, subsequent_indent="    ")
+    )
 DEFAULTS = RenderOptions()
 
 

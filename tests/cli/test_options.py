@@ -8,7 +8,7 @@ from PIL import Image
 
 import engine3d as e3d
 from engine3d.apps.cli import main, values
-from engine3d.apps.cli.joined_values import join_values
+from engine3d.apps.cli.arguments import join_values
 from engine3d.apps.cli.options import appearance_options
 from engine3d.apps.cli.options import shared_options as options
 from engine3d.apps.cli.parser import make_parser

@@ -18,7 +18,7 @@ from engine3d.model.materials.material import (
     textures_of,
 )
 from engine3d.model.materials.textures import PlacedTexture, Texture
-from engine3d.rendering.draw_list.native_materials import _physical
+from engine3d.rendering.draw_list.material_list import _physical
 
 
 def test_defaults():

@@ -23,6 +23,10 @@ OUTPUTS = {
     "instance_id": "IDENTITIES",
     "material_id": "IDENTITIES",
     "barycentric": "BARYCENTRIC",
+    "metallic_roughness": "MATERIALS",
+    "emissive": "MATERIALS",
+    "tangent": "TANGENTS",
+    "radiance": "RADIANCE",
 }
 
 

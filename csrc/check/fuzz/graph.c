@@ -3,6 +3,7 @@
  * Claims: links are those of a tree; what an update finds piece by piece is, to the bit, what it finds when nothing
  * is known; the tree of boxes finds what a look at every box finds; draws and rays speak of nodes that show.
  */
+#include "e3d_draw_list.h"
 #include "e3d_scene.h"
 
 #include <math.h>

@@ -116,13 +116,6 @@ static inline uint8_t *pyr_color_at(const e3d_pyr_frame *frame, int32_t x, int32
 /* Transforms vertices first to end - 1 of a draw. */
 void pyr_transform(const e3d_pyr_frame *frame, const e3d_pyr_draw *draw, int32_t first, int32_t end, pyr_vertex *out);
 
-/* ---- depths.c ---- */
-
-/* The distance of z_ndc; 0 behind the far plane. */
-float pyr_metric_depth(const e3d_pyr_frame *frame, double z);
-/* Keeps the places in `mask` at which z is nearer than what is there, and stores z there; returns the samples among them. */
-uint32_t pyr_test_depths(const pyr_band *band, int32_t x, int32_t y, uint32_t mask, const double z[E3D_PYR_PLACES]);
-
 /* ---- plane.c ---- */
 
 /* Finds the corners of primitive number `number`: three, two or one. */
@@ -140,6 +133,10 @@ int pyr_misses_band(const pyr_band *band, const pyr_vertex *vertices, const int3
 
 /* ---- fragments.c ---- */
 
+/* The distance of z_ndc; 0 behind the far plane. */
+float pyr_metric_depth(const e3d_pyr_frame *frame, double z);
+/* Keeps the places in `mask` at which z is nearer than what is there, and stores z there; returns the samples among them. */
+uint32_t pyr_test_depths(const pyr_band *band, int32_t x, int32_t y, uint32_t mask, const double z[E3D_PYR_PLACES]);
 /* Adds a fragment. With `plane` it is a triangle's, and the plane gives the detail at which textures are read. */
 void pyr_add_fragment(pyr_band *band, const e3d_pyr_draw *draw, const pyr_vertex *vertices, const pyr_weights *weights,
                       const pyr_plane *plane, int32_t x, int32_t y, uint32_t mask);

@@ -8,7 +8,6 @@
 #include "kernels/types/records.h"
 #include "kernels/types/vertices.h"
 #include "kernels/types/visible.h"
-#include "frame/geometry/alpha_bins.h"
 #include "frame/geometry/bin.h"
 #include "frame/geometry/clip.h"
 #include "frame/geometry/cluster.h"

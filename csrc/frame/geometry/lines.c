@@ -4,7 +4,6 @@
 
 #include "base/limits.h"
 #include "kernels/types/vertices.h"
-#include "frame/geometry/alpha_bins.h"
 #include "frame/geometry/arc.h"
 #include "frame/geometry/clip.h"
 #include "frame/geometry/lines.h"

@@ -7,7 +7,6 @@
 #include "e3d.h"
 #include "kernels/coverage.h"
 #include "kernels/types/records.h"
-#include "frame/geometry/alpha_bins.h"
 #include "frame/geometry/order.h"
 #include "frame/geometry/records.h"
 #include "frame/geometry/setup.h"

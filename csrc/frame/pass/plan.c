@@ -129,10 +129,12 @@ const e3d_plan_condition E3D_PLAN_CONDITIONS[] = {
     {E3D_PLAN_NORMAL, .asked = ASKED(LIT), .planned = PLAN(COLORS)},
     {E3D_PLAN_NORMAL, .asked = ASKED(NORMAL_MODE), .planned = PLAN(COLORS)},
     {E3D_PLAN_NORMAL, .asked = ASKED(NORMALS)},
-    {E3D_PLAN_NORMAL, .asked = ASKED(TANGENTS)},
-    {E3D_PLAN_POSITION, .asked = ASKED(TANGENTS)}, /* a face's tangent is found by it */
+    {E3D_PLAN_TANGENT, .asked = ASKED(TANGENTS)},
+    {E3D_PLAN_NORMAL, .planned = PLAN(TANGENT)},
+    {E3D_PLAN_POSITION, .planned = PLAN(TANGENT)}, /* a face's tangent is found by it */
     {E3D_PLAN_POSITION, .asked = ASKED(MAPPED_NORMALS), .planned = PLAN(NORMAL)},
     {E3D_PLAN_UV, .asked = ASKED(UVS)},
+    {E3D_PLAN_WEIGHTS, .asked = ASKED(BARYCENTRIC)},
     {E3D_PLAN_BASE_COLOR, .asked = ASKED(LIT), .planned = PLAN(COLORS)},
     {E3D_PLAN_BASE_COLOR, .asked = ASKED(UNLIT), .planned = PLAN(COLORS)},
     {E3D_PLAN_BASE_COLOR, .asked = ASKED(ALBEDO)},
@@ -203,7 +205,8 @@ e3d_plan e3d_plan_of(const e3d_frame *frame, const e3d_targets *targets)
 int e3d_plan_inputs(e3d_plan plan)
 {
     return (e3d_plan_has(plan, E3D_PLAN_POSITION) ? E3D_WANT_POSITION : 0) |
-           (e3d_plan_has(plan, E3D_PLAN_NORMAL) ? E3D_WANT_NORMAL : 0) | (e3d_plan_has(plan, E3D_PLAN_UV) ? E3D_WANT_UV : 0);
+           (e3d_plan_has(plan, E3D_PLAN_NORMAL) ? E3D_WANT_NORMAL : 0) | (e3d_plan_has(plan, E3D_PLAN_UV) ? E3D_WANT_UV : 0) |
+           (e3d_plan_has(plan, E3D_PLAN_WEIGHTS) ? E3D_WANT_WEIGHTS : 0);
 }
 
 /* ---- what it is called ---- */

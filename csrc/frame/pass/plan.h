@@ -56,6 +56,8 @@
     X(POSITION, "shading needs the position") \
     X(NORMAL, "shading needs the normal") \
     X(UV, "shading needs the texture coordinates") \
+    X(WEIGHTS, "shading needs the barycentric weights") \
+    X(TANGENT, "shading needs the tangent") \
     X(BASE_COLOR, "shading needs the surface's own colour") \
     X(MATERIAL_VALUES, "shading finds what materials are made of at each sample") \
     X(ADDS_FOG, "fog lies over what shows") \
@@ -112,7 +114,7 @@ typedef struct e3d_plan_word {
 extern const e3d_plan_word E3D_ASKED_WORDS[E3D_ASKED_ITEMS], E3D_PLAN_WORDS[E3D_PLAN_ITEMS];
 
 e3d_plan e3d_plan_of(const e3d_frame *frame, const e3d_targets *targets);
-/* The inputs of shading that each surface needs: E3D_WANT_POSITION, E3D_WANT_NORMAL, E3D_WANT_UV. */
+/* The inputs of shading that each surface needs: E3D_WANT_POSITION, E3D_WANT_NORMAL, E3D_WANT_UV, E3D_WANT_WEIGHTS. */
 int e3d_plan_inputs(e3d_plan plan);
 
 /* Whether parts of meshes are left out that are outside the frustum, face away, or are hidden. */

@@ -3,7 +3,6 @@
 
 #include "e3d.h"
 #include "frame/shade/job.h"
-#include "frame/shade/step.h"
 
 /* The inputs that the alphas of a bucket need: E3D_WANT_... */
 int e3d_alpha_wanted(const e3d_bucket *bucket);

@@ -11,7 +11,6 @@
 #include "frame/pass/draws.h"
 #include "frame/pass/prepared.h"
 #include "frame/shade/identities.h"
-#include "frame/shade/primitive.h"
 #include "frame/store/outputs.h"
 #include "frame/store/store.h"
 

@@ -1,4 +1,4 @@
-/* The inputs and outputs of shading: a pass's constants, a thread's memory, what shows in a tile. */
+/* The inputs and outputs of shading: a pass's constants, a thread's memory, what shows in a tile, and the steps that shade it. */
 #pragma once
 
 #include <stdint.h>
@@ -100,3 +100,18 @@ typedef struct e3d_visible_primitive {
     int32_t bucket, next;     /* the next primitive of the same bucket, or -1 */
     int32_t first, end;
 } e3d_visible_primitive;
+
+enum { E3D_MOST_STEPS = 16 };
+
+/* The steps that shade a bucket; each batch takes all of them in order. */
+typedef struct e3d_steps {
+    const e3d_shade_in *in;
+    const e3d_prepared *pass;
+    const e3d_bucket *bucket;
+    const e3d_shade_out *out;
+    int wanted; /* what they need of its surfaces: E3D_WANT_... */
+    int count;
+    void (*step[E3D_MOST_STEPS])(const struct e3d_steps *s);
+} e3d_steps;
+
+typedef void (*e3d_shade_step)(const e3d_steps *s);

@@ -208,7 +208,7 @@ static int wanted_to_show(const e3d_prepared *pass, const e3d_bucket *bucket)
         wanted |= E3D_WANT_WEIGHTS | E3D_WANT_TEXTURES;
     else if (bucket->textured && colored)
         wanted |= e3d_texture_wanted(e3d_texture_get_view(bucket->material->texture.texture));
-    if (pass->targets->barycentric || (colored && bucket->by_vertex))
+    if (colored && bucket->by_vertex)
         wanted |= E3D_WANT_WEIGHTS;
     if (wanted || (colored && bucket->by_instance))
         wanted |= E3D_WANT_SURFACE;

@@ -7,7 +7,6 @@
 #include "base/limits.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/transmits.h"
-#include "frame/shade/primitive.h"
 #include "frame/shade/surface.h"
 #include "frame/shade/texture_slots.h"
 #include "kernels/coverage.h"
@@ -67,7 +66,7 @@ static e3d_bucket bucket_of(const e3d_prepared *pass, const e3d_draw_state *stat
     g.first = g.last = -1;
     g.face = id >= 0;
     g.flat = g.face && e3d_is_flat(frame->normals, g.material->flat) && mesh->face_normals;
-    g.mapped = g.face && e3d_needs_textures(g.material, pass->targets);
+    g.mapped = g.face && e3d_needs_textures(pass, g.material);
     g.textured = g.face && g.material->texture.texture && mesh->uvs;
     g.has_uvs = g.mapped && mesh->uvs;
     g.has_uvs1 = g.mapped && mesh->uvs1;

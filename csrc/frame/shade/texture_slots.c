@@ -9,11 +9,11 @@
 #include "frame/pass/view.h"
 #include "frame/shade/texture_slots.h"
 
-int e3d_needs_textures(const e3d_material *material, const e3d_targets *targets)
+int e3d_needs_textures(const e3d_prepared *pass, const e3d_material *material)
 {
     const e3d_texture_use *base = &material->texture;
     int is_placed = base->texture && (base->uv_set || base->is_moved);
-    return material->is_physical || material->normal_texture.texture || is_placed || targets->tangent;
+    return material->is_physical || material->normal_texture.texture || is_placed || e3d_plans(pass, E3D_PLAN_TANGENT);
 }
 
 int e3d_texture_counts(const e3d_bucket *bucket, const e3d_texture_use *use)
@@ -129,7 +129,7 @@ void e3d_find_textures(const e3d_prepared *pass, const e3d_bucket *bucket, int w
     E3D_EACH_TEXTURE_SLOT(FIND)
     int stretched = m->is_physical && is_anisotropic(&m->physical) && finds_light(pass, bucket);
     if (out->of_slot[E3D_SLOT_NORMAL] >= 0 || out->of_slot[E3D_SLOT_CLEARCOAT_NORMAL] >= 0 ||
-        (all && (pass->targets->tangent || stretched)))
+        (all && (e3d_plans(pass, E3D_PLAN_TANGENT) || stretched)))
         find_tangent_place(bucket, out);
 }
 

@@ -8,7 +8,7 @@
 #include "frame/shade/job.h"
 
 /* Whether a material's faces are shaded with e3d_read_textures, and not just with a base colour. */
-int e3d_needs_textures(const e3d_material *material, const e3d_targets *targets);
+int e3d_needs_textures(const e3d_prepared *pass, const e3d_material *material);
 /* Whether a texture counts on the faces of a bucket (R45). */
 int e3d_texture_counts(const e3d_bucket *bucket, const e3d_texture_use *use);
 /* Finds the textures to be read; all of them with E3D_WANT_TEXTURES in `wanted`. */

@@ -9,7 +9,6 @@
 #include "kernels/types/texture_slots.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/view.h"
-#include "frame/shade/primitive.h"
 #include "frame/shade/values.h"
 #include "frame/store/outputs.h"
 

@@ -34,7 +34,6 @@
 #include "kernels/generic/samples.inl"
 #include "kernels/generic/paint.inl"
 #include "kernels/generic/alpha.inl"
-#include "kernels/generic/msaa/msaa_alpha.inl"
 #include "kernels/generic/stream.inl"
 #include "kernels/generic/bloom.inl"
 #include "kernels/generic/ui.inl"

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from ...errors import FileFormatError
 from ..desktop.user_folders import user_path
-from . import suggestions
+from .arguments import meant
 from .options.scene_options import OF_MODELS
 from .usage import UsageError
 
@@ -100,7 +100,7 @@ def set_defaults(
         name = name.removeprefix("--")
         if not equals or name not in options:
             listed = f" (engine3d {args.command} --help lists them)"
-            hint = suggestions.meant(name, options) or listed
+            hint = meant(name, options) or listed
             if not equals:
                 raise UsageError(f"-D {text}: NAME=VALUE is needed, such as grid=true")
             raise UsageError(f"-D {text}: there is no option {name!r}{hint}")
@@ -120,7 +120,7 @@ def _check_is_known(
     """Raise unless some command has an option with this name."""
     known = {one for command in commands for one in _options(command)}
     if name not in known:
-        hint = suggestions.meant(name, known) or "; engine3d COMMAND --help lists them"
+        hint = meant(name, known) or "; engine3d COMMAND --help lists them"
         raise FileFormatError(f"{place}: there is no such option{hint}", path)
 
 

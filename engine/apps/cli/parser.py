@@ -8,10 +8,9 @@ import importlib
 from collections.abc import Iterable, Sequence
 
 from ...version import __version__
-from . import config, suggestions
+from . import config
+from .arguments import Parser, join_values, option_meant
 from .commands import COMMANDS
-from .joined_values import join_values
-from .suggestions import Parser
 from .usage import UsageError
 
 
@@ -48,7 +47,7 @@ def _parsed(arguments: list[str], parser: Parser) -> argparse.Namespace:
         program = " ".join(filter(None, ("engine3d", args.command)))
         command = parser.commands.get(args.command, parser)
         wrong = next(filter(_is_option, unknown), "").partition("=")[0]
-        hint = suggestions.option_meant(wrong, command)
+        hint = option_meant(wrong, command)
         message = f"unknown arguments: {' '.join(unknown)}{hint}"
         raise UsageError(f"{message} (see {program} --help)")
     return args

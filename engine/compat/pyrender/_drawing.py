@@ -14,8 +14,7 @@ import numpy as np
 
 from ..._native import pyrender as _native
 from ...rendering.renderer import Renderer as Engine
-from ._lighting import Lighting
-from ._shadows import ShadowMaps
+from ._lighting import Lighting, ShadowMaps
 from ._shapes import is_triangles, shape_of, texture_of
 from ._visibility import Placed, Visibility
 from .camera import OrthographicCamera
@@ -158,12 +157,7 @@ class _Pass:
         lights = None
         if self._shading == _native.LIT:
             shadows = self._drawing._shadows
-            lights = Lighting(
-                self._picture,
-                self._scene,
-                self._flags,
-                lambda node: shadows.map_of(self._scene, node),
-            )
+            lights = Lighting(self._picture, self._scene, self._flags, shadows)
         groups: list[_Group] = [_Group()]
         for node, pose, turned in self._nodes():
             listed = (0, 0) if lights is None else lights.of(pose[:3, 3])

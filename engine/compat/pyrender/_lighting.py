@@ -1,4 +1,4 @@
-"""Lights in the core's format, and their assignment to nodes.
+"""Lights as the core takes them, which of them each node gets, and maps of what they see.
 
 In: a scene and flags. Out: lights in a `NativePicture`, and for each node the numbers of its
 lights: at most the four nearest of each kind.
@@ -7,12 +7,14 @@ lights: at most the four nearest of each kind.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 
 from ..._native import pyrender as _native
-from .constants import MAX_N_LIGHTS, RenderFlags
+from ...rendering.renderer import Renderer as Engine
+from ._shapes import is_triangles
+from ._visibility import Placed, Visibility
+from .constants import MAX_N_LIGHTS, SHADOW_TEX_SZ, RenderFlags
 from .light import DirectionalLight, PointLight, SpotLight
 from .node import Node
 from .scene import Scene
@@ -49,8 +51,7 @@ class Lighting:
     picture : NativePicture
     scene : Scene
     flags : int
-    shadow_map : callable
-        Of a node with a light: its map, (N, N) float32, and clip-from-world of it.
+    shadows : ShadowMaps
     """
 
     def __init__(
@@ -58,7 +59,7 @@ class Lighting:
         picture: _native.NativePicture,
         scene: Scene,
         flags: int,
-        shadow_map: Callable[[Node], tuple[np.ndarray, np.ndarray]],
+        shadows: ShadowMaps,
     ) -> None:
         self._picture = picture
         self._most = _most_lights(flags)
@@ -69,7 +70,7 @@ class Lighting:
             kind, pose = _kind_of(node.light), scene.get_pose(node)
             self._kinds.append(kind)
             places.append(pose[:3, 3])
-            shadow = shadow_map(node) if flags & _KINDS[kind][1] else (None, None)
+            shadow = shadows.map_of(scene, node) if flags & _KINDS[kind][1] else (None, None)
             self._add(node.light, kind, pose, shadow)
         self._places = np.array(places).reshape(-1, 3)
         self._all_shine = all(self._kinds.count(kind) <= most for kind, most in self._most.items())
@@ -104,3 +105,51 @@ class Lighting:
                     numbers.append(number)
             self._lists[nearest] = self._picture.add_lights_of_draws(numbers), len(numbers)
         return self._lists[nearest]
+
+
+class ShadowMaps:
+    """Draws the maps of lights."""
+
+    def __init__(self) -> None:
+        self._engine: Engine | None = None
+        self._casters = Visibility()
+
+    def map_of(self, scene: Scene, light_node: Node) -> tuple[np.ndarray, np.ndarray]:
+        """Return what a light sees.
+
+        Parameters
+        ----------
+        scene : Scene
+        light_node : Node
+            With a directional light or a spotlight.
+
+        Returns
+        -------
+        depths : (N, N) float32
+            z_ndc, infinite where nothing is.
+        clip_from_world : (4, 4) float64
+        """
+        if self._engine is None:
+            self._engine = Engine(SHADOW_TEX_SZ, SHADOW_TEX_SZ)
+        pose, scale = scene.get_pose(light_node), scene.scale
+        projection = light_node.light._get_shadow_camera(scale).get_projection_matrix()
+        if isinstance(light_node.light, DirectionalLight):
+            pose[:3, 3] = scene.centroid + pose[:3, 2] * scale
+        self._casters.place(_casters(scene, pose))
+        depths = self._casters.depths(self._engine, projection, pose)
+        return depths, np.ascontiguousarray(projection @ np.linalg.inv(pose))
+
+
+def _casters(scene: Scene, light_pose: np.ndarray) -> list[Placed]:
+    """The triangles of all that shows, their fronts alone."""
+    mirrored = np.linalg.det(light_pose[:3, :3]) < 0
+    casters = []
+    for node in scene._in_order(scene.mesh_nodes):
+        if not node.mesh.is_visible:
+            continue
+        pose = scene.get_pose(node)
+        turned = bool(mirrored != (np.linalg.det(pose[:3, :3]) < 0))
+        for number, primitive in enumerate(node.mesh.primitives):
+            if is_triangles(primitive) and len(primitive.positions):
+                casters.append(Placed((node, number), primitive, pose, False, turned, 0))
+    return casters

@@ -6,7 +6,7 @@ them. ``extras`` keeps everything else that a file says.
 
 To add a number, add a row here and a member of e3d_physical (csrc/include/e3d_material.h): with the
 same name if the core takes the value unchanged, else with a conversion in
-rendering/draw_list/native_materials.py. To add a texture, add a row here and one of
+rendering/draw_list/material_list.py. To add a texture, add a row here and one of
 E3D_EACH_TEXTURE_SLOT, in the same order, and a row in csrc/kernels/types/texture_slots.h for the
 value it varies. Kernels and reference implement the rest.
 """

@@ -28,7 +28,6 @@ from .instance_trees import InstanceTrees
 from .light_list import Headlight, LightList
 from .material_list import MaterialList
 from .native_handles import MeshNeeds, native_mesh
-from .native_materials import make_textures
 from .placement import Placement, Placing
 
 if TYPE_CHECKING:
@@ -233,7 +232,7 @@ class DrawList:
     def _make_textures(self, data: AnyData) -> None:
         meshes = (_mesh_of(obj) for obj in data.objects.objects if obj is not None)
         materials = {material for mesh in meshes for material in mesh.materials}
-        make_textures(materials - self._untextured, self._color_space, self._threads)
+        self._materials.make_textures(materials, self._threads)
 
     def _set_object(self, number: int, obj: Drawn | None) -> None:
         """List a mesh, once or at many poses, or nothing, under a number or the next one."""

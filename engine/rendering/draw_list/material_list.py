@@ -1,20 +1,34 @@
 """The materials of a draw list, set anew when a material or texture changes.
 
-In: materials of meshes. Out: materials of a `NativeDrawList`, and a `Watch` on them and their
-textures.
+In: materials of meshes. Out: materials of a `NativeDrawList`, whose constants are computed once in
+float64, and a `Watch` that looks at them and at their textures.
 """
 
 from __future__ import annotations
 
+import math
+import os
 from collections.abc import Iterable
 from typing import Any
 
-from ..._native.rasterizer import NativeDrawList
+from ..._native.rasterizer import ALPHA_MODES, PHYSICAL_NUMBERS, NativeDrawList, NativeTexture
+from ...base import linalg
 from ...base.dirty_tracking import Watch
+from ...base.side_by_side import side_by_side
 from ...choices import ColorSpace
-from ...model.materials.material import Material, placed_textures_of
-from ...model.materials.textures import Texture
-from .native_materials import set_material
+from ...model.materials.display_colors import shading_color
+from ...model.materials.material import PARAMETERS, Material, placed_textures_of
+from ...model.materials.parameters import TextureSlot
+from ...model.materials.textures import PlacedTexture, Texture
+from .native_handles import is_new, native_texture
+
+_SMALLEST_SHININESS = 1e-3  # the core wants an exponent above 0; this one shows as 0 would
+_LEAST_LEFT = 2.0**-126  # of light that is absorbed: its logarithm is finite
+_LARGE = 512 * 512  # pixels of a texture whose levels take as long as starting a thread, and longer
+# Parameters with the same name in the core have the same number, or the same colour, there.
+_SAME = [name for name in PHYSICAL_NUMBERS if name in PARAMETERS]
+_SAME_NUMBERS = [name for name in _SAME if PARAMETERS[name].kind.width == 1]
+_SAME_COLORS = [name for name in _SAME if PARAMETERS[name].kind.width == 3]
 
 
 class MaterialList:
@@ -64,6 +78,26 @@ class MaterialList:
             self._bases[key] = base
         return self._bases[key]
 
+    def make_textures(self, materials: Iterable[Material], threads: int) -> None:
+        """Make the first handles of large textures side by side, before materials ask one by one.
+
+        Parameters
+        ----------
+        materials : iterable of Material
+        threads : int
+            How many may be made at once; 0: as many as there are CPUs.
+        """
+        wanted = dict.fromkeys(
+            (placed.texture, _space(slot, self._color_space))
+            for material in materials
+            if material not in self.untextured
+            for slot, placed in placed_textures_of(material).items()
+            if is_new(placed.texture) and placed.texture.width * placed.texture.height >= _LARGE
+        )
+        count = min(len(wanted), threads or os.cpu_count() or 1)
+        if count > 1:
+            side_by_side(lambda one: native_texture(*one), list(wanted), count)
+
     def is_listed_otherwise(self, material: Material) -> bool:
         """Return whether a material changed so much that meshes with it must be listed anew."""
         return self._traits[material] != _traits_of(material)
@@ -81,8 +115,11 @@ class MaterialList:
         self._traits[material] = _traits_of(material)
         placed = {} if material in self.untextured else placed_textures_of(material)
         self._note_textures(material, {use.texture for use in placed.values()})
-        two_sided = both or material.two_sided
-        set_material(self._native, index, number, material, placed, self._color_space, two_sided)
+        space = self._color_space
+        sides = {"id": number, "two_sided": both or material.two_sided}
+        physical = _physical(material, space) if material.is_physical else None
+        uses = {slot: _use(slot, use, space) for slot, use in placed.items()}
+        self._native.set_material(index, _numbers(material, space) | sides, physical, uses)
 
     def _note_textures(self, material: Material, textures: set[Texture]) -> None:
         """Watch the textures of a material, and stop watching those that no material uses now."""
@@ -101,3 +138,61 @@ class MaterialList:
 def _traits_of(material: Material) -> tuple[bool, bool]:
     """Return the traits of a material that decide how its meshes are listed."""
     return material.flat_shading, material.alpha_mode == "opaque"
+
+
+def _numbers(material: Material, color_space: ColorSpace) -> dict[str, Any]:
+    """The numbers of any material."""
+    strength = material.emissive_strength if material.is_physical else 1.0
+    emissive = shading_color(material.emissive, color_space)
+    return {
+        "color": shading_color(material.rgb, color_space),
+        "specular": shading_color(material.specular, color_space),
+        "shininess": max(material.shininess, _SMALLEST_SHININESS),
+        "emissive": tuple(component * strength for component in emissive),
+        "flat": material.flat_shading,
+        "is_unlit": material.unlit,
+        "normal_scale": material.normal_scale,
+        "alpha": material.alpha,
+        "alpha_mode": ALPHA_MODES[material.alpha_mode],
+        "alpha_cutoff": material.alpha_cutoff,
+    }
+
+
+def _physical(material: Material, color_space: ColorSpace) -> dict[str, Any]:
+    """The numbers of a physically based material."""
+    root = (1.0 - material.ior) / (1.0 + material.ior)
+    tint = shading_color(material.specular_color, color_space)
+    left = shading_color(material.attenuation_color, color_space)
+    depth, turn = material.attenuation_distance, material.anisotropy_rotation
+    held = vars(material)
+    return {
+        **{name: held[name] for name in _SAME_NUMBERS},
+        **{name: shading_color(held[name], color_space) for name in _SAME_COLORS},
+        "metallic": 1.0 if material.metallic is None else material.metallic,
+        "roughness": 1.0 if material.roughness is None else material.roughness,
+        "reflectance": tuple(root * root * component for component in tint),
+        "absorption": tuple(_absorption(component, depth) for component in left),
+        "anisotropy_turn": (linalg.cos(turn), linalg.sin(turn)),
+        "iridescence_thickness": (
+            material.iridescence_thickness_minimum,
+            material.iridescence_thickness_maximum,
+        ),
+    }
+
+
+def _absorption(left: float, depth: float) -> float:
+    """Return log2 of the share of light left after a unit, if ``left`` is there after ``depth``."""
+    return min(0.0, math.log2(max(left, _LEAST_LEFT)) / depth)
+
+
+def _space(slot: str, color_space: ColorSpace) -> ColorSpace:
+    row = PARAMETERS[slot]
+    return color_space if isinstance(row, TextureSlot) and row.is_color else "linear"
+
+
+def _use(
+    slot: str, placed: PlacedTexture, color_space: ColorSpace
+) -> tuple[NativeTexture, int, list[float] | None]:
+    """A texture of a slot: its handle, its set of coordinates, and the matrix of these."""
+    handle = native_texture(placed.texture, _space(slot, color_space))
+    return handle, placed.uv_set, placed.matrix.ravel().tolist() if placed.is_moved else None

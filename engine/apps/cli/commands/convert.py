@@ -13,8 +13,8 @@ from ....io.formats.gltf.gltf_writer import save_scene_as
 from ....io.loaders import load_mesh
 from ....io.scenes.scene_loading import load_scene
 from ....io.writers import formats, save_mesh
-from ..inputs import model_file
 from ..loading_bar import LoadingBar
+from ..options.input_options import model_file
 from ..outputs import (
     STANDARD_OUTPUT,
     check_folder,

@@ -17,8 +17,8 @@ from ....io.reading.documents import Document, TreeRecord
 from ....io.scenes.tree_totals import rest_bounds, triangle_count
 from ....model.geometry.mesh import Mesh
 from ....model.materials.material import Material, textures_of
-from ..inputs import model_files
 from ..loading_bar import LoadingBar
+from ..options.input_options import model_files
 from ..usage import UsageError
 
 

@@ -24,7 +24,7 @@ import numpy as np
 from ....errors import DisplayError
 from ...viewer.lesson_window import Lesson, LessonWindow
 from ...viewer.window import Window
-from ..suggestions import meant
+from ..arguments import meant
 from ..usage import UsageError
 from . import french_lessons
 

@@ -13,11 +13,10 @@ from ....io.output.animation_files import ANIMATION_SUFFIXES, PICTURE_SUFFIXES, 
 from ....stage import headless
 from ....stage.view_renderer import ViewRenderer
 from ....stage.viewed_scene import NotInModelError
-from ..inputs import STANDARD_INPUT
 from ..one_by_one import draw_each, tried
 from ..options import scene_options
 from ..options import shared_options as options
-from ..options.input_options import jobs
+from ..options.input_options import STANDARD_INPUT, jobs
 from ..options.picture_options import PICTURES
 from ..outputs import (
     STANDARD_OUTPUT,

@@ -14,11 +14,10 @@ from ....io.output.frame_names import literal_name
 from ....stage import headless
 from ....stage.view_renderer import ViewRenderer
 from ....stage.views.walking import GroundController, controller, walk
-from ..inputs import STANDARD_INPUT
 from ..one_by_one import draw_each
 from ..options import scene_options
 from ..options import shared_options as options
-from ..options.input_options import jobs
+from ..options.input_options import STANDARD_INPUT, jobs
 from ..options.picture_options import WINDOW
 from ..options.shared_options import Viewing
 from ..outputs import check_animation, check_picture, remark_on_size, with_progress

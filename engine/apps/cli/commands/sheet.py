@@ -10,7 +10,7 @@ from ....base.files.making_folders import make_folder_of
 from ....errors import InvalidArgumentError
 from ...sheet.contact_sheet import Sheet, contact_sheet
 from ...sheet.views import DEFAULT_VIEWS, check_views
-from ..inputs import model_files
+from ..options.input_options import model_files
 from ..outputs import (
     STANDARD_OUTPUT,
     check_folder,

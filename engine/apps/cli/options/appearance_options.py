@@ -1,14 +1,24 @@
-"""The options for drawing surfaces and lines."""
+"""The options of how surfaces, their textures, lines and points are drawn."""
 
 from __future__ import annotations
 
 import argparse
 from typing import get_args
 
-from ....choices import Culling, FrameCull, HiddenSurfaces, Mode, OutputMode, Shading, Wireframe
+from ....choices import (
+    Culling,
+    FrameCull,
+    HiddenSurfaces,
+    LineShape,
+    Mode,
+    OutputMode,
+    PointShape,
+    Shading,
+    SizeUnit,
+    Wireframe,
+)
 from .. import values
 from ..usage import UsageError
-from .filter_options import add_line_shapes, add_texture_filters
 
 MODES = (*get_args(Mode), *get_args(OutputMode))
 WIREFRAMES = get_args(Wireframe)
@@ -51,8 +61,8 @@ def add_appearance(parser) -> None:
         metavar="PIXELS",
         help="size of points, up to 256; by default larger the fewer points there are",
     )
-    add_line_shapes(group)
-    add_texture_filters(group)
+    _add_line_shapes(group)
+    _add_texture_filters(group)
     normals = group.add_mutually_exclusive_group()
     normals.add_argument(
         "--flat",
@@ -102,6 +112,45 @@ def add_appearance(parser) -> None:
     )
 
 
+def _add_texture_filters(group) -> None:
+    """Add how textures are read."""
+    group.add_argument(
+        "--anisotropy",
+        type=values.anisotropy,
+        metavar="N",
+        help="read textures at up to N places a pixel, 1 to 16, where surfaces recede; by default "
+        "as their materials say, but at least 8",
+    )
+    group.add_argument(
+        "--lod-bias",
+        type=values.lod_bias,
+        metavar="B",
+        help="added to the level of detail of textures: less than 0 is sharper and flickers more; "
+        "by default as their materials say, and -0.25 where these say nothing",
+    )
+
+
+def _add_line_shapes(group) -> None:
+    """Add the shapes and the unit of lines and points."""
+    group.add_argument(
+        "--line-shape",
+        choices=get_args(LineShape),
+        help="plain lines, the default, or with round ends and joins, as wide as they say at any "
+        "angle",
+    )
+    group.add_argument(
+        "--point-shape",
+        choices=get_args(PointShape),
+        help="square points, the default, or round ones",
+    )
+    group.add_argument(
+        "--size-unit",
+        choices=get_args(SizeUnit),
+        help="what --line-width and --point-size count: pixels, the default, or thousandths of the "
+        "picture's height",
+    )
+
+
 def appearance_of(args: argparse.Namespace) -> dict:
     """Return the fields of `Appearance` set by options of the same names."""
     if args.unlit and args.mode not in (None, "unlit"):
@@ -120,3 +169,10 @@ def appearance_of(args: argparse.Namespace) -> dict:
         for name, value in named.items()
         if value is not None and value is not False  # an unset switch leaves the value to the scene
     }
+
+
+def filtering(args: argparse.Namespace):
+    """Return the `Filtering` that the options name."""
+    from ....stage.filtering import Filtering
+
+    return Filtering(anisotropy=args.anisotropy, lod_bias=args.lod_bias, is_usual=True)

@@ -1,20 +1,23 @@
 """The options of input: reader, size limit, several files together or one by one.
 
-In: names of files and folders. Out: jobs, each of which shows some of the files.
+In: names of files and folders, as they were given, or - for standard input. Out: jobs, each of
+which shows some of them; paths, or binary file objects, as `engine3d.loaders` take them.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import sys
 from collections.abc import Sequence
+from typing import BinaryIO
 
 from ....errors import FileAccessError, FileFormatError
 from .. import values
-from ..inputs import STANDARD_INPUT
 from ..output_templates import fill, names_the_model
 from ..usage import UsageError
 
+STANDARD_INPUT = "-"
 _MEBIBYTE = 1 << 20
 _SCENE = ".e3d.json"
 
@@ -179,3 +182,21 @@ def check_inputs(args: argparse.Namespace) -> None:
             raise FileFormatError(
                 f"{size / _MEBIBYTE:.1f} MiB are more than --max-size {args.max_size:g}", name
             )
+
+
+def model_file(name: str) -> str | BinaryIO:
+    """Return the path, or the bytes of standard input for ``-``."""
+    if name != STANDARD_INPUT:
+        return name
+    if sys.stdin is None:
+        raise UsageError("- reads a model from standard input, which is closed")
+    if sys.stdin.isatty():
+        raise UsageError("- would read a model from the terminal; redirect standard input")
+    return sys.stdin.buffer
+
+
+def model_files(names: Sequence[str]) -> list[str | BinaryIO]:
+    """Return what several names stand for; standard input can be read once."""
+    if names.count(STANDARD_INPUT) > 1:
+        raise UsageError("- stands for standard input, which can be read only once")
+    return [model_file(name) for name in names]

@@ -1,7 +1,10 @@
-"""The options of lights and shadows."""
+"""The options of light: lights instead of others, shadows, and how light becomes colours."""
 
 from __future__ import annotations
 
+from typing import get_args
+
+from ....choices import ToneMapping
 from .. import values
 
 #: Values of lights' ``shadow``, by their names here.
@@ -41,4 +44,46 @@ def add_light(parser) -> None:
         choices=[*SHADOWS],
         help="whether the main lights cast shadows: none, from maps drawn from the lights, or "
         "exact ones with hard edges; by default what a scene file says of its lights",
+    )
+
+
+def add_ambient(parser) -> None:
+    """Add ambient occlusion: less light from all around in corners and hollows."""
+    group = parser.add_argument_group("ambient light")
+    group.add_argument(
+        "-q",
+        "--ambient-occlusion",
+        action="store_true",
+        help="let less of the light from all around reach corners and hollows",
+    )
+    group.add_argument(
+        "--ambient-occlusion-radius",
+        type=values.positive,
+        metavar="F",
+        help="how far away things are in the way of that light, in units of the scene; a tenth of "
+        "its diagonal by default",
+    )
+
+
+def add_tone(parser) -> None:
+    """Add how light becomes colours: exposure, tone mapping, glow."""
+    group = parser.add_argument_group("tone")
+    group.add_argument(
+        "--tone-mapping",
+        choices=get_args(ToneMapping),
+        help="how light of any brightness becomes what a screen can show: cut off above 1 (none, "
+        "the default), by Khronos PBR Neutral, or as film does (aces, agx)",
+    )
+    group.add_argument(
+        "--exposure",
+        type=values.stops,
+        metavar="STOPS",
+        help="make what is lit brighter: twice for each stop; below 0 darker",
+    )
+    group.add_argument(
+        "--bloom",
+        type=values.bloom,
+        metavar="F",
+        help="how much of the light above 1 glows around where it comes from, 0 to 100; 0 by "
+        "default, and 1 is a lot",
     )

@@ -6,12 +6,11 @@ import argparse
 
 from ...scenes import DEMO_NAMES, SCENES
 from .. import values
-from ..inputs import model_files
 from ..loading_bar import LoadingBar
 from ..outputs import not_the_output
 from ..usage import UsageError
 from . import scalar_options
-from .input_options import add_inputs, check_inputs
+from .input_options import add_inputs, check_inputs, model_files
 
 #: Options about reading or dressing models, which built-in scenes do not have.
 OF_MODELS = (

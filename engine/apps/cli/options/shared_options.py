@@ -12,15 +12,12 @@ from typing import TYPE_CHECKING, NamedTuple
 from .. import config
 from ..usage import UsageError
 from . import (
-    ambient_options,
     appearance_options,
     camera_options,
     environment_options,
-    filter_options,
     light_options,
     picture_options,
     scalar_options,
-    tone_options,
 )
 
 if TYPE_CHECKING:
@@ -37,10 +34,10 @@ def add(command) -> None:
     picture_options.add_picture(command)
     appearance_options.add_appearance(command)
     light_options.add_light(command)
-    ambient_options.add_ambient(command)
+    light_options.add_ambient(command)
     environment_options.add_environment(command)
     environment_options.add_backdrop(command)
-    tone_options.add_tone(command)
+    light_options.add_tone(command)
     scalar_options.add_scalars(command)
     camera_options.add_camera(command)
 
@@ -145,7 +142,7 @@ def settings(args: argparse.Namespace, **more) -> Settings:
         surroundings=environment_options.surroundings(args),
         exposure=args.exposure,
         textures=not args.no_texture,
-        filtering=filter_options.filtering(args),
+        filtering=appearance_options.filtering(args),
         near=args.near,
         far=args.far,
         grid=args.grid,

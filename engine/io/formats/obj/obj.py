@@ -22,10 +22,9 @@ from ...reading.triangulation import Triangulation, WorkBudget, triangulate
 from ...reading.undrawn import warn_of_undrawn
 from ...reading.warning_list import WarningList
 from .mtl import undrawn_kinds
-from .obj_file import Elements, ObjFile, read_obj_file
+from .obj_file import Elements, ObjFile, ObjStates, read_obj_file, run_lengths
 from .obj_materials import only_material, read_library, used_materials
 from .obj_parts import ObjParts
-from .obj_states import ObjStates, run_lengths
 
 
 def read_obj(source: Source, split: bool = False) -> Document:

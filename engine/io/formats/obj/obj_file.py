@@ -1,7 +1,9 @@
 """The parsed arrays of an OBJ file, from C, with errors in words.
 
 In: the bytes of a file. Out: vertices, the corners of faces, lines and points, zero-based and
-checked, and the statements that set a state for later elements. Every error names its line.
+checked, and the statements that set something for the elements behind them: materials, libraries,
+objects, groups and smoothing groups. Every error names its line; kinds of statement that are not
+understood are warned of once each.
 """
 
 from __future__ import annotations
@@ -14,8 +16,9 @@ import numpy as np
 from ...._native import loaders as native
 from ....errors import FileFormatError
 from ...reading.corner_mesh import Vertices
+from ...reading.smoothing import FLAT
 from ...reading.sources import Source
-from ...reading.text import checked_text, shown
+from ...reading.text import checked_text, decoded, shown
 from ...reading.warning_list import WarningList
 
 # Bytes between checks for other events, such as Ctrl-C.
@@ -24,6 +27,7 @@ _STEP = 4 << 20
 _PARSING = 0.8
 _ROWS = ("vertex", "texture coordinate", "normal")
 _LEAST = (3, 1, 3)
+_SMOOTH = 1  # the smoothing group of all faces where none is set
 
 
 class Elements(NamedTuple):
@@ -139,3 +143,99 @@ def _elements(
     if of_faces and short:
         warnings.add(f"{short} faces of fewer than three corners are left out", line)
     return Elements(sizes, positions, uvs, normals, are_triangles)
+
+
+class Setters:
+    """Statements of one kind.
+
+    Attributes
+    ----------
+    lines : list of int
+        The line of each.
+    before : dict of str to (S,) int64
+        How many ``"faces"``, ``"lines"`` and ``"points"`` stand before each.
+    """
+
+    def __init__(self, file: ObjFile, kind: int) -> None:
+        self._chosen = file.setters[file.setters["kind"] == kind]
+        self._text = file.names
+        self._names: list[str] | None = None
+        self.before = {
+            what: self._chosen[what].astype(np.int64) for what in ("faces", "lines", "points")
+        }
+        self.lines = self._chosen["line"].tolist()
+
+    def __len__(self) -> int:
+        return len(self._chosen)
+
+    def words(self) -> list[bytes]:
+        """Return what follows each one's keyword; of those not understood, the keyword."""
+        starts = self._chosen["name"].tolist()
+        lengths = self._chosen["name_length"].tolist()
+        text = self._text
+        return [bytes(text[s : s + n]) for s, n in zip(starts, lengths, strict=True)]
+
+    def names(self) -> list[str]:
+        """Return the same as text; names may hold blanks."""
+        if self._names is None:
+            self._names = [decoded(word) for word in self.words()]
+        return self._names
+
+    def values(self) -> np.ndarray:
+        return self._chosen["value"]
+
+
+class ObjStates:
+    """States by element.
+
+    Attributes
+    ----------
+    materials, libraries, objects, groups : Setters
+        The statements ``usemtl``, ``mtllib``, ``o`` and ``g``.
+    """
+
+    def __init__(self, file: ObjFile, warnings: WarningList) -> None:
+        self.materials = Setters(file, native.MATERIAL)
+        self.libraries = Setters(file, native.LIBRARY)
+        self.objects = Setters(file, native.OBJECT)
+        self.groups = Setters(file, native.GROUP)
+        self._smoothing = Setters(file, native.SMOOTHING)
+        _warn_of_unknown(Setters(file, native.UNKNOWN), warnings)
+        self._smoothing_values = self._smoothing.values()
+        self._warn_of_smoothing(warnings)
+
+    @property
+    def has_smoothing(self) -> bool:
+        """Whether the file sets any smoothing group; without, all faces are in one."""
+        return len(self._smoothing) > 0
+
+    def smoothing_groups(self, faces: int) -> np.ndarray:
+        """Return the smoothing group of each face, 0 for flat."""
+        if not self.has_smoothing:
+            return np.broadcast_to(np.int64(_SMOOTH), faces)
+        values = np.concatenate([[FLAT], np.maximum(self._smoothing_values, FLAT)])
+        return np.repeat(values, run_lengths(self._smoothing, faces))
+
+    def _warn_of_smoothing(self, warnings: WarningList) -> None:
+        wrong = np.flatnonzero(self._smoothing_values < 0).tolist()
+        if wrong:
+            words = self._smoothing.words()
+            for number in wrong:
+                word = words[number].split()[0]
+                line = self._smoothing.lines[number]
+                warnings.add(f"smoothing group {shown(word)} counts as off", line)
+
+
+def run_lengths(setters: Setters, faces: int) -> np.ndarray:
+    """Return how many faces stand before the first statement, and behind each up to the next."""
+    return np.diff(setters.before["faces"], prepend=0, append=faces)
+
+
+def _warn_of_unknown(setters: Setters, warnings: WarningList) -> None:
+    unknown: dict[bytes, list[int]] = {}
+    for keyword, line in zip(setters.words(), setters.lines, strict=True):
+        unknown.setdefault(keyword, []).append(line)
+    for keyword, lines in unknown.items():
+        warnings.add(
+            f"{shown(keyword)} is not understood; {len(lines)} statements left out", lines[0]
+        )

@@ -16,7 +16,7 @@ from ...reading.sources import Source
 from ...reading.text import shown, words_of
 from ...reading.warning_list import WarningList
 from .mtl import read_mtl
-from .obj_states import Setters
+from .obj_file import Setters
 
 
 def read_library(

@@ -18,8 +18,7 @@ from ...reading.far_coordinates import moved_near
 from ...reading.smoothing import join_seams
 from ...reading.text import words_of
 from ...reading.warning_list import WarningList
-from .obj_file import Elements, ObjFile
-from .obj_states import ObjStates
+from .obj_file import Elements, ObjFile, ObjStates
 
 # No real model has more; such files are loaded as one object, and further group names are dropped.
 _MAX_OBJECTS = 1000

@@ -1,4 +1,4 @@
-"""A parser with one-line errors that suggest corrections.
+"""A parser that joins values to their options, and whose errors say what was probably meant.
 
 In: arguments. Out: argparse's result, or a line on standard error and exit status 2.
 """
@@ -8,12 +8,37 @@ from __future__ import annotations
 import argparse
 import difflib
 import os
+import re
 from collections.abc import Iterable
 
 from ...errors import printable
+from .options.appearance_options import WIREFRAMES
 
 #: Minimum similarity of two words, 0 to 1, for a letter-by-letter comparison.
 _LIKENESS = 0.6
+#: Options whose value may start with a minus sign, which argparse would take for an option.
+SIGNED_OPTIONS = frozenset(
+    {
+        "--up",
+        "--light-position",
+        "--light-direction",
+        "--camera-position",
+        "--camera-focal-point",
+        "--camera-view-up",
+        "--camera-direction",
+        "--camera-azimuth-angle",
+        "--camera-elevation-angle",
+        "--environment-rotation",
+        "--lod-bias",
+        "--range",
+        "--coloring-range",
+        "--camera-index",
+        "--animation-index",
+        "--animation-time",
+        "--section",
+    }
+)
+_SIGNED_VALUE = re.compile(r"-(\.?\d|[XYZxyz]($|=)|inf|nan)")
 
 
 class Parser(argparse.ArgumentParser):
@@ -45,7 +70,26 @@ class Parser(argparse.ArgumentParser):
         raise argparse.ArgumentError(action, message)
 
 
-#: Options of other commands and programs, and their names here.
+def join_values(arguments: list[str]) -> list[str]:
+    """Return the arguments with values joined to options where argparse would take them wrongly.
+
+    ``--camera-position -1,2,3`` becomes ``--camera-position=-1,2,3``, and ``--wireframe MODEL``,
+    whose value may be left out, becomes ``--wireframe=only MODEL``.
+    """
+    joined: list[str] = []
+    for argument in arguments:
+        option = joined[-1] if joined else ""
+        if option in SIGNED_OPTIONS and _SIGNED_VALUE.match(argument):
+            joined[-1] += "=" + argument
+        elif option == "--wireframe" and argument not in WIREFRAMES:
+            joined[-1] += "=" + WIREFRAMES[-1]
+            joined.append(argument)
+        else:
+            joined.append(argument)
+    return joined
+
+
+#: Options by the names of other commands and programs, and what they may be called here.
 _ELSEWHERE = {
     "--size": ("--resolution",),
     "--resolution": ("--size",),

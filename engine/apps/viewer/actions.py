@@ -163,12 +163,12 @@ def _turn_up(viewer, up: str) -> None:
 
 
 def turn_y_up(viewer, step: int) -> None:
-    """Make +Y the up direction."""
+    """Make +Y the up direction, or -Y with Shift."""
     _turn_up(viewer, "+Y" if step > 0 else "-Y")
 
 
 def turn_z_up(viewer, step: int) -> None:
-    """Make +Z the up direction."""
+    """Make +Z the up direction, or -Z with Shift."""
     _turn_up(viewer, "+Z" if step > 0 else "-Z")
 
 

@@ -125,7 +125,7 @@ def _default_material(shade: float) -> MetallicRoughnessMaterial:
 
 
 def _look_of(mesh, smooth: bool, material: Material | None):
-    """Colours and texture coordinates of vertices, and the material; None where there are none."""
+    """Return colours and texture coordinates of vertices, and the material; None if missing."""
     visual = mesh.visual
     given = None if material is None else copy.deepcopy(material)
     if not visual.defined:

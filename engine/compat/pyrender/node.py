@@ -1,4 +1,4 @@
-"""Nodes: places in a scene, and what is there."""
+"""Nodes: poses in a scene, with their objects."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def _three(name: str, doc: str) -> property:
 
 
 class Node(Named):
-    """A place, and a mesh, a camera or a light there.
+    """A pose with a mesh, a camera or a light.
 
     Parameters
     ----------

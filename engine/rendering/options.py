@@ -90,7 +90,7 @@ def _strength(value: float, what: str) -> float:
 
 
 def _option(default: Any, check: Check, core: str = "", numbers: Numbers | None = None) -> Any:
-    """A row of `RenderOptions`: ``check(value, name)`` returns what to keep, or raises.
+    """Return a row of `RenderOptions`: ``check(value, name)`` returns what to keep, or raises.
 
     ``core`` is the member of e3d_frame that takes it unless something else decides, and ``numbers``
     maps values to the core's numbers.

@@ -43,45 +43,45 @@ class Task:
     Parameters
     ----------
     name : str
-        Of its files, without an extension; folders are made. No two tasks of a batch have the same.
+        Name of its files, without an extension; folders are created. It is unique in a batch.
     model : str, optional
         A file of any format that `load_scene` reads.
     script : str, optional
-        A file of Python with a function that builds the scene, or changes that of the model. One of
-        the two is needed.
+        A Python file with a function that builds the scene, or changes the model's. A model or a
+        script is required.
     function : str
-        The name of that function: called as ``function(scene, generator, **arguments)``; see
+        The function's name; it is called as ``function(scene, generator, **arguments)``; see
         docs/batches.md.
     arguments : mapping
         Further arguments of the function, in JSON's types.
     camera : int or mapping, optional
-        The number of a camera of the scene, or how one looks: see docs/batches.md. Left out: what
-        the script says, else the scene's first camera, else all of the scene is shown.
+        The number of a scene camera, or a description: see docs/batches.md. By default the script's
+        camera, else the scene's first one, else one that shows the whole scene.
     size : (int, int)
         Width and height in pixels.
     samples, antialias
-        As of `Renderer`.
+        As in `Renderer`.
     render : mapping
-        Keyword arguments of `RenderOptions`, but for ``outputs``.
+        Keyword arguments of `RenderOptions`, except ``outputs``.
     look : {"studio", "plain"}, optional
-        Draw the model as ``engine3d render --look`` does, instead of as it is in a scene. Such a
-        task has no script, ``render``, ``scene`` or output but the colour, and its camera says
-        ``azimuth`` and ``elevation`` from where the command looks, and ``view_angle``, at most.
+        Draw the model as ``engine3d render --look`` does, instead of as a plain scene. Such a task
+        allows no script, ``render``, ``scene`` or output except colour, and only the camera members
+        ``azimuth`` and ``elevation``, relative to the command's view, and ``view_angle``.
     scene : mapping
-        ``background``, ``ambient``, ``light_clamp`` and ``exposure``, as of `Scene`.
+        ``background``, ``ambient``, ``light_clamp`` and ``exposure``, as in `Scene`.
     outputs : sequence of str
-        What is written beside each other where there is no data set: ``"color"`` (a PNG), or with
-        another format ``"color.jpg"``; any other output of frames as ``NAME.OUTPUT.npy``.
+        Files to write without a data set: ``"color"`` (a PNG) or, in another format,
+        ``"color.jpg"``; other outputs of frames are written as ``NAME.OUTPUT.npy``.
     seed : int
-        Of the generator that the script gets.
+        Seed of the script's generator.
     inputs : sequence of str
-        Further files that the picture follows from: what scripts read.
+        Further input files, such as those that scripts read.
     index : int
-        Its place in the batch.
+        Its position in the batch.
     folder : str
-        What paths are relative to; by default the current one.
+        The base of relative paths; by default the current folder.
     root : str, optional
-        A folder that files named in the model may be in, besides the model's own.
+        A second folder, besides the model's own, for files named in the model.
 
     Raises
     ------

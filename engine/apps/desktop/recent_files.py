@@ -22,7 +22,7 @@ _LARGEST = 1 << 20  # bytes
 
 
 class RecentFiles:
-    """A list of paths in a file.
+    """The list of recently opened files, stored in a file.
 
     Parameters
     ----------

@@ -117,7 +117,7 @@ class Hierarchy:
         self._search = str(text).strip().casefold()
 
     def is_open(self, node: Node) -> bool:
-        """Whether a node's children are shown."""
+        """Return whether a node's children are shown."""
         return node in self._open
 
     def set_open(self, node: Node, is_open: bool, *, below: bool = False) -> None:

@@ -204,12 +204,12 @@ def contact_sheet(
     Parameters
     ----------
     models : path, binary file object, Mesh, Scene, or several of these
-        Each gets a part of the sheet, one below another. Scenes are left as they were.
+        Each gets a part of the sheet, one below another. Scenes are not changed.
     views : str or iterable of str
-        Names with commas between them: ``front``, ``right``, ``back``, ``left``, ``top``,
-        ``bottom``, ``iso``, ``camera0`` (the file's first camera, and so on), and
-        ``NAME=X,Y,Z`` (the way the camera looks) or ``NAME=AZIMUTH,ELEVATION`` (degrees, where the
-        camera stands). They stand in rows, in this order.
+        Comma-separated names: ``front``, ``right``, ``back``, ``left``, ``top``, ``bottom``,
+        ``iso``, ``camera0`` (the file's first camera, and so on), and ``NAME=X,Y,Z`` (the way the
+        camera looks) or ``NAME=AZIMUTH,ELEVATION`` (degrees, where the camera stands). They are
+        arranged in rows, in this order.
     sections : str or iterable of str
         Cuts, each in two views, straight and aslant: ``"x=0.5"`` (a coordinate of the file),
         ``"x=50%"`` (of the model) or ``"x"`` (the middle) cuts off what has greater coordinates;
@@ -218,11 +218,11 @@ def contact_sheet(
         Width and height in pixels, of the part of each model: 1600 x 1200, or 1600 x 480 where
         there are several.
     up : {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}, optional
-        What is up; by default what is usual for the file's format.
+        The up direction; by default the usual one of the file's format.
     unit : str, optional
-        What lengths are written in; by default the file's unit, where its format has one.
+        The unit of lengths; by default the file's unit, if its format has one.
     root : path-like, optional
-        As for `load_mesh`, of models that are files.
+        As in `load_mesh`, for models that are files.
     backend, threads
         As for `Renderer`; the bytes are the same.
 

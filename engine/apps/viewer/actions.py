@@ -56,7 +56,7 @@ cycle_tone_mapping = _cycling("tone_mapping")
 
 
 def toggle_edges(viewer, step: int) -> None:
-    """Edges over the faces, or not."""
+    """Toggle the wireframe over the faces."""
     appearance = viewer.view_renderer.appearance
     appearance.wireframe = None if appearance.wireframe == "overlay" else "overlay"
     viewer.say(f"edges: {'on' if appearance.wireframe else 'off'}")
@@ -69,17 +69,17 @@ def _toggle_mode(viewer, mode: str) -> None:
 
 
 def toggle_normals_mode(viewer, step: int) -> None:
-    """Normals as colours, or lit."""
+    """Toggle between normals as colours and lit surfaces."""
     _toggle_mode(viewer, "normal")
 
 
 def toggle_unlit(viewer, step: int) -> None:
-    """Without light, or lit."""
+    """Toggle between unlit and lit surfaces."""
     _toggle_mode(viewer, "unlit")
 
 
 def toggle_flat(viewer, step: int) -> None:
-    """One normal per face, then one light per face too, or smooth normals."""
+    """Cycle through face normals, facet lighting, and smooth normals."""
     appearance = viewer.view_renderer.appearance
     following = {"flat": "facet", "facet": "smooth"}
     appearance.normals = following.get(appearance.normals, "flat")
@@ -87,14 +87,14 @@ def toggle_flat(viewer, step: int) -> None:
 
 
 def cycle_lights(viewer, step: int) -> None:
-    """Next lights."""
+    """Switch to the next lighting."""
     lighting = viewer.view_renderer.lighting
     lighting.choose(following(lighting.name, lighting.names, step))
     viewer.say(f"lights: {lighting.name}")
 
 
 def cycle_samples(viewer, step: int) -> None:
-    """Next number of samples per pixel: as many as there is time for, or fixed ones."""
+    """Switch to the next number of samples per pixel: automatic, or a fixed one."""
     viewer.sampling.fixed = following(viewer.sampling.fixed, (None, *SAMPLES), step)
     samples = viewer.sampling.fixed or f"{AT_REST}, or fewer to keep {MOTION_FPS:.0f} fps in motion"
     viewer.say(f"samples per pixel: {samples}")
@@ -109,12 +109,12 @@ def _scale_lines(viewer, factor: float) -> None:
 
 
 def widen_lines(viewer, step: int) -> None:
-    """Wider lines and larger points."""
+    """Increase the width of lines and the size of points."""
     _scale_lines(viewer, 2.0)
 
 
 def narrow_lines(viewer, step: int) -> None:
-    """Thinner lines and smaller points."""
+    """Decrease the width of lines and the size of points."""
     _scale_lines(viewer, 0.5)
 
 
@@ -163,78 +163,78 @@ def _turn_up(viewer, up: str) -> None:
 
 
 def turn_y_up(viewer, step: int) -> None:
-    """Stand the scene on the plane of X and Z."""
+    """Make +Y the up direction, or -Y with Shift."""
     _turn_up(viewer, "+Y" if step > 0 else "-Y")
 
 
 def turn_z_up(viewer, step: int) -> None:
-    """Stand the scene on the plane of X and Y."""
+    """Make +Z the up direction, or -Z with Shift."""
     _turn_up(viewer, "+Z" if step > 0 else "-Z")
 
 
 def toggle_orthographic(viewer, step: int) -> None:
-    """Parallel projection, or perspective."""
+    """Toggle between parallel and perspective projection."""
     viewer.view.orthographic = not viewer.view.orthographic
     viewer.say("orthographic" if viewer.view.orthographic else "perspective")
 
 
 def reset_view(viewer, step: int) -> None:
-    """Go back to the first view."""
+    """Return to the first view."""
     viewer.reset_view()
 
 
 def toggle_walking(viewer, step: int) -> None:
-    """Walk, or orbit again; the picture stays where it is, or goes down to the ground."""
+    """Toggle walking; the picture stays, or moves down to the ground."""
     viewer.toggle_walking()
 
 
 def toggle_occlusion(viewer, step: int) -> None:
-    """Less light from all around in corners and hollows, or as much as everywhere."""
+    """Toggle ambient occlusion."""
     appearance = viewer.view_renderer.appearance
     appearance.ambient_occlusion = not appearance.ambient_occlusion
     viewer.say(f"ambient occlusion: {'on' if appearance.ambient_occlusion else 'off'}")
 
 
 def toggle_split(viewer, step: int) -> None:
-    """Nine outputs side by side, or the picture alone."""
+    """Toggle between nine outputs side by side and the picture alone."""
     viewer.view_renderer.split = not viewer.view_renderer.split
 
 
 def cycle_debug(viewer, step: int) -> None:
-    """Next of what culling works with: boxes, trees of them, the frustum from here, nothing."""
+    """Switch to the next debug drawing of culling: boxes, their trees, the frustum, or none."""
     drawing = following(viewer.view_renderer.culling.drawing, DEBUG_DRAWINGS, step)
     viewer.view_renderer.choose_debug(drawing, viewer.view)
     viewer.say(f"drawn besides: {drawing or 'nothing'}")
 
 
 def toggle_textures(viewer, step: int) -> None:
-    """Draw with textures, or with the colours of the materials alone."""
+    """Toggle textures; without them, materials show only their colours."""
     view_renderer = viewer.view_renderer
     view_renderer.staging.show_textures(not view_renderer.settings.textures)
     viewer.say(f"textures: {'on' if view_renderer.settings.textures else 'off'}")
 
 
 def cycle_culling(viewer, step: int) -> None:
-    """Next of what is left out before it is drawn; the picture is the same."""
+    """Switch to the next culling method; the picture is the same."""
     appearance = viewer.view_renderer.appearance
     appearance.culling = following(appearance.culling, CHOICES["culling"], step)
     viewer.say(f"culling {appearance.culling}: {LEFT_OUT[appearance.culling]}")
 
 
 def freeze_culling(viewer, step: int) -> None:
-    """Draw what shows from here, and nothing more, until the key comes up; counters stand still."""
+    """Freeze culling at this view, and the counters, until the key is released."""
     viewer.view_renderer.freeze_culling(viewer.view)
     viewer.say("culling and counting as from here, while C is held")
 
 
 def toggle_playing(viewer, step: int) -> None:
-    """Pause, or go on."""
+    """Pause or resume the animation."""
     viewer.playing = not viewer.playing
     viewer.say("playing" if viewer.playing else "paused")
 
 
 def cycle_animations(viewer, step: int) -> None:
-    """Play the next of the model's animations, or all of them together."""
+    """Play the model's next animation, or all of them together."""
     viewed = viewer.view_renderer.viewed
     if viewed.player is None:
         viewer.say("the model has no animations")
@@ -254,7 +254,7 @@ def cycle_animations(viewer, step: int) -> None:
 
 
 def toggle_grid(viewer, step: int) -> None:
-    """A grid under the scene, or none."""
+    """Toggle the grid under the scene."""
     viewer.view_renderer.staging.show_grid(not viewer.view_renderer.settings.grid)
 
 
@@ -274,19 +274,19 @@ toggle_metadata = _toggling("metadata")
 
 
 def cycle_statistics(viewer, step: int) -> None:
-    """Next of: no statistics, a line of them, all."""
+    """Switch the statistics: none, one line, or all."""
     viewer.statistics = following(viewer.statistics, STATISTICS, step)
 
 
 def cycle_theme(viewer, step: int) -> None:
-    """Dark, or light."""
+    """Switch between the dark and the light theme."""
     staging = viewer.view_renderer.staging
     staging.theme = following(staging.theme, THEMES, step)
     viewer.say(f"{staging.theme.name} theme")
 
 
 def cycle_lists(viewer, step: int) -> None:
-    """Next of: the objects, the materials, no list."""
+    """Switch the list: objects, materials, or none."""
     shown = type(viewer.panel) if viewer.panel is not None else None
     panel = following(shown, (None, ObjectPanel, MaterialPanel), step)
     viewer.panel = None if panel is None else panel(viewer)
@@ -298,7 +298,7 @@ def _toggle_dialog(viewer, panel: type) -> None:
 
 
 def open_file(viewer, step: int) -> None:
-    """The dialog that opens a file, or none; with Shift the files that were opened last."""
+    """Toggle the file dialog; with Shift it shows recently opened files."""
     _toggle_dialog(viewer, FolderPanel if step > 0 else RecentPanel)
 
 
@@ -308,22 +308,22 @@ def next_file(viewer, step: int) -> None:
 
 
 def previous_file(viewer, step: int) -> None:
-    """Show the model before in the folder."""
+    """Show the previous model of the folder."""
     viewer.opening.step(-1)
 
 
 def load_again(viewer, step: int) -> None:
-    """Show the file as it is now."""
+    """Reload the file."""
     viewer.opening.load_again()
 
 
 def toggle_help(viewer, step: int) -> None:
-    """The keys, or none; in a small window page by page."""
+    """Toggle the help; in a small window, show it page by page."""
     viewer.help.turn(step)
 
 
 def toggle_fullscreen(viewer, step: int) -> None:
-    """Fill the screen, or go back to a window."""
+    """Toggle between full screen and a window."""
     viewer.window.toggle_fullscreen()
 
 
@@ -342,7 +342,7 @@ def save_screenshot(viewer, step: int) -> None:
 
 
 def save_turntable(viewer, step: int) -> None:
-    """Write a turn round the scene, or its own animation, to a numbered GIF; Escape gives it up."""
+    """Write a turn around the scene, or its animation, to a numbered GIF; Escape cancels."""
     name = f"{Path(viewer.view_renderer.viewed.title).stem}-turntable"
     path = numbered_path(Path.cwd(), name, ".gif")
     viewer.say(record(viewer, path))

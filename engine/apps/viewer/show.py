@@ -49,36 +49,37 @@ def show(
 ) -> None:
     """Show a thing in a window until the user closes it.
 
-    Scenes, nodes and meshes show in the viewer, with all of its keys (H lists them). Pictures fit
-    into the window; the wheel, + and - zoom, drags move, R fits again, 1 shows real size, and the
-    title tells the pixel under the mouse. Q closes the window; for pictures Escape does, too.
+    Scenes, nodes and meshes are shown in the viewer, with all its keys (H lists them). Pictures are
+    fitted into the window; the wheel, + and - zoom, drags move, R fits again, 1 shows real size,
+    and the title shows the pixel under the mouse. Q closes the window; for pictures Escape does
+    too.
 
     Parameters
     ----------
     thing : Scene, Node, Mesh, InstancedMesh, Frame, Canvas, ndarray, or what trimesh holds
-        Of a node, its children show as well, and the lights among them. A scene with a camera is
-        seen from there at first. Arrays are as for `Window.present`.
+        A node is shown with its subtree and the lights in it. The first view of a scene is its
+        camera's, if it has one. Arrays are as for `Window.present`.
     size : (int, int), optional
-        Width and height of the window in pixels; by default 1280x720, or what suits the picture.
+        Width and height of the window in pixels; by default 1280x720, or fitted to the picture.
     title : str, optional
         Text of the title bar.
     up : {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}
-        Which way is up in a scene.
+        The up direction of a scene.
     update : callable, optional
         Called with the time in seconds before each picture of a scene, to move its nodes:
-        ``animator.seek``, or a function of your own. It plays from the start; Space pauses it. Left
-        out, the first of ``scene.animations`` plays.
+        ``animator.seek``, or your own function. It plays from the start; Space pauses it. By
+        default, the first of ``scene.animations`` plays.
     period : float
-        Seconds after which the time begins again at 0.
+        Seconds after which the time restarts at 0.
     format : {"rgba", "bgra"}, optional
-        Of an array; see `Window.present`.
+        Byte order of an array; see `Window.present`.
 
     Raises
     ------
     DisplayError
         There is no screen.
     InvalidArgumentError
-        It is nothing that can be shown.
+        The thing cannot be shown.
 
     Examples
     --------

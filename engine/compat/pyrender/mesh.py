@@ -15,7 +15,7 @@ from .primitive import Primitive
 
 
 class Mesh(Bounded, Named):
-    """What a node shows.
+    """A mesh that a node shows: a list of primitives.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ class Mesh(Bounded, Named):
 
     @property
     def bounds(self) -> NDArray:
-        """Lowest and highest corner, (2, 3); infinite where there is nothing."""
+        """Lowest and highest corner, (2, 3); infinite if the mesh is empty."""
         bounds = np.array([[np.inf] * 3, [-np.inf] * 3])
         for primitive in self.primitives:
             bounds[0] = np.minimum(bounds[0], primitive.bounds[0])
@@ -43,7 +43,7 @@ class Mesh(Bounded, Named):
 
     @property
     def is_transparent(self) -> bool:
-        """Whether any primitive is."""
+        """Whether any primitive is transparent."""
         return any(primitive.is_transparent for primitive in self.primitives)
 
     @staticmethod
@@ -67,7 +67,7 @@ class Mesh(Bounded, Named):
     def from_trimesh(
         mesh, material=None, is_visible=True, poses=None, wireframe=False, smooth=True
     ) -> Mesh:
-        """Return a mesh of one of trimesh's, or of several.
+        """Return a mesh converted from one or several trimesh meshes.
 
         Parameters
         ----------
@@ -125,7 +125,7 @@ def _default_material(shade: float) -> MetallicRoughnessMaterial:
 
 
 def _look_of(mesh, smooth: bool, material: Material | None):
-    """Colours and texture coordinates of vertices, and the material; None where there are none."""
+    """Return colours and texture coordinates of vertices, and the material; None if missing."""
     visual = mesh.visual
     given = None if material is None else copy.deepcopy(material)
     if not visual.defined:
@@ -151,7 +151,7 @@ def _look_of(mesh, smooth: bool, material: Material | None):
 
 
 def _material_of(material) -> MetallicRoughnessMaterial | None:
-    """Return the material for one of trimesh; None for unknown kinds."""
+    """Return the material for a trimesh one; None for unknown kinds."""
     if isinstance(material, MetallicRoughnessMaterial):
         return material
     if hasattr(material, "baseColorFactor"):

@@ -1,4 +1,4 @@
-"""Nodes: places in a scene, and what is there."""
+"""Nodes: poses in a scene, with their objects."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .mesh import Mesh
 
 
 def _holds(name: str, kind: type, what: str) -> property:
-    """A property that holds an object of a type, or None."""
+    """Return a property that holds an object of a type, or None."""
 
     def made(value):
         if value is not None and not isinstance(value, kind):
@@ -24,7 +24,7 @@ def _holds(name: str, kind: type, what: str) -> property:
 
 
 def _three(name: str, doc: str) -> property:
-    """A property that holds three numbers, a part of the matrix."""
+    """Return a property that holds three numbers, a part of the matrix."""
     hidden = f"_{name}"
 
     def put(self, value) -> None:
@@ -38,7 +38,7 @@ def _three(name: str, doc: str) -> property:
 
 
 class Node(Named):
-    """A place, and a mesh, a camera or a light there.
+    """A pose with a mesh, a camera or a light.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ class Node(Named):
         self._matrix = pose
 
     def _parent_from_node(self) -> NDArray:
-        """The matrix itself, which nobody may write to."""
+        """Return the matrix itself, which must not be written to."""
         if self._matrix is None:
             pose = np.eye(4)
             pose[:3, :3] = matrix_of(self._rotation) * self._scale

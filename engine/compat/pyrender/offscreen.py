@@ -1,4 +1,4 @@
-"""Pictures in memory."""
+"""Offscreen rendering into arrays."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .renderer import Renderer
 
 
 class OffscreenRenderer:
-    """Draws scenes into arrays.
+    """Renders scenes into arrays.
 
     Any number of them may live side by side, in any thread and process.
 
@@ -70,7 +70,7 @@ class OffscreenRenderer:
             return self._renderer.render(scene, flags | RenderFlags.OFFSCREEN, seg_node_map)
 
     def delete(self) -> None:
-        """Let go of what drawing keeps; arrays stay as they are, and so do other renderers."""
+        """Free the cached drawing data; arrays and other renderers stay valid."""
         self._renderer = None
 
 

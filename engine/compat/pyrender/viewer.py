@@ -51,7 +51,7 @@ _VIEWER_FLAGS = {
     "show_mesh_axes": False,
     "caption": None,
 }
-#: What cannot be, and what a program may do instead.
+#: Unsupported features, and alternatives for programs.
 _ABSENT = {
     "vertex_normals": "normals are not drawn as lines",
     "face_normals": "normals are not drawn as lines",
@@ -61,9 +61,9 @@ _ABSENT = {
     "caption": "captions are not drawn: draw on pictures with engine3d.Canvas",
 }
 _DRAGS = {"middle": Trackball.STATE_PAN, "right": Trackball.STATE_ZOOM}
-#: Which wireframe flags follow one another at each press of W.
+#: The order of wireframe flags at each press of W.
 _WIREFRAMES = (None, "flip_wireframe", "all_wireframe", "all_solid")
-_POSITIONS = {"Space": " "}  # keys whose names are not what they type
+_POSITIONS = {"Space": " "}  # keys whose names differ from what they type
 
 
 class Viewer:
@@ -137,7 +137,7 @@ class Viewer:
 
     @property
     def scene(self) -> Scene:
-        """What is shown."""
+        """The shown scene."""
         return self._scene
 
     @property
@@ -147,7 +147,7 @@ class Viewer:
 
     @property
     def render_lock(self) -> threading.RLock:
-        """Hold it while the scene changes in another thread."""
+        """A lock to hold while another thread changes the scene."""
         return self._lock
 
     @property
@@ -157,22 +157,22 @@ class Viewer:
 
     @property
     def run_in_thread(self) -> bool:
-        """Whether it shows in a thread."""
+        """Whether the viewer runs in a thread."""
         return self._run_in_thread
 
     @property
     def render_flags(self) -> dict:
-        """Flags of drawing, which may be changed."""
+        """Rendering flags, which may be changed."""
         return self._render_flags
 
     @property
     def viewer_flags(self) -> dict:
-        """Flags of the viewer, which may be changed."""
+        """Viewer flags, which may be changed."""
         return self._viewer_flags
 
     @property
     def registered_keys(self) -> dict:
-        """What keys call."""
+        """The functions called by keys."""
         return self._keys
 
     def close_external(self) -> None:
@@ -184,13 +184,13 @@ class Viewer:
     close = on_close = close_external
 
     def save_gif(self, filename=None) -> None:
-        """Raise: nothing is recorded."""
+        """Raise an error: recording is not supported."""
         raise NotImplementedError(f"save_gif: {_ABSENT['record']}")
 
     # ---- the camera ----
 
     def _take_camera(self) -> None:
-        """Have cameras like the scene's, or such that all of it shows."""
+        """Create cameras like the scene's, or such that the whole scene shows."""
         scene = self._scene
         self._prior = scene.main_camera_node
         lens = None if self._prior is None else copy.copy(self._prior.camera)
@@ -213,7 +213,7 @@ class Viewer:
         return self._perspective if is_perspective else self._orthographic
 
     def _framing_pose(self) -> np.ndarray:
-        """Above and in front of the scene, looking at its middle."""
+        """Return a pose above and in front of the scene that looks at its centre."""
         scale = self._scene.scale or DEFAULT_SCENE_SCALE
         half = 0.5 * np.sqrt(2.0)
         pose = np.array([[0, -half, half, 0], [1, 0, 0, 0], [0, half, half, 0], [0, 0, 0, 1.0]])
@@ -247,7 +247,7 @@ class Viewer:
                 self._window = None
 
     def _start_thread(self) -> None:
-        """Show in a thread; return once the window is open, or raise why it isn't."""
+        """Run in a thread; return once the window is open, or raise the reason why not."""
         opened = threading.Event()
 
         def run() -> None:
@@ -299,7 +299,7 @@ class Viewer:
             size, points = self._size, float(self._render_flags["point_size"])
             color, _ = self._drawing.draw(scene, self._flags(), None, *size, points)
         finally:
-            scene.remove_node(self._node)  # and the lights, which are its children
+            scene.remove_node(self._node)  # and the lights, its children
             self._node.children.clear()
             if before is not None:
                 scene.main_camera_node = before
@@ -370,7 +370,7 @@ class Viewer:
         flags["use_direct_lighting"] = raymond
 
     def _save_picture(self) -> None:
-        """Write the picture into the save directory, under a name that is free."""
+        """Write the picture into the save directory, under an unused name."""
         from pathlib import Path
 
         from ..._native.images import encode_png

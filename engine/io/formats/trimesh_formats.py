@@ -134,7 +134,7 @@ def _resolver(trimesh: Any, source: Source, warnings: WarningList) -> Any:
     """Return a resolver that gives trimesh the images beside the model, and nothing else."""
     files = LinkedFiles.of(source, warnings)
 
-    class FolderResolver(trimesh.resolvers.Resolver):  # type: ignore[misc]  # it is untyped
+    class FolderResolver(trimesh.resolvers.Resolver):  # type: ignore[misc]  # it has no types
         def __init__(self) -> None:
             pass
 

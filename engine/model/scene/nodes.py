@@ -367,7 +367,7 @@ class Node:
         return f"<Node {self.id} {self.name!r}: {what}>"
 
     def _in_scene(self) -> Scene:
-        """The node's scene; raises if the node was removed."""
+        """Return the node's scene; raise if the node was removed."""
         if self._scene is None:
             raise InvalidArgumentError("the node was removed from its scene")
         return self._scene

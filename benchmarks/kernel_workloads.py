@@ -28,7 +28,7 @@ from kernels.layouts import (
     SURFACES,
     SURVIVORS,
     TILE,
-    TILE_SPAN,
+    TILE_RECT,
     VERTICES,
     VISIBLE_TILE,
     viewport_of,
@@ -76,7 +76,7 @@ def record():
     triangles = np.arange(CLUSTER_TRIANGLES + PAD, dtype=np.uint8) % CLUSTER_TRIANGLES
     faces = np.arange(CLUSTER_TRIANGLES, dtype=np.int32)
     out = np.zeros(CLUSTER_TRIANGLES, RECORD).view(np.uint8)
-    spans = np.zeros(CLUSTER_TRIANGLES, TILE_SPAN).view(np.uint8)
+    spans = np.zeros(CLUSTER_TRIANGLES, TILE_RECT).view(np.uint8)
     asked = (triangles, CLUSTER_TRIANGLES, True, 0, False, 0, faces)
     viewport = viewport_of(1280, 720).view(np.uint8)
     arguments = (vertices.view(np.uint8), indices.ravel(), *asked, viewport, out, spans)

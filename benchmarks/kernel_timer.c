@@ -79,7 +79,7 @@ static const e3d_viewport TILE_VIEWPORT = {E3D_TILE, E3D_TILE, 128.0f * E3D_TILE
 
 static void record_all(raster_work *work)
 {
-    e3d_tile_span spans[E3D_CLUSTER_TRIANGLES];
+    e3d_tile_rect spans[E3D_CLUSTER_TRIANGLES];
     work->count = 0;
     for (int c = 0; c < CLUSTERS; c++) {
         const e3d_record_request request = {.vertices = &work->vertices[c], .indices = cluster.indices,

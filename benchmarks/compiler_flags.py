@@ -37,7 +37,7 @@ CPU_FEATURES = {"sse41": "sse4.1", "avx2": "avx2", "avx512": "avx512bw"}
 CPU_LACKS_IT = 3  # exit status of the timer
 TIMERS = {"kernels": "benchmarks/kernel_timer.c", "frame": "benchmarks/frame_timer.c"}
 # What frames need beside the kernels, and of that what the kernels do.
-CORE = ["csrc/base/*.c", "csrc/data/*.c", "csrc/frame/*/*.c", "csrc/reference/*.c"]
+CORE = [f"csrc/{room}/**/*.c" for room in ("base", "data", "frame", "reference")]
 CORE += ["csrc/light/dfg_table.c", "csrc/light/handle.c"]
 # What the kernels alone are linked with.
 TABLES = ["data_encode_tables", "data_srgb_tables", "light_dfg_table", "light_handle"]
@@ -78,7 +78,8 @@ def build_core(compiler, folder, pool):
     """Compile what is the same for all rows; return the object files."""
 
     def compile_one(source):
-        target = Path(folder) / f"{source.parent.name}_{source.stem}.o"
+        name = "_".join(source.relative_to(ROOT / "csrc").with_suffix(".o").parts)
+        target = Path(folder) / name
         subprocess.run([compiler, *common_flags(), "-O2", "-c", source, "-o", target], check=True)
         return target
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import functools
 import inspect
-import textwrap
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, get_args
@@ -265,9 +264,9 @@ class RenderOptions:
 
 
 if RenderOptions.__doc__ is not None:  # which -OO leaves out
-    _outputs = f"holds: {', '.join(f'``{name}``' for name in OUTPUTS)}: see `Frame`."
+    _outputs = ",\n    ".join(f"``{name}``" for name in OUTPUTS)
     RenderOptions.__doc__ = inspect.cleandoc(RenderOptions.__doc__).replace(
-        "holds: see `Frame`.", textwrap.fill(_outputs, 70, subsequent_indent="    ")
+        "holds: see `Frame`.", f"holds; see `Frame`:\n    {_outputs}."
     )
 DEFAULTS = RenderOptions()
 

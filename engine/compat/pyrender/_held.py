@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 
-def held(name: str, made: Callable, doc: str) -> property:
-    """Return a property that stores assigned values converted by `made`."""
+def held(name: str, made: Callable, doc: str, then: Callable | None = None) -> property:
+    """Return a property that stores values converted by `made`; `then` is called after that."""
     hidden = f"_{name}"
 
     def put(self, value) -> None:
         setattr(self, hidden, made(value))
+        if then is not None:
+            then(self)
 
     return property(lambda self: getattr(self, hidden), put, doc=doc)
 

@@ -25,16 +25,18 @@ def _holds(name: str, kind: type, what: str) -> property:
 
 def _three(name: str, doc: str) -> property:
     """Return a property that holds three numbers, a part of the matrix."""
-    hidden = f"_{name}"
 
-    def put(self, value) -> None:
+    def made(value) -> NDArray:
         vector = np.asarray(value)
         if vector.shape != (3,):
             raise ValueError(f"{name.capitalize()} must be a (3,) vector")
-        setattr(self, hidden, vector)
-        self._matrix = None
+        return vector
 
-    return property(lambda self: getattr(self, hidden), put, doc=doc)
+    return held(name, made, doc, _forget_matrix)
+
+
+def _forget_matrix(node: Node) -> None:
+    node._matrix = None
 
 
 class Node(Named):

@@ -51,13 +51,7 @@ def _rows(name: str, doc: str) -> property:
 
 def _drawn_from(name: str, made, doc: str) -> property:
     """Return a converting property whose values drawing caches data of."""
-    hidden = f"_{name}"
-
-    def put(self, value) -> None:
-        setattr(self, hidden, made(value))
-        self._forget()
-
-    return property(lambda self: getattr(self, hidden), put, doc=doc)
+    return held(name, made, doc, lambda primitive: primitive._forget())
 
 
 def _checked_mode(value) -> int:

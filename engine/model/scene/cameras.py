@@ -105,11 +105,6 @@ class Camera(Closed):
     def __init__(self, projection: ArrayLike) -> None:
         self.matrix = matrix4(projection, "projection")
 
-    @property
-    def _far_depth(self) -> float:
-        """Depth of the far plane in clip space, divided by w; the near plane's is -1."""
-        return 1.0
-
     def projection(self, width: int, height: int) -> NDArray[np.float64]:
         """Return clip_from_view for an image of ``width`` x ``height`` pixels, (4, 4) float64."""
         _check_size(width, height)

@@ -54,9 +54,10 @@ class _Placed:
             self._middles[row], self._radii[row] = collider.center, collider.radius
             return
         mesh = _mesh_of(node)
-        if mesh is not None and mesh is node.object and shown_object(node) is not mesh:
-            self._bent.append(row)
-            mesh = shown_object(node)
+        if mesh is not None and mesh is node.object:
+            rest, mesh = mesh, shown_object(node)
+            if mesh is not rest:
+                self._bent.append(row)
         if isinstance(collider, MeshCollider):
             self.meshes[row] = mesh
         if mesh is not None:

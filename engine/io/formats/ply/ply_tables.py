@@ -231,7 +231,7 @@ def _find_rows(source: Source, element: PlyElement, body: PlyBody, start: int) -
                 items = body.even_lists(start, count, count_type, code, int(first.sizes[0, 0]))
                 if items is not None:
                     return found._replace(items=items)
-            elif _is_uniform(element, body, first, stride, count):
+            elif _is_uniform(lists, body, first, stride, count):
                 return found
         rows = body.walk(lists, tail, start, count)
     except ShortBodyError:
@@ -259,10 +259,9 @@ def _lists(element: PlyElement, body: PlyBody) -> tuple[list[ListInRow], int]:
 
 
 def _is_uniform(
-    element: PlyElement, body: PlyBody, first: WalkedRows, stride: int, count: int
+    lists: list[ListInRow], body: PlyBody, first: WalkedRows, stride: int, count: int
 ) -> bool:
     """Return whether the lists of all rows have the lengths of those in the first."""
-    lists, _ = _lists(element, body)
     for (_, count_type, _), begin, size in zip(lists, first.starts[0], first.sizes[0], strict=True):
         place = int(first.places[0])
         offset = int(begin) - body.size(count_type) - place

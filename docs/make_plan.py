@@ -55,7 +55,7 @@ def condition(needs: list[str], forbids: list[str]) -> str:
     return f"{where}, unless {names(forbids, ' or ')}" if forbids else where
 
 
-def rules_of_items() -> dict[str, str]:
+def conditions_of_items() -> dict[str, str]:
     """Where each planned item holds: its conditions, as one sentence."""
     found: dict[str, list[str]] = {}
     for item, needs, forbids in plan_conditions():
@@ -77,7 +77,7 @@ def example_rows() -> list[tuple[str, ...]]:
 
 
 def page() -> str:
-    where = rules_of_items()
+    where = conditions_of_items()
     asked = [(f"`{name.lower()}`", text) for name, text in asked_items()]
     planned = [(f"`{name.lower()}`", text, where[name]) for name, text in planned_items()]
     return "\n".join(

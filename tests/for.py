@@ -35,24 +35,20 @@ def named_alike(path: Path) -> tuple[list[str], list[str]]:
 
 
 def naming(path: Path) -> list[str]:
-    """The tests that import a module, or its package; of documents, and all else, that name it."""
+    """The tests that import a module of engine/, or its package, or that name any other file."""
     tests = sorted((ROOT / "tests").rglob("test_*.py"))
-    words = [rf"\b{re.escape(path.name)}"]
-    if path.suffix == ".py":
+    if path.suffix == ".py" and path.is_relative_to(ROOT / "engine"):
         module = path.parent if path.name == "__init__.py" else path.with_suffix("")
-        dotted = [
-            ".".join(("engine3d", *at.relative_to(ROOT / "engine").parts))
-            for at in (module, module.parent)
-            if at.is_relative_to(ROOT / "engine")
-        ]
-        words = [rf"\b{re.escape(name)}\b" for name in dotted if name != "engine3d"]
-    elif path.suffix != ".md":
-        tests = [test for test in tests if test.parent.name in path.parts]
-        words = [rf"\b{re.escape(path.stem)}\b"]
+        packages = (at.relative_to(ROOT / "engine").parts for at in (module, module.parent))
+        words = [".".join(("engine3d", *parts)) for parts in packages if parts]
+    else:
+        near = [test for test in tests if test.parent.name in path.parts]
+        tests, words = (tests, [path.name]) if path.suffix == ".md" else (near, [path.stem])
     for word in words:
-        found = [test for test in tests if re.search(word, test.read_text("utf-8"))]
+        pattern = re.compile(rf"\b{re.escape(word)}\b")
+        found = [test_name(test) for test in tests if pattern.search(test.read_text("utf-8"))]
         if found:
-            return [test_name(test) for test in found]
+            return found
     return []
 
 

@@ -1,4 +1,4 @@
-"""Exact shadows: receivers against R100, and hide against rays in float64 (R98 to R101)."""
+"""Exact shadows: receivers against R100, exact_shadows against rays in float64 (R98 to R101)."""
 
 import numpy as np
 import pytest

@@ -33,6 +33,20 @@ def test_the_best_test_of_a_file(stem, test):
     assert any(test in FOR["tests_of"](path, TABLE) for path in paths)
 
 
+@pytest.mark.parametrize(
+    ("file", "test"),
+    [
+        ("engine/apps/scenes/__init__.py", "docs/test_readme"),
+        ("benchmarks/ratios.py", "benchmarks/test_benchmarks"),
+        ("docs/make_map.py", "docs/test_inside"),
+        ("README.md", "docs/test_readme"),
+    ],
+)
+def test_files_that_were_not_recorded_are_found_by_name(file, test):
+    assert file not in TABLE
+    assert test in FOR["tests_of"](ROOT / file, TABLE)
+
+
 def test_a_command_is_printed(capsys):
     assert FOR["main"]([__file__]) == 0
     assert capsys.readouterr().out.endswith(" tests/packaging/test_chosen_tests.py\n")

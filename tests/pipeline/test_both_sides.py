@@ -163,7 +163,7 @@ def test_backs_are_drawn_only_where_a_hole_is(renderer):
     pose = e3d.linalg.look_at((0, 1.5, 4), (0, 0, 0), (0, 1, 0))
     back, auto, none = triangles(renderer, scene_of(bowl()), (camera, pose))
     assert back < auto < back + 0.7 * (none - back)
-    many = scene_of(*[bowl()] * 40)  # more holes than a frame has windows
+    many = scene_of(*[bowl()] * 40)  # more holes than a frame has apertures
     pose = e3d.linalg.look_at((50, 60, 90), (50, 0, 0), (0, 1, 0))
     auto, none = (
         picture(renderer, many, cull, (e3d.PerspectiveCamera(0.8, znear=0.1, zfar=300.0), pose))

@@ -1,4 +1,4 @@
-"""What breaks a rule of test_shape.py today. These lists only shrink.
+"""What breaks a rule of this folder's tests today. These lists only shrink.
 
 Where a breach is to stay, a comment says why.
 """

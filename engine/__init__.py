@@ -13,7 +13,7 @@ if __name__ != "engine3d":
 
 from importlib import import_module
 
-from .version import __version__
+from .version import PICTURES, __version__
 
 # public name -> module that defines it
 _PUBLIC = {
@@ -111,7 +111,7 @@ _MODULES = (
 # Modules with optional dependencies or few users: not for ``import *``.
 _MODULES_APART = ("compat", "golden", "notebook")
 
-__all__ = ["__version__", *_PUBLIC, *_MODULES]
+__all__ = ["PICTURES", "__version__", *_PUBLIC, *_MODULES]
 
 
 def __getattr__(name):

@@ -97,4 +97,5 @@ from .rendering.rasterization import RasterizeResult as RasterizeResult
 from .rendering.rasterization import rasterize as rasterize
 from .rendering.renderer import Renderer as Renderer
 from .stage.render import render as render
+from .version import PICTURES as PICTURES
 from .version import __version__ as __version__

@@ -131,7 +131,7 @@ def test_files_that_cannot_be_read(tmp_path, capsys, monkeypatch):
     [
         ("grid", "NAME=VALUE is needed"),
         ("gird=true", "there is no option 'gird': did you mean grid?"),
-        ("nonsense=1", "there is no option 'nonsense' (engine3d render --help lists them)\n"),
+        ("nonsense=1", "there is no option 'nonsense' (engine3d render --help-all lists them)\n"),
         ("samples=3", "is not one of 1, 2, 4, 8, 16"),
     ],
 )

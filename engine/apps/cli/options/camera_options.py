@@ -62,19 +62,19 @@ def add_camera(parser) -> None:
         "--camera-azimuth-angle",
         type=values.number,
         metavar="DEGREES",
-        help="move the camera around the model, to the right",
+        help="move the camera around the model, to the right; 0 by default, 30° from the front",
     )
     group.add_argument(
         "--camera-elevation-angle",
         type=values.number,
         metavar="DEGREES",
-        help="move the camera around the model, upwards",
+        help="move the camera around the model, upwards; 0 by default, 18° above the middle",
     )
     group.add_argument(
         "--camera-zoom-factor",
         type=values.positive,
         metavar="F",
-        help="divide the distance from the focal point by this",
+        help="divide the distance from the focal point by this; 1 by default",
     )
     group.add_argument(
         "--camera-orthographic", action="store_true", help="use a parallel projection"

@@ -25,7 +25,7 @@ SHADINGS = ("forward", "deferred")
 
 def measure(arguments):
     """Yield a row for each number of lights."""
-    world = e3d.city(arguments.triangles)
+    world = e3d.worlds.city(arguments.triangles)
     width, height = arguments.resolution
     with e3d.Renderer(width, height, threads=arguments.threads) as renderer:
         for count in COUNTS:

@@ -162,7 +162,7 @@ def frame_rate_aim(row, least):
 
 def measure_city(renderer, arguments, options):
     before = resident_bytes()
-    taken, world = timed(e3d.city, arguments.triangles)
+    taken, world = timed(e3d.worlds.city, arguments.triangles)
     count = f"city of {world.triangles:,}"
     made = (resident_bytes() - before) / world.triangles
     yield f"{count}, made", {"cpu_milliseconds": taken, "bytes_a_triangle": made}
@@ -180,7 +180,7 @@ def measure_city(renderer, arguments, options):
 
 
 def measure_obj(renderer, arguments, options):
-    world = e3d.city(arguments.triangles)
+    world = e3d.worlds.city(arguments.triangles)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "city.obj"
         taken, _ = timed(lambda: world.mesh().save(path))
@@ -205,7 +205,7 @@ def measure_sizes(renderer, arguments, options):
     for size in SIZES:
         if size > arguments.largest:
             break
-        world = e3d.city(size)
+        world = e3d.worlds.city(size)
         scene, cars = city_scene(world, 256)
         row = time_frames(
             renderer,

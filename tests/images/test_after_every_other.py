@@ -95,12 +95,12 @@ def skinned(scene):
     mesh = flag()
     joints = [scene.add(), scene.add(translation=(0.3, 0.2, 0.4))]
     mesh.set_influences([(0,), (0,), (0,), (1,), (1,), (1,)], np.ones((6, 1)))
-    scene.add(mesh).skin = e3d.Skin(joints, np.tile(np.eye(4), (2, 1, 1)))
+    scene.add(mesh).skin = e3d.motion.Skin(joints, np.tile(np.eye(4), (2, 1, 1)))
 
 
 def morphed(scene):
     mesh = flag()
-    mesh.morph_targets = [e3d.MorphTarget(np.linspace(0, 1, 18).reshape(6, 3))]
+    mesh.morph_targets = [e3d.motion.MorphTarget(np.linspace(0, 1, 18).reshape(6, 3))]
     scene.add(mesh).morph_weights = [0.7]
 
 

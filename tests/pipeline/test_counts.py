@@ -19,7 +19,7 @@ def counts(stats):
 def square(side):
     """Two triangles around the origin that face +Z."""
     corners = [(x * side / 2, y * side / 2, 0) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-    return e3d.quad(*corners)
+    return e3d.primitives.quad(*corners)
 
 
 def boxes(places, side=1.0):

@@ -18,7 +18,7 @@ def masked_pane():
     grid = np.indices((8, 8)).sum(axis=0) % 2
     texels = np.full((8, 8, 4), 255, np.uint8)
     texels[..., 3] = 255 * grid
-    pane = e3d.quad()
+    pane = e3d.primitives.quad()
     holes = e3d.Material(texture=e3d.Texture(texels), alpha_mode="mask", two_sided=True)
     pane.materials = [holes, e3d.Material(two_sided=True)]
     pane.material_ids = [0, 1]
@@ -43,7 +43,7 @@ def scene():
     scene.add(e3d.InstancedMesh(box, poses))
     scene.add(masked_pane(), translation=(0.5, 0.2, 2.5), scale=1.5)
     scene.add(lines_and_points(), translation=(-0.5, 0.3, 3.0))
-    floor = e3d.quad((-40, 0, 40), (40, 0, 40), (40, 0, -40), (-40, 0, -40))
+    floor = e3d.primitives.quad((-40, 0, 40), (40, 0, 40), (40, 0, -40), (-40, 0, -40))
     scene.add(floor, translation=(0, -1.2, 0))  # it crosses the near plane
     return scene
 
@@ -123,7 +123,7 @@ def test_two_triangles_that_meet_between_blocks(backend):
     corners = [(-16, -999, 0), (-16, 999, 0), (-999, 0, 0), (999, 0, 0)]
     scene.add(e3d.Mesh(corners, [(0, 1, 2), (1, 0, 3)]))
     for k in range(8):
-        scene.add(e3d.quad(), translation=(0, 0, -1 - k), scale=128)  # behind them
+        scene.add(e3d.primitives.quad(), translation=(0, 0, -1 - k), scale=128)  # behind them
     camera = e3d.OrthographicCamera(64), e3d.look_at((0, 0, 5), (0, 0, 0))
     with e3d.Renderer(128, 128, backend=backend) as renderer:
         frame = renderer.render(scene, camera, outputs=IDS, cull="none", culling="always")

@@ -165,7 +165,7 @@ def test_what_is_replaced_each_frame_is_let_go(replace):
     scene.add(e3d.Mesh(POSITIONS, FACES, uvs=UVS))
     scene.add(e3d.InstancedMesh(e3d.box(), [[1, 0, 0, 0.5], [-1, 0, 0, 0.5]]))
     for k in range(20):  # one change is little beside what stays
-        scene.add(e3d.quad(), translation=(k, 0, -3))
+        scene.add(e3d.primitives.quad(), translation=(k, 0, -3))
     alive = weakref.WeakSet()
 
     def live(frames):

@@ -126,7 +126,7 @@ def small_things(random):
     scene = e3d.Scene()
     line = e3d.Mesh([(0, 0, 0), (1, 1, 0)], lines=[(0, 1)], points=[0])
     offset = e3d.Mesh(e3d.box().positions + np.float32(1e4), e3d.box().faces)
-    meshes = (e3d.box(), line, e3d.quad(), e3d.Mesh(np.zeros((1, 3)), points=[0]))
+    meshes = (e3d.box(), line, e3d.primitives.quad(), e3d.Mesh(np.zeros((1, 3)), points=[0]))
     for k in range(400):
         x, y = random.uniform(-1.5, 1.5, 2)
         place = (x, y, random.uniform(-1.4, 1.4))

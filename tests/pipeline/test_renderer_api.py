@@ -97,7 +97,7 @@ def test_positions_and_uvs_are_where_the_pixel_looks(renderer, front):
 def test_only_what_is_asked_for(renderer, front):
     frame = renderer.render(scene_of(square()), front, outputs=["depth"])
     assert frame.outputs == ("depth",)
-    with pytest.raises(e3d.MissingOutputError):
+    with pytest.raises(e3d.errors.MissingOutputError):
         _ = frame.color
 
 
@@ -156,7 +156,7 @@ def test_rasterize_agrees_with_the_renderer(backend, front):
     camera, pose = front
     clip_from_world = linalg.multiply(camera.projection(SIZE, SIZE), linalg.inverse(pose))
     clip = np.c_[mesh.positions, np.ones(len(mesh.positions))] @ clip_from_world.T
-    result = e3d.rasterize(clip, mesh.faces, SIZE, SIZE, cull="back", backend=backend)
+    result = e3d.rasterization.rasterize(clip, mesh.faces, SIZE, SIZE, cull="back", backend=backend)
     frame = e3d.render(
         scene_of(mesh), front, size=(SIZE, SIZE), backend=backend, outputs=("triangle_id",)
     )

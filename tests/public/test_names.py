@@ -36,7 +36,7 @@ def test_importing_everything_keeps_functions_functions():
     for module in sorted(set(engine3d._PUBLIC.values())):
         importlib.import_module(f"engine3d.{module}")
     assert all(
-        callable(getattr(engine3d, name)) for name in ("backends", "rasterize", "render", "look_at")
+        callable(getattr(engine3d, name)) for name in ("backends", "box", "render", "look_at")
     )
 
 

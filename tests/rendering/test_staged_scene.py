@@ -98,7 +98,7 @@ def test_a_part_of_a_bent_mesh_is_drawn_as_it_is_bent():
         [(0, 1, 2), (0, 2, 3)],
         material_ids=[0, 1],
         materials=[e3d.Material(name="one", unlit=True), e3d.Material(name="two", unlit=True)],
-        morph_targets=[e3d.MorphTarget(np.tile([0.5, 0.5, 0], (4, 1)))],
+        morph_targets=[e3d.motion.MorphTarget(np.tile([0.5, 0.5, 0], (4, 1)))],
     )
     scene = e3d.Scene()
     node = scene.add(flag)

@@ -41,7 +41,7 @@ class Peer:
             scene.height,
             color_space="linear",
             samples=scene.samples,
-            antialias="msaa" if scene.samples > 1 else "ssaa",
+            antialiasing="msaa" if scene.samples > 1 else "ssaa",
         )
 
     def info(self):

@@ -23,7 +23,7 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-from lights import resolution
+from lights import picture_size
 from progress import tracked
 
 import engine3d as e3d
@@ -202,10 +202,10 @@ def measure_obj(renderer, arguments, options):
 
 def measure_sizes(renderer, arguments, options):
     smallest = None
-    for size in SIZES:
-        if size > arguments.largest:
+    for count in SIZES:
+        if count > arguments.largest:
             break
-        world = e3d.worlds.city(size)
+        world = e3d.worlds.city(count)
         scene, cars = city_scene(world, 256)
         row = time_frames(
             renderer,
@@ -241,7 +241,7 @@ MEASURES = {
 
 def measure(arguments):
     """Yield a row for each figure."""
-    width, height = arguments.resolution
+    width, height = arguments.size
     options = {"culling": arguments.culling}
     for part in arguments.part or PARTS:
         gc.collect()
@@ -273,7 +273,7 @@ def main():
     parser.add_argument("--frames", type=int, default=10, help="frames a figure (default: 10)")
     parser.add_argument("--threads", type=int, default=2, help="(default: 2)")
     parser.add_argument("--culling", default="all", help="as for Renderer.render (default: all)")
-    parser.add_argument("--resolution", type=resolution, default=(1920, 1080), metavar="WxH")
+    parser.add_argument("--size", type=picture_size, default=(1920, 1080), metavar="WxH")
     arguments = parser.parse_args()
     rows = measure(arguments)
     if not arguments.json:

@@ -104,7 +104,9 @@ def models() -> np.ndarray:
     stand(scene, "train.asc", at=(7.0, 3.6), height=2.4, turn=-0.4, up="z")
     viewed = ViewedScene(scene, "models", themed=True, azimuth=0.0, elevation=math.radians(14.0))
     settings, size = Settings(appearance={}, look="studio"), (1280, 600)
-    with ViewRenderer(viewed, settings, size, samples=SAMPLES, antialias="msaa") as view_renderer:
+    with ViewRenderer(
+        viewed, settings, size, samples=SAMPLES, antialiasing="msaa"
+    ) as view_renderer:
         view = view_renderer.view(0.362)
         view_renderer.fill(view)
         return view_renderer.draw(view).color

@@ -67,7 +67,7 @@ class View(RemoteFrameBuffer):
         Width and height in the page's pixels, at first: the corner can be dragged.
     up : {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}
         Which way is up.
-    animate : callable, optional
+    update : callable, optional
         Called with the time in seconds before each picture, to move the scene's nodes. Left out,
         the first of ``scene.animations`` plays when Space is pressed.
     period : float
@@ -96,13 +96,13 @@ class View(RemoteFrameBuffer):
         *,
         size: tuple[int, int] = (640, 400),
         up: str = "+Y",
-        animate: Callable[[float], None] | None = None,
+        update: Callable[[float], None] | None = None,
         period: float = TURN_SECONDS,
         quality: int = 80,
     ) -> None:
         width, height = check_size(size)
-        check_motion(animate, "animate")
-        viewed = viewed_thing(thing, title=None, up=up, update=animate, period=period)
+        check_motion(update, "update")
+        viewed = viewed_thing(thing, title=None, up=up, update=update, period=period)
         if viewed is None:
             raise InvalidArgumentError(
                 f"a view shows a scene, a node or a mesh, not {type(thing).__name__}"

@@ -200,7 +200,7 @@ class RenderOptions:
         Unit of line_width and point_size: pixels, or thousandths of the picture's height, so that a
         scene looks alike at every size; the result is clamped to 1 to 256 pixels.
     alpha_to_coverage : bool
-        With ``antialias="msaa"``: the alpha of materials with ``alpha_mode="mask"`` determines how
+        With ``antialiasing="msaa"``: alpha of materials with ``alpha_mode="mask"`` determines how
         many of a pixel's samples they cover, half of them at ``alpha_cutoff``: foliage gets smooth
         edges. Otherwise the alpha test keeps all samples or none.
     ambient_occlusion : bool

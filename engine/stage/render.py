@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ..rendering._view import CameraChoice
 
 #: The keywords of `render` for its renderer.
-_RENDERER_KEYWORDS = ("size", "backend", "threads", "color_space", "samples", "antialias")
+_RENDERER_KEYWORDS = ("size", "backend", "threads", "color_space", "samples", "antialiasing")
 
 
 def render(
@@ -38,7 +38,7 @@ def render(
     threads: int = 0,
     color_space: ColorSpace = "srgb",
     samples: Samples = 1,
-    antialias: Antialias = "ssaa",
+    antialiasing: Antialias = "ssaa",
     **options: Unpack[RenderKeywords],
 ) -> Frame:
     """Draw one frame of a scene, a node or a mesh.
@@ -51,7 +51,7 @@ def render(
     camera : None, Node or (Camera, pose)
     size : (int, int)
         Width and height in pixels.
-    backend, threads, color_space, samples, antialias
+    backend, threads, color_space, samples, antialiasing
         As for `Renderer`.
     **options
         As for `Renderer.render`: ``mode``, ``wireframe``, ``outputs`` and so on.
@@ -78,6 +78,6 @@ def render(
         threads=threads,
         color_space=color_space,
         samples=samples,
-        antialias=antialias,
+        antialiasing=antialiasing,
     ) as renderer:
         return renderer.render(drawn, camera, **options)

@@ -63,7 +63,7 @@ def test_bad_input_is_one_line_and_status_1(model, tmp_path, capsys, arguments, 
         ["render", "--scene", "cube", "--triangles", "50000", "-o", "out.png"],
         ["city", "out.png"],
         ["city", "out.obj", "--seed", "x"],
-        ["render", "a.obj", "-o", "out.png", "--resolution", "0x0"],
+        ["render", "a.obj", "-o", "out.png", "--size", "0x0"],
         ["render", "a.obj", "-o", "out.png", "--mode", "pretty"],
         ["render", "a.obj", "-o", "out.png", "--unlit", "--mode", "depth"],
         ["render", "a.obj", "-o", "out.png", "--backend", "gpu"],
@@ -136,15 +136,15 @@ def test_a_folder_that_cannot_be_made_is_found_before_any_work(
         assert capsys.readouterr() == ("", expected)
 
 
-QUICK_BENCH = ["--workloads", "textured", "--seconds", "0.01", "--resolution", "32x24"]
+QUICK_BENCH = ["--workloads", "textured", "--seconds", "0.01", "--size", "32x24"]
 
 
 @pytest.mark.parametrize(
     "arguments",
     [
-        ["render", "square.obj", "--resolution", "32x24", "-o", "new/a b/a.png"],
-        ["render", "square.obj", "--resolution", "32x24", "--turntable", "2", "-o", "new/b/a.gif"],
-        ["render", "square.obj", "--resolution", "32x24", "--turntable", "2", "-o", "n/b/%d.png"],
+        ["render", "square.obj", "--size", "32x24", "-o", "new/a b/a.png"],
+        ["render", "square.obj", "--size", "32x24", "--turntable", "2", "-o", "new/b/a.gif"],
+        ["render", "square.obj", "--size", "32x24", "--turntable", "2", "-o", "n/b/%d.png"],
         ["run", "square.obj", "--headless", "--frames", "1", "-o", "new/b/a.png"],
         ["run", "square.obj", "--headless", "--frames", "2", "-o", "new/b/a.webp"],
         ["sheet", "square.obj", "--json", "-o", "new/b/a.png"],

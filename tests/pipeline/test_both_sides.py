@@ -172,7 +172,7 @@ def test_backs_are_drawn_only_where_a_hole_is(renderer):
     assert (auto[0] == none[0]).all() and (auto[1] >= 0).sum() > 100
 
 
-@pytest.mark.parametrize("options", [{}, {"samples": 4}, {"samples": 4, "antialias": "msaa"}])
+@pytest.mark.parametrize("options", [{}, {"samples": 4}, {"samples": 4, "antialiasing": "msaa"}])
 def test_windows_are_the_same_on_all_backends(options):
     plane = e3d.Mesh.concatenate([e3d.primitives.plane((1, 1)), icosphere(0.3, 1)])
     scene = scene_of(bowl(), inside_out(plane), bowl())

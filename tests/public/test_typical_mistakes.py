@@ -93,7 +93,7 @@ MISTAKES = [
     (lambda: e3d.render(scene(), (camera()[0], np.full((4, 4), math.nan))), "finite"),
     # wrong values
     (lambda: added(rotation=(0.1, 0, 0)), "euler="),
-    (lambda: e3d.Renderer(8, 8, samples=8), "needs antialias='msaa'"),
+    (lambda: e3d.Renderer(8, 8, samples=8), "needs antialiasing='msaa'"),
     (lambda: e3d.uv_sphere(segments=12), "two integers, not 12"),
     (lambda: e3d.Renderer(8, 8).render(mesh()), "scene must be a Scene, not Mesh"),
     (lambda: e3d.Scene().add("model.obj"), "'model.obj'"),

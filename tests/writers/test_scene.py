@@ -337,7 +337,7 @@ def test_the_commands_open_scenes(tmp_path, monkeypatch, capsys):
     e3d.save_scene(scene, Path("a.e3d.json"))
     assert main(["info", "a.e3d.json"]) == 0
     assert "a.e3d.json: e3d" in capsys.readouterr().out
-    assert main(["render", "a.e3d.json", "-o", "a.png", "--resolution", "32x24"]) == 0
+    assert main(["render", "a.e3d.json", "-o", "a.png", "--size", "32x24"]) == 0
     assert e3d.load_texture("a.png").pixels[0, 0].tolist() == [255, 0, 0, 255]
 
 

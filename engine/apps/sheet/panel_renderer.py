@@ -68,7 +68,7 @@ class PanelRenderer:
             isinstance(thing, Material) and thing.normal_texture is not None
             for thing in uses_in([self.scene])
         )
-        self._options = {"samples": _SAMPLES, "antialias": "msaa", **drawing}
+        self._options = {"samples": _SAMPLES, "antialiasing": "msaa", **drawing}
         self._drawing = dict(drawing)
         self._cull = viewed.appearance.get("cull", "back")
         self._points = count_points(self.scene)

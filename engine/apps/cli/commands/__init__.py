@@ -39,8 +39,8 @@ def _add_edit(command: argparse.ArgumentParser) -> None:
 
     command.add_argument("model", metavar="FILE", nargs="?", help="the file to edit, of any format")
     command.add_argument(
-        "--resolution",
-        type=values.resolution,
+        "--size",
+        type=values.size,
         metavar="WxH",
         help="size of the window in pixels; 1600x900 by default",
     )
@@ -81,7 +81,7 @@ def _of_modules(*names: str) -> Callable[[argparse.ArgumentParser], None]:
 #: What people ask of a picture, in a window and in a file.
 _OF_PICTURES = (
     *("--scene", "--texture", "--color", "--animation-time", "--output"),
-    *("--resolution", "--look", "--samples", "--background-color", "--grid"),
+    *("--size", "--look", "--samples", "--background-color", "--grid"),
     *("--mode", "--wireframe", "--edges", "--shadows", "--environment", "--exposure"),
     *("--scalar-coloring", "--bar", "--up"),
     *("--camera-azimuth-angle", "--camera-elevation-angle", "--camera-zoom-factor"),

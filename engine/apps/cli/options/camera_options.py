@@ -53,8 +53,8 @@ def add_camera(parser) -> None:
         help="direction that points up in the picture",
     )
     group.add_argument(
-        "--camera-view-angle",
-        type=values.view_angle,
+        "--camera-yfov",
+        type=values.yfov,
         metavar="DEGREES",
         help="vertical field of view",
     )
@@ -92,7 +92,7 @@ def first_view(args: argparse.Namespace) -> FirstView:
     """Return the first view that the options describe."""
     from ....stage.views.first_view import DEFAULT_YFOV, FirstView
 
-    angle, index, position = args.camera_view_angle, args.camera_index, args.camera_position
+    angle, index, position = args.camera_yfov, args.camera_index, args.camera_position
     through = index is not None and index >= 0
     if not through and position is not None and position == args.camera_focal_point:
         raise UsageError("--camera-position and --camera-focal-point are the same")

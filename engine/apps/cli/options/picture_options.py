@@ -42,8 +42,8 @@ def add_picture(parser) -> None:
     """Add the options for the picture's size and drawing."""
     group = parser.add_argument_group("picture")
     group.add_argument(
-        "--resolution",
-        type=values.resolution,
+        "--size",
+        type=values.size,
         metavar="WxH",
         help="size in pixels; 1280x720 by default",
     )

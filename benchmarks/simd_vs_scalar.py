@@ -40,8 +40,8 @@ FRAMES = {
     "textured, lit": ("texture", {}),
     "eight lights, shiny": ("lights", {}),
     "overdraw, lit": ("overdraw", {}),
-    "many triangles, visibility": ("small_triangles", {"outputs": ("triangle_id",)}),
-    "overdraw, visibility": ("overdraw", {"outputs": ("triangle_id",)}),
+    "many triangles, visibility": ("small_triangles", {"outputs": ("face_id",)}),
+    "overdraw, visibility": ("overdraw", {"outputs": ("face_id",)}),
 }
 
 

@@ -231,7 +231,7 @@ static void write_radiance(const ref_scene *scene, const ref_band *band, const r
 static void write_surface(const e3d_targets *targets, size_t pixel, const ref_surface *surface, float ndc_depth)
 {
     const ref_primitive *primitive = &surface->piece->primitive;
-    write_id(targets->triangle_id, pixel, primitive->kind == REF_FACE ? primitive->index : -1);
+    write_id(targets->face_id, pixel, primitive->kind == REF_FACE ? primitive->index : -1);
     write_id(targets->object_id, pixel, surface->instance->object_id);
     write_id(targets->instance_id, pixel, surface->instance->instance_id);
     write_id(targets->material_id, pixel, primitive->material->id);

@@ -582,12 +582,12 @@ def rasterize(
     int cull,
     int backend,
     int threads,
-    int32_t[:, ::1] triangle_id not None,
+    int32_t[:, ::1] face_id not None,
     float[:, ::1] depth not None,
     float[:, :, ::1] barycentric not None,
 ):
     """Draw clip-space triangles; the size is that of the output arrays."""
-    cdef int32_t height = <int32_t>triangle_id.shape[0], width = <int32_t>triangle_id.shape[1]
+    cdef int32_t height = <int32_t>face_id.shape[0], width = <int32_t>face_id.shape[1]
     require(clip.shape[1] == 4, "clip must be (vertices, 4)")
     require(faces.shape[1] == 3, "faces must be (faces, 3)")
     require(width > 0 and height > 0, "an image has at least one pixel")
@@ -599,7 +599,7 @@ def rasterize(
     with nogil:
         status = e3d_rasterize(
             positions, <int32_t>clip.shape[0], indices, <int32_t>faces.shape[0], width, height,
-            <e3d_cull>cull, <e3d_backend>backend, threads, &triangle_id[0, 0], &depth[0, 0],
+            <e3d_cull>cull, <e3d_backend>backend, threads, &face_id[0, 0], &depth[0, 0],
             &barycentric[0, 0, 0],
         )
     check(status)

@@ -146,7 +146,7 @@ class RenderOptions:
 
     Parameters
     ----------
-    mode : {"lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"}
+    mode : {"lit", "unlit", "random", "depth", "normal", "face_id", "object_id", "overdraw"}
         What the colour shows: lit surfaces, unlit surface colours, a random colour per triangle,
         nearness, view-space normals, IDs as colours, or how often each pixel was covered.
     wireframe : {None, "overlay", "only"}

@@ -6,7 +6,7 @@ import pytest
 import engine3d as e3d
 from engine3d.apps.editor.picking import enclosed, pick
 
-OUTPUTS = ("color", "object_id", "instance_id", "triangle_id")
+OUTPUTS = ("color", "object_id", "instance_id", "face_id")
 SIZE = (120, 90)
 
 

@@ -34,7 +34,7 @@ def covered(points, backend, *, size=SIZE):
     result = e3d.rasterization.rasterize(
         clip_at(points, size=size), [[0, 1, 2]], size, size, backend=backend
     )
-    return result.triangle_id == 0
+    return result.face_id == 0
 
 
 def edge(origin, to, point):
@@ -72,7 +72,7 @@ def test_top_left_rule_on_a_square_between_centers(backend):
     )
     expected = np.zeros((SIZE, SIZE), bool)
     expected[0:3, 0:3] = True
-    assert np.array_equal(result.triangle_id >= 0, expected)
+    assert np.array_equal(result.face_id >= 0, expected)
 
 
 @pytest.mark.parametrize("order", list(itertools.permutations(range(3))))
@@ -107,7 +107,7 @@ def test_positions_snap_to_nearest_even(backend, left, first, w):
     corners = [(left, 0), (512, 0), (512, 512), (left, 512)]
     clip = clip_at(corners, w=w, size=size)
     result = e3d.rasterization.rasterize(clip, [[0, 1, 2], [0, 2, 3]], size, size, backend=backend)
-    columns = np.nonzero((result.triangle_id >= 0).all(axis=0))[0]
+    columns = np.nonzero((result.face_id >= 0).all(axis=0))[0]
     assert columns[0] == first
 
 
@@ -139,7 +139,7 @@ def test_culling_goes_by_the_winding_on_the_screen(backend):
         result = e3d.rasterization.rasterize(
             counter_clockwise, faces, SIZE, SIZE, cull=cull, backend=backend
         )
-        assert (result.triangle_id >= 0).any() == visible
+        assert (result.face_id >= 0).any() == visible
 
 
 def test_not_finite_vertices_drop_their_triangles_only(backend):
@@ -150,7 +150,7 @@ def test_not_finite_vertices_drop_their_triangles_only(backend):
         result = e3d.rasterization.rasterize(
             broken, [[3, 4, 5], [0, 1, 2]], SIZE, SIZE, backend=backend
         )
-        assert set(np.unique(result.triangle_id)) == {-1, 1}
+        assert set(np.unique(result.face_id)) == {-1, 1}
         assert not np.isnan(result.depth).any() and np.isfinite(result.barycentric).all()
 
 
@@ -173,7 +173,7 @@ def test_barycentrics_are_perspective_correct(backend):
         w = 2.0 ** rng.integers(-3, 4, 3)
         clip = clip_at(points, w=w)
         result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], SIZE, SIZE, backend=backend)
-        for row, column in zip(*np.nonzero(result.triangle_id == 0), strict=True):
+        for row, column in zip(*np.nonzero(result.face_id == 0), strict=True):
             expected = exact_barycentrics(points, w, row, column)
             assert np.abs(result.barycentric[row, column] - expected).max() < 2e-6
 
@@ -183,10 +183,10 @@ def test_depth_is_linear_on_the_screen_and_within_its_vertices(backend):
     z = np.array([-0.75, 0.5, 0.125], np.float32)
     clip = clip_at(points, z=z, w=[1.0, 4.0, 0.5])
     result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], SIZE, SIZE, backend=backend)
-    for row, column in zip(*np.nonzero(result.triangle_id == 0), strict=True):
+    for row, column in zip(*np.nonzero(result.face_id == 0), strict=True):
         weights = exact_barycentrics(points, [1, 1, 1], row, column)
         assert abs(result.depth[row, column] - np.dot(weights, z)) < 1e-6
-    seen = result.depth[result.triangle_id == 0]
+    seen = result.depth[result.face_id == 0]
     assert len(seen) > 100 and seen.min() >= z.min() and seen.max() <= z.max()
 
 
@@ -194,7 +194,7 @@ def test_depth_is_linear_on_the_screen_and_within_its_vertices(backend):
 def test_constant_depth_is_kept_to_the_bit(backend, z):
     clip = clip_at([(-99, -77), (9001, 3), (5, 8999)], z=np.float32(z))
     result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], SIZE, SIZE, backend=backend)
-    assert (result.triangle_id == 0).all() and (result.depth == np.float32(z)).all()
+    assert (result.face_id == 0).all() and (result.depth == np.float32(z)).all()
 
 
 def test_nearer_wins_and_a_tie_goes_to_the_first(backend):
@@ -205,7 +205,7 @@ def test_nearer_wins_and_a_tie_goes_to_the_first(backend):
         faces = np.concatenate([quads[q] for q in order])
         result = e3d.rasterization.rasterize(clip, faces, SIZE, SIZE, backend=backend)
         first = min(order.index(1), order.index(2))
-        assert set(np.unique(result.triangle_id)) == {2 * first, 2 * first + 1}
+        assert set(np.unique(result.face_id)) == {2 * first, 2 * first + 1}
         assert (result.depth == 0.25).all()
 
 
@@ -213,7 +213,7 @@ def test_ties_between_slanted_triangles_go_to_the_first(backend):
     """The same triangle three times: one depth everywhere, and only the first shows."""
     clip = clip_at([(-600, 4500), (4700, 4400), (1800, -900)], z=[-0.7, 0.5, 0.1], w=[1, 4, 0.5])
     result = e3d.rasterization.rasterize(clip, [[0, 1, 2]] * 3, SIZE, SIZE, backend=backend)
-    assert set(np.unique(result.triangle_id)) <= {-1, 0}
+    assert set(np.unique(result.face_id)) <= {-1, 0}
 
 
 def test_far_plane_drops_fragments(backend):
@@ -221,7 +221,7 @@ def test_far_plane_drops_fragments(backend):
     corners = [(0, 0), (4096, 0), (4096, 4096), (0, 4096)]
     clip = clip_at(corners, z=[1.5, 0.5, 0.5, 1.5])
     result = e3d.rasterization.rasterize(clip, [[0, 1, 2], [0, 2, 3]], SIZE, SIZE, backend=backend)
-    seen = result.triangle_id >= 0
+    seen = result.face_id >= 0
     assert not seen[:, : SIZE // 2].any() and seen[:, SIZE // 2 :].all()
     assert result.depth[seen].max() <= 1.0 and np.isposinf(result.depth[~seen]).all()
 
@@ -230,7 +230,7 @@ def test_beyond_the_far_plane_nothing_shows(backend):
     beyond = float(np.nextafter(np.float32(1), np.float32(2)))
     clip = clip_at([(-99, -77), (9001, 3), (5, 8999)], z=beyond)
     result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], SIZE, SIZE, backend=backend)
-    assert (result.triangle_id == -1).all()
+    assert (result.face_id == -1).all()
 
 
 def visible_weights(clip, size, row, column):
@@ -260,7 +260,7 @@ def test_triangles_that_cross_the_near_plane(backend, seed):
         if min(np.abs(share).min(), abs(depth_margin)) < 0.02:
             continue  # near an edge: snapping decides
         inside = weights.sum() > 0 and share.min() > 0 and depth_margin > 0
-        assert (result.triangle_id[row, column] == 0) == inside
+        assert (result.face_id[row, column] == 0) == inside
         if inside:
             compared += 1
             assert np.abs(result.barycentric[row, column] - share).max() < 2e-3
@@ -279,7 +279,7 @@ def test_no_cracks_along_edges_cut_by_the_near_plane(backend):
         a = 9 * row + column
         for face in ([a, a + 1, a + 9], [a + 9, a + 1, a + 10]):
             result = e3d.rasterization.rasterize(clip, [face], 64, 64, backend=backend)
-            layers += result.triangle_id == 0
+            layers += result.face_id == 0
     below = layers[36:60, :]  # from near the horizon to near the near plane's line
     assert layers.max() == 1 and (below[:, 12:52] == 1).all()
 
@@ -288,7 +288,7 @@ def test_no_cracks_along_edges_cut_by_the_near_plane(backend):
 def test_a_triangle_over_everything_fills_every_size(backend, size):
     clip = np.array([[-1, -1, 0, 1], [3, -1, 0, 1], [-1, 3, 0, 1]], np.float32)
     result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], *size, backend=backend)
-    assert (result.triangle_id == 0).all() and (result.depth == 0).all()
+    assert (result.face_id == 0).all() and (result.depth == 0).all()
     assert np.abs(result.barycentric.sum(axis=-1) - 1).max() < 1e-6
 
 
@@ -297,5 +297,5 @@ def test_huge_coordinates_are_clipped_not_lost(backend, huge):
     """A half-plane whose vertices are far beyond the guard band still ends where it should."""
     clip = np.array([[0, -huge, 0, 1], [huge, 0, 0, 1], [0, huge, 0, 1]], np.float32)
     result = e3d.rasterization.rasterize(clip, [[0, 1, 2]], SIZE, SIZE, backend=backend)
-    seen = result.triangle_id == 0
+    seen = result.face_id == 0
     assert seen[:, SIZE // 2 :].all() and not seen[:, : SIZE // 2].any()

@@ -138,7 +138,7 @@ def test_ids_stay(impostor):
     scene.add(e3d.box(), translation=(0, 300, 0))
     group = things.add_to(scene)
     pose = e3d.look_at((0, 20, 20), (0, 0, -60))
-    outputs = ("object_id", "instance_id", "triangle_id")
+    outputs = ("object_id", "instance_id", "face_id")
     seen = []
     for _ in range(2):
         frame = e3d.render(scene, (CAMERA, pose), size=SIZE, outputs=outputs)

@@ -71,7 +71,7 @@ def test_ids_and_picking():
     balls = e3d.detail.DetailedMeshes(levels())
     scene = e3d.Scene()
     group = balls.add_to(scene)
-    outputs = ("object_id", "instance_id", "triangle_id")
+    outputs = ("object_id", "instance_id", "face_id")
     view = CAMERA, look(30.0)
     fine = e3d.render(scene, view, size=SIZE, outputs=outputs)
     assert balls.update(*view, SIZE)

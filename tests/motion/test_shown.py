@@ -60,7 +60,7 @@ def test_every_backend_draws_the_same():
         if node.skin:
             node.morph_weights = (0.5, 0.25)
     wriggle(joints, rng)
-    outputs = ("color", "depth", "normal", "object_id", "triangle_id")
+    outputs = ("color", "depth", "normal", "object_id", "face_id")
     frames = [
         e3d.Renderer(160, 120, backend=name, threads=threads).render(scene, view(), outputs=outputs)
         for name in e3d.backends()
@@ -102,7 +102,7 @@ def test_rays_meet_what_is_bent():
     renderer = e3d.Renderer(64, 48)
     for _ in range(2):
         wriggle(joints, rng)
-        outputs = ("depth", "object_id", "triangle_id", "instance_id")
+        outputs = ("depth", "object_id", "face_id", "instance_id")
         frame = renderer.render(scene, view(), outputs=outputs)
         apart = []  # along the view; at silhouettes, snapping moves steep faces
         for y in range(4, 48, 8):

@@ -28,8 +28,8 @@ def inside_out(mesh, some=slice(None)):
 
 
 def picture(renderer, scene, cull, camera=None):
-    frame = renderer.render(scene, camera, cull=cull, outputs=("color", "triangle_id"))
-    return frame.color.copy(), frame.triangle_id.copy(), dict(frame.stats)
+    frame = renderer.render(scene, camera, cull=cull, outputs=("color", "face_id"))
+    return frame.color.copy(), frame.face_id.copy(), dict(frame.stats)
 
 
 @pytest.fixture
@@ -232,8 +232,6 @@ def test_instances_and_a_mirrored_node(renderer):
 
 def test_picking_takes_what_shows(renderer):
     scene = scene_of(inside_out(box((1, 1, 1))))
-    frame = renderer.render(
-        scene, cull="auto", outputs=("color", "depth", "triangle_id", "object_id")
-    )
+    frame = renderer.render(scene, cull="auto", outputs=("color", "depth", "face_id", "object_id"))
     hit = scene.pick(frame, 80, 60)
-    assert hit.face == frame.triangle_id[60, 80]
+    assert hit.face == frame.face_id[60, 80]

@@ -5,7 +5,7 @@ import pytest
 
 import engine3d as e3d
 
-OUTPUTS = ("color", "depth", "ndc_depth", "object_id", "instance_id", "triangle_id", "barycentric")
+OUTPUTS = ("color", "depth", "ndc_depth", "object_id", "instance_id", "face_id", "barycentric")
 EYES = [(0.5, 0.3, 9), (6, 5, 7), (0.2, 0.1, 0.4), (-3, 0, -2), (0, 14, 0.1)]
 
 

@@ -7,7 +7,7 @@ import engine3d as e3d
 
 SIZE = (96, 64)
 #: What is mirrored along x shows the same in these, left and right exchanged.
-OUTPUTS = ("color", "depth", "triangle_id", "object_id", "world_normal", "barycentric")
+OUTPUTS = ("color", "depth", "face_id", "object_id", "world_normal", "barycentric")
 
 
 def scene_of_a_kind():
@@ -39,8 +39,8 @@ def test_it_shows_the_same_reversed(backend, options):
     scene, camera = scene_of_a_kind(), e3d.PerspectiveCamera(0.8)
     options = {"backend": backend, "size": SIZE, "outputs": OUTPUTS, **options}
     plain, mirrored = (e3d.render(scene, (camera, pose), **options) for pose in poses())
-    same = plain.triangle_id == mirrored.triangle_id[:, ::-1]
-    assert same.mean() > 0.98 and (plain.triangle_id >= 0).mean() > 0.3
+    same = plain.face_id == mirrored.face_id[:, ::-1]
+    assert same.mean() > 0.98 and (plain.face_id >= 0).mean() > 0.3
     for name in ("world_normal", "depth"):
         a, b = getattr(plain, name)[same], getattr(mirrored, name)[:, ::-1][same]
         assert np.allclose(a, b, atol=1e-3), name
@@ -49,12 +49,10 @@ def test_it_shows_the_same_reversed(backend, options):
         assert np.abs(difference[same]).max() <= 2
 
 
-@pytest.mark.parametrize(
-    "outputs", [("color",), ("color", "object_id", "instance_id", "triangle_id")]
-)
+@pytest.mark.parametrize("outputs", [("color",), ("color", "object_id", "instance_id", "face_id")])
 def test_picking_finds_what_shows(outputs):
     scene, camera = scene_of_a_kind(), e3d.PerspectiveCamera(0.8)
-    known = ("object_id", "triangle_id")
+    known = ("object_id", "face_id")
     for pose in poses():
         frame = e3d.render(scene, (camera, pose), size=SIZE, outputs=outputs)
         shown = e3d.render(scene, (camera, pose), size=SIZE, outputs=known)
@@ -64,6 +62,6 @@ def test_picking_finds_what_shows(outputs):
                 hit, number = scene.pick(frame, x, y), shown.object_id[y, x]
                 assert (hit is None) == (number < 0), (x, y)
                 if hit is not None:
-                    assert (hit.node.id, hit.face) == (number, shown.triangle_id[y, x])
+                    assert (hit.node.id, hit.face) == (number, shown.face_id[y, x])
                     picked += 1
         assert picked > 20

@@ -74,9 +74,9 @@ def test_random_meshes(backend, seed):
     faces = rng.permutation(np.array(faces))
     forward = e3d.rasterization.rasterize(clip, faces, SIZE, SIZE, backend=backend)
     backward = e3d.rasterization.rasterize(clip, faces[::-1], SIZE, SIZE, backend=backend)
-    assert (forward.triangle_id >= 0).all(), "holes"
+    assert (forward.face_id >= 0).all(), "holes"
     assert (forward.depth == 0).all()
-    assert np.array_equal(forward.triangle_id, len(faces) - 1 - backward.triangle_id), "twice"
+    assert np.array_equal(forward.face_id, len(faces) - 1 - backward.face_id), "twice"
 
 
 @pytest.mark.parametrize("order", [(0, 2, 1), (1, 0, 2), (1, 2, 0), (2, 0, 1), (2, 1, 0)])
@@ -90,7 +90,7 @@ def test_order_of_vertices(backend, order):
     faces = np.arange(450).reshape(-1, 3)
     plain = e3d.rasterization.rasterize(clip, faces, SIZE, SIZE, backend=backend)
     turned = e3d.rasterization.rasterize(clip, faces[:, order], SIZE, SIZE, backend=backend)
-    assert np.array_equal(plain.triangle_id, turned.triangle_id)
+    assert np.array_equal(plain.face_id, turned.face_id)
 
 
 def layers_color(count, backend):

@@ -88,7 +88,7 @@ def window():
 
 @functools.cache
 def frame():
-    every = ("color", "depth", "ndc_depth", "object_id", "instance_id", "triangle_id")
+    every = ("color", "depth", "ndc_depth", "object_id", "instance_id", "face_id")
     return draw(outputs=every)
 
 

@@ -39,7 +39,7 @@ def test_invalid_options():
 
 def test_nothing_to_draw():
     result = e3d.rasterization.rasterize(np.zeros((0, 4)), np.zeros((0, 3), int), 3, 2)
-    assert result.triangle_id.tolist() == [[-1] * 3] * 2
+    assert result.face_id.tolist() == [[-1] * 3] * 2
     assert np.isposinf(result.depth).all()
     assert result.barycentric.shape == (2, 3, 3)
     assert not result.barycentric.any()

@@ -179,7 +179,7 @@ def test_many_need_as_many():
         e3d.Scene().raycast_many(np.zeros((2, 3)), np.ones((3, 3)))
 
 
-IDS = ("object_id", "instance_id", "triangle_id")
+IDS = ("object_id", "instance_id", "face_id")
 
 
 @pytest.mark.parametrize("exact", [True, False])
@@ -222,7 +222,7 @@ def test_picking_lines_and_removed_nodes():
 def test_picking_what_is_not_there_any_more():
     """A mesh with fewer faces, fewer instances than the frame shows."""
     camera = e3d.PerspectiveCamera(yfov=1.0), e3d.look_at((0, 0, 5), (0, 0, 0))
-    outputs = ("object_id", "instance_id", "triangle_id")
+    outputs = ("object_id", "instance_id", "face_id")
     mesh = e3d.icosphere(1.0, 1)
     crowd = e3d.InstancedMesh(mesh, [(9, 0, 0, 1), (0, 0, 0, 1)])
     scene = e3d.Scene()

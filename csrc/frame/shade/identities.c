@@ -48,7 +48,7 @@ static void find_primitives(const e3d_shade_in *in, e3d_instance_finder *finder,
 
 /* ---- what is written of them ---- */
 
-static const e3d_output_kind IDENTITIES[] = {E3D_OUTPUT_TRIANGLE_ID, E3D_OUTPUT_OBJECT_ID, E3D_OUTPUT_INSTANCE_ID, E3D_OUTPUT_MATERIAL_ID};
+static const e3d_output_kind IDENTITIES[] = {E3D_OUTPUT_FACE_ID, E3D_OUTPUT_OBJECT_ID, E3D_OUTPUT_INSTANCE_ID, E3D_OUTPUT_MATERIAL_ID};
 enum { KINDS = sizeof IDENTITIES / sizeof *IDENTITIES,
        NOTHING = -1 };
 
@@ -60,7 +60,7 @@ static int32_t material_id(const e3d_frame *frame, const e3d_draw_state *draw, i
 
 static void find_values(const e3d_frame *frame, e3d_output_kind kind, const owners *of, int32_t *values)
 {
-    for (int32_t n = 0; n < of->count && kind == E3D_OUTPUT_TRIANGLE_ID; n++)
+    for (int32_t n = 0; n < of->count && kind == E3D_OUTPUT_FACE_ID; n++)
         values[n] = e3d_face_of(of->draw[n], of->primitive[n]);
     for (int32_t n = 0; n < of->count && kind == E3D_OUTPUT_OBJECT_ID; n++)
         values[n] = e3d_object_id(of->draw[n]->draw, of->instance[n]);

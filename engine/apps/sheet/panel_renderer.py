@@ -25,7 +25,7 @@ from ...stage.viewed_scene import ViewedScene
 from ...stage.views.viewpoint import UP_DIRECTIONS
 from .layout import Rectangle
 
-OUTPUTS = ("color", "depth", "object_id", "instance_id", "material_id", "triangle_id")
+OUTPUTS = ("color", "depth", "object_id", "instance_id", "material_id", "face_id")
 _SMALL = (160, 120)
 _SAMPLES = 4
 #: Radius of ambient occlusion, in radii of the model.

@@ -17,6 +17,7 @@
 #include "check/driver/picture.h"
 #include "check/driver/renderers.h"
 #include "check/driver/scenes.h"
+#include "check/driver/scenes/clip_triangles.h"
 #include "check/driver/scenes/shadow_scene.h"
 
 /* What other libraries in a process may have done: the core must neither notice nor undo it. */

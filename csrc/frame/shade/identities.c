@@ -52,12 +52,6 @@ static const e3d_output_kind IDENTITIES[] = {E3D_OUTPUT_FACE_ID, E3D_OUTPUT_OBJE
 enum { KINDS = sizeof IDENTITIES / sizeof *IDENTITIES,
        NOTHING = -1 };
 
-static int32_t material_id(const e3d_frame *frame, const e3d_draw_state *draw, int32_t primitive)
-{
-    int32_t face = e3d_face_of(draw, primitive);
-    return frame->materials[draw->draw->material_base + (face < 0 ? 0 : e3d_material_of(draw, face))].id;
-}
-
 static void find_values(const e3d_frame *frame, e3d_output_kind kind, const owners *of, int32_t *values)
 {
     for (int32_t n = 0; n < of->count && kind == E3D_OUTPUT_FACE_ID; n++)
@@ -67,7 +61,7 @@ static void find_values(const e3d_frame *frame, e3d_output_kind kind, const owne
     for (int32_t n = 0; n < of->count && kind == E3D_OUTPUT_INSTANCE_ID; n++)
         values[n] = e3d_instance_id(of->draw[n]->draw, of->instance[n]);
     for (int32_t n = 0; n < of->count && kind == E3D_OUTPUT_MATERIAL_ID; n++)
-        values[n] = material_id(frame, of->draw[n], of->primitive[n]);
+        values[n] = e3d_material_at(frame, of->draw[n], of->primitive[n])->id;
 }
 
 /* ---- samples to pixels ---- */

@@ -234,10 +234,10 @@ def walls() -> np.ndarray:
     matt = e3d.Material(), e3d.Material(metallic=0.0, roughness=1.0, specular_intensity=0.0)
     bright = np.linspace(0.2, 1.0, 16)[:, np.newaxis, np.newaxis] * np.ones((16, 32, 3))
     lights = {
-        "directional, π": e3d.DirectionalLight(),
-        "directional, π/2": e3d.DirectionalLight(intensity=math.pi / 2),
-        "point, π": e3d.PointLight(),
-        "spot, π": e3d.SpotLight(outer_cone_angle=0.7),
+        "directional, pi": e3d.DirectionalLight(),
+        "directional, pi/2": e3d.DirectionalLight(intensity=math.pi / 2),
+        "point, pi": e3d.PointLight(),
+        "spot, pi": e3d.SpotLight(outer_cone_angle=0.7),
         "environment": e3d.Environment(bright[::-1]),
     }
     camera = e3d.OrthographicCamera(1.0), e3d.look_at((0, 0, 5), (0, 0, 0))

@@ -196,8 +196,7 @@ _NAMES: dict[str, dict[str, str]] = {
         "receiveShadow": "receive_shadows",
         "receive_shadow": "receive_shadows",
         "hide": "visible",
-        "look_at": "pose = engine3d.look_at(eye, target)",
-        "lookAt": "pose = engine3d.look_at(eye, target)",
+        "lookAt": "look_at",
         "add": "scene.add(..., parent=node)",
     },
     "Scene": {

@@ -5,6 +5,7 @@ In: a mesh and a matrix, neither checked. Out: another mesh, with everything tha
 
 from __future__ import annotations
 
+import copy
 from typing import TYPE_CHECKING
 
 from numpy.typing import ArrayLike
@@ -13,7 +14,6 @@ from ...base.linalg import inverse
 from ...base.validation import matrix4
 from ...errors import InvalidArgumentError
 from .posing import posed_mesh
-from .twins import twin_of
 
 if TYPE_CHECKING:
     from .mesh import Mesh
@@ -30,8 +30,7 @@ def transformed_mesh(mesh: Mesh, matrix: ArrayLike) -> Mesh:
             f"{mesh!r} has joints or morph targets: set the pose of its node or its joints instead"
         )
     moved = posed_mesh(mesh, pose)
-    if moved is mesh:
-        return twin_of(mesh, mesh.materials, mesh.name)
+    moved = copy.copy(mesh) if moved is mesh else moved
     moved._scalars.update(mesh._scalars)
     moved.warnings = list(mesh.warnings)
     return moved

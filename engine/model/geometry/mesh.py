@@ -372,7 +372,6 @@ class Mesh(Closed):
         colors: ArrayLike | None = None,
         materials: Iterable[Material] | None = None,
         material_ids: ArrayLike | None = None,
-        crease_angle: float = SMOOTH,
         name: str = "",
     ) -> Mesh:
         """Return a mesh of polygons, which are cut into triangles as those of files are.
@@ -383,7 +382,7 @@ class Mesh(Closed):
         polygons : iterable of (N,) int
             The vertex indices of each polygon, three or more, counter-clockwise as seen from its
             front. It may be concave, but has no holes.
-        normals, uvs, colors, materials, crease_angle, name
+        normals, uvs, colors, materials, name
             As in the constructor: for each vertex.
         material_ids : (P,) int, optional
             The material of each polygon.
@@ -402,7 +401,7 @@ class Mesh(Closed):
 
         attributes = {"normals": normals, "uvs": uvs, "colors": colors, "materials": materials}
         mesh = mesh_of_polygons(cls, positions, polygons, material_ids, attributes)
-        mesh.crease_angle, mesh.name = crease_angle, text(name, "name")
+        mesh.name = text(name, "name")
         return mesh
 
     def copy(self) -> Mesh:
@@ -411,9 +410,10 @@ class Mesh(Closed):
         Its materials are copies, too; textures and morph targets are shared, as are the read-only
         arrays, so that a copy takes no memory for them.
         """
-        from .twins import twin_of
-
-        return twin_of(self, [copy.copy(material) for material in self.materials], self.name)
+        made = copy.copy(self)
+        made.materials = [copy.copy(material) for material in self.materials]
+        made.warnings = list(self.warnings)
+        return made
 
     @checks_types
     def transformed(self, matrix: ArrayLike) -> Mesh:

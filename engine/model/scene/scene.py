@@ -292,7 +292,7 @@ class Scene(Surroundings, SceneQueries):
         again. Meshes, instances, materials, textures and environments are shared: replace
         ``node.object`` by ``node.object.copy()`` before changing one.
         """
-        from .copies import copied_scene
+        from ._copies import copied_scene
 
         return copied_scene(self)
 

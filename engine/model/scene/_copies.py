@@ -7,22 +7,20 @@ them from picture to picture; meshes, materials, textures and environments are s
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable
-from typing import Any, TypeVar
-from weakref import ref
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..motion.clips import AnimationClip, Channel
 from ..motion.properties import PropertyChannel
 from ..motion.skins import Skin
-from .animation import Animator, Spin, Track, motions_of, set_motions
 from .cameras import Camera
 from .lights import LIGHTS
 from .nodes import Node
-from .scene import Scene
 from .surroundings import SCENE_VALUES
 
+if TYPE_CHECKING:
+    from .scene import Scene
+
 Thing = TypeVar("Thing")
-Motion = TypeVar("Motion", Spin, Track)
 
 
 class _Copies:
@@ -47,7 +45,7 @@ class _Copies:
 
 def copied_scene(scene: Scene) -> Scene:
     """Return a copy of a scene; see `Scene.copy`."""
-    made, copies = Scene(), _Copies()
+    made, copies = type(scene)(), _Copies()
     for name in SCENE_VALUES:
         setattr(made, name, getattr(scene, name))
     for node in scene.nodes:
@@ -56,7 +54,7 @@ def copied_scene(scene: Scene) -> Scene:
         _complete(copies.of(node), node, copies)
     made.animations = {name: _copied_clip(c, copies) for name, c in scene.animations.items()}
     if scene.animator is not None:
-        made.animator = _copied_animator(scene.animator, made, copies)
+        made.animator = scene.animator.copied(made, copies.of)
     made.warnings = list(scene.warnings)
     return made
 
@@ -97,23 +95,3 @@ def _copied_channel(
     if isinstance(channel, Channel):
         return Channel(copies.of(channel.node), channel.path, *keys)
     return PropertyChannel(copies.of(channel.target), channel.path, *keys)
-
-
-def _copied_animator(animator: Animator, made: Scene, copies: _Copies) -> Animator:
-    copied = Animator(made, full_rate_distance=animator.full_rate_distance)
-    spins, tracks = motions_of(animator)
-    set_motions(copied, (_copied_motions(spins, copies), _copied_motions(tracks, copies)))
-    copied.time, copied.paused, copied._updates = animator.time, animator.paused, animator._updates
-    return copied
-
-
-def _copied_motions(motions: Iterable[Motion], copies: _Copies) -> tuple[Motion, ...]:
-    """Return the motions of the nodes that are copied, without those of removed ones."""
-    made = []
-    for motion in motions:
-        node = motion.node
-        if node is not None and copies.of(node) is not node:
-            copied = copy.copy(motion)
-            copied._node = ref(copies.of(node))
-            made.append(copied)
-    return tuple(made)

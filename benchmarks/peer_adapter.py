@@ -167,14 +167,12 @@ def lights(scene):
     elif scene.light_pos is not None:
         for (x, y, z, radius), color in zip(scene.light_pos, scene.light_col, strict=True):
             color = tuple(map(float, color[:3]))
-            light = e3d.PointLight(
-                color=color, intensity=1.0, range=float(radius), falloff="window"
-            )
+            light = e3d.PointLight(color=color, range=float(radius), falloff="window")
             yield light, (float(x), float(y), float(z))
     elif scene.mode in ("lit", "skin", "glass", "shadow"):
         strength = 1.0 - float(scene.ambient)
         direction = tuple(-float(c) for c in scene.light_dir)
-        light = e3d.DirectionalLight(direction=direction, color=(strength,) * 3, intensity=1.0)
+        light = e3d.DirectionalLight(direction=direction, color=(strength,) * 3)
         if scene.mode == "shadow":
             light.shadow, light.shadow_map_size = True, int(scene.shadow.size)
             light.shadow_cascades = 1  # one map, as the description has it
@@ -182,9 +180,9 @@ def lights(scene):
 
 
 def physical_lights(scene):
-    """A sun and lamps, in units in which a white surface that faces 1 shows 1: pi lux."""
+    """A sun and lamps; a white surface that faces one shows its colour."""
     direction = tuple(-float(c) for c in scene.light_dir)
-    yield e3d.DirectionalLight(direction=direction, intensity=np.pi), None
+    yield e3d.DirectionalLight(direction=direction), None
     for (x, y, z, _), color in zip(scene.light_pos, scene.light_col, strict=True):
         color = tuple(map(float, color[:3]))
-        yield e3d.PointLight(color=color, intensity=np.pi), (float(x), float(y), float(z))
+        yield e3d.PointLight(color=color), (float(x), float(y), float(z))

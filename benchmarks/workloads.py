@@ -67,7 +67,7 @@ def lights():
     scene.add(sphere)
     rng = np.random.default_rng(6)
     for position in rng.uniform(-1.5, 1.5, (8, 3)):
-        light = e3d.PointLight(color=tuple(rng.uniform(0.2, 1, 3)), intensity=0.1)
+        light = e3d.PointLight(color=tuple(rng.uniform(0.2, 1, 3)), intensity=0.1 * np.pi)
         scene.add(light, translation=tuple(position + (0, 0, 1)))
     return scene
 

@@ -31,7 +31,6 @@ __all__ = [
     "ImageFormat",
     "Interpolation",
     "LightShadow",
-    "LightUnit",
     "LineShape",
     "Loop",
     "Mode",
@@ -88,7 +87,6 @@ ToneMapping = Literal["none", "neutral", "aces", "agx"]
 Filter = Literal["trilinear", "bilinear", "nearest"]
 Wrap = Literal["repeat", "clamp", "mirror"]
 Falloff = Literal["inverse_square", "window", "gltf"]
-LightUnit = Literal["photometric", "white"]
 LightShadow = Literal[False, True, "exact"]
 ShadowTaps = Literal[1, 3, 5]
 AlphaMode = Literal["opaque", "mask", "blend"]

@@ -91,7 +91,7 @@ def engine_floor(width, height, segments=1, normals="auto"):
     """Return the engine's picture of the floor under the white light."""
     scene = e3d.Scene(background=(0, 0, 0), ambient=(0, 0, 0), light_clamp=CLAMP)
     scene.add(e3d.plane((SIDE * width / height, SIDE), segments))
-    scene.add(e3d.PointLight(intensity=INTENSITY), translation=LIGHT)
+    scene.add(e3d.PointLight(intensity=math.pi * INTENSITY), translation=LIGHT)
     camera = e3d.OrthographicCamera(SIDE / 2), e3d.look_at((0, 5, 0), (0, 0, 0), (0, 0, -1))
     how = {"color_space": "linear", "normals": normals}
     frame = e3d.render(scene, camera, size=(width, height), **how)

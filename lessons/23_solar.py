@@ -1,5 +1,6 @@
 """Resources that are loaded once, transforms, and a tree of nodes: Sun, Earth and Moon."""
 
+import math
 import weakref
 from pathlib import Path
 
@@ -106,7 +107,7 @@ BALLS = {
 def draw(poses, width, height):
     """Return the engine's picture of balls at the given world matrices."""
     scene = e3d.Scene(background=(8, 9, 16), ambient=(0.05, 0.05, 0.08))
-    scene.add(e3d.PointLight(intensity=9.0), translation=(0.0, 0.0, 0.0))
+    scene.add(e3d.PointLight(intensity=9.0 * math.pi), translation=(0.0, 0.0, 0.0))
     for name, pose in poses.items():
         ball = e3d.uv_sphere(1.0, (24, 12))
         glow = BALLS[name] if name == "sun ball" else (0, 0, 0)

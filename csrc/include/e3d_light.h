@@ -91,12 +91,11 @@ e3d_status e3d_find_shadow_ranges(const float *depths, int32_t size, int32_t tap
 typedef struct e3d_light {
     e3d_light_kind kind;
     e3d_falloff falloff;
-    float color[3];      /* colour times intensity, in the frame's working space */
+    float color[3];      /* colour times intensity, in the frame's working space: lux without a position, candela with one */
     float to_light[3];   /* unit vector to the light along its axis, in the world; not of lights that shine evenly from a place */
     float position[3];   /* the position in the world, if the light has one */
     /* If it has a position: the light is exactly 0 from this distance on; may be +inf (not with E3D_FALLOFF_WINDOW) */
     float range;
-    float lux[3];        /* color's counterpart for physically based materials: lux without a position, candela with one */
     float cone[2];       /* E3D_EMITS_CONE: the cosine of the outer angle, and 1 over (cosine of the inner angle - that) */
     e3d_light_shadow shadow; /* falls on lit surfaces that receive shadows */
 } e3d_light;

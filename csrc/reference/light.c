@@ -1,6 +1,6 @@
 /* Light: the Blinn-Phong sum over the lights, in their order.
  * In: a surface, the frame's lights. Out: its linear colour, not yet clamped.
- * Rules: R31, R90, R130, and the attenuations there. A light that is out of range adds nothing at all. */
+ * Rules: R31, R54, R90, R130, R154, and the attenuations there. A light that is out of range adds nothing at all. */
 #include "reference/arithmetic.h"
 #include "reference/surface.h"
 
@@ -78,13 +78,24 @@ void ref_ambient(const e3d_frame *frame, const float normal[3], float out[3])
     }
 }
 
+void ref_irradiance(const e3d_frame *frame, const float normal[3], float out[3])
+{
+    float more[3];
+    ref_ambient(frame, normal, out);
+    if (!frame->environment.environment)
+        return;
+    ref_environment_irradiance(&frame->environment, normal, more);
+    for (int c = 0; c < 3; c++)
+        out[c] = out[c] + more[c];
+}
+
 void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3])
 {
     const e3d_material *material = surface->piece->primitive.material;
     const float *specular = material->specular;
     int shiny = specular[0] != 0.0f || specular[1] != 0.0f || specular[2] != 0.0f;
     float diffuse_sum[3], specular_sum[3] = {0.0f, 0.0f, 0.0f};
-    ref_ambient(frame, surface->world_normal, diffuse_sum);
+    ref_irradiance(frame, surface->world_normal, diffuse_sum);
     for (int c = 0; c < 3; c++)
         diffuse_sum[c] = diffuse_sum[c] * surface->visibility;
     for (int32_t n = 0; n < frame->light_count; n++) {
@@ -99,8 +110,9 @@ void ref_light(const e3d_frame *frame, const ref_surface *surface, float out[3])
         float e = attenuation * cosine;
         float k = shiny && cosine > 0.0f ? highlight(frame, surface, l, material->shininess) : 0.0f;
         for (int c = 0; c < 3; c++) {
-            diffuse_sum[c] = diffuse_sum[c] + light->color[c] * e;
-            specular_sum[c] = specular_sum[c] + light->color[c] * (attenuation * k);
+            float shown = light->color[c] * E3D_OVER_PI; /* R154 */
+            diffuse_sum[c] = diffuse_sum[c] + shown * e;
+            specular_sum[c] = specular_sum[c] + shown * (attenuation * k);
         }
     }
     for (int c = 0; c < 3; c++) {

@@ -155,18 +155,18 @@ static void add_light(const e3d_frame *frame, int32_t n, const ref_surface *s, c
         float fresnel = at->f0[c] + (at->f90 - at->f0[c]) * w5;
         if (is_iridescent(s))
             fresnel = fresnel + (at->film[c] - fresnel) * s->physical.iridescence;
-        out->direct[c] = out->direct[c] + light->lux[c] * (at->diffuse[c] * keep + d * fresnel);
+        out->direct[c] = out->direct[c] + light->color[c] * (at->diffuse[c] * keep + d * fresnel);
     }
     float coat_nl = ref_dot3(at->coat.normal, l);
     if (material->physical.clearcoat != 0.0f && coat_nl > 0.0f) {
         float coat = reflect(&at->coat, &h, coat_nl) * (attenuation * coat_nl);
         for (int c = 0; c < 3; c++)
-            out->coat[c] = out->coat[c] + light->lux[c] * coat;
+            out->coat[c] = out->coat[c] + light->color[c] * coat;
     }
     if (has_sheen(material)) {
         float fuzz = reflect_fuzz(at, &h, nl) * e;
         for (int c = 0; c < 3; c++)
-            out->fuzz[c] = out->fuzz[c] + light->lux[c] * fuzz;
+            out->fuzz[c] = out->fuzz[c] + light->color[c] * fuzz;
     }
 }
 
@@ -192,18 +192,6 @@ static void find_f0(const ref_surface *s, float nv, float other[3], float metal[
     ref_iridescence_f0(cosine, film, f0);
     for (int c = 0; c < 3; c++)
         metal[c] = metal[c] + (f0[c] - metal[c]) * p->iridescence;
-}
-
-/* R54: the irradiance at a normal. */
-static void find_irradiance(const e3d_frame *frame, const float normal[3], float out[3])
-{
-    float more[3];
-    ref_ambient(frame, normal, out);
-    if (!frame->environment.environment)
-        return;
-    ref_environment_irradiance(&frame->environment, normal, more);
-    for (int c = 0; c < 3; c++)
-        out[c] = out[c] + more[c];
 }
 
 /* R54: the radiance that a lobe mirrors. */
@@ -290,7 +278,7 @@ void ref_light_physical(const e3d_frame *frame, const ref_surface *surface, floa
     float irradiance[3], indirect[3];
     for (int32_t n = 0; n < frame->light_count; n++)
         add_light(frame, n, surface, &at, &lights);
-    find_irradiance(frame, surface->world_normal, irradiance);
+    ref_irradiance(frame, surface->world_normal, irradiance);
     find_indirect(frame, surface, &at, irradiance, indirect);
     for (int c = 0; c < 3; c++)
         out[c] = lights.direct[c] + indirect[c] * occlusion_of(surface);

@@ -78,6 +78,8 @@ float ref_albedo(e3d_dfg kind, float roughness, float cosine);
 /* light.c */
 /* R130: the ambient light that white surfaces of that normal show. */
 void ref_ambient(const e3d_frame *frame, const float normal[3], float out[3]);
+/* R54: that and the irradiance of an environment. */
+void ref_irradiance(const e3d_frame *frame, const float normal[3], float out[3]);
 /* Finds the unit vector from p to the light, and its attenuation, by the formula of R51 if by_product; returns 0 if the light
  * is out of range. */
 int ref_light_reach(const e3d_light *light, const float p[3], int by_product, float l[3], float *attenuation);

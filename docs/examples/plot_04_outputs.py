@@ -6,6 +6,8 @@ Beside colour, a frame has other outputs for the same pixels: distances, normals
 which object, material or triangle each pixel shows. They are never blended at edges.
 """
 
+import math
+
 import numpy as np
 
 import engine3d as e3d
@@ -14,7 +16,7 @@ scene = e3d.Scene(background=(230, 233, 238), ambient=(0.3, 0.3, 0.3))
 scene.add(e3d.plane(8.0), name="floor")
 scene.add(e3d.uv_sphere(0.8), name="ball", translation=(-0.9, 0.8, 0.0))
 block = scene.add(e3d.box(1.2), name="box", translation=(1.0, 0.6, 0.4))
-scene.add(e3d.DirectionalLight((-0.4, -1.0, -0.5), intensity=0.6))
+scene.add(e3d.DirectionalLight((-0.4, -1.0, -0.5), intensity=0.6 * math.pi))
 camera = e3d.PerspectiveCamera(0.6), e3d.look_at((2.5, 3.0, 6.0), (0.0, 0.5, 0.0))
 outputs = ("color", "depth", "world_normal", "object_id")
 frame = e3d.render(scene, camera, size=(360, 240), outputs=outputs)

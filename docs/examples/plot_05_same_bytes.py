@@ -7,6 +7,7 @@ the hashes of pictures.
 """
 
 import hashlib
+import math
 
 import engine3d as e3d
 
@@ -15,7 +16,7 @@ for number in range(40):
     angle = 0.157 * number
     x, z = 2.0 * e3d.linalg.cos(angle), 2.0 * e3d.linalg.sin(angle)
     scene.add(e3d.icosphere(0.25), translation=(x, 0.05 * number - 1.0, z))
-scene.add(e3d.PointLight(color=(1.0, 0.8, 0.5), intensity=4.0))
+scene.add(e3d.PointLight(color=(1.0, 0.8, 0.5), intensity=4.0 * math.pi))
 
 digests = {}
 for backend in e3d.backends():

@@ -63,8 +63,8 @@ def stand(scene, name, *, at, height, turn=0.0, up="y"):
 def add_daylight(scene):
     """A warm sun from the upper right and a faint cool light from the other side."""
     scene.ambient = (0.20, 0.23, 0.27)
-    scene.add(e3d.DirectionalLight((-0.55, -0.75, -0.55), (1.0, 0.94, 0.82), 0.92))
-    scene.add(e3d.DirectionalLight((0.7, -0.25, 0.5), (0.65, 0.80, 1.0), 0.18))
+    scene.add(e3d.DirectionalLight((-0.55, -0.75, -0.55), (1.0, 0.94, 0.82), 0.92 * math.pi))
+    scene.add(e3d.DirectionalLight((0.7, -0.25, 0.5), (0.65, 0.80, 1.0), 0.18 * math.pi))
 
 
 def draw(scene, camera, size, **options) -> np.ndarray:
@@ -233,6 +233,33 @@ def materials() -> np.ndarray:
     return draw(scene, look((0.9, 0.5, 9.5), (0.05, 0.0, 0.0)), (1120, 660))
 
 
+def walls() -> np.ndarray:
+    """White matt walls under each light: left of the middle not physical, right of it physical."""
+    matt = e3d.Material(), e3d.Material(metallic=0.0, roughness=1.0, specular_intensity=0.0)
+    bright = np.linspace(0.2, 1.0, 16)[:, np.newaxis, np.newaxis] * np.ones((16, 32, 3))
+    lights = {
+        "directional, pi": e3d.DirectionalLight(),
+        "directional, pi/2": e3d.DirectionalLight(intensity=math.pi / 2),
+        "point, pi": e3d.PointLight(),
+        "spot, pi": e3d.SpotLight(outer_cone_angle=0.7),
+        "environment": e3d.Environment(bright[::-1]),
+    }
+    camera = e3d.OrthographicCamera(1.0), e3d.look_at((0, 0, 5), (0, 0, 0))
+    tiles = []
+    for name, light in lights.items():
+        scene = e3d.Scene(background=PAPER, ambient=(0, 0, 0))
+        for side, material in zip((-1, 1), matt, strict=True):
+            wall = e3d.box((0.85, 1.5, 0.1))
+            wall.materials = [material]
+            scene.add(wall, translation=(0.425 * side, 0, -0.05))
+        if isinstance(light, e3d.Environment):
+            scene.environment = light
+        else:
+            scene.add(light, translation=(0, 0, 1))
+        tiles.append((name, draw(scene, camera, (220, 220))))
+    return sheet(tiles, 5)
+
+
 def viewer() -> np.ndarray:
     """What the viewer's window shows: a model with its edges, grid, axes, what the file holds."""
     settings = Settings(appearance={"wireframe": "overlay"}, grid=True, axes=True, metadata=True)
@@ -312,6 +339,7 @@ PICTURES = {
     "filters": filters,
     "scenes": scenes,
     "materials": materials,
+    "walls": walls,
     "viewer": viewer,
     "city": city,
     "impostors": impostors,

@@ -397,17 +397,16 @@ cdef class NativeDrawList:
         self.textures[index] = textures
         self.material_count = max(self.material_count, index + 1)
 
-    def add_light(self, int kind, color, lux, *, float range, int falloff, cone):
+    def add_light(self, int kind, color, *, float range, int falloff, cone):
         """Add a light, which is then moved and turned to where it is.
 
-        ``lux`` is the colour times the intensity as physically based materials take it.
+        ``color`` is times the intensity: lux of lights without a position, candela of others.
         """
         self.lights = <e3d_light *>grown(self.lights, self.light_count, &self.light_capacity, sizeof(e3d_light))
         cdef e3d_light *light = &self.lights[self.light_count]
         memset(light, 0, sizeof(e3d_light))
         light.kind = <e3d_light_kind>kind
         copy_vector(light.color, color, 3)
-        copy_vector(light.lux, lux, 3)
         light.range = range
         light.falloff = <e3d_falloff>falloff
         copy_vector(light.cone, cone, 2)

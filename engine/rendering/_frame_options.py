@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import Any, TypeAlias, TypeVar, cast
 
@@ -25,10 +25,12 @@ from ..model.environments.environment import Environment
 from ..model.materials.display_colors import display_color, exact_display_color, shading_color
 from ..model.scene.fog import Fog
 from ..model.scene.gradients import Gradient
+from ..model.scene.lights import WHITE_INTENSITY
 from ..model.scene.staged_scene import AnyScene
 from ..model.scene.surroundings import SCENE_VALUES
 from ._tone_inverse import light_that_shows
 from .draw_list.draw_list import Listing
+from .draw_list.light_list import Headlight
 from .draw_list.native_handles import MeshNeeds, native_environment
 from .draw_list.placement import Placing
 from .options import (
@@ -82,10 +84,6 @@ class FrameOptions:
     Attributes
     ----------
     native : NativeOptions
-    headlight : tuple of two tuples of 3 float
-        The light of scenes without lights: for surfaces that are not physically based, and in lux
-        for those that are. Together with the ambient light it makes white; an environment replaces
-        it on the surfaces it lights.
     has_backdrop : bool
         Whether an environment is the background.
     """
@@ -108,9 +106,10 @@ class FrameOptions:
         if scene.environment is not None and options.mode == "lit":
             environment = native_environment(scene.environment, threads)
         ambient = shading_color(scene.ambient, color_space)
-        color = tuple(max(0.0, 1.0 - component) for component in ambient)
-        lux = math.pi if environment is None else 0.0
-        self.headlight = color, tuple(lux * component for component in color)
+        self._headlight: Color | None = None
+        if environment is None:
+            red, green, blue = (WHITE_INTENSITY * max(0.0, 1.0 - part) for part in ambient)
+            self._headlight = red, green, blue
         line_width = options.pixels_of(options.line_width, height)
         point_size = options.pixels_of(options.point_size, height)
         self._numbers = core_numbers(options) | {"line_width": line_width, "point_size": point_size}
@@ -139,6 +138,13 @@ class FrameOptions:
     def surfaces(self) -> _native.NativeOptions:
         """The same options for drawing without colour."""
         return _native.NativeOptions(self._numbers | _WITHOUT_COLOR)
+
+    def headlight(self, towards_viewer: Sequence[float]) -> Headlight | None:
+        """Return the light of a scene without lights: with the ambient light it makes white.
+
+        An environment replaces it.
+        """
+        return None if self._headlight is None else (self._headlight, towards_viewer)
 
     def listing(self, outputs: tuple[str, ...]) -> Listing:
         """Return how to list objects for a frame with given outputs."""

@@ -203,7 +203,7 @@ class Renderer(Closed):
             frame_options = self._options.get(scene, options, self._height)
             size = self._width, self._height
             plan = self._passes.plan(options, tuple(options.outputs), size)
-            headlight = (*frame_options.headlight, (0.0, 0.0, 1.0))
+            headlight = frame_options.headlight((0.0, 0.0, 1.0))
             listing, census = frame_options.listing(plan.listed), scene.data.census()
             try:
                 self._draw_list.update(scene.data, listing, headlight, Placing())
@@ -315,7 +315,7 @@ class Renderer(Closed):
         self._draw_list.update(
             scene.data,
             frame_options.listing(listed),
-            (*frame_options.headlight, view.towards_viewer),
+            frame_options.headlight(view.towards_viewer),
             frame_options.placing(frustum, size),
         )
         picture = Picture(scene, options, frame_options, view, size, chosen, options.cull)

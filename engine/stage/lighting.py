@@ -15,14 +15,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..base import linalg
-from ..model.scene.lights import LIGHTS, DirectionalLight, Light, PointLight
+from ..model.scene.lights import (
+    LIGHTS,
+    WHITE_INTENSITY,
+    DirectionalLight,
+    Light,
+    PointLight,
+)
 from ..model.scene.nodes import Node
 from ..model.scene.orbiting import home_axes
 from ..model.scene.staged_scene import StagedScene
 from .views.viewpoint import Sphere
 
 #: Per set-up: the light's direction, in camera space (or the home frame, if fixed), the linear
-#: colour, the intensity.
+#: colour, the intensity as a part of the one that shows white.
 SETUPS = {
     "studio": (
         ((-0.50, -0.60, -0.80), (1.0, 0.97, 0.92), 0.74),
@@ -41,7 +47,7 @@ SETUPS = {
 }
 FIXED_SETUPS = ("sun",)
 OWN_LIGHTS = "scene"
-_IN_ENVIRONMENT = 0.6  # intensity factor of set-ups in an environment, which also lights
+_IN_ENVIRONMENT = 0.6  # factor for set-ups in an environment, which also lights
 
 
 class Lighting:
@@ -54,7 +60,7 @@ class Lighting:
     up : (3,) sequence of float
         The world's up direction.
     intensity : float
-        Factor on the set-ups' intensities. An environment dims them.
+        Factor for the set-ups. An environment dims them.
     """
 
     def __init__(self, staged: StagedScene, up: ArrayLike, intensity: float = 1.0) -> None:
@@ -64,9 +70,10 @@ class Lighting:
         self._home = np.stack(tuple(home_axes(up)), axis=1)
         if staged.environment is not None:
             intensity *= _IN_ENVIRONMENT
+        intensity *= WHITE_INTENSITY
         for name, lights in SETUPS.items():
             self._nodes[name] = [
-                staged.beside.add(DirectionalLight(direction, color, strength * intensity, "white"))
+                staged.beside.add(DirectionalLight(direction, color, strength * intensity))
                 for direction, color, strength in lights
             ]
         self.names = tuple(self._nodes)
@@ -169,12 +176,13 @@ def placed_light(
     bounds : Sphere
         The scene's bounds.
     intensity : float or None
-        I in E = I/d²; None gives E = 1 at the scene's centre.
+        What a white surface that faces the light shows of it at distance 1. By default, it shows
+        white at the scene's centre.
     """
     if intensity is None:
         intensity = sum((p - c) * (p - c) for p, c in zip(position, bounds.center, strict=True))
         intensity = intensity if intensity > 0.0 and math.isfinite(intensity) else 1.0
-    return OnlyLight(staged, PointLight((1.0, 1.0, 1.0), intensity, unit="white"), position)
+    return OnlyLight(staged, PointLight(intensity=intensity * WHITE_INTENSITY), position)
 
 
 def _seen_turn(pose: np.ndarray, dx: float, dy: float) -> np.ndarray:

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..base import linalg
-from ..model.scene.lights import DirectionalLight
+from ..model.scene.lights import WHITE_INTENSITY, DirectionalLight
 from ..model.scene.nodes import Node
 from ..model.scene.staged_scene import StagedScene
 from .appearance import Appearance
@@ -114,7 +114,8 @@ class Staging:
             return placed_light(self.scene, position, viewed.bounds, intensity)
         intensity = 1.0 if intensity is None else intensity
         if settings.light_direction is not None:
-            light = DirectionalLight(settings.light_direction, (1.0, 1.0, 1.0), intensity, "white")
+            strength = intensity * WHITE_INTENSITY
+            light = DirectionalLight(settings.light_direction, intensity=strength)
             return OnlyLight(self.scene, light)
         return Lighting(self.scene, UP_DIRECTIONS[self.up], intensity)
 

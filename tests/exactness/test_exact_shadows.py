@@ -42,11 +42,13 @@ def add_light(scene, kind, shadow, to=(2.0, 3.5, 1.5)):
     """A light from a place, or from its direction: (place, whether it is one)."""
     to = np.asarray(to, np.float64)
     if kind == "sun":
-        scene.add(e3d.DirectionalLight(-to, intensity=1, shadow=shadow))
+        scene.add(e3d.DirectionalLight(-to, intensity=np.pi, shadow=shadow))
     elif kind == "point":
-        scene.add(e3d.PointLight(intensity=float(to @ to), shadow=shadow), translation=to)
+        scene.add(e3d.PointLight(intensity=float(np.pi * to @ to), shadow=shadow), translation=to)
     else:
-        light = e3d.SpotLight(intensity=float(2 * to @ to), outer_cone_angle=0.7, shadow=shadow)
+        light = e3d.SpotLight(
+            intensity=float(2 * np.pi * to @ to), outer_cone_angle=0.7, shadow=shadow
+        )
         scene.add(light, pose=e3d.look_at(to, (0, 0, 0)))
 
 
@@ -163,7 +165,7 @@ def test_flat_and_convex_surfaces_are_never_in_their_own_shadow(kind):
             if kind == "sun":
                 scene.add(e3d.DirectionalLight(-to, shadow=shadow))
             else:
-                lamp = e3d.PointLight(intensity=10 * scale * scale, shadow=shadow)
+                lamp = e3d.PointLight(intensity=10 * np.pi * scale * scale, shadow=shadow)
                 scene.add(lamp, translation=offset + to)
             eye = e3d.look_at(offset + scale * np.array((2.0, 2.4, 3.0)), offset)
             pictures.append(e3d.render(scene, (e3d.PerspectiveCamera(), eye), size=SIZE).color)
@@ -292,7 +294,7 @@ def test_casters_whose_mesh_or_material_changes_are_found_again():
 def test_at_most_32_lights():
     scene = floor_and_caster(white(e3d.box(1.0)))
     for _ in range(31):
-        scene.add(e3d.DirectionalLight((0, -1, 0), intensity=0.01, shadow="exact"))
+        scene.add(e3d.DirectionalLight((0, -1, 0), intensity=0.01 * np.pi, shadow="exact"))
     assert count_hidden(scene) > 100
     scene.add(e3d.DirectionalLight((0, -1, 0), shadow="exact"))
     with pytest.raises(e3d.InvalidArgumentError, match="at most 32 lights"):

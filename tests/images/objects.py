@@ -53,8 +53,8 @@ def still_life(scene=None, lights=True):
     ring = with_material(e3d.torus(0.3, 0.1, (24, 12)), color=TEAL)
     scene.add(ring, name="ring", translation=(0.45, 0.12, 0.6))
     if lights:
-        scene.add(e3d.DirectionalLight(SUN, intensity=0.7))
-        lamp = e3d.PointLight(color=(1, 0.8, 0.5), intensity=0.5, range=4.0)
+        scene.add(e3d.DirectionalLight(SUN, intensity=0.7 * math.pi))
+        lamp = e3d.PointLight(color=(1, 0.8, 0.5), intensity=0.5 * math.pi, range=4.0)
         scene.add(lamp, translation=(-1.0, 1.2, 1.0))
     return scene
 
@@ -65,7 +65,7 @@ def one_object(mesh, pose=None, **scene_options):
         **{"background": (24, 28, 36), "ambient": (0.15, 0.15, 0.15), **scene_options}
     )
     scene.add(mesh, pose=pose)
-    scene.add(e3d.DirectionalLight(SUN, intensity=0.8))
+    scene.add(e3d.DirectionalLight(SUN, intensity=0.8 * math.pi))
     return scene
 
 

@@ -29,7 +29,7 @@ def corner(ambient=(0.7, 0.75, 0.8)):
     scene.add(matter(e3d.box(0.3), **velvet), translation=(0.8, 0.15, 0.3))
     glass = matter(e3d.uv_sphere(0.25, (24, 12)), color=(0.2, 0.5, 1, 0.5), alpha_mode="blend")
     scene.add(glass, translation=(-0.5, 0.25, 0.5))
-    scene.add(e3d.DirectionalLight((-0.3, -1, -0.6), (1, 0.95, 0.9), 0.3))
+    scene.add(e3d.DirectionalLight((-0.3, -1, -0.6), (1, 0.95, 0.9), 0.3 * np.pi))
     return scene
 
 

@@ -7,16 +7,16 @@ from images.scenes_alpha import leaf, pane
 
 import engine3d as e3d
 
-SUN = e3d.DirectionalLight((-0.5, -0.8, -0.35), intensity=0.8, shadow="exact")
+SUN = e3d.DirectionalLight((-0.5, -0.8, -0.35), intensity=0.8 * np.pi, shadow="exact")
 
 
 def lamp(scene, kind, **options):
     """One light of a kind that casts exact shadows."""
     if kind == "point":
-        light = e3d.PointLight((1, 0.9, 0.7), intensity=1.2, shadow="exact", **options)
+        light = e3d.PointLight((1, 0.9, 0.7), intensity=1.2 * np.pi, shadow="exact", **options)
         scene.add(light, translation=(0.5, 1.6, 0.8))
     elif kind == "spot":
-        light = e3d.SpotLight((0.8, 0.9, 1), intensity=8, shadow="exact", **options)
+        light = e3d.SpotLight((0.8, 0.9, 1), intensity=8 * np.pi, shadow="exact", **options)
         scene.add(light, pose=e3d.look_at((-1.5, 2.4, 1.8), (0, 0.2, 0)))
     else:
         scene.add(SUN)
@@ -69,7 +69,7 @@ def foliage(filter_kind):
     for k, alpha in enumerate((0.3, 0.7)):
         glass = pane((0.4, 0.8, 1, alpha), 1, size=0.6, alpha_mode="blend")
         scene.add(glass, translation=(0.6 * k - 0.2, 0, 0.7))
-    scene.add(e3d.DirectionalLight((-0.3, -0.7, -0.6), intensity=0.4, shadow="exact"))
+    scene.add(e3d.DirectionalLight((-0.3, -0.7, -0.6), intensity=0.4 * np.pi, shadow="exact"))
     lamp(scene, "point", range=3.0)
     return Picture(scene, camera_at((0.9, 1.6, 2.4), (0, 0.3, 0.2)))
 
@@ -98,7 +98,9 @@ def shards(kind, seed):
         direction = (0, -1, 0) if seed % 2 else rng.normal(size=3)
         scene.add(e3d.DirectionalLight(direction, shadow="exact"))
     else:
-        light = e3d.PointLight(intensity=2, shadow="exact", range=np.inf if seed % 2 else 2.5)
+        light = e3d.PointLight(
+            intensity=2 * np.pi, shadow="exact", range=np.inf if seed % 2 else 2.5
+        )
         scene.add(light, translation=np.round(rng.uniform(-0.5, 0.5, 3) * 8) / 8)
     return Picture(scene, camera_at((1.5, 1.9, 3.5), (0, 0, 0)))
 

@@ -30,7 +30,7 @@ def point_lights(falloff, reach, light_clamp=None, shading="deferred"):
         ((0, 1.4, -1), (0.3, 0.4, 1)),
     ]
     for position, color in lamps:
-        lamp = e3d.PointLight(color=color, intensity=0.8, range=reach, falloff=falloff)
+        lamp = e3d.PointLight(color=color, intensity=0.8 * math.pi, range=reach, falloff=falloff)
         scene.add(lamp, translation=position)
     return seen(scene, shading=shading)
 
@@ -51,14 +51,14 @@ def directional_lights():
         ((1, -1, -0.5), (0, 1, 0)),
         ((0, -1, 1), (0, 0, 1)),
     ]:
-        scene.add(e3d.DirectionalLight(direction, color=color, intensity=0.9))
+        scene.add(e3d.DirectionalLight(direction, color=color, intensity=0.9 * math.pi))
     return seen(scene)
 
 
 @picture
 def light_clamp_low_and_high():
     scene = stage(light_clamp=(0.3, 0.6))
-    scene.add(e3d.DirectionalLight((-1, -0.6, -0.4), intensity=1.5))
+    scene.add(e3d.DirectionalLight((-1, -0.6, -0.4), intensity=1.5 * math.pi))
     return seen(scene)
 
 
@@ -66,7 +66,7 @@ def light_clamp_low_and_high():
 def overexposed():
     """More light than can be shown: clamped at the end, not wrapped round."""
     scene = stage(color=(0.9, 0.6, 0.3))
-    scene.add(e3d.PointLight(intensity=30.0), translation=(0.6, 1.1, 0.8))
+    scene.add(e3d.PointLight(intensity=30.0 * math.pi), translation=(0.6, 1.1, 0.8))
     return seen(scene)
 
 
@@ -82,8 +82,8 @@ def highlights(samples=1, shading="deferred"):
                 shininess=shininess,
             )
             scene.add(ball, translation=(0.5 * column - 1, 0.25 - 0.5 * row, 0))
-    scene.add(e3d.DirectionalLight((-0.5, -0.7, -0.8), intensity=0.8))
-    scene.add(e3d.PointLight(color=(0.5, 0.7, 1), intensity=2.0), translation=(1.5, 1, 2))
+    scene.add(e3d.DirectionalLight((-0.5, -0.7, -0.8), intensity=0.8 * math.pi))
+    scene.add(e3d.PointLight(color=(0.5, 0.7, 1), intensity=2.0 * math.pi), translation=(1.5, 1, 2))
     camera = camera_at((0, 0, 3), (0, 0, 0))
     return Picture(scene, camera, samples=samples, options={"shading": shading})
 
@@ -109,7 +109,7 @@ def emissive():
     for x, color in ((-0.9, (0.9, 0.2, 0.1)), (0.9, (0.1, 0.4, 0.9))):
         glow = with_material(e3d.icosphere(0.2, 2), color=(0, 0, 0), emissive=color)
         scene.add(glow, translation=(x, 0.2, 0.6))
-    scene.add(e3d.PointLight(intensity=0.05), translation=(0, 1, 1))
+    scene.add(e3d.PointLight(intensity=0.05 * math.pi), translation=(0, 1, 1))
     return seen(scene)
 
 
@@ -123,9 +123,11 @@ def headlight():
 def light_on_a_surface():
     """Lights at a vertex and inside the sphere: no division by zero shows."""
     scene = stage()
-    scene.add(e3d.PointLight(intensity=0.02), translation=(0, 1.0, 0))
-    scene.add(e3d.PointLight(intensity=0.3), translation=(0, 0.5, 0))
-    scene.add(e3d.PointLight(color=(1, 0.5, 0), intensity=0.01), translation=(0.5, 0.0, 1.0))
+    scene.add(e3d.PointLight(intensity=0.02 * math.pi), translation=(0, 1.0, 0))
+    scene.add(e3d.PointLight(intensity=0.3 * math.pi), translation=(0, 0.5, 0))
+    scene.add(
+        e3d.PointLight(color=(1, 0.5, 0), intensity=0.01 * math.pi), translation=(0.5, 0.0, 1.0)
+    )
     return seen(scene)
 
 
@@ -143,6 +145,8 @@ def many_lights():
     rng = np.random.default_rng(2)
     for _ in range(40):
         x, z = rng.uniform(-1.8, 1.8, 2)
-        lamp = e3d.PointLight(color=tuple(rng.uniform(0.1, 1, 3)), intensity=0.05, range=0.9)
+        lamp = e3d.PointLight(
+            color=tuple(rng.uniform(0.1, 1, 3)), intensity=0.05 * math.pi, range=0.9
+        )
         scene.add(lamp, translation=(x, 0.2, z))
     return seen(scene)

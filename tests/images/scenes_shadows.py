@@ -35,7 +35,7 @@ def seen(scene, eye=(2.2, 2.0, 3.2), target=(0, 0.3, 0), **how):
 def sun(samples=1, shading="deferred", **options):
     scene = stage()
     options = {"shadow_map_size": 256, "shadow": True, **options}
-    scene.add(e3d.DirectionalLight(SUN, intensity=0.8, **options))
+    scene.add(e3d.DirectionalLight(SUN, intensity=0.8 * math.pi, **options))
     return seen(scene, samples=samples, shading=shading)
 
 
@@ -57,7 +57,7 @@ def shadow_cascades():
     for row in range(24):
         for side in (-1.2, 1.4):
             scene.add(column, translation=(side, 1.0, -2.0 * row))
-    light = e3d.DirectionalLight(SUN, shadow=True, shadow_map_size=128, intensity=0.75)
+    light = e3d.DirectionalLight(SUN, shadow=True, shadow_map_size=128, intensity=0.75 * math.pi)
     scene.add(light)
     return seen(scene, (0.2, 1.6, 3.0), (0, 0.9, -6), zfar=200.0)
 
@@ -72,7 +72,11 @@ def lamp(taps=3, radius=1.0, samples=1):
     for turn in np.arange(6) * (math.pi / 6):
         scene.add(twig, translation=(-0.2, 0.9, 0.4), euler=(0.6, 0, turn))
     light = e3d.PointLight(
-        intensity=1.6, shadow=True, shadow_map_size=128, shadow_taps=taps, shadow_radius=radius
+        intensity=1.6 * math.pi,
+        shadow=True,
+        shadow_map_size=128,
+        shadow_taps=taps,
+        shadow_radius=radius,
     )
     scene.add(light, translation=(-0.1, 1.3, 0.5))
     return seen(scene, samples=samples)
@@ -86,7 +90,7 @@ variant("shadow_lamp_wide", lamp, 5, 3.3)
 def spot(angle, taps, reach=math.inf):
     scene = stage(ambient=(0.06, 0.06, 0.08))
     light = e3d.SpotLight(
-        intensity=14.0,
+        intensity=14.0 * math.pi,
         range=reach,
         outer_cone_angle=angle,
         shadow=True,
@@ -115,7 +119,7 @@ def shadow_of_holes():
     for mode, x in (("mask", -0.6), ("blend", 0.6)):
         material = {"texture": texture, "alpha_mode": mode, "two_sided": True}
         scene.add(floor(1.0, **material), translation=(x, 1.3, 0.1), euler=(0.3, 0, 0))
-    scene.add(e3d.DirectionalLight(SUN, intensity=0.8, shadow=True, shadow_map_size=256))
+    scene.add(e3d.DirectionalLight(SUN, intensity=0.8 * math.pi, shadow=True, shadow_map_size=256))
     return seen(scene)
 
 
@@ -152,7 +156,7 @@ def shadow_on_mapped_normals():
     normals = e3d.Texture(bumps, color_space="linear")
     tiles = {"texture": checkerboard(), "normal_texture": normals, "specular": (0.3, 0.3, 0.3)}
     scene.add(floor(5.0, **tiles), translation=(0, 0.01, 0))
-    scene.add(e3d.DirectionalLight(SUN, intensity=0.8, shadow=True, shadow_map_size=256))
+    scene.add(e3d.DirectionalLight(SUN, intensity=0.8 * math.pi, shadow=True, shadow_map_size=256))
     return seen(scene)
 
 
@@ -182,7 +186,12 @@ def shadows_of_many_lights():
     for number, color in enumerate(colors):
         angle = number * math.pi / 3
         light = e3d.PointLight(
-            color, 0.7, range=4.0, shadow=number % 2 == 0, shadow_map_size=64, shadow_taps=3
+            color,
+            0.7 * math.pi,
+            range=4.0,
+            shadow=number % 2 == 0,
+            shadow_map_size=64,
+            shadow_taps=3,
         )
         scene.add(light, translation=(1.5 * math.cos(angle), 1.3, 1.5 * math.sin(angle)))
     return seen(scene)
@@ -197,5 +206,5 @@ def shadow_on_glass():
     poses = np.tile(np.eye(4), (3, 1, 1))
     poses[:, :3, 3] = [(-0.4, 1.3, 0.9), (0.3, 1.4, 0.7), (1.0, 1.2, 0.5)]
     scene.add(e3d.InstancedMesh(with_material(e3d.icosphere(0.18, 2), color=CORAL), poses))
-    scene.add(e3d.DirectionalLight(SUN, intensity=0.8, shadow=True, shadow_map_size=256))
+    scene.add(e3d.DirectionalLight(SUN, intensity=0.8 * math.pi, shadow=True, shadow_map_size=256))
     return seen(scene)

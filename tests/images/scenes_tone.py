@@ -35,7 +35,7 @@ def lamps(background=(30, 38, 54), fog=None):
     scene.add(e3d.Mesh(line, lines=[[0, 1]], points=[2]))
     glass = pane((*TEAL, 0.5), size=1.2, alpha_mode="blend", emissive=(0.8, 0.2, 0.1))
     scene.add(glass, translation=(0.3, 0.2, 0.4))
-    scene.add(e3d.DirectionalLight((-0.4, -0.8, -0.45), intensity=3.0))
+    scene.add(e3d.DirectionalLight((-0.4, -0.8, -0.45), intensity=3.0 * np.pi))
     return scene
 
 
@@ -60,7 +60,7 @@ def glowing_glass(background=None, fog=None, **options):
     shine = {"alpha_mode": "blend", "emissive": (0.5, 2.5, 5.0)}
     scene.add(pane((*TEAL, 0.6), size=0.5, **shine), translation=(-0.4, 0.8, 0.4))
     scene.add(pane((*CORAL, 0.3), 1, size=0.5, **shine), translation=(0.5, 0.8, 0.3))
-    scene.add(e3d.DirectionalLight((-0.4, -0.8, -0.45), intensity=2.0))
+    scene.add(e3d.DirectionalLight((-0.4, -0.8, -0.45), intensity=2.0 * np.pi))
     names = ("samples", "antialiasing")
     own = {key: options.pop(key) for key in names if key in options}
     return Picture(scene, camera_at(target=(0, 0.6, 0)), options={"bloom": 1.0, **options}, **own)

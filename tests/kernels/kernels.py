@@ -35,10 +35,16 @@ def record_table(records, drawn=None):
     return record("record_table", records=_addresses(records), drawn=given, bits=bits)
 
 
+def shown_of(lights):
+    """R154: what a white matt surface shows of lights, (..., 3)."""
+    return lights["color"] * np.float32(1 / np.pi)
+
+
 def lighting_of(lights, reach, ambient, clamp, eye, shadow_maps=None):
     """`reach`: (5, lights + PAD); `shadow_maps`: those of all lights, or None."""
-    count = lights.nbytes // layout("e3d_light").itemsize
-    given = {"lights": lights, "light_count": count, "reach": reach, "shadows": shadow_maps}
+    held = lights.view(layout("e3d_light"))
+    given = {"lights": lights, "light_count": len(held), "reach": reach, "shadows": shadow_maps}
+    given["shown"] = shown_of(held)
     return record("lighting", **given, ambient=ambient, clamp=clamp, eye=eye, exposure=1)
 
 

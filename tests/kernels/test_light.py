@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from kernels.arithmetic import ONE, ZERO, clamp, dot, greatest, power, unit
 from kernels.harness import all_backends, check_lanes, check_poisoned, hostile
+from kernels.kernels import shown_of
 from kernels.layouts import LIGHT, PAD
 from kernels.surfaces import ROUNDS, fill, planes, random_batches
 
@@ -18,7 +19,7 @@ def random_lights(rng, count):
     lights = np.zeros(count, LIGHT)
     lights["kind"] = rng.integers(0, 2, count)
     lights["falloff"] = rng.integers(0, 2, count)
-    lights["color"] = rng.uniform(0, 4, (count, 3))
+    lights["color"] = rng.uniform(0, 12, (count, 3))
     lights["position"] = rng.uniform(-3, 3, (count, 3))
     towards = rng.normal(size=(count, 3))
     lights["to_light"] = towards / np.sqrt((towards**2).sum(axis=1, keepdims=True))
@@ -69,18 +70,18 @@ def lit(lights, ambient, light_clamp, eye, shininess, position, normal):
     view = [np.full(position[0].shape, eye[k]) for k in range(3)]
     if eye[3]:
         view = unit([eye[k] - position[k] for k in range(3)])
-    for light in lights:
+    for light, shown in zip(lights, shown_of(lights), strict=True):
         direction, attenuation, reached = towards(light, position)
         facing = greatest(dot(normal, direction), ZERO)
         amount = attenuation * facing
         for k in range(3):
-            energy[k] = np.where(reached, energy[k] + light["color"][k] * amount, energy[k])
+            energy[k] = np.where(reached, energy[k] + shown[k] * amount, energy[k])
         if shininess > 0:
             half = unit([direction[k] + view[k] for k in range(3)])
             highlight = power(greatest(dot(normal, half), ZERO), np.float32(shininess))
             amount = attenuation * np.where(facing > 0, highlight, ZERO)
             for k in range(3):
-                shine[k] = np.where(reached, shine[k] + light["color"][k] * amount, shine[k])
+                shine[k] = np.where(reached, shine[k] + shown[k] * amount, shine[k])
     return [clamp(e, *light_clamp) for e in energy], shine
 
 

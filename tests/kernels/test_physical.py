@@ -63,7 +63,7 @@ def seen(
     )
     lights = np.zeros(0 if light is None else 1, LIGHT)
     if light is not None:
-        lights["kind"], lights["to_light"], lights["lux"] = DIRECTIONAL, light, 1.0
+        lights["kind"], lights["to_light"], lights["color"] = DIRECTIONAL, light, 1.0
     kernels.physical(
         batch.view(np.uint8),
         {name: np.array(value, np.float32) for name, value in {**PLAIN, **numbers}.items()},

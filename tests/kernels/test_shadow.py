@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from kernels.arithmetic import ONE, ZERO, clamp, dot, greatest
 from kernels.harness import all_backends, check_lanes, hostile
+from kernels.kernels import shown_of
 from kernels.layouts import LIGHT, SHADOW_MAP
 from kernels.surfaces import fill, planes, random_batches
 from kernels.test_light import DIRECTIONAL, POINT, random_lights, random_normals, reach_of, towards
@@ -122,7 +123,7 @@ def reached_by(light, maps, depths, position, normal, direction):
 def shadowed(lights, maps, depths, position, normal):
     """R31 and R90 under lights that have maps: the energy, three arrays; and what they reach."""
     shares, energy = [], [np.full(position[0].shape, ZERO) for _ in range(3)]
-    for light in lights:
+    for light, shown in zip(lights, shown_of(lights), strict=True):
         direction, attenuation, near = towards(light, position)
         if light["kind"] == SPOT:
             cone = dot(direction, light["to_light"]) - light["cone"][0]
@@ -134,7 +135,7 @@ def shadowed(lights, maps, depths, position, normal):
         attenuation = np.where(facing > 0, attenuation * reached, attenuation)
         amount = attenuation * greatest(facing, ZERO)
         for k in range(3):
-            energy[k] = np.where(near, energy[k] + light["color"][k] * amount, energy[k])
+            energy[k] = np.where(near, energy[k] + shown[k] * amount, energy[k])
     return energy, np.stack(shares)
 
 

@@ -25,7 +25,7 @@ def meshes():
 def mixed_scene(random, count=120):
     """Nodes of all kinds by turns, many of them at the same place as another."""
     scene = e3d.Scene(ambient=(0.3, 0.3, 0.3))
-    scene.add(e3d.PointLight(intensity=30.0), translation=(2, 3, 5))
+    scene.add(e3d.PointLight(intensity=30.0 * np.pi), translation=(2, 3, 5))
     group = scene.add(translation=(0.1, 0, 0))
     kinds = meshes()
     places = random.integers(-3, 4, (count, 3)).astype(float)

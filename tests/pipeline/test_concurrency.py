@@ -20,7 +20,7 @@ def scene():
     scene = e3d.Scene()
     scene.add(e3d.torus(0.6, 0.3, (64, 48)))
     scene.add(e3d.DirectionalLight((-1, -1, -1)))
-    scene.add(e3d.PointLight(intensity=3.0), translation=(1, 1, 2))
+    scene.add(e3d.PointLight(intensity=3.0 * np.pi), translation=(1, 1, 2))
     return scene
 
 

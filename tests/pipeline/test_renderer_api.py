@@ -252,19 +252,19 @@ def test_directional_light_turns_with_its_node(front):
 
 def test_point_light_falls_off(front):
     scene = scene_of(square(), ambient=(0, 0, 0))
-    light = e3d.PointLight(intensity=2.0)
+    light = e3d.PointLight(intensity=2.0 * math.pi)
     scene.add(light, translation=(0, 0, 2))
     assert lit_pixel(scene, front) == pytest.approx([127] * 3, abs=1)
     light.range = 2.0  # exactly nothing from the range on
     assert lit_pixel(scene, front) == [0, 0, 0]
-    light.falloff, light.range, light.intensity = "inverse_square", 4.0, 1.0
+    light.falloff, light.range, light.intensity = "inverse_square", 4.0, math.pi
     light.falloff = "window"
     assert lit_pixel(scene, front) == pytest.approx([255 * 0.75**2] * 3, abs=1)
 
 
 def test_light_clamp(front):
     scene = scene_of(square(), ambient=(0, 0, 0))
-    light = e3d.DirectionalLight(intensity=9.0)
+    light = e3d.DirectionalLight(intensity=9.0 * math.pi)
     node = scene.add(light)
     scene.light_clamp = (0.2, 0.6)
     assert lit_pixel(scene, front) == [153] * 3
@@ -310,7 +310,7 @@ def test_each_facet_has_the_light_of_its_middle(front, physical):
     to_light = place - middles
     distance = np.linalg.norm(to_light, axis=1)
     cosine = (ball.face_normals * to_light).sum(axis=1) / distance
-    expected = intensity * np.maximum(cosine, 0) / distance**2
+    expected = intensity / math.pi * np.maximum(cosine, 0) / distance**2
     for triangle in np.unique(shown[shown >= 0]):
         radiance = frame.radiance[shown == triangle][:, :3]
         assert len(np.unique(radiance, axis=0)) == 1
@@ -492,7 +492,7 @@ def change_nodes(scene, mesh, material, texture):
 
 
 def change_light(scene, mesh, material, texture):
-    scene.add(e3d.DirectionalLight(intensity=0.2))
+    scene.add(e3d.DirectionalLight(intensity=0.2 * math.pi))
 
 
 def change_ambient(scene, mesh, material, texture):

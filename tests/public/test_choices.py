@@ -45,7 +45,6 @@ ACCEPTED = {
     "Wrap": native.WRAPS,
     "Falloff": native.FALLOFFS,
     "AlphaMode": native.ALPHA_MODES,
-    "LightUnit": lights.UNITS,
     "LightShadow": shadow_casting.SHADOWS,
     "ShadowTaps": shadow_casting.TAPS,
     "MotionPath": clips.PATHS,
@@ -86,7 +85,6 @@ def test_the_textures_of_materials_are_those_of_the_core():
 
 def test_lists_of_modules_are_the_types():
     assert get_args(choices.Falloff) == lights.FALLOFFS
-    assert get_args(choices.LightUnit) == lights.UNITS
     assert get_args(choices.Filter) == textures.FILTERS
     assert get_args(choices.Wrap) == textures.WRAPS
 

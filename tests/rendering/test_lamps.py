@@ -18,7 +18,7 @@ def glowing(material=GLOW, center=(0.0, 0.0, 0.0)):
 
 
 def light_of(shadow):
-    return e3d.PointLight(intensity=0.6, shadow=shadow, shadow_map_size=64)
+    return e3d.PointLight(intensity=0.6 * np.pi, shadow=shadow, shadow_map_size=64)
 
 
 def child(scene, shadow, material):
@@ -43,7 +43,7 @@ def elsewhere(scene, shadow, material):
 
 
 def spot(scene, shadow, material):
-    light = e3d.SpotLight(intensity=0.8, shadow=shadow, shadow_map_size=64)
+    light = e3d.SpotLight(intensity=0.8 * np.pi, shadow=shadow, shadow_map_size=64)
     turned = e3d.linalg.quaternion_from_axis_angle((1, 0, 0), -np.pi / 2)
     lamp = scene.add(light, translation=(0.2, 1.0, 0.1), rotation=turned)
     return scene.add(glowing(material), parent=lamp)
@@ -91,7 +91,7 @@ def test_a_ball_that_glows_lets_its_light_pass(lamp, shadow):
 @pytest.mark.parametrize("lamp", LAMPS)
 def test_it_keeps_the_light_of_others_back(lamp, shadow):
     scene, ball = room(lamp, shadow)
-    scene.add(e3d.PointLight(intensity=3.0, shadow=shadow), translation=(0.3, 3.0, 0.2))
+    scene.add(e3d.PointLight(intensity=3.0 * np.pi, shadow=shadow), translation=(0.3, 3.0, 0.2))
     lit = drawn(scene)
     ball.cast_shadows = False
     assert (drawn(scene) != lit).any()
@@ -100,8 +100,8 @@ def test_it_keeps_the_light_of_others_back(lamp, shadow):
 def test_all_backends_let_it_pass_alike():
     scene, _ = room(child, "exact")
     scene.add(glowing(), translation=(-0.8, 0.5, 0.4))  # of a mesh that is drawn more often
-    scene.add(e3d.PointLight(intensity=2.0, shadow="exact"), translation=(-0.8, 0.5, 0.4))
-    scene.add(e3d.DirectionalLight((-1, -2, -1), intensity=0.4, shadow="exact"))
+    scene.add(e3d.PointLight(intensity=2.0 * np.pi, shadow="exact"), translation=(-0.8, 0.5, 0.4))
+    scene.add(e3d.DirectionalLight((-1, -2, -1), intensity=0.4 * np.pi, shadow="exact"))
     first = drawn(scene, backend="scalar")
     for backend in e3d.backends():
         assert (drawn(scene, backend=backend) == first).all(), backend

@@ -17,7 +17,7 @@ def stage(light=None, **light_options):
     floor = scene.add(e3d.plane((8.0, 8.0)), name="floor")
     box = scene.add(e3d.box(1.0), name="box", translation=(0.0, 2.0, 0.0))
     light = light or e3d.DirectionalLight(
-        (1, -1, 0), intensity=math.sqrt(2) / 2, shadow=True, **light_options
+        (1, -1, 0), intensity=math.pi * math.sqrt(2) / 2, shadow=True, **light_options
     )
     lamp = scene.add(light, name="light")
     return scene, floor, box, lamp
@@ -130,8 +130,10 @@ def test_switches_survive_packing():
 @pytest.mark.parametrize(
     "light",
     [
-        e3d.PointLight(intensity=20.0, shadow=True, shadow_map_size=256),
-        e3d.SpotLight(intensity=20.0, shadow=True, shadow_map_size=256, outer_cone_angle=1.0),
+        e3d.PointLight(intensity=20.0 * math.pi, shadow=True, shadow_map_size=256),
+        e3d.SpotLight(
+            intensity=20.0 * math.pi, shadow=True, shadow_map_size=256, outer_cone_angle=1.0
+        ),
     ],
     ids=["point", "spot"],
 )
@@ -210,7 +212,9 @@ def test_what_a_map_does_not_show_may_move():
     boxes = []
     for x in (-6.0, 6.0):
         boxes.append(scene.add(e3d.box(1.0), translation=(x, 0, 0)))
-        light = e3d.SpotLight(intensity=5, shadow=True, shadow_map_size=64, outer_cone_angle=0.3)
+        light = e3d.SpotLight(
+            intensity=5 * math.pi, shadow=True, shadow_map_size=64, outer_cone_angle=0.3
+        )
         scene.add(light, pose=e3d.look_at((x, 5, 0), (x, 0, 0), (0, 0, 1)))
     camera = e3d.PerspectiveCamera(0.8), e3d.look_at((0, 9, 14), (0, 0, 0))
     with e3d.Renderer(64, 48) as renderer:
@@ -237,8 +241,8 @@ def test_the_ranges_of_kept_maps_change_no_pixel(kind):
     options = {"shadow": True, "shadow_map_size": 96}
     light = {
         "sun": e3d.DirectionalLight((1, -1, 0), shadow_cascades=2, **options),
-        "spot": e3d.SpotLight(intensity=30, outer_cone_angle=1.2, **options),
-        "point": e3d.PointLight(intensity=30, **options),
+        "spot": e3d.SpotLight(intensity=30 * math.pi, outer_cone_angle=1.2, **options),
+        "point": e3d.PointLight(intensity=30 * math.pi, **options),
     }[kind]
     scene, _, box, lamp = stage(light)
     if kind == "spot":
@@ -275,7 +279,9 @@ def far_stage():
     for x in range(-8, 9, 2):
         for z in range(-30, 9, 3):
             scene.add(column, translation=(x, 1.0, z), euler=(0, 0.3 * x, 0))
-    light = e3d.DirectionalLight((0.7, -1, 0.4), intensity=0.7, shadow=True, shadow_map_size=256)
+    light = e3d.DirectionalLight(
+        (0.7, -1, 0.4), intensity=0.7 * math.pi, shadow=True, shadow_map_size=256
+    )
     scene.add(light)
     return scene, light
 

@@ -11,7 +11,7 @@ def test_defaults():
     sun = e3d.DirectionalLight()
     assert tuple(sun.direction) == (0, 0, -1)
     lamp = e3d.PointLight()
-    assert (lamp.intensity, lamp.range, lamp.falloff) == (1.0, math.inf, "inverse_square")
+    assert (lamp.intensity, lamp.range, lamp.falloff) == (math.pi, math.inf, "inverse_square")
 
 
 def test_assigning_counts_versions():

@@ -48,7 +48,7 @@ def test_a_point_light_is_as_bright_as_the_file_says_at_the_centre():
     assert node.name == "lamp"
     assert node.translation.tolist() == [2, 10, 0]
     assert node.object.color == (1.0, 0.5, 0.25)
-    assert node.object.intensity == pytest.approx(0.8 * 10**2)
+    assert node.object.intensity == pytest.approx(0.8 * math.pi * 10**2)
 
 
 def test_directional_light_shines_at_its_target():

@@ -14,7 +14,6 @@ import engine3d as e3d
 from engine3d.base.validation import CheckedAttribute
 from engine3d.model.geometry._arrays import ArrayAttribute
 from engine3d.model.materials.material import TEXTURE_SLOTS
-from engine3d.model.scene.lights import UNITS
 
 V, F, N = 6, 4, 2  # vertices, faces and materials of the meshes
 FLAG = np.stack([*np.meshgrid([-1, 0.5], [-1, 0.2, 1.3]), np.zeros((3, 2))], axis=-1).reshape(-1, 3)
@@ -90,7 +89,6 @@ SHADOWS = {
 LIGHT = {
     "color": lambda r, t: color(r),
     "intensity": lambda r, t: pick(r, 0.0, 2.0, 7.5),
-    "unit": lambda r, t: pick(r, *UNITS),
 }
 #: A value for each setter of each kind, made of random numbers and the things.
 VALUES = {

@@ -6,7 +6,7 @@ import numpy as np
 
 import engine3d as e3d
 from engine3d.model.materials.material import TEXTURE_SLOTS
-from engine3d.model.scene.lights import FALLOFFS, UNITS
+from engine3d.model.scene.lights import FALLOFFS
 
 #: What materials are given, by the generator of random numbers; a field that is not here is left.
 MATERIALS = {
@@ -145,7 +145,7 @@ def mesh(r, materials):
 
 
 def light(r):
-    common = {"color": color(r), "intensity": pick(r, 1.0, 0.0, 3.7), "unit": pick(r, *UNITS)}
+    common = {"color": color(r), "intensity": pick(r, 1.0, 0.0, 3.7)}
     common.update(shadow=pick(r, False, True, "exact"), shadow_map_size=pick(r, 1024, 64))
     common.update(shadow_bias=pick(r, 0.0, 0.01), shadow_taps=pick(r, 3, 5))
     makers = (

@@ -329,8 +329,7 @@ static void add_lights(scene *s, random_stream *r)
         int endless = light->falloff != E3D_FALLOFF_WINDOW && random_once_in(r, 2);
         light->range = endless ? INFINITY : random_float(r, 0.1f, 8.0f);
         for (int k = 0; k < 3; k++) {
-            light->color[k] = random_float(r, 0.0f, 2.0f);
-            light->lux[k] = 3.0f * light->color[k];
+            light->color[k] = random_float(r, 0.0f, 6.0f);
             light->to_light[k] = random_float(r, -1.0f, 1.0f);
             light->position[k] = random_float(r, -3.0f, 3.0f);
         }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "data/mesh/mesh.h"
+#include "base/limits.h"
 #include "base/pool.h"
 #include "data/sample_patterns.h"
 #include "data/shadows.h"
@@ -49,12 +50,20 @@ static void find_apertures(e3d_view *view, const e3d_frame *frame)
 /* The shadow maps of a frame without any. */
 static const e3d_shadow_map NO_MAPS;
 
+/* R154: finds what a white matt surface shows of each light. */
+static void find_shown(const e3d_frame *frame, float (*shown)[3])
+{
+    for (int32_t n = 0; n < frame->light_count; n++)
+        for (int k = 0; k < 3; k++)
+            shown[n][k] = frame->lights[n].color[k] * E3D_OVER_PI;
+}
+
 /* Copies the lights' positions and ranges into the arrays of the light kernel, which works on a vector of lights at a time. */
 static int find_lights(e3d_view *view, const e3d_frame *frame)
 {
     e3d_lighting *lighting = &view->lighting;
     size_t room = (size_t)frame->light_count + E3D_PAD;
-    if (!e3d_array_reserve(&view->reach_memory, 5 * room, sizeof(float)))
+    if (!e3d_array_reserve(&view->reach_memory, 8 * room, sizeof(float)))
         return 0;
     float *rows = view->reach_memory.data;
     for (int k = 0; k < 5; k++)
@@ -67,6 +76,9 @@ static int find_lights(e3d_view *view, const e3d_frame *frame)
         rows[3 * room + n] = point ? light->range * light->range : NAN;
         rows[4 * room + n] = 1.0f / rows[3 * room + n];
     }
+    float (*shown)[3] = (float (*)[3])(rows + 5 * room);
+    find_shown(frame, shown);
+    lighting->shown = (const float (*)[3])shown;
     lighting->lights = frame->lights;
     lighting->light_count = frame->light_count;
     memcpy(lighting->ambient, frame->ambient, sizeof frame->ambient);

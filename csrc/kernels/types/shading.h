@@ -108,11 +108,13 @@ enum {
 };
 
 /* The lights of a frame. `reach` has five rows of a number a light, and E3D_PAD more: x, y and z of its position, the square
- * of its range (NaN for directional lights, which reach everything), and 1 over that square. */
+ * of its range (NaN for directional lights, which reach everything), and 1 over that square. `shown` has what a white matt
+ * surface shows of each light that it faces, by channel (R154). */
 typedef struct e3d_lighting {
     const e3d_light *lights;
     int light_count;
     const float *reach[5];
+    const float (*shown)[3];
     float ambient[3], clamp[2], eye[4], exposure;
     const e3d_environment_light *environment; /* NULL: there is none */
     const e3d_shadow_map *shadows; /* NULL: no light has a shadow, or the lit surfaces receive none */

@@ -18,7 +18,7 @@ from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material, textures_of
 from ...model.materials.textures import Texture
 from ...model.primitives import uv_sphere
-from ...model.scene.lights import DirectionalLight
+from ...model.scene.lights import WHITE_INTENSITY, DirectionalLight
 from ...model.scene.scene import Scene
 from ...rendering.renderer import Renderer
 
@@ -81,7 +81,7 @@ class Thumbnails:
         mesh = thing if isinstance(thing, Mesh) else self._dressed_ball(thing)
         scene = Scene(background=BACKGROUND, ambient=(0.25, 0.25, 0.25))
         scene.add(mesh)
-        scene.add(DirectionalLight((-0.4, -0.7, -0.6), intensity=0.8, unit="white"))
+        scene.add(DirectionalLight((-0.4, -0.7, -0.6), intensity=0.8 * WHITE_INTENSITY))
         return self._renderer.render(scene, cull="auto").color.copy()
 
     def _dressed_ball(self, material: Material) -> Mesh:

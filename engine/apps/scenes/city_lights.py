@@ -15,13 +15,17 @@ from ...base import linalg
 from ...extras.worlds import World
 from ...extras.worlds.furniture import CARS, car
 from ...extras.worlds.plan import PITCH
-from ...model.scene.lights import PointLight
+from ...model.scene.lights import WHITE_INTENSITY, PointLight
 from ...model.scene.scene import Scene
 
 
 def _shining(color: tuple[float, float, float], intensity: float, reach: float) -> dict[str, Any]:
-    """Return the keyword arguments of a `PointLight` with a limited range."""
-    return {"color": color, "intensity": intensity, "range": reach, "falloff": "window"}
+    """Return the keyword arguments of a `PointLight` with a limited range.
+
+    An intensity of 1 shows white close by.
+    """
+    strength = intensity * WHITE_INTENSITY
+    return {"color": color, "intensity": strength, "range": reach, "falloff": "window"}
 
 
 #: Minimum number of lights: at least one for each car, the others for lamps.

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...base.linalg import look_at
 from ...model.scene.cameras import PerspectiveCamera
-from ...model.scene.lights import DirectionalLight, PointLight
+from ...model.scene.lights import WHITE_INTENSITY, DirectionalLight, PointLight
 from ...model.scene.scene import Scene
 
 #: The start of the walk: eye height over the pavement of the middle street, looking along it.
@@ -29,13 +29,13 @@ def city_scene(world, lights=256, reach=17.0, moving=32):
     """
     scene = Scene((78, 96, 138), ambient=(0.11, 0.13, 0.20))
     world.add_to(scene)
-    scene.add(DirectionalLight((-0.55, -0.55, -0.45), (0.62, 0.66, 0.92), 0.42))
+    scene.add(DirectionalLight((-0.55, -0.55, -0.45), (0.62, 0.66, 0.92), 0.42 * WHITE_INTENSITY))
     moving = min(moving, lights // 4)
     offsets = world.lamps - np.array(START)
     lamps = world.lamps[np.argsort((offsets * offsets).sum(axis=1), kind="stable")]
     floating = lamps + np.array((0.0, 10.0, 0.0))
     places = np.concatenate([lamps, floating, floating + np.array((0.0, 10.0, 0.0))])
-    settings = {"color": (1.0, 0.74, 0.42), "intensity": 1.5}
+    settings = {"color": (1.0, 0.74, 0.42), "intensity": 1.5 * WHITE_INTENSITY}
     if np.isfinite(reach):
         settings.update(range=reach, falloff="window")
     for place in places[: lights - moving]:

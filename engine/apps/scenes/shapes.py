@@ -14,14 +14,14 @@ from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from ...model.materials.textures import Texture
 from ...model.primitives import box, icosphere, plane, uv_sphere
-from ...model.scene.lights import DirectionalLight, PointLight
+from ...model.scene.lights import WHITE_INTENSITY, DirectionalLight, PointLight
 from ...model.scene.scene import Scene
 from ...stage.viewed_scene import ViewedScene
 
 BACKGROUND = (14, 16, 22)
 PERIOD = 10.0
 LIGHT_COLORS = ((1.0, 0.32, 0.18), (0.25, 1.0, 0.38), (0.30, 0.42, 1.0))
-LIGHT_INTENSITY = 3.4
+LIGHT_INTENSITY = 3.4 * WHITE_INTENSITY
 LIGHT_RADIUS = 1.9
 LIGHT_HEIGHT = 1.5
 BULB_RADIUS = 0.05
@@ -49,7 +49,7 @@ def shapes(subdivisions: int | None = None) -> ViewedScene:
     cube.materials = [glossy((0.85, 0.82, 0.75), 40.0)]
     turned = linalg.quaternion_from_axis_angle((0, 1, 0), math.radians(28.0))
     scene.add(cube, name="box", translation=(0.8, 0.5, -0.1), rotation=turned)
-    scene.add(DirectionalLight((-0.3, -1.0, -0.5), (1.0, 1.0, 1.0), 0.12))
+    scene.add(DirectionalLight((-0.3, -1.0, -0.5), intensity=0.12 * WHITE_INTENSITY))
     lights = [_bulb(scene, color) for color in LIGHT_COLORS]
 
     def update(time: float) -> None:

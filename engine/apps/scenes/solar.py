@@ -18,7 +18,7 @@ from ...model.materials.material import Material
 from ...model.materials.textures import Texture
 from ...model.primitives import uv_sphere
 from ...model.scene.animation import Animator
-from ...model.scene.lights import PointLight
+from ...model.scene.lights import WHITE_INTENSITY, PointLight
 from ...model.scene.scene import Scene
 from ...stage.viewed_scene import ViewedScene
 
@@ -41,7 +41,8 @@ def solar() -> ViewedScene:
     scene.add(_stars(), name="stars")
     animator = scene.animator = Animator(scene)
     sun = scene.add(_sun(), name="Sun")
-    scene.add(PointLight(color=(1.0, 0.95, 0.86), intensity=EARTH_ORBIT**2), parent=sun)
+    shine = WHITE_INTENSITY * EARTH_ORBIT**2
+    scene.add(PointLight(color=(1.0, 0.95, 0.86), intensity=shine), parent=sun)
     year = scene.add(name="year")
     place = scene.add(parent=year, translation=(EARTH_ORBIT, 0, 0))
     axis = scene.add(

@@ -51,6 +51,7 @@ class LightRecord:
     color : tuple of 3 float
         Linear light, 0..1.
     intensity : float
+        1 shows white: a light shows as much at the scene's centre, as these files say no distance.
     name : str
     target : tuple of 3 float or None
         The point that a spot light shines at.

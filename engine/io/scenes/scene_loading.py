@@ -17,7 +17,7 @@ from ...base.calls import checks_types
 from ...errors import InvalidArgumentError
 from ...model.geometry.creases import CREASE_ANGLE
 from ...model.scene.cameras import PerspectiveCamera
-from ...model.scene.lights import DirectionalLight, PointLight
+from ...model.scene.lights import WHITE_INTENSITY, DirectionalLight, PointLight
 from ...model.scene.scene import Scene
 from ..loaders import CameraRecord, Document, LightRecord, load_document
 from ..reading.sources import File
@@ -112,14 +112,15 @@ def _add_light(scene: Scene, record: LightRecord, bounds: np.ndarray) -> None:
     if record.kind == "ambient":
         scene.ambient = tuple(component * record.intensity for component in color)
         return
+    strength = record.intensity * WHITE_INTENSITY
     if record.kind == "directional" and record.target is not None:
         direction = np.subtract(record.target, record.position)
-        scene.add(DirectionalLight(direction, color, record.intensity), name=record.name)
+        scene.add(DirectionalLight(direction, color, strength), name=record.name)
         return
     if record.kind == "spot":
         scene.warnings.append(f"spot light {record.name!r} shines in all directions")
     distance = max(_distance(record.position, bounds), _radius(bounds))
-    light = PointLight(color, record.intensity * distance * distance)
+    light = PointLight(color, strength * distance * distance)
     scene.add(light, name=record.name, translation=record.position)
 
 

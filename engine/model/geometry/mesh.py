@@ -9,6 +9,7 @@ left.
 
 from __future__ import annotations
 
+import copy
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, BinaryIO, TypeAlias
@@ -358,6 +359,86 @@ class Mesh(Closed):
         if poses is not None:
             meshes = placed(cls, meshes, poses)
         return concatenate(cls, meshes, name)
+
+    @classmethod
+    @checks_types
+    def from_polygons(
+        cls,
+        positions: ArrayLike,
+        polygons: Iterable[ArrayLike],
+        *,
+        normals: ArrayLike | None = None,
+        uvs: ArrayLike | None = None,
+        colors: ArrayLike | None = None,
+        materials: Iterable[Material] | None = None,
+        material_ids: ArrayLike | None = None,
+        name: str = "",
+    ) -> Mesh:
+        """Return a mesh of polygons, which are cut into triangles as those of files are.
+
+        Parameters
+        ----------
+        positions : (V, 3) float
+        polygons : iterable of (N,) int
+            The vertex indices of each polygon, three or more, counter-clockwise as seen from its
+            front. It may be concave, but has no holes.
+        normals, uvs, colors, materials, name
+            As in the constructor: for each vertex.
+        material_ids : (P,) int, optional
+            The material of each polygon.
+
+        Returns
+        -------
+        mesh : Mesh
+            Its ``edge_visible`` hides the diagonals, and `polygons` numbers the polygons.
+
+        Raises
+        ------
+        InvalidArgumentError
+            A polygon has less than three corners, or an index is out of range.
+        """
+        from ._polygons import mesh_of_polygons
+
+        attributes = {"normals": normals, "uvs": uvs, "colors": colors, "materials": materials}
+        mesh = mesh_of_polygons(cls, positions, polygons, material_ids, attributes)
+        mesh.name = text(name, "name")
+        return mesh
+
+    def copy(self) -> Mesh:
+        """Return a mesh that shows the same, and can be changed without changing this one.
+
+        Its materials are copies, too; textures and morph targets are shared, as are the read-only
+        arrays, so that a copy takes no memory for them.
+        """
+        made = copy.copy(self)
+        made.materials = [copy.copy(material) for material in self.materials]
+        made.warnings = list(self.warnings)
+        return made
+
+    @checks_types
+    def transformed(self, matrix: ArrayLike) -> Mesh:
+        """Return a mesh whose vertices are moved by a matrix; this one stays as it is.
+
+        Parameters
+        ----------
+        matrix : (4, 4) float
+            Affine, such as a node's ``pose``. Normals are turned by its inverse transpose; if it
+            mirrors, faces are reversed, so that their fronts stay outside.
+
+        Returns
+        -------
+        mesh : Mesh
+            With the same materials, not copies.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The matrix is not affine or has no inverse, or the mesh has joints or morph targets,
+            which move with their nodes: set the pose of these instead.
+        """
+        from ._placing import transformed_mesh
+
+        return transformed_mesh(self, matrix)
 
     def with_creases(self) -> Mesh:
         """Return the mesh with the normals it is drawn with, by its ``crease_angle``.

@@ -319,6 +319,12 @@ class Material(Versioned):
         """The alpha of the base colour, from 0 to 1."""
         return split_alpha(self.color)[1]
 
+    def _repr_png_(self) -> bytes | None:
+        """Return a picture for notebooks; see `thumbnail`."""
+        from ...rendering.thumbnail import thumbnail
+
+        return thumbnail(self)
+
     def __repr__(self) -> str:
         texture = "" if self.texture is None else f", texture={self.texture!r}"
         return f"Material(name={self.name!r}, color={self.color}{texture})"

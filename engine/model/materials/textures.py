@@ -177,6 +177,12 @@ class Texture(Closed):
     def height(self) -> int:
         return self._pixels.shape[0]
 
+    def _repr_png_(self) -> bytes | None:
+        """Return a picture for notebooks; see `thumbnail`."""
+        from ...rendering.thumbnail import thumbnail
+
+        return thumbnail(self)
+
     def __repr__(self) -> str:
         return f"Texture({self.width}x{self.height}, name={self.name!r})"
 

@@ -6,9 +6,10 @@ earlier frames, with the same bits on every machine. All spins are evaluated tog
 
 from __future__ import annotations
 
+import copy
 import math
-from collections.abc import Iterable
-from typing import Any, TypeAlias, cast
+from collections.abc import Callable, Iterable
+from typing import Any, TypeAlias, TypeVar, cast
 from weakref import ref
 
 import numpy as np
@@ -122,6 +123,13 @@ class Animator(Clock):
         self._scene.select([node])
         self._add([], [Track(node, times, translations, rotations, scales, repeat)])
 
+    def copied(self, scene: Scene, copy_of: Callable[[Node], Node]) -> Animator:
+        """Return an animator of a copied scene; nodes that were removed are left out."""
+        made = Animator(scene, full_rate_distance=self.full_rate_distance)
+        made._spins, made._tracks = _copied(self._spins, copy_of), _copied(self._tracks, copy_of)
+        made.time, made.paused, made._updates = self.time, self.paused, self._updates
+        return made
+
     def _add(self, spins: list[Spin], tracks: list[Track]) -> None:
         """Add motions to those of the animator."""
         self._spins += spins
@@ -194,6 +202,21 @@ class _Described:
     @property
     def node(self) -> Node | None:
         return self._node()
+
+
+Motion = TypeVar("Motion", bound=_Described)
+
+
+def _copied(motions: Iterable[Motion], copy_of: Callable[[Node], Node]) -> list[Motion]:
+    """Return motions for the copies of their nodes."""
+    made = []
+    for motion in motions:
+        node = motion.node
+        if node is not None and copy_of(node) is not node:
+            copied = copy.copy(motion)
+            copied._node = ref(copy_of(node))
+            made.append(copied)
+    return made
 
 
 def _node_of(described: _Described) -> Node:

@@ -26,16 +26,16 @@ from ...base.validation import (
     not_negative,
     one_of,
 )
-from ...choices import ColorLike, Falloff, LightShadow, LightUnit, ShadowTaps
+from ...choices import ColorLike, Falloff, LightShadow, ShadowTaps
 from ...errors import InvalidArgumentError
 from ..materials.colors import check_color
 from .ambient_lights import AMBIENT_LIGHTS, HemisphereLight, LightProbe
 from .shadow_casting import CastsShadows, CountAttribute, count_of
 
 FALLOFFS: tuple[Falloff, ...] = get_args(Falloff)
-UNITS: tuple[LightUnit, ...] = get_args(LightUnit)
-
-UnitAttribute: TypeAlias = CheckedAttribute[LightUnit, LightUnit]
+#: The intensity with which white matt surfaces that face a light show white; if the light has a
+#: position, at distance 1.
+WHITE_INTENSITY = math.pi
 
 
 def _direction(value: ArrayLike, what: str) -> NDArray[np.float64]:
@@ -61,7 +61,6 @@ class DirectLight(CastsShadows):
 
     color: ColorAttribute = CheckedAttribute(check_color)
     intensity: NumberAttribute = CheckedAttribute(not_negative)
-    unit: UnitAttribute = CheckedAttribute(one_of(UNITS))
 
     @property
     def kind(self) -> str:
@@ -82,10 +81,8 @@ class DirectionalLight(DirectLight):
         The direction in which the light travels, in node space; any nonzero length.
     color : sequence of 3 numbers
     intensity : float
-        Multiplies the colour; a white surface that faces the light shows ``color * intensity``. For
-        physical materials it is in lux: such a surface shows it divided by pi.
-    unit : {"photometric", "white"}
-        With ``"white"``, the intensity means the same for physical materials as for others.
+        In lux. A white matt surface that faces the light shows ``color * intensity / pi``, whatever
+        its material is: ``color`` by default.
     shadow : {False, True, "exact"}
         Whether objects shadow the surfaces behind them. True uses shadow maps, as in three.js.
         ``"exact"`` traces a ray from each sample to the light: edges are hard, and there is no map,
@@ -123,8 +120,7 @@ class DirectionalLight(DirectLight):
         self,
         direction: ArrayLike = (0, 0, -1),
         color: ColorLike = (1, 1, 1),
-        intensity: float = 1.0,
-        unit: LightUnit = "photometric",
+        intensity: float = WHITE_INTENSITY,
         *,
         shadow: LightShadow = False,
         shadow_map_size: int = 1024,
@@ -159,7 +155,7 @@ class DirectionalLight(DirectLight):
         light = sunlight((x, y, z), haze)
         most = max(light)
         red, green, blue = (component / most for component in light)
-        return cls((-x, -y, -z), (red, green, blue), most / math.pi, "white")
+        return cls((-x, -y, -z), (red, green, blue), most)
 
     def __repr__(self) -> str:
         direction = tuple(self.direction.tolist())
@@ -173,16 +169,13 @@ class PointLight(DirectLight):
     ----------
     color : sequence of 3 numbers
     intensity : float
-        As for `DirectionalLight`, at distance 1 unless the falloff is ``"window"``. For physical
-        materials it is in candela.
+        In candela: as for `DirectionalLight`, at distance 1 unless the falloff is ``"window"``.
     range : float
         World units; beyond this distance the light is exactly 0. May be infinite except with
         ``"window"``.
     falloff : {"inverse_square", "window", "gltf"}
         Attenuation at distance d: ``1 / d**2``, ``(1 - d**2 / range**2)**2``, or, as in
         KHR_lights_punctual, ``(1 - (d / range)**4) / d**2``.
-    unit : {"photometric", "white"}
-        As for `DirectionalLight`.
     shadow, shadow_map_size, shadow_bias, shadow_normal_bias, shadow_radius, shadow_taps
         As for `DirectionalLight`; the light has six maps, the faces of a cube.
 
@@ -202,10 +195,9 @@ class PointLight(DirectLight):
     def __init__(
         self,
         color: ColorLike = (1, 1, 1),
-        intensity: float = 1.0,
+        intensity: float = WHITE_INTENSITY,
         range: float = math.inf,
         falloff: Falloff = "inverse_square",
-        unit: LightUnit = "photometric",
         *,
         shadow: LightShadow = False,
         shadow_map_size: int = 1024,
@@ -246,8 +238,6 @@ class SpotLight(DirectLight):
         World units; beyond this distance the light is exactly 0. May be infinite.
     inner_cone_angle, outer_cone_angle : float
         Radians from the axis: 0 <= inner < outer <= pi/2.
-    unit : {"photometric", "white"}
-        As for `DirectionalLight`.
     shadow, shadow_map_size, shadow_bias, shadow_normal_bias, shadow_radius, shadow_taps
         As for `DirectionalLight`; the light has one map. More than 84 degrees off the axis, nothing
         is shadowed.
@@ -269,11 +259,10 @@ class SpotLight(DirectLight):
     def __init__(
         self,
         color: ColorLike = (1, 1, 1),
-        intensity: float = 1.0,
+        intensity: float = WHITE_INTENSITY,
         range: float = math.inf,
         inner_cone_angle: float = 0.0,
         outer_cone_angle: float = math.pi / 4,
-        unit: LightUnit = "photometric",
         *,
         shadow: LightShadow = False,
         shadow_map_size: int = 1024,

@@ -17,6 +17,7 @@ from ..._native.loaders import frozen
 from ..._native.scene_graph import STATIC, VISIBLE
 from ...base import linalg
 from ...base.angles import angles
+from ...base.calls import checks_types
 from ...base.foreign_names import refuses_foreign_names
 from ...base.linalg.quaternions import quaternion_of_turns
 from ...base.numbers import floats, shown
@@ -279,6 +280,40 @@ class Node:
     @scale.setter
     def scale(self, value: ArrayLike) -> None:
         self._arrays.set_parts(self._slot, None, check_scale(value))
+
+    @checks_types
+    def look_at(self, target: ArrayLike, up: ArrayLike = (0.0, 1.0, 0.0)) -> None:
+        """Turn the node so that its -Z, along which cameras and lights look, meets a place.
+
+        Parameters
+        ----------
+        target : (3,) float
+            The place, in world space, where the node is now; later moves do not turn the node.
+        up : (3,) float
+            The direction, in world space, that is up for the node; if it is parallel to the line of
+            sight, an axis takes its place.
+
+        Raises
+        ------
+        InvalidArgumentError
+            The target is where the node is, a number is not finite, or a parent's pose has no
+            inverse. Position and scale stay; a shear is lost.
+        """
+        self._in_scene()
+        place, parent = vector3(target, "target"), self.parent
+        towards, upward = place - self.world_pose[:3, 3], vector3(up, "up")
+        if not towards.any() or not upward.any():
+            raise InvalidArgumentError("target must not be the node's own place, nor up zero")
+        if parent is not None:
+            turn = np.eye(4)
+            turn[:3, :3] = parent.world_pose[:3, :3]
+            local = linalg.transform_directions(linalg.inverse(turn), np.stack([towards, upward]))
+            towards, upward = local
+        scale = self.scale
+        pose = linalg.look_at((0.0, 0.0, 0.0), -towards if scale[2] < 0 else towards, upward)
+        pose[:3, :3] *= scale
+        pose[:3, 3] = self.pose[:3, 3]
+        self.pose = pose
 
     @property
     def visible(self) -> bool:

@@ -285,8 +285,19 @@ class Scene(Surroundings, SceneQueries):
 
         save_scene(self, path)
 
+    def copy(self) -> Scene:
+        """Return a scene that shows the same, and can be changed without changing this one.
+
+        Nodes, cameras, lights, skins, animations and the animator are copied; node IDs count from 0
+        again. Meshes, instances, materials, textures and environments are shared: replace
+        ``node.object`` by ``node.object.copy()`` before changing one.
+        """
+        from ._copies import copied_scene
+
+        return copied_scene(self)
+
     def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
-        raise TypeError("a Scene cannot be copied or pickled: add its objects to another Scene")
+        raise TypeError("a Scene cannot be pickled, and is copied by scene.copy()")
 
     def _repr_png_(self) -> bytes | None:
         """Return a picture for notebooks; see `thumbnail`."""

@@ -102,8 +102,8 @@ class DrawList:
         ----------
         data : AnyData
         listing : Listing
-        headlight : tuple of three vectors, or None
-            Colour, lux and direction towards the light, for scenes without lights.
+        headlight : tuple of two vectors, or None
+            Colour times intensity, and direction towards the light, for scenes without lights.
         placing : Placing
         """
         data.update(self._threads)

@@ -26,8 +26,8 @@ from .ambient_terms import ambient_terms
 
 #: Unit direction towards a directional light, and position of a light that has one.
 Where: TypeAlias = tuple[Sequence[float] | None, Sequence[float] | None]
-#: Colour, lux and direction towards the light of a scene without lights.
-Headlight: TypeAlias = tuple[Sequence[float], Sequence[float], Sequence[float]]
+#: Colour times intensity of the light of a scene without lights, and the direction towards it.
+Headlight: TypeAlias = tuple[Sequence[float], Sequence[float]]
 
 _HEADLIGHT = DirectionalLight()
 _NOT_KNOWN = (object(),)  # equal to nothing in a scene, not even to the absence of lights
@@ -72,7 +72,7 @@ class LightList:
         self._add_around(data)
         if self._lights or self._around:
             headlight = None
-        shines = None if headlight is None else headlight[:2]
+        shines = None if headlight is None else headlight[0]
         listed = self._slots_of, [light.version for light in self._lights], shines
         same, self._listed = self._listed == listed, None  # in case anything below raises
         if self._lights:
@@ -84,10 +84,10 @@ class LightList:
             self._native.clear_lights()
             self._at = {}
             if headlight is not None:
-                self._add_native(*headlight[:2], _HEADLIGHT)
-                self._native.turn_light(0, headlight[2])
+                self._add_native(headlight[0], _HEADLIGHT)
+                self._native.turn_light(0, headlight[1])
         elif headlight is not None:
-            self._native.turn_light(0, headlight[2])
+            self._native.turn_light(0, headlight[1])
         self._listed = listed
 
     def _renew(self, data: AnyData, same: bool) -> None:
@@ -144,18 +144,16 @@ class LightList:
 
     def _add(self, light: DirectLight) -> None:
         shading = shading_color(light.color, self._color_space)
-        color = [component * light.intensity for component in shading]
-        lux = color if light.unit == "photometric" else [math.pi * component for component in color]
         light.check()
-        self._add_native(color, lux, light)
+        self._add_native([component * light.intensity for component in shading], light)
 
-    def _add_native(self, color: Sequence[float], lux: Sequence[float], light: DirectLight) -> None:
+    def _add_native(self, color: Sequence[float], light: DirectLight) -> None:
         """Add a light; parameters that its kind lacks get values without effect."""
         falloff = FALLOFFS[getattr(light, "falloff", "gltf")]
         cone = light.cone() if hasattr(light, "cone") else (0.0, 0.0)
         reach = getattr(light, "range", math.inf)
         kind = LIGHT_KINDS[light.kind]
-        self._native.add_light(kind, color, lux, range=reach, falloff=falloff, cone=cone)
+        self._native.add_light(kind, color, range=reach, falloff=falloff, cone=cone)
 
     def placed(self) -> list[tuple[int, DirectLight, Where]]:
         """Return the visible direct lights: number, light, and direction and position.

@@ -100,7 +100,7 @@ static ALWAYS_INLINE void brdf_add_coat(const e3d_light *light, const vf32 norma
 {
     vf32 nl = dot_three(normal, on->l);
     vmask lit = v_mand(on->lit, v_gt(nl, v_setf(0.0f)));
-    light_sum(at->coat_light, light->lux, v_mul(lobe_reflect(&at->coat, normal, h, nl), v_mul(on->attenuation, nl)), &lit);
+    light_sum(at->coat_light, light->color, v_mul(lobe_reflect(&at->coat, normal, h, nl), v_mul(on->attenuation, nl)), &lit);
 }
 
 /* Finds the specular terms of R51 that all channels share. coat: the coat's normals, or NULL. */
@@ -121,7 +121,7 @@ static ALWAYS_INLINE void brdf_shine(const e3d_light *light, const e3d_batch *ba
         d = lobe_reflect(&at->base, normal, &h, nl);
     on->d = v_mul(d, on->e);
     if (has_sheen)
-        light_sum(at->fuzz, light->lux, v_mul(sheen_reflect(at, normal, &h, nl), on->e), &on->lit);
+        light_sum(at->fuzz, light->color, v_mul(sheen_reflect(at, normal, &h, nl), on->e), &on->lit);
     if (coat) {
         load_three(coat, i, normal);
         brdf_add_coat(light, normal, on, &h, at);
@@ -139,7 +139,7 @@ static ALWAYS_INLINE void brdf_add(const e3d_light *light, const e3d_brdf *rare,
         if (rare && rare->iridescent)
             fresnel = v_add(fresnel, v_mul(v_sub(at->film[k], fresnel), at->film_share));
         vf32 shown = v_add(v_mul(at->diffuse[k], keep), v_mul(on->d, fresnel));
-        at->direct[k] = v_self(on->lit, v_add(at->direct[k], v_mul(v_setf(light->lux[k]), shown)), at->direct[k]);
+        at->direct[k] = v_self(on->lit, v_add(at->direct[k], v_mul(v_setf(light->color[k]), shown)), at->direct[k]);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "kernels/types/shading.h"
 #include "kernels/generic/surface.inl"
 #include "kernels/generic/interpolate.inl"
+#include "kernels/generic/shade/environment.inl"
 #include "kernels/generic/shade/shadow.inl"
 
 /* One vector of lit samples. If all light is grey, the first channel stands for all three. */
@@ -67,7 +68,7 @@ static ALWAYS_INLINE void light_sum(vf32 sums[3], const float color[3], vf32 amo
     }
 }
 
-static ALWAYS_INLINE void light_highlight(const e3d_light *light, const vf32 l[3], vf32 facing, vf32 attenuation, const vmask *near,
+static ALWAYS_INLINE void light_highlight(const float shown[3], const vf32 l[3], vf32 facing, vf32 attenuation, const vmask *near,
                                           float shininess, lit_lanes *lit)
 {
     vf32 zero = v_setf(0.0f), h[3];
@@ -78,18 +79,18 @@ static ALWAYS_INLINE void light_highlight(const e3d_light *light, const vf32 l[3
     vmask some = v_mand(v_gt(facing, zero), v_ge(x, v_setf(0x1p-100f)));
     vf32 safe = v_self(some, x, v_setf(1.0f));
     vf32 power = v_self(some, exp2_poly(v_mul(v_setf(shininess), log2_poly(safe))), zero);
-    light_sum(lit->shine, light->color, v_mul(attenuation, power), near);
+    light_sum(lit->shine, shown, v_mul(attenuation, power), near);
 }
 
-/* Adds one light from direction l (R31). */
-static ALWAYS_INLINE void light_from(const e3d_light *light, const vf32 l[3], vf32 attenuation, const vmask *near,
+/* Adds one light from direction l (R31); shown: its colour by R154. */
+static ALWAYS_INLINE void light_from(const float shown[3], const vf32 l[3], vf32 attenuation, const vmask *near,
                                      float shininess, lit_lanes *lit)
 {
     vf32 zero = v_setf(0.0f), facing = v_max(dot_three(lit->normal, l), zero);
-    light_sum(lit->energy, light->color, v_mul(attenuation, facing), near);
+    light_sum(lit->energy, shown, v_mul(attenuation, facing), near);
     vmask faces = v_gt(facing, zero);
     if (shininess > 0.0f && v_any(near ? v_mand(*near, faces) : faces)) /* where no lane faces the light, the highlight is 0 */
-        light_highlight(light, l, facing, attenuation, near, shininess, lit);
+        light_highlight(shown, l, facing, attenuation, near, shininess, lit);
 }
 
 /* R90: the attenuation times the share of a light that reaches samples. Samples that face away from it get no light anyway. */
@@ -107,7 +108,7 @@ static ALWAYS_INLINE vf32 light_shadowed(const e3d_lighting *lighting, int n, co
 }
 
 /* What varies from sample to sample besides the surface, as a constant for the compiler: nothing; the share of lights that
- * arrives; or ambient light, too. */
+ * arrives; or light from all around, too. */
 enum light_variety { LIGHT_ALIKE = 0,
                      LIGHT_SHADOWED,
                      LIGHT_VARIED };
@@ -123,7 +124,7 @@ static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, const e
             l[k] = v_setf(light->to_light[k]);
         if (varied)
             attenuation = light_shadowed(lighting, n, batch, i, lit, l, attenuation);
-        light_from(light, l, attenuation, NULL, shininess, lit);
+        light_from(lighting->shown[n], l, attenuation, NULL, shininess, lit);
         return;
     }
     vmask near = light_towards(lighting, n, lit->position, 0, l, &attenuation);
@@ -131,7 +132,7 @@ static ALWAYS_INLINE void light_one(const e3d_lighting *lighting, int n, const e
         return;
     if (varied)
         attenuation = light_shadowed(lighting, n, batch, i, lit, l, attenuation);
-    light_from(light, l, attenuation, &near, shininess, lit);
+    light_from(lighting->shown[n], l, attenuation, &near, shininess, lit);
 }
 
 static inline void light_view(const e3d_lighting *lighting, lit_lanes *lit)
@@ -218,8 +219,11 @@ static inline int light_choose(const e3d_lighting *lighting, int first, int end,
 
 /* ---- light from all around ---- */
 
-/* Whether ambient light varies by direction (R130) or from pixel to pixel (R129). */
-static inline int ambient_varies(const e3d_lighting *lighting) { return lighting->ambient_terms != NULL || lighting->has_visibility; }
+/* Whether light from all around varies by direction (R54, R130) or from pixel to pixel (R129). */
+static inline int around_varies(const e3d_lighting *lighting)
+{
+    return lighting->ambient_terms != NULL || lighting->has_visibility || lighting->environment != NULL;
+}
 
 /* R130: the ambient light that white surfaces of these normals show. */
 static ALWAYS_INLINE void ambient_light(const e3d_lighting *lighting, const vf32 n[3], vf32 out[3])
@@ -239,11 +243,22 @@ static ALWAYS_INLINE void ambient_light(const e3d_lighting *lighting, const vf32
     }
 }
 
+/* R54: adds the irradiance of an environment. */
+static __attribute__((noinline)) void light_add_environment(const e3d_environment_light *light, const vf32 normal[3], vf32 energy[3])
+{
+    environment_plan plan;
+    vf32 more[3];
+    environment_begin(light, &plan);
+    environment_irradiance(&plan, normal, more);
+    for (int k = 0; k < 3; k++)
+        energy[k] = v_add(energy[k], more[k]);
+}
+
 /* ---- the sums ---- */
 
 static inline enum light_variety light_varies(const e3d_lighting *lighting)
 {
-    return ambient_varies(lighting) ? LIGHT_VARIED : lighting->shadows ? LIGHT_SHADOWED
+    return around_varies(lighting) ? LIGHT_VARIED : lighting->shadows ? LIGHT_SHADOWED
                                                                        : LIGHT_ALIKE;
 }
 
@@ -260,6 +275,8 @@ static ALWAYS_INLINE lit_lanes light_begin(const e3d_batch *batch, int i, const 
     }
     if (varied == LIGHT_VARIED)
         ambient_light(lighting, lit.normal, lit.energy);
+    if (varied == LIGHT_VARIED && lighting->environment)
+        light_add_environment(lighting->environment, lit.normal, lit.energy);
     if (varied == LIGHT_VARIED && lighting->has_visibility)
         for (int k = 0; k < 3; k++)
             lit.energy[k] = v_mul(lit.energy[k], v_loadf(batch->visibility + i));

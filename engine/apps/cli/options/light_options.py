@@ -30,8 +30,8 @@ def add_light(parser) -> None:
         "--light-intensity",
         type=values.not_negative,
         metavar="I",
-        help="intensity of that light; one at a position gives I/d² at distance d. Without such a "
-        "light, a factor for the default lights",
+        help="intensity of that light: 1 shows white; one at a position gives I/d² at distance d. "
+        "Without such a light, a factor for the default lights",
     )
     group.add_argument(
         "--light-clamp",

@@ -262,7 +262,7 @@ _NAMES: dict[str, dict[str, str]] = {
         "viewport_width": "width",
         "viewport_height": "height",
         "msaa": "antialiasing='msaa', samples=4",
-        "antialiasing": "antialiasing='msaa', samples=4",
+        "antialias": "antialiasing='msaa', samples=4",
         "num_threads": "threads",
     },
     "render": {
@@ -271,7 +271,7 @@ _NAMES: dict[str, dict[str, str]] = {
         "background": "scene.background",
         "shadows": "the light's shadow=True",
         "msaa": "Renderer(antialiasing='msaa', samples=4)",
-        "antialiasing": "antialiasing='msaa', samples=4",
+        "antialias": "antialiasing='msaa', samples=4",
         "tonemapping": "tone_mapping",
         "ssao": "ambient_occlusion",
         "look": "tone_mapping, ambient_occlusion and other options",

@@ -91,7 +91,7 @@ def join_values(arguments: list[str]) -> list[str]:
 
 #: Options by the names of other commands and programs, and what they may be called here.
 _ELSEWHERE = {
-    "--size": ("--size",),
+    "--resolution": ("--size",),
     "--width": ("--size",),
     "--height": ("--size",),
     "--fov": ("--camera-yfov",),

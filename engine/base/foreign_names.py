@@ -159,6 +159,7 @@ _NAMES: dict[str, dict[str, str]] = {
         "cast_shadow": "shadow",
         "shadows": "shadow",
         "energy": "intensity",
+        "unit": "intensity, in lux or candela for all materials",
         "power": "intensity",
         "strength": "intensity",
     },

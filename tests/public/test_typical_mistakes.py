@@ -47,7 +47,7 @@ MISTAKES = [
     (lambda: mesh().translate((1, 0, 0)), "node's translation"),
     (lambda: node().position, "did you mean translation"),
     (assign(node, "position", (1, 2, 3)), "did you mean translation"),
-    (assign(node, "look_at", (1, 2, 3)), "engine3d.look_at"),
+    (assign(node, "lookAt", (1, 2, 3)), "look_at"),
     (assign(node, "anything", 1), "no attribute 'anything'"),
     (lambda: node().visble, "no attribute 'visble'"),
     (lambda: scene().lights, "scene.nodes"),

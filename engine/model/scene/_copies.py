@@ -54,7 +54,7 @@ def copied_scene(scene: Scene) -> Scene:
         _complete(copies.of(node), node, copies)
     made.animations = {name: _copied_clip(c, copies) for name, c in scene.animations.items()}
     if scene.animator is not None:
-        made.animator = scene.animator.copied(made, copies.of)
+        made.animator = scene.animator._copied_to(made, copies.of)
     made.warnings = list(scene.warnings)
     return made
 

@@ -123,7 +123,7 @@ class Animator(Clock):
         self._scene.select([node])
         self._add([], [Track(node, times, translations, rotations, scales, repeat)])
 
-    def copied(self, scene: Scene, copy_of: Callable[[Node], Node]) -> Animator:
+    def _copied_to(self, scene: Scene, copy_of: Callable[[Node], Node]) -> Animator:
         """Return an animator of a copied scene; nodes that were removed are left out."""
         made = Animator(scene, full_rate_distance=self.full_rate_distance)
         made._spins, made._tracks = _copied(self._spins, copy_of), _copied(self._tracks, copy_of)

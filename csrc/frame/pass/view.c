@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "data/mesh/mesh.h"
-#include "base/limits.h"
 #include "base/pool.h"
 #include "data/sample_patterns.h"
 #include "data/shadows.h"

@@ -1,7 +1,7 @@
 """The vertices of a PLY file: positions, normals, colours and texture coordinates.
 
 In: the table of the element ``vertex``. Out: arrays as a `Mesh` takes them. Property names follow
-common programs; other properties are numbers to colour by, on request.
+common programs; others are numbers for ``Mesh.values``.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def read_vertices(table: PlyTable, warnings: WarningList, is_own: bool = False) 
     return PlyVertices(positions, normals, colors, uvs, position_ids)
 
 
-def scalar_names(table: PlyTable) -> list[str]:
+def value_names(table: PlyTable) -> list[str]:
     """Return the names of vertex numbers that `read_vertices` does not read."""
     uvs = next((names for names in _UVS if table.has(*names)), ())
     return names_but(table, {"x", "y", "z", "nx", "ny", "nz", "position_id", *uvs})

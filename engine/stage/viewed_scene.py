@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ..model.motion.player import AnimationPlayer
     from ..model.navigation import Walker
     from ..model.scene.scene import Scene
-    from .scalars import ScalarBar
+    from .coloring import ScalarBar
 
 #: Seconds per turn of a turntable.
 TURN_SECONDS = 6.0

@@ -134,7 +134,7 @@ class Coloring:
         if color_by is None and (known or own):
             usual = [name for mesh in meshes for name in _names_of(mesh, on or "vertices")]
             return min(usual) if usual else up[1:].lower()
-        if color_by is None or color_by not in (*known, *own):
+        if color_by is None or not {color_by, f"_{color_by}"} & {*known, *own}:
             wanted = "values" if color_by is None else f"values {color_by!r}"
             wanted += "" if on is None else f" of {on}"
             whose = "this mesh" if len(meshes) == 1 else "this model"
@@ -203,8 +203,8 @@ def _names_of(mesh: Mesh, on: ValuesOn | None) -> list[str]:
 
 
 def _key_of(mesh: Mesh, name: str, on: ValuesOn | None) -> str | None:
-    """Return the key of a mesh's numbers, or None."""
-    for key in (name, name + OF_FACES):
+    """Return the key of a mesh's numbers, or None; names in glTF files begin with ``_``."""
+    for key in (name, name + OF_FACES, f"_{name}"):
         if key in mesh.values and on in (None, mesh.values.on(key)):
             return key
     return None

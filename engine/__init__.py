@@ -73,6 +73,7 @@ _PUBLIC = {
     "HemisphereLight": "model.scene.ambient_lights",
     "LightProbe": "model.scene.ambient_lights",
     "Animator": "model.scene.animation",
+    "Values": "model.geometry.values",
     "MorphTarget": "model.geometry.morph_targets",
     "Skin": "model.motion.skins",
     "AnimationClip": "model.motion.clips",

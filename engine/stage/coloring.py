@@ -16,15 +16,19 @@ from numpy.typing import NDArray
 from ..base.linalg import inverse, normalize, transform_directions, transform_points
 from ..choices import ValuesOn
 from ..errors import InvalidArgumentError
-from ..model.geometry._splitting import split_mesh
 from ..model.geometry.mesh import Mesh
+from ..model.geometry.native_meshes import find_tangents_when_drawn
+from ..model.geometry.splitting import split_mesh
 from ..model.geometry.twins import twin_of
 from ..model.geometry.values import OF_FACES, Values, checked_values, told_names
 from ..model.materials.material import Material
 from ..model.materials.textures import Texture
 from ..model.scene.instances import InstancedMesh
+from ..model.scene.scene import Scene
+from ..model.scene.shown import placing_pose
 from .numbers import DIRECT, MAGNITUDE, Numbers
 from .overlays.colormaps import MISSING
+from .visibility import DRAWABLE, mesh_of
 
 _AXES = ("x", "y", "z")
 _NORMALS = "normals"
@@ -105,10 +109,10 @@ class Coloring:
     def colored(self, mesh: Mesh) -> Mesh:
         """Return a coloured twin of a mesh, whose faces are in the same order."""
         array, on = self._array(mesh)
-        shown = _colors_of(array) if self.bar is None else self._chosen(array)
+        shown: NDArray[Any] = _colors_of(array) if self.bar is None else self._chosen(array)
         twin, rows = _on_vertices(mesh, shown, on)
         shown = shown if rows is None else np.concatenate([shown, _nothing(shown)])[rows]
-        twin._tangent_uv_set = None
+        find_tangents_when_drawn(twin, None)
         if twin.tangents is not None:
             twin.tangents = None
         if self.bar is None:
@@ -155,7 +159,8 @@ class Coloring:
     def _array(self, mesh: Mesh) -> tuple[NDArray[Any], ValuesOn]:
         """Return the numbers of a mesh, (N, K), and what they belong to; NaN if it lacks them."""
         if self._given is not None:
-            return np.asarray(self._given.array).reshape(len(self._given.array), -1), self._given.on
+            given = np.asarray(self._given.array)
+            return given.reshape(len(given), -1), self._given.on
         key = _key_of(mesh, self._name, self._numbers.on)
         if key is not None:
             array = mesh.values[key]
@@ -196,6 +201,14 @@ class Coloring:
         _dress(mesh, Material())
 
 
+def coloring_of(scene: Scene, numbers: Numbers, up: str = "+Y", unit: str = "") -> Coloring:
+    """Return how a scene's meshes show numbers."""
+    scene.data.update()
+    shown = [node for node in scene.nodes if node.shown and isinstance(node.object, DRAWABLE)]
+    things = [(mesh_of(node.object), placing_pose(node)) for node in shown]
+    return Coloring(numbers, things, up, unit)
+
+
 def _names_of(mesh: Mesh, on: ValuesOn | None) -> list[str]:
     """Return the names of numbers of a mesh."""
     names = [name for name in mesh.values if on in (None, mesh.values.on(name))]
@@ -225,9 +238,7 @@ def _coordinates(mesh: Mesh, name: str, pose: NDArray[Any] | None) -> NDArray[An
     return positions[:, [_AXES.index(name)]]
 
 
-def _on_vertices(
-    mesh: Mesh, shown: NDArray[Any], on: ValuesOn
-) -> tuple[Mesh, NDArray[Any] | None]:
+def _on_vertices(mesh: Mesh, shown: NDArray[Any], on: ValuesOn) -> tuple[Mesh, NDArray[Any] | None]:
     """Return a twin of a mesh with a vertex for each different number of its elements.
 
     Parameters
@@ -245,10 +256,11 @@ def _on_vertices(
     """
     if on == "vertices":
         return twin_of(mesh, mesh.materials, mesh.name), None
-    count = len(mesh.positions)
+    count, rows = len(mesh.positions), np.arange(len(mesh.points))
     if on == "points":
-        vertices, rows = mesh.points, np.arange(len(mesh.points))
-        faces, points = mesh.faces, count + rows
+        vertices: NDArray[Any] = mesh.points
+        faces: NDArray[Any] = mesh.faces
+        points: NDArray[Any] = count + rows
     else:
         kinds = np.unique(shown, axis=0, return_inverse=True)[1].reshape(-1)
         keys = mesh.faces.astype(np.int64) * (len(shown) + 1) + kinds[:, np.newaxis]

@@ -6,15 +6,14 @@ applies it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any, TypedDict, get_args
+from typing import Any, NamedTuple, TypedDict, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..base.numbers import real, shown
-from ..base.validation import choose, one_of
+from ..base.validation import choose, flag
 from ..choices import ValuesOn
 from ..errors import InvalidArgumentError
 from ..model.geometry.values import Values
@@ -34,6 +33,13 @@ class NumberKeywords(TypedDict, total=False):
     clim: tuple[float, float] | None
     component: int | None
     on: ValuesOn | None
+
+
+class MarkKeywords(NumberKeywords, total=False):
+    """The same, and those for what is drawn beside the scene."""
+
+    bar: bool
+    axes_grid: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,16 +90,45 @@ class Numbers:
         return replace(self, clim=(low, high))
 
 
-def take_numbers(keywords: Mapping[str, Any]) -> Numbers | None:
-    """Return the numbers that keywords describe; None if no keyword is given.
+class Marks(NamedTuple):
+    """The numbers that a picture shows: as colours, and beside the scene.
+
+    Attributes
+    ----------
+    numbers : Numbers or None
+    bar : bool
+        Whether a bar tells which colour is which number.
+    axes_grid : bool
+        Whether a grid with coordinates is behind the scene.
+    """
+
+    numbers: Numbers | None
+    bar: bool
+    axes_grid: bool
+
+    @property
+    def shows_any(self) -> bool:
+        """Whether the picture shows any."""
+        return self.numbers is not None or self.axes_grid
+
+
+NO_MARKS = Marks(None, False, False)
+
+
+def take_marks(keywords: dict[str, Any]) -> Marks:
+    """Take what keywords say about numbers out of them.
 
     Parameters
     ----------
-    keywords : mapping
-        Of `NumberKeywords`; None for those that are not given.
+    keywords : dict
+        Those of `MarkKeywords`, and others, which stay. All but ``axes_grid`` show numbers as
+        colours, unless they are None or False.
     """
-    given = {name: value for name, value in keywords.items() if value is not None}
-    return Numbers(**given) if given else None
+    taken = {name: keywords.pop(name) for name in MarkKeywords.__annotations__ if name in keywords}
+    bar = flag(taken.pop("bar", False), "bar")
+    axes_grid = flag(taken.pop("axes_grid", False), "axes_grid")
+    given = {name: value for name, value in taken.items() if value is not None}
+    return Marks(Numbers(**given) if given or bar else None, bar, axes_grid)
 
 
 def _checked_range(clim: tuple[float, float] | None) -> tuple[float, float] | None:
@@ -104,5 +139,7 @@ def _checked_range(clim: tuple[float, float] | None) -> tuple[float, float] | No
     except (TypeError, ValueError):
         raise InvalidArgumentError(f"clim must be two numbers, not {shown(clim)}") from None
     if not (np.isfinite([low, high]).all() and low < high):
-        raise InvalidArgumentError(f"clim must be two finite numbers, low < high, not {shown(clim)}")
+        raise InvalidArgumentError(
+            f"clim must be two finite numbers, low < high, not {shown(clim)}"
+        )
     return low, high

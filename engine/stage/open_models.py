@@ -101,9 +101,7 @@ def open_models(
     return moved_near(viewed)
 
 
-def _share_range(
-    opened: list[tuple[ViewedScene, Document]], numbers: Numbers | None
-) -> None:
+def _share_range(opened: list[tuple[ViewedScene, Document]], numbers: Numbers | None) -> None:
     """Give all models one colour range, which is known only after all are read."""
     ranges = {viewed.bar[1:3] for viewed, _ in opened if viewed.bar is not None}
     if numbers is None or len(ranges) < 2:

@@ -122,7 +122,7 @@ class Mesh(Closed):
     groups : dict of str to (N,) int32
         Face indices of named parts; emptied when the number of faces changes.
     values : dict of str to (N,) or (N, K) number
-        Numbers of the vertices, faces or points by name, such as temperatures: see `MeshValues`.
+        Numbers of the vertices, faces or points by name, such as temperatures.
         Pictures show them by ``color_by``. They are dropped when the number of their elements
         changes.
     warnings : list of str
@@ -328,7 +328,12 @@ class Mesh(Closed):
 
     @property
     def values(self) -> MeshValues:
-        """Numbers of the vertices, faces or points by name, each (N,) or (N, K)."""
+        """Numbers of the vertices, faces or points by name, each (N,) or (N, K), read-only.
+
+        ``mesh.values["t"] = array`` copies the array; its length tells what it belongs to, and
+        ``mesh.values.on("t")`` returns that. Where the length fits several kinds of elements,
+        assign ``Values(array, on="faces")``; a name that exists keeps its kind if it fits.
+        """
         return self._values
 
     @values.setter

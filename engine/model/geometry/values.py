@@ -154,7 +154,9 @@ def checked_values(
     if on is not None:
         choose(on, tuple(_PLACES), "on")
         if len(rows) != counts[on]:
-            raise InvalidArgumentError(f"values {name!r} has {len(rows)} rows for {counts[on]} {on}")
+            raise InvalidArgumentError(
+                f"values {name!r} has {len(rows)} rows for {counts[on]} {on}"
+            )
         return Values(rows, on)
     fitting = [place for place, count in counts.items() if count == len(rows)]
     if former in fitting:

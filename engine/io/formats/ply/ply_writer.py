@@ -18,7 +18,7 @@ from ...writing.rows import float_words
 from ...writing.writer_registry import Writer
 from .ply_header import OWN_COMMENT
 from .ply_vertices import UV_NAMES
-from .written_values import Column, kinds_of, packed, written_values
+from .written_columns import Column, kinds_of, packed, written_values
 
 _BLOCK = 1 << 15
 

@@ -7,7 +7,7 @@ that readers take for something else, such as ``red``, is not written.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,7 +59,9 @@ class WrittenValues(NamedTuple):
     lost: list[str]
 
 
-def written_values(mesh: Mesh, names: Iterable[str], points: NDArray[np.int32] | None) -> WrittenValues:
+def written_values(
+    mesh: Mesh, names: Iterable[str], points: NDArray[np.int32] | None
+) -> WrittenValues:
     """Return the columns for the numbers of a mesh.
 
     Parameters
@@ -85,8 +87,10 @@ def written_values(mesh: Mesh, names: Iterable[str], points: NDArray[np.int32] |
             continue
         taken.add(name)
         column = _column(name, array)
-        if column.code == "<f8" and (column.values.astype(array.dtype) != array).any() and (
-            array.dtype.kind != "f"
+        if (
+            column.code == "<f8"
+            and (column.values.astype(array.dtype) != array).any()
+            and (array.dtype.kind != "f")
         ):
             found.lost.append(f"all digits of the values {key!r}")
         (found.faces if on == "faces" else found.vertices).append(column)
@@ -101,13 +105,13 @@ def _column(name: str, array: NDArray[np.generic]) -> Column:
     """Return a column of a type that PLY has."""
     code = array.dtype.newbyteorder("<").str.replace("|", "")
     if code not in TYPES:  # integers of 8 bytes
-        fitting = (code for code in _WHOLE if _fits(array, np.dtype(code)))
+        fitting = (code for code in _WHOLE if _fits(array, code))
         code = next(fitting, "<f8")
     return Column(name, code, array.astype(code, copy=False))
 
 
-def _fits(array: NDArray[np.generic], kind: np.dtype[np.generic]) -> bool:
-    limits = np.iinfo(kind)
+def _fits(array: NDArray[Any], code: str) -> bool:
+    limits = np.iinfo(code)
     return not array.size or (limits.min <= int(array.min()) and int(array.max()) <= limits.max)
 
 

@@ -70,14 +70,11 @@ class MarkedScene:
         if isinstance(camera, Node) and camera.scene is not self._scene:
             return renderer.render(self._scene, camera)  # which says what is wrong
         node = self._scene.data.camera_node() if camera is None else camera
-        if node is None:
-            chosen, pose = self._framed(*size)
-        elif isinstance(node, Node):
-            chosen, pose = node.object, node.world_pose
-        else:
-            chosen, pose = node
-        self._box.follow(pose[:3, 3], self._axes_grid)
-        frame = renderer.render(self._staged, (chosen, pose), **options)
+        chosen: Any = (node.object, node.world_pose) if isinstance(node, Node) else node
+        chosen = self._framed(*size) if chosen is None else chosen
+        if self._axes_grid:
+            self._box.follow(_position(chosen), True)
+        frame = renderer.render(self._staged, chosen, **options)
         theme, scale = _theme_on(frame.color), text_scale_for(*size)
         self._box.label(frame, scale, theme)
         if self._bar is not None:
@@ -106,6 +103,14 @@ class MarkedScene:
         if isinstance(camera, PerspectiveCamera):
             camera.reversed_depth = True
         return camera, view.pose()
+
+
+def _position(chosen: Any) -> NDArray[np.float64]:
+    """Return the position of a camera with its pose; any for what the renderer refuses."""
+    try:
+        return np.asarray(chosen[1], np.float64)[:3, 3]
+    except (TypeError, ValueError, IndexError):
+        return np.zeros(3)
 
 
 def _theme_on(color: NDArray[np.uint8]) -> Theme:

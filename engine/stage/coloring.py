@@ -225,6 +225,7 @@ def _key_of(mesh: Mesh, name: str, on: ValuesOn | None) -> str | None:
 
 def _coordinates(mesh: Mesh, name: str, pose: NDArray[Any] | None) -> NDArray[Any]:
     """Return a coordinate or the normals of a mesh's vertices, (V, K); NaN for another name."""
+    pose = None if pose is None or np.array_equal(pose, np.eye(4)) else pose
     if name == _NORMALS:
         normals = mesh.normals.astype(np.float64)
         if pose is None:

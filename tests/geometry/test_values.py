@@ -47,7 +47,7 @@ def test_the_length_tells_what_numbers_belong_to(on, shape):
 @pytest.mark.parametrize(
     ("given", "kept"),
     [
-        *((code, code) for code in "f4 f8 i1 u1 i2 u2 i4 u4 i8 u8".split()),
+        *((code, code) for code in ["f4", "f8", "i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8"]),
         *(("f2", "f4"), ("?", "u1"), (">f4", "f4"), (">i2", "i2")),
     ],
 )

@@ -10,7 +10,7 @@ import pytest
 import engine3d as e3d
 
 FORMATS = [("ply", {}), ("ply", {"ascii": True}), ("glb", {}), ("gltf", {})]
-TYPES = "f4 f8 i1 u1 i2 u2 i4 u4 i8 u8".split()
+TYPES = ["f4", "f8", "i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8"]
 GLTF = {"f4", "i1", "u1", "i2", "u2"}
 
 
@@ -137,6 +137,8 @@ def test_parts_of_gltf_with_other_numbers_stay_one_mesh(tmp_path):
     box.values["t"] = np.arange(24)
     read, _ = again(box, "glb", {})
     assert len(read.values["_t"]) == len(read.positions)
-    pairs = dict(zip(map(tuple, np.c_[box.positions, box.normals].tolist()), range(24), strict=True))
+    pairs = dict(
+        zip(map(tuple, np.c_[box.positions, box.normals].tolist()), range(24), strict=True)
+    )
     keys = map(tuple, np.c_[read.positions, read.normals].tolist())
     assert [pairs[key] for key in keys] == read.values["_t"].tolist()

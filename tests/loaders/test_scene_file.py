@@ -108,7 +108,7 @@ WRONG = [
     (changed(*ARRAYS, "positions", "shape", [2, 3]), "36 bytes do not fill an array of shape"),
     (changed(*ARRAYS, "positions", "shape", [2**31, 2]), "shape"),
     (changed(*ARRAYS, "positions", "shape", [3, -3]), "shape: .* is not up to 3 counts"),
-    (changed(*ARRAYS, "positions", "type", "float64"), "type: 'float64' is not one of float32"),
+    (changed(*ARRAYS, "positions", "type", "float128"), "type: 'float128' is not one of float32"),
     (changed(*ARRAYS, "positions", "base64", "AAA"), "base64: is not base64"),
     (changed(*ARRAYS, "positions", "base64", "A\u00e9=="), "base64: is not base64"),
     (changed(*ARRAYS, "faces", "base64", "AAAAAAEAAAADAAAA"), r"objects\[3\]: .*faces"),

@@ -7,7 +7,7 @@ applies it.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple, TypedDict, get_args
+from typing import Any, NamedTuple, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,13 +16,12 @@ from ..base.numbers import real, shown
 from ..base.validation import choose, flag
 from ..choices import ValuesOn
 from ..errors import InvalidArgumentError
-from ..model.geometry.values import Values
+from ..model.geometry.values import KINDS, Values
 from .overlays.colormaps import ColormapLike, colormap
 
 #: Special values of the component.
 MAGNITUDE, DIRECT = -1, -2
 DEFAULT_MAP = "viridis"
-_PLACES: tuple[ValuesOn, ...] = get_args(ValuesOn)
 
 
 class NumberKeywords(TypedDict, total=False):
@@ -77,7 +76,7 @@ class Numbers:
                 f"component must be a whole number from -2 on, not {shown(self.component)}"
             )
         if self.on is not None:
-            choose(self.on, _PLACES, "on")
+            choose(self.on, KINDS, "on")
         vars(self)["_colors"] = colormap(self.colormap)
 
     @property

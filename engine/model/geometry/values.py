@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..._native.loaders import frozen, is_frozen
+from ...base.calls import shows_annotations
 from ...base.checked_containers import CheckedDict
 from ...base.dirty_tracking import renew
 from ...base.numbers import as_array
@@ -26,10 +27,12 @@ if TYPE_CHECKING:
 #: The elements that numbers belong to, and the arrays of a mesh that hold them.
 _PLACES: dict[ValuesOn, str] = {"vertices": "positions", "faces": "faces", "points": "points"}
 
+KINDS: tuple[ValuesOn, ...] = tuple(_PLACES)
 #: Ends the name of numbers of faces whose own name belongs to others in the mesh.
 OF_FACES = " (faces)"
 
 
+@shows_annotations
 class Values(NamedTuple):
     """Numbers with the elements of a mesh that they belong to.
 
@@ -152,7 +155,7 @@ def checked_values(
     rows = _numbers(array, f"values {name!r}")
     counts = {place: len(getattr(mesh, what)) for place, what in _PLACES.items()}
     if on is not None:
-        choose(on, tuple(_PLACES), "on")
+        choose(on, KINDS, "on")
         if len(rows) != counts[on]:
             raise InvalidArgumentError(
                 f"values {name!r} has {len(rows)} rows for {counts[on]} {on}"

@@ -40,7 +40,7 @@ def color_names(table: PlyTable) -> tuple[str, ...]:
 def names_of_colors(names: set[str]) -> tuple[str, ...]:
     """Return the names of colours among those of an element's properties, and all of alpha."""
     sets = next((one for one in _COLORS if names.issuperset(one)), ())
-    splats = _SPLATS if names.issuperset(_SPLATS) else ()
+    splats = _SPLATS if not sets and names.issuperset(_SPLATS) else ()
     return (*sets, *_ALPHAS, *splats)
 
 

@@ -22,6 +22,7 @@ from .ply_colors import (
 )
 from .ply_tables import PlyTable
 
+_HARMONICS = "f_rest_"
 _PLACES = ("x", "y", "z", "nx", "ny", "nz", "position_id")
 #: Lists with more items are not vectors.
 WIDEST_VECTOR = 16
@@ -74,7 +75,9 @@ def read_vertices(table: PlyTable, warnings: WarningList, is_own: bool = False) 
 def value_names(table: PlyTable) -> list[str]:
     """Return the names of vertex numbers that `read_vertices` does not read."""
     uvs = next((names for names in UV_NAMES if table.has(*names)), ())
-    return names_but(table, {*_PLACES, *uvs})
+    found = names_but(table, {*_PLACES, *uvs})
+    # Of splats, the coefficients of view-dependent colours take most of the file.
+    return [name for name in found if not (is_splats(table) and name.startswith(_HARMONICS))]
 
 
 def meant_names(names: set[str]) -> set[str]:

@@ -8,7 +8,7 @@ triangles, not colours.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,9 +26,12 @@ from ..model.materials.textures import Texture
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.scene import Scene
 from ..model.scene.shown import placing_pose
-from .numbers import DIRECT, MAGNITUDE, Numbers
+from .numbers import DIRECT, MAGNITUDE, Marks, Numbers
 from .overlays.colormaps import MISSING
 from .visibility import DRAWABLE, mesh_of
+
+if TYPE_CHECKING:
+    from .viewed_scene import ViewedScene
 
 _AXES = ("x", "y", "z")
 _NORMALS = "normals"
@@ -207,6 +210,16 @@ def coloring_of(scene: Scene, numbers: Numbers, up: str = "+Y", unit: str = "") 
     shown = [node for node in scene.nodes if node.shown and isinstance(node.object, DRAWABLE)]
     things = [(mesh_of(node.object), placing_pose(node)) for node in shown]
     return Coloring(numbers, things, up, unit)
+
+
+def show_numbers(viewed: ViewedScene, marks: Marks) -> None:
+    """Show numbers of a viewed scene as colours, if there are some to show."""
+    if marks.numbers is None:
+        return
+    viewed.coloring = coloring_of(viewed.scene, marks.numbers, viewed.up, viewed.unit)
+    viewed.bar = viewed.coloring.bar
+    # Tone mapping would change the colours shown in the bar.
+    viewed.appearance = {**viewed.appearance, "tone_mapping": "none"}
 
 
 def _names_of(mesh: Mesh, on: ValuesOn | None) -> list[str]:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from ..base.numbers import real, shown
 from ..errors import InvalidArgumentError
-from .coloring import coloring_of
+from .coloring import show_numbers
 from .numbers import NO_MARKS, Marks
 from .overlays.theme import DARK
 from .played_clips import play_clips
@@ -38,11 +38,7 @@ def viewed_thing(
     title = title or getattr(thing, "name", "") or type(thing).__name__.lower()
     viewed = ViewedScene(scene, title, up, update=update, period=period, plays=update is not None)
     viewed.themed = scene is not thing
-    if marks.numbers is not None:
-        viewed.coloring = coloring_of(scene, marks.numbers, up)
-        viewed.bar = viewed.coloring.bar
-        # Tone mapping would change the colours shown in the bar.
-        viewed.appearance["tone_mapping"] = "none"
+    show_numbers(viewed, marks)
     if update is None:
         play_clips(viewed)
     return viewed

@@ -116,15 +116,15 @@ def measure(arguments):
     """Yield a row for each workload."""
     for name in arguments.workload or WORKLOAD_NAMES:
         made = workloads.make(name, plain=True)
-        peer = llvmpipe.Peer(made, arguments.resolution, arguments.threads)
+        peer = llvmpipe.Peer(made, arguments.size, arguments.threads)
         try:
-            size, threads = arguments.resolution, arguments.threads
+            size, threads = arguments.size, arguments.threads
             yield compare(made, size, peer, threads, arguments.seconds)
         finally:
             peer.close()
 
 
-def resolution(text):
+def picture_size(text):
     width, height = text.lower().split("x")
     return int(width), int(height)
 
@@ -136,7 +136,7 @@ def main():
         "--workload", action="append", choices=WORKLOAD_NAMES, help="by default all"
     )
     parser.add_argument("--threads", type=int, default=0, help="of both (default: all CPUs)")
-    parser.add_argument("--resolution", type=resolution, default=(1920, 1080), metavar="WxH")
+    parser.add_argument("--size", type=picture_size, default=(1920, 1080), metavar="WxH")
     parser.add_argument("--seconds", type=float, default=2.0, help="a row (default: 2)")
     arguments = parser.parse_args()
     try:
@@ -145,14 +145,14 @@ def main():
         raise SystemExit(str(error)) from None
     rows = []
     if not arguments.json:
-        print("\n".join(figures.heading(arguments.resolution, "plain")), end="\n\n")
+        print("\n".join(figures.heading(arguments.size, "plain")), end="\n\n")
         print(columns())
     for row in measure(arguments):
         rows.append(row)
         if not arguments.json:
             print(line(row), flush=True)
     if arguments.json:
-        settings = {"resolution": arguments.resolution, "picture": "plain"}
+        settings = {"size": arguments.size, "picture": "plain"}
         json.dump({**figures.machine(), **settings, "rows": rows}, sys.stdout)
         print()
 

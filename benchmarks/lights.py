@@ -25,8 +25,8 @@ SHADINGS = ("forward", "deferred")
 
 def measure(arguments):
     """Yield a row for each number of lights."""
-    world = e3d.city(arguments.triangles)
-    width, height = arguments.resolution
+    world = e3d.worlds.city(arguments.triangles)
+    width, height = arguments.size
     with e3d.Renderer(width, height, threads=arguments.threads) as renderer:
         for count in COUNTS:
             if count > arguments.most:
@@ -61,7 +61,7 @@ def print_table(rows):
         yield row
 
 
-def resolution(text):
+def picture_size(text):
     width, height = text.lower().split("x")
     return int(width), int(height)
 
@@ -75,7 +75,7 @@ def main():
     parser.add_argument("--most", type=int, default=COUNTS[-1], help="lights, at most")
     parser.add_argument("--frames", type=int, default=10, help="frames a figure (default: 10)")
     parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--resolution", type=resolution, default=(1280, 720), metavar="WxH")
+    parser.add_argument("--size", type=picture_size, default=(1280, 720), metavar="WxH")
     arguments = parser.parse_args()
     rows = measure(arguments)
     rows = list(rows if arguments.json else print_table(rows))

@@ -41,7 +41,7 @@ class Peer:
             scene.height,
             color_space="linear",
             samples=scene.samples,
-            antialias="msaa" if scene.samples > 1 else "ssaa",
+            antialiasing="msaa" if scene.samples > 1 else "ssaa",
         )
 
     def info(self):
@@ -86,7 +86,7 @@ class Crowd:
         self.draws, self.joints = draws, []
         for node, draw in zip(nodes, draws, strict=True):
             joints = [scene.add() for _ in draw.joint_matrices(0)]
-            node.skin = e3d.Skin(joints, np.tile(np.eye(4), (len(joints), 1, 1)))
+            node.skin = e3d.motion.Skin(joints, np.tile(np.eye(4), (len(joints), 1, 1)))
             self.joints += joints
         self.selection = scene.select(self.joints)
         times, channels = np.arange(KEYED_FRAMES), []
@@ -94,8 +94,8 @@ class Crowd:
         for number, joint in enumerate(self.joints):
             for path, keys in (("translation", translations), ("rotation", rotations)):
                 values = [key[number] for key in keys]
-                channels.append(e3d.Channel(joint, path, times, values))
-        self.player = e3d.AnimationPlayer(scene, [e3d.AnimationClip(channels)])
+                channels.append(e3d.motion.Channel(joint, path, times, values))
+        self.player = e3d.AnimationPlayer(scene, [e3d.motion.AnimationClip(channels)])
         self.player.loop = "once"
         self.player.play()
 

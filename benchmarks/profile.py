@@ -35,7 +35,7 @@ DRIVER_SCENES = 1200
 
 def draw(scene, arguments, frames):
     """Draw frames; return the statistics and the wall-clock milliseconds of each."""
-    width, height = arguments.resolution
+    width, height = arguments.size
     results = []
     with e3d.Renderer(
         width, height, backend=arguments.backend, threads=arguments.threads
@@ -87,10 +87,10 @@ def perf_works():
 
 def perf_functions(name, arguments):
     """[(percent of the core's time, function)] of one workload, by perf's samples."""
-    width, height = arguments.resolution
+    width, height = arguments.size
     again = [sys.executable, str(Path(__file__)), "--draw-only", "--workload", name]
     again += ["--backend", arguments.backend, "--threads", str(arguments.threads)]
-    again += ["--frames", str(arguments.frames), "--resolution", f"{width}x{height}"]
+    again += ["--frames", str(arguments.frames), "--size", f"{width}x{height}"]
     library = Path(e3d._native.rasterizer.__file__).name
     with tempfile.TemporaryDirectory() as folder:
         data = f"{folder}/data"
@@ -170,7 +170,7 @@ def print_functions(functions):
             print(f"{percent:>7.1f}  {function}")
 
 
-def resolution(text):
+def picture_size(text):
     match = re.fullmatch(r"(\d+)[x,](\d+)", text)
     if match is None:
         raise argparse.ArgumentTypeError(f"expected a size such as 1280x720, not {text}")
@@ -183,7 +183,7 @@ def parse_arguments():
     parser.add_argument("--backend", default="auto")
     parser.add_argument("--threads", type=int, default=1, help="0: all (default: 1)")
     parser.add_argument("--frames", type=int, default=20)
-    parser.add_argument("--resolution", type=resolution, default=(1280, 720))
+    parser.add_argument("--size", type=picture_size, default=(1280, 720))
     parser.add_argument("--functions", choices=["auto", "perf", "gprof", "none"], default="auto")
     parser.add_argument(
         "--scenes", type=int, default=DRIVER_SCENES, help="random ones, for gprof (default: 1200)"

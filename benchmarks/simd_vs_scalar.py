@@ -40,8 +40,8 @@ FRAMES = {
     "textured, lit": ("texture", {}),
     "eight lights, shiny": ("lights", {}),
     "overdraw, lit": ("overdraw", {}),
-    "many triangles, visibility": ("small_triangles", {"outputs": ("triangle_id",)}),
-    "overdraw, visibility": ("overdraw", {"outputs": ("triangle_id",)}),
+    "many triangles, visibility": ("small_triangles", {"outputs": ("face_id",)}),
+    "overdraw, visibility": ("overdraw", {"outputs": ("face_id",)}),
 }
 
 
@@ -77,7 +77,7 @@ def measure_frame(name, backends, arguments):
     workload, options = FRAMES[name]
     scene = WORKLOADS[workload][1]()
     renderers = {
-        backend: e3d.Renderer(*arguments.resolution, backend=backend, threads=arguments.threads)
+        backend: e3d.Renderer(*arguments.size, backend=backend, threads=arguments.threads)
         for backend in backends
     }
     frames = {backend: each.render(scene, **options) for backend, each in renderers.items()}
@@ -152,7 +152,7 @@ def parse():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--backend", action="append", choices=e3d.backends(), help="only these")
     parser.add_argument("--what", action="append", choices=["kernels", "frames"])
-    parser.add_argument("--resolution", type=size, default=(640, 360), metavar="WxH")
+    parser.add_argument("--size", type=size, default=(640, 360), metavar="WxH")
     parser.add_argument("--threads", type=int, default=1, help="of frames; 0: all CPUs")
     parser.add_argument("--repeats", type=int, default=15)
     parser.add_argument("--plot", type=Path, metavar="FILE", help="also draw a chart: .svg or .png")
@@ -184,7 +184,7 @@ def main():
         plot(arguments.plot, rows, arguments.backend)
     if arguments.json:
         machine = {"machine": platform.machine(), "python": platform.python_version()}
-        settings = {"threads": arguments.threads, "resolution": arguments.resolution}
+        settings = {"threads": arguments.threads, "size": arguments.size}
         json.dump({"engine3d": e3d.__version__, **machine, **settings, "rows": rows}, sys.stdout)
         print()
 

@@ -76,7 +76,7 @@ def overdraw():
     """Forty layers that fill the frame, from back to front: each hides the last."""
     scene = _scene((0, 0, 3))
     for k in range(40):
-        wall = e3d.quad((-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0))
+        wall = e3d.primitives.quad((-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0))
         scene.add(wall, translation=(0, 0, -4 + 0.1 * k))
     return scene
 

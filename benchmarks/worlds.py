@@ -23,7 +23,7 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-from lights import resolution
+from lights import picture_size
 from progress import tracked
 
 import engine3d as e3d
@@ -162,7 +162,7 @@ def frame_rate_aim(row, least):
 
 def measure_city(renderer, arguments, options):
     before = resident_bytes()
-    taken, world = timed(e3d.city, arguments.triangles)
+    taken, world = timed(e3d.worlds.city, arguments.triangles)
     count = f"city of {world.triangles:,}"
     made = (resident_bytes() - before) / world.triangles
     yield f"{count}, made", {"cpu_milliseconds": taken, "bytes_a_triangle": made}
@@ -180,7 +180,7 @@ def measure_city(renderer, arguments, options):
 
 
 def measure_obj(renderer, arguments, options):
-    world = e3d.city(arguments.triangles)
+    world = e3d.worlds.city(arguments.triangles)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "city.obj"
         taken, _ = timed(lambda: world.mesh().save(path))
@@ -202,10 +202,10 @@ def measure_obj(renderer, arguments, options):
 
 def measure_sizes(renderer, arguments, options):
     smallest = None
-    for size in SIZES:
-        if size > arguments.largest:
+    for count in SIZES:
+        if count > arguments.largest:
             break
-        world = e3d.city(size)
+        world = e3d.worlds.city(count)
         scene, cars = city_scene(world, 256)
         row = time_frames(
             renderer,
@@ -241,7 +241,7 @@ MEASURES = {
 
 def measure(arguments):
     """Yield a row for each figure."""
-    width, height = arguments.resolution
+    width, height = arguments.size
     options = {"culling": arguments.culling}
     for part in arguments.part or PARTS:
         gc.collect()
@@ -273,7 +273,7 @@ def main():
     parser.add_argument("--frames", type=int, default=10, help="frames a figure (default: 10)")
     parser.add_argument("--threads", type=int, default=2, help="(default: 2)")
     parser.add_argument("--culling", default="all", help="as for Renderer.render (default: all)")
-    parser.add_argument("--resolution", type=resolution, default=(1920, 1080), metavar="WxH")
+    parser.add_argument("--size", type=picture_size, default=(1920, 1080), metavar="WxH")
     arguments = parser.parse_args()
     rows = measure(arguments)
     if not arguments.json:

@@ -13,21 +13,15 @@ if __name__ != "engine3d":
 
 from importlib import import_module
 
-from .version import __version__
+from .version import PICTURES, __version__
 
 # public name -> module that defines it
 _PUBLIC = {
-    "BackendError": "errors",
-    "DisplayError": "errors",
     "Engine3DError": "errors",
     "Engine3DWarning": "errors",
     "FileAccessError": "errors",
     "FileFormatError": "errors",
     "InvalidArgumentError": "errors",
-    "MissingOutputError": "errors",
-    "OutOfMemoryError": "errors",
-    "RendererBusyError": "errors",
-    "SceneChangedError": "errors",
     "Mesh": "model.geometry.mesh",
     "Material": "model.materials.material",
     "Texture": "model.materials.textures",
@@ -39,20 +33,10 @@ _PUBLIC = {
     "Gradient": "model.scene.gradients",
     "box": "model.primitives",
     "cylinder": "model.primitives",
-    "hexahedron": "model.primitives",
     "icosphere": "model.primitives",
     "plane": "model.primitives",
-    "quad": "model.primitives",
     "torus": "model.primitives",
     "uv_sphere": "model.primitives",
-    "World": "extras.worlds",
-    "city": "extras.worlds",
-    "DetailedInstances": "extras.lod",
-    "DetailedMeshes": "extras.lod",
-    "Impostor": "extras.lod",
-    "simplify": "extras.lod",
-    "NavigationGrid": "model.navigation",
-    "Walker": "model.navigation",
     "load_mesh": "io.loaders",
     "load_texture": "io.loaders",
     "load_scene": "io.scenes.scene_loading",
@@ -74,22 +58,10 @@ _PUBLIC = {
     "LightProbe": "model.scene.ambient_lights",
     "Animator": "model.scene.animation",
     "Values": "model.geometry.values",
-    "MorphTarget": "model.geometry.morph_targets",
-    "Skin": "model.motion.skins",
-    "AnimationClip": "model.motion.clips",
     "AnimationPlayer": "model.motion.player",
-    "Channel": "model.motion.clips",
-    "PropertyChannel": "model.motion.properties",
     "Node": "model.scene.nodes",
-    "Resource": "io.resources",
-    "Resources": "io.resources",
-    "ResourceStats": "io.resources",
     "NodeSelection": "model.scene.selection",
     "Scene": "model.scene.scene",
-    "BoxCollider": "model.spatial.colliders",
-    "ColliderHit": "model.spatial.colliders",
-    "MeshCollider": "model.spatial.colliders",
-    "SphereCollider": "model.spatial.colliders",
     "RayHit": "model.spatial.rays",
     "RayHits": "model.spatial.rays",
     "Frame": "rendering.frame",
@@ -97,22 +69,27 @@ _PUBLIC = {
     "Renderer": "rendering.renderer",
     "render": "stage.render",
     "Canvas": "rendering.canvas",
-    "Sheet": "apps.sheet.contact_sheet",
-    "contact_sheet": "apps.sheet.contact_sheet",
     "Window": "apps.viewer.window",
     "show": "apps.viewer.show",
-    "RasterizeResult": "rendering.rasterization",
-    "rasterize": "rendering.rasterization",
     "backends": "rendering.backend_selection",
 }
 _MODULES = (
-    *("batch", "choices", "datasets", "errors", "events", "linalg", "loaders", "primitives"),
+    *("batch", "choices", "colliders", "datasets", "detail", "errors", "events", "linalg"),
+    *("loaders", "motion", "navigation", "primitives", "rasterization", "resources", "sheets"),
+    *("worlds",),
 )
 
 # Modules with optional dependencies or few users: not for ``import *``.
 _MODULES_APART = ("compat", "golden", "notebook")
 
-__all__ = ["__version__", *_PUBLIC, *_MODULES]
+__all__ = ["PICTURES", "__version__", *_PUBLIC, *_MODULES]
+
+
+def _names():
+    """Return the public names; those in a module with the module's, such as ``worlds.city``."""
+    modules = {each: import_module(f".{each}", __name__) for each in _MODULES}
+    inner = (f"{each}.{name}" for each, m in modules.items() for name in getattr(m, "__all__", ()))
+    return [*__all__, *inner]
 
 
 def __getattr__(name):
@@ -126,7 +103,7 @@ def __getattr__(name):
     else:
         from .base.foreign_names import UnknownName
 
-        raise UnknownName(__name__, name, __all__)
+        raise UnknownName(__name__, name, _names)
     globals()[name] = value
     return value
 

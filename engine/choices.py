@@ -57,7 +57,7 @@ ColorSpace = Literal["srgb", "linear"]
 Samples = Literal[1, 2, 4, 8, 16]
 Antialias = Literal["ssaa", "msaa"]
 
-Mode = Literal["lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"]
+Mode = Literal["lit", "unlit", "random", "depth", "normal", "face_id", "object_id", "overdraw"]
 #: Further modes of the viewer and the command line: outputs as pictures. rendering/frame.py has the
 #: few outputs that are none of these.
 OutputMode = Literal[

@@ -70,8 +70,8 @@ def visible_faces(faces, width, height):
     clip[:, 1] = 1 - 2 * corners[:, 1] / height
     clip[:, 2] = -corners[:, 2] / (2 * max(width, height))
     order = np.arange(len(corners), dtype=np.int32).reshape(-1, 3)
-    seen = e3d.rasterize(clip.astype(np.float32), order, width, height, cull="none")
-    return seen.triangle_id
+    seen = e3d.rasterization.rasterize(clip.astype(np.float32), order, width, height, cull="none")
+    return seen.face_id
 
 
 def true_picture(faces, width, height):

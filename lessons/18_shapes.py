@@ -81,7 +81,7 @@ def steps(width=200, height=160):
     yield "a box from 8 points", draw(box(straight), width, height, True)
     tower = [(x * (1.2 - y), 1.6 * y, z * (1.2 - y)) for x, y, z in straight]
     picture = draw(box(tower), width, height, True)
-    engine = e3d.hexahedron([tower[number] for number in (0, 1, 3, 2, 4, 5, 7, 6)])
+    engine = e3d.primitives.hexahedron([tower[number] for number in (0, 1, 3, 2, 4, 5, 7, 6)])
     theirs = draw((engine.positions.tolist(), engine.faces.tolist()), width, height)
     other = int((picture != theirs).any(axis=2).sum())
     yield f"any 8 points; {other} pixels differ from the engine's hexahedron", picture

@@ -134,8 +134,10 @@ def build_scene():
 def engine_path(scene, route, x, z):
     """Return the path of the engine's walker on the same route."""
     walkable = set(HEIGHTS) - {"~"}
-    grid = e3d.NavigationGrid(scene, cell=0.1, walkable=walkable, step=STEP, radius=RADIUS)
-    walker = e3d.Walker(grid, x, z, y=0.0, eye_height=EYES)
+    grid = e3d.navigation.NavigationGrid(
+        scene, cell=0.1, walkable=walkable, step=STEP, radius=RADIUS
+    )
+    walker = e3d.navigation.Walker(grid, x, z, y=0.0, eye_height=EYES)
     yaw, places = 0.0, [(x, z, 0.0)]
     for metres, degrees in route:
         yaw += math.radians(degrees)

@@ -21,7 +21,7 @@ extern "C" {
     X(E3D_MODE_RANDOM, random) \
     X(E3D_MODE_DEPTH, depth) \
     X(E3D_MODE_NORMAL, normal) \
-    X(E3D_MODE_TRIANGLE_ID, triangle_id) \
+    X(E3D_MODE_FACE_ID, face_id) \
     X(E3D_MODE_OBJECT_ID, object_id) \
     X(E3D_MODE_OVERDRAW, overdraw)
 typedef enum e3d_mode { E3D_EACH_MODE(E3D_ENUMERATOR) } e3d_mode;

@@ -78,12 +78,12 @@ typedef struct e3d_pyr_light {
 } e3d_pyr_light;
 
 /* A step of the picture; steps are drawn one after the other.
- * With triangle_id, a step is opaque triangles whose visibility is known: at each place the draw is draw_of_object[object_id] +
- * instance_id, or none where triangle_id is negative. object_id is NULL if all IDs are of object 0, instance_id if there are no
+ * With face_id, a step is opaque triangles whose visibility is known: at each place the draw is draw_of_object[object_id] +
+ * instance_id, or none where face_id is negative. object_id is NULL if all IDs are of object 0, instance_id if there are no
  * instances.
  * Without it, a step is draws that are rasterised here, one after the other. */
 typedef struct e3d_pyr_step {
-    const int32_t *object_id[E3D_PYR_PLACES], *triangle_id[E3D_PYR_PLACES], *instance_id[E3D_PYR_PLACES];
+    const int32_t *object_id[E3D_PYR_PLACES], *face_id[E3D_PYR_PLACES], *instance_id[E3D_PYR_PLACES];
     const int32_t *draw_of_object;
     int32_t first_draw, draw_count;
 } e3d_pyr_step;

@@ -64,11 +64,11 @@ typedef struct e3d_pass {
  * nothing is drawn. The first pass that fails is the last. Different views need different numbers (e3d_frame.view). */
 e3d_status e3d_render_passes(e3d_renderer *renderer, const e3d_pass *passes, int32_t count);
 
-/* The low-level door. In: vertices in clip space. Out: triangle_id, ndc depth (smaller is nearer, +inf where empty) and
+/* The low-level door. In: vertices in clip space. Out: face_id, ndc depth (smaller is nearer, +inf where empty) and
  * perspective-correct barycentrics. */
 e3d_status e3d_rasterize(const float *clip, int32_t vertices, const int32_t *faces, int32_t faces_count,
                          int32_t width, int32_t height, e3d_cull cull, e3d_backend backend, int32_t threads,
-                         int32_t *triangle_id, float *depth, float *barycentric);
+                         int32_t *face_id, float *depth, float *barycentric);
 
 #ifdef __cplusplus
 }

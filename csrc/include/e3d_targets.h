@@ -11,13 +11,13 @@ extern "C" {
 #endif
 
 /* The outputs: X(ENUMERATOR, name, type of a channel, channels, the value where nothing shows, the item of the plan that asks
- * for it). IDs are of faces, lines and points; triangle_id is -1 on the latter two. Directions have unit length; normals look
+ * for it). IDs are of faces, lines and points; face_id is -1 on the latter two. Directions have unit length; normals look
  * towards the viewer. */
 #define E3D_EACH_OUTPUT(X) \
     X(E3D_OUTPUT_COLOR, color, uint8_t, 4, 0, COLOR) /* RGBA */ \
     X(E3D_OUTPUT_DEPTH, depth, float, 1, 0, POSITIONS) /* along the view axis */ \
     X(E3D_OUTPUT_NDC_DEPTH, ndc_depth, float, 1, INFINITY, NDC_DEPTH) \
-    X(E3D_OUTPUT_TRIANGLE_ID, triangle_id, int32_t, 1, -1, IDENTITIES) \
+    X(E3D_OUTPUT_FACE_ID, face_id, int32_t, 1, -1, IDENTITIES) \
     X(E3D_OUTPUT_OBJECT_ID, object_id, int32_t, 1, -1, IDENTITIES) \
     X(E3D_OUTPUT_INSTANCE_ID, instance_id, int32_t, 1, -1, IDENTITIES) \
     X(E3D_OUTPUT_MATERIAL_ID, material_id, int32_t, 1, -1, IDENTITIES) \

@@ -78,5 +78,9 @@ static inline int e3d_piece_edge(const e3d_record *r, int k, int32_t x, int32_t 
     return e3d_keep_edge(e3d_edge_at(r, k, x, y), k, piece);
 }
 
-static inline int32_t e3d_in_tile(int32_t v) { return v < 0 ? 0 : v > E3D_TILE - 1 ? E3D_TILE - 1
-                                                                                   : v; }
+static inline int32_t e3d_in_tile(int32_t v)
+{
+    if (v < 0)
+        return 0;
+    return v < E3D_TILE ? v : E3D_TILE - 1;
+}

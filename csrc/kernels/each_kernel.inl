@@ -79,10 +79,10 @@ E3D_KERNEL(int, show_alone, (const e3d_cover *cover, e3d_shown *out, uint16_t *r
 E3D_KERNEL(int, show_layers, (const e3d_cover *cover, const e3d_record_table *table, const uint16_t *numbers, int count, e3d_layers
            *layers, e3d_shown *out))
 /* These add runs or samples from `first` on while the batch has room, at least one to an empty batch; they return how many.
- * Primitive `piece` is surface 0, and the next ones follow. take_placed is for lists with a pattern. */
-E3D_KERNEL(int, take_runs, (const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch))
-E3D_KERNEL(int, take_shown, (const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch))
-E3D_KERNEL(int, take_placed, (const e3d_shown *shown, int first, int count, int32_t piece, e3d_batch *batch))
+ * `primitive` is the number of the one that is surface 0, and the next ones follow. take_placed is for lists with a pattern. */
+E3D_KERNEL(int, take_runs, (const e3d_shown *shown, int first, int count, int32_t primitive, e3d_batch *batch))
+E3D_KERNEL(int, take_shown, (const e3d_shown *shown, int first, int count, int32_t primitive, e3d_batch *batch))
+E3D_KERNEL(int, take_placed, (const e3d_shown *shown, int first, int count, int32_t primitive, e3d_batch *batch))
 
 /* ---- Surfaces and textures ---- */
 
@@ -159,8 +159,9 @@ E3D_KERNEL(void, keep, (const e3d_batch *batch, e3d_samples *samples))
 /* Averages and encodes `width` pixels of axis x axis samples each, the first of which are in that row of samples. A pixel of
  * which no sample counts gets the background's colour, which is clamped already. */
 E3D_KERNEL(void, average, (const e3d_samples *samples, int axis, int row, int width, const float background[3], int srgb, uint32_t *rgba))
-/* Does all of this at once, from interpolate on: finds the pixels of a batch, and writes each to its sample's place in rgba.
- * It is for few lights. */
+/* Does what interpolate, texture, tint, light, combine, fog and tone do, as far as it is asked for, at once. It is for few
+ * lights. The colours go to paint->samples, or encoded to their samples' places in rgba; if both are NULL, they stay in the
+ * batch. */
 E3D_KERNEL(void, paint, (e3d_batch *batch, const e3d_surfaces *surfaces, const e3d_paint *paint, uint32_t *rgba))
 /* Copies rows with non-temporal stores. e3d_stream_end() must be called before other threads may read them. */
 E3D_KERNEL(void, stream, (const e3d_pixel_rows *rows))

@@ -51,13 +51,20 @@ static int32_t spread_of(const picture *p, int32_t row)
     return angle > 1.0 ? 0 : (int32_t)(spread < most ? spread : most);
 }
 
+/* A column at most one width away from the picture. */
+static int32_t around(int32_t column, int32_t width)
+{
+    if (column < 0)
+        return column + width;
+    return column < width ? column : column - width;
+}
+
 static void copy_pixel(const copy_job *job, const float *row, int32_t x, int32_t spread, float *out)
 {
     int32_t width = job->to->width;
     double sum[3] = {0};
     for (int32_t i = x - spread; i <= x + spread; i++) {
-        const float *from = row + 3 * (size_t)(i < 0 ? i + width : i < width ? i
-                                                                             : i - width);
+        const float *from = row + 3 * (size_t)around(i, width);
         for (int k = 0; k < 3; k++)
             sum[k] += (double)(isfinite(from[k]) ? limited(from[k]) : 0.0f);
     }
@@ -129,8 +136,12 @@ static double turn_of(double y, double x)
     return (y < 0.0 ? -angle : angle) / (4.0 * HALF_PI);
 }
 
-static double wrapped(double u) { return u < 0.0 ? u + 1.0 : u >= 1.0 ? u - 1.0
-                                                                      : u; }
+static double wrapped(double u)
+{
+    if (u < 0.0)
+        return u + 1.0;
+    return u >= 1.0 ? u - 1.0 : u;
+}
 
 /* ---- the faces ---- */
 

@@ -50,8 +50,12 @@ static unsigned outcode(const ref_scene *scene, const float p[4])
     return code;
 }
 
-static int corner_count(ref_kind kind) { return kind == REF_FACE ? 3 : kind == REF_POINT ? 1
-                                                                                         : 2; }
+static int corner_count(ref_kind kind)
+{
+    if (kind == REF_FACE)
+        return 3;
+    return kind == REF_POINT ? 1 : 2;
+}
 
 /* R4 and R6 */
 ref_verdict ref_test_primitive(const ref_scene *scene, ref_kind kind, const ref_corner *corners)

@@ -27,8 +27,9 @@ typedef struct seen {
 static int longest(const float v[3])
 {
     float a = fabsf(v[0]), b = fabsf(v[1]), c = fabsf(v[2]);
-    return a >= b && a >= c ? 0 : b >= c ? 1
-                                         : 2;
+    if (a >= b && a >= c)
+        return 0;
+    return b >= c ? 1 : 2;
 }
 
 /* ---- R98 ---- */

@@ -1,6 +1,6 @@
 /* Raster: finds the piece that is seen at each sample of a band, and its depth.
  * In: the scene's pieces, in the order of R16 or sorted for the painter.
- * Out: depth, visible piece, layers of overdraw and wireframe edges for each sample of the band.
+ * Out: depth, visible piece, overdraw and wireframe edges for each sample of the band.
  * Rules: R12 (coverage, in exact integers), R14 and R15 (depth), R16 (order), R17 (overdraw), R36, R109, R116 (wireframe),
  * R103 and R104 (multisampling), R81, R82 and R108 through alpha.c. */
 #include <math.h>
@@ -51,8 +51,8 @@ static e3d_status keep_fragment(const ref_scene *scene, const ref_piece *piece, 
 {
     if (ref_is_blended(scene->frame, piece))
         return ref_add_fragment(band, sample, z, number);
-    if (piece->primitive.kind == REF_FACE && band->layers[sample] < 255)
-        band->layers[sample]++;
+    if (piece->primitive.kind == REF_FACE && band->overdraw[sample] < 255)
+        band->overdraw[sample]++;
     if (scene->frame->hidden != E3D_HIDDEN_ZBUFFER || z < band->depth[sample]) {
         band->depth[sample] = z;
         band->piece[sample] = number;
@@ -147,7 +147,7 @@ e3d_status ref_raster_band(const ref_scene *scene, ref_band *band)
     for (size_t sample = 0; sample < samples; sample++) {
         band->depth[sample] = INFINITY;
         band->piece[sample] = -1;
-        band->layers[sample] = 0;
+        band->overdraw[sample] = 0;
         band->edge[sample] = 0;
     }
     e3d_status status = E3D_OK;

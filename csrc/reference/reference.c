@@ -92,17 +92,17 @@ static e3d_status allocate_band(ref_band *band, const ref_scene *scene)
     size_t samples = (size_t)band->rows * (size_t)band->width * (size_t)band->pixel_samples;
     band->depth = malloc(samples * sizeof *band->depth);
     band->piece = malloc(samples * sizeof *band->piece);
-    band->layers = malloc(samples);
+    band->overdraw = malloc(samples);
     band->edge = malloc(samples);
     band->first_fragment = malloc((samples + 1) * sizeof *band->first_fragment);
-    return band->depth && band->piece && band->layers && band->edge && band->first_fragment ? E3D_OK : E3D_OUT_OF_MEMORY;
+    return band->depth && band->piece && band->overdraw && band->edge && band->first_fragment ? E3D_OK : E3D_OUT_OF_MEMORY;
 }
 
 static void free_band(ref_band *band)
 {
     free(band->depth);
     free(band->piece);
-    free(band->layers);
+    free(band->overdraw);
     free(band->edge);
     free(band->first_fragment);
     free(band->fragments);

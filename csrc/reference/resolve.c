@@ -36,9 +36,9 @@ static void clamp_color(const float color[3], float out[3])
         out[c] = ref_clamp(color[c], 0.0f, 1.0f);
 }
 
-static void overdraw_color(uint8_t layers, float out[3])
+static void overdraw_color(uint8_t count, float out[3])
 {
-    const uint8_t *color = E3D_OVERDRAW_RAMP[layers < 15 ? layers : 15];
+    const uint8_t *color = E3D_OVERDRAW_RAMP[count < 15 ? count : 15];
     for (int c = 0; c < 3; c++)
         out[c] = (float)color[c] * E3D_UNORM8;
 }
@@ -95,8 +95,8 @@ static int kept_color(ref_scene *scene, const ref_band *band, const ref_place *a
         clamp_color(frame->line_color, out);
         return 1;
     }
-    if (overdraw && !only_edges && band->layers[sample] > 0) {
-        overdraw_color(band->layers[sample], out);
+    if (overdraw && !only_edges && band->overdraw[sample] > 0) {
+        overdraw_color(band->overdraw[sample], out);
         return 1;
     }
     if (overdraw || !piece || (only_edges && piece->primitive.kind == REF_FACE)) {
@@ -231,7 +231,7 @@ static void write_radiance(const ref_scene *scene, const ref_band *band, const r
 static void write_surface(const e3d_targets *targets, size_t pixel, const ref_surface *surface, float ndc_depth)
 {
     const ref_primitive *primitive = &surface->piece->primitive;
-    write_id(targets->triangle_id, pixel, primitive->kind == REF_FACE ? primitive->index : -1);
+    write_id(targets->face_id, pixel, primitive->kind == REF_FACE ? primitive->index : -1);
     write_id(targets->object_id, pixel, surface->instance->object_id);
     write_id(targets->instance_id, pixel, surface->instance->instance_id);
     write_id(targets->material_id, pixel, primitive->material->id);

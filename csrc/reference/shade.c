@@ -55,7 +55,7 @@ static void find_color(const e3d_frame *frame, const ref_surface *surface, float
     case E3D_MODE_RANDOM:
         random_color(primitive->local, out);
         return;
-    case E3D_MODE_TRIANGLE_ID:
+    case E3D_MODE_FACE_ID:
         id_color(primitive->local, out);
         return;
     case E3D_MODE_OBJECT_ID:

@@ -91,9 +91,10 @@ static place place_cube(const e3d_light_maps *shadow, const e3d_shadow_map *map,
     for (int k = 0; k < 3; k++)
         moved[k] = p[k] + normal[k] * shift;
     float a = fabsf(moved[0]), b = fabsf(moved[1]), c = fabsf(moved[2]);
-    int axis = a >= b && a >= c ? 0 : b >= c ? 1
-                                             : 2,
-        face = 2 * axis + (moved[axis] < 0.0f);
+    int axis = b >= c ? 1 : 2;
+    if (a >= b && a >= c)
+        axis = 0;
+    int face = 2 * axis + (moved[axis] < 0.0f);
     for (int k = 0; k < 2; k++) {
         float v = moved[FACE_AXES[face][k]];
         at[k] = FACE_SIGNS[face][k] < 0 ? 0.0f - v : v;
@@ -114,8 +115,12 @@ static place place_of(const e3d_light *light, const e3d_shadow_map *maps, const 
 
 /* ---- R93 ---- */
 
-static int32_t within(int32_t a, int32_t most) { return a < 0 ? 0 : a > most ? most
-                                                                             : a; }
+static int32_t within(int32_t a, int32_t most)
+{
+    if (a < 0)
+        return 0;
+    return a > most ? most : a;
+}
 
 /* Four comparisons around a place in 1/256 texel, which share a weight of 65536. */
 static int32_t tap(const e3d_light_maps *shadow, const float *map, int32_t x, int32_t y, float depth)

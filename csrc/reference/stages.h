@@ -107,7 +107,7 @@ typedef struct ref_band {
     int32_t first_row, rows, width, pixel_samples;
     float *depth;                /* z_ndc of the visible piece (R16), +inf where there is none */
     int64_t *piece;              /* index of the visible piece, -1 where there is none */
-    uint8_t *layers;             /* overdraw, R17: saturates at 255 */
+    uint8_t *overdraw;           /* R17: saturates at 255 */
     uint8_t *edge;               /* 1 where a wireframe edge shows, R36 */
     ref_fragment *fragments;     /* blended fragments in front of the visible piece: by sample, the farthest first (R83) */
     int64_t fragment_count, fragment_capacity;

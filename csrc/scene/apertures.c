@@ -151,8 +151,12 @@ static extent open_extent(const projection *p, const double *rim, int32_t count)
     return open;
 }
 
-static double within(double v, double low, double high) { return v < low ? low : v < high ? v
-                                                                                          : high; }
+static double within(double v, double low, double high)
+{
+    if (v < low)
+        return low;
+    return v < high ? v : high;
+}
 
 /* Finds the pixels of an extent, and one more on each side; 0 if none is in the picture. */
 static int aperture_of(const extent *e, const e3d_looking *looking, e3d_aperture *aperture)

@@ -7,7 +7,6 @@
 #include "base/fpenv.h"
 #include "data/mesh/mesh.h"
 #include "e3d_draw_list.h"
-#include "scene/pose.h"
 
 /* A run continues over so many instances that do not show, since another draw would cost more. */
 enum { GAP = 3 };

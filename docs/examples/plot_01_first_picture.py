@@ -13,7 +13,7 @@ ring.materials = [e3d.Material(color=(0.9, 0.45, 0.2))]
 scene.add(ring, rotation=e3d.linalg.euler_to_quaternion((0.6, 0.3, 0.0)))
 scene.add(e3d.DirectionalLight((-0.5, -1.0, -0.6)))
 
-frame = e3d.render(scene, size=(480, 300), samples=4, antialias="msaa")
+frame = e3d.render(scene, size=(480, 300), samples=4, antialiasing="msaa")
 
 # %%
 # A frame holds arrays of NumPy, and can be saved: ``frame.save("ring.png")``.
@@ -25,4 +25,4 @@ print(frame.color.shape, frame.color.dtype)
 
 camera = e3d.PerspectiveCamera(yfov=0.7)
 pose = e3d.look_at(eye=(0.0, 0.6, 3.6), target=(0.3, 0.0, 0.0))
-nearer = e3d.render(scene, (camera, pose), size=(480, 300), samples=4, antialias="msaa")
+nearer = e3d.render(scene, (camera, pose), size=(480, 300), samples=4, antialiasing="msaa")

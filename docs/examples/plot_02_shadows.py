@@ -18,7 +18,7 @@ def pillars(shadow):
         scene.add(e3d.cylinder(0.3, 2.0, 48), translation=(x, 1.0, 0.0))
     scene.add(e3d.DirectionalLight((-0.8, -0.7, 0.45), (1.0, 0.92, 0.78), 0.7, shadow=shadow))
     scene.add(e3d.PerspectiveCamera(0.6), pose=e3d.look_at((2.0, 4.5, 10.0), (-0.8, 0.4, 0.5)))
-    return e3d.render(scene, size=(480, 270), samples=4, antialias="msaa")
+    return e3d.render(scene, size=(480, 270), samples=4, antialiasing="msaa")
 
 
 soft = pillars(shadow=True)

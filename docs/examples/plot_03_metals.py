@@ -20,5 +20,5 @@ for row, (color, metallic) in enumerate((((1.0, 0.78, 0.34), 1.0), ((0.75, 0.04,
 
 camera = e3d.PerspectiveCamera(0.42), e3d.look_at((0.0, 0.0, 6.6), (0.0, 0.0, 0.0))
 frame = e3d.render(
-    scene, camera, size=(560, 260), samples=4, antialias="msaa", tone_mapping="neutral"
+    scene, camera, size=(560, 260), samples=4, antialiasing="msaa", tone_mapping="neutral"
 )

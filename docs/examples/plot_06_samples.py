@@ -17,8 +17,8 @@ scene.add(e3d.DirectionalLight((-0.5, -0.8, -0.6), intensity=0.6))
 
 def enlarged(samples):
     """The scene at a low resolution, each pixel as a square of four by four."""
-    antialias = "msaa" if samples > 1 else "ssaa"
-    frame = e3d.render(scene, size=(60, 60), samples=samples, antialias=antialias)
+    antialiasing = "msaa" if samples > 1 else "ssaa"
+    frame = e3d.render(scene, size=(60, 60), samples=samples, antialiasing=antialiasing)
     return frame.color.repeat(4, axis=0).repeat(4, axis=1)
 
 

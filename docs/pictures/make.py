@@ -104,7 +104,9 @@ def models() -> np.ndarray:
     stand(scene, "train.asc", at=(7.0, 3.6), height=2.4, turn=-0.4, up="z")
     viewed = ViewedScene(scene, "models", themed=True, azimuth=0.0, elevation=math.radians(14.0))
     settings, size = Settings(appearance={}, look="studio"), (1280, 600)
-    with ViewRenderer(viewed, settings, size, samples=SAMPLES, antialias="msaa") as view_renderer:
+    with ViewRenderer(
+        viewed, settings, size, samples=SAMPLES, antialiasing="msaa"
+    ) as view_renderer:
         view = view_renderer.view(0.362)
         view_renderer.fill(view)
         return view_renderer.draw(view).color
@@ -214,7 +216,9 @@ def materials() -> np.ndarray:
             ball.materials = [e3d.Material(**value)]
             scene.add(ball, translation=(column - 2.0, 1.0 - row, 0.0))
     for angle, color in ((0.5, (0.8, 0.12, 0.03, 0.5)), (-0.5, (0.03, 0.2, 0.8, 0.5))):
-        pane = e3d.quad((-0.65, -1.55, 0), (0.65, -1.55, 0), (0.65, 1.55, 0), (-0.65, 1.55, 0))
+        pane = e3d.primitives.quad(
+            (-0.65, -1.55, 0), (0.65, -1.55, 0), (0.65, 1.55, 0), (-0.65, 1.55, 0)
+        )
         pane.materials = [
             e3d.Material(
                 color=color, roughness=0.1, metallic=0.0, alpha_mode="blend", two_sided=True
@@ -253,13 +257,13 @@ def city() -> np.ndarray:
 def contact_sheet() -> np.ndarray:
     """The sheet of docs/sheet.md."""
     train = MODELS / "train.asc"
-    return e3d.contact_sheet(train, sections="-y=50%", size=(1500, 900)).picture.pixels
+    return e3d.sheets.contact_sheet(train, sections="-y=50%", size=(1500, 900)).picture.pixels
 
 
 def impostors() -> np.ndarray:
     """Teapots as meshes, as their impostors, and what the impostors look like from near."""
     mesh = load("teapot.obj")
-    impostor = e3d.Impostor(mesh, views=10, texels=32)
+    impostor = e3d.detail.Impostor(mesh, views=10, texels=32)
     random = np.random.default_rng(3)
     poses = np.zeros((120, 4, 4))
     for number in range(len(poses)):
@@ -275,7 +279,9 @@ def impostors() -> np.ndarray:
         ("as impostors", 1, impostor),
         ("the same from near", 4, impostor),
     ):
-        teapots = e3d.DetailedInstances([(mesh, 0.0)], poses, impostor=card, impostor_pixels=1000.0)
+        teapots = e3d.detail.DetailedInstances(
+            [(mesh, 0.0)], poses, impostor=card, impostor_pixels=1000.0
+        )
         scene = e3d.Scene(background=(196, 211, 222))
         add_daylight(scene)
         teapots.add_to(scene)

@@ -226,7 +226,7 @@ cdef class NativePicture:
     def add_visible(self, list places not None, const int32_t[::1] draw_of_object not None):
         """Show next what is known to be visible.
 
-        `places`: of each sample, then of the centre, the outputs object_id, triangle_id and instance_id of a frame; None for the
+        `places`: of each sample, then of the centre, the outputs object_id, face_id and instance_id of a frame; None for the
         first where all is of object 0, and for the last where nothing has instances. `draw_of_object`: the draw of each object's
         first instance.
         """
@@ -240,7 +240,7 @@ cdef class NativePicture:
                 ids = objects
                 step.object_id[k] = &ids[0, 0]
             ids = triangles
-            step.triangle_id[k] = &ids[0, 0]
+            step.face_id[k] = &ids[0, 0]
             if instances is not None:
                 ids = instances
                 step.instance_id[k] = &ids[0, 0]

@@ -135,12 +135,6 @@ cdef int require(bint condition, str message) except -1:
     return 0
 
 
-cdef int require_ranges(const uint32_t[:, ::1] ranges, int size) except -1:
-    """Raise unless a map of that size has such ranges."""
-    cdef int side = e3d_shadow_ranges_side(size)
-    return require(ranges.shape[0] == side and ranges.shape[1] == side, f"ranges must be ({side}, {side})")
-
-
 def backend_available(int backend) -> bool:
     """Whether this build has the backend and this machine can run it."""
     return bool(e3d_backend_available(<e3d_backend>backend))
@@ -474,54 +468,6 @@ cdef class NativeRenderer:
         self.draw(&frame, &outputs, &stats)
 
 
-def shadow_ranges_side(int size) -> int:
-    """How many words of ranges a map of that size has a side."""
-    return e3d_shadow_ranges_side(size)
-
-
-def find_shadow_ranges(const float[:, ::1] depths not None, int taps, int step, uint32_t[:, ::1] ranges not None):
-    """Find between which depths lies what comparisons touch, of a map that will be looked up again."""
-    cdef e3d_status status
-    cdef int size = <int>depths.shape[0]
-    require(depths.shape[1] == size > 0, "a map is a square")
-    require(taps in (1, 3, 5) and 0 <= step * (taps - 1) <= 256 * size - 512, "comparisons leave the map")
-    require_ranges(ranges, size)
-    with nogil:
-        status = e3d_find_shadow_ranges(&depths[0, 0], size, taps, step, &ranges[0, 0])
-    check(status)
-
-
-def bloom_scratch(int width, int height, int threads) -> int:
-    """How many floats `add_bloom` needs."""
-    return e3d_bloom_scratch(width, height, threads if threads else e3d_thread_count())
-
-
-def add_bloom(
-    const float[:, :, ::1] radiance not None,
-    uint8_t[:, :, ::1] color not None,
-    float strength,
-    bint srgb,
-    int backend,
-    int threads,
-    float[::1] scratch not None,
-):
-    """Lay the glow of what is above 1 over colours."""
-    cdef e3d_bloom bloom
-    cdef e3d_status status
-    cdef int used = threads if threads else e3d_thread_count()
-    bloom.height, bloom.width = <int32_t>color.shape[0], <int32_t>color.shape[1]
-    bytes_of(color, bloom.width, bloom.height)
-    require(radiance.shape[0] == bloom.height and radiance.shape[1] == bloom.width and radiance.shape[2] == 3,
-            "radiance must be (height, width, 3)")
-    require(0 < bloom.width <= 16384 and 0 < bloom.height <= 16384, "an image has at least one pixel")
-    require(<size_t>scratch.shape[0] >= e3d_bloom_scratch(bloom.width, bloom.height, used), "scratch is too small")
-    bloom.radiance, bloom.color = &radiance[0, 0, 0], &color[0, 0, 0]
-    bloom.strength, bloom.srgb = strength, srgb
-    with nogil:
-        status = e3d_add_bloom(&bloom, <e3d_backend>backend, used, &scratch[0])
-    check(status)
-
-
 cdef int set_view(
     e3d_frame *frame, const double[:, ::1] clip_from_world, const double[:, ::1] view_from_world, eye, int64_t number
 ) except -1:
@@ -582,12 +528,12 @@ def rasterize(
     int cull,
     int backend,
     int threads,
-    int32_t[:, ::1] triangle_id not None,
+    int32_t[:, ::1] face_id not None,
     float[:, ::1] depth not None,
     float[:, :, ::1] barycentric not None,
 ):
     """Draw clip-space triangles; the size is that of the output arrays."""
-    cdef int32_t height = <int32_t>triangle_id.shape[0], width = <int32_t>triangle_id.shape[1]
+    cdef int32_t height = <int32_t>face_id.shape[0], width = <int32_t>face_id.shape[1]
     require(clip.shape[1] == 4, "clip must be (vertices, 4)")
     require(faces.shape[1] == 3, "faces must be (faces, 3)")
     require(width > 0 and height > 0, "an image has at least one pixel")
@@ -599,10 +545,12 @@ def rasterize(
     with nogil:
         status = e3d_rasterize(
             positions, <int32_t>clip.shape[0], indices, <int32_t>faces.shape[0], width, height,
-            <e3d_cull>cull, <e3d_backend>backend, threads, &triangle_id[0, 0], &depth[0, 0],
+            <e3d_cull>cull, <e3d_backend>backend, threads, &face_id[0, 0], &depth[0, 0],
             &barycentric[0, 0, 0],
         )
     check(status)
 
 
+include "bloom.pxi"
 include "occlusion.pxi"
+include "shadow_ranges.pxi"

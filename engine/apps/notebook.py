@@ -45,7 +45,7 @@ except ImportError as error:
 
 __all__ = ["View"]
 
-_KEYWORDS = ("size", "up", "animate", "period", "quality")
+_KEYWORDS = ("size", "up", "update", "period", "quality")
 _BUTTONS = {1: "left", 2: "right", 3: "middle"}
 _KEYS = {
     " ": "Space",
@@ -73,7 +73,7 @@ class View(RemoteFrameBuffer):
         Width and height in the page's pixels, at first: the corner can be dragged.
     up : {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}
         Which way is up.
-    animate : callable, optional
+    update : callable, optional
         Called with the time in seconds before each picture, to move the scene's nodes. Left out,
         the first of ``scene.animations`` plays when Space is pressed.
     period : float
@@ -105,16 +105,16 @@ class View(RemoteFrameBuffer):
         *,
         size: tuple[int, int] = (640, 400),
         up: str = "+Y",
-        animate: Callable[[float], None] | None = None,
+        update: Callable[[float], None] | None = None,
         period: float = TURN_SECONDS,
         quality: int = 80,
         **marks: Unpack[MarkKeywords],
     ) -> None:
         refuse_unknown(View, marks, (*_KEYWORDS, *MarkKeywords.__annotations__))
         width, height = check_size(size)
-        check_motion(animate, "animate")
+        check_motion(update, "update")
         taken = take_marks(dict(marks))
-        viewed = viewed_thing(thing, title=None, up=up, update=animate, period=period, marks=taken)
+        viewed = viewed_thing(thing, title=None, up=up, update=update, period=period, marks=taken)
         if viewed is None:
             raise InvalidArgumentError(
                 f"a view shows a scene, a node or a mesh, not {type(thing).__name__}"

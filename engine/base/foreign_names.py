@@ -8,7 +8,7 @@ other names are treated as possible typos.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any, NoReturn, TypeVar
 
 Kind = TypeVar("Kind", bound=type)
@@ -262,8 +262,8 @@ _NAMES: dict[str, dict[str, str]] = {
         "size": "width and height",
         "viewport_width": "width",
         "viewport_height": "height",
-        "msaa": "antialias='msaa', samples=4",
-        "antialiasing": "antialias='msaa', samples=4",
+        "msaa": "antialiasing='msaa', samples=4",
+        "antialias": "antialiasing='msaa', samples=4",
         "num_threads": "threads",
     },
     "render": {
@@ -271,8 +271,8 @@ _NAMES: dict[str, dict[str, str]] = {
         "resolution": "size=(width, height)",
         "background": "scene.background",
         "shadows": "the light's shadow=True",
-        "msaa": "Renderer(antialias='msaa', samples=4)",
-        "antialiasing": "antialias='msaa', samples=4",
+        "msaa": "Renderer(antialiasing='msaa', samples=4)",
+        "antialias": "antialiasing='msaa', samples=4",
         "tonemapping": "tone_mapping",
         "ssao": "ambient_occlusion",
         "look": "tone_mapping, ambient_occlusion and other options",
@@ -290,15 +290,16 @@ def hint(owner: str | type, name: str, known: Iterable[str]) -> str:
         The class, or the name of the module or function, that lacks the name.
     name : str
     known : iterable of str
-        The names that it has.
+        The names that it has; those in a module with its name, such as ``worlds.city``.
     """
     owners = [kind.__name__ for kind in owner.__mro__] if isinstance(owner, type) else [owner]
     for each in owners:
         if name in _NAMES.get(each, ()):
             here = _NAMES[each][name]
             return f": {here}" if here.startswith("its ") else f": did you mean {here}?"
-    near = difflib.get_close_matches(name, [k for k in known if k[0] != "_"], 1, 0.75)
-    return f": did you mean {near[0]}?" if near else ""
+    names = {each.rpartition(".")[2]: each for each in reversed(list(known)) if each[0] != "_"}
+    near = difflib.get_close_matches(name, names, 1, 0.75)
+    return f": did you mean {names[near[0]]}?" if near else ""
 
 
 def foreign_names(kind: type) -> dict[str, str]:
@@ -319,18 +320,20 @@ class UnknownName(AttributeError):
     owner : type or str
         A class, or the name of a module.
     name : str
-    known : iterable of str, optional
-        The names of a module.
+    names : callable, optional
+        Returns the names of a module.
     """
 
-    def __init__(self, owner: type | str, name: str, known: Iterable[str] = ()) -> None:
+    def __init__(
+        self, owner: type | str, name: str, names: Callable[[], Iterable[str]] = tuple
+    ) -> None:
         # Without this, the interpreter would append its own guess.
-        super().__init__(owner, name, known, name=None, obj=None)
+        super().__init__(owner, name, names, name=None, obj=None)
 
     def __str__(self) -> str:
-        owner, name, known = self.args
+        owner, name, names = self.args
         if isinstance(owner, str):
-            return f"module {owner!r} has no attribute {name!r}{hint(owner, name, known)}"
+            return f"module {owner!r} has no attribute {name!r}{hint(owner, name, names())}"
         known = [each for each in dir(owner) if hasattr(owner, each)]  # without foreign names
         kind = f"{'an' if owner.__name__[0] in 'AEIOU' else 'a'} {owner.__name__}"
         return f"{kind} has no attribute {name!r}{hint(owner, name, known)}"

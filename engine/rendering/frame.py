@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 # What a frame may hold, for type checkers: colour, depths, what the core's modes show, and all that
 # the viewer shows besides. `Frame` has a property of each.
-Output = Literal["color", "depth", "ndc_depth", "triangle_id", "object_id", "normal", OutputMode]
+Output = Literal["color", "depth", "ndc_depth", "face_id", "object_id", "normal", OutputMode]
 # Their dtypes and numbers of channels (0: no third axis), as the core lists them.
 OUTPUTS: dict[str, tuple[np.dtype[Any], int]] = {
     name: (np.dtype(dtype), channels if channels > 1 else 0)
@@ -111,9 +111,7 @@ class Frame:
     ndc_depth: _Output[np.float32] = _Output(
         "(H, W) float32: z_ndc, smaller is nearer, +inf = background."
     )
-    triangle_id: _Output[np.int32] = _Output(
-        "(H, W) int32: index into mesh.faces as given, -1 = none."
-    )
+    face_id: _Output[np.int32] = _Output("(H, W) int32: index into mesh.faces as given, -1 = none.")
     object_id: _Output[np.int32] = _Output("(H, W) int32: node.id, -1 = background.")
     instance_id: _Output[np.int32] = _Output(
         "(H, W) int32: row of the instances, 0 for a plain mesh, -1 = background."

@@ -146,7 +146,7 @@ class RenderOptions:
 
     Parameters
     ----------
-    mode : {"lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"}
+    mode : {"lit", "unlit", "random", "depth", "normal", "face_id", "object_id", "overdraw"}
         What the colour shows: lit surfaces, unlit surface colours, a random colour per triangle,
         nearness, view-space normals, IDs as colours, or how often each pixel was covered.
     wireframe : {None, "overlay", "only"}
@@ -200,7 +200,7 @@ class RenderOptions:
         Unit of line_width and point_size: pixels, or thousandths of the picture's height, so that a
         scene looks alike at every size; the result is clamped to 1 to 256 pixels.
     alpha_to_coverage : bool
-        With ``antialias="msaa"``: the alpha of materials with ``alpha_mode="mask"`` determines how
+        With ``antialiasing="msaa"``: alpha of materials with ``alpha_mode="mask"`` determines how
         many of a pixel's samples they cover, half of them at ``alpha_cutoff``: foliage gets smooth
         edges. Otherwise the alpha test keeps all samples or none.
     ambient_occlusion : bool

@@ -40,9 +40,9 @@ def pick(scene: Any, frame: Any, x: int, y: int) -> RayHit | None:
     if frame._seen is None:
         raise InvalidArgumentError("the frame was not drawn by a Renderer")
     near, direction, length, eye = _pixel_ray(frame, x, y)
-    if not {"object_id", "instance_id", "triangle_id"} <= set(frame.outputs):
+    if not {"object_id", "instance_id", "face_id"} <= set(frame.outputs):
         return _from(eye, _drawn_hit(scene, near, direction, length, frame._seen[1]))
-    number, face = int(frame.object_id[y, x]), int(frame.triangle_id[y, x])
+    number, face = int(frame.object_id[y, x]), int(frame.face_id[y, x])
     node = None if number < 0 else scene.data.node_of(number)
     if node is None:
         return None

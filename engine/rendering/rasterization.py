@@ -27,7 +27,7 @@ class RasterizeResult(NamedTuple):
 
     Attributes
     ----------
-    triangle_id : (H, W) int32
+    face_id : (H, W) int32
         Row of ``faces``; -1 where nothing was drawn.
     depth : (H, W) float32
         z_ndc, smaller is nearer; +inf where nothing was drawn.
@@ -35,7 +35,7 @@ class RasterizeResult(NamedTuple):
         Perspective-correct weights of the face's three vertices; 0 where nothing was drawn.
     """
 
-    triangle_id: NDArray[np.int32]
+    face_id: NDArray[np.int32]
     depth: NDArray[np.float32]
     barycentric: NDArray[np.float32]
 

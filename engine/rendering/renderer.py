@@ -65,8 +65,8 @@ class Renderer(Closed):
         ``"srgb"``: 8-bit colours and textures are decoded to linear light, and the result is
         encoded. ``"linear"``: 8-bit values are neither decoded nor encoded.
     samples : {1, 2, 4, 8, 16}
-        Samples per pixel; more samples give smoother edges. 2 and 8 need ``antialias="msaa"``.
-    antialias : {"ssaa", "msaa"}
+        Samples per pixel; more samples give smoother edges. 2 and 8 need ``antialiasing="msaa"``.
+    antialiasing : {"ssaa", "msaa"}
         The antialiasing method. ``"ssaa"`` (supersampling) shades every sample; 1, 4 or 16 samples.
         ``"msaa"`` (multisampling, with Direct3D's standard patterns) shades each surface once per
         pixel, for all samples it covers. It is much faster and smooths edges equally, but not
@@ -81,7 +81,7 @@ class Renderer(Closed):
         The backend that draws.
     color_space : str
     samples : int
-    antialias : str
+    antialiasing : str
 
     Raises
     ------
@@ -97,11 +97,11 @@ class Renderer(Closed):
         threads: int = 0,
         color_space: ColorSpace = "srgb",
         samples: Samples = 1,
-        antialias: Antialias = "ssaa",
+        antialiasing: Antialias = "ssaa",
     ) -> None:
         self._width, self._height = check_side(width, "width"), check_side(height, "height")
         self._color_space = choose(color_space, COLOR_SPACES, "color_space")
-        self._antialias = choose(antialias, _SAMPLES, "antialias")
+        self._antialias = choose(antialiasing, _SAMPLES, "antialiasing")
         self._samples = _check_samples(samples, self._antialias)
         number = resolve_backend(backend)
         self._backend = list(_native.BACKENDS)[number]
@@ -111,7 +111,7 @@ class Renderer(Closed):
         self._options = OptionsCache(self._color_space, threads)
         self._pool = OutputPool()
         self._viewpoint = Viewpoint(self._draw_list)
-        per_pixel = _SAMPLES[antialias][samples]
+        per_pixel = _SAMPLES[antialiasing][samples]
         memory = FrameMemory(*per_pixel, threads)
         is_srgb = color_space == "srgb"
         self._passes = Passes(
@@ -140,7 +140,7 @@ class Renderer(Closed):
         return self._samples
 
     @property
-    def antialias(self) -> Antialias:
+    def antialiasing(self) -> Antialias:
         return self._antialias
 
     def resize(self, width: int, height: int) -> None:
@@ -347,15 +347,15 @@ class Renderer(Closed):
         return f"<Renderer {self._width}x{self._height}, {self._backend}>"
 
 
-def _check_samples(samples: Samples, antialias: Antialias) -> Samples:
+def _check_samples(samples: Samples, antialiasing: Antialias) -> Samples:
     """Check the number of samples; on an error, name the method that supports it."""
     others = [how for how, numbers in _SAMPLES.items() if is_one_of(samples, numbers)]
-    if others and antialias not in others:
+    if others and antialiasing not in others:
         raise InvalidArgumentError(
-            f"samples={samples} needs antialias={others[0]!r}: with antialias={antialias!r} it is "
-            f"one of {', '.join(map(str, _SAMPLES[antialias]))}"
+            f"samples={samples} needs antialiasing={others[0]!r}: with antialiasing="
+            f"{antialiasing!r} it is one of {', '.join(map(str, _SAMPLES[antialiasing]))}"
         )
-    return choose(samples, _SAMPLES[antialias], "samples")
+    return choose(samples, _SAMPLES[antialiasing], "samples")
 
 
 def _blame_change(scene: AnyScene, census: tuple[Any, ...], error: Exception) -> None:

@@ -27,7 +27,7 @@ def thumbnail(thing: Scene | Mesh) -> bytes | None:
     if not 0 < sum(map(_parts, shown)) <= MOST_PARTS:
         return None
     try:
-        with Renderer(*SIZE, samples=4, antialias="msaa") as renderer:
+        with Renderer(*SIZE, samples=4, antialiasing="msaa") as renderer:
             frame = renderer.render(scene, cull="auto")
     except Engine3DError:  # such as for coordinates that no camera can frame
         return None

@@ -23,7 +23,7 @@ COVERAGE: Output = "depth"
 SPLIT: tuple[tuple[Output, ...], ...] = (
     ("color", "albedo", "world_normal"),
     ("world_position", "depth", "uv"),
-    ("object_id", "triangle_id", "material_id"),
+    ("object_id", "face_id", "material_id"),
 )
 SPLIT_OUTPUTS = tuple(name for row in SPLIT for name in row)
 #: Three odd factors that turn an ID into red, green and blue.

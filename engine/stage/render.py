@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from ..rendering._view import CameraChoice
 
 #: The keywords of `render` for its renderer.
-_RENDERER_KEYWORDS = ("size", "backend", "threads", "color_space", "samples", "antialias")
+_RENDERER_KEYWORDS = ("size", "backend", "threads", "color_space", "samples", "antialiasing")
 
 
 class PictureKeywords(RenderKeywords, MarkKeywords, total=False):
@@ -47,7 +47,7 @@ def render(
     threads: int = 0,
     color_space: ColorSpace = "srgb",
     samples: Samples = 1,
-    antialias: Antialias = "ssaa",
+    antialiasing: Antialias = "ssaa",
     **options: Unpack[PictureKeywords],
 ) -> Frame:
     """Draw one frame of a scene, a node or a mesh.
@@ -60,7 +60,7 @@ def render(
     camera : None, Node or (Camera, pose)
     size : (int, int)
         Width and height in pixels.
-    backend, threads, color_space, samples, antialias
+    backend, threads, color_space, samples, antialiasing
         As for `Renderer`.
     color_by : str or array, optional
         Show numbers as colours instead of the surfaces' own: a name in ``mesh.values``, ``"x"``,
@@ -116,7 +116,7 @@ def render(
         threads=threads,
         color_space=color_space,
         samples=samples,
-        antialias=antialias,
+        antialiasing=antialiasing,
     ) as renderer:
         if marked is not None:
             return marked.render(renderer, camera, **given)

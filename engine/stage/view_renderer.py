@@ -59,7 +59,7 @@ class _Options(TypedDict, total=False):
 
     backend: Backend
     threads: int
-    antialias: Antialias
+    antialiasing: Antialias
 
 
 class ViewRenderer:
@@ -203,7 +203,7 @@ class ViewRenderer:
         scale = max(width, height) / 240
         size = max(1, round(width / scale)), max(1, round(height / scale))
         options = self._options.copy()
-        options["antialias"] = "ssaa"
+        options["antialiasing"] = "ssaa"
         with Renderer(*size, **options) as renderer:
             try:
                 look = self._appearance()
@@ -314,7 +314,7 @@ class ViewRenderer:
         """Return what a frame looks at."""
         look = self._appearance()
         look = {name: look[name] for name in ("cull", "point_size", "size_unit") if name in look}
-        drawing = {name: held for name, held in self._options.items() if name != "antialias"}
+        drawing = {name: held for name, held in self._options.items() if name != "antialiasing"}
         return Sight(self.viewed.scene, camera, pose, self.size, look, drawing)
 
     def why_blank(self) -> Reason | None:

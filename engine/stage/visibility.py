@@ -102,14 +102,14 @@ class Visibility:
 
     def tell_whole_face(self, frame: Frame, x: int, y: int) -> None:
         """Map a pixel's face ID from the drawn part to the whole mesh."""
-        face = int(frame.triangle_id[y, x])
+        face = int(frame.face_id[y, x])
         if face < 0 or not self._hidden_materials:
             return
         number = int(frame.object_id[y, x])
         node = next((node for node in self._nodes if node.id == number), None)
         if node is not None:
             kept = self._kept(mesh_of(node.object))
-            frame.triangle_id[y, x] = np.flatnonzero(kept)[face]
+            frame.face_id[y, x] = np.flatnonzero(kept)[face]
 
     def _apply(self) -> None:
         part_of = self._visible_part if self._hidden_materials else self._shown_as

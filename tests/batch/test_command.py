@@ -65,7 +65,7 @@ def test_what_scripts_print_is_not_in_the_way(manifest, place, capfd):
 
 def test_warnings_of_models_are_told_once(manifest, place, capsys):
     (place / "model.obj").write_text("mtllib none.mtl\nv -1 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n")
-    cameras = {"camera": [{"azimuth": 0}, {"azimuth": 9}]}
+    cameras = {"camera": [{"azimuth_degrees": 0}, {"azimuth_degrees": 9}]}
     assert batch(manifest({**MODEL, "matrix": cameras}), place / "out", "--jobs", "1") == 0
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 1 and "none.mtl" in lines[0]

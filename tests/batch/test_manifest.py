@@ -25,7 +25,7 @@ def test_defaults_and_own_values(manifest, place):
 
 
 def test_matrices_combine_values(manifest):
-    cameras = [{"azimuth": 10, "name": "left"}, {"azimuth": 20}]
+    cameras = [{"azimuth_degrees": 10, "name": "left"}, {"azimuth_degrees": 20}]
     path = manifest(
         {"matrix": {"model": ["model.obj", "b/c.stl"], "camera": cameras, "seed": [7, 9]}},
         {**SCRIPT, "name": "s{seed:03}-{index}", "matrix": {"seed": {"from": 4, "count": 2}}},
@@ -46,31 +46,34 @@ POSE = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
 INTRINSICS = {"fx": 1, "fy": 1, "cx": 1, "cy": 1}
 WRONG = [
     ({}, "tasks[1]: a task needs a model or a script"),
-    ({**MODEL, "modle": 1}, "tasks[1].modle: is none of antialias, arguments, camera"),
+    ({**MODEL, "modle": 1}, "tasks[1].modle: is none of antialiasing, arguments, camera"),
     ({**MODEL, "size": [0, 4]}, "tasks[1].size: width must be a whole number in 1..16384, not 0"),
     ({**MODEL, "seed": -1}, "tasks[1].seed: seed must be a whole number from 0 on: -1"),
     ({**MODEL, "samples": 3}, "tasks[1].samples: samples must be one of 1, 2, 4, 8, 16, not 3"),
-    ({**MODEL, "camera": {"azimuth": "x"}}, "tasks[1].camera.azimuth: azimuth must be a finite"),
+    (
+        {**MODEL, "camera": {"azimuth_degrees": "x"}},
+        "tasks[1].camera.azimuth_degrees: azimuth_degrees must be a finite",
+    ),
     ({**MODEL, "camera": {"pose": [1]}}, "tasks[1].camera.pose: pose must have shape (4, 4)"),
     (
-        {**MODEL, "camera": {"position": [1, 2, 3], "azimuth": 3}},
-        "tasks[1].camera.azimuth: azimuth is none of pos",
+        {**MODEL, "camera": {"position": [1, 2, 3], "azimuth_degrees": 3}},
+        "tasks[1].camera.azimuth_degrees: azimuth_degrees is none of pos",
     ),
     (
-        {**MODEL, "camera": {"position": [1, 2, 3], "height": 1, "view_angle": 3}},
-        "tasks[1].camera: view_angle and height do not go together",
+        {**MODEL, "camera": {"position": [1, 2, 3], "height": 1, "yfov_degrees": 3}},
+        "tasks[1].camera: yfov_degrees and height do not go together",
     ),
     (
-        {**MODEL, "camera": {"elevation": 91}},
-        "tasks[1].camera.elevation: elevation must be from -90",
+        {**MODEL, "camera": {"elevation_degrees": 91}},
+        "tasks[1].camera.elevation_degrees: elevation_degrees must be from -90",
     ),
     (
         {**MODEL, "camera": {"pose": POSE, "intrinsics": {**INTRINSICS, "fy": "x"}}},
         "tasks[1].camera.intrinsics.fy: fy must be a finite number, not 'x'",
     ),
     (
-        {**MODEL, "matrix": {"camera": [{}, {"view_angle": 200}]}},
-        "tasks[1].matrix.camera[1].view_angle: view_angle must be between 0 and 180",
+        {**MODEL, "matrix": {"camera": [{}, {"yfov_degrees": 200}]}},
+        "tasks[1].matrix.camera[1].yfov_degrees: yfov_degrees must be between 0 and 180",
     ),
     ({**MODEL, "camera": True}, "tasks[1].camera: camera must be a number or an object, not True"),
     ({**MODEL, "render": {"mode": "lti"}}, "tasks[1].render.mode: mode must be one of 'lit'"),
@@ -177,7 +180,7 @@ def test_tasks_are_known_by_all_that_they_say():
         Task(name="a", model="a.obj", folder="/a", **{key: value})
         for key, value in (
             *(("seed", 1), ("size", (3, 4)), ("camera", 0), ("render", {"cull": "none"})),
-            *(("scene", {"exposure": 1}), ("samples", 1), ("antialias", "msaa"), ("index", 2)),
+            *(("scene", {"exposure": 1}), ("samples", 1), ("antialiasing", "msaa"), ("index", 2)),
             ("look", "plain"),
             *(("script", "b.py"), ("arguments", {"a": 1}), ("function", "f"), ("inputs", ["x"])),
         )

@@ -32,7 +32,7 @@ def files_in(folder):
 def tasks(manifest):
     """Twelve pictures by a script and two of a model."""
     matrix = {"seed": {"count": 12}}
-    cameras = [{"azimuth": 20}, {"position": [0, 1, 5], "target": [0, 1, 0]}]
+    cameras = [{"azimuth_degrees": 20}, {"position": [0, 1, 5], "target": [0, 1, 0]}]
     path = manifest(
         {**SCRIPT, "matrix": matrix},
         {**MODEL, "matrix": {"camera": cameras}, "outputs": ["color.tga", "depth"]},
@@ -64,12 +64,12 @@ def test_pictures_are_those_of_the_scene_api(tasks, serial, place):
 
 
 def test_looks_are_those_of_the_command(place, manifest):
-    camera = {"azimuth": 25.0, "elevation": 10.0}
-    task = {**MODEL, "look": "studio", "camera": camera, "antialias": "msaa", "name": "a"}
+    camera = {"azimuth_degrees": 25.0, "elevation_degrees": 10.0}
+    task = {**MODEL, "look": "studio", "camera": camera, "antialiasing": "msaa", "name": "a"}
     run(read_manifest(manifest(task)).tasks, place / "out", jobs=1)
     drawn = place / "drawn.png"
     angles = ["--camera-azimuth-angle", "25", "--camera-elevation-angle", "10"]
-    arguments = ["render", str(place / "model.obj"), "-o", str(drawn), "--resolution", "24x16"]
+    arguments = ["render", str(place / "model.obj"), "-o", str(drawn), "--size", "24x16"]
     assert main([*arguments, *angles]) == 0
     assert (place / "out" / "a.png").read_bytes() == drawn.read_bytes()
 

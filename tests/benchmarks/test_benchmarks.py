@@ -109,7 +109,7 @@ def test_simd_vs_scalar(tmp_path, plainly):
     if not plainly:
         pytest.importorskip("engine3d._native.kernels_testing", reason="it is built in place only")
     chart = tmp_path / "chart.svg"
-    quick = ["--repeats", "1", "--resolution", "32x18", "--plot", str(chart)]
+    quick = ["--repeats", "1", "--size", "32x18", "--plot", str(chart)]
     backends = ["--backend", "scalar", "--backend", "portable"]
     rows = report("simd_vs_scalar.py", *quick, *backends, plainly=plainly)["rows"]
     assert len(rows) == (7 if plainly else 20) and chart.stat().st_size > 1000
@@ -137,7 +137,7 @@ def test_compiler_flags():
 
 
 def test_profile():
-    small = ["--frames", "1", "--resolution", "64x36", "--functions", "none"]
+    small = ["--frames", "1", "--size", "64x36", "--functions", "none"]
     rows = report("profile.py", *small, "--workload", "lights", "--workload", "texture")["stages"]
     assert [row["workload"] for row in rows] == ["lights", "texture"]
     for row in rows:
@@ -150,7 +150,7 @@ def test_profile():
 @pytest.mark.skipif(shutil.which("gprof") is None, reason="needs gprof")
 def test_profile_by_gprof():
     """Of a build for a debugger, which is compiled in a third of the time."""
-    small = ["--frames", "1", "--resolution", "64x36", "--workload", "lights", "--scenes", "40"]
+    small = ["--frames", "1", "--size", "64x36", "--workload", "lights", "--scenes", "40"]
     gprof = ["--functions", "gprof"]
     functions = report("profile.py", *small, *gprof, plainly=True, ENGINE3D_BUILD="debug")
     functions = functions["functions"]
@@ -173,7 +173,7 @@ def test_overhead():
 
 def test_lights(tmp_path):
     chart = tmp_path / "lights.svg"
-    small = ["--triangles", "50000", "--most", "4", "--frames", "1", "--resolution", "64x36"]
+    small = ["--triangles", "50000", "--most", "4", "--frames", "1", "--size", "64x36"]
     rows = report("lights.py", *small, "--plot", str(chart))["rows"]
     assert [row["lights"] for row in rows] == [1, 2, 4] and chart.stat().st_size > 1000
     assert all(row["same_bytes"] and row["forward"] > 0 and row["deferred"] > 0 for row in rows)
@@ -181,7 +181,7 @@ def test_lights(tmp_path):
 
 def test_worlds():
     small = ["--side", "4", "--triangles", "30000", "--largest", "100000", "--frames", "1"]
-    rows = report("worlds.py", *small, "--resolution", "64x36")["rows"]
+    rows = report("worlds.py", *small, "--size", "64x36")["rows"]
     assert len(rows) == 12 + 4 + 2 + 1
     assert all(row.get("cpu_milliseconds", 1) > 0 for row in rows)
     assert sum("aim" in row and "reached" in row for row in rows) == 9

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-SMALL = ("--resolution", "48x32")
+SMALL = ("--size", "48x32")
 
 OBJ = """o square
 v 0 0 0

@@ -10,7 +10,7 @@ from PIL import Image
 from engine3d.apps.cli import main
 
 pytestmark = pytest.mark.usefixtures("no_screen")
-SMALL = ("--resolution", "48x32")
+SMALL = ("--size", "48x32")
 
 
 def pixels(path):
@@ -98,7 +98,7 @@ def decoded(path, size):
 @pytest.mark.parametrize("size", [(48, 32), (47, 31)])
 def test_mp4(model, capsys, tmp_path, size):
     pytest.importorskip("imageio_ffmpeg", reason="needs engine3d[video]")
-    small = ["--resolution", f"{size[0]}x{size[1]}", "--color", "red", "--unlit"]
+    small = ["--size", f"{size[0]}x{size[1]}", "--color", "red", "--unlit"]
     arguments = [*small, "--turntable", "5", "--cull", "none", "--background-color", "blue"]
     for name in ("a.mp4", "b.mp4", "still{}.png"):
         assert main(["render", str(model), *arguments, "-o", name]) == 0

@@ -7,7 +7,7 @@ from PIL import Image
 import engine3d as e3d
 from engine3d.apps.cli import main
 
-SMALL = ["--resolution", "48x36", "--no-texture"]
+SMALL = ["--size", "48x36", "--no-texture"]
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,7 @@ from engine3d.apps.bench import figures, measuring
 from engine3d.apps.cli import main
 from engine3d.apps.scenes import WORKLOAD_NAMES, workloads
 
-SMALL = ("--resolution", "64x36", "--seconds", "0.01")
+SMALL = ("--size", "64x36", "--seconds", "0.01")
 
 
 def bench(*arguments):
@@ -42,7 +42,7 @@ def test_a_row_for_each_case(capsys, tmp_path):
 def test_json_alone_on_standard_output(capsys):
     assert bench("--workloads", "textured", "--json", "-") == 0
     printed = json.loads(capsys.readouterr().out)
-    assert printed["resolution"] == [64, 36] and printed["picture"] == "default"
+    assert printed["size"] == [64, 36] and printed["picture"] == "default"
 
 
 @pytest.mark.parametrize(

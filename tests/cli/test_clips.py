@@ -10,7 +10,7 @@ from engine3d.apps.cli import main
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 # On the ground of the look "studio" lies a shadow, as fine as what is shown is large.
-SMALL = ("--resolution", "48x48", "--camera-index", "0", "--look", "plain")
+SMALL = ("--size", "48x48", "--camera-index", "0", "--look", "plain")
 
 
 @pytest.fixture
@@ -70,8 +70,8 @@ def test_cameras_of_the_file(moving):
     assert rolled[1] - rolled[0] < rolled[3] - rolled[2]
     # Two units high of the four that it shows.
     assert 22 <= rolled[3] - rolled[2] + 1 <= 26
-    free = rendered(moving, size=("--resolution", "48x48", "--camera-index", "-1"))
-    usual = rendered(moving, size=("--resolution", "48x48"))
+    free = rendered(moving, size=("--size", "48x48", "--camera-index", "-1"))
+    usual = rendered(moving, size=("--size", "48x48"))
     assert (free == usual).all()
 
 

@@ -1,5 +1,6 @@
 """What holds for all commands: errors, usage, help, warnings, versions."""
 
+import re
 import subprocess
 import sys
 
@@ -8,6 +9,7 @@ from cli.conftest import OBJ, SMALL
 
 import engine3d as e3d
 from engine3d.apps.cli import main
+from engine3d.apps.cli.commands import COMMANDS
 
 pytestmark = pytest.mark.usefixtures("no_screen")
 
@@ -61,7 +63,7 @@ def test_bad_input_is_one_line_and_status_1(model, tmp_path, capsys, arguments, 
         ["render", "--scene", "cube", "--triangles", "50000", "-o", "out.png"],
         ["city", "out.png"],
         ["city", "out.obj", "--seed", "x"],
-        ["render", "a.obj", "-o", "out.png", "--resolution", "0x0"],
+        ["render", "a.obj", "-o", "out.png", "--size", "0x0"],
         ["render", "a.obj", "-o", "out.png", "--mode", "pretty"],
         ["render", "a.obj", "-o", "out.png", "--unlit", "--mode", "depth"],
         ["render", "a.obj", "-o", "out.png", "--backend", "gpu"],
@@ -134,15 +136,15 @@ def test_a_folder_that_cannot_be_made_is_found_before_any_work(
         assert capsys.readouterr() == ("", expected)
 
 
-QUICK_BENCH = ["--workloads", "textured", "--seconds", "0.01", "--resolution", "32x24"]
+QUICK_BENCH = ["--workloads", "textured", "--seconds", "0.01", "--size", "32x24"]
 
 
 @pytest.mark.parametrize(
     "arguments",
     [
-        ["render", "square.obj", "--resolution", "32x24", "-o", "new/a b/a.png"],
-        ["render", "square.obj", "--resolution", "32x24", "--turntable", "2", "-o", "new/b/a.gif"],
-        ["render", "square.obj", "--resolution", "32x24", "--turntable", "2", "-o", "n/b/%d.png"],
+        ["render", "square.obj", "--size", "32x24", "-o", "new/a b/a.png"],
+        ["render", "square.obj", "--size", "32x24", "--turntable", "2", "-o", "new/b/a.gif"],
+        ["render", "square.obj", "--size", "32x24", "--turntable", "2", "-o", "n/b/%d.png"],
         ["run", "square.obj", "--headless", "--frames", "1", "-o", "new/b/a.png"],
         ["run", "square.obj", "--headless", "--frames", "2", "-o", "new/b/a.webp"],
         ["sheet", "square.obj", "--json", "-o", "new/b/a.png"],
@@ -216,6 +218,29 @@ def test_list_readers_and_version(capsys):
 def test_help(command, capsys):
     assert main([*command, "--help"]) == 0
     assert "usage: engine3d" in capsys.readouterr().out
+
+
+def headings(text):
+    return re.findall(r"^\w[\w ]*:$", text, re.M)
+
+
+def option_lines(text):
+    """The long options that a help has a line for."""
+    return set(re.findall(r"^  (?:-\w, )?(--[\w-]+)", text, re.M))
+
+
+@pytest.mark.parametrize("command", ["run", "render"])
+def test_the_short_help_shows_common_options_and_the_whole_help_all(command, capsys):
+    assert main([command, "--help"]) == 0
+    short = capsys.readouterr().out
+    assert main([command, "--help-all"]) == 0
+    whole = capsys.readouterr().out
+    common = set(COMMANDS[command].common)
+    assert len(common) == 25
+    assert option_lines(short) == {"--help", "--help-all", *common}
+    assert option_lines(short) < option_lines(whole)
+    assert f"show all {len(option_lines(whole)) - 1} options" in short
+    assert [line for line in headings(whole) if line in headings(short)] == headings(short)
 
 
 def test_help_loads_neither_numpy_nor_pillow():

@@ -10,7 +10,7 @@ from PIL import Image
 from engine3d.apps.cli import main
 
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n"
-OPTIONS = ("--resolution", "48x32", "--unlit")
+OPTIONS = ("--size", "48x32", "--unlit")
 WHITE, BLUE, RED = [255, 255, 255], [10, 30, 200], [200, 30, 10]
 
 

@@ -32,13 +32,13 @@ def parsed(*options, command="render"):
 
 def test_options_of_the_users_own_file(own):
     own(
-        {"options": {"look": "plain", "grid": True, "resolution": "64x48", "samples": 4}},
+        {"options": {"look": "plain", "grid": True, "size": "64x48", "samples": 4}},
         {"files": "*.STL", "options": {"up": "+X", "wireframe": True, "flat": True}},
         {"files": ["*.ply", "other/*"], "options": {"up": "-Z"}},
         {"options": {"background-gradient": ["white", "black"], "background-color": [1, 2, 3]}},
     )
     args = parsed()
-    assert (args.look, args.grid, args.resolution, args.samples) == ("plain", True, (64, 48), 4)
+    assert (args.look, args.grid, args.size, args.samples) == ("plain", True, (64, 48), 4)
     assert (args.up, args.wireframe, args.normals) == ("+X", "only", "flat")
     assert args.background_gradient == [(255, 255, 255), (0, 0, 0)]
     assert args.background_color == (1, 2, 3)
@@ -94,8 +94,8 @@ def test_each_of_several_files_has_its_own(own, tmp_path):
         ([{"options": {}, "match": "x"}], "[0].match: there is no such key"),
         ([{"options": {}, "files": 3}], "[0].files: a pattern or a list of patterns is needed"),
         ([{"options": {"look": "odd"}}], "[0].options.look: 'odd' is not one of studio, plain"),
-        ([{"options": {"resolution": [1]}}], "[0].options.resolution: '1' is not like 1280x720"),
-        ([{"options": {"resolution": True}}], "[0].options.resolution: true is no value of it"),
+        ([{"options": {"size": [1]}}], "[0].options.size: '1' is not like 1280x720"),
+        ([{"options": {"size": True}}], "[0].options.size: true is no value of it"),
         ([{"options": {"grid": 1}}], "[0].options.grid: 1 is no value of it"),
         ([{"options": {"up": None}}], "a text, a number or a list of them is needed"),
         ([{"options": {"background-gradient": "red"}}], "2 values are needed"),
@@ -131,7 +131,7 @@ def test_files_that_cannot_be_read(tmp_path, capsys, monkeypatch):
     [
         ("grid", "NAME=VALUE is needed"),
         ("gird=true", "there is no option 'gird': did you mean grid?"),
-        ("nonsense=1", "there is no option 'nonsense' (engine3d render --help lists them)\n"),
+        ("nonsense=1", "there is no option 'nonsense' (engine3d render --help-all lists them)\n"),
         ("samples=3", "is not one of 1, 2, 4, 8, 16"),
     ],
 )

@@ -34,7 +34,7 @@ def test_convert_refuses_what_it_cannot_write(model, capfd, arguments):
 
 def test_city_writes_a_model(tmp_path, capfd):
     assert main(["city", "town.stl", "--triangles", "20000", "--seed", "4"]) == 0
-    assert len(e3d.load_mesh("town.stl").faces) == e3d.city(20_000, seed=4).triangles
+    assert len(e3d.load_mesh("town.stl").faces) == e3d.worlds.city(20_000, seed=4).triangles
     assert main(["city", "town.obj", "--triangles", "3"]) == 2
     assert "'3' is not a whole number from 20,000 to 50,000,000" in capfd.readouterr().err
     assert not (tmp_path / "town.obj").exists()

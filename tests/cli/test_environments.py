@@ -7,7 +7,7 @@ from PIL import Image
 
 from engine3d.apps.cli import main
 
-SMALL = ["--scene", "cube", "--resolution", "64x36"]
+SMALL = ["--scene", "cube", "--size", "64x36"]
 
 
 def picture(tmp_path, *options):

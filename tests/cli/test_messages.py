@@ -6,7 +6,7 @@ from cli.conftest import OBJ
 from engine3d.apps.cli import main
 
 pytestmark = pytest.mark.usefixtures("no_screen")
-SMALL = ("--resolution", "48x32")
+SMALL = ("--size", "48x32")
 
 
 def test_quiet_prints_errors_only(model, capsys, tmp_path):
@@ -30,16 +30,14 @@ def test_quiet_prints_errors_only(model, capsys, tmp_path):
     ("arguments", "meant"),
     [
         (["rendr", "a.obj"], "there is no command 'rendr': did you mean render?"),
-        (
-            ["render", "a.obj", "--resolutoin", "3x4"],
-            "--resolutoin 3x4: did you mean --resolution?",
-        ),
-        (["render", "a.obj", "--resolutoin=3x4"], "=3x4: did you mean --resolution?"),
+        (["render", "a.obj", "--siez", "3x4"], "--siez 3x4: did you mean --size?"),
+        (["render", "a.obj", "--siez=3x4"], "=3x4: did you mean --size?"),
         (["run", "--mode", "deph"], "did you mean depth?"),
         (["run", "--scene", "sity"], "did you mean city?"),
-        (["render", "a.obj", "--size", "3x4"], "--size 3x4: did you mean --resolution?"),
+        (["render", "a.obj", "--resolution", "3x4"], "did you mean --size?"),
         (["sheet", "a.obj", "--resolution", "3x4"], "did you mean --size?"),
-        (["run", "a.obj", "--fov=60"], "did you mean --camera-view-angle?"),
+        (["run", "a.obj", "--camera-view-angle=60"], "did you mean --camera-yfov?"),
+        (["run", "a.obj", "--fov=60"], "did you mean --camera-yfov?"),
         (["render", "a.obj", "--background", "white"], "a colour goes with --background-color"),
         (["render", "a b.obj", "out.PNG"], "-o FILE: engine3d render 'a b.obj' -o out.PNG"),
         (["render", "a.obj", "b.obj"], "say where to write with -o FILE\n"),

@@ -101,7 +101,7 @@ def test_commands_say_it(file, tmp_path, capsys, word, command):
         pytest.skip("a turn shows it")
     cull = ["--cull", "back"] if word == "all_culled" else []
     output = tmp_path / ("a.gif" if command == "turntable" else "a.png")
-    said = [*COMMANDS[command], str(file(word)), "-o", str(output), "--resolution", "64x48"]
+    said = [*COMMANDS[command], str(file(word)), "-o", str(output), "--size", "64x48"]
     assert main([*said, *options, *cull, *UP.get(word, [])]) == 0
     lines = capsys.readouterr().err.splitlines()
     assert [line for line in lines if re.search(f"nothing shows: .*({part})", line)], lines
@@ -135,7 +135,7 @@ def test_batches_say_it_and_their_records(file, tmp_path, word, look):
 def test_what_shows_is_not_told_of(tmp_path, capsys, command):
     (tmp_path / "a.obj").write_text(TRIANGLE)
     output = tmp_path / ("a.gif" if command == "turntable" else "a.png")
-    size = ["--resolution", "64x48"]
+    size = ["--size", "64x48"]
     assert main([*COMMANDS[command], str(tmp_path / "a.obj"), "-o", str(output), *size]) == 0
     assert "nothing shows" not in capsys.readouterr().err
 
@@ -145,5 +145,5 @@ def test_glass_shows(tmp_path, capsys):
     (tmp_path / "a.obj").write_text(f"mtllib m.mtl\nusemtl m\n{TRIANGLE}")
     for command in ("render", "plain", "white"):
         arguments = [*COMMANDS[command], str(tmp_path / "a.obj"), "-o", str(tmp_path / "a.png")]
-        assert main([*arguments, "--resolution", "64x48"]) == 0
+        assert main([*arguments, "--size", "64x48"]) == 0
     assert capsys.readouterr().err == ""

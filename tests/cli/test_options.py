@@ -24,7 +24,7 @@ def parse(*arguments):
 
 @pytest.mark.parametrize("text", ["1280x720", "1280,720", "1280X720", " 1280 x 720 "])
 def test_resolution(text):
-    assert values.resolution(text) == (1280, 720)
+    assert values.size(text) == (1280, 720)
 
 
 @pytest.mark.parametrize(
@@ -32,7 +32,7 @@ def test_resolution(text):
 )
 def test_bad_resolution(text):
     with pytest.raises(argparse.ArgumentTypeError):
-        values.resolution(text)
+        values.size(text)
 
 
 @pytest.mark.parametrize(
@@ -113,7 +113,7 @@ def test_names_limits_and_slopes():
 
 def test_a_scene_without_materials_takes_a_colour_and_all_options_of_light(tmp_path):
     path = tmp_path / "faces.png"
-    size = ["--resolution", "64x64", "--samples", "1"]
+    size = ["--size", "64x64", "--samples", "1"]
     look = ["--color", "#ff0000", "--light-direction=0,0,-1", "--light-clamp", "1,1"]
     planes = ["--near", "0.1", "--far", "50", "--culling", "frustum", "--no-texture"]
     assert main(["render", "--scene", "faces", "-o", str(path), *size, *look, *planes]) == 0
@@ -239,7 +239,7 @@ def test_ambient_occlusion_is_asked_for_as_by_f3d():
 def test_ambient_occlusion_shows_in_a_picture(tmp_path):
     def drawn(*more):
         path = tmp_path / "out.png"
-        arguments = ("render", "--scene", "shapes", "--resolution", "120x90", "-o", str(path))
+        arguments = ("render", "--scene", "shapes", "--size", "120x90", "-o", str(path))
         assert main([*arguments, *more]) == 0
         with Image.open(path) as picture:
             return picture.convert("RGB").tobytes()

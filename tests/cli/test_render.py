@@ -62,7 +62,7 @@ def test_turntable(model, tmp_path, suffix):
 def test_appearance_options_change_the_picture(model, tmp_path):
     def draw(*arguments):
         path = tmp_path / "out.png"
-        size = ["--resolution", "160x120"]
+        size = ["--size", "160x120"]
         look = ["--look", "plain", *arguments]
         assert main(["render", str(model), *size, *look, "-o", str(path)]) == 0
         return path.read_bytes()
@@ -87,7 +87,7 @@ def test_appearance_options_change_the_picture(model, tmp_path):
         ["--camera-position", "-1,2,3"],
         ["--camera-focal-point", "1,1,0"],
         ["--camera-view-up", "1,0,0"],
-        ["--camera-view-angle", "60"],
+        ["--camera-yfov", "60"],
         ["--camera-azimuth-angle", "-20"],
         ["--camera-elevation-angle", "-10"],
         ["--camera-zoom-factor", "2"],
@@ -100,7 +100,7 @@ def test_appearance_options_change_the_picture(model, tmp_path):
 def test_hidden_surfaces_flat_normals_and_points_change_a_solid(tmp_path):
     def draw(*arguments):
         path = tmp_path / "out.png"
-        assert main(["render", *arguments, "--resolution", "96x64", "-o", str(path)]) == 0
+        assert main(["render", *arguments, "--size", "96x64", "-o", str(path)]) == 0
         return path.read_bytes()
 
     solid = ["--scene", "shapes"]
@@ -178,7 +178,7 @@ def test_a_reference_decides_the_exit_status(model, tmp_path, capsys):
     assert error.startswith("engine3d: error: ") and error.count("\n") == 1
     assert "pixels" in error
     assert main([*base, "--reference", path, "--unlit", "--reference-threshold", "1"]) == 0
-    assert main([*base, "--resolution", "20x20", "--reference", path]) == 1
+    assert main([*base, "--size", "20x20", "--reference", path]) == 1
     assert "48x32" in capsys.readouterr().err
 
 
@@ -192,7 +192,7 @@ def test_a_light_may_be_as_far_away_as_numbers_reach(model, capsys, position):
 def test_a_render_loads_neither_sdl_nor_rich(model):
     code = (
         "import sys; from engine3d.apps.cli import main;"
-        f"main(['render', {str(model)!r}, '--resolution', '20x20', '-o', 'out.png']);"
+        f"main(['render', {str(model)!r}, '--size', '20x20', '-o', 'out.png']);"
         "print([name for name in ('sdl2', 'rich') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -8,7 +8,7 @@ from PIL import Image
 from engine3d.apps.cli import main
 from engine3d.batch import read_manifest, run
 
-SIZE = ("--resolution", "32x24")
+SIZE = ("--size", "32x24")
 
 
 @pytest.fixture

@@ -52,7 +52,7 @@ def test_run_in_a_dummy_window_stops_after_its_frames(model, monkeypatch, capsys
 def test_every_scene_draws_something_that_moves(scene, tmp_path):
     path = tmp_path / "out.webp"
     arguments = ["--headless", "--frames", "3", "-o", str(path)]
-    assert main(["run", "--scene", scene, "--resolution", "96x64", *arguments]) == 0
+    assert main(["run", "--scene", scene, "--size", "96x64", *arguments]) == 0
     with Image.open(path) as image:
         assert image.n_frames == 3
         first = np.asarray(image.convert("RGB")).astype(int)

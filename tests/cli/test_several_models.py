@@ -11,7 +11,7 @@ import engine3d as e3d
 from engine3d.apps.cli import main
 
 pytestmark = pytest.mark.usefixtures("no_screen")
-SMALL = ("--resolution", "48x32")
+SMALL = ("--size", "48x32")
 
 
 def pixels(path):
@@ -38,7 +38,7 @@ def red(name):
 
 def test_side_by_side_models_stand_apart(model, capsys):
     straight = ["--camera-azimuth-angle", "-30", "--camera-elevation-angle", "-18"]
-    options = ["--resolution", "300x100", "--color", "red", "--unlit", *straight]
+    options = ["--size", "300x100", "--color", "red", "--unlit", *straight]
     command = ["render", str(model), str(model), *options, "-o"]
     assert main([*command, "same.png"]) == 0
     assert main([*command, "row.png", "--side-by-side"]) == 0

@@ -14,7 +14,7 @@ SUN = ["--light-direction=-0.5,-1,-0.6"]
 
 def picture(tmp_path, *options):
     path = tmp_path / "out.png"
-    arguments = ["--scene", "shapes", "--resolution", "96x64", *options, "-o", str(path)]
+    arguments = ["--scene", "shapes", "--size", "96x64", *options, "-o", str(path)]
     assert main(["render", *arguments]) == 0
     with Image.open(path) as image:
         return np.asarray(image.convert("L")).astype(int)
@@ -37,7 +37,7 @@ def test_none_takes_the_shadows_of_a_file_away(tmp_path):
     pictures = []
     for options in ([], ["--shadows", "none"]):
         path = tmp_path / "out.png"
-        arguments = [str(tmp_path / "scene.e3d"), "--resolution", "64x48", *options]
+        arguments = [str(tmp_path / "scene.e3d"), "--size", "64x48", *options]
         assert main(["render", *arguments, "-o", str(path)]) == 0
         with Image.open(path) as image:
             pictures.append(np.asarray(image.convert("L")).astype(int))

@@ -103,8 +103,8 @@ def test_closed_streams(model, tmp_path, closed):
     for arguments, status in (
         (["info", model], 0),
         (["info", broken], 1),
-        (["render", model, "-o", written, "--resolution", "8x8", "--verbose"], 0),
-        (["render", model, "-o", "-", "--resolution", "8x8"], 0),
+        (["render", model, "-o", written, "--size", "8x8", "--verbose"], 0),
+        (["render", model, "-o", "-", "--size", "8x8"], 0),
     ):
         command = shlex.join([sys.executable, "-m", "engine3d", *map(str, arguments)])
         done = subprocess.run(["sh", "-c", f"exec {command} {closed}"], capture_output=True)
@@ -115,7 +115,7 @@ def test_closed_streams(model, tmp_path, closed):
 
 
 def test_a_reader_of_a_picture_that_leaves():
-    size = ["--resolution", "1280x720"]
+    size = ["--size", "1280x720"]
     process = start("render", "--scene", "default", *size, "-o", "-")
     process.stdout.read(10)
     process.stdout.close()

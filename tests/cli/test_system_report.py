@@ -70,7 +70,7 @@ def test_nothing_private_is_in_it(capsys, monkeypatch, tmp_path):
     monkeypatch.setenv("ENGINE3D_NAME", "Jane Doe")
 
     def fail():
-        raise e3d.DisplayError(f"SDL cannot be loaded: {home}/lib/sdl.so is damaged")
+        raise e3d.errors.DisplayError(f"SDL cannot be loaded: {home}/lib/sdl.so is damaged")
 
     monkeypatch.setattr(system_report, "load_sdl", fail)
     assert main(["info", "--system"]) == 0

@@ -11,7 +11,7 @@ from engine3d.apps.cli import main
 EVIL = "\x1b]0;owned\x07\x1b[31mred"
 SHOWN = r"\x1b]0;owned\x07\x1b[31mred"
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
-SMALL = ("--resolution", "48x32")
+SMALL = ("--size", "48x32")
 
 
 @pytest.fixture(autouse=True)

@@ -7,7 +7,7 @@ from PIL import Image
 import engine3d as e3d
 from engine3d.apps.cli import main
 
-SMALL = ["--look", "plain", "--resolution", "64x36", "--exposure", "1"]
+SMALL = ["--look", "plain", "--size", "64x36", "--exposure", "1"]
 
 
 def picture(tmp_path, *options):

@@ -44,7 +44,7 @@ def test_python_examples_run(tmp_path, monkeypatch, capsys):
         exec(compile(block, f"README.md, example {number + 1}", "exec"), names)
     assert (tmp_path / "island.png").stat().st_size > 10_000
     assert 0.1 < names["pixels_of_island"].mean() < 0.9
-    assert (names["seen"].triangle_id == 0).any()
+    assert (names["seen"].face_id == 0).any()
 
 
 @pytest.mark.parametrize("arguments", commands(), ids=" ".join)

@@ -194,7 +194,7 @@ def test_undoing_all_gives_the_file_that_was_opened(folder):
     house = document.scene.find("house")
     material = house.object.materials[0]
     document.do(SetValues([material], {"color": (0, 0, 255)}))
-    document.do(SetValues([house], {"collider": e3d.MeshCollider(), "static": True}))
+    document.do(SetValues([house], {"collider": e3d.colliders.MeshCollider(), "static": True}))
     change(document)
     after = scene_text(document.scene, str(folder))[0]
     assert before == (folder / "a.e3d.json").read_bytes() != after

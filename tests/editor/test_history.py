@@ -116,8 +116,8 @@ class Monkey:
             {"visible": False},
             {"visible": True},
             {"static": True},
-            {"collider": e3d.SphereCollider(0.4)},
-            {"collider": e3d.BoxCollider()},
+            {"collider": e3d.colliders.SphereCollider(0.4)},
+            {"collider": e3d.colliders.BoxCollider()},
             {"collider": None},
             {"object": None},
             {"object": e3d.icosphere(0.4, 1)},
@@ -240,7 +240,7 @@ def test_what_fails_changes_nothing_and_says_so():
 
     failing = [
         Reparent(scene, [lamp, group], ball),
-        SetValues([ball, lamp], {"collider": e3d.BoxCollider()}),
+        SetValues([ball, lamp], {"collider": e3d.colliders.BoxCollider()}),
         SetValues([lamp.object], {"color": (1, 0, 0), "falloff": "window"}),
         SetValues([scene.find("eye").object], {"znear": 500.0}),
         AddNodes(scene, half_an_addition, "Add half"),
@@ -340,7 +340,7 @@ def bent_scene():
     scene = e3d.Scene()
     root = scene.add(name="root")
     joints = [scene.add(parent=root), scene.add(parent=root, translation=(1, 0, 0))]
-    target = e3d.MorphTarget(np.ones((3, 3)))
+    target = e3d.motion.MorphTarget(np.ones((3, 3)))
     mesh = e3d.Mesh(
         np.eye(3),
         [[0, 1, 2]],
@@ -349,7 +349,7 @@ def bent_scene():
         morph_targets=[target],
     )
     node = scene.add(mesh, parent=root, name="bent")
-    node.skin = e3d.Skin(joints)
+    node.skin = e3d.motion.Skin(joints)
     node.morph_weights = [0.25]
     return scene, root, node
 

@@ -6,7 +6,7 @@ import pytest
 import engine3d as e3d
 from engine3d.apps.editor.picking import enclosed, pick
 
-OUTPUTS = ("color", "object_id", "instance_id", "triangle_id")
+OUTPUTS = ("color", "object_id", "instance_id", "face_id")
 SIZE = (120, 90)
 
 
@@ -14,7 +14,7 @@ SIZE = (120, 90)
 def picture():
     scene = e3d.Scene()
     red, blue = e3d.Material(name="red"), e3d.Material(name="blue")
-    wall = e3d.quad((-3, -2, 0), (3, -2, 0), (3, 2, 0), (-3, 2, 0))
+    wall = e3d.primitives.quad((-3, -2, 0), (3, -2, 0), (3, 2, 0), (-3, 2, 0))
     wall.materials, wall.material_ids = [red, blue], [0, 1]
     scene.add(wall, name="wall")
     scene.add(e3d.InstancedMesh(e3d.box(0.5), [(-1, 0, 1, 1), (1, 0, 1, 1)]), name="crowd")

@@ -182,9 +182,7 @@ def test_outputs_are_of_what_is_not_blended(backend):
     assert (nothing.object_id == -1).all()
 
 
-@pytest.mark.parametrize(
-    "mode", ["depth", "normal", "random", "object_id", "triangle_id", "overdraw"]
-)
+@pytest.mark.parametrize("mode", ["depth", "normal", "random", "object_id", "face_id", "overdraw"])
 def test_other_modes_show_blended_faces_as_opaque_ones(backend, mode):
     blended = [layer(0.5, (1.0, 0, 0, 0.5)), layer(0, (0, 1.0, 0, 0.5))]
     opaque = [layer(0.5, (1.0, 0, 0), "opaque"), layer(0, (0, 1.0, 0), "opaque")]

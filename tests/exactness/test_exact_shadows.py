@@ -120,7 +120,7 @@ def hits(origins, ways, far, triangles):
 def picture(make, kind, shadow, backend="auto", threads=2, **options):
     scene, pose = make(kind, shadow)
     camera = (e3d.PerspectiveCamera(), pose)
-    outputs = ("color", "world_position", "triangle_id")
+    outputs = ("color", "world_position", "face_id")
     return e3d.render(
         scene, camera, size=SIZE, backend=backend, threads=threads, outputs=outputs, **options
     )

@@ -173,11 +173,11 @@ def test_uv_is_perspective_correct(backend):
     )
     scene = e3d.Scene()
     scene.add(floor)
-    outputs = ("uv", "depth", "triangle_id", "world_position")
+    outputs = ("uv", "depth", "face_id", "world_position")
     frame = e3d.render(
         scene, (camera, np.eye(4)), size=(size, size), backend=backend, outputs=outputs
     )
-    rows, columns = np.nonzero(frame.triangle_id >= 0)
+    rows, columns = np.nonzero(frame.face_id >= 0)
     assert len(rows) > size * size / 3
     distance = focal / (rows + 0.5 - size / 2)  # to the floor, 1 below the eye
     x = distance * (columns + 0.5 - size / 2) / focal

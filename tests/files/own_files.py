@@ -249,7 +249,7 @@ class Config:
     """Options that stand in files."""
 
     VALUE = (
-        {"files": "*.obj", "options": {"up": "+Z", "grid": True, "resolution": "8x8"}},
+        {"files": "*.obj", "options": {"up": "+Z", "grid": True, "size": "8x8"}},
         {"files": ["*.stl"], "options": {"fov": 20}},
         {"options": {"camera_direction": [0, 0, -1], "light_intensity": 0.5, "samples": 1}},
     )
@@ -263,7 +263,7 @@ class Config:
         spoiled = hostile(value, choice)
         self._path.write_bytes(spoiled)
         said = io.StringIO()
-        arguments = ["render", str(self._model), "--config", str(self._path), "--resolution", "8x8"]
+        arguments = ["render", str(self._model), "--config", str(self._path), "--size", "8x8"]
         arguments += ["--look", "plain", "-o", str(self._path.with_name("out.png"))]
         with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
             status = main(arguments)
@@ -321,7 +321,7 @@ class Manifest:
         "version": 1,
         "defaults": {"size": [8, 8], "render": {"mode": "unlit"}, "scene": {"exposure": 0.5}},
         "tasks": [
-            {"model": "m.obj", "camera": {"azimuth": 30}, "name": "{model}_{index:03}"},
+            {"model": "m.obj", "camera": {"azimuth_degrees": 30}, "name": "{model}_{index:03}"},
             {"script": "s.py", "matrix": {"seed": {"from": 1, "count": 3}, "samples": [1, 4]}},
         ],
         "dataset": {"writer": "bop", "categories": ["a"], "depth_scale": 0.1},

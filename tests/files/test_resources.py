@@ -35,7 +35,7 @@ def stamp(path):
 
 
 def test_one_path_one_object(folder):
-    resources = e3d.Resources()
+    resources = e3d.resources.Resources()
     mesh = resources.load_mesh(folder / "m.obj")
     assert resources.load_mesh(str(folder / "." / "m.obj")) is mesh
     texture = resources.load_texture(folder / "t.png")
@@ -45,7 +45,7 @@ def test_one_path_one_object(folder):
 
 
 def test_one_content_one_object(folder):
-    resources = e3d.Resources()
+    resources = e3d.resources.Resources()
     mesh = resources.load_mesh(folder / "m.obj")
     (folder / "copy.obj").write_text("# the same\n" + OBJ)
     assert resources.load_mesh(folder / "copy.obj") is mesh
@@ -59,7 +59,7 @@ def test_one_content_one_object(folder):
 
 
 def test_counts_and_sizes(folder):
-    resources = e3d.Resources()
+    resources = e3d.resources.Resources()
     mesh = resources.load_mesh(folder / "m.obj")
     resources.load_mesh(folder / "m.obj")
     stats = resources.stats
@@ -69,7 +69,7 @@ def test_counts_and_sizes(folder):
 
 
 def test_what_nobody_holds_is_let_go(folder):
-    resources = e3d.Resources()
+    resources = e3d.resources.Resources()
     mesh = resources.load_mesh(folder / "m.obj")
     texture = mesh.materials[0].texture
     del mesh
@@ -82,7 +82,7 @@ def test_what_nobody_holds_is_let_go(folder):
 
 
 def test_what_was_changed_is_not_shared_any_more(folder):
-    resources = e3d.Resources()
+    resources = e3d.resources.Resources()
     mesh = resources.load_mesh(folder / "m.obj")
     mesh.positions = mesh.positions * 2
     other = resources.load_mesh(folder / "m.obj")
@@ -94,7 +94,7 @@ def test_what_was_changed_is_not_shared_any_more(folder):
 
 
 def test_files_that_changed_are_loaded_again(folder):
-    resources = e3d.Resources()
+    resources = e3d.resources.Resources()
     mesh = resources.load_mesh(folder / "m.obj")
     texture = resources.load_texture(folder / "t.png")
     scene = e3d.Scene(ambient=(1, 1, 1))
@@ -120,7 +120,7 @@ def test_files_that_changed_are_loaded_again(folder):
 
 @pytest.mark.parametrize("name", ["m.obj", "m.mtl", "t.png"])
 def test_a_change_that_keeps_size_and_time_is_found(folder, name):
-    resources = e3d.Resources()
+    resources = e3d.resources.Resources()
     mesh = resources.load_mesh(folder / "m.obj")
     path = folder / name
     status, content = os.stat(path), path.read_bytes()
@@ -133,7 +133,7 @@ def test_a_change_that_keeps_size_and_time_is_found(folder, name):
 
 @pytest.mark.parametrize("name", ["m.obj", "m.mtl", "t.png"])
 def test_permissions_and_links_are_no_change(folder, name):
-    resources = e3d.Resources()
+    resources = e3d.resources.Resources()
     mesh = resources.load_mesh(folder / "m.obj")
     time.sleep(0.05)  # longer than the clock's steps
     (folder / name).chmod(0o600)
@@ -154,7 +154,7 @@ def test_a_change_within_a_step_of_the_clock_is_found(folder, monkeypatch):
         lambda path: FileStamp(1, 1, stamp.now, stamp.now, ()),
     )
     stamp.now = time.time_ns()
-    resources = e3d.Resources()
+    resources = e3d.resources.Resources()
     mesh = resources.load_mesh(folder / "m.obj")
     (folder / "m.obj").write_text(OBJ.replace("v 1 0 0", "v 4 0 0"))
     assert resources.reload_changed() == ()
@@ -174,14 +174,14 @@ def test_a_change_while_a_file_is_read_is_found(folder, monkeypatch):
         return mesh
 
     monkeypatch.setattr("engine3d.io.resources.load_mesh", read_what_changes)
-    resources = e3d.Resources()
+    resources = e3d.resources.Resources()
     mesh = resources.load_mesh(folder / "m.obj")
     assert len(resources.reload_changed()) == 1
     assert mesh.positions.max() == 40
 
 
 def test_damaged_files_leave_what_is_there(folder):
-    resources = e3d.Resources()
+    resources = e3d.resources.Resources()
     mesh = resources.load_mesh(folder / "m.obj")
     (folder / "m.obj").write_text(OBJ + "f 1 2 99\n")
     stamp(folder / "m.obj")
@@ -198,19 +198,19 @@ def test_damaged_files_leave_what_is_there(folder):
 
 def test_arguments(tmp_path):
     with pytest.raises(e3d.InvalidArgumentError, match="Mesh or Texture"):
-        e3d.Resources().share(3)
+        e3d.resources.Resources().share(3)
     with pytest.raises(e3d.FileAccessError):
-        e3d.Resources().load_mesh(tmp_path / "none.obj")
+        e3d.resources.Resources().load_mesh(tmp_path / "none.obj")
 
 
 @pytest.mark.parametrize("path", [None, 3, OBJ.encode()])
 def test_only_paths_are_loaded(path):
     with pytest.raises(e3d.InvalidArgumentError, match="by their paths"):
-        e3d.Resources().load_mesh(path)
+        e3d.resources.Resources().load_mesh(path)
 
 
 def test_what_is_held_is_listed_with_its_users(folder):
-    resources = e3d.Resources()
+    resources = e3d.resources.Resources()
     ball = resources.load_mesh(folder / "m.obj")
     texture = ball.materials[0].texture
     own = resources.share(e3d.Mesh([[0, 0, 0]], points=[0], name="own"))

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 from golden.samples import changed, write_png
 
-import engine3d.rendering.frame  # noqa: F401 (inner runs find it, and NumPy, imported)
+import engine3d as e3d
+import engine3d.rendering.frame  # inner runs find it, and NumPy, imported
+from engine3d.apps.golden import png_files
 from engine3d.apps.golden.golden_files import encode_golden, read_golden
 
 pytest_plugins = ["pytester"]
@@ -86,6 +88,30 @@ def test_written_then_equal_then_different(run):
     line = next(line for line in result.outlines if "drawn now:" in line)
     now = read_golden(line.split("drawn now:")[1].strip())
     assert np.array_equal(now.pixels(), changed(DRAWN, by=(5, 0, 0, 0)))
+
+
+def test_a_failure_says_that_another_version_wrote_the_picture(run, monkeypatch):
+    monkeypatch.setattr("engine3d.apps.golden.golden_files.PICTURES", 41)
+    run(ONE.format(0), "--golden-update").assert_outcomes(passed=1)
+    assert read_golden(str(run.folder / "test_one.png")).pictures == 41
+    run(None).assert_outcomes(passed=1)  # equal bytes pass, whoever wrote them
+    now = f"{e3d.__version__} with PICTURES {e3d.PICTURES}"
+    run(ONE.format(5)).stdout.fnmatch_lines([f"*PICTURES 41. *engine3d {now}: docs/versions.md*"])
+    monkeypatch.setattr("engine3d.apps.golden.golden_files.PICTURES", e3d.PICTURES)
+    run(ONE.format(5), "--golden-update").assert_outcomes(passed=1)
+    run(ONE.format(0)).stdout.no_fnmatch_line("*docs/versions.md*")
+
+
+def test_a_golden_file_may_not_say_its_version(run):
+    run(ONE.format(0), "--golden-update").assert_outcomes(passed=1)
+    path = run.folder / "test_one.png"
+    (header, (name, text), *rest) = png_files.split_chunks(path.read_bytes())
+    said = {key: value for key, value in json.loads(text).items() if key != "pictures"}
+    chunks = [header, (name, json.dumps(said).encode()), *rest]
+    path.write_bytes(png_files.join_chunks(chunks))
+    golden = read_golden(str(path))
+    assert golden.digest is not None and golden.pictures is None
+    run(ONE.format(5)).stdout.no_fnmatch_line("*docs/versions.md*")
 
 
 def test_a_run_without_failure_decodes_nothing(run, monkeypatch):

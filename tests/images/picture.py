@@ -26,7 +26,7 @@ class Picture:
     size: tuple[int, int] = SIZE
     color_space: str = "srgb"
     samples: int = 1
-    antialias: str = "ssaa"
+    antialiasing: str = "ssaa"
     options: dict = field(default_factory=dict)
 
     def renderer(self, backend, threads=1):
@@ -36,7 +36,7 @@ class Picture:
             threads=threads,
             color_space=self.color_space,
             samples=self.samples,
-            antialias=self.antialias,
+            antialiasing=self.antialiasing,
         )
 
     def draw(self, backend, threads=1, outputs=tuple(OUTPUTS)):

@@ -82,7 +82,7 @@ def multisampled(name, samples, **options):
     """A picture of another module, drawn with so many samples a pixel."""
     picture = SCENES[name]()
     options = picture.options | options
-    return replace(picture, samples=samples, antialias="msaa", options=options)
+    return replace(picture, samples=samples, antialiasing="msaa", options=options)
 
 
 for _samples, _names in _SUBJECTS.items():

@@ -16,7 +16,7 @@ def floor_and_wall(filter_name, wrap):
     texture = checkerboard(filter=filter_name, wrap=wrap)
     ground = e3d.plane((60, 60), 3)
     ground.uvs = ground.uvs * 40 - 20
-    wall = e3d.quad((-0.9, 0, 0), (0.9, 0, 0), (0.9, 1.2, 0), (-0.9, 1.2, 0))
+    wall = e3d.primitives.quad((-0.9, 0, 0), (0.9, 0, 0), (0.9, 1.2, 0), (-0.9, 1.2, 0))
     wall.uvs = wall.uvs * 3 - 1
     for mesh in (ground, wall):
         scene.add(with_material(mesh, texture=texture))
@@ -39,7 +39,7 @@ def one_to_one(filter_name, color_space):
     """A texture with every 8-bit value, drawn one texel a pixel: the picture is the texture."""
     codes = np.arange(64 * 48) * 5 % 256
     pixels = np.stack([codes, 255 - codes, codes * 7 % 256], axis=-1).reshape(48, 64, 3)
-    wall = e3d.quad((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0))
+    wall = e3d.primitives.quad((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0))
     scene = e3d.Scene()
     texture = e3d.Texture(pixels.astype(np.uint8), filter=filter_name)
     scene.add(with_material(wall, texture=texture))
@@ -58,7 +58,9 @@ def sizes(wrap):
     for k, (width, height) in enumerate([(1, 1), (3, 2), (5, 64), (200, 7), (37, 41)]):
         pixels = rng.integers(0, 256, (height, width, 4)).astype(np.uint8)
         x = -1 + 0.4 * k
-        wall = e3d.quad((x, -0.9, 0), (x + 0.35, -0.9, 0), (x + 0.35, 0.9, 0), (x, 0.9, 0))
+        wall = e3d.primitives.quad(
+            (x, -0.9, 0), (x + 0.35, -0.9, 0), (x + 0.35, 0.9, 0), (x, 0.9, 0)
+        )
         wall.uvs = wall.uvs * (1.5, 2.5)
         scene.add(with_material(wall, texture=e3d.Texture(pixels, wrap=wrap)))
     return Picture(scene, clip_camera(), options={"mode": "unlit"})
@@ -76,7 +78,7 @@ def texture_of_linear_data():
     scene = e3d.Scene()
     ramp = np.repeat(np.arange(0, 256, 8, np.uint8), 3).reshape(1, 32, 3)
     for k, space in enumerate(("srgb", "linear")):
-        wall = e3d.quad((-1, k - 1, 0), (1, k - 1, 0), (1, k, 0), (-1, k, 0))
+        wall = e3d.primitives.quad((-1, k - 1, 0), (1, k - 1, 0), (1, k, 0), (-1, k, 0))
         texture = e3d.Texture(ramp, color_space=space, filter="bilinear", wrap="clamp")
         scene.add(with_material(wall, texture=texture))
     return Picture(scene, clip_camera(), options={"mode": "unlit"})

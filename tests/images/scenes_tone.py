@@ -61,7 +61,7 @@ def glowing_glass(background=None, fog=None, **options):
     scene.add(pane((*TEAL, 0.6), size=0.5, **shine), translation=(-0.4, 0.8, 0.4))
     scene.add(pane((*CORAL, 0.3), 1, size=0.5, **shine), translation=(0.5, 0.8, 0.3))
     scene.add(e3d.DirectionalLight((-0.4, -0.8, -0.45), intensity=2.0))
-    names = ("samples", "antialias")
+    names = ("samples", "antialiasing")
     own = {key: options.pop(key) for key in names if key in options}
     return Picture(scene, camera_at(target=(0, 0.6, 0)), options={"bloom": 1.0, **options}, **own)
 
@@ -102,7 +102,7 @@ variant("bloom_sky", behind, e3d.Environment.sky(), tone_mapping="agx", bloom=1.
 variant("bloom_linear", toned, "aces", bloom=0.4, color_space="linear")
 variant("bloom_glass", glowing_glass, tone_mapping="neutral")
 variant("bloom_glass_4", glowing_glass, HAZE, FOGS["linear"], samples=4, tone_mapping="agx")
-variant("bloom_glass_msaa", glowing_glass, SKY, samples=4, antialias="msaa")
+variant("bloom_glass_msaa", glowing_glass, SKY, samples=4, antialiasing="msaa")
 variant("gradient", behind, SKY)
 variant("gradient_overdraw", behind, SKY, mode="overdraw")
 variant(

@@ -95,12 +95,12 @@ def skinned(scene):
     mesh = flag()
     joints = [scene.add(), scene.add(translation=(0.3, 0.2, 0.4))]
     mesh.set_influences([(0,), (0,), (0,), (1,), (1,), (1,)], np.ones((6, 1)))
-    scene.add(mesh).skin = e3d.Skin(joints, np.tile(np.eye(4), (2, 1, 1)))
+    scene.add(mesh).skin = e3d.motion.Skin(joints, np.tile(np.eye(4), (2, 1, 1)))
 
 
 def morphed(scene):
     mesh = flag()
-    mesh.morph_targets = [e3d.MorphTarget(np.linspace(0, 1, 18).reshape(6, 3))]
+    mesh.morph_targets = [e3d.motion.MorphTarget(np.linspace(0, 1, 18).reshape(6, 3))]
     scene.add(mesh).morph_weights = [0.7]
 
 
@@ -223,7 +223,7 @@ def test_the_walk_has_every_pair():
     ("backend", "settings", "share"),
     (
         ("auto", {}, 1.0),
-        ("auto", {"samples": 4, "antialias": "msaa"}, 0.05),
+        ("auto", {"samples": 4, "antialiasing": "msaa"}, 0.05),
         ("auto", {"samples": 4, "color_space": "linear"}, 0.03),
         ("portable", {}, 0.05),
         ("scalar", {}, 0.02),
@@ -256,7 +256,7 @@ def test_pictures_in_any_order():
     kept, hashes = {}, load()
     for name in np.random.default_rng(5).permutation(sorted(SCENES)).tolist()[:150]:
         picture = SCENES[name]()
-        how = picture.color_space, picture.samples, picture.antialias
+        how = picture.color_space, picture.samples, picture.antialiasing
         if how not in kept:
             kept[how] = picture.renderer("auto")
         kept[how].resize(*picture.size)

@@ -78,7 +78,7 @@ def through_one(planes, color, through, sample):
 
 @functools.cache  # for all backends
 def through_rounds():
-    """Batches, and of each of them its maps, the planes before it and those after it."""
+    """Batches, and of each of them its textures, the planes before it and those after it."""
     rng = np.random.default_rng(135)
     batches = random_batches(rng)
     random_samples(rng, batches)
@@ -89,24 +89,24 @@ def through_rounds():
     )
     rounds = []
     for one in fields:
-        count, before, maps = int(one["count"]), random_planes(rng), np.zeros(1, TEXTURE_BATCH)
-        maps["through"] = rng.random(maps["through"].shape, np.float32)
-        maps["through"][0, :, ::5], maps["through"][0, :, 1::7] = 1, 0
+        count, before, textures = int(one["count"]), random_planes(rng), np.zeros(1, TEXTURE_BATCH)
+        textures["through"] = rng.random(textures["through"].shape, np.float32)
+        textures["through"][0, :, ::5], textures["through"][0, :, 1::7] = 1, 0
         before[:, ::9] = 0
         expected = before.copy()
         color = np.concatenate([clamp(one["color"], 0, ONE), one["alpha"][np.newaxis]])
         for n in range(count):
-            through_one(expected, color[:, n], maps["through"][0, :, n], one["sample"][n])
-        rounds.append((maps.view(np.uint8), before, expected))
+            through_one(expected, color[:, n], textures["through"][0, :, n], one["sample"][n])
+        rounds.append((textures.view(np.uint8), before, expected))
     return batches, rounds
 
 
 @all_backends
 def test_lay_through(kernels):
     batches, rounds = through_rounds()
-    for row, (maps, before, expected) in zip(batches.rows, rounds, strict=True):
+    for row, (textures, before, expected) in zip(batches.rows, rounds, strict=True):
         got = before.copy()
-        kernels.lay_through(row, maps, got)
+        kernels.lay_through(row, textures, got)
         assert np.array_equal(bits(got), bits(expected))
         assert (got[:3] <= np.maximum(got[3], LEAST_ALPHA)).all()
         assert got.max() <= 1

@@ -13,9 +13,9 @@ from kernels.arithmetic import clamp, greatest, least
 from kernels.harness import POISON, all_backends, bits, every_count
 from kernels.layouts import (
     BIN,
-    BLOCK_FRAGMENTS,
     CLUSTER_VERTICES,
     FRAGMENT_LINK,
+    LINK_FRAGMENTS,
     MOST_FRAGMENTS,
     PAD,
     SMALL_TRIANGLES,
@@ -122,7 +122,7 @@ class Lists:
 
     def __init__(self, tiles, calls):
         self.bins = np.full(2 * tiles, NO_LINK, np.uint32).view(BIN)
-        most = min(tiles, MOST_FRAGMENTS) + MOST_FRAGMENTS // (BLOCK_FRAGMENTS - PAD)
+        most = min(tiles, MOST_FRAGMENTS) + MOST_FRAGMENTS // (LINK_FRAGMENTS - PAD)
         words = np.full(calls * most * FRAGMENT_LINK.itemsize // 4, POISON, np.uint32)
         self.links = words.view(FRAGMENT_LINK)
         self.count = 0
@@ -156,9 +156,9 @@ class Lists:
     def fragments(self):
         """ID, place in the picture, depth's bits of each, sorted."""
         used = self.links[: self.count]
-        assert (used["count"] > 0).all() and (used["count"] <= BLOCK_FRAGMENTS).all()
+        assert (used["count"] > 0).all() and (used["count"] <= LINK_FRAGMENTS).all()
         assert (self.links[self.count :].view(np.uint32) == POISON).all()
-        there = np.arange(BLOCK_FRAGMENTS) < used["count"][:, None]
+        there = np.arange(LINK_FRAGMENTS) < used["count"][:, None]
         places = self.owners()[:, None] * TILE * TILE + used["sample"]
         return in_order(used["id"][there], places[there], bits(used["z"][there]))
 

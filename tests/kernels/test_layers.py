@@ -75,19 +75,21 @@ def scene(seed):
 
 
 def owners_of(fields):
-    """(TILE, TILE): the piece's record at each sample, -1 where there is none; no run is empty."""
+    """(TILE, TILE): the record that shows at each sample, -1 where none does; no run is empty."""
     owners = np.full(TILE * TILE, -1)
-    runs, pieces = fields["sample"][: fields["count"]], fields["of"][: fields["count"]]
-    assert (np.diff(pieces) >= 0).all()
-    assert np.array_equal(np.unique(pieces), np.arange(fields["primitives"]))
+    runs, primitives = fields["sample"][: fields["count"]], fields["of"][: fields["count"]]
+    assert (np.diff(primitives) >= 0).all()
+    assert np.array_equal(np.unique(primitives), np.arange(fields["primitives"]))
     named = fields["primitive"][: fields["primitives"]]
-    assert np.array_equal(named["first"], np.searchsorted(pieces, np.arange(fields["primitives"])))
-    for run, piece in zip(runs, pieces, strict=True):
+    assert np.array_equal(
+        named["first"], np.searchsorted(primitives, np.arange(fields["primitives"]))
+    )
+    for run, primitive in zip(runs, primitives, strict=True):
         first, length = run & (TILE * TILE - 1), run >> RUN_LENGTH
         assert length > 0
         assert first // TILE == (first + length - 1) // TILE
         assert (owners[first : first + length] == -1).all()
-        owners[first : first + length] = named["id"][piece]
+        owners[first : first + length] = named["id"][primitive]
     return owners.reshape(TILE, TILE)
 
 
@@ -115,7 +117,7 @@ def test_show_layers(kernels):
 
 @all_backends
 def test_behind_what_is_listed_already(kernels):
-    """Pieces are added to the list, even where some are listed again."""
+    """Primitives are added to the list, even where some are listed again."""
     one = next(s for s in map(scene, range(SCENES)) if 0 < s.meetings < CONTESTED)
     table, layers, lists = one.records.view(np.uint8)[None], Records(LAYERS, 1), empty_lists(1)
     cover, row, fields = (
@@ -124,11 +126,11 @@ def test_behind_what_is_listed_already(kernels):
         lists.fields[0],
     )
     assert kernels.show_layers(cover.rows[0], table, one.order, layers.rows[0], row)
-    count, pieces = int(fields["count"]), int(fields["primitives"])
+    count, primitives = int(fields["count"]), int(fields["primitives"])
     assert kernels.show_layers(cover.rows[0], table, one.order, layers.rows[0], row)
-    assert (fields["count"], fields["primitives"]) == (2 * count, 2 * pieces)
+    assert (fields["count"], fields["primitives"]) == (2 * count, 2 * primitives)
     assert np.array_equal(fields["sample"][:count], fields["sample"][count : 2 * count])
-    assert np.array_equal(fields["of"][:count] + pieces, fields["of"][count : 2 * count])
+    assert np.array_equal(fields["of"][:count] + primitives, fields["of"][count : 2 * count])
 
 
 @pytest.mark.parametrize("far_first", [False, True])

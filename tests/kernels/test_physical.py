@@ -52,13 +52,15 @@ def seen(
     **numbers,
 ):
     """What one sample shows, and which shares of light pass through it."""
-    batch, maps = np.zeros(1, BATCH_RECORD), np.zeros(1, TEXTURE_BATCH)
+    batch, textures = np.zeros(1, BATCH_RECORD), np.zeros(1, TEXTURE_BATCH)
     batch["count"] = 1
     for name, value in (("normal", normal), ("position", np.negative(view)), ("color", albedo)):
         batch[name][0] = np.reshape(value, (3, 1))
-    maps["depth"][0] = depth
-    maps["tangent"][0] = np.reshape(tangent, (4, 1))
-    maps["shading_normal"][0] = np.reshape(normal if coat_normal is None else coat_normal, (3, 1))
+    textures["depth"][0] = depth
+    textures["tangent"][0] = np.reshape(tangent, (4, 1))
+    textures["shading_normal"][0] = np.reshape(
+        normal if coat_normal is None else coat_normal, (3, 1)
+    )
     lights = np.zeros(0 if light is None else 1, LIGHT)
     if light is not None:
         lights["kind"], lights["to_light"], lights["lux"] = DIRECTIONAL, light, 1.0
@@ -69,9 +71,9 @@ def seen(
         reach_of(lights),
         np.full(3, ambient, np.float32),
         np.array([0, 0, 0, 1], np.float32),
-        maps.view(np.uint8),
+        textures.view(np.uint8),
     )
-    return batch["color"][0, :, 0], maps["through"][0, :, 0]
+    return batch["color"][0, :, 0], textures["through"][0, :, 0]
 
 
 def ggx(n, v, to, roughness):

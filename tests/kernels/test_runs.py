@@ -135,18 +135,18 @@ def test_take_runs(kernels):
     for row, fields in zip(batches.rows, batches.fields, strict=True):
         (samples, lengths), taken = random_runs(rng, lists.fields[0]), 0
         lists.fields[0]["count"] = rng.choice([1, TILE, 4 * TILE, TILE * TILE])
-        piece, fields["count"], fields["steps"] = int(rng.integers(-5, 6)), 0, 0
+        primitive, fields["count"], fields["steps"] = int(rng.integers(-5, 6)), 0, 0
         fitting = int(np.searchsorted(np.cumsum(lengths), BATCH, "right"))
         while taken < fitting:
             some = int(min(rng.integers(1, len(lengths)), len(lengths) - taken))
-            more = kernels.take_runs(lists.rows[0], taken, some, piece, row)
+            more = kernels.take_runs(lists.rows[0], taken, some, primitive, row)
             assert more == min(some, fitting - taken)
             taken += more
         left = len(lengths) - taken
-        assert kernels.take_runs(lists.rows[0], taken, left, piece, row) == 0
+        assert kernels.take_runs(lists.rows[0], taken, left, primitive, row) == 0
         runs = list(zip(samples[:taken], lengths[:taken], strict=True))
         samples = np.concatenate([first + np.arange(length) for first, length in runs])
-        surfaces = np.repeat(np.arange(taken) // 2 - piece, lengths[:taken])
+        surfaces = np.repeat(np.arange(taken) // 2 - primitive, lengths[:taken])
         assert fields["count"] == len(samples)
         for name, values in (("sample", samples), ("surface", surfaces)):
             more = -len(samples) % PAD

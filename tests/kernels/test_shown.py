@@ -6,9 +6,9 @@ from kernels.harness import Records, all_backends, check_poisoned
 from kernels.layouts import (
     BATCH,
     BATCH_RECORD,
-    BLOCK_FRAGMENTS,
     FRAGMENT_ID,
     FRAGMENT_LINK,
+    LINK_FRAGMENTS,
     PAD,
     SHOWN,
     TILE,
@@ -47,8 +47,8 @@ def test_show_records(kernels, parts):
         for part in np.array_split(some.arrivals[1], parts):
             kernels.show_records(tile.bytes, some.table, some.ids[part], row)
         assert np.array_equal(tile.bytes, before)
-        count, pieces = int(fields["count"]), int(fields["primitives"])
-        named = fields["primitive"][:pieces]
+        count, primitives = int(fields["count"]), int(fields["primitives"])
+        named = fields["primitive"][:primitives]
         ends = np.append(named["first"], count)
         for number, (record_id, first) in enumerate(named):
             assert np.array_equal(
@@ -60,16 +60,16 @@ def test_show_records(kernels, parts):
         assert count == sum(len(samples_of(tile, number)) for number in showing)
         for name in ("sample", "of"):
             check_poisoned({name: fields[name][count + 2 * PAD :]}, [name])
-        check_poisoned({"primitive": fields["primitive"][pieces + 1 :]}, ["primitive"])
+        check_poisoned({"primitive": fields["primitive"][primitives + 1 :]}, ["primitive"])
         assert fields["runs"] == 7
-        hidden += RECORDS - pieces
+        hidden += RECORDS - primitives
     assert hidden > TILES  # or nothing was left out
     lists.check_gaps()
 
 
 def fragment_links(rng, tile):
     """Fragments, some of which show: one or several of each triangle, in two links."""
-    count = int(rng.integers(2, BLOCK_FRAGMENTS))
+    count = int(rng.integers(2, LINK_FRAGMENTS))
     ids = FRAGMENT_ID + np.repeat(rng.permutation(1000), rng.choice([1, 1, 1, 2, 5], 1000))
     at = rng.permutation(TILE * TILE)[: 2 * count]
     links = np.zeros(2, FRAGMENT_LINK)
@@ -85,8 +85,8 @@ def fragment_links(rng, tile):
 
 @all_backends
 def test_show_fragments(kernels):
-    """Those that show, in order; of one triangle they are one piece, in two links, too."""
-    lists, pieces = Records(SHOWN, 200), 0
+    """Those that show, in order; of one triangle they are one primitive, in two links, too."""
+    lists, primitives = Records(SHOWN, 200), 0
     for seed, (row, fields) in enumerate(zip(lists.rows, lists.fields, strict=True)):
         rng, tile = np.random.default_rng(seed), Tile(0, 0)
         links = fragment_links(rng, tile)
@@ -110,8 +110,8 @@ def test_show_fragments(kernels):
         for name in ("sample", "of"):
             check_poisoned({name: fields[name][len(ids) + PAD :]}, [name])
         check_poisoned({"primitive": fields["primitive"][len(fresh) + 1 :]}, ["primitive"])
-        pieces += len(fresh)
-    assert pieces > 5000
+        primitives += len(fresh)
+    assert primitives > 5000
     lists.check_gaps()
 
 
@@ -143,18 +143,18 @@ def test_take_shown(kernels):
     fields["sample"][:] = rng.integers(0, TILE * TILE, len(fields["sample"]))
     fields["of"][:] = np.sort(rng.integers(0, TILE * TILE, len(fields["of"])))
     for row, batch in zip(batches.rows, batches.fields, strict=True):
-        first, piece = int(rng.integers(0, 2000)), int(rng.integers(-5, 6))
+        first, primitive = int(rng.integers(0, 2000)), int(rng.integers(-5, 6))
         batch["count"], taken = 0, 0
         while taken < BATCH:
             asked = int(rng.choice([1, 2, 15, 16, 17, 100, 400]))
-            more = kernels.take_shown(shown.rows[0], first + taken, asked, piece, row)
+            more = kernels.take_shown(shown.rows[0], first + taken, asked, primitive, row)
             assert more == min(asked, BATCH - taken)
             taken += more
             assert batch["count"] == taken
             some = slice(first, first + taken)
             for name, values in (
                 ("sample", fields["sample"][some]),
-                ("surface", fields["of"][some] - piece),
+                ("surface", fields["of"][some] - primitive),
             ):
                 got = batch[name][: taken + PAD]
                 assert np.array_equal(got, np.append(values, [values[-1]] * PAD)), name

@@ -125,17 +125,17 @@ def runs_of(covers):
 
 
 def check_list(fields, scene, numbers):
-    """The pieces are those records that show anything, in order, each with its runs."""
+    """The primitives are those records that show anything, in order, each with its runs."""
     numbers = [number for number in numbers if scene.covers[number].any()]
     runs = [scene.runs[number] for number in numbers]
     count = sum(map(len, runs))
     assert (fields["count"], fields["primitives"]) == (count, len(numbers))
     assert np.array_equal(fields["sample"][:count], np.concatenate([[], *runs]))
-    pieces = np.repeat(np.arange(len(numbers)), list(map(len, runs)))
-    assert np.array_equal(fields["of"][:count], pieces)
+    primitives = np.repeat(np.arange(len(numbers)), list(map(len, runs)))
+    assert np.array_equal(fields["of"][:count], primitives)
     named = fields["primitive"][: len(numbers)]
     assert np.array_equal(named["id"], scene.ids[numbers])
-    assert np.array_equal(named["first"], np.searchsorted(pieces, np.arange(len(numbers))))
+    assert np.array_equal(named["first"], np.searchsorted(primitives, np.arange(len(numbers))))
     for name in ("sample", "of"):
         check_poisoned({name: fields[name][count + TILE + PAD :]}, [name])
 

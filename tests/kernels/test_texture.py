@@ -123,16 +123,16 @@ def stored(texels, sizes, wrap, bits):
 
     Those of 8 bits are signed; what stands behind them may be read.
     """
-    pieces, start = [], 0
+    levels, start = [], 0
     for width, height in sizes.tolist():
         level = texels[start : start + width * height].reshape(height, width, 4)
         for axis, side in ((1, wrap[0]), (0, wrap[1])):
             border = [(int(k == axis),) * 2 for k in range(3)]
             level = np.pad(level, border, "wrap" if side == "repeat" else "edge")
         level = (level.astype(np.int16) - 128).astype(np.int8) if bits == 8 else level
-        pieces.append(level.ravel().view(np.uint8))
+        levels.append(level.ravel().view(np.uint8))
         start += width * height
-    return np.concatenate([*pieces, np.full(16, 77, np.uint8)])
+    return np.concatenate([*levels, np.full(16, 77, np.uint8)])
 
 
 def numbers_of(wrap):

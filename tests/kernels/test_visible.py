@@ -14,11 +14,11 @@ from kernels.arithmetic import clamp
 from kernels.harness import POISON, all_backends, bits, hostile
 from kernels.layouts import (
     BLOCK,
-    BLOCK_FRAGMENTS,
     CLUSTER_TRIANGLES,
     DRAWN_CLUSTER,
     FRAGMENT_ID,
     FRAGMENT_LINK,
+    LINK_FRAGMENTS,
     RECORD,
     TILE,
     VISIBLE_TILE,
@@ -294,12 +294,12 @@ class Fragments:
         ).reshape(shape)
         drawn["order"] = 4
         self.drawn = drawn.view(np.uint8)
-        self.blocks = [self._block(rng, scene, drawn["order"][0, 0]) for _ in range(8)]
+        self.links = [self._link(rng, scene, drawn["order"][0, 0]) for _ in range(8)]
 
-    def _block(self, rng, scene, base):
+    def _link(self, rng, scene, base):
         """A link, and the orders of its fragments."""
         link = np.zeros(1, FRAGMENT_LINK)
-        count = rng.integers(0, BLOCK_FRAGMENTS + 1)
+        count = rng.integers(0, LINK_FRAGMENTS + 1)
         corner, side = rng.integers(0, TILE - 8, 2), rng.choice([2, 8])
         at = corner + rng.integers(0, side, (count, 2))
         worker, cluster, triangle = (rng.integers(0, most, count) for most in (*self.faces.shape,))
@@ -326,16 +326,16 @@ def test_fragments_among_records(kernels):
         z, ids = some.z.copy(), np.where(some.kept >= 0, some.ids[some.kept].astype(np.int32), -1)
         orders = np.where(some.kept >= 0, some.records["order"][some.kept] * 2 + 1, 2**31)
         tile = Tile(*some.place[2:])
-        parts = np.array_split(some.arrivals[0], len(fragments.blocks))
-        for part, (block, order) in zip(parts, fragments.blocks, strict=True):
+        parts = np.array_split(some.arrivals[0], len(fragments.links))
+        for part, (link, order) in zip(parts, fragments.links, strict=True):
             kernels.raster_visible(tile.bytes, table, some.ids[part], fragments.drawn)
-            kernels.raster_fragments(tile.bytes, table, fragments.drawn, block.view(np.uint8))
+            kernels.raster_fragments(tile.bytes, table, fragments.drawn, link.view(np.uint8))
             tile.check_poison()
-            for i in range(block["count"][0]):
-                at = divmod(block["sample"][0, i], TILE)
-                new = block["z"][0, i]
+            for i in range(link["count"][0]):
+                at = divmod(link["sample"][0, i], TILE)
+                new = link["z"][0, i]
                 if new < z[at] or (new == z[at] and order[i] < orders[at]):
-                    z[at], orders[at], ids[at] = new, order[i], block["id"][0, i]
+                    z[at], orders[at], ids[at] = new, order[i], link["id"][0, i]
         settled = tile.settled(kernels, table)
         tile.check_bounds(settled, exact=False)
         for name, expected in (("z", z), ("id", ids)):

@@ -140,7 +140,7 @@ Bank angle: 180 degrees
     (camera,) = parsed.cameras
     assert (camera.position, camera.target, camera.up) == ((0, -5, 1), (0, 0, 0), (0, 0, 1))
     assert camera.roll == pytest.approx(math.pi)
-    width = 2 * math.atan(math.tan(camera.fov / 2) * 4 / 3)
+    width = 2 * math.atan(math.tan(camera.yfov / 2) * 4 / 3)
     assert math.degrees(width) == pytest.approx(46.8, abs=0.1)
     assert parsed.counts["objects"] == ["Square"]
     assert parsed.warnings == []

@@ -418,7 +418,9 @@ def test_tangents_that_a_file_lacks_are_drawn(tmp_path):
 @pytest.mark.filterwarnings("ignore::engine3d.errors.Engine3DWarning")
 def test_what_bends_has_its_tangents_from_the_start(tmp_path):
     ball = bumpy_ball()
-    ball.morph_targets = [e3d.MorphTarget(positions=np.ones_like(ball.positions), name="away")]
+    ball.morph_targets = [
+        e3d.motion.MorphTarget(positions=np.ones_like(ball.positions), name="away")
+    ]
     scene = e3d.Scene()
     scene.add(ball).morph_weights = [0.5]
     scene.save(tmp_path / "a.glb")

@@ -120,7 +120,7 @@ def test_binary_gltf(tmp_path):
 
 
 def test_textures_come_along(tmp_path):
-    mesh = e3d.quad((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))
+    mesh = e3d.primitives.quad((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))
     mesh.materials = [e3d.Material(texture=e3d.Texture(GREY))]
     path = tmp_path / "a.glb"
     path.write_bytes(mesh.to_trimesh().export(file_type="glb"))

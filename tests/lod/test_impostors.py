@@ -30,7 +30,7 @@ def thing():
 
 @pytest.fixture(scope="module")
 def impostor():
-    return e3d.Impostor(thing(), views=6, texels=32)
+    return e3d.detail.Impostor(thing(), views=6, texels=32)
 
 
 def look(z, x=0.0, y=0.0):
@@ -85,7 +85,7 @@ def test_chosen_by_size_with_hysteresis(impostor):
     sphere = thing()
     levels = [(sphere, 0.0), (sphere, 0.02)]
     options = {"impostor": impostor, "impostor_pixels": 4.0, "hysteresis": 0.3}
-    things = e3d.DetailedInstances(levels, [(0, 0, 0, 1.0)], **options)
+    things = e3d.detail.DetailedInstances(levels, [(0, 0, 0, 1.0)], **options)
     limit = things._radius + impostor.error * FOCAL / 4.0  # where its error is 4 pixels
     center = impostor._center
 
@@ -102,7 +102,7 @@ def test_chosen_by_size_with_hysteresis(impostor):
 
 
 def test_off_unless_asked_for():
-    things = e3d.DetailedInstances([(thing(), 0.0)], [(0, 0, 0, 1.0)])
+    things = e3d.detail.DetailedInstances([(thing(), 0.0)], [(0, 0, 0, 1.0)])
     assert len(things.instances) == 1
     assert not things.update(CAMERA, look(900.0), SIZE)
 
@@ -113,7 +113,9 @@ def test_the_card_is_that_of_the_direction_in_the_instance(impostor):
     poses = np.tile(np.eye(4), (40, 1, 1))
     poses[:, :3, :3] = random.normal(size=(40, 3, 3))
     poses[:, :3, 3] = random.normal(0, 20, (40, 3))
-    things = e3d.DetailedInstances([(thing(), 0.0)], poses, impostor=impostor, impostor_pixels=1e9)
+    things = e3d.detail.DetailedInstances(
+        [(thing(), 0.0)], poses, impostor=impostor, impostor_pixels=1e9
+    )
     scene = e3d.Scene()
     turned = scene.add(rotation=random.normal(size=4), translation=(1, 2, 3), scale=1.5)
     group = things.add_to(scene, parent=turned)
@@ -131,12 +133,12 @@ def test_ids_stay(impostor):
     """Of levels near and far: one object, and the rows of the poses."""
     places = [(4.0 * (k % 5) - 8, 0, -6.0 * k, 1.0) for k in range(20)]
     levels = [(thing(), 0.0), (e3d.icosphere(1.0, 1), 0.2)]
-    things = e3d.DetailedInstances(levels, places, impostor=impostor, impostor_pixels=2.0)
+    things = e3d.detail.DetailedInstances(levels, places, impostor=impostor, impostor_pixels=2.0)
     scene = e3d.Scene()
     scene.add(e3d.box(), translation=(0, 300, 0))
     group = things.add_to(scene)
     pose = e3d.look_at((0, 20, 20), (0, 0, -60))
-    outputs = ("object_id", "instance_id", "triangle_id")
+    outputs = ("object_id", "instance_id", "face_id")
     seen = []
     for _ in range(2):
         frame = e3d.render(scene, (CAMERA, pose), size=SIZE, outputs=outputs)
@@ -158,8 +160,8 @@ def test_pictures_are_the_same_everywhere(impostor):
     places = [(2.0 * k - 10, 0, 0, 1.0) for k in range(10)]
     for backend in e3d.backends():
         for threads in (1, 3):
-            made = e3d.Impostor(thing(), views=3, texels=16)
-            things = e3d.DetailedInstances(
+            made = e3d.detail.Impostor(thing(), views=3, texels=16)
+            things = e3d.detail.DetailedInstances(
                 [(thing(), 0.0)], places, impostor=made, impostor_pixels=30
             )
             scene = e3d.Scene(ambient=(0.4, 0.4, 0.4))
@@ -179,15 +181,15 @@ def test_pictures_are_the_same_everywhere(impostor):
 )
 def test_errors(options):
     with pytest.raises(InvalidArgumentError):
-        e3d.Impostor(thing(), **options)
+        e3d.detail.Impostor(thing(), **options)
 
 
 def test_more_errors(impostor):
     with pytest.raises(InvalidArgumentError, match="without faces"):
-        e3d.Impostor(e3d.Mesh([(0, 0, 0)], points=[0]))
+        e3d.detail.Impostor(e3d.Mesh([(0, 0, 0)], points=[0]))
     with pytest.raises(InvalidArgumentError, match="mesh must be a Mesh"):
-        e3d.Impostor("box")
+        e3d.detail.Impostor("box")
     with pytest.raises(InvalidArgumentError, match="impostor must be an Impostor"):
-        e3d.DetailedInstances([(thing(), 0.0)], [(0, 0, 0, 1.0)], impostor=thing())
+        e3d.detail.DetailedInstances([(thing(), 0.0)], [(0, 0, 0, 1.0)], impostor=thing())
     with pytest.raises(InvalidArgumentError, match="impostor_pixels"):
-        e3d.DetailedInstances([(thing(), 0.0)], [(0, 0, 0, 1.0)], impostor_pixels=0)
+        e3d.detail.DetailedInstances([(thing(), 0.0)], [(0, 0, 0, 1.0)], impostor_pixels=0)

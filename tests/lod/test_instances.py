@@ -29,7 +29,7 @@ def expected_level(distance, pixels, scale=1.0):
 
 def test_the_coarsest_that_shows_no_error_is_drawn():
     poses = np.array([(0.0, 0.0, -5.0 * k, 1.0) for k in range(40)])
-    spheres = e3d.DetailedInstances(levels(), poses, hysteresis=0.0, pixels=0.15)
+    spheres = e3d.detail.DetailedInstances(levels(), poses, hysteresis=0.0, pixels=0.15)
     assert spheres.update(CAMERA, at(10.0), SIZE)
     assert spheres.level.tolist() == [expected_level(10 + 5 * k, 0.15) for k in range(40)]
     assert set(spheres.level) == {0, 1, 2}
@@ -42,11 +42,11 @@ def test_the_coarsest_that_shows_no_error_is_drawn():
 
 def test_scale_and_parents_count():
     matrices = np.stack([e3d.linalg.scaling(s) for s in (1.0, 8.0)])
-    big = e3d.DetailedInstances(levels(), matrices, hysteresis=0.0)
+    big = e3d.detail.DetailedInstances(levels(), matrices, hysteresis=0.0)
     big.update(CAMERA, at(60.0), SIZE)
     assert big.level.tolist() == [expected_level(60, 1.0), expected_level(60, 1.0, 8.0)]
     scene = e3d.Scene()
-    small = e3d.DetailedInstances(levels(), matrices[:1], hysteresis=0.0)
+    small = e3d.detail.DetailedInstances(levels(), matrices[:1], hysteresis=0.0)
     small.add_to(scene, parent=scene.add(scale=8.0))
     small.update(CAMERA, at(60.0), SIZE)
     assert small.level.tolist() == big.level[1:].tolist() != big.level[:1].tolist()
@@ -54,14 +54,14 @@ def test_scale_and_parents_count():
 
 def test_orthographic_views_do_not_mind_the_distance():
     poses = np.array([(0.0, 0.0, -z, 1.0) for z in (0.0, 500.0)])
-    spheres = e3d.DetailedInstances(levels(), poses, hysteresis=0.0)
+    spheres = e3d.detail.DetailedInstances(levels(), poses, hysteresis=0.0)
     for ymag, level in ((1.0, 0), (2.0, 1), (20.0, 2)):
         spheres.update(e3d.OrthographicCamera(ymag), at(10.0), SIZE)
         assert spheres.level.tolist() == [level, level]
 
 
 def test_levels_do_not_flicker_at_the_limit():
-    spheres = e3d.DetailedInstances(levels(), [(0, 0, 0, 1.0)], hysteresis=0.3)
+    spheres = e3d.detail.DetailedInstances(levels(), [(0, 0, 0, 1.0)], hysteresis=0.3)
     limit = 1.0 + 0.01 * FOCAL  # where level 1 has an error of a pixel
     changes = sum(spheres.update(CAMERA, at(limit + 0.1 * (-1) ** k), SIZE) for k in range(20))
     assert changes == 0 and spheres.level.tolist() == [0]
@@ -79,7 +79,7 @@ def test_colors_follow_their_instances_and_the_picture_stays():
     rng = np.random.default_rng(3)
     poses = np.column_stack((rng.uniform(-20, 20, (60, 3)), np.ones(60)))
     colors = rng.integers(0, 255, (60, 3)).astype(np.uint8)
-    spheres = e3d.DetailedInstances(levels(), poses, colors=colors, pixels=0.06)
+    spheres = e3d.detail.DetailedInstances(levels(), poses, colors=colors, pixels=0.06)
     scene = e3d.Scene()
     spheres.add_to(scene, name="spheres")
     view = CAMERA, at(40.0)
@@ -98,14 +98,14 @@ def test_colors_follow_their_instances_and_the_picture_stays():
 )
 def test_bad_options(options, words):
     with pytest.raises(InvalidArgumentError, match=words):
-        e3d.DetailedInstances(levels(), [(0, 0, 0, 1.0)], **options)
+        e3d.detail.DetailedInstances(levels(), [(0, 0, 0, 1.0)], **options)
 
 
 def test_bad_levels():
     mesh = e3d.box()
     for bad in ((), [(mesh, 1.0)], [(mesh, 0.0), (mesh, 2.0), (mesh, 1.0)], [mesh], [("box", 0.0)]):
         with pytest.raises(InvalidArgumentError, match="levels"):
-            e3d.DetailedInstances(bad, [(0, 0, 0, 1.0)])
+            e3d.detail.DetailedInstances(bad, [(0, 0, 0, 1.0)])
 
 
 @pytest.mark.parametrize(
@@ -118,8 +118,8 @@ def test_bad_levels():
     ],
 )
 def test_a_view_that_is_none(arguments, message):
-    spheres = e3d.DetailedInstances(levels(), [(0, 0, 0, 1.0)])
-    meshes = e3d.DetailedMeshes([([e3d.box()], 0.0)])
+    spheres = e3d.detail.DetailedInstances(levels(), [(0, 0, 0, 1.0)])
+    meshes = e3d.detail.DetailedMeshes([([e3d.box()], 0.0)])
     for detailed in (spheres, meshes):
         with pytest.raises(InvalidArgumentError, match=message):
             detailed.update(*arguments)

@@ -33,7 +33,7 @@ def expected(z, place, limit=1.0):
 
 
 def test_the_nearest_point_decides():
-    balls = e3d.DetailedMeshes(levels(), hysteresis=0.0)
+    balls = e3d.detail.DetailedMeshes(levels(), hysteresis=0.0)
     scene = e3d.Scene()
     group = balls.add_to(scene, name="balls")
     assert len(group.children) == 3
@@ -49,8 +49,8 @@ def test_the_nearest_point_decides():
 
 
 def test_a_group_that_is_scaled():
-    balls = e3d.DetailedMeshes(levels(), hysteresis=0.0)
-    other = e3d.DetailedMeshes(levels(), hysteresis=0.0)
+    balls = e3d.detail.DetailedMeshes(levels(), hysteresis=0.0)
+    other = e3d.detail.DetailedMeshes(levels(), hysteresis=0.0)
     scene = e3d.Scene()
     balls.add_to(scene, parent=scene.add(scale=3.0, translation=(0, 0, 7)))
     balls.update(CAMERA, look(3.0 * 30 + 7), SIZE)
@@ -59,7 +59,7 @@ def test_a_group_that_is_scaled():
 
 
 def test_levels_do_not_flicker_at_the_limit():
-    balls = e3d.DetailedMeshes(levels([(0, 0, 0)]), hysteresis=0.3)
+    balls = e3d.detail.DetailedMeshes(levels([(0, 0, 0)]), hysteresis=0.3)
     limit = 1.0 + ERRORS[1] * FOCAL
     assert not any(balls.update(CAMERA, look(limit + 0.1 * (-1) ** k), SIZE) for k in range(10))
     assert balls.update(CAMERA, look(1.0 + ERRORS[1] * FOCAL / 0.69), SIZE)
@@ -68,10 +68,10 @@ def test_levels_do_not_flicker_at_the_limit():
 
 
 def test_ids_and_picking():
-    balls = e3d.DetailedMeshes(levels())
+    balls = e3d.detail.DetailedMeshes(levels())
     scene = e3d.Scene()
     group = balls.add_to(scene)
-    outputs = ("object_id", "instance_id", "triangle_id")
+    outputs = ("object_id", "instance_id", "face_id")
     view = CAMERA, look(30.0)
     fine = e3d.render(scene, view, size=SIZE, outputs=outputs)
     assert balls.update(*view, SIZE)
@@ -84,15 +84,15 @@ def test_ids_and_picking():
 
 
 def test_nothing_and_errors():
-    assert not e3d.DetailedMeshes([((), 0.0)]).update(CAMERA, look(3.0), SIZE)
+    assert not e3d.detail.DetailedMeshes([((), 0.0)]).update(CAMERA, look(3.0), SIZE)
     ball = e3d.icosphere(1.0, 1)
     for wrong in ([], [([ball], 1.0)], [([ball], 0.0), ([], 1.0)], [(["ball"], 0.0)], [ball], 3):
         with pytest.raises(InvalidArgumentError):
-            e3d.DetailedMeshes(wrong)
+            e3d.detail.DetailedMeshes(wrong)
     for options in ({"pixels": 0}, {"hysteresis": 1.0}):
         with pytest.raises(InvalidArgumentError):
-            e3d.DetailedMeshes([([ball], 0.0)], **options)
-    balls, scene = e3d.DetailedMeshes([([ball], 0.0)]), e3d.Scene()
+            e3d.detail.DetailedMeshes([([ball], 0.0)], **options)
+    balls, scene = e3d.detail.DetailedMeshes([([ball], 0.0)]), e3d.Scene()
     balls.add_to(scene)
     with pytest.raises(InvalidArgumentError, match="before"):
         balls.add_to(scene)

@@ -24,7 +24,7 @@ def border(mesh):
 @pytest.mark.parametrize("ratio", [0.5, 0.2])
 def test_a_sphere(ratio):
     mesh = e3d.icosphere(1.0, 4)
-    coarse, error = e3d.simplify(mesh, ratio)
+    coarse, error = e3d.detail.simplify(mesh, ratio)
     assert 0.8 * ratio * len(mesh.faces) < len(coarse.faces) < 1.3 * ratio * len(mesh.faces)
     corners = coarse.positions[coarse.faces].astype(np.float64)
     inside = 1.0 - np.sqrt((corners.mean(axis=1) ** 2).sum(axis=1)).min()
@@ -36,7 +36,7 @@ def test_a_sphere(ratio):
 
 def test_a_plane_has_no_error_and_keeps_its_border():
     mesh = e3d.plane((2, 2), 16)
-    coarse, error = e3d.simplify(mesh, 0.2)
+    coarse, error = e3d.detail.simplify(mesh, 0.2)
     assert len(coarse.faces) < 0.6 * len(mesh.faces)
     assert error < 1e-6
     assert np.array_equal(border(coarse), border(mesh))
@@ -50,7 +50,7 @@ def test_materials_stay_apart_without_cracks():
     middle = mesh.positions[mesh.faces].mean(axis=1)[:, 0]
     mesh.materials = [e3d.Material(name="left"), e3d.Material(name="right")]
     mesh.material_ids = (middle > 0).astype(np.int32)
-    coarse, _ = e3d.simplify(mesh, 0.2)
+    coarse, _ = e3d.detail.simplify(mesh, 0.2)
     assert [material.name for material in coarse.materials] == ["left", "right"]
     for material, sign in ((0, -1), (1, 1)):
         corners = coarse.positions[coarse.faces[coarse.material_ids == material]]
@@ -60,22 +60,22 @@ def test_materials_stay_apart_without_cracks():
 
 def test_everything_kept_and_nothing_there():
     mesh = e3d.box()
-    same, error = e3d.simplify(mesh, 1.0)
+    same, error = e3d.detail.simplify(mesh, 1.0)
     assert len(same.faces) == 12 and error == 0.0
-    hard, error = e3d.simplify(mesh, 0.1)  # all of its vertices lie on borders
+    hard, error = e3d.detail.simplify(mesh, 0.1)  # all of its vertices lie on borders
     assert len(hard.faces) == 12 and error == 0.0
-    empty, error = e3d.simplify(e3d.Mesh(np.zeros((0, 3))), 0.5)
+    empty, error = e3d.detail.simplify(e3d.Mesh(np.zeros((0, 3))), 0.5)
     assert len(empty.faces) == 0 and error == 0.0
 
 
 @pytest.mark.parametrize("ratio", [0.0, -1.0, 1.5, math.nan])
 def test_bad_ratios(ratio):
     with pytest.raises(InvalidArgumentError, match="ratio"):
-        e3d.simplify(e3d.box(), ratio)
+        e3d.detail.simplify(e3d.box(), ratio)
 
 
 def test_levels_are_made_of_a_mesh():
-    spheres = e3d.DetailedInstances(e3d.uv_sphere(1.0, (40, 20)), [(0, 0, 0, 1.0)])
+    spheres = e3d.detail.DetailedInstances(e3d.uv_sphere(1.0, (40, 20)), [(0, 0, 0, 1.0)])
     counts = [len(mesh.faces) for mesh, _ in spheres.levels]
     errors = [error for _, error in spheres.levels]
     assert len(counts) > 2 and counts == sorted(counts, reverse=True)

@@ -40,7 +40,7 @@ def test_slots_that_are_packed_keep_their_joints():
     mesh = bent_tube(rng)
     joints = [scene.add(translation=(0, k * 0.1, 0)) for k in range(5)]
     node = scene.add(mesh)
-    node.skin = e3d.Skin(joints, np.tile(np.eye(4), (5, 1, 1)))
+    node.skin = e3d.motion.Skin(joints, np.tile(np.eye(4), (5, 1, 1)))
     before = world_points(scene, node)
     slot = node._slot
     while crowd:
@@ -121,7 +121,7 @@ SQUARE = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]])
 STEPS = {
     "influences": lambda mesh, node, skin: mesh.set_influences(np.zeros((4, 1), int), [[1.0]] * 4),
     "targets": lambda mesh, node, skin: setattr(
-        mesh, "morph_targets", [e3d.MorphTarget(np.tile([0, 0.5, 0], (4, 1)))]
+        mesh, "morph_targets", [e3d.motion.MorphTarget(np.tile([0, 0.5, 0], (4, 1)))]
     ),
     "positions": lambda mesh, node, skin: setattr(mesh, "positions", SQUARE * (1, 0.5, 1)),
     "edges": lambda mesh, node, skin: setattr(mesh, "edge_visible", [[1, 0, 0], [0, 1, 1]]),
@@ -163,7 +163,7 @@ def in_some_order(rng):
 def test_the_order_in_which_a_mesh_is_made_to_bend_changes_nothing(seed):
     rng = np.random.default_rng(seed)
     scene, mesh, node, joint, camera = flat_scene()
-    skin, renderer = e3d.Skin([joint], np.eye(4)[None]), e3d.Renderer(64, 64)
+    skin, renderer = e3d.motion.Skin([joint], np.eye(4)[None]), e3d.Renderer(64, 64)
     for _ in range(12):
         try:
             STEPS[str(rng.choice(list(STEPS)))](mesh, node, skin)
@@ -179,7 +179,7 @@ def test_the_order_in_which_a_mesh_is_made_to_bend_changes_nothing(seed):
         STEPS[step](mesh, node, skin)
     seen = looked_at(scene, camera, renderer)
     fresh, mesh, node, joint, camera = flat_scene()
-    skin = e3d.Skin([joint], np.eye(4)[None])
+    skin = e3d.motion.Skin([joint], np.eye(4)[None])
     for step in END:
         STEPS[step](mesh, node, skin)
     assert seen == looked_at(fresh, camera, e3d.Renderer(64, 64))
@@ -189,7 +189,7 @@ def test_meshes_that_are_made_to_bend_after_their_nodes_bend():
     scene, mesh, node, joint, _ = flat_scene()
     STEPS["influences"](mesh, node, None)
     STEPS["targets"](mesh, node, None)
-    node.skin, node.morph_weights = e3d.Skin([joint], np.eye(4)[None]), [1.0]
+    node.skin, node.morph_weights = e3d.motion.Skin([joint], np.eye(4)[None]), [1.0]
     assert scene.bounds.tolist() == [[0.5, 0.5, 0], [1.5, 1.5, 0]]
     node.morph_weights = None
     assert scene.bounds.tolist() == [[0.5, 0, 0], [1.5, 1, 0]]
@@ -205,7 +205,7 @@ def test_meshes_that_are_made_to_bend_after_their_nodes_bend():
 def test_colliders_of_meshes_that_are_bent_later_are_where_these_are():
     scene, mesh, node, joint, _ = flat_scene()
     STEPS["influences"](mesh, node, None)
-    node.collider = e3d.MeshCollider()
+    node.collider = e3d.colliders.MeshCollider()
     assert scene.overlap_sphere((1.3, 0.5, 0), 0.1) == ()
-    node.skin = e3d.Skin([joint], np.eye(4)[None])
+    node.skin = e3d.motion.Skin([joint], np.eye(4)[None])
     assert scene.overlap_sphere((1.3, 0.5, 0), 0.1) == (node,)

@@ -12,11 +12,11 @@ TIMES = (0.5, 1.0, 2.5)
 
 
 def channel(node, path, values, interpolation="linear", times=TIMES):
-    return e3d.Channel(node, path, times, values, interpolation)
+    return e3d.motion.Channel(node, path, times, values, interpolation)
 
 
 def player_of(*channels, scene, loop="once", **options):
-    player = e3d.AnimationPlayer(scene, [e3d.AnimationClip(channels, "a")])
+    player = e3d.AnimationPlayer(scene, [e3d.motion.AnimationClip(channels, "a")])
     player.loop = loop
     player.play(**options)
     return player
@@ -92,7 +92,7 @@ def test_splines_of_rotations_are_made_unit(moved):
 
 def test_weights_move_morph_targets():
     scene = e3d.Scene()
-    target = e3d.MorphTarget(np.tile(np.float32((0, 0, 1)), (3, 1)))
+    target = e3d.motion.MorphTarget(np.tile(np.float32((0, 0, 1)), (3, 1)))
     node = scene.add(e3d.Mesh(np.eye(3), [[0, 1, 2]], morph_targets=[target, target]))
     values = [(0, 0), (1, 2), (1, 2)]
     player = player_of(channel(node, "weights", values), scene=scene)
@@ -123,7 +123,9 @@ def test_offsets_let_clips_play_ahead():
     scene = e3d.Scene()
     nodes = [scene.add() for _ in range(3)]
     clips = [
-        e3d.AnimationClip([channel(node, "translation", [(0, 0, 0), (4, 0, 0)], times=(0, 4))])
+        e3d.motion.AnimationClip(
+            [channel(node, "translation", [(0, 0, 0), (4, 0, 0)], times=(0, 4))]
+        )
         for node in nodes
     ]
     player = e3d.AnimationPlayer(scene, clips)
@@ -150,14 +152,14 @@ def test_speed_pause_and_going_on(moved):
 def two_clips():
     scene = e3d.Scene()
     node, other = scene.add(), scene.add(translation=(0, 7, 0))
-    first = e3d.AnimationClip(
+    first = e3d.motion.AnimationClip(
         [
             channel(node, "translation", [(0, 0, 0), (4, 0, 0)], times=(0, 4)),
             channel(other, "translation", [(0, 1, 0), (0, 1, 0)], times=(0, 4)),
         ],
         "walk",
     )
-    second = e3d.AnimationClip(
+    second = e3d.motion.AnimationClip(
         [channel(node, "translation", [(0, 0, 10), (0, 0, 10)], times=(0, 1))], "stand"
     )
     return scene, node, other, e3d.AnimationPlayer(scene, [first, second])
@@ -215,7 +217,7 @@ def test_the_order_of_times_changes_nothing(moved):
 )
 def test_wrong_keys_are_told(moved, path, times, values, message):
     with pytest.raises(e3d.InvalidArgumentError, match=message):
-        e3d.Channel(moved[1], path, times, values)
+        e3d.motion.Channel(moved[1], path, times, values)
 
 
 def test_clips_that_are_not_there_are_told(moved):
@@ -227,5 +229,5 @@ def test_clips_that_are_not_there_are_told(moved):
     other = e3d.Scene().add()
     with pytest.raises(e3d.InvalidArgumentError, match="scene"):
         e3d.AnimationPlayer(
-            scene, [e3d.AnimationClip([channel(other, "scale", [(1, 1, 1)], times=(0,))])]
+            scene, [e3d.motion.AnimationClip([channel(other, "scale", [(1, 1, 1)], times=(0,))])]
         )

@@ -24,7 +24,7 @@ def bent_tube(rng, rings=40, sides=24, joints=5, influences=4, targets=0, normal
     weights = rng.random((len(positions), influences))
     weights[:, 1:][rng.random((len(positions), influences - 1)) < 0.4] = 0
     morphs = [
-        e3d.MorphTarget(
+        e3d.motion.MorphTarget(
             rng.normal(0, 0.2, positions.shape),
             rng.normal(0, 0.2, positions.shape) if normals else None,
             rng.normal(0, 0.2, positions.shape) if normals else None,
@@ -55,7 +55,7 @@ def skinned_scene(mesh, rng, joints=5):
     for pose in random_poses(rng, joints):
         chain.append(scene.add(parent=chain[-1], pose=pose))
     node = scene.add(mesh, translation=(100, 0, 0))
-    node.skin = e3d.Skin(chain[1:], random_poses(rng, joints))
+    node.skin = e3d.motion.Skin(chain[1:], random_poses(rng, joints))
     return scene, node
 
 

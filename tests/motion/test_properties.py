@@ -40,8 +40,8 @@ def test_every_property_changes_and_is_put_back(kind, path):
     keys = np.array([[low] * limits.width, [high] * limits.width])
     if path == "color" and limits.width == 4:
         keys[1, 3] = 1.0
-    channel = e3d.PropertyChannel(thing, path, [0, 2], keys)
-    player = e3d.AnimationPlayer(e3d.Scene(), [e3d.AnimationClip([channel])])
+    channel = e3d.motion.PropertyChannel(thing, path, [0, 2], keys)
+    player = e3d.AnimationPlayer(e3d.Scene(), [e3d.motion.AnimationClip([channel])])
     player.loop = "once"
     player.play()
     for time, share in ((0.0, 0.0), (1.0, 0.5), (5.0, 1.0), (0.5, 0.25)):
@@ -55,8 +55,8 @@ def test_every_property_changes_and_is_put_back(kind, path):
 def test_what_splines_have_beyond_the_limits_is_the_limit():
     material = e3d.Material(metallic=0.5)
     keys = [[[0], [0], [9]], [[-9], [1], [0]]]
-    channel = e3d.PropertyChannel(material, "metallic", [0, 1], keys, "cubicspline")
-    player = e3d.AnimationPlayer(e3d.Scene(), [e3d.AnimationClip([channel])])
+    channel = e3d.motion.PropertyChannel(material, "metallic", [0, 1], keys, "cubicspline")
+    player = e3d.AnimationPlayer(e3d.Scene(), [e3d.motion.AnimationClip([channel])])
     player.play()
     found = []
     for time in np.linspace(0, 0.999, 30):
@@ -64,8 +64,10 @@ def test_what_splines_have_beyond_the_limits_is_the_limit():
         found.append(material.metallic)
     assert max(found) == 1.0 and min(found) == 0.0
     lens = e3d.PerspectiveCamera(znear=0.5, zfar=1.0)
-    channel = e3d.PropertyChannel(lens, "znear", [0, 1], np.array(keys) * 0.5 + 0.1, "cubicspline")
-    player = e3d.AnimationPlayer(e3d.Scene(), [e3d.AnimationClip([channel])])
+    channel = e3d.motion.PropertyChannel(
+        lens, "znear", [0, 1], np.array(keys) * 0.5 + 0.1, "cubicspline"
+    )
+    player = e3d.AnimationPlayer(e3d.Scene(), [e3d.motion.AnimationClip([channel])])
     player.play()
     for time in np.linspace(0, 0.999, 30):
         player.seek(time)
@@ -84,7 +86,7 @@ def test_what_splines_have_beyond_the_limits_is_the_limit():
 )
 def test_what_does_not_change_is_told(target, path, message):
     with pytest.raises(e3d.InvalidArgumentError, match=message):
-        e3d.PropertyChannel(target, path, [0], [[0]])
+        e3d.motion.PropertyChannel(target, path, [0], [[0]])
 
 
 def rich_tree():
@@ -170,7 +172,7 @@ def end_of(scene):
     player.seek(2.0)
     found = {}
     for channel in player.clips[0].channels:
-        if isinstance(channel, e3d.PropertyChannel):
+        if isinstance(channel, e3d.motion.PropertyChannel):
             key = type(channel.target).__name__, channel.path
             found[key] = Property(channel.target, channel.path).numbers().tolist()
         else:

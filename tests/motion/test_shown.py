@@ -23,7 +23,7 @@ def stage(seed, count=6, targets=0):
             chain.append(scene.add(parent=chain[-1]))
         joints += chain[1:]
         node = scene.add(mesh)
-        node.skin = e3d.Skin(chain[1:], np.tile(np.eye(4), (5, 1, 1)))
+        node.skin = e3d.motion.Skin(chain[1:], np.tile(np.eye(4), (5, 1, 1)))
     return scene, scene.select(joints), rng
 
 
@@ -60,7 +60,7 @@ def test_every_backend_draws_the_same():
         if node.skin:
             node.morph_weights = (0.5, 0.25)
     wriggle(joints, rng)
-    outputs = ("color", "depth", "normal", "object_id", "triangle_id")
+    outputs = ("color", "depth", "normal", "object_id", "face_id")
     frames = [
         e3d.Renderer(160, 120, backend=name, threads=threads).render(scene, view(), outputs=outputs)
         for name in e3d.backends()
@@ -102,7 +102,7 @@ def test_rays_meet_what_is_bent():
     renderer = e3d.Renderer(64, 48)
     for _ in range(2):
         wriggle(joints, rng)
-        outputs = ("depth", "object_id", "triangle_id", "instance_id")
+        outputs = ("depth", "object_id", "face_id", "instance_id")
         frame = renderer.render(scene, view(), outputs=outputs)
         apart = []  # along the view; at silhouettes, snapping moves steep faces
         for y in range(4, 48, 8):
@@ -118,7 +118,7 @@ def test_rays_meet_what_is_bent():
 def test_colliders_of_the_mesh_follow_its_pose():
     scene, joints, rng = stage(6, count=1)
     node = next(node for node in scene.nodes if node.skin)
-    node.collider = e3d.MeshCollider()
+    node.collider = e3d.colliders.MeshCollider()
     world = by_matrices(node.object, node)
     spot = world[17]
     assert scene.overlap_sphere(spot, 0.01) == (node,)
@@ -126,7 +126,7 @@ def test_colliders_of_the_mesh_follow_its_pose():
     assert scene.overlap_sphere(spot, 0.01) == ()
     moved = by_matrices(node.object, node)
     assert scene.overlap_sphere(moved[17], 0.01) == (node,)
-    node.collider = e3d.BoxCollider()
+    node.collider = e3d.colliders.BoxCollider()
     assert scene.overlap_box(moved[17] - 0.01, moved[17] + 0.01) == (node,)
     assert scene.overlap_box(spot - 0.01, spot + 0.01) == ()
 
@@ -175,7 +175,7 @@ def test_a_mesh_that_changes_is_bent_anew():
     for n in scene.nodes[1:6]:
         chain.append(one.add(parent=chain[-1], pose=n.pose))
     same = one.add(mesh)
-    same.skin = e3d.Skin(chain[1:], node.skin.inverse_binds)
+    same.skin = e3d.motion.Skin(chain[1:], node.skin.inverse_binds)
     same.morph_weights = [0.5]
     one.data.update()
     assert same._drawn.now().positions.tobytes() == posed(scene, node).positions.tobytes()
@@ -227,13 +227,13 @@ def test_wrong_skins_are_told():
     mesh = e3d.Mesh(np.eye(3), [[0, 1, 2]], joints=[[3]] * 3, weights=[[1]] * 3)
     node = scene.add(mesh)
     with pytest.raises(e3d.InvalidArgumentError, match="joint 3, but the skin has 1"):
-        node.skin = e3d.Skin([joint])
+        node.skin = e3d.motion.Skin([joint])
     for binds in (np.full((1, 4, 4), np.nan), np.ones((1, 4, 4)), np.eye(4)):
         with pytest.raises(e3d.InvalidArgumentError):
-            e3d.Skin([joint], binds)
+            e3d.motion.Skin([joint], binds)
     with pytest.raises(e3d.InvalidArgumentError, match="another scene"):
-        e3d.Skin([joint, e3d.Scene().add()])
+        e3d.motion.Skin([joint, e3d.Scene().add()])
     with pytest.raises(e3d.InvalidArgumentError, match="scene"):
-        e3d.Scene().add(mesh).skin = e3d.Skin([joint] * 4)
+        e3d.Scene().add(mesh).skin = e3d.motion.Skin([joint] * 4)
     with pytest.raises(e3d.InvalidArgumentError, match="morph_weights"):
         node.morph_weights = [1]

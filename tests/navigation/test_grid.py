@@ -19,7 +19,7 @@ def slab(low, high, name="stone"):
 
 
 def floor(x0, z0, x1, z1, y=0.0, name="stone"):
-    mesh = e3d.quad((x0, y, z1), (x1, y, z1), (x1, y, z0), (x0, y, z0))
+    mesh = e3d.primitives.quad((x0, y, z1), (x1, y, z1), (x1, y, z0), (x0, y, z0))
     mesh.materials = [e3d.Material(name=name)]
     return mesh
 
@@ -66,7 +66,7 @@ def expected_layers(corners, normals, x, z, max_slope, headroom):
 
 
 def test_a_floor():
-    grid = e3d.NavigationGrid(floor(-2, -1, 2, 1), cell=0.5)
+    grid = e3d.navigation.NavigationGrid(floor(-2, -1, 2, 1), cell=0.5)
     assert grid.shape == (4, 8) and grid.origin.tolist() == [-2, -1]
     assert grid.walkable.all() and len(grid.heights) == 32
     assert grid.sample_ground(0.3, 0.2) == (0.0, True)
@@ -82,20 +82,20 @@ def test_materials_by_name_and_by_function():
     meshes = [floor(0, 0, 1, 1), floor(1, 0, 2, 1, name="water"), floor(2, 0, 3, 1, name="grass")]
     choices = ({"stone"}, ["stone"], lambda material: material.name == "stone")
     for choice in choices:
-        grid = e3d.NavigationGrid(meshes, walkable=choice)
+        grid = e3d.navigation.NavigationGrid(meshes, walkable=choice)
         heights, walkable = grid.sample_ground(np.array([0.5, 1.5, 2.5]), 0.5)
         assert heights.tolist() == [0, 0, 0] and walkable.tolist() == [True, False, False]
-    everything = e3d.NavigationGrid(meshes)
+    everything = e3d.navigation.NavigationGrid(meshes)
     assert everything.walkable.all()
 
 
 def test_steep_and_overturned_faces_are_no_ground():
-    down = e3d.quad((0, 0, 0), (4, 0, 0), (4, 0, 4), (0, 0, 4))
-    assert len(e3d.NavigationGrid(down).heights) == 0
+    down = e3d.primitives.quad((0, 0, 0), (4, 0, 0), (4, 0, 4), (0, 0, 4))
+    assert len(e3d.navigation.NavigationGrid(down).heights) == 0
     for angle, is_ground in ((39.0, True), (41.0, False)):
         rise = 4 * math.tan(math.radians(angle))
-        ramp = e3d.quad((0, 0, 4), (4, 0, 4), (4, rise, 0), (0, rise, 0))
-        grid = e3d.NavigationGrid(ramp, max_slope=math.radians(40))
+        ramp = e3d.primitives.quad((0, 0, 4), (4, 0, 4), (4, rise, 0), (0, rise, 0))
+        grid = e3d.navigation.NavigationGrid(ramp, max_slope=math.radians(40))
         assert (len(grid.heights) > 0) == is_ground
         if is_ground:
             assert grid.walkable.all()
@@ -104,12 +104,12 @@ def test_steep_and_overturned_faces_are_no_ground():
 
 def test_layers_over_a_cell():
     low, bridge = floor(0, 0, 6, 6), slab((2, 3, 0), (4, 3.4, 6))
-    grid = e3d.NavigationGrid([low, bridge], radius=0.0)
+    grid = e3d.navigation.NavigationGrid([low, bridge], radius=0.0)
     assert grid.sample_ground(3, 3) == (pytest.approx(3.4), True)
     assert grid.sample_ground(3, 3, y=0.0) == (0.0, True)
     assert grid.sample_ground(3, 3, y=3.2) == (pytest.approx(3.4), True)
     assert math.isnan(grid.sample_ground(3, 3, y=-1.0)[0])
-    too_low = e3d.NavigationGrid([low, slab((2, 1.5, 0), (4, 1.6, 6))])
+    too_low = e3d.navigation.NavigationGrid([low, slab((2, 1.5, 0), (4, 1.6, 6))])
     assert not too_low.sample_ground(3, 3, y=0.0)[1]
 
 
@@ -121,7 +121,7 @@ def test_what_is_in_the_way():
         ((4, 1.5, 4), (4.4, 2.5, 4.4), True),
         ((4, 2.0, 4), (4.4, 2.5, 4.4), False),  # over the head
     ):
-        grid = e3d.NavigationGrid([ground, slab(low, high)], cell=0.5)
+        grid = e3d.navigation.NavigationGrid([ground, slab(low, high)], cell=0.5)
         assert grid.sample_ground(4.1, 4.1, y=0.0)[1] != blocks
         assert grid.sample_ground(4.6, 4.6, y=0.0)[1] != blocks  # nearer than the radius
         assert grid.sample_ground(5.1, 5.1, y=0.0)[1]
@@ -129,8 +129,8 @@ def test_what_is_in_the_way():
 
 def test_materials_that_are_not_there():
     meshes = [floor(0, 0, 8, 8), slab((4, 0, 4), (5, 3, 5), name="leaves")]
-    assert not e3d.NavigationGrid(meshes).sample_ground(4.5, 4.5, y=0.0)[1]
-    grid = e3d.NavigationGrid(meshes, ignore={"leaves"})
+    assert not e3d.navigation.NavigationGrid(meshes).sample_ground(4.5, 4.5, y=0.0)[1]
+    grid = e3d.navigation.NavigationGrid(meshes, ignore={"leaves"})
     assert grid.sample_ground(4.5, 4.5) == (0.0, True)
 
 
@@ -142,12 +142,12 @@ def test_scenes_instances_and_poses():
     scene.add(e3d.InstancedMesh(slab((-0.5, 0, -0.5), (0.5, 4, 0.5), "post"), poses), parent=group)
     hidden = scene.add(slab((10, 0, 0), (14, 5, 4)))
     hidden.visible = False
-    grid = e3d.NavigationGrid(scene, walkable={"stone"}, radius=0.1)
+    grid = e3d.navigation.NavigationGrid(scene, walkable={"stone"}, radius=0.1)
     assert grid.origin.tolist() == [10, 0]
     assert grid.sample_ground(12.1, 2.1) == (1.0, True)
     for x, z in ((11, 1), (13, 3)):
         assert not grid.sample_ground(x, z, y=1.0)[1]
-    again = e3d.NavigationGrid(scene, walkable={"stone"}, radius=0.1)
+    again = e3d.navigation.NavigationGrid(scene, walkable={"stone"}, radius=0.1)
     assert np.array_equal(grid.walkable, again.walkable)
 
 
@@ -161,7 +161,7 @@ def random_world(seed):
     for _ in range(6):
         a = rng.uniform((-7, 0, -7), (7, 0.1, 7))
         side, up = rng.uniform(-1, 1, 3), rng.uniform(-1, 1, 3)
-        ramp = e3d.quad(a, a + 3 * side, a + 3 * side + 3 * up, a + 3 * up)
+        ramp = e3d.primitives.quad(a, a + 3 * side, a + 3 * side + 3 * up, a + 3 * up)
         ramp.materials = [e3d.Material(name="stone")]
         meshes.append(ramp)
     return meshes
@@ -173,7 +173,9 @@ SLOPE, STEP, HEAD = math.radians(35), 0.35, 1.7
 @pytest.mark.parametrize("seed", range(4))
 def test_layers_against_rays(seed):
     meshes = random_world(seed)
-    grid = e3d.NavigationGrid(meshes, cell=0.31, max_slope=SLOPE, step=STEP, headroom=HEAD)
+    grid = e3d.navigation.NavigationGrid(
+        meshes, cell=0.31, max_slope=SLOPE, step=STEP, headroom=HEAD
+    )
     corners, _ = triangles_of(meshes)
     normals = normals_of(corners)
     rows, columns = grid.shape
@@ -196,7 +198,7 @@ def strewn(corners, count, rng):
 @pytest.mark.parametrize("radius", [0.0, 0.2])
 def test_no_walkable_cell_has_anything_in_it(seed, radius):
     meshes = random_world(seed + 10)
-    grid = e3d.NavigationGrid(
+    grid = e3d.navigation.NavigationGrid(
         meshes,
         cell=0.5,
         walkable={"stone"},
@@ -244,8 +246,10 @@ def test_no_walkable_cell_has_anything_in_it(seed, radius):
 
 
 def test_the_city_is_walkable_in_its_streets_not_in_its_houses():
-    world = e3d.city(100_000)
-    grid = e3d.NavigationGrid(world.districts, walkable=world.walkable, ignore=world.foliage)
+    world = e3d.worlds.city(100_000)
+    grid = e3d.navigation.NavigationGrid(
+        world.districts, walkable=world.walkable, ignore=world.foliage
+    )
     assert grid.sample_ground(1.0, 30.0) == (pytest.approx(0.0), True)
     assert grid.sample_ground(7.5, 30.3) == (pytest.approx(0.15), True)
     assert not grid.sample_ground(8.5, 30.3, y=0.1)[1]  # a wall
@@ -271,15 +275,15 @@ def test_the_city_is_walkable_in_its_streets_not_in_its_houses():
 )
 def test_bad_parameters(options, words):
     with pytest.raises(InvalidArgumentError, match=words):
-        e3d.NavigationGrid(floor(0, 0, 4, 4), **options)
+        e3d.navigation.NavigationGrid(floor(0, 0, 4, 4), **options)
 
 
 def test_bad_things():
     for thing in (None, 3, [floor(0, 0, 1, 1), "wall"]):
         with pytest.raises(InvalidArgumentError, match="meshes"):
-            e3d.NavigationGrid(thing)
+            e3d.navigation.NavigationGrid(thing)
     with pytest.raises(InvalidArgumentError, match="no faces"):
-        e3d.NavigationGrid(e3d.Scene())
+        e3d.navigation.NavigationGrid(e3d.Scene())
 
 
 def test_vertices_that_are_not_finite_count_for_nothing():
@@ -288,7 +292,7 @@ def test_vertices_that_are_not_finite_count_for_nothing():
     positions = broken.positions.copy()
     positions[0], positions[2] = math.nan, math.inf
     broken.positions = positions
-    grid = e3d.NavigationGrid([mesh, broken], bounds=((0, 0), (4, 4)))
+    grid = e3d.navigation.NavigationGrid([mesh, broken], bounds=((0, 0), (4, 4)))
     assert grid.walkable.all() and set(grid.heights.tolist()) == {0.0}
 
 
@@ -303,7 +307,9 @@ def test_very_many_heights_over_one_cell(seed):
     positions = np.tile(corners, (count, 1, 1))
     positions[:, :, 1] = heights[:, np.newaxis]
     mesh = e3d.Mesh(positions.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3))
-    grid = e3d.NavigationGrid(mesh, bounds=((-0.5, -0.5), (0.5, 0.5)), cell=1.0, radius=0.0)
+    grid = e3d.navigation.NavigationGrid(
+        mesh, bounds=((-0.5, -0.5), (0.5, 0.5)), cell=1.0, radius=0.0
+    )
     expected, levels = [], np.unique(heights)
     for k, height in enumerate(levels):
         above = levels[k + 1 :][levels[k + 1 :] - height > 1e-4][:1]
@@ -322,17 +328,17 @@ def test_hostile_triangles_do_no_harm(seed):
     mesh = e3d.Mesh(positions, rng.integers(0, 40, (60, 3)))
     bounds, cell = ((-4, -4), (5, 6)), rng.uniform(0.05, 1.0)
     options = {"bounds": bounds, "cell": cell, "max_slope": 1.5}
-    grid = e3d.NavigationGrid(mesh, radius=rng.uniform(0, 1), **options)
+    grid = e3d.navigation.NavigationGrid(mesh, radius=rng.uniform(0, 1), **options)
     assert grid.starts[0] == 0 and grid.starts[-1] == len(grid.heights)
     assert (np.diff(grid.starts) >= 0).all() and np.isfinite(grid.heights).all()
     for k in np.flatnonzero(np.diff(grid.starts) > 1):
         heights = grid.heights[grid.starts[k] : grid.starts[k + 1]].astype(np.float64)
         assert (np.diff(heights) > grid.headroom - 1e-3).all()
-    free = e3d.NavigationGrid(mesh, radius=0.0, **options)
+    free = e3d.navigation.NavigationGrid(mesh, radius=0.0, **options)
     assert not (grid.walkable & ~free.walkable).any()
 
 
 @pytest.mark.parametrize("place", [("a", 0), ([1, 2], [1, 2, 3]), (None, [[1], [2, 3]])])
 def test_places_that_are_no_numbers(place):
     with pytest.raises(InvalidArgumentError, match="must be numbers|equally many|broadcast"):
-        e3d.NavigationGrid(floor(-5, -5, 5, 5)).sample_ground(*place)
+        e3d.navigation.NavigationGrid(floor(-5, -5, 5, 5)).sample_ground(*place)

@@ -114,8 +114,8 @@ def test_what_cannot_be_shown_is_an_error():
         View(engine3d.torus(), quality=300)
     with pytest.raises(engine3d.InvalidArgumentError, match="up must be one of"):
         View(engine3d.box(), up="north")
-    with pytest.raises(engine3d.InvalidArgumentError, match="animate must be a function of the"):
-        View(engine3d.box(), animate=3)
+    with pytest.raises(engine3d.InvalidArgumentError, match="update must be a function of the"):
+        View(engine3d.box(), update=3)
 
 
 @pytest.mark.parametrize(

@@ -62,7 +62,7 @@ from importlib.resources import files
 from engine3d.apps.cli import main
 model = files("engine3d.data") / "models" / "teapot.obj"
 before = set(sys.modules)
-assert main(["render", str(model), "-o", "teapot.png", "--resolution", "32x18"]) == 0
+assert main(["render", str(model), "-o", "teapot.png", "--size", "32x18"]) == 0
 print(*sorted(set(sys.modules) - before))
 """
 # What a picture of an OBJ with a TGA can do without; each takes a noticeable part of its time.

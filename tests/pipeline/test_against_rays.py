@@ -75,10 +75,10 @@ def test_random_triangles_around_the_eye(backend, seed):
     mesh = e3d.Mesh(triangles.reshape(-1, 3), np.arange(42).reshape(-1, 3))
     scene = e3d.Scene()
     scene.add(mesh)
-    outputs = ("triangle_id", "depth", "world_position")
+    outputs = ("face_id", "depth", "world_position")
     size = (WIDTH, HEIGHT)
     frame = e3d.render(scene, CAMERA, size=size, cull="none", outputs=outputs, backend=backend)
-    seen = frame.triangle_id.ravel()
+    seen = frame.face_id.ravel()
     assert sure.mean() > 0.5 and (expected[sure] >= 0).mean() > 0.3
     assert np.array_equal(seen[sure], expected[sure])
     hit = sure & (expected >= 0)
@@ -103,7 +103,7 @@ def layered_scene(rng, count):
 @pytest.mark.parametrize("seed", range(3))
 def test_the_painter_agrees_where_nothing_intersects(backend, seed):
     scene = layered_scene(np.random.default_rng(seed), 60)
-    outputs = ("color", "triangle_id", "depth", "ndc_depth")
+    outputs = ("color", "face_id", "depth", "ndc_depth")
     frames = [
         e3d.render(
             scene,
@@ -117,6 +117,6 @@ def test_the_painter_agrees_where_nothing_intersects(backend, seed):
         )
         for hidden_surfaces in ("zbuffer", "painter")
     ]
-    assert len(np.unique(frames[0].triangle_id)) > 20
+    assert len(np.unique(frames[0].face_id)) > 20
     for name in outputs:
         assert getattr(frames[0], name).tobytes() == getattr(frames[1], name).tobytes(), name

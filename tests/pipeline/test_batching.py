@@ -5,7 +5,7 @@ import pytest
 
 import engine3d as e3d
 
-OUTPUTS = ("color", "depth", "ndc_depth", "triangle_id", "object_id", "instance_id", "material_id")
+OUTPUTS = ("color", "depth", "ndc_depth", "face_id", "object_id", "instance_id", "material_id")
 BOTH = ({"batching": True}, {"batching": False})
 CAMERA = (e3d.PerspectiveCamera(0.9, znear=0.1, zfar=60.0), e3d.look_at((0, 1, 9), (0, 0, 0)))
 

@@ -28,8 +28,8 @@ def inside_out(mesh, some=slice(None)):
 
 
 def picture(renderer, scene, cull, camera=None):
-    frame = renderer.render(scene, camera, cull=cull, outputs=("color", "triangle_id"))
-    return frame.color.copy(), frame.triangle_id.copy(), dict(frame.stats)
+    frame = renderer.render(scene, camera, cull=cull, outputs=("color", "face_id"))
+    return frame.color.copy(), frame.face_id.copy(), dict(frame.stats)
 
 
 @pytest.fixture
@@ -172,7 +172,7 @@ def test_backs_are_drawn_only_where_a_hole_is(renderer):
     assert (auto[0] == none[0]).all() and (auto[1] >= 0).sum() > 100
 
 
-@pytest.mark.parametrize("options", [{}, {"samples": 4}, {"samples": 4, "antialias": "msaa"}])
+@pytest.mark.parametrize("options", [{}, {"samples": 4}, {"samples": 4, "antialiasing": "msaa"}])
 def test_windows_are_the_same_on_all_backends(options):
     plane = e3d.Mesh.concatenate([e3d.primitives.plane((1, 1)), icosphere(0.3, 1)])
     scene = scene_of(bowl(), inside_out(plane), bowl())
@@ -232,8 +232,6 @@ def test_instances_and_a_mirrored_node(renderer):
 
 def test_picking_takes_what_shows(renderer):
     scene = scene_of(inside_out(box((1, 1, 1))))
-    frame = renderer.render(
-        scene, cull="auto", outputs=("color", "depth", "triangle_id", "object_id")
-    )
+    frame = renderer.render(scene, cull="auto", outputs=("color", "depth", "face_id", "object_id"))
     hit = scene.pick(frame, 80, 60)
-    assert hit.face == frame.triangle_id[60, 80]
+    assert hit.face == frame.face_id[60, 80]

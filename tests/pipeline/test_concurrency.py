@@ -144,9 +144,9 @@ def test_a_scene_that_changes_meanwhile_is_named_as_the_cause(scene, change):
             raise IndexError("out of range")
 
     with e3d.Renderer(*SIZE) as renderer:
-        with pytest.raises((e3d.SceneChangedError, IndexError)) as error:
+        with pytest.raises((e3d.errors.SceneChangedError, IndexError)) as error:
             renderer.render(scene, (Lens(), e3d.look_at((0, 0, 3), (0, 0, 0))))
-        assert error.type is (IndexError if change is None else e3d.SceneChangedError)
+        assert error.type is (IndexError if change is None else e3d.errors.SceneChangedError)
         assert error.match("out of range" if change is None else "from another thread")
         fresh = e3d.render(scene, size=SIZE)
         assert np.array_equal(renderer.render(scene).color, fresh.color)

@@ -19,7 +19,7 @@ def counts(stats):
 def square(side):
     """Two triangles around the origin that face +Z."""
     corners = [(x * side / 2, y * side / 2, 0) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-    return e3d.quad(*corners)
+    return e3d.primitives.quad(*corners)
 
 
 def boxes(places, side=1.0):
@@ -75,14 +75,14 @@ def test_unoccluded_and_drawn(threads):
     camera, pose = e3d.PerspectiveCamera(1.2, znear=0.1, zfar=200.0), np.eye(4)
     with e3d.Renderer(*SIZE, threads=threads) as renderer:
         for _ in range(6):  # until all that was seen at first is tried again
-            outputs = ("object_id", "triangle_id")
+            outputs = ("object_id", "face_id")
             frame = renderer.render(scene, (camera, pose), culling="always", outputs=outputs)
     normals = np.concatenate([np.eye(3), -np.eye(3)])
     facing = -((places[:, np.newaxis] + 0.15 * normals) * normals).sum(axis=2) > 0
     seen = counts(frame.stats)
     assert seen[0].tolist() == [441, 441, 41, 41]
     assert seen[1, 2:].tolist() == [41, 41] and seen[1, 1] > 441
-    pixels = np.stack([frame.object_id.ravel(), frame.triangle_id.ravel()], axis=1)
+    pixels = np.stack([frame.object_id.ravel(), frame.face_id.ravel()], axis=1)
     visible = len(np.unique(pixels, axis=0))
     assert wall.id in pixels and pixels[:, 0].max() == wall.id
     assert seen[2, 2] == 40 * 12 + 2
@@ -142,7 +142,7 @@ def test_no_stage_has_more_than_the_one_before(culling):
     ):
         for k in range(5):
             view = camera, e3d.look_at((3 * k - 6, 4, 14), (0, 0, 0))
-            outputs = ("object_id", "instance_id", "triangle_id")
+            outputs = ("object_id", "instance_id", "face_id")
             frame = one.render(scene, view, culling=culling, outputs=outputs)
             found = counts(frame.stats)
             assert (np.diff(found) <= 0).all()

@@ -5,7 +5,7 @@ import pytest
 
 import engine3d as e3d
 
-OUTPUTS = ("color", "depth", "ndc_depth", "object_id", "instance_id", "triangle_id", "barycentric")
+OUTPUTS = ("color", "depth", "ndc_depth", "object_id", "instance_id", "face_id", "barycentric")
 EYES = [(0.5, 0.3, 9), (6, 5, 7), (0.2, 0.1, 0.4), (-3, 0, -2), (0, 14, 0.1)]
 
 
@@ -63,7 +63,7 @@ def test_tiles_that_are_drawn_twice(threads):
     axis = np.arange(-4.0, 4.5)
     places = np.stack(np.meshgrid(axis, axis, axis), -1).reshape(-1, 3)
     scene.add(e3d.InstancedMesh(e3d.uv_sphere(0.3, (24, 16)), np.c_[places, np.ones(len(places))]))
-    door = scene.add(e3d.quad(), translation=(1, 0, 6), scale=2)
+    door = scene.add(e3d.primitives.quad(), translation=(1, 0, 6), scale=2)
     eyes = [(0.5, 0.5, 9)] * 4 + [(0.52, 0.5, 8.9), (0.54, 0.51, 8.8), (9, 0.5, 0.5), (9, 0.5, 0.6)]
     with e3d.Renderer(520, 390, threads=threads) as renderer:
         for number, eye in enumerate(eyes):
@@ -78,7 +78,7 @@ def test_tiles_that_are_drawn_twice(threads):
 def test_what_is_hidden_is_left_out():
     """Behind a wall that fills the view almost nothing is set up."""
     scene = crowd()
-    scene.add(e3d.quad(), translation=(0, 0, 5), scale=40)
+    scene.add(e3d.primitives.quad(), translation=(0, 0, 5), scale=40)
     with e3d.Renderer(320, 240) as renderer:
         stats, _ = pictures(renderer, scene, EYES[0], culling="none")
         for _ in range(2):
@@ -90,10 +90,10 @@ def test_what_is_hidden_is_left_out():
 def test_equal_depths_go_to_the_first_in_order():
     """What was not there last time lies in one plane with what is drawn first, and wins."""
     scene = e3d.Scene()
-    first = scene.add(e3d.quad(), scale=0.7)
+    first = scene.add(e3d.primitives.quad(), scale=0.7)
     places = np.stack(np.meshgrid(*[np.linspace(-3, 3, 7)] * 2), -1).reshape(-1, 2)
     poses = np.c_[places, np.zeros(len(places)), np.full(len(places), 1)].astype(np.float32)
-    scene.add(e3d.InstancedMesh(e3d.quad(), poses))
+    scene.add(e3d.InstancedMesh(e3d.primitives.quad(), poses))
     rng = np.random.default_rng(0)
     with e3d.Renderer(160, 120) as renderer:
         for _ in range(40):

@@ -72,7 +72,7 @@ def test_what_sees_the_far_plane_sees_it_there():
     usual, turned = (
         camera_at(1, 1, 3, znear=0.1, zfar=100.0, reversed_depth=flag) for flag in (False, True)
     )
-    outputs = ("color", "depth", "object_id", "instance_id", "triangle_id")
+    outputs = ("color", "depth", "object_id", "instance_id", "face_id")
     with e3d.Renderer(96, 64) as renderer:
         frames = [renderer.render(scene, one, outputs=outputs) for one in (usual, turned)]
         assert np.abs(frames[0].color.astype(int) - frames[1].color).max() <= 1
@@ -94,13 +94,13 @@ def test_reversed_depth_is_saved(tmp_path):
 def coverage(scale):
     scene = e3d.Scene()
     scene.add(icosphere(1.0, 3), scale=scale)
-    return e3d.render(scene, size=(160, 120), outputs=("triangle_id", "color"))
+    return e3d.render(scene, size=(160, 120), outputs=("face_id", "color"))
 
 
 @pytest.mark.parametrize("scale", [2.0**-18, 2.0**-27, 2.0**-60, 2.0**-90])
 def test_tiny_models_are_drawn_as_others(scale):
     tiny, usual = coverage(scale), coverage(1.0)
-    assert (tiny.triangle_id == usual.triangle_id).all()
+    assert (tiny.face_id == usual.face_id).all()
     assert np.abs(tiny.color.astype(int) - usual.color).max() <= 1
 
 
@@ -153,8 +153,8 @@ def test_models_of_maps(tmp_path, kind, recwarn):
     assert (np.abs(far.nodes[0].object.positions) < 2).all()
     pictures = []
     for scene in (near, far):
-        frame = e3d.render(scene, size=(160, 120), outputs=("triangle_id",))
-        pictures.append(frame.triangle_id)
+        frame = e3d.render(scene, size=(160, 120), outputs=("face_id",))
+        pictures.append(frame.face_id)
     assert (pictures[0] != pictures[1]).mean() < 2e-3
     # One mesh is in the file's coordinates, as coarse as they are.
     with pytest.warns(e3d.Engine3DWarning, match="coarse"):

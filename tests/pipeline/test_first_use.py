@@ -33,7 +33,7 @@ def fresh_scene():
     mesh = e3d.Mesh(e3d.torus(0.3, 0.12, (24, 16)).positions, e3d.torus(0.3, 0.12, (24, 16)).faces)
     for k in range(6):
         node = scene.add(mesh, name=f"ring {k}", translation=(k % 3 - 1, k // 3 - 0.5, 0))
-        node.collider = e3d.MeshCollider()
+        node.collider = e3d.colliders.MeshCollider()
     ball = e3d.uv_sphere(0.4, (16, 8))
     ball.materials = [e3d.Material(texture=e3d.Texture(PIXELS), flat_shading=True)]
     scene.add(ball, name="ball", parent=node, translation=(0, 0, 0.5))
@@ -133,7 +133,7 @@ def test_resources_are_shared_by_threads_that_load_at_once(tmp_path):
     path = tmp_path / "ball.obj"
     e3d.uv_sphere(0.5, (8, 4)).save(path)
     for _ in range(15):
-        resources = e3d.Resources()
+        resources = e3d.resources.Resources()
         meshes = ask_at_once([lambda r=resources: r.load_mesh(path)] * THREADS)
         assert all(mesh is meshes[0] for mesh in meshes), meshes
         assert resources.stats.meshes == 1

@@ -5,9 +5,9 @@ import pytest
 
 import engine3d as e3d
 
-IDS = ("triangle_id", "object_id", "instance_id", "material_id")
+IDS = ("face_id", "object_id", "instance_id", "material_id")
 OUTPUTS = (*IDS, "ndc_depth")
-ASKED = (("triangle_id",), ("instance_id", "object_id"), IDS, OUTPUTS)
+ASKED = (("face_id",), ("instance_id", "object_id"), IDS, OUTPUTS)
 SIZE = (150, 100)  # two rows of tiles, three to four columns; the last of each is not whole
 CAMERA = e3d.PerspectiveCamera(yfov=0.9, znear=0.2, zfar=60)
 EYES = ((0.3, 0.6, 7.0), (0.4, 0.7, 6.9), (-2.0, 1.5, 6.0))
@@ -18,7 +18,7 @@ def masked_pane():
     grid = np.indices((8, 8)).sum(axis=0) % 2
     texels = np.full((8, 8, 4), 255, np.uint8)
     texels[..., 3] = 255 * grid
-    pane = e3d.quad()
+    pane = e3d.primitives.quad()
     holes = e3d.Material(texture=e3d.Texture(texels), alpha_mode="mask", two_sided=True)
     pane.materials = [holes, e3d.Material(two_sided=True)]
     pane.material_ids = [0, 1]
@@ -43,7 +43,7 @@ def scene():
     scene.add(e3d.InstancedMesh(box, poses))
     scene.add(masked_pane(), translation=(0.5, 0.2, 2.5), scale=1.5)
     scene.add(lines_and_points(), translation=(-0.5, 0.3, 3.0))
-    floor = e3d.quad((-40, 0, 40), (40, 0, 40), (40, 0, -40), (-40, 0, -40))
+    floor = e3d.primitives.quad((-40, 0, 40), (40, 0, 40), (40, 0, -40), (-40, 0, -40))
     scene.add(floor, translation=(0, -1.2, 0))  # it crosses the near plane
     return scene
 
@@ -71,7 +71,7 @@ def assert_same(frame, wanted, names):
 
 def test_the_scene_has_what_it_is_to_have(expected):
     shown = expected[1, EYES[0]]
-    faces, objects = shown["triangle_id"], shown["object_id"]
+    faces, objects = shown["face_id"], shown["object_id"]
     assert set(np.unique(objects)) == {-1, *range(7)}
     assert ((faces < 0) & (objects >= 0)).any()  # lines and points
     assert len(np.unique(shown["instance_id"])) > 20
@@ -123,11 +123,11 @@ def test_two_triangles_that_meet_between_blocks(backend):
     corners = [(-16, -999, 0), (-16, 999, 0), (-999, 0, 0), (999, 0, 0)]
     scene.add(e3d.Mesh(corners, [(0, 1, 2), (1, 0, 3)]))
     for k in range(8):
-        scene.add(e3d.quad(), translation=(0, 0, -1 - k), scale=128)  # behind them
+        scene.add(e3d.primitives.quad(), translation=(0, 0, -1 - k), scale=128)  # behind them
     camera = e3d.OrthographicCamera(64), e3d.look_at((0, 0, 5), (0, 0, 0))
     with e3d.Renderer(128, 128, backend=backend) as renderer:
         frame = renderer.render(scene, camera, outputs=IDS, cull="none", culling="always")
-    assert (frame.triangle_id == np.where(np.arange(128) < 48, 0, 1)).all()
+    assert (frame.face_id == np.where(np.arange(128) < 48, 0, 1)).all()
     assert (frame.object_id == 0).all()
 
 

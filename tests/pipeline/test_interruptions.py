@@ -114,7 +114,7 @@ def handler(*_):
     for act in (draw, lambda: renderer.resize(8, 8), renderer.close):
         try:
             act()
-        except e3d.RendererBusyError as error:
+        except e3d.errors.RendererBusyError as error:
             seen.append(str(error))
     seen.append(np.array_equal(small_frame(small), expected))
 
@@ -136,7 +136,7 @@ if not child:
     signal.alarm(30)
     try:
         draw()
-    except e3d.RendererBusyError as error:
+    except e3d.errors.RendererBusyError as error:
         assert "forked" in str(error)
         renderer.close()
         del renderer, draw
@@ -164,7 +164,7 @@ def handler(*_):
 every(0.1, handler)
 try:
     picture = draw().color
-except e3d.RendererBusyError as error:
+except e3d.errors.RendererBusyError as error:
     assert children == [0] and "forked" in str(error)
     scene = e3d.Scene()
     scene.add(e3d.box())
@@ -191,7 +191,7 @@ for _ in range(12):
     if not child:
         signal.alarm(20)
         scene = e3d.Scene()
-        scene.add(e3d.quad()).object.materials = [material]
+        scene.add(e3d.primitives.quad()).object.materials = [material]
         material.color = (1, 0, 0)
         os._exit(0)
     assert os.waitpid(child, 0)[1] == 0

@@ -35,7 +35,7 @@ OPTIONS = (
     {"outputs": ("color", "depth", "normal", "uv"), "shading": "forward"},
     {"wireframe": "overlay", "line_width": 2},
     {"mode": "depth", "hidden_surfaces": "painter"},
-    {"normals": "flat", "outputs": ("triangle_id", "barycentric")},
+    {"normals": "flat", "outputs": ("face_id", "barycentric")},
     {"wireframe": "only"},
 )
 
@@ -120,7 +120,7 @@ def test_renderers_that_die_in_threads_leave_nothing():
                 thread.join()
 
     assert not grows(lambda: live(40), lambda: live(20))
-    assert kept[0].triangle_id.shape == (7, 9)
+    assert kept[0].face_id.shape == (7, 9)
 
 
 def test_a_renderer_that_changes_forever_keeps_nothing():
@@ -165,7 +165,7 @@ def test_what_is_replaced_each_frame_is_let_go(replace):
     scene.add(e3d.Mesh(POSITIONS, FACES, uvs=UVS))
     scene.add(e3d.InstancedMesh(e3d.box(), [[1, 0, 0, 0.5], [-1, 0, 0, 0.5]]))
     for k in range(20):  # one change is little beside what stays
-        scene.add(e3d.quad(), translation=(k, 0, -3))
+        scene.add(e3d.primitives.quad(), translation=(k, 0, -3))
     alive = weakref.WeakSet()
 
     def live(frames):
@@ -220,7 +220,7 @@ def test_steady_frames_take_no_memory(threads):
         e3d.InstancedMesh(e3d.torus(), [[x, y, 0, 0.8] for x in range(-4, 5) for y in (0, 1)])
     )
     views = [e3d.look_at((0.01 * k, 1, 6), (0, 0, 0)) for k in range(10)]
-    outputs = ("color", "depth", "triangle_id")
+    outputs = ("color", "depth", "face_id")
 
     def draw(renderer, frames):
         for frame in range(frames):

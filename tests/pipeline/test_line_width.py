@@ -51,7 +51,7 @@ def test_a_thin_line_has_one_extent_along_its_minor_axis(width):
 @pytest.mark.parametrize("width", [1.5, 3.0])
 def test_edges_of_a_wireframe_are_as_wide(width):
     """A square nearly along the axes, and nearly on its corner."""
-    square = e3d.quad((-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, 0.5, 0))
+    square = e3d.primitives.quad((-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, 0.5, 0))
     view = e3d.Camera(np.eye(4)), np.eye(4)
     options = {"mode": "unlit", "wireframe": "only", "line_width": width}
     options |= {"line_color": (255, 255, 255), "size": (SIZE, SIZE), "color_space": "linear"}

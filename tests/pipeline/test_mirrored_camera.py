@@ -7,7 +7,7 @@ import engine3d as e3d
 
 SIZE = (96, 64)
 #: What is mirrored along x shows the same in these, left and right exchanged.
-OUTPUTS = ("color", "depth", "triangle_id", "object_id", "world_normal", "barycentric")
+OUTPUTS = ("color", "depth", "face_id", "object_id", "world_normal", "barycentric")
 
 
 def scene_of_a_kind():
@@ -16,7 +16,7 @@ def scene_of_a_kind():
     ball = e3d.uv_sphere(0.6, (24, 12))
     scene.add(ball, translation=(-0.9, 0.1, 0))
     scene.add(ball, translation=(0.7, 0, 0.2), scale=(-0.8, 0.8, 0.8), rotation=(0, 0.3, 0, 0.95))
-    open_box = e3d.quad((-2, -1, -1), (2, -1, -1), (2, 1, -1), (-2, 1, -1))
+    open_box = e3d.primitives.quad((-2, -1, -1), (2, -1, -1), (2, 1, -1), (-2, 1, -1))
     open_box.materials = [e3d.Material(two_sided=True, color=(0.3, 0.7, 0.5))]
     scene.add(open_box, rotation=(0, 1, 0, 0), translation=(0, 0, -2))
     scene.add(e3d.DirectionalLight((-0.4, -0.6, -0.7)))
@@ -39,8 +39,8 @@ def test_it_shows_the_same_reversed(backend, options):
     scene, camera = scene_of_a_kind(), e3d.PerspectiveCamera(0.8)
     options = {"backend": backend, "size": SIZE, "outputs": OUTPUTS, **options}
     plain, mirrored = (e3d.render(scene, (camera, pose), **options) for pose in poses())
-    same = plain.triangle_id == mirrored.triangle_id[:, ::-1]
-    assert same.mean() > 0.98 and (plain.triangle_id >= 0).mean() > 0.3
+    same = plain.face_id == mirrored.face_id[:, ::-1]
+    assert same.mean() > 0.98 and (plain.face_id >= 0).mean() > 0.3
     for name in ("world_normal", "depth"):
         a, b = getattr(plain, name)[same], getattr(mirrored, name)[:, ::-1][same]
         assert np.allclose(a, b, atol=1e-3), name
@@ -49,12 +49,10 @@ def test_it_shows_the_same_reversed(backend, options):
         assert np.abs(difference[same]).max() <= 2
 
 
-@pytest.mark.parametrize(
-    "outputs", [("color",), ("color", "object_id", "instance_id", "triangle_id")]
-)
+@pytest.mark.parametrize("outputs", [("color",), ("color", "object_id", "instance_id", "face_id")])
 def test_picking_finds_what_shows(outputs):
     scene, camera = scene_of_a_kind(), e3d.PerspectiveCamera(0.8)
-    known = ("object_id", "triangle_id")
+    known = ("object_id", "face_id")
     for pose in poses():
         frame = e3d.render(scene, (camera, pose), size=SIZE, outputs=outputs)
         shown = e3d.render(scene, (camera, pose), size=SIZE, outputs=known)
@@ -64,6 +62,6 @@ def test_picking_finds_what_shows(outputs):
                 hit, number = scene.pick(frame, x, y), shown.object_id[y, x]
                 assert (hit is None) == (number < 0), (x, y)
                 if hit is not None:
-                    assert (hit.node.id, hit.face) == (number, shown.triangle_id[y, x])
+                    assert (hit.node.id, hit.face) == (number, shown.face_id[y, x])
                     picked += 1
         assert picked > 20

@@ -126,7 +126,7 @@ def small_things(random):
     scene = e3d.Scene()
     line = e3d.Mesh([(0, 0, 0), (1, 1, 0)], lines=[(0, 1)], points=[0])
     offset = e3d.Mesh(e3d.box().positions + np.float32(1e4), e3d.box().faces)
-    meshes = (e3d.box(), line, e3d.quad(), e3d.Mesh(np.zeros((1, 3)), points=[0]))
+    meshes = (e3d.box(), line, e3d.primitives.quad(), e3d.Mesh(np.zeros((1, 3)), points=[0]))
     for k in range(400):
         x, y = random.uniform(-1.5, 1.5, 2)
         place = (x, y, random.uniform(-1.4, 1.4))
@@ -159,7 +159,7 @@ def test_pictures_are_those_without_culling(options, perspective):
         )
     else:
         camera = e3d.OrthographicCamera(1.0, znear=-1.0, zfar=1.0), np.eye(4)
-    outputs = ("color", "object_id", "triangle_id", "ndc_depth")
+    outputs = ("color", "object_id", "face_id", "ndc_depth")
     pictures, draws = [], []
     for culling in ("tree", "frustum", "none"):
         with e3d.Renderer(90, 70) as renderer:
@@ -210,7 +210,7 @@ def test_instances_that_do_not_show_are_left_out(kind, backend):
     instances = many_instances(random, kind)
     scene.add(instances, rotation=(0.3, 0.1, 0.5, 0.8), translation=(0.2, 0, 0), scale=(1, 2, -0.5))
     scene.add(e3d.box((0.1, 3, 0.1)))
-    outputs = ("color", "object_id", "instance_id", "triangle_id", "ndc_depth")
+    outputs = ("color", "object_id", "instance_id", "face_id", "ndc_depth")
     with e3d.Renderer(60, 40, backend=backend) as renderer:
         for k in range(8):
             eye = (3 * math.sin(k), 1, 3 * math.cos(k))

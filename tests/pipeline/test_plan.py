@@ -7,7 +7,7 @@ import pytest
 import engine3d as e3d
 from engine3d._native.kernels_testing import plan_conditions, planned_items
 
-MODES = ("lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw")
+MODES = ("lit", "unlit", "random", "depth", "normal", "face_id", "object_id", "overdraw")
 OUTPUTS = {
     "color": "COLOR",
     "ndc_depth": "NDC_DEPTH",
@@ -18,7 +18,7 @@ OUTPUTS = {
     "world_normal": "NORMALS",
     "uv": "UVS",
     "albedo": "ALBEDO",
-    "triangle_id": "IDENTITIES",
+    "face_id": "IDENTITIES",
     "object_id": "IDENTITIES",
     "instance_id": "IDENTITIES",
     "material_id": "IDENTITIES",

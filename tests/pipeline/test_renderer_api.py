@@ -10,7 +10,7 @@ from engine3d import linalg
 from engine3d.rendering.frame import OUTPUTS
 
 BACKENDS = e3d.backends()
-MODES = ["lit", "unlit", "random", "depth", "normal", "triangle_id", "object_id", "overdraw"]
+MODES = ["lit", "unlit", "random", "depth", "normal", "face_id", "object_id", "overdraw"]
 SIZE = 32
 
 
@@ -70,7 +70,7 @@ def test_outputs_of_a_square(renderer, front):
     np.testing.assert_array_equal(frame.object_id, np.where(seen, node.id, -1))
     np.testing.assert_array_equal(frame.instance_id, np.where(seen, 0, -1))
     np.testing.assert_array_equal(frame.material_id, np.where(seen, 0, -1))
-    assert set(np.unique(frame.triangle_id)) == {-1, 0, 1}
+    assert set(np.unique(frame.face_id)) == {-1, 0, 1}
     np.testing.assert_array_equal(frame.albedo, np.repeat(seen[..., None], 3, axis=2))
     np.testing.assert_array_equal(frame.normal[seen], [[0, 0, 1]] * 256)
     np.testing.assert_array_equal(frame.world_normal[seen], [[0, 0, 1]] * 256)
@@ -97,7 +97,7 @@ def test_positions_and_uvs_are_where_the_pixel_looks(renderer, front):
 def test_only_what_is_asked_for(renderer, front):
     frame = renderer.render(scene_of(square()), front, outputs=["depth"])
     assert frame.outputs == ("depth",)
-    with pytest.raises(e3d.MissingOutputError):
+    with pytest.raises(e3d.errors.MissingOutputError):
         _ = frame.color
 
 
@@ -131,13 +131,13 @@ def test_ids_tell_nodes_instances_and_materials_apart(renderer, front):
     scene.add(translation=(9, 9, 9))
     instances = e3d.InstancedMesh(mesh, [[-0.5, 0, 0, 0.5], [0.5, 0, 0, 0.5]])
     node = scene.add(instances)
-    outputs = ("object_id", "instance_id", "material_id", "triangle_id", "albedo")
+    outputs = ("object_id", "instance_id", "material_id", "face_id", "albedo")
     frame = renderer.render(scene, front, outputs=outputs)
     assert set(np.unique(frame.object_id)) == {-1, node.id}
     assert set(np.unique(frame.instance_id[:, :16])) == {-1, 0}
     assert set(np.unique(frame.instance_id[:, 16:])) == {-1, 1}
     seen = frame.object_id >= 0
-    np.testing.assert_array_equal(frame.material_id[seen], 1 - frame.triangle_id[seen])
+    np.testing.assert_array_equal(frame.material_id[seen], 1 - frame.face_id[seen])
     np.testing.assert_array_equal(frame.albedo[frame.material_id == 1][:, 2], 1)
     np.testing.assert_array_equal(frame.albedo[frame.material_id == 0][:, 0], 1)
 
@@ -156,12 +156,12 @@ def test_rasterize_agrees_with_the_renderer(backend, front):
     camera, pose = front
     clip_from_world = linalg.multiply(camera.projection(SIZE, SIZE), linalg.inverse(pose))
     clip = np.c_[mesh.positions, np.ones(len(mesh.positions))] @ clip_from_world.T
-    result = e3d.rasterize(clip, mesh.faces, SIZE, SIZE, cull="back", backend=backend)
+    result = e3d.rasterization.rasterize(clip, mesh.faces, SIZE, SIZE, cull="back", backend=backend)
     frame = e3d.render(
-        scene_of(mesh), front, size=(SIZE, SIZE), backend=backend, outputs=("triangle_id",)
+        scene_of(mesh), front, size=(SIZE, SIZE), backend=backend, outputs=("face_id",)
     )
-    np.testing.assert_array_equal(result.triangle_id, frame.triangle_id)
-    assert np.isposinf(result.depth[result.triangle_id < 0]).all()
+    np.testing.assert_array_equal(result.face_id, frame.face_id)
+    assert np.isposinf(result.depth[result.face_id < 0]).all()
 
 
 # ---- Colours ------------------------------------------------------------------------------------
@@ -302,9 +302,9 @@ def test_each_facet_has_the_light_of_its_middle(front, physical):
     place, intensity = np.array([0.9, 0.6, 1.2]), 1.3
     scene = scene_of(ball, ambient=(0, 0, 0))
     scene.add(e3d.PointLight(intensity=intensity), translation=place)
-    options = {"size": (96, 96), "normals": "facet", "outputs": ("radiance", "triangle_id")}
+    options = {"size": (96, 96), "normals": "facet", "outputs": ("radiance", "face_id")}
     frame = e3d.render(scene, front, **options)
-    shown = frame.triangle_id
+    shown = frame.face_id
     assert len(np.unique(shown)) > 50
     middles = ball.positions[ball.faces].astype(np.float64).mean(axis=1)
     to_light = place - middles
@@ -362,11 +362,11 @@ def test_hidden_lines(renderer, front):
 def test_lines_and_points(renderer, front):
     mesh = e3d.Mesh([[-0.5, 0, 0], [0.5, 0, 0], [0, 0.5, 0]], lines=[[0, 1]], points=[2])
     frame = renderer.render(
-        scene_of(mesh), front, line_width=2, point_size=4, outputs=("color", "triangle_id")
+        scene_of(mesh), front, line_width=2, point_size=4, outputs=("color", "face_id")
     )
     assert (frame.color[15:17, 9:23, :3] == 255).all()
     assert (frame.color[6:10, 14:18, :3] == 255).all()
-    assert (frame.triangle_id == -1).all()
+    assert (frame.face_id == -1).all()
 
 
 def test_hidden_surfaces(renderer, front):

@@ -14,7 +14,7 @@ CAMERA = (e3d.Camera(np.eye(4)), np.eye(4))  # view space is clip space
 def left_half():
     """A scene whose left half of the picture is white, its right half background."""
     scene = e3d.Scene(background=(0, 0, 90))
-    scene.add(e3d.quad((-1, -1, 0), (0, -1, 0), (0, 1, 0), (-1, 1, 0)))
+    scene.add(e3d.primitives.quad((-1, -1, 0), (0, -1, 0), (0, 1, 0), (-1, 1, 0)))
     return scene
 
 

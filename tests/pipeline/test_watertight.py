@@ -72,11 +72,11 @@ def test_random_meshes(backend, seed):
     split(rng, points, faces, 400)
     clip = clip_of(rng, points)
     faces = rng.permutation(np.array(faces))
-    forward = e3d.rasterize(clip, faces, SIZE, SIZE, backend=backend)
-    backward = e3d.rasterize(clip, faces[::-1], SIZE, SIZE, backend=backend)
-    assert (forward.triangle_id >= 0).all(), "holes"
+    forward = e3d.rasterization.rasterize(clip, faces, SIZE, SIZE, backend=backend)
+    backward = e3d.rasterization.rasterize(clip, faces[::-1], SIZE, SIZE, backend=backend)
+    assert (forward.face_id >= 0).all(), "holes"
     assert (forward.depth == 0).all()
-    assert np.array_equal(forward.triangle_id, len(faces) - 1 - backward.triangle_id), "twice"
+    assert np.array_equal(forward.face_id, len(faces) - 1 - backward.face_id), "twice"
 
 
 @pytest.mark.parametrize("order", [(0, 2, 1), (1, 0, 2), (1, 2, 0), (2, 0, 1), (2, 1, 0)])
@@ -88,15 +88,15 @@ def test_order_of_vertices(backend, order):
     clip = clip_of(rng, corners.reshape(-1, 2))
     clip[:, 2] = np.repeat(rng.permutation(150) / 200, 3).astype(np.float32) * clip[:, 3]
     faces = np.arange(450).reshape(-1, 3)
-    plain = e3d.rasterize(clip, faces, SIZE, SIZE, backend=backend)
-    turned = e3d.rasterize(clip, faces[:, order], SIZE, SIZE, backend=backend)
-    assert np.array_equal(plain.triangle_id, turned.triangle_id)
+    plain = e3d.rasterization.rasterize(clip, faces, SIZE, SIZE, backend=backend)
+    turned = e3d.rasterization.rasterize(clip, faces[:, order], SIZE, SIZE, backend=backend)
+    assert np.array_equal(plain.face_id, turned.face_id)
 
 
 def layers_color(count, backend):
     """What mode overdraw shows for so many layers."""
     scene = e3d.Scene()
-    layer = e3d.quad((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0))
+    layer = e3d.primitives.quad((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0))
     for k in range(count):
         scene.add(layer, translation=(0, 0, k / 9))
     camera = (e3d.Camera(np.eye(4)), np.eye(4))

@@ -83,7 +83,7 @@ def test_edges_alone_beside_lines_and_points(backend, hidden_lines):
         options |= {"line_width": (1.0, 3.5)[turn % 2], "point_size": 5.0, "size": (90, 70)}
         options |= {"wireframe": "only", "hidden_lines": hidden_lines}
         wanted = e3d.render(scene, camera, backend="scalar", **options).color
-        for more in ((), ("triangle_id",), ("depth", "normal")):
+        for more in ((), ("face_id",), ("depth", "normal")):
             frame = e3d.render(
                 scene, camera, backend=backend, threads=2, outputs=("color", *more), **options
             )

@@ -14,7 +14,7 @@ SKEWED = [
 ]  # fmt: skip
 CLOSED = {
     "box": lambda: e3d.box((1.0, 2.0, 3.0)),
-    "hexahedron": lambda: e3d.hexahedron(SKEWED),
+    "hexahedron": lambda: e3d.primitives.hexahedron(SKEWED),
     "uv_sphere": lambda: e3d.uv_sphere(2.0, (7, 5)),
     "uv_sphere, coarsest": lambda: e3d.uv_sphere(1.0, (3, 2)),
     "uv_sphere, default": lambda: e3d.uv_sphere(),
@@ -25,7 +25,7 @@ CLOSED = {
 }
 OPEN = {
     "plane": lambda: e3d.plane((2.0, 3.0), (4, 5)),
-    "quad": lambda: e3d.quad((0, 0, 0), (2, 0, 0), (2, 1, 0.5), (0, 1, 0)),
+    "quad": lambda: e3d.primitives.quad((0, 0, 0), (2, 0, 0), (2, 1, 0.5), (0, 1, 0)),
 }
 EVERY = {**CLOSED, **OPEN}
 CONVEX = sorted(set(CLOSED) - {"torus"})
@@ -125,7 +125,7 @@ def test_counts_of_vertices_and_triangles():
         return len(mesh.positions), len(mesh.faces)
 
     assert counts(e3d.box()) == (24, 12)
-    assert counts(e3d.quad()) == (4, 2)
+    assert counts(e3d.primitives.quad()) == (4, 2)
     assert counts(e3d.plane()) == (4, 2)
     assert counts(e3d.plane(segments=(4, 5))) == (30, 40)
     assert counts(e3d.uv_sphere(segments=(32, 16))) == (2 * 32 + 15 * 33, 2 * 32 * 15)
@@ -177,12 +177,19 @@ def test_uv_sphere_is_symmetric_to_the_bit():
 
 
 def test_quad_of_skew_corners_has_one_normal():
-    mesh = e3d.quad((0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 0))
+    mesh = e3d.primitives.quad((0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 0))
     assert len(np.unique(mesh.normals, axis=0)) == 1
 
 
 def test_default_shapes_fit_a_unit_cube():
-    for make in (e3d.box, e3d.plane, e3d.quad, e3d.uv_sphere, e3d.icosphere, e3d.cylinder):
+    for make in (
+        e3d.box,
+        e3d.plane,
+        e3d.primitives.quad,
+        e3d.uv_sphere,
+        e3d.icosphere,
+        e3d.cylinder,
+    ):
         assert np.abs(make().bounds).max() == pytest.approx(0.5, abs=1e-3)
     assert np.abs(e3d.torus().bounds).max() == pytest.approx(0.5)
 
@@ -197,9 +204,9 @@ def test_default_shapes_fit_a_unit_cube():
         lambda: e3d.plane((1, -1)),
         lambda: e3d.plane(segments=0),
         lambda: e3d.plane(segments=(1, 2, 3)),
-        lambda: e3d.quad((0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)),
-        lambda: e3d.quad((0, 0), (1, 0), (1, 1), (0, 1)),
-        lambda: e3d.quad((0, 0, math.inf)),
+        lambda: e3d.primitives.quad((0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)),
+        lambda: e3d.primitives.quad((0, 0), (1, 0), (1, 1), (0, 1)),
+        lambda: e3d.primitives.quad((0, 0, math.inf)),
         lambda: e3d.uv_sphere(0.0),
         lambda: e3d.uv_sphere(segments=(2, 2)),
         lambda: e3d.uv_sphere(segments=(3, 1)),
@@ -220,7 +227,7 @@ def test_bad_arguments_are_named(call):
 
 def test_a_hexahedron_of_the_corners_of_a_box_is_that_box():
     corners = [(x, y, z) for z in (-0.5, 0.5) for x, y in ((-1, -2), (1, -2), (1, 2), (-1, 2))]
-    made, box = e3d.hexahedron(corners), e3d.box((2, 4, 1))
+    made, box = e3d.primitives.hexahedron(corners), e3d.box((2, 4, 1))
     for name in ("positions", "faces", "normals", "uvs", "edge_visible"):
         assert np.array_equal(getattr(made, name), getattr(box, name)), name
     assert np.array_equal(made.edges(), box.edges())
@@ -230,7 +237,9 @@ def test_a_hexahedron_may_be_a_pyramid():
     base = [(-1, 0, -1), (1, 0, -1), (1, 0, 1), (-1, 0, 1)]
     back_left, back_right, front_right, front_left = base
     tip = (0, 2, 0)
-    mesh = e3d.hexahedron([back_left, back_right, tip, tip, front_left, front_right, tip, tip])
+    mesh = e3d.primitives.hexahedron(
+        [back_left, back_right, tip, tip, front_left, front_right, tip, tip]
+    )
     assert mesh.bounds.tolist() == [[-1, 0, -1], [1, 2, 1]]
     slope = mesh.normals[16]  # of the front
     assert slope[1] > 0 and slope[2] > 0 and slope[0] == 0
@@ -241,4 +250,4 @@ def test_a_hexahedron_may_be_a_pyramid():
 )
 def test_a_hexahedron_needs_eight_points(corners):
     with pytest.raises(InvalidArgumentError, match="corners"):
-        e3d.hexahedron(corners)
+        e3d.primitives.hexahedron(corners)

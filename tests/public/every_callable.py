@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 from public.hostile_calls import SIZE, camera, draw, ground, lit_scene, mesh, scene, sheet
+from public.public_names import OWN_NAMES
 from public.test_copies import COPIED, REFUSED
 
 import engine3d as e3d
@@ -39,17 +40,17 @@ def generator():
 
 def clip():
     shown = scene()
-    return e3d.AnimationClip([channel(shown)])
+    return e3d.motion.AnimationClip([channel(shown)])
 
 
 def channel(shown=None):
     shown = shown or scene()
-    return e3d.Channel(shown.nodes[0], "scale", [0.0, 1.0], [(1, 1, 1), (2, 2, 2)])
+    return e3d.motion.Channel(shown.nodes[0], "scale", [0.0, 1.0], [(1, 1, 1), (2, 2, 2)])
 
 
 def player():
     shown = scene()
-    found = e3d.AnimationPlayer(shown, [e3d.AnimationClip([channel(shown)])])
+    found = e3d.AnimationPlayer(shown, [e3d.motion.AnimationClip([channel(shown)])])
     found.play()
     return found
 
@@ -87,7 +88,7 @@ def window():
 
 @functools.cache
 def frame():
-    every = ("color", "depth", "ndc_depth", "object_id", "instance_id", "triangle_id")
+    every = ("color", "depth", "ndc_depth", "object_id", "instance_id", "face_id")
     return draw(outputs=every)
 
 
@@ -103,12 +104,12 @@ OWNERS: dict[str, Callable[[], Any]] = {
     "Channel": channel,
     "CocoWriter": datasets.CocoWriter,
     "DatasetWriter": datasets.FolderWriter,
-    "DetailedInstances": lambda: e3d.DetailedInstances([(mesh(), 0.0)], [(0, 0, 0, 1)]),
-    "DetailedMeshes": lambda: e3d.DetailedMeshes([((mesh(),), 0.0)]),
+    "DetailedInstances": lambda: e3d.detail.DetailedInstances([(mesh(), 0.0)], [(0, 0, 0, 1)]),
+    "DetailedMeshes": lambda: e3d.detail.DetailedMeshes([((mesh(),), 0.0)]),
     "FolderWriter": datasets.FolderWriter,
     "Frame": frame,
     "Generator": generator,
-    "Impostor": functools.cache(lambda: e3d.Impostor(mesh(), views=2, texels=8)),
+    "Impostor": functools.cache(lambda: e3d.detail.Impostor(mesh(), views=2, texels=8)),
     "InstancedMesh": lambda: e3d.InstancedMesh(mesh(), [(0, 0, 0, 1)]),
     "LightProbe": lambda: e3d.LightProbe(np.ones((9, 3))),
     "Mesh": with_uvs,
@@ -119,12 +120,12 @@ OWNERS: dict[str, Callable[[], Any]] = {
     "Sample": sample,
     "Scene": lit_scene,
     "Sheet": sheet,
-    "Skin": lambda: e3d.Skin(scene().nodes),
+    "Skin": lambda: e3d.motion.Skin(scene().nodes),
     "Task": lambda: batch.Task("a", script="a.py"),
-    "Walker": lambda: e3d.Walker(ground(), 0.0, 0.0),
+    "Walker": lambda: e3d.navigation.Walker(ground(), 0.0, 0.0),
     "WebDatasetWriter": datasets.WebDatasetWriter,
     "Window": window,
-    "World": functools.cache(lambda: e3d.city(20_000)),
+    "World": functools.cache(lambda: e3d.worlds.city(20_000)),
 }
 
 #: What required parameters get, by name, or by the callable's name and theirs. Functions are
@@ -353,7 +354,7 @@ def every_call() -> Iterator[Call]:
             seen.add(id(thing))
             if not getattr(thing, "__module__", "").startswith("engine3d."):
                 continue  # types of typing's
-            label = name if thing is getattr(e3d, name, None) else f"{module}.{name}"
+            label = f"{module}.{name}" if module in OWN_NAMES else name
             if inspect.isclass(thing):
                 yield from _calls_of_class(label, thing)
             else:

@@ -28,7 +28,7 @@ def scene():
 
 @functools.cache
 def sheet():
-    return e3d.contact_sheet(mesh(), size=(240, 240), views="iso", threads=1)
+    return e3d.sheets.contact_sheet(mesh(), size=(240, 240), views="iso", threads=1)
 
 
 def bendable(**arrays):
@@ -41,7 +41,7 @@ def bent(**arrays):
     shown = e3d.Scene()
     joints = [shown.add(), shown.add()]
     node = shown.add(bendable())
-    node.skin = e3d.Skin(joints, **arrays)
+    node.skin = e3d.motion.Skin(joints, **arrays)
     e3d.render(shown, camera(), size=SIZE, threads=1)
     return node
 
@@ -50,12 +50,12 @@ def influenced(joints, weights):
     shown = e3d.Scene()
     chain = [shown.add() for _ in range(2)]
     node = shown.add(bendable(joints=joints, weights=weights))
-    node.skin = e3d.Skin(chain)
+    node.skin = e3d.motion.Skin(chain)
     e3d.render(shown, camera(), size=SIZE, threads=1)
 
 
 def morphed(positions, normals, weights):
-    target = e3d.MorphTarget(positions, normals)
+    target = e3d.motion.MorphTarget(positions, normals)
     shown = e3d.Scene()
     node = shown.add(e3d.Mesh(np.eye(3), [[0, 1, 2]], morph_targets=[target]))
     node.morph_weights = weights
@@ -64,8 +64,8 @@ def morphed(positions, normals, weights):
 
 def keyed(times, values, path="translation", interpolation="linear"):
     shown = scene()
-    channel = e3d.Channel(shown.nodes[0], path, times, values, interpolation)
-    player = e3d.AnimationPlayer(shown, [e3d.AnimationClip([channel])])
+    channel = e3d.motion.Channel(shown.nodes[0], path, times, values, interpolation)
+    player = e3d.AnimationPlayer(shown, [e3d.motion.AnimationClip([channel])])
     player.play()
     for time in (-1.0, 0.3, 9.0):
         player.seek(time)
@@ -75,8 +75,8 @@ def keyed(times, values, path="translation", interpolation="linear"):
 def changing(times, values, path="color", interpolation="linear"):
     shown = scene()
     material = shown.nodes[0].object.materials[0]
-    channel = e3d.PropertyChannel(material, path, times, values, interpolation)
-    player = e3d.AnimationPlayer(shown, [e3d.AnimationClip([channel])])
+    channel = e3d.motion.PropertyChannel(material, path, times, values, interpolation)
+    player = e3d.AnimationPlayer(shown, [e3d.motion.AnimationClip([channel])])
     player.play()
     for time in (-1.0, 0.3, 9.0):
         player.seek(time)
@@ -85,8 +85,8 @@ def changing(times, values, path="color", interpolation="linear"):
 
 def playing(name):
     shown = scene()
-    channel = e3d.Channel(shown.nodes[0], "scale", [0, 1], [(1, 1, 1), (2, 2, 2)])
-    player = e3d.AnimationPlayer(shown, [e3d.AnimationClip([channel])])
+    channel = e3d.motion.Channel(shown.nodes[0], "scale", [0, 1], [(1, 1, 1), (2, 2, 2)])
+    player = e3d.AnimationPlayer(shown, [e3d.motion.AnimationClip([channel])])
     player.play()
 
     def call(**value):
@@ -198,7 +198,7 @@ def on_canvas(name, **given):
 
 
 def ground():
-    return e3d.NavigationGrid(e3d.plane((4, 4)))
+    return e3d.navigation.NavigationGrid(e3d.plane((4, 4)))
 
 
 def tracked(**arguments):
@@ -304,26 +304,28 @@ CALLS = {
     ),
     "Scene.pick": (lambda **a: scene().pick(draw(), **a), {"x": 3, "y": 4}),
     "Scene.overlap_box": (
-        lambda **a: with_collider(e3d.BoxCollider(), lambda s: s.overlap_box(**a)),
+        lambda **a: with_collider(e3d.colliders.BoxCollider(), lambda s: s.overlap_box(**a)),
         LOW_HIGH,
     ),
     "Scene.overlap_sphere": (
-        lambda **a: with_collider(e3d.MeshCollider(), lambda s: s.overlap_sphere(**a)),
+        lambda **a: with_collider(e3d.colliders.MeshCollider(), lambda s: s.overlap_sphere(**a)),
         {"center": (0, 0, 0), "radius": 1.0},
     ),
     "Scene.raycast_colliders": (
-        lambda **a: with_collider(e3d.SphereCollider(1.0), lambda s: s.raycast_colliders(**a)),
+        lambda **a: with_collider(
+            e3d.colliders.SphereCollider(1.0), lambda s: s.raycast_colliders(**a)
+        ),
         RAY,
     ),
     "BoxCollider": (
         lambda **a: with_collider(
-            e3d.BoxCollider(**a), lambda s: s.overlap_box((0,) * 3, (1,) * 3)
+            e3d.colliders.BoxCollider(**a), lambda s: s.overlap_box((0,) * 3, (1,) * 3)
         ),
         LOW_HIGH,
     ),
     "SphereCollider": (
         lambda **a: with_collider(
-            e3d.SphereCollider(**a), lambda s: s.raycast_colliders((0, 0, 5), (0, 0, -1))
+            e3d.colliders.SphereCollider(**a), lambda s: s.raycast_colliders((0, 0, 5), (0, 0, -1))
         ),
         {"radius": 1.0, "center": (0, 0, 0)},
     ),
@@ -388,7 +390,7 @@ CALLS = {
         {"aspect": 1.0, "margin": 1.1, "direction": (0, 0, 1), "yfov": 0.9, "up": (0, 1, 0)},
     ),
     "contact_sheet": (
-        lambda **a: e3d.contact_sheet(mesh(), **a),
+        lambda **a: e3d.sheets.contact_sheet(mesh(), **a),
         {
             "views": "front,iso",
             "sections": ("x",),
@@ -407,19 +409,19 @@ CALLS = {
         {"x": 120, "y": 120},
     ),
     "rasterize": (
-        e3d.rasterize,
+        e3d.rasterization.rasterize,
         {"clip": np.zeros((3, 4)), "faces": [[0, 1, 2]], "width": 8, "height": 8, "threads": 1},
     ),
     "box": (e3d.box, {"size": (1, 1, 1)}),
-    "quad": (e3d.quad, {"p0": (-1, -1, 0), "p2": (1, 1, 0)}),
+    "quad": (e3d.primitives.quad, {"p0": (-1, -1, 0), "p2": (1, 1, 0)}),
     "plane": (e3d.plane, {"size": (1, 1), "segments": (2, 2)}),
     "uv_sphere": (e3d.uv_sphere, {"radius": 1.0, "segments": (8, 4)}),
     "icosphere": (e3d.icosphere, {"radius": 1.0, "subdivisions": 1}),
     "cylinder": (e3d.cylinder, {"radius": 1.0, "height": 1.0, "segments": 8}),
     "torus": (e3d.torus, {"major_radius": 1.0, "minor_radius": 0.3, "segments": (8, 4)}),
-    "city": (e3d.city, {"triangles": 20_000, "seed": 1}),
+    "city": (e3d.worlds.city, {"triangles": 20_000, "seed": 1}),
     "NavigationGrid": (
-        lambda **a: e3d.NavigationGrid(e3d.plane((4, 4)), **a),
+        lambda **a: e3d.navigation.NavigationGrid(e3d.plane((4, 4)), **a),
         {
             "cell": 0.5,
             "bounds": ((-1, -1), (1, 1)),
@@ -433,25 +435,31 @@ CALLS = {
         lambda **a: ground().sample_ground(**a),
         {"x": 0.1, "z": 0.1, "y": 1.0},
     ),
-    "Walker": (lambda **a: e3d.Walker(ground(), **a), {"x": 0.0, "z": 0.0, "eye_height": 1.7}),
-    "Walker.move": (lambda **a: e3d.Walker(ground(), 0.0, 0.0).move(**a), {"dx": 0.1, "dz": 0.1}),
+    "Walker": (
+        lambda **a: e3d.navigation.Walker(ground(), **a),
+        {"x": 0.0, "z": 0.0, "eye_height": 1.7},
+    ),
+    "Walker.move": (
+        lambda **a: e3d.navigation.Walker(ground(), 0.0, 0.0).move(**a),
+        {"dx": 0.1, "dz": 0.1},
+    ),
     "DetailedInstances": (
-        lambda **a: e3d.DetailedInstances(LEVELS, **a),
+        lambda **a: e3d.detail.DetailedInstances(LEVELS, **a),
         {"poses": [(0, 0, 0, 1)], "colors": [(1.0, 1.0, 1.0)], "pixels": 1.0, "hysteresis": 0.3},
     ),
     "DetailedInstances.update": (
-        lambda **a: e3d.DetailedInstances(LEVELS, [(0, 0, 0, 1)]).update(camera()[0], **a),
+        lambda **a: e3d.detail.DetailedInstances(LEVELS, [(0, 0, 0, 1)]).update(camera()[0], **a),
         {"pose": IDENTITY, "size": SIZE},
     ),
     "DetailedMeshes.update": (
-        lambda **a: e3d.DetailedMeshes([((mesh(),), 0.0)]).update(camera()[0], **a),
+        lambda **a: e3d.detail.DetailedMeshes([((mesh(),), 0.0)]).update(camera()[0], **a),
         {"pose": IDENTITY, "size": SIZE},
     ),
     "DetailedMeshes": (
-        lambda error, **a: e3d.DetailedMeshes([((mesh(),), 0.0), ((mesh(),), error)], **a),
+        lambda error, **a: e3d.detail.DetailedMeshes([((mesh(),), 0.0), ((mesh(),), error)], **a),
         {"error": 0.1, "pixels": 1.0, "hysteresis": 0.3},
     ),
-    "Impostor": (lambda **a: e3d.Impostor(mesh(), **a), {"views": 2, "texels": 8}),
+    "Impostor": (lambda **a: e3d.detail.Impostor(mesh(), **a), {"views": 2, "texels": 8}),
     "Canvas": (lambda width, height: e3d.Canvas(width, height), {"width": 4, "height": 4}),
     "Canvas.point": (on_canvas("point"), {"x": 1, "y": 1, "color": (1, 2, 3)}),
     "Canvas.points": (on_canvas("points"), {"xy": [(1, 1)], "color": (1, 2, 3)}),

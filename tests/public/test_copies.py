@@ -6,6 +6,7 @@ import pickle
 
 import numpy as np
 import pytest
+from public.public_names import public_things
 
 import engine3d as e3d
 
@@ -33,7 +34,7 @@ def drawn():
 
 
 def moved():
-    return e3d.Channel(drawn().nodes[0], "scale", [0.0], [(1, 1, 1)])
+    return e3d.motion.Channel(drawn().nodes[0], "scale", [0.0], [(1, 1, 1)])
 
 
 def frame():
@@ -41,7 +42,7 @@ def frame():
 
 
 def resource():
-    resources = e3d.Resources()
+    resources = e3d.resources.Resources()
     mesh = resources.share(painted())
     return resources.listed()[0]._replace(thing=mesh)
 
@@ -50,7 +51,7 @@ POSE = np.eye(4)
 COPIED = {
     "Mesh": lambda: drawn().find("ball").object,
     "InstancedMesh": lambda: drawn().find("crowd").object,
-    "MorphTarget": lambda: e3d.MorphTarget(np.ones((3, 3)), np.ones((3, 3))),
+    "MorphTarget": lambda: e3d.motion.MorphTarget(np.ones((3, 3)), np.ones((3, 3))),
     "Values": lambda: e3d.Values(np.ones(3), on="faces"),
     "Texture": lambda: painted().materials[0].texture,
     "PlacedTexture": lambda: e3d.PlacedTexture(painted().materials[0].texture, uv_set=1),
@@ -68,36 +69,42 @@ COPIED = {
     "SpotLight": e3d.SpotLight,
     "HemisphereLight": e3d.HemisphereLight,
     "LightProbe": lambda: e3d.LightProbe(np.ones((9, 3))),
-    "BoxCollider": lambda: e3d.BoxCollider((0, 0, 0), (1, 1, 1)),
-    "SphereCollider": lambda: e3d.SphereCollider(1.0),
-    "MeshCollider": lambda: e3d.MeshCollider(painted()),
-    "NavigationGrid": lambda: e3d.NavigationGrid(e3d.plane((4, 4))),
-    "Walker": lambda: e3d.Walker(e3d.NavigationGrid(e3d.plane((4, 4))), 0.0, 0.0),
+    "BoxCollider": lambda: e3d.colliders.BoxCollider((0, 0, 0), (1, 1, 1)),
+    "SphereCollider": lambda: e3d.colliders.SphereCollider(1.0),
+    "MeshCollider": lambda: e3d.colliders.MeshCollider(painted()),
+    "NavigationGrid": lambda: e3d.navigation.NavigationGrid(e3d.plane((4, 4))),
+    "Walker": lambda: e3d.navigation.Walker(
+        e3d.navigation.NavigationGrid(e3d.plane((4, 4))), 0.0, 0.0
+    ),
     "Canvas": lambda: e3d.Canvas(4, 3),
     "Frame": frame,
-    "ResourceStats": lambda: e3d.Resources().stats,
+    "ResourceStats": lambda: e3d.resources.Resources().stats,
     "Resource": lambda: resource(),
     "RayHits": lambda: drawn().raycast_many((0, 0, 5), (0, 0, -1)),
-    "RasterizeResult": lambda: e3d.rasterize(np.zeros((3, 4), np.float32), [[0, 1, 2]], 4, 4),
+    "RasterizeResult": lambda: e3d.rasterization.rasterize(
+        np.zeros((3, 4), np.float32), [[0, 1, 2]], 4, 4
+    ),
     "RenderOptions": lambda: e3d.RenderOptions(line_color=(1, 2, 3)),
-    "Impostor": lambda: e3d.Impostor(painted(), views=2, texels=8),
-    "DetailedInstances": lambda: e3d.DetailedInstances([(painted(), 0.0)], [(0, 0, 0, 1)]),
-    "DetailedMeshes": lambda: e3d.DetailedMeshes([((painted(),), 0.0)]),
-    "Sheet": lambda: e3d.contact_sheet(painted(), size=(240, 240), views="iso", threads=1),
-    "World": lambda: e3d.city(20_000, seed=1),
+    "Impostor": lambda: e3d.detail.Impostor(painted(), views=2, texels=8),
+    "DetailedInstances": lambda: e3d.detail.DetailedInstances([(painted(), 0.0)], [(0, 0, 0, 1)]),
+    "DetailedMeshes": lambda: e3d.detail.DetailedMeshes([((painted(),), 0.0)]),
+    "Sheet": lambda: e3d.sheets.contact_sheet(painted(), size=(240, 240), views="iso", threads=1),
+    "World": lambda: e3d.worlds.city(20_000, seed=1),
 }
 REFUSED = {
     "Scene": drawn,
     "Node": lambda: drawn().nodes[0],
     "NodeSelection": lambda: drawn().select(),
     "Animator": lambda: e3d.Animator(drawn()),
-    "Skin": lambda: e3d.Skin(drawn().nodes[:2]),
+    "Skin": lambda: e3d.motion.Skin(drawn().nodes[:2]),
     "Channel": lambda: moved(),
-    "PropertyChannel": lambda: e3d.PropertyChannel(e3d.Material(), "roughness", [0.0], [[1.0]]),
-    "AnimationClip": lambda: e3d.AnimationClip([moved()]),
+    "PropertyChannel": lambda: e3d.motion.PropertyChannel(
+        e3d.Material(), "roughness", [0.0], [[1.0]]
+    ),
+    "AnimationClip": lambda: e3d.motion.AnimationClip([moved()]),
     "AnimationPlayer": lambda: e3d.AnimationPlayer(drawn()),
     "Renderer": lambda: e3d.Renderer(4, 4),
-    "Resources": e3d.Resources,
+    "Resources": e3d.resources.Resources,
     "Window": lambda: e3d.Window(64, 48),
 }
 WITH_NODES = {"RayHit", "ColliderHit"}  # tuples: what holds for their nodes holds for them
@@ -111,9 +118,9 @@ WAYS = {
 
 
 def test_every_public_class_is_tried():
-    classes = {name for name in e3d.__all__ if inspect.isclass(getattr(e3d, name))}
-    errors = {name for name in classes if issubclass(getattr(e3d, name), (Exception, Warning))}
-    assert classes - errors == {*COPIED, *REFUSED, *WITH_NODES}
+    classes = {name: thing for name, thing in public_things().items() if inspect.isclass(thing)}
+    errors = {name for name, kind in classes.items() if issubclass(kind, (Exception, Warning))}
+    assert classes.keys() - errors == {*COPIED, *REFUSED, *WITH_NODES}
 
 
 @pytest.mark.parametrize("way", WAYS)

@@ -20,7 +20,7 @@ MANIFEST = '{"version": 1, "tasks": [{"name": "a", "script": "a.py"}]}'
 
 
 def no_screen(*size, **options):
-    raise e3d.DisplayError("there is no screen")
+    raise e3d.errors.DisplayError("there is no screen")
 
 
 def no_scheduler(address, **options):
@@ -81,7 +81,7 @@ def test_right_arguments_pass(name):
         return  # of what an attribute is now, tests of its class tell
     try:
         CALLS[name].function(*owner, **arguments)
-    except (e3d.DisplayError, ImportError) as error:
+    except (e3d.errors.DisplayError, ImportError) as error:
         assert "screen" in str(error) or "engine3d[" in str(error)
 
 

@@ -127,7 +127,7 @@ def test_groups_and_animations_are_checked():
         with pytest.raises(e3d.errors.InvalidArgumentError):
             mesh.groups[name] = faces
     assert list(mesh.groups) == ["left"]
-    clip = e3d.AnimationClip([moved()])
+    clip = e3d.motion.AnimationClip([moved()])
     scene = e3d.Scene()
     scene.animations["turn"] = clip
     for name, value in (("turn", 3), (3, clip)):

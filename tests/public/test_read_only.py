@@ -77,7 +77,7 @@ TAKEN = {
     "pixels": (lambda a: e3d.Texture(a).pixels, np.uint8, (2, 2, 4)),
     "radiance": (lambda a: e3d.Environment(a).pixels, np.float32, (2, 4, 3)),
     "poses": (lambda a: e3d.InstancedMesh(e3d.box(), a).poses, np.float32, (2, 4)),
-    "offsets": (lambda a: e3d.MorphTarget(a).positions, np.float32, (3, 3)),
+    "offsets": (lambda a: e3d.motion.MorphTarget(a).positions, np.float32, (3, 3)),
     "pose": (lambda a: e3d.Scene().add(translation=a).translation, np.float64, (3,)),
     "coefficients": (lambda a: e3d.LightProbe(a).coefficients, np.float64, (9, 3)),
 }

@@ -10,6 +10,7 @@ import warnings
 import numpy as np
 import pytest
 from public.hostile_calls import SIZE, camera, draw, mesh, scene
+from public.public_names import public_things
 
 import engine3d as e3d
 from engine3d import linalg
@@ -35,6 +36,10 @@ MISTAKES = [
     (lambda: e3d.sphere(), "did you mean uv_sphere or icosphere"),
     (lambda: e3d.cube(), "did you mean box"),
     (lambda: e3d.rendr, "did you mean render"),
+    (lambda: e3d.Walker, "did you mean navigation.Walker?"),
+    (lambda: e3d.BoxColider, "did you mean colliders.BoxCollider?"),
+    (lambda: e3d.OutOfMemoryError, "did you mean errors.OutOfMemoryError?"),
+    (lambda: e3d.city, "did you mean worlds.city?"),
     (lambda: e3d.load("a.obj"), "load_mesh"),
     (lambda: mesh().vertices, "did you mean positions"),
     (lambda: mesh().position, "did you mean positions"),
@@ -82,13 +87,13 @@ MISTAKES = [
     (lambda: linalg.euler_to_quaternion((0, 0, 180)), "radians"),
     (assign(e3d.Scene, "environment_rotation", 180), "radians"),
     (lambda: e3d.Material(anisotropy_rotation=90), "radians"),
-    (lambda: e3d.NavigationGrid(e3d.plane(), max_slope=40), "numpy.radians"),
+    (lambda: e3d.navigation.NavigationGrid(e3d.plane(), max_slope=40), "numpy.radians"),
     (lambda: e3d.Mesh(BAD, [[0, 1, 2]]), "1 of 3 positions are not finite"),
     (lambda: added(translation=(0, 0, math.nan)), "finite"),
     (lambda: e3d.render(scene(), (camera()[0], np.full((4, 4), math.nan))), "finite"),
     # wrong values
     (lambda: added(rotation=(0.1, 0, 0)), "euler="),
-    (lambda: e3d.Renderer(8, 8, samples=8), "needs antialias='msaa'"),
+    (lambda: e3d.Renderer(8, 8, samples=8), "needs antialiasing='msaa'"),
     (lambda: e3d.uv_sphere(segments=12), "two integers, not 12"),
     (lambda: e3d.Renderer(8, 8).render(mesh()), "scene must be a Scene, not Mesh"),
     (lambda: e3d.Scene().add("model.obj"), "'model.obj'"),
@@ -136,13 +141,12 @@ def test_turning_for_long_warns_once_a_line():
     assert len(seen) == 1
 
 
-def public_class(name):
-    return getattr(e3d, name, None) if name in e3d.__all__ else None
+CLASSES = {name: thing for name, thing in public_things().items() if inspect.isclass(thing)}
 
 
-@pytest.mark.parametrize("name", [name for name in _NAMES if inspect.isclass(public_class(name))])
+@pytest.mark.parametrize("name", sorted(_NAMES.keys() & CLASSES.keys()))
 def test_foreign_names_are_not_ours_and_what_they_are_here_is(name):
-    kind = public_class(name)
+    kind = CLASSES[name]
     parameters = inspect.signature(kind).parameters
     for foreign, here in foreign_names(kind).items():
         assert foreign not in parameters, foreign
@@ -179,8 +183,7 @@ def test_parts_of_a_pose_add_up():
 
 
 def test_signatures_and_modules_show_what_is_meant():
-    classes = [thing for thing in map(public_class, e3d.__all__) if inspect.isclass(thing)]
-    tuples = [kind for kind in classes if issubclass(kind, tuple)]
+    tuples = [kind for kind in CLASSES.values() if issubclass(kind, tuple)]
     assert len(tuples) >= 6
     assert not [kind for kind in tuples if "ForwardRef" in str(inspect.signature(kind))]
     for module in (e3d.choices, e3d.errors):
@@ -194,7 +197,7 @@ def test_a_hexahedron_is_never_inside_out(order):
     for axis in range(3):
         for first in (0.0, 1.0):
             ends = [np.insert(sides, axis, end, axis=1) for end in (first, 1.0 - first)]
-            made = e3d.hexahedron(np.concatenate(ends))
+            made = e3d.primitives.hexahedron(np.concatenate(ends))
             a, b, c = made.positions[made.faces].astype(np.float64).transpose(1, 0, 2)
             assert (np.cross(a, b) * c).sum() / 6 == pytest.approx(1.0)
 

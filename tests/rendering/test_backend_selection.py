@@ -32,19 +32,19 @@ def test_environment_says_what_auto_means(monkeypatch, name):
 
 @pytest.mark.parametrize("name", ["mmx", "", None, 3, "AVX2"])
 def test_unknown_backend(name):
-    with pytest.raises(e3d.BackendError, match="is unknown: it is one of auto, scalar"):
+    with pytest.raises(e3d.errors.BackendError, match="is unknown: it is one of auto, scalar"):
         resolve_backend(name)
 
 
 def test_unknown_backend_in_the_environment(monkeypatch):
     monkeypatch.setenv("ENGINE3D_BACKEND", "mmx")
-    with pytest.raises(e3d.BackendError, match="ENGINE3D_BACKEND='mmx'"):
+    with pytest.raises(e3d.errors.BackendError, match="ENGINE3D_BACKEND='mmx'"):
         e3d.Renderer(1, 1)
 
 
 def test_backend_that_the_machine_lacks(monkeypatch):
     monkeypatch.setattr(rasterizer, "backend_available", lambda number: number < 2)
-    with pytest.raises(e3d.BackendError, match="does not run on this machine"):
+    with pytest.raises(e3d.errors.BackendError, match="does not run on this machine"):
         resolve_backend("avx512")
     assert e3d.backends() == ["scalar", "portable"]
 

@@ -25,7 +25,7 @@ def frame():
 @pytest.mark.parametrize("name", OUTPUTS)
 def test_missing_output_names_the_argument(name):
     empty = e3d.Frame(5, 3, {})
-    with pytest.raises(e3d.MissingOutputError) as caught:
+    with pytest.raises(e3d.errors.MissingOutputError) as caught:
         getattr(empty, name)
     assert f'outputs=("{name}",)' in str(caught.value)
     assert not hasattr(empty, name)
@@ -119,7 +119,7 @@ def test_what_is_no_path(frame, path):
 
 
 def test_saving_without_colour(tmp_path):
-    with pytest.raises(e3d.MissingOutputError):
+    with pytest.raises(e3d.errors.MissingOutputError):
         e3d.Frame(5, 3, {}).save(tmp_path / "frame.png")
     assert list(tmp_path.iterdir()) == []
 

@@ -27,7 +27,7 @@ OPTIONS = {
     "bloom": ({}, {"bloom": 1.0}),
     "ambient occlusion": ({}, {"ambient_occlusion": True}),
     "4 samples": ({"samples": 4}, {}),
-    "multisampling": ({"samples": 8, "antialias": "msaa", "threads": 64}, {}),
+    "multisampling": ({"samples": 8, "antialiasing": "msaa", "threads": 64}, {}),
 }
 
 

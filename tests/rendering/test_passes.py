@@ -73,7 +73,7 @@ def test_a_pass_that_reads_no_scene_is_not_blamed_on_it(monkeypatch, scene):
             picture.scene.add(e3d.box())
             raise ArithmeticError
 
-    for reads, error in (((), ArithmeticError), (("scene",), e3d.SceneChangedError)):
+    for reads, error in (((), ArithmeticError), (("scene",), e3d.errors.SceneChangedError)):
         monkeypatch.setattr(Wrong, "reads", reads)
         monkeypatch.setattr(_passes, "PASSES", (Wrong, ColorPass))
         with e3d.Renderer(8, 8) as renderer, pytest.raises(error):

@@ -25,21 +25,21 @@ FACES = [[0, 1, 2]]
 )
 def test_invalid_arguments(arguments, message):
     with pytest.raises(e3d.InvalidArgumentError, match=message):
-        e3d.rasterize(*arguments)
+        e3d.rasterization.rasterize(*arguments)
 
 
 def test_invalid_options():
     with pytest.raises(
         e3d.InvalidArgumentError, match="cull must be one of 'none', 'back', 'front'"
     ):
-        e3d.rasterize(CLIP, FACES, 4, 4, cull="sideways")
-    with pytest.raises(e3d.BackendError):
-        e3d.rasterize(CLIP, FACES, 4, 4, backend="gpu")
+        e3d.rasterization.rasterize(CLIP, FACES, 4, 4, cull="sideways")
+    with pytest.raises(e3d.errors.BackendError):
+        e3d.rasterization.rasterize(CLIP, FACES, 4, 4, backend="gpu")
 
 
 def test_nothing_to_draw():
-    result = e3d.rasterize(np.zeros((0, 4)), np.zeros((0, 3), int), 3, 2)
-    assert result.triangle_id.tolist() == [[-1] * 3] * 2
+    result = e3d.rasterization.rasterize(np.zeros((0, 4)), np.zeros((0, 3), int), 3, 2)
+    assert result.face_id.tolist() == [[-1] * 3] * 2
     assert np.isposinf(result.depth).all()
     assert result.barycentric.shape == (2, 3, 3)
     assert not result.barycentric.any()

@@ -22,7 +22,7 @@ def scene():
         ((0, 6), {}, r"width must be a whole number in 1\.\.16384"),
         ((8, 16385), {}, "height"),
         ((8.5, 6), {}, "width"),
-        ((8, 6), {"samples": 2}, "samples=2 needs antialias=.msaa"),
+        ((8, 6), {"samples": 2}, "samples=2 needs antialiasing=.msaa"),
         ((8, 6), {"color_space": "hsv"}, "color_space must be one of 'srgb', 'linear'"),
         ((8, 6), {"threads": -1}, "threads"),
     ],

@@ -7,7 +7,7 @@ import engine3d as e3d
 from engine3d.model.scene.staged_scene import StagedScene
 
 SIZE = (96, 72)
-OUTPUTS = ("color", "depth", "object_id", "triangle_id")
+OUTPUTS = ("color", "depth", "object_id", "face_id")
 CAMERA = e3d.PerspectiveCamera(0.6), e3d.look_at((2.0, 1.5, 4.0), (0.0, 0.0, 0.0))
 
 
@@ -98,7 +98,7 @@ def test_a_part_of_a_bent_mesh_is_drawn_as_it_is_bent():
         [(0, 1, 2), (0, 2, 3)],
         material_ids=[0, 1],
         materials=[e3d.Material(name="one", unlit=True), e3d.Material(name="two", unlit=True)],
-        morph_targets=[e3d.MorphTarget(np.tile([0.5, 0.5, 0], (4, 1)))],
+        morph_targets=[e3d.motion.MorphTarget(np.tile([0.5, 0.5, 0], (4, 1)))],
     )
     scene = e3d.Scene()
     node = scene.add(flag)
@@ -108,9 +108,9 @@ def test_a_part_of_a_bent_mesh_is_drawn_as_it_is_bent():
         for weight in (0.0, 1.0):
             node.morph_weights = [weight]
             frames = [
-                renderer.render(what, CAMERA, cull="none", outputs=("triangle_id",))
+                renderer.render(what, CAMERA, cull="none", outputs=("face_id",))
                 for what in (scene, drawn)
             ]
-            whole, part = (frame.triangle_id for frame in frames)
+            whole, part = (frame.face_id for frame in frames)
             assert (part == 0).any() and np.array_equal(part == 0, whole == 0)
             assert (whole == 1).any() and not (part == 1).any()

@@ -8,7 +8,7 @@ from engine3d.rendering.passes import all_passes as _passes
 from engine3d.rendering.passes.output_passes import ColorPass, SurfacePass
 from engine3d.rendering.passes.protocol import Pass
 
-OUTPUTS = ("ndc_depth", "depth", "world_position", "normal", "triangle_id", "object_id")
+OUTPUTS = ("ndc_depth", "depth", "world_position", "normal", "face_id", "object_id")
 
 
 def scene_of_two() -> e3d.Scene:

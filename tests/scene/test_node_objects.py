@@ -30,7 +30,7 @@ def test_an_empty_node_is_filled_replaced_and_emptied():
     scene = e3d.Scene()
     scene.add(box, translation=(-1, 0, 0))
     node = scene.add(translation=(1, 0, 0), name="later")
-    child = scene.add(e3d.quad(), parent=node, translation=(0, 0, -1))
+    child = scene.add(e3d.primitives.quad(), parent=node, translation=(0, 0, -1))
     with e3d.Renderer(*SIZE) as renderer:
         assert everything(scene, renderer)[3].tolist() == [0, child.id]
         for obj in (box, ball, crowd, None, e3d.PointLight(), ball, e3d.PerspectiveCamera(), box):
@@ -39,7 +39,7 @@ def test_an_empty_node_is_filled_replaced_and_emptied():
             other = e3d.Scene()
             other.add(box, translation=(-1, 0, 0))
             twin = other.add(obj, translation=(1, 0, 0))
-            other.add(e3d.quad(), parent=twin, translation=(0, 0, -1))
+            other.add(e3d.primitives.quad(), parent=twin, translation=(0, 0, -1))
             for one, expected in zip(
                 everything(scene, renderer), everything(other, e3d.Renderer(*SIZE)), strict=True
             ):
@@ -70,14 +70,14 @@ def test_cameras_and_lights_stand_in_the_order_of_their_nodes():
 def test_colliders_follow_the_object():
     scene = e3d.Scene()
     node = scene.add(e3d.box())
-    node.collider = e3d.BoxCollider()
+    node.collider = e3d.colliders.BoxCollider()
     assert scene.overlap_box((0.8, -1, -1), (2, 1, 1)) == ()
     node.object = e3d.box((2, 2, 2))
     assert scene.overlap_box((0.8, -1, -1), (2, 1, 1)) == (node,)
     with pytest.raises(e3d.InvalidArgumentError, match="the node's own mesh"):
         node.object = None
     assert node.object is not None
-    node.collider = e3d.SphereCollider(1.0)
+    node.collider = e3d.colliders.SphereCollider(1.0)
     node.object = None
     assert scene.overlap_box((0.8, -0.1, -0.1), (2, 0.1, 0.1)) == (node,)
 

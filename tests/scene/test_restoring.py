@@ -41,7 +41,7 @@ def random_scene(random):
             translation=random.uniform(-1, 1, 3),
         )
         if random.random() < 0.3:
-            node.collider = e3d.SphereCollider(0.3)
+            node.collider = e3d.colliders.SphereCollider(0.3)
         nodes.append(node)
     return scene
 

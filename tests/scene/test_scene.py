@@ -59,7 +59,7 @@ def test_nodes_and_renderers_say_that_they_cannot_be_copied(scene, copied):
         e3d.Renderer(8, 8),
         e3d.Scene().select(),
         e3d.Animator(e3d.Scene()),
-        e3d.Walker(e3d.NavigationGrid(e3d.plane((4, 4))), 0, 0),
+        e3d.navigation.Walker(e3d.navigation.NavigationGrid(e3d.plane((4, 4))), 0, 0),
     ],
     ids=lambda thing: type(thing).__name__,
 )

@@ -70,7 +70,7 @@ class Things:
         }
 
     def skin(self):
-        return e3d.Skin(self.joints, np.tile(np.eye(4), (2, 1, 1)))
+        return e3d.motion.Skin(self.joints, np.tile(np.eye(4), (2, 1, 1)))
 
 
 KINDS = (
@@ -123,7 +123,9 @@ VALUES = {
         "static": lambda r, t: bool(r.integers(2)),
         "cast_shadows": lambda r, t: bool(r.integers(2)),
         "receive_shadows": lambda r, t: bool(r.integers(2)),
-        "collider": lambda r, t: pick(r, None, e3d.SphereCollider(0.5), e3d.MeshCollider(t.mesh)),
+        "collider": lambda r, t: pick(
+            r, None, e3d.colliders.SphereCollider(0.5), e3d.colliders.MeshCollider(t.mesh)
+        ),
     },
     e3d.Mesh: {
         "positions": lambda r, t: FLAG + r.normal(0, 0.2, (V, 3)),

@@ -23,7 +23,7 @@ def part():
 
 
 def drawn(models, size=SIZE, **options):
-    return e3d.contact_sheet(models, size=size, threads=1, **options)
+    return e3d.sheets.contact_sheet(models, size=size, threads=1, **options)
 
 
 def views_of(sheet, model=0):

@@ -15,7 +15,7 @@ OPTIONS = {"views": "front,iso,turned=20,30", "sections": "x=0.8", "size": SIZE}
 
 
 def data_of(**options):
-    sheet = e3d.contact_sheet(part(), **OPTIONS, **options)
+    sheet = e3d.sheets.contact_sheet(part(), **OPTIONS, **options)
     return sheet.encode(), sheet.json()
 
 
@@ -50,8 +50,8 @@ def test_a_scene_is_left_alone_when_drawing_fails():
     nodes = scene.nodes
     with pytest.raises(e3d.InvalidArgumentError):
         drawn(scene, views="camera0")
-    with pytest.raises(e3d.BackendError):
-        e3d.contact_sheet(scene, size=SIZE, backend="none")
+    with pytest.raises(e3d.errors.BackendError):
+        e3d.sheets.contact_sheet(scene, size=SIZE, backend="none")
     assert scene.nodes == nodes and scene.ambient == pytest.approx((0.5, 0.4, 0.3))
 
 
@@ -100,13 +100,13 @@ def test_files_say_their_format_and_unit(tmp_path):
 
 def test_several_models_have_a_part_each():
     meshes = [e3d.box(), e3d.uv_sphere(1.0, (12, 6)), part()]
-    sheet = e3d.contact_sheet(meshes, size=(480, 200), views="front,iso", threads=1)
+    sheet = e3d.sheets.contact_sheet(meshes, size=(480, 200), views="front,iso", threads=1)
     assert (sheet.picture.width, sheet.picture.height) == (480, 600)
     assert [model["title"] for model in sheet.report["models"]] == ["box", "uv_sphere", "scene"]
     for number, model in enumerate(sheet.report["models"]):
         for view in model["views"]:
             assert 200 * number <= view["rectangle"][1] < 200 * (number + 1)
-    one = e3d.contact_sheet(meshes[0], size=(480, 200), views="front,iso", threads=1)
+    one = e3d.sheets.contact_sheet(meshes[0], size=(480, 200), views="front,iso", threads=1)
     assert np.array_equal(sheet.picture.pixels[:200], one.picture.pixels)
     assert sheet.at(100, 300) is None or sheet.at(100, 300)["model"] == 1
 
@@ -202,14 +202,14 @@ def test_long_texts_lose_their_middle():
 @pytest.mark.parametrize("models", [[], 3, [3], [None]])
 def test_what_is_no_model(models):
     with pytest.raises(e3d.InvalidArgumentError, match="model"):
-        e3d.contact_sheet(models)
+        e3d.sheets.contact_sheet(models)
 
 
 def test_sizes_that_are_too_small_or_too_large():
     with pytest.raises(e3d.InvalidArgumentError, match="too few"):
         drawn(part(), (120, 90))
     with pytest.raises(e3d.InvalidArgumentError, match="rows"):
-        e3d.contact_sheet([part()] * 9, size=(400, 4000))
+        e3d.sheets.contact_sheet([part()] * 9, size=(400, 4000))
 
 
 def test_lines_fade_where_there_are_many():

@@ -24,11 +24,11 @@ def random_scene(seed):
             scale=random.uniform(0.3, 1.5, 3),
         )
         kinds = (
-            lambda: e3d.SphereCollider(0.4, (0.1, 0, 0)),
-            lambda: e3d.BoxCollider((-1, 0, 0), (1, 0.5, 0.2)),
-            lambda: e3d.MeshCollider(e3d.box()),
-            lambda: e3d.MeshCollider(),
-            lambda: e3d.BoxCollider(),
+            lambda: e3d.colliders.SphereCollider(0.4, (0.1, 0, 0)),
+            lambda: e3d.colliders.BoxCollider((-1, 0, 0), (1, 0.5, 0.2)),
+            lambda: e3d.colliders.MeshCollider(e3d.box()),
+            lambda: e3d.colliders.MeshCollider(),
+            lambda: e3d.colliders.BoxCollider(),
         )
         node.collider = kinds[k % 5 if node.object is not None else k % 3]()
         node.visible = k % 13 > 0
@@ -39,11 +39,11 @@ def samples(node):
     """Points of a node's collider in the world: of its surface for meshes, else of its inside."""
     collider, pose = node.collider, node.world_pose
     grid = np.stack(np.meshgrid(*[np.linspace(-1, 1, 13)] * 3), -1).reshape(-1, 3)
-    if isinstance(collider, e3d.SphereCollider):
+    if isinstance(collider, e3d.colliders.SphereCollider):
         inside = grid[(grid * grid).sum(axis=1) <= 1]
         radius = collider.radius * np.sqrt((pose[:3, :3] ** 2).sum(axis=0)).max()
         return linalg.transform_points(pose, collider.center) + inside * radius
-    if isinstance(collider, e3d.MeshCollider):
+    if isinstance(collider, e3d.colliders.MeshCollider):
         mesh = collider.mesh or node.object
         weights = np.array([(i, j, 12 - i - j) for i in range(13) for j in range(13 - i)]) / 12
         corners = mesh.positions[mesh.faces].astype(np.float64)
@@ -78,7 +78,7 @@ def test_overlaps_against_samples(seed):
 def test_rays_are_those_of_faces():
     scene, random = random_scene(7)
     for node in scene.nodes:
-        node.collider = None if node.object is None else e3d.MeshCollider()
+        node.collider = None if node.object is None else e3d.colliders.MeshCollider()
     for _ in range(40):
         origin, direction = random.normal(0, 8, 3), random.normal(size=3)
         hit, expected = scene.raycast_colliders(origin, direction), scene.raycast(origin, direction)
@@ -91,9 +91,9 @@ def test_rays_are_those_of_faces():
 def test_rays_against_boxes_and_spheres():
     scene = e3d.Scene()
     box = scene.add(translation=(5, 0, 0))
-    box.collider = e3d.BoxCollider((-1, -1, -1), (1, 1, 1))
+    box.collider = e3d.colliders.BoxCollider((-1, -1, -1), (1, 1, 1))
     ball = scene.add(translation=(0, 9, 0), scale=(1, 2, 1))
-    ball.collider = e3d.SphereCollider(1.5)
+    ball.collider = e3d.colliders.SphereCollider(1.5)
     hit = scene.raycast_colliders((0, 0, 0), (3, 0, 0))
     assert (hit.node, hit.distance, hit.position.tolist()) == (box, 4, [4, 0, 0])
     hit = scene.raycast_colliders((0, 0, 0), (0, 1, 0))
@@ -112,7 +112,7 @@ def test_colliders_follow_what_changes():
     mesh = e3d.box()
     node = scene.add(mesh)
     assert scene.overlap_box((-1, -1, -1), (1, 1, 1)) == ()
-    node.collider = e3d.BoxCollider()
+    node.collider = e3d.colliders.BoxCollider()
     assert scene.overlap_box((0.4, 0, 0), (1, 1, 1)) == (node,)
     node.translation = (2, 0, 0)
     assert scene.overlap_box((0.4, 0, 0), (1, 1, 1)) == ()
@@ -138,12 +138,12 @@ def test_triangles_that_only_their_edges_keep_apart():
     ("make", "message"),
     [
         (lambda s, n: setattr(n, "collider", "box"), "collider must be"),
-        (lambda s, n: setattr(n, "collider", e3d.MeshCollider()), "own mesh"),
-        (lambda s, n: setattr(n, "collider", e3d.BoxCollider()), "own mesh"),
-        (lambda s, n: e3d.BoxCollider((0, 0, 0)), "both corners"),
-        (lambda s, n: e3d.BoxCollider((1, 0, 0), (0, 1, 1)), "above"),
-        (lambda s, n: e3d.SphereCollider(0), "radius"),
-        (lambda s, n: e3d.MeshCollider(3), "mesh must be"),
+        (lambda s, n: setattr(n, "collider", e3d.colliders.MeshCollider()), "own mesh"),
+        (lambda s, n: setattr(n, "collider", e3d.colliders.BoxCollider()), "own mesh"),
+        (lambda s, n: e3d.colliders.BoxCollider((0, 0, 0)), "both corners"),
+        (lambda s, n: e3d.colliders.BoxCollider((1, 0, 0), (0, 1, 1)), "above"),
+        (lambda s, n: e3d.colliders.SphereCollider(0), "radius"),
+        (lambda s, n: e3d.colliders.MeshCollider(3), "mesh must be"),
         (lambda s, n: s.overlap_box((1, 1, 1), (0, 0, 0)), "above"),
         (lambda s, n: s.overlap_sphere((0, 0, 0), -1), "radius"),
         (lambda s, n: s.raycast_colliders((0, 0, 0), (0, 0, 0)), "direction"),
@@ -162,7 +162,7 @@ def test_a_box_without_end_meets_every_mesh_and_nothing_beside_them():
     for count in range(1, 60):
         positions = random.random((3 * count, 3))
         mesh = e3d.Mesh(positions, np.arange(3 * count).reshape(-1, 3))
-        scene.add(mesh).collider = e3d.MeshCollider()
+        scene.add(mesh).collider = e3d.colliders.MeshCollider()
     assert scene.overlap_box((-1e300,) * 3, (1e300,) * 3) == scene.nodes
 
 
@@ -172,10 +172,10 @@ def test_many_colliders_against_each_alone():
     scene = e3d.Scene()
     mesh = e3d.icosphere(0.5, 1)
     kinds = (
-        lambda: e3d.SphereCollider(0.6, random.normal(0, 0.2, 3)),
-        lambda: e3d.BoxCollider((-0.5, -0.3, -0.4), (0.2, 0.5, 0.6)),
-        e3d.BoxCollider,
-        e3d.MeshCollider,
+        lambda: e3d.colliders.SphereCollider(0.6, random.normal(0, 0.2, 3)),
+        lambda: e3d.colliders.BoxCollider((-0.5, -0.3, -0.4), (0.2, 0.5, 0.6)),
+        e3d.colliders.BoxCollider,
+        e3d.colliders.MeshCollider,
     )
     nodes = []
     for k in range(300):

@@ -114,7 +114,7 @@ def test_axis_aligned_rays_along_faces_and_corners():
     scene = e3d.Scene()
     for x in range(3):
         for y in range(3):
-            scene.add(e3d.quad(), translation=(x, y, 0))
+            scene.add(e3d.primitives.quad(), translation=(x, y, 0))
     for x in np.linspace(-0.5, 2.5, 13):
         for y in np.linspace(-0.5, 2.5, 13):
             hit = scene.raycast((x, y, 4), (0, 0, -1))
@@ -128,7 +128,7 @@ def test_axis_aligned_rays_along_faces_and_corners():
 
 def test_sides_normals_and_distance():
     scene = e3d.Scene()
-    node = scene.add(e3d.quad(), scale=(2, 2, 1))
+    node = scene.add(e3d.primitives.quad(), scale=(2, 2, 1))
     hit = scene.raycast((0.5, 0.25, 3), (0, 0, -2))
     assert hit.node is node
     assert hit.distance == 3
@@ -150,7 +150,7 @@ def test_what_is_not_finite_is_not_met():
     scene = e3d.Scene()
     positions = np.float32([(-1, -1, 0), (1, -1, 0), (np.nan, 1, 0), (0, 1, 0)])
     scene.add(e3d.Mesh(positions, [(0, 1, 2), (0, 1, 3)]))
-    scene.add(e3d.InstancedMesh(e3d.quad(), [(0, 0, 1, np.inf), (0, 0, -1, 1)]))
+    scene.add(e3d.InstancedMesh(e3d.primitives.quad(), [(0, 0, 1, np.inf), (0, 0, -1, 1)]))
     assert scene.raycast((0, 0, 5), (0, 0, -1)).face == 1
 
 
@@ -179,7 +179,7 @@ def test_many_need_as_many():
         e3d.Scene().raycast_many(np.zeros((2, 3)), np.ones((3, 3)))
 
 
-IDS = ("object_id", "instance_id", "triangle_id")
+IDS = ("object_id", "instance_id", "face_id")
 
 
 @pytest.mark.parametrize("exact", [True, False])
@@ -222,7 +222,7 @@ def test_picking_lines_and_removed_nodes():
 def test_picking_what_is_not_there_any_more():
     """A mesh with fewer faces, fewer instances than the frame shows."""
     camera = e3d.PerspectiveCamera(yfov=1.0), e3d.look_at((0, 0, 5), (0, 0, 0))
-    outputs = ("object_id", "instance_id", "triangle_id")
+    outputs = ("object_id", "instance_id", "face_id")
     mesh = e3d.icosphere(1.0, 1)
     crowd = e3d.InstancedMesh(mesh, [(9, 0, 0, 1), (0, 0, 0, 1)])
     scene = e3d.Scene()

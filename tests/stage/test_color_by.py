@@ -73,7 +73,7 @@ def test_the_command_draws_the_same_bytes(tmp_path, format, model, said, keyword
         warnings.simplefilter("ignore")  # of what the format cannot hold
         mesh.save(tmp_path / f"model.{format}")
     command = ["render", str(tmp_path / f"model.{format}"), "-o", str(tmp_path / "command.png")]
-    command += ["--look", "plain", "--unlit", "--samples", "1", "--resolution", "160x120"]
+    command += ["--look", "plain", "--unlit", "--samples", "1", "--size", "160x120"]
     command += ["--bar", "--point-size", "3", "-q", *said]
     assert main(command) == (1 if lacking else 0)
     loaded = e3d.load_mesh(tmp_path / f"model.{format}")
@@ -113,10 +113,10 @@ def test_the_title_of_a_series():
 
 def test_where_there_is_no_number():
     square = e3d.Mesh([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)])
-    outputs = ("color", "triangle_id")
+    outputs = ("color", "face_id")
     numbers = e3d.Values([np.nan, 1.0], on="faces")
     frame = drawn(square, color_by=numbers, clim=(0, 1), outputs=outputs)
-    seen = {tuple(color) for color in frame.color[frame.triangle_id >= 0][:, :3].tolist()}
+    seen = {tuple(color) for color in frame.color[frame.face_id >= 0][:, :3].tolist()}
     assert seen == {MISSING, tuple(colormap("viridis")[-1].tolist())}
 
 

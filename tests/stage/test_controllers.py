@@ -155,7 +155,7 @@ def ground_walker(view, gaze=(0.0, 0.0)):
     step, wall = e3d.box((20, 0.6, 3)), e3d.box((20, 4, 0.2))
     step.positions = step.positions + np.float32([0, 0, -4.5])
     wall.positions = wall.positions + np.float32([0, 0, -8])
-    walker = e3d.Walker(e3d.NavigationGrid([floor, step, wall]), 0.1, 0.1)
+    walker = e3d.navigation.Walker(e3d.navigation.NavigationGrid([floor, step, wall]), 0.1, 0.1)
     return GroundController(view, BOUNDS, Ground(np.eye(3), 1.0, walker), gaze)
 
 

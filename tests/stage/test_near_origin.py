@@ -49,7 +49,7 @@ def test_pictures_are_those_of_a_model_at_the_origin(paths, tmp_path):
         output = tmp_path / f"{path.stem}.png"
         options = ["--camera-position=" + ",".join(map(repr, (offset + (1, 1, 2)).tolist()))]
         options += ["--camera-focal-point=" + ",".join(map(repr, offset.tolist()))]
-        options += ["--resolution", "120x90", "--quiet"]
+        options += ["--size", "120x90", "--quiet"]
         assert main(["render", str(path), "-o", str(output), *options]) == 0
         outputs.append(e3d.load_texture(output).pixels.astype(int))
     assert (np.abs(outputs[0] - outputs[1]).max(axis=2) > 2).mean() < 2e-3

@@ -401,7 +401,7 @@ def test_the_grid_shows_moves_and_goes(heat):
 
 def test_on_the_command_line(heat, capsys):
     path = heat.with_name("out.png")
-    command = ["render", str(heat), "--resolution", "200x150", "-o", str(path)]
+    command = ["render", str(heat), "--size", "200x150", "-o", str(path)]
     seen = set()
     for options in ([], ["-s"], ["-b"], ["--coloring-range", "-5,50"], ["--colormap", "turbo"]):
         assert main([*command, *options]) == 0

@@ -38,7 +38,6 @@ REPEATED_LISTS = {
         "apps.datasets.bop: bbox_obj to visib_fract",
         "apps.datasets.bop: cam_K to depth_scale",
         "apps.datasets.folders: camera to things",
-        "apps.golden.golden_files: dtype to shape",
         "io.formats.gltf.gltf_textures, io.formats.gltf.written_materials: magFilter to wrapT",
     ),
     "the same record of two kinds of things, each value found in another way": (

@@ -94,11 +94,16 @@ def folder_of(name):
     return "/".join(folders[:1] if folders[0] in whole else folders[:2])
 
 
+def include_lines(name):
+    """What one includes, as it is written there; system headers in their brackets."""
+    return re.findall(r'^\s*#\s*include\s+("[^"]+"|<[^>]+>)', SOURCES[name], re.M)
+
+
 def included_by(name):
     """The files of csrc/ that one includes."""
     here = PurePosixPath(name).parent.as_posix()
     found = set()
-    for header in re.findall(r'^\s*#\s*include\s+"([^"]+)"', SOURCES[name], re.M):
+    for header in [line.strip('"') for line in include_lines(name)]:
         places = [header, f"include/{header}", f"{here}/{header}"]
         found.update([place for place in places if place in SOURCES][:1])
     return found
@@ -206,6 +211,14 @@ def test_no_headers_with_their_c_files_include_each_other_in_a_circle():
     for name, headers in INCLUDES.items():
         graph[unit_of(name)] |= {unit_of(header) for header in headers} - {unit_of(name)}
     assert circles(dict(graph)) == []
+
+
+def test_c_files_include_nothing_that_their_own_headers_include():
+    pairs = [(name, f"{unit_of(name)}.h") for name in SOURCES if name.endswith(".c")]
+    together = [(name, own) for name, own in pairs if own in SOURCES]
+    assert len(together) > 100
+    shared = {name: {*include_lines(name)} & {*include_lines(own)} for name, own in together}
+    assert {name: both for name, both in shared.items() if both} == {}
 
 
 def test_stages_ask_what_is_planned_and_not_what_was_asked_for():

@@ -106,7 +106,7 @@ def test_an_underscore_tells_what_a_package_keeps_to_itself(package):
     assert {name for name in names if "._" not in name} == offered
 
 
-ALIASES = {"batch", "datasets", "events", "golden", "linalg", "loaders", "notebook", "primitives"}
+ALIASES = {"golden", "notebook", *engine3d._MODULES} - {"choices", "errors"}
 
 
 def test_the_top_of_the_package_holds_no_helpers():

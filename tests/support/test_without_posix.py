@@ -59,7 +59,7 @@ pathlib.Path("a.mtl").write_text("newmtl m\\nKd 1 0 0\\n")
 text = "mtllib a.mtl\\nv 0 0 0\\nv 1 0 0\\nv 0 1 0\\nusemtl m\\nf 1 2 3\\n"
 pathlib.Path("a.obj").write_text(text)
 from engine3d.apps.cli import main
-assert main(["render", "a.obj", "-o", "a.png", "--resolution", "32x24"]) == 0
+assert main(["render", "a.obj", "-o", "a.png", "--size", "32x24"]) == 0
 
 from engine3d.apps.batch.locking import locked_folder
 with locked_folder("."):

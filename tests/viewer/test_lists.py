@@ -106,8 +106,8 @@ def test_materials_are_listed_by_name_hidden_and_seen_alone():
 def test_a_triangle_keeps_its_number_while_others_are_hidden():
     viewer = make_viewer()
     viewer.draw()
-    frame = viewer.view_renderer.draw(viewer.view, 0.0, ("object_id", "triangle_id"))
-    rows, columns = np.nonzero((frame.object_id == 0) & (frame.triangle_id >= 6))
+    frame = viewer.view_renderer.draw(viewer.view, 0.0, ("object_id", "face_id"))
+    rows, columns = np.nonzero((frame.object_id == 0) & (frame.face_id >= 6))
     x, y = int(columns[len(columns) // 2]), int(rows[len(rows) // 2])
     viewer.select(x, y)
     number = viewer.selected.face

@@ -72,7 +72,7 @@ class Viewer(Desktop):
 def desktop(screen, tmp_path):
     (tmp_path / "cube.obj").write_text(CUBE)
     size = f"{WINDOW[0]}x{WINDOW[1]}"
-    with Viewer(screen, tmp_path, "cube.obj", "--look", "plain", "--resolution", size) as desktop:
+    with Viewer(screen, tmp_path, "cube.obj", "--look", "plain", "--size", size) as desktop:
         yield desktop
 
 
@@ -195,7 +195,7 @@ def test_what_stands_still_costs_nothing(screen, tmp_path):
     (tmp_path / "cube.obj").write_text(CUBE)
     with contextlib.ExitStack() as opened:
         viewers = [
-            opened.enter_context(Viewer(screen, tmp_path, *options, "--resolution", "400x300"))
+            opened.enter_context(Viewer(screen, tmp_path, *options, "--size", "400x300"))
             for _, options in STILL
         ]
         before = [processor_seconds(viewer.process.pid) for viewer in viewers]
@@ -243,7 +243,7 @@ def test_typed_letters_choose_a_file_in_the_dialog(desktop):
 
 def test_a_small_window_shows_all_keys_and_what_is_wrong_with_the_file(screen, tmp_path):
     (tmp_path / "cube.obj").write_text(CUBE)
-    options = ("--look", "plain", "--resolution", "320x240", "--watch")
+    options = ("--look", "plain", "--size", "320x240", "--watch")
     with Viewer(screen, tmp_path, "cube.obj", *options) as desktop:
         plain = desktop.settle()
         pages = []

@@ -203,7 +203,7 @@ def test_what_cannot_be_shown_is_told(thing, options, said):
 def test_without_a_screen_one_error_says_so(monkeypatch, thing):
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"):
         monkeypatch.delenv(name, raising=False)
-    with pytest.raises(e3d.DisplayError, match="^no screen"):
+    with pytest.raises(e3d.errors.DisplayError, match="^no screen"):
         module.show(thing)
 
 

@@ -278,9 +278,9 @@ def test_closing_twice_and_opening_again(monkeypatch):
 def test_without_a_screen_the_error_says_so(monkeypatch):
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"):
         monkeypatch.delenv(name, raising=False)
-    with pytest.raises(e3d.DisplayError, match="no screen"):
+    with pytest.raises(e3d.errors.DisplayError, match="no screen"):
         find_screen()
-    with pytest.raises(e3d.DisplayError, match="no screen"):
+    with pytest.raises(e3d.errors.DisplayError, match="no screen"):
         Window(64, 64, "nowhere")
 
 
@@ -288,7 +288,7 @@ def test_a_screen_that_does_not_answer_is_no_screen(monkeypatch):
     monkeypatch.setenv("DISPLAY", ":9731")
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     monkeypatch.delenv("SDL_VIDEODRIVER", raising=False)
-    with pytest.raises(e3d.DisplayError, match="no screen"):
+    with pytest.raises(e3d.errors.DisplayError, match="no screen"):
         Window(64, 64, "nowhere")
 
 

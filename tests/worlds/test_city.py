@@ -37,19 +37,19 @@ def digest(world):
 
 @pytest.fixture(scope="module")
 def town():
-    return e3d.city(150_000, seed=3)
+    return e3d.worlds.city(150_000, seed=3)
 
 
 @pytest.mark.parametrize(("triangles", "seed"), DIGESTS)
 def test_bytes(triangles, seed):
-    assert digest(e3d.city(triangles, seed)) == DIGESTS[triangles, seed]
+    assert digest(e3d.worlds.city(triangles, seed)) == DIGESTS[triangles, seed]
 
 
 def test_bytes_do_not_depend_on_instruction_sets():
     program = (
         "import sys; sys.path.insert(0, sys.argv[1]); import engine3d as e3d; from worlds import"
         " test_city as t; "
-        "print(t.digest(e3d.city(100_000)))"
+        "print(t.digest(e3d.worlds.city(100_000)))"
     )
     old = {
         "NPY_DISABLE_CPU_FEATURES": "AVX2 FMA3 AVX512F AVX512CD AVX512_SKX X86_V3 X86_V4",
@@ -71,13 +71,13 @@ def test_bytes_do_not_depend_on_instruction_sets():
 @pytest.mark.parametrize("triangles", [20_000, 50_000, 100_000, 333_333, 1_000_000])
 @pytest.mark.parametrize("seed", [0, 7])
 def test_as_many_triangles_as_asked_for(triangles, seed):
-    found = e3d.city(triangles, seed).triangles
+    found = e3d.worlds.city(triangles, seed).triangles
     assert 0.99 * triangles <= found <= triangles
 
 
 @pytest.mark.slow
 def test_ten_million_triangles():
-    world = e3d.city(10_000_000)
+    world = e3d.worlds.city(10_000_000)
     assert 9_999_000 <= world.triangles <= 10_000_000
     assert len(world.districts) > 50
 
@@ -95,13 +95,13 @@ def whole_tiles(world, reach):
 
 
 def test_a_larger_city_has_the_same_middle():
-    small, large = (whole_tiles(e3d.city(n, seed=5), 70.0) for n in (120_000, 600_000))
+    small, large = (whole_tiles(e3d.worlds.city(n, seed=5), 70.0) for n in (120_000, 600_000))
     assert len(small) > 100
     assert small == large
 
 
 def test_seeds_differ():
-    assert digest(e3d.city(50_000, 1)) != digest(e3d.city(50_000, 2))
+    assert digest(e3d.worlds.city(50_000, 1)) != digest(e3d.worlds.city(50_000, 2))
 
 
 def test_triangles_have_areas_and_normals_of_their_side(town):
@@ -151,7 +151,7 @@ def test_added_to_a_scene_it_is_a_node_a_district(town):
 
 
 def test_written_as_obj_it_reads_back_the_same(tmp_path):
-    mesh = e3d.city(20_000).mesh()
+    mesh = e3d.worlds.city(20_000).mesh()
     mesh.save(tmp_path / "city.obj")
     again = e3d.load_mesh(tmp_path / "city.obj")
     for name in ARRAYS:
@@ -166,9 +166,9 @@ def test_written_as_obj_it_reads_back_the_same(tmp_path):
 @pytest.mark.parametrize("arguments", [(0,), (19_999,), (50_000_001,), (1.5e5,), ("many",)])
 def test_bad_sizes(arguments):
     with pytest.raises(InvalidArgumentError, match="triangles"):
-        e3d.city(*arguments)
+        e3d.worlds.city(*arguments)
 
 
 def test_bad_seed():
     with pytest.raises(InvalidArgumentError, match="seed"):
-        e3d.city(100_000, seed=0.5)
+        e3d.worlds.city(100_000, seed=0.5)

@@ -65,11 +65,11 @@ def test_the_city_stands_still_until_it_is_played(view_renderer):
 def test_markings_are_whole_from_above(view_renderer, elevation, distance):
     """What shows is what shows where depths are told apart far better than they need be."""
     view = view_from(view_renderer, elevation, distance)
-    outputs = ("triangle_id", "object_id", "depth")
+    outputs = ("face_id", "object_id", "depth")
     seen = draw(view_renderer, view, outputs=outputs)
     nearest = float(seen.depth[seen.depth > 0].min())
     exact = draw(view_renderer, view, znear=0.99 * nearest, outputs=outputs)
-    differs = (seen.triangle_id != exact.triangle_id) | (seen.object_id != exact.object_id)
+    differs = (seen.face_id != exact.face_id) | (seen.object_id != exact.object_id)
     assert differs.mean() < 2e-4
 
 

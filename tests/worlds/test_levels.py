@@ -12,7 +12,7 @@ GROUND = ("asphalt", "stone", "marking", "gravel", "grass", "water")
 
 @pytest.fixture(scope="module")
 def world():
-    return e3d.city(400_000, seed=5)
+    return e3d.worlds.city(400_000, seed=5)
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +56,7 @@ def test_nobody_sees_it_from_where_it_is_chosen(world, levels, seed):
     random = np.random.default_rng(seed)
     scene = e3d.Scene(background=None, ambient=(0.5, 0.5, 0.5))
     scene.add(e3d.DirectionalLight((-0.5, -0.8, -0.4)))
-    detailed = e3d.DetailedMeshes(levels)
+    detailed = e3d.detail.DetailedMeshes(levels)
     group = detailed.add_to(scene)
     camera = e3d.PerspectiveCamera(0.7, znear=5.0, zfar=3000.0)
     side = random.uniform(-250, 250, 2)

@@ -116,7 +116,7 @@ def target(r, vertices):
     kinds = pick(r, "p", "n", "pn", "pt", "pnt")
     offsets = {"p": "positions", "n": "normals", "t": "tangents"}
     given = {offsets[kind]: r.normal(size=(vertices, 3)) for kind in kinds}
-    return e3d.MorphTarget(**given, name=pick(r, "", "up"))
+    return e3d.motion.MorphTarget(**given, name=pick(r, "", "up"))
 
 
 def mesh(r, materials):
@@ -182,9 +182,18 @@ def instances(r, meshes):
 
 
 def collider(r, obj, meshes):
-    sphere, box = e3d.SphereCollider(2, (1, 0, 0.5)), e3d.BoxCollider((0, 0, 0), (1, 2, 3))
-    own = (e3d.BoxCollider(), e3d.MeshCollider()) if isinstance(obj, e3d.Mesh) else ()
-    return pick(r, None, None, None, sphere, box, e3d.MeshCollider(pick(r, *meshes)), *own)
+    sphere, box = (
+        e3d.colliders.SphereCollider(2, (1, 0, 0.5)),
+        e3d.colliders.BoxCollider((0, 0, 0), (1, 2, 3)),
+    )
+    own = (
+        (e3d.colliders.BoxCollider(), e3d.colliders.MeshCollider())
+        if isinstance(obj, e3d.Mesh)
+        else ()
+    )
+    return pick(
+        r, None, None, None, sphere, box, e3d.colliders.MeshCollider(pick(r, *meshes)), *own
+    )
 
 
 def pose(r):
@@ -201,7 +210,9 @@ def channel(r, nodes):
         path, width = "weights", len(node.object.morph_targets)
     count, how = int(r.integers(1, 4)), pick(r, "linear", "step", "cubicspline")
     shape = (count, 3, width) if how == "cubicspline" else (count, width)
-    return e3d.Channel(node, path, np.cumsum(r.random(count) + 0.1), r.normal(size=shape), how)
+    return e3d.motion.Channel(
+        node, path, np.cumsum(r.random(count) + 0.1), r.normal(size=shape), how
+    )
 
 
 def surroundings(r, scene):
@@ -243,11 +254,13 @@ def any_scene(seed):
     binds = np.tile(np.eye(4), (3, 1, 1))
     for node in nodes:
         if isinstance(node.object, e3d.Mesh) and node.object.joints is not None:
-            node.skin = e3d.Skin([pick(r, *nodes) for _ in range(3)], binds, pick(r, "", "skin"))
+            node.skin = e3d.motion.Skin(
+                [pick(r, *nodes) for _ in range(3)], binds, pick(r, "", "skin")
+            )
         if isinstance(node.object, e3d.Mesh) and node.object.morph_targets:
             node.morph_weights = r.random(len(node.object.morph_targets))
     for number in range(int(r.integers(0, 3))):
-        clip = e3d.AnimationClip([channel(r, nodes) for _ in range(2)], pick(r, "", "same"))
+        clip = e3d.motion.AnimationClip([channel(r, nodes) for _ in range(2)], pick(r, "", "same"))
         scene.animations[f"clip é {number}"] = clip
     if r.random() < 0.4:
         scene.animator = e3d.Animator(scene)

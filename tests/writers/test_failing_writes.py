@@ -181,7 +181,7 @@ def stop(part):
 atomic_write._Part.finish = stop
 sys.exit(main(sys.argv[2:]))
 """
-SMALL = ["--resolution", "48x32"]
+SMALL = ["--size", "48x32"]
 COMMANDS = {
     "out.png": ["render", "--scene", "shapes", *SMALL, "-o", "out.png"],
     "out.gif": ["render", "--scene", "shapes", *SMALL, "--turntable", "2", "-o", "out.gif"],

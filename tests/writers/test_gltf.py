@@ -95,7 +95,7 @@ def check_same_scene(one, other):
     for a, b in zip(one.animations.values(), other.animations.values(), strict=True):
         for held, read in zip(a.channels, b.channels, strict=True):
             assert type(held) is type(read)
-            if isinstance(held, e3d.Channel):
+            if isinstance(held, e3d.motion.Channel):
                 assert number[held.node] == again[read.node]
             assert (held.path, held.interpolation) == (read.path, read.interpolation)
             assert np.array_equal(held.times, read.times)
@@ -226,7 +226,7 @@ def test_what_is_lost_is_told(tmp_path):
     scene = e3d.Scene(background=(10, 20, 30))
     mesh = e3d.box()
     mesh.groups = {"top": [0, 1]}
-    scene.add(mesh, name="crate").collider = e3d.BoxCollider()
+    scene.add(mesh, name="crate").collider = e3d.colliders.BoxCollider()
     scene.add(e3d.IntrinsicsCamera(9, 9, 5, 5), name="lens")
     scene.add(e3d.PointLight(range=3.0, falloff="window"), name="lamp")
     with pytest.warns(Engine3DWarning) as told:

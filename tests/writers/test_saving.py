@@ -130,7 +130,7 @@ def test_numbers_that_are_hard_to_write(tmp_path):
 def test_materials_and_textures(tmp_path):
     image = np.arange(24, dtype=np.uint8).reshape(2, 3, 4)
     texture = e3d.Texture(image, wrap="clamp")
-    mesh = e3d.quad((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))
+    mesh = e3d.primitives.quad((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))
     mesh.materials = [
         e3d.Material(
             name="# skin",

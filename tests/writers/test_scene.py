@@ -87,8 +87,9 @@ def random_scene(random):
     ball = e3d.uv_sphere(0.6, (8, 5))
     ball.materials = [material]
     objects = [
-        own, ball, e3d.box((1, 2, 0.5)), e3d.icosphere(subdivisions=1), e3d.quad(p0=(-1, -1, 0)),
-        e3d.torus(), e3d.cylinder(0.3), e3d.plane((2, 1), (3, 2)), None, None,
+        own, ball, e3d.box((1, 2, 0.5)), e3d.icosphere(subdivisions=1),
+        e3d.primitives.quad(p0=(-1, -1, 0)), e3d.torus(),
+        e3d.cylinder(0.3), e3d.plane((2, 1), (3, 2)), None, None,
         e3d.InstancedMesh(ball, random.normal(size=(4, 4))),
         e3d.InstancedMesh(own, [np.eye(4)], colors=[(0.1, 0.9, 1.5)]),
         e3d.PointLight((1.0, 0.8, 0.1), 9.0), e3d.PointLight(range=5.0, falloff="window"),
@@ -108,9 +109,17 @@ def random_scene(random):
         elif how == 2:
             node.translation = random.normal(size=3)
         node.visible = bool(random.random() < 0.9)
-        colliders = [None, e3d.SphereCollider(2, (1, 0, 0)), e3d.MeshCollider(own)]
-        colliders += [e3d.BoxCollider((0, 0, 0), (1, 2, 3))]
-        colliders += [e3d.BoxCollider(), e3d.MeshCollider()] if isinstance(obj, e3d.Mesh) else []
+        colliders = [
+            None,
+            e3d.colliders.SphereCollider(2, (1, 0, 0)),
+            e3d.colliders.MeshCollider(own),
+        ]
+        colliders += [e3d.colliders.BoxCollider((0, 0, 0), (1, 2, 3))]
+        colliders += (
+            [e3d.colliders.BoxCollider(), e3d.colliders.MeshCollider()]
+            if isinstance(obj, e3d.Mesh)
+            else []
+        )
         node.collider = colliders[random.integers(len(colliders))]
         nodes.append(node)
     for node in nodes:
@@ -275,7 +284,9 @@ def test_meshes_of_scenes_are_joined_and_listed(folder):
     scene = e3d.Scene()
     top = scene.add(translation=(5, 0, 0))
     scene.add(e3d.box(), parent=top, scale=2.0, name="box")
-    scene.add(e3d.InstancedMesh(e3d.quad(), [(0, 0, 1, 1), (0, 0, 2, 0.5)]), name="crowd")
+    scene.add(
+        e3d.InstancedMesh(e3d.primitives.quad(), [(0, 0, 1, 1), (0, 0, 2, 0.5)]), name="crowd"
+    )
     scene.add(e3d.box(), name="hidden").visible = False
     e3d.save_scene(scene, folder / "a.e3d.json")
     mesh = e3d.load_mesh(folder / "a.e3d.json")
@@ -326,7 +337,7 @@ def test_the_commands_open_scenes(tmp_path, monkeypatch, capsys):
     e3d.save_scene(scene, Path("a.e3d.json"))
     assert main(["info", "a.e3d.json"]) == 0
     assert "a.e3d.json: e3d" in capsys.readouterr().out
-    assert main(["render", "a.e3d.json", "-o", "a.png", "--resolution", "32x24"]) == 0
+    assert main(["render", "a.e3d.json", "-o", "a.png", "--size", "32x24"]) == 0
     assert e3d.load_texture("a.png").pixels[0, 0].tolist() == [255, 0, 0, 255]
 
 

@@ -60,7 +60,7 @@ def test_paths_that_cannot_be_written(odd_folder, path, suffix):
 
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: ascii(path)[:12])
 def test_paths_that_cannot_be_read(odd_folder, path):
-    resources = e3d.Resources()
+    resources = e3d.resources.Resources()
     for load in (load_mesh, load_document, load_texture, e3d.load_scene, resources.load_mesh):
         with pytest.raises(FileAccessError, match="cannot read: "):
             load(path)

@@ -17,6 +17,7 @@
 #include "check/driver/picture.h"
 #include "check/driver/renderers.h"
 #include "check/driver/scenes.h"
+#include "check/driver/scenes/clip_triangles.h"
 #include "check/driver/scenes/shadow_scene.h"
 
 /* What other libraries in a process may have done: the core must neither notice nor undo it. */
@@ -46,12 +47,12 @@ static void spoil(void *pixels, const e3d_frame *frame)
 /* Draws the IDs once more, without anything else: they take the shortest way of all. */
 static e3d_status draw_ids(e3d_renderer *renderer, const e3d_frame *frame, const e3d_targets *targets)
 {
-    const e3d_targets ids = {.triangle_id = targets->triangle_id,
+    const e3d_targets ids = {.face_id = targets->face_id,
                              .object_id = targets->object_id,
                              .instance_id = targets->instance_id,
                              .material_id = targets->material_id};
     e3d_stats stats;
-    spoil(ids.triangle_id, frame);
+    spoil(ids.face_id, frame);
     spoil(ids.object_id, frame);
     spoil(ids.instance_id, frame);
     spoil(ids.material_id, frame);
@@ -92,7 +93,7 @@ static e3d_status draw_clip_triangles(const void *data, e3d_backend backend, int
 {
     const clip_triangles *t = data;
     return e3d_rasterize(t->clip, t->vertices, t->faces, t->faces_count, t->width, t->height,
-                         t->cull, backend, threads, targets->triangle_id, targets->ndc_depth,
+                         t->cull, backend, threads, targets->face_id, targets->ndc_depth,
                          targets->barycentric);
 }
 
@@ -171,7 +172,7 @@ outcome compare_shadows(random_stream r, const run_plan *plan, const char *title
 outcome compare_rasterize(random_stream r, const run_plan *plan, const char *title)
 {
     clip_triangles t = clip_triangles_create(&r, plan->most_side);
-    uint32_t mask = 1u << E3D_OUTPUT_NDC_DEPTH | 1u << E3D_OUTPUT_TRIANGLE_ID | 1u << E3D_OUTPUT_BARYCENTRIC;
+    uint32_t mask = 1u << E3D_OUTPUT_NDC_DEPTH | 1u << E3D_OUTPUT_FACE_ID | 1u << E3D_OUTPUT_BARYCENTRIC;
     drawing all = {draw_clip_triangles, &t, (size_t)t.width * (size_t)t.height, mask};
     outcome result = compare(&all, plan, title);
     clip_triangles_destroy(&t);

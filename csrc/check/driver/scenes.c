@@ -8,22 +8,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const int32_t SIZES[][2] = {
-    {64, 64}, {65, 63}, {129, 97}, {160, 120}, {31, 200}, {7, 3}, {1, 1}, {1, 300}, {300, 1}};
-static const float HOSTILE[] = {
-    0.0f, -0.0f, 1e-45f, -1e-39f, 1e-20f, 1e20f, -3e38f, INFINITY, -INFINITY, NAN, 32768.0f, 0.5f};
+#include "check/driver/hostile.h"
 
 enum { MOST_GRID = 9,
        SOUP_TRIANGLES = 80 };
-
-/* Mostly one of the larger ones. */
-static const int32_t *random_size(random_stream *r)
-{
-    int32_t count = random_once_in(r, 4) ? (int32_t)(sizeof SIZES / sizeof *SIZES) : 5;
-    return SIZES[random_below(r, count)];
-}
-
-static int32_t limited(int32_t side, int32_t most) { return most > 0 && side > most ? most : side; }
 
 static void *scene_array(scene *s, size_t count, size_t size)
 {
@@ -75,14 +63,6 @@ static float *random_directions(scene *s, random_stream *r, int32_t count)
     return values;
 }
 
-/* Replaces about one value in `odds`. */
-static void poison(float *values, int32_t count, random_stream *r, int32_t odds)
-{
-    for (int32_t i = 0; i < count; i++)
-        if (random_once_in(r, odds))
-            values[i] = HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
-}
-
 /* A closed-looking wavy sheet: shared vertices, so that a crack would show as background. */
 static void grid_positions(float *positions, int32_t *faces, int32_t side, random_stream *r)
 {
@@ -119,7 +99,7 @@ static void describe_shape(scene *s, random_stream *r, e3d_mesh_desc *desc)
     desc->faces_count = random_below(r, SOUP_TRIANGLES);
     float *positions = random_floats(s, r, 3 * desc->vertices, -extent, extent);
     if (random_once_in(r, 2))
-        poison(positions, 3 * desc->vertices, r, 12);
+        hostile_replace(positions, 3 * desc->vertices, r, 12);
     desc->positions = positions;
     desc->faces = random_indices(s, r, 3 * desc->faces_count, desc->vertices);
 }
@@ -131,13 +111,13 @@ static e3d_status add_mesh(scene *s, random_stream *r, int32_t index)
     int32_t vertices = desc.vertices, faces = desc.faces_count;
     float *normals = random_directions(s, r, vertices);
     if (random_once_in(r, 8))
-        poison(normals, 3 * vertices, r, 10);
+        hostile_replace(normals, 3 * vertices, r, 10);
     desc.normals = normals;
     desc.face_normals = random_directions(s, r, faces);
     if (!random_once_in(r, 4)) {
         float *uvs = random_floats(s, r, 2 * vertices, -1.5f, 2.5f);
         if (random_once_in(r, 8))
-            poison(uvs, 2 * vertices, r, 10);
+            hostile_replace(uvs, 2 * vertices, r, 10);
         desc.uvs = uvs;
     }
     if (random_once_in(r, 2))
@@ -145,7 +125,7 @@ static e3d_status add_mesh(scene *s, random_stream *r, int32_t index)
     if (random_once_in(r, 2)) {
         float *tangents = random_floats(s, r, 4 * vertices, -1.0f, 1.0f);
         if (random_once_in(r, 8))
-            poison(tangents, 4 * vertices, r, 10);
+            hostile_replace(tangents, 4 * vertices, r, 10);
         desc.tangents = tangents;
     }
     int32_t colors = random_below(r, 3);
@@ -221,7 +201,7 @@ static void add_instances(scene *s, random_stream *r, e3d_draw *draw)
             poses[16 * i + k] = (float)pose[k];
     }
     if (random_once_in(r, 6))
-        poison(poses, size * draw->instances, r, 30);
+        hostile_replace(poses, size * draw->instances, r, 30);
     draw->poses = poses;
     if (random_once_in(r, 3))
         draw->instance_ids = random_indices(s, r, draw->instances, 1000);
@@ -467,9 +447,7 @@ static void add_ambient(scene *s, random_stream *r)
 e3d_status scene_create(scene *s, random_stream *r, int32_t most_side)
 {
     memset(s, 0, sizeof *s);
-    const int32_t *size = random_size(r);
-    s->frame.width = limited(size[0], most_side);
-    s->frame.height = limited(size[1], most_side);
+    hostile_size(r, most_side, &s->frame.width, &s->frame.height);
     choose_look(&s->frame, r);
     s->calm = random_once_in(r, 3);
     aim_camera(s, r);
@@ -500,9 +478,9 @@ static void add_rare_parts(e3d_material *material, random_stream *r)
         p->iridescence_thickness[k] = random_float(r, 0.0f, 1500.0f);
     }
     if (!usual)
-        p->transmission = HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
+        p->transmission = hostile_float(r);
     if (!usual)
-        p->thickness = HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
+        p->thickness = hostile_float(r);
 }
 
 void scene_add_alpha(scene *s, random_stream *r)
@@ -513,8 +491,8 @@ void scene_add_alpha(scene *s, random_stream *r)
         int usual = !random_once_in(r, 6);
         int32_t mode = random_below(r, 4);
         material->alpha_mode = i == sure || mode == 3 ? E3D_ALPHA_BLEND : (e3d_alpha_mode)mode;
-        material->alpha = usual ? random_float(r, 0.2f, 1.1f) : HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
-        material->alpha_cutoff = usual ? random_float(r, 0.1f, 0.7f) : HOSTILE[random_below(r, sizeof HOSTILE / sizeof *HOSTILE)];
+        material->alpha = usual ? random_float(r, 0.2f, 1.1f) : hostile_float(r);
+        material->alpha_cutoff = usual ? random_float(r, 0.1f, 0.7f) : hostile_float(r);
         if (material->is_physical)
             add_rare_parts(material, r);
     }
@@ -523,7 +501,7 @@ void scene_add_alpha(scene *s, random_stream *r)
 
 static e3d_environment_light environment_light(const scene *s, random_stream *r)
 {
-    float turn = random_float(r, -1.0f, 1.0f), intensity = random_once_in(r, 6) ? HOSTILE[random_below(r, 6)] : random_float(r, 0.0f, 3.0f);
+    float turn = random_float(r, -1.0f, 1.0f), intensity = random_once_in(r, 6) ? hostile_factor(r) : random_float(r, 0.0f, 3.0f);
     return (e3d_environment_light){s->environment, turn, sqrtf(1.0f - turn * turn), intensity};
 }
 
@@ -559,51 +537,4 @@ void scene_destroy(scene *s)
             e3d_texture_destroy(s->textures[i]);
     for (int32_t i = 0; i < s->array_count; i++)
         free(s->arrays[i]);
-}
-
-/* Corners anywhere, some of them hostile. */
-static void scatter(clip_triangles *t, random_stream *r)
-{
-    float extent = random_once_in(r, 3) ? 100.0f : 1.5f;
-    for (int32_t i = 0; i < 4 * t->vertices; i++)
-        t->clip[i] = random_float(r, -extent, extent);
-    if (random_once_in(r, 2))
-        poison(t->clip, 4 * t->vertices, r, 20);
-}
-
-/* Corners on pixel centres, with depths that are a few steps of the last bits apart: edges go through centres, depths
- * are equal, and rounding takes some beyond those of the corners. */
-static void align(clip_triangles *t, random_stream *r)
-{
-    const float depth = (float)random_below(r, 64) * (1.0f / 64.0f), step = 1.0f / (float)(1 << 24);
-    for (int32_t i = 0; i < t->vertices; i++) {
-        float *const v = t->clip + 4 * (size_t)i;
-        v[0] = (float)(2 * random_below(r, t->width) + 1 - t->width) / (float)t->width;
-        v[1] = (float)(2 * random_below(r, t->height) + 1 - t->height) / (float)t->height;
-        v[2] = depth + (float)random_below(r, 4) * step;
-        v[3] = 1.0f;
-    }
-}
-
-clip_triangles clip_triangles_create(random_stream *r, int32_t most_side)
-{
-    const int32_t *size = random_size(r);
-    clip_triangles t = {.width = limited(size[0], most_side), .height = limited(size[1], most_side)};
-    t.vertices = 3 + random_below(r, 200);
-    t.faces_count = random_below(r, 300);
-    t.cull = (e3d_cull)random_below(r, 3);
-    t.clip = calloc((size_t)t.vertices * 4, sizeof *t.clip);
-    t.faces = calloc((size_t)t.faces_count * 3 + 1, sizeof *t.faces);
-    if (t.clip == NULL || t.faces == NULL)
-        abort();
-    (random_once_in(r, 3) ? align : scatter)(&t, r);
-    for (int32_t i = 0; i < 3 * t.faces_count; i++)
-        t.faces[i] = random_below(r, t.vertices);
-    return t;
-}
-
-void clip_triangles_destroy(clip_triangles *t)
-{
-    free(t->clip);
-    free(t->faces);
 }

@@ -31,14 +31,6 @@ typedef struct scene {
     int calm; /* nothing but sheets, some way off: few triangles, none of them large */
 } scene;
 
-/* Arrays for e3d_rasterize. */
-typedef struct clip_triangles {
-    float *clip;    /* (vertices, 4) */
-    int32_t *faces; /* (faces_count, 3) */
-    int32_t vertices, faces_count, width, height;
-    e3d_cull cull;
-} clip_triangles;
-
 /* Sides are limited to `most_side` pixels; 0: by nothing. The scene must be destroyed also where this gives an error. */
 e3d_status scene_create(scene *s, random_stream *r, int32_t most_side);
 /* Masks some of its materials, and blends some: at least one. */
@@ -46,6 +38,3 @@ void scene_add_alpha(scene *s, random_stream *r);
 /* Light from all around, of a random picture; it may be the background as well. */
 e3d_status scene_add_environment(scene *s, random_stream *r);
 void scene_destroy(scene *s);
-
-clip_triangles clip_triangles_create(random_stream *r, int32_t most_side);
-void clip_triangles_destroy(clip_triangles *t);

@@ -33,8 +33,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     input in = {bytes, size};
     const uint32_t kinds = take_byte(&in), mode = kinds % MODES, filter = kinds / MODES % (NO_FILTER + 1);
     const uint32_t step = take_byte(&in) % (E3D_MESHOPT_MAX_STRIDE / 4) + 1;
-    const size_t stride = mode == ATTRIBUTES ? 4 * step : step % 2 ? 2
-                                                                   : 4;
+    const size_t of_indices = step % 2 ? 2 : 4, stride = mode == ATTRIBUTES ? 4 * step : of_indices;
     const size_t wanted = take_word(&in) % 4096, count = mode == TRIANGLES ? wanted / 3 * 3 : wanted;
     uint8_t *elements = room_for(count, stride), *again = room_for(count, stride);
     const bool done = unpack(mode, in, elements, count, stride);

@@ -4,8 +4,8 @@
  * Out: clusters with their boxes, cones of normals and own positions; groups of neighbouring clusters.
  * Always: the same arrays give the same clusters on any number of threads: ordered triangles (face_order.c) are cut into
  *      chunks of a fixed size, and each chunk is built by itself. Corners at the same place share a vertex, since geometry
- *      needs the position alone; where vertices are moved, those that move alike. A cluster's positions are structure of arrays, padded with its first vertex; a chunk's are one
- *      block of memory.
+ *      needs the position alone; where vertices are moved, those that move alike. A cluster's positions are structure of
+ *      arrays, padded with its first vertex; a chunk's are one slab.
  */
 #include "data/mesh/clusters.h"
 
@@ -193,13 +193,13 @@ static void build_clusters(builder *b, const int32_t *faces, int32_t first, int3
 /* Moves positions and indices from the thread's memory to a slab of their own. */
 static int keep_data(building *work, builder *b, int32_t chunk)
 {
-    void *block;
-    if (posix_memalign(&block, 64, b->used * sizeof(float)))
+    void *slab;
+    if (posix_memalign(&slab, 64, b->used * sizeof(float)))
         return 0;
-    memcpy(block, b->data, b->used * sizeof(float));
-    work->mesh->slabs[chunk] = block;
+    memcpy(slab, b->data, b->used * sizeof(float));
+    work->mesh->slabs[chunk] = slab;
     for (e3d_cluster *c = work->clusters + (size_t)chunk * (size_t)work->bound; c < b->now; c++)
-        c->positions = (float *)block + (c->positions - b->data);
+        c->positions = (float *)slab + (c->positions - b->data);
     return 1;
 }
 

@@ -27,16 +27,21 @@ static bool is_top_left(int64_t dx, int64_t dy)
     return dy < 0 || (dy == 0 && dx > 0);
 }
 
+static int64_t limited(e3d_wide value)
+{
+    if (value > FAR_AWAY)
+        return FAR_AWAY;
+    return value < -FAR_AWAY ? -FAR_AWAY : (int64_t)value;
+}
+
 static edge_function edge_at(e3d_subpixel a, e3d_subpixel b, int64_t x, int64_t y)
 {
     const int64_t dx = b.x - a.x;
     const int64_t dy = b.y - a.y;
     const e3d_subpixel centre = {x * SUBPIXELS + HALF_PIXEL, y * SUBPIXELS + HALF_PIXEL};
     const e3d_wide exact = doubled_area(a, b, centre) - !is_top_left(dx, dy);
-    const e3d_wide value = floor_div(exact, SUBPIXELS);
     return (edge_function){
-        .value = value > FAR_AWAY ? FAR_AWAY : value < -FAR_AWAY ? -FAR_AWAY
-                                                                 : (int64_t)value,
+        .value = limited(floor_div(exact, SUBPIXELS)),
         .per_x = -dy,
         .per_y = dx,
     };

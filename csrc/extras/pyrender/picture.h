@@ -9,7 +9,7 @@
 
 enum { PYR_BATCH = 64,        /* fragments that are lit side by side */
        PYR_BAND = 16,         /* a thread takes so many rows at a time */
-       PYR_CODE_STARTS = 4096 /* entries of e3d_pyr_codes */ };
+       PYR_CODE_STARTS = 4096 /* steps of pyr_picture.code_start */ };
 
 /* A vertex after its transformation. Clip space is f64: near planes of millimetres leave f32 few digits of depth. */
 typedef struct pyr_vertex {

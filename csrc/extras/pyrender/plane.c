@@ -3,10 +3,17 @@
 
 #include "extras/pyrender/picture.h"
 
+/* How many vertices a primitive has. */
+static int corners_count(int32_t mode)
+{
+    if (mode == E3D_PYR_TRIANGLES)
+        return 3;
+    return mode == E3D_PYR_LINES ? 2 : 1;
+}
+
 void pyr_corners(const e3d_pyr_draw *draw, int32_t number, int32_t out[3])
 {
-    int size = draw->mode == E3D_PYR_TRIANGLES ? 3 : draw->mode == E3D_PYR_LINES ? 2
-                                                                                 : 1;
+    int size = corners_count(draw->mode);
     for (int k = 0; k < 3; k++)
         out[k] = draw->indices[(size_t)number * (size_t)size + (size_t)(k < size ? k : 0)];
 }

@@ -53,9 +53,9 @@ static void mark_shown(const pyr_picture *picture, uint8_t *shows)
     const e3d_pyr_frame *frame = picture->frame;
     for (int32_t s = 0; s < frame->step_count; s++) {
         const e3d_pyr_step *step = &frame->steps[s];
-        if (step->triangle_id[0] && !step->object_id[0])
+        if (step->face_id[0] && !step->object_id[0])
             shows[step->draw_of_object[0]] = 1;
-        else if (!step->triangle_id[0])
+        else if (!step->face_id[0])
             memset(shows + step->first_draw, 1, (size_t)step->draw_count);
         else
             for (int p = 0; p < picture->places; p++)
@@ -140,7 +140,7 @@ static void clear(pyr_band *band)
 
 static void draw_step(pyr_band *band, const e3d_pyr_step *step)
 {
-    if (step->triangle_id[0]) {
+    if (step->face_id[0]) {
         pyr_draw_visible(band, step);
         return;
     }
@@ -285,7 +285,7 @@ e3d_status e3d_pyr_render(const e3d_pyr_frame *frame, int32_t threads, e3d_pyr_m
     size_t draws = (size_t)frame->draw_count;
     render_job job = {.picture = {.frame = frame}, .memory = memory};
     job.threads = threads > 0 ? threads : e3d_thread_count();
-    job.picture.keeps_samples = frame->step_count != 1 || !frame->steps[0].triangle_id[0];
+    job.picture.keeps_samples = frame->step_count != 1 || !frame->steps[0].face_id[0];
     for (int c = 0; c < 4; c++)
         job.picture.background[c] = pyr_code(frame->background[c]);
     set_places(&job.picture);

@@ -23,12 +23,18 @@ static level_view level_of(const e3d_pyr_texture *texture, int32_t level)
                         .wrap = texture->wrap};
 }
 
+static int32_t clamped(int64_t i, int32_t size)
+{
+    if (i < 0)
+        return 0;
+    return i < size ? (int32_t)i : size - 1;
+}
+
 /* The number of a texel along a side, wrapped from anywhere. */
 static int32_t wrapped(int64_t i, int32_t size, int32_t wrap)
 {
     if (wrap == E3D_PYR_CLAMP)
-        return (int32_t)(i < 0 ? 0 : i >= size ? size - 1
-                                               : i);
+        return clamped(i, size);
     int64_t period = wrap == E3D_PYR_MIRROR ? 2 * (int64_t)size : size;
     int64_t rest = i % period;
     rest = rest < 0 ? rest + period : rest;

@@ -36,7 +36,7 @@ static void set_row(const pyr_picture *picture, const e3d_pyr_step *step, int32_
     out->draw_of_object = step->draw_of_object;
     for (int p = 0; p < picture->places; p++) {
         out->object[p] = step->object_id[p] ? step->object_id[p] + first : NULL;
-        out->triangle[p] = step->triangle_id[p] + first;
+        out->triangle[p] = step->face_id[p] + first;
         out->instance[p] = step->instance_id[p] ? step->instance_id[p] + first : NULL;
     }
 }

@@ -367,12 +367,20 @@ static int find_grid(grid_job *job, e3d_array *starts, e3d_array *boxes, int32_t
     return 1;
 }
 
+/* The axis along which a vector is longest. */
+static int longest(const float v[3])
+{
+    float a = fabsf(v[0]), b = fabsf(v[1]), c = fabsf(v[2]);
+    if (a >= b && a >= c)
+        return 0;
+    return b >= c ? 1 : 2;
+}
+
 /* R98 */
 static void turn_to(const e3d_light *light, e3d_caster_light *out)
 {
     const float *l = light->to_light;
-    out->axis = fabsf(l[0]) >= fabsf(l[1]) && fabsf(l[0]) >= fabsf(l[2]) ? 0 : fabsf(l[1]) >= fabsf(l[2]) ? 1
-                                                                                                          : 2;
+    out->axis = longest(l);
     for (int c = 0; c < 2; c++)
         out->slope[c] = l[(out->axis + 1 + c) % 3] / l[out->axis];
 }

@@ -20,9 +20,7 @@ static e3d_cull cull_of(const e3d_cluster_job *j, int32_t face)
     const e3d_frame *frame = j->pass->frame;
     if (!j->draw->any_two_sided || j->draw->all_two_sided)
         return j->draw->all_two_sided ? E3D_CULL_NONE : frame->cull;
-    const e3d_mesh_desc *desc = &j->draw->mesh->desc;
-    int32_t material = j->draw->draw->material_base + (desc->material_ids ? desc->material_ids[face] : 0);
-    return frame->materials[material].two_sided ? E3D_CULL_NONE : frame->cull;
+    return e3d_material_at(frame, j->draw, face)->two_sided ? E3D_CULL_NONE : frame->cull;
 }
 
 /* The sign of the area (screen, Y down) of the faces that one-sided materials don't show; front faces have a negative one. */

@@ -84,24 +84,25 @@ static void install(e3d_bins *bins, e3d_record_set *sorted)
 }
 
 /* The alpha list of a record. */
-static int alpha_of(const e3d_prepared *pass, const e3d_record *record)
+static int alpha_of(const e3d_prepared *pass, const e3d_record *record, e3d_instance_finder *finder)
 {
     if (!e3d_plans(pass, E3D_PLAN_ALPHA_BINS))
         return E3D_ALPHA_NONE;
-    const e3d_order_entry *entry = e3d_find_order_entry(pass->draws, record->order);
-    const e3d_draw_state *draw = &pass->draws->states[entry->draw];
-    return e3d_alpha_kind_of(pass, draw, (int32_t)((record->order - entry->order) % (uint32_t)draw->primitives));
+    int32_t primitive = e3d_find_primitive(pass->draws, record->order, finder);
+    return e3d_alpha_kind_of(pass, finder->draw, primitive);
 }
 
 /* Bins the records of worker 0, in their order. */
 static int bin_sorted(const e3d_prepared *pass, e3d_bins *bins, size_t count)
 {
     e3d_record_set *set = &bins->of[0]->sets[E3D_SET_SCENE];
+    e3d_instance_finder finder = {0};
     for (size_t r = 0; r < count; r++) {
         const e3d_record *record = (const e3d_record *)set->records.data + r;
         e3d_box box = e3d_sample_box(record->x, record->y, &pass->view->viewport);
         const e3d_tile_rect span = e3d_tile_rect_of(&box);
-        if (!e3d_bin_records(pass->view, bins->of[0], set, e3d_chains_of(set, alpha_of(pass, record)), (uint32_t)r, &span, 1))
+        e3d_chains *chains = e3d_chains_of(set, alpha_of(pass, record, &finder));
+        if (!e3d_bin_records(pass->view, bins->of[0], set, chains, (uint32_t)r, &span, 1))
             return 0;
     }
     e3d_bins_index(bins);

@@ -47,8 +47,7 @@ static inline int e3d_alpha_kind(const e3d_prepared *pass, const e3d_material *m
 /* The same for a primitive of a draw, by its number in its instance. */
 static inline int e3d_alpha_kind_of(const e3d_prepared *pass, const e3d_draw_state *draw, int32_t primitive)
 {
-    const e3d_mesh_desc *mesh = &draw->mesh->desc;
-    int is_face = primitive < mesh->faces_count;
-    int32_t id = mesh->material_ids && is_face ? mesh->material_ids[primitive] : 0;
-    return draw->any_alpha ? e3d_alpha_kind(pass, &pass->frame->materials[draw->draw->material_base + id], is_face) : E3D_ALPHA_NONE;
+    if (!draw->any_alpha)
+        return E3D_ALPHA_NONE;
+    return e3d_alpha_kind(pass, e3d_material_at(pass->frame, draw, primitive), e3d_face_of(draw, primitive) >= 0);
 }

@@ -1,6 +1,5 @@
 /* prepare: numbers a frame's draws, instances and units of work, draw after draw, and gives them their places in the order
  * (R16). */
-#include "base/always_inline.h"
 #include "frame/pass/draws.h"
 #include "frame/pass/transmits.h"
 

@@ -110,3 +110,10 @@ static ALWAYS_INLINE int32_t e3d_material_of(const e3d_draw_state *draw, int32_t
 {
     return draw->mesh->material_most ? draw->mesh->desc.material_ids[face] : 0;
 }
+
+/* The material of a primitive, by its number in the mesh; lines and points have the first one of their draw. */
+static ALWAYS_INLINE const e3d_material *e3d_material_at(const e3d_frame *frame, const e3d_draw_state *draw, int32_t primitive)
+{
+    int32_t face = e3d_face_of(draw, primitive);
+    return &frame->materials[draw->draw->material_base + (face < 0 ? 0 : e3d_material_of(draw, face))];
+}

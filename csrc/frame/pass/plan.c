@@ -73,7 +73,7 @@ static asked_items asked_mode(const e3d_frame *f)
     case E3D_MODE_NORMAL: return ASKED(NORMAL_MODE);
     case E3D_MODE_OVERDRAW: return ASKED(OVERDRAW_MODE);
     case E3D_MODE_RANDOM:
-    case E3D_MODE_TRIANGLE_ID:
+    case E3D_MODE_FACE_ID:
     case E3D_MODE_OBJECT_ID: break;
     }
     return 0;

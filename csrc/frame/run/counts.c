@@ -3,7 +3,6 @@
  * Out: e3d_stats. */
 #include "frame/cull/cull.h"
 #include "frame/run/counts.h"
-#include "frame/geometry/geometry.h"
 #include "frame/geometry/records.h"
 #include "frame/geometry/round.h"
 #include "frame/pass/draws.h"

@@ -17,7 +17,7 @@ static e3d_frame clip_frame(int32_t width, int32_t height, e3d_cull cull)
 
 e3d_status e3d_rasterize(const float *clip, int32_t vertices, const int32_t *faces, int32_t faces_count,
                          int32_t width, int32_t height, e3d_cull cull, e3d_backend backend,
-                         int32_t threads, int32_t *triangle_id, float *depth, float *barycentric)
+                         int32_t threads, int32_t *face_id, float *depth, float *barycentric)
 {
     const e3d_mesh_desc desc = {.positions = clip,
                                 .components = 4,
@@ -40,7 +40,7 @@ e3d_status e3d_rasterize(const float *clip, int32_t vertices, const int32_t *fac
         frame.materials = &material;
         frame.material_count = 1;
         const e3d_targets targets = {
-            .triangle_id = triangle_id, .ndc_depth = depth, .barycentric = barycentric};
+            .face_id = face_id, .ndc_depth = depth, .barycentric = barycentric};
         status = e3d_render(renderer, &frame, &targets, NULL);
     }
     e3d_renderer_destroy(renderer);

@@ -66,8 +66,9 @@ e3d_status e3d_renderer_create(e3d_backend backend, int32_t threads, e3d_rendere
         return E3D_OUT_OF_MEMORY;
     renderer->backend = backend;
     renderer->kernels = e3d_kernels_for(backend);
-    renderer->threads = backend == E3D_BACKEND_SCALAR ? 1 : threads ? threads
-                                                                    : e3d_thread_count();
+    if (backend == E3D_BACKEND_SCALAR)
+        threads = 1;
+    renderer->threads = threads ? threads : e3d_thread_count();
     if (backend != E3D_BACKEND_SCALAR && !create_workers(renderer)) {
         e3d_renderer_destroy(renderer);
         return E3D_OUT_OF_MEMORY;

@@ -48,26 +48,20 @@ static void find_primitives(const e3d_shade_in *in, e3d_instance_finder *finder,
 
 /* ---- what is written of them ---- */
 
-static const e3d_output_kind IDENTITIES[] = {E3D_OUTPUT_TRIANGLE_ID, E3D_OUTPUT_OBJECT_ID, E3D_OUTPUT_INSTANCE_ID, E3D_OUTPUT_MATERIAL_ID};
+static const e3d_output_kind IDENTITIES[] = {E3D_OUTPUT_FACE_ID, E3D_OUTPUT_OBJECT_ID, E3D_OUTPUT_INSTANCE_ID, E3D_OUTPUT_MATERIAL_ID};
 enum { KINDS = sizeof IDENTITIES / sizeof *IDENTITIES,
        NOTHING = -1 };
 
-static int32_t material_id(const e3d_frame *frame, const e3d_draw_state *draw, int32_t primitive)
-{
-    int32_t face = e3d_face_of(draw, primitive);
-    return frame->materials[draw->draw->material_base + (face < 0 ? 0 : e3d_material_of(draw, face))].id;
-}
-
 static void find_values(const e3d_frame *frame, e3d_output_kind kind, const owners *of, int32_t *values)
 {
-    for (int32_t n = 0; n < of->count && kind == E3D_OUTPUT_TRIANGLE_ID; n++)
+    for (int32_t n = 0; n < of->count && kind == E3D_OUTPUT_FACE_ID; n++)
         values[n] = e3d_face_of(of->draw[n], of->primitive[n]);
     for (int32_t n = 0; n < of->count && kind == E3D_OUTPUT_OBJECT_ID; n++)
         values[n] = e3d_object_id(of->draw[n]->draw, of->instance[n]);
     for (int32_t n = 0; n < of->count && kind == E3D_OUTPUT_INSTANCE_ID; n++)
         values[n] = e3d_instance_id(of->draw[n]->draw, of->instance[n]);
     for (int32_t n = 0; n < of->count && kind == E3D_OUTPUT_MATERIAL_ID; n++)
-        values[n] = material_id(frame, of->draw[n], of->primitive[n]);
+        values[n] = e3d_material_at(frame, of->draw[n], of->primitive[n])->id;
 }
 
 /* ---- samples to pixels ---- */

@@ -7,7 +7,6 @@
 #include "kernels/types/shading.h"
 #include "kernels/types/shown.h"
 #include "frame/pass/prepared.h"
-#include "frame/shade/job.h"
 #include "frame/shade/runs.h"
 #include "frame/shade/shade.h"
 #include "frame/shade/steps.h"

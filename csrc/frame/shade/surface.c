@@ -30,8 +30,9 @@ static int corners_count(const e3d_visible_primitive *primitive)
 {
     const e3d_mesh_desc *mesh = &primitive->draw->mesh->desc;
     int32_t line = primitive->local - mesh->faces_count;
-    return line < 0 ? 3 : line < mesh->lines_count ? 2
-                                                   : 1;
+    if (line < 0)
+        return 3;
+    return line < mesh->lines_count ? 2 : 1;
 }
 
 static ALWAYS_INLINE void find_vertices(e3d_visible_primitive *primitive)

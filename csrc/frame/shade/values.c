@@ -157,7 +157,7 @@ static void put_ids(const batch_place *place, const e3d_shade_memory *memory)
     const int32_t *at = place->at;
     const e3d_visible_primitive *primitives = memory->primitives.data;
     const e3d_bucket *buckets = memory->buckets.data;
-    int32_t *triangles = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_TRIANGLE_ID);
+    int32_t *triangles = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_FACE_ID);
     int32_t *objects = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_OBJECT_ID);
     int32_t *instances = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_INSTANCE_ID);
     int32_t *materials = e3d_outputs_gathered(place->store, place->out, E3D_OUTPUT_MATERIAL_ID);

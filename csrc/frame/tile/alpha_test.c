@@ -122,10 +122,10 @@ int e3d_alpha_shade(const e3d_tile_job *job, e3d_sink sink, e3d_shaded_list to)
 
 typedef void (*sample_action)(const e3d_tile_job *job, e3d_visible_tile *plane, int32_t id, int32_t sample, float z);
 
-static void act_on_samples(const e3d_tile_job *job, const e3d_visible_primitive *piece, uint32_t id, float cutoff, sample_action act)
+static void act_on_samples(const e3d_tile_job *job, const e3d_visible_primitive *primitive, uint32_t id, float cutoff, sample_action act)
 {
     const e3d_alpha_memory *memory = &job->memory->alpha;
-    for (int32_t n = piece->first; n < piece->end; n++)
+    for (int32_t n = primitive->first; n < primitive->end; n++)
         if (memory->alpha[n] >= cutoff)
             act(job, job->visible, (int32_t)id, job->memory->shade.shown.sample[n], memory->z[n]);
 }
@@ -151,11 +151,11 @@ static uint32_t samples_left(const e3d_prepared *pass, const e3d_material *mater
     return alpha >= cutoff ? ~(uint32_t)0 : 0;
 }
 
-static void act_on_planes(const e3d_tile_job *job, const e3d_visible_primitive *piece, uint32_t id, const e3d_material *material, sample_action act)
+static void act_on_planes(const e3d_tile_job *job, const e3d_visible_primitive *primitive, uint32_t id, const e3d_material *material, sample_action act)
 {
     plane_pieces planes;
     find_planes(job, id, &planes);
-    for (int32_t n = piece->first; n < piece->end; n++) {
+    for (int32_t n = primitive->first; n < primitive->end; n++) {
         int32_t pixel = job->memory->shade.shown.sample[n] & (E3D_TILE_SAMPLES - 1);
         uint32_t left = (uint32_t)job->memory->multisample->alpha.cover[n] & samples_left(job->in->pass, material, job->memory->alpha.alpha[n]);
         for (; left; left &= left - 1) {

@@ -84,8 +84,8 @@ static int show_met(const e3d_kernels *kernels, const e3d_record_table *table, e
 static void judge(e3d_spans_memory *trial, int pays)
 {
     enum { MOST = 15 };
-    trial->without = pays ? 0 : 2 * trial->without + 1 < MOST ? 2 * trial->without + 1
-                                                              : MOST;
+    int more = 2 * trial->without + 1 < MOST ? 2 * trial->without + 1 : MOST;
+    trial->without = pays ? 0 : more;
     trial->left = trial->without;
 }
 

@@ -124,19 +124,20 @@ static int32_t leave_out_shaded(const e3d_tile_job *job, int32_t count)
     return left;
 }
 
-enum { FEW_PIECES = 64,
+enum { FEW_PRIMITIVES = 64,
        MANY_RECORDS = 768,
        MOSTLY = 4 }; /* in a tile */
 
-/* Whether samples are listed piece by piece: the bins must hold all of the tile, and few records may be wide or hidden. */
-static int shows_pieces(const e3d_tile_job *job)
+/* Whether samples are listed primitive by primitive: the bins must hold all of the tile, and few records may be wide or
+ * hidden. */
+static int shows_primitives(const e3d_tile_job *job)
 {
     if (!e3d_plans(job->in->pass, E3D_PLAN_LISTS) || job->state == E3D_TILE_KEPT || job->state == E3D_TILE_DRAWN ||
         has_alpha(job))
         return 0;
     e3d_entries in = e3d_count_entries(job->in->bins, job->number);
     uint32_t most = job->out->kept ? in.fragments / MOSTLY : MANY_RECORDS; /* tiles are kept where much is hidden */
-    return in.records <= most && in.records + in.fragments >= FEW_PIECES;
+    return in.records <= most && in.records + in.fragments >= FEW_PRIMITIVES;
 }
 
 /* Removes IDs beyond the viewport, where whole blocks and vectors are written, too. */
@@ -154,7 +155,7 @@ static int shade_visible(const e3d_tile_job *job)
     const e3d_kernels *kernels = job->in->pass->kernels;
     const e3d_bins *bins = job->in->bins;
     e3d_shown *shown = &job->memory->shade.shown;
-    if (shows_pieces(job)) {
+    if (shows_primitives(job)) {
         kernels->raster_settle(job->visible, &bins->tables[E3D_SET_SCENE], 0);
         clear_outside(job);
         e3d_visible_show(kernels, bins, job->number, job->visible, shown);

@@ -258,8 +258,7 @@ static int split(work *w, const int32_t *list, size_t count)
     for (size_t i = 0; i < count; i++) {
         const member m = root_of(w->members, (int32_t)i);
         const int has = has_area(facet_at(w, list, (int32_t)i));
-        const int32_t fan = has ? m.parent : whole < 0 ? 0
-                                                       : whole;
+        const int32_t joined = whole < 0 ? 0 : whole, fan = has ? m.parent : joined;
         w->claims[i] = (claim){s->faces[list[i]], fan, (int32_t)i, has ? m.turned : 0};
         w->made->is_smooth &= (whole < 0 || fan == whole) && !w->claims[i].turned;
     }

@@ -45,8 +45,7 @@ static turned find_turn(const e3d_mapped_surface *s, const int32_t corners[3])
     const float *a = s->uvs + 2 * (size_t)corners[0], *b = s->uvs + 2 * (size_t)corners[1], *c = s->uvs + 2 * (size_t)corners[2];
     const double du = (double)b[0] - a[0], dv = (double)b[1] - a[1], eu = (double)c[0] - a[0], ev = (double)c[1] - a[1];
     const double area = du * ev - eu * dv;
-    const int turn = area > 0 ? 1 : area < 0 ? -1
-                                             : 0;
+    const int turn = (area > 0) - (area < 0);
     const vector right = unit(scaled(minus(scaled(e, ev), scaled(f, dv)), turn));
     return (turned){right, dot(right, right) > 0 ? turn : 0};
 }

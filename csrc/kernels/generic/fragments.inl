@@ -265,7 +265,7 @@ static inline void fragment_make(const fragment_vector *v, vi32 place, int count
 static inline e3d_fragment_link *fragment_link(e3d_fragment_bins *out, int32_t tile)
 {
     e3d_bin *bin = &out->bins[tile];
-    if (bin->last != E3D_NO_LINK && out->links[bin->last].count <= E3D_BLOCK_FRAGMENTS - V_LANES)
+    if (bin->last != E3D_NO_LINK && out->links[bin->last].count <= E3D_LINK_FRAGMENTS - V_LANES)
         return &out->links[bin->last];
     e3d_fragment_link *link = &out->links[out->count];
     /* Prefetched for writing, since it is in no cache and would be fetched line by line as it fills */
@@ -288,7 +288,7 @@ static inline void fragment_bin(const fragment_buffer *from, int first, int32_t 
         uint32_t here = left[i] & v_bits(v_eqi(v_shr(at, 2 * E3D_TILE_SHIFT), v_seti(tile)));
         if (!here)
             continue;
-        if (count > E3D_BLOCK_FRAGMENTS - V_LANES) {
+        if (count > E3D_LINK_FRAGMENTS - V_LANES) {
             link->count = count;
             link = fragment_link(out, tile);
             count = 0;

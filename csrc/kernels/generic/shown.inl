@@ -166,7 +166,7 @@ static void kernel_show_records(const e3d_visible_tile *tile, const e3d_record_t
 /* First finds the fragments that show, since they may be few; without a branch, since which ones show is unpredictable. */
 static void kernel_show_fragments(const e3d_visible_tile *tile, const e3d_fragment_link *b, e3d_shown *out)
 {
-    uint8_t shown[E3D_BLOCK_FRAGMENTS];
+    uint8_t shown[E3D_LINK_FRAGMENTS];
     int32_t n = out->count, primitives = out->primitives, last = primitives ? (int32_t)out->primitive[primitives - 1].id : E3D_NO_SLOT, count = 0;
     for (uint32_t i = 0; i < b->count; i++) {
         shown[count] = (uint8_t)i;

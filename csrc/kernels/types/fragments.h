@@ -27,12 +27,12 @@ typedef struct e3d_bin {
 
 /* Fragments of one tile, in the order in which they were made. Kernels store whole vectors, so a link is full when less than
  * a vector is left. */
-enum { E3D_BLOCK_FRAGMENTS = 127 };
+enum { E3D_LINK_FRAGMENTS = 127 };
 typedef struct e3d_fragment_link {
     uint32_t next, count;
-    float z[E3D_BLOCK_FRAGMENTS];
-    int32_t id[E3D_BLOCK_FRAGMENTS];
-    uint16_t sample[E3D_BLOCK_FRAGMENTS];
+    float z[E3D_LINK_FRAGMENTS];
+    int32_t id[E3D_LINK_FRAGMENTS];
+    uint16_t sample[E3D_LINK_FRAGMENTS];
 } e3d_fragment_link;
 
 _Static_assert(sizeof(e3d_fragment_link) % 64 == 0, "links are whole cache lines");
@@ -50,5 +50,5 @@ typedef struct e3d_fragment_bins {
  * ones. */
 static inline size_t e3d_fragment_links_most(size_t tiles)
 {
-    return (tiles < E3D_MOST_FRAGMENTS ? tiles : E3D_MOST_FRAGMENTS) + E3D_MOST_FRAGMENTS / (E3D_BLOCK_FRAGMENTS - E3D_PAD);
+    return (tiles < E3D_MOST_FRAGMENTS ? tiles : E3D_MOST_FRAGMENTS) + E3D_MOST_FRAGMENTS / (E3D_LINK_FRAGMENTS - E3D_PAD);
 }

@@ -17,12 +17,17 @@ typedef struct bloom_image {
     float (*pixels)[3];
 } bloom_image;
 
+static int32_t within(int32_t i, int32_t side)
+{
+    if (i < 0)
+        return 0;
+    return i < side ? i : side - 1;
+}
+
 static float at(const bloom_image *image, int32_t x, int32_t y, int c)
 {
-    x = x < 0 ? 0 : x < image->width ? x
-                                     : image->width - 1;
-    y = y < 0 ? 0 : y < image->height ? y
-                                      : image->height - 1;
+    x = within(x, image->width);
+    y = within(y, image->height);
     return image->pixels[(size_t)y * (size_t)image->width + (size_t)x][c];
 }
 

@@ -77,14 +77,20 @@ int e3d_navigation_triangle(const e3d_navigation *grid, const e3d_navigation_mes
     return 1;
 }
 
+/* The number of a cell; `before` and `last` stand for those outside of the row. */
+static int32_t within(double cell, int32_t before, int32_t last)
+{
+    if (cell < 0.0)
+        return before;
+    return cell > last ? last : (int32_t)cell;
+}
+
 void e3d_navigation_span(double low, double high, double start, double cell, int32_t count, int32_t *first,
                          int32_t *last)
 {
     double a = ceil((low - start) / cell) - 1.0, b = floor((high - start) / cell);
-    *first = a < 0.0 ? 0 : a > count ? count
-                                     : (int32_t)a;
-    *last = b < 0.0 ? -1 : b > count - 1 ? count - 1
-                                         : (int32_t)b;
+    *first = within(a, 0, count);
+    *last = within(b, -1, count - 1);
 }
 
 static int add_sample(e3d_navigation *grid, sample added)

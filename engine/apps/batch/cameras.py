@@ -3,9 +3,11 @@
 In: a number, or an object of JSON with one of three sets of members; angles in degrees. Out: a
 camera and its pose. Near and far planes enclose the scene where nothing else is said.
 
-- framed: ``azimuth``, ``elevation``, ``up``, ``view_angle``, ``margin``: all of the scene shows;
-- placed: ``position``, ``target``, ``up``, and ``view_angle`` or, without perspective, ``height``;
-- posed: ``pose``, and ``view_angle``, ``height`` or ``intrinsics``.
+- framed: ``azimuth_degrees``, ``elevation_degrees``, ``up``, ``yfov_degrees``, ``margin``: all of
+  the scene shows;
+- placed: ``position``, ``target``, ``up``, and ``yfov_degrees`` or, without perspective,
+  ``height``;
+- posed: ``pose``, and ``yfov_degrees``, ``height`` or ``intrinsics``.
 """
 
 from __future__ import annotations
@@ -28,11 +30,11 @@ from ...model.scene.scene import Scene
 from ...rendering.framing import frame_scene
 from .members import member
 
-_FRAMED = ("azimuth", "elevation", "up", "view_angle", "margin")
-_PLACED = ("position", "target", "up", "view_angle", "height", "near", "far")
-_POSED = ("pose", "view_angle", "height", "intrinsics", "near", "far")
+_FRAMED = ("azimuth_degrees", "elevation_degrees", "up", "yfov_degrees", "margin")
+_PLACED = ("position", "target", "up", "yfov_degrees", "height", "near", "far")
+_POSED = ("pose", "yfov_degrees", "height", "intrinsics", "near", "far")
 _INTRINSICS = ("fx", "fy", "cx", "cy")
-_VIEW_ANGLE = 50.0
+_YFOV = 50.0
 _UP = (0.0, 1.0, 0.0)
 _SLACK = 1.01
 _NEAREST = 1e-3  # of the far plane's distance
@@ -60,7 +62,7 @@ def check_camera(value: Any) -> int | dict[str, Any] | None:
                     f"camera: {key} is none of {', '.join(known)}, which go together"
                 )
             said[key] = _MEMBERS[key](one, f"camera: {key}")
-    lenses = [key for key in ("view_angle", "height", "intrinsics") if key in said]
+    lenses = [key for key in ("yfov_degrees", "height", "intrinsics") if key in said]
     if len(lenses) > 1:
         raise InvalidArgumentError(f"camera: {' and '.join(lenses)} do not go together")
     return said
@@ -104,10 +106,10 @@ def _name(value: Any, what: str) -> str:
 
 _MEMBERS = {
     "name": _name,
-    "azimuth": finite,
-    "elevation": _elevation,
+    "azimuth_degrees": finite,
+    "elevation_degrees": _elevation,
     "up": _vector,
-    "view_angle": _angle,
+    "yfov_degrees": _angle,
     "margin": positive,
     "position": _vector,
     "target": _vector,
@@ -149,14 +151,16 @@ def _framed(
     said: Mapping[str, Any], scene: Scene, size: tuple[int, int]
 ) -> tuple[Camera, NDArray[np.float64]]:
     way = {}
-    if any(key in said for key in ("azimuth", "elevation", "up")):
-        angles = (math.radians(said.get(key, 0.0)) for key in ("azimuth", "elevation"))
+    if any(key in said for key in ("azimuth_degrees", "elevation_degrees", "up")):
+        angles = (
+            math.radians(said.get(key, 0.0)) for key in ("azimuth_degrees", "elevation_degrees")
+        )
         axes = orbit_axes(said.get("up", _UP), *angles)
         way = {"direction": -axes[:, 2], "up": axes[:, 1]}
     return frame_scene(
         scene,
         aspect=size[0] / size[1],
-        yfov=math.radians(said.get("view_angle", _VIEW_ANGLE)),
+        yfov=math.radians(said.get("yfov_degrees", _YFOV)),
         margin=said.get("margin", 1.05),
         **way,
     )
@@ -173,5 +177,5 @@ def _lens(said: Mapping[str, Any], scene: Scene, pose: NDArray[np.float64]) -> C
         return OrthographicCamera(0.5 * said["height"], znear=near, zfar=far)
     if "intrinsics" in said:
         return IntrinsicsCamera(**said["intrinsics"], znear=near, zfar=far)
-    view_angle = math.radians(said.get("view_angle", _VIEW_ANGLE))
-    return PerspectiveCamera(view_angle, znear=near, zfar=far)
+    yfov = math.radians(said.get("yfov_degrees", _YFOV))
+    return PerspectiveCamera(yfov, znear=near, zfar=far)

@@ -225,8 +225,8 @@ class Drawer:
 
     def _sized_renderer(self, task: Task) -> Renderer:
         """Return the renderer for the task's size and samples."""
-        renderer, kind = self._renderer, (task.samples, task.antialias)
-        if renderer is None or (renderer.samples, renderer.antialias) != kind:
+        renderer, kind = self._renderer, (task.samples, task.antialiasing)
+        if renderer is None or (renderer.samples, renderer.antialiasing) != kind:
             if renderer is not None:
                 renderer.close()
             renderer = self._renderer = Renderer(
@@ -234,7 +234,7 @@ class Drawer:
                 backend=self._backend,
                 threads=self._threads,
                 samples=task.samples,
-                antialias=task.antialias,
+                antialiasing=task.antialiasing,
             )
         elif (renderer.width, renderer.height) != tuple(task.size):
             renderer.resize(*task.size)

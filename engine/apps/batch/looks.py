@@ -49,7 +49,7 @@ def draw_look(
         backend=backend,
         threads=threads,
         samples=task.samples,
-        antialias=task.antialias,
+        antialiasing=task.antialiasing,
     ) as view_renderer:
         view = _view(task.camera or {}).place(view_renderer, turns=False)
         frame = view_renderer.draw(view)
@@ -57,9 +57,9 @@ def draw_look(
 
 
 def _view(said: dict[str, Any]) -> FirstView:
-    angle = said.get("view_angle")
+    angle = said.get("yfov_degrees")
     return FirstView(
         yfov=DEFAULT_YFOV if angle is None else math.radians(angle),
-        azimuth=math.radians(said.get("azimuth", 0.0)),
-        elevation=math.radians(said.get("elevation", 0.0)),
+        azimuth=math.radians(said.get("azimuth_degrees", 0.0)),
+        elevation=math.radians(said.get("elevation_degrees", 0.0)),
     )

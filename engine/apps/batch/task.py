@@ -31,7 +31,7 @@ from .members import member
 #: The scene settings that a task may override.
 SCENE_KEYS = ("background", "ambient", "light_clamp", "exposure")
 LOOKS = ("studio", "plain")
-_LOOK_CAMERA = ("azimuth", "elevation", "view_angle", "name")
+_LOOK_CAMERA = ("azimuth_degrees", "elevation_degrees", "yfov_degrees", "name")
 _NAME = re.compile(r"[^\W_][\w .+@=,-]*(?:/[^\W_][\w .+@=,-]*)*")
 _LONGEST = 200  # characters: with a folder and a suffix, it must still be a valid file name
 
@@ -59,14 +59,15 @@ class Task:
         camera, else the scene's first one, else one that shows the whole scene.
     size : (int, int)
         Width and height in pixels.
-    samples, antialias
+    samples, antialiasing
         As in `Renderer`.
     render : mapping
         Keyword arguments of `RenderOptions`, except ``outputs``.
     look : {"studio", "plain"}, optional
         Draw the model as ``engine3d render --look`` does, instead of as a plain scene. Such a task
         allows no script, ``render``, ``scene`` or output except colour, and only the camera members
-        ``azimuth`` and ``elevation``, relative to the command's view, and ``view_angle``.
+        ``azimuth_degrees`` and ``elevation_degrees``, relative to the command's view, and
+        ``yfov_degrees``.
     scene : mapping
         ``background``, ``ambient``, ``light_clamp`` and ``exposure``, as in `Scene`.
     outputs : sequence of str
@@ -96,7 +97,7 @@ class Task:
     camera: int | Mapping[str, Any] | None = None
     size: tuple[int, int] = (320, 240)
     samples: Samples = 4
-    antialias: Antialias = "ssaa"
+    antialiasing: Antialias = "ssaa"
     render: Mapping[str, Any] = field(default_factory=dict)
     look: str | None = None
     scene: Mapping[str, Any] = field(default_factory=dict)
@@ -296,7 +297,7 @@ _CHECKS = {
     "camera": check_camera,
     "size": check_size,
     "samples": lambda value: choose(value, get_args(Samples), "samples"),
-    "antialias": lambda value: choose(value, get_args(Antialias), "antialias"),
+    "antialiasing": lambda value: choose(value, get_args(Antialias), "antialiasing"),
     "render": _render,
     "scene": _scene,
     "look": lambda value: choose(value, (None, *LOOKS), "look"),

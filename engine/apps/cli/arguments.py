@@ -91,11 +91,11 @@ def join_values(arguments: list[str]) -> list[str]:
 
 #: Options by the names of other commands and programs, and what they may be called here.
 _ELSEWHERE = {
-    "--size": ("--resolution",),
     "--resolution": ("--size",),
-    "--width": ("--resolution", "--size"),
-    "--height": ("--resolution", "--size"),
-    "--fov": ("--camera-view-angle",),
+    "--width": ("--size",),
+    "--height": ("--size",),
+    "--fov": ("--camera-yfov",),
+    "--camera-view-angle": ("--camera-yfov",),
     "--bg": ("--background-color",),
     "--out": ("--output",),
 }

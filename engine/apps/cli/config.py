@@ -16,10 +16,11 @@ from ...errors import FileFormatError
 from ..desktop.user_folders import user_path
 from .arguments import meant
 from .options.scene_options import OF_MODELS
+from .short_help import WHOLE
 from .usage import UsageError
 
 # Options about config files, or that end the program, are allowed only on the command line.
-_NOT_HERE = frozenset({"config", "no-config", "define", "help"})
+_NOT_HERE = frozenset({"config", "no-config", "define", "help", WHOLE.removeprefix("--")})
 _LARGEST = 1 << 20  # bytes
 _ENTRY = frozenset({"files", "options"})
 # Options that contradict each other: the later one of a pair wins.
@@ -99,7 +100,7 @@ def set_defaults(
         name, equals, value = text.partition("=")
         name = name.removeprefix("--")
         if not equals or name not in options:
-            listed = f" (engine3d {args.command} --help lists them)"
+            listed = f" (engine3d {args.command} {WHOLE} lists them)"
             hint = meant(name, options) or listed
             if not equals:
                 raise UsageError(f"-D {text}: NAME=VALUE is needed, such as grid=true")
@@ -120,7 +121,7 @@ def _check_is_known(
     """Raise unless some command has an option with this name."""
     known = {one for command in commands for one in _options(command)}
     if name not in known:
-        hint = meant(name, known) or "; engine3d COMMAND --help lists them"
+        hint = meant(name, known) or f"; engine3d render {WHOLE} lists them"
         raise FileFormatError(f"{place}: there is no such option{hint}", path)
 
 

@@ -11,6 +11,7 @@ from ...version import __version__
 from . import config
 from .arguments import Parser, join_values, option_meant
 from .commands import COMMANDS
+from .short_help import shorten
 from .usage import UsageError
 
 
@@ -89,6 +90,8 @@ def make_parser(asked: str | None = None) -> Parser:
             row.add(command)
             if row.is_quiet:
                 add_quiet(command)
+            if row.common:
+                shorten(command, row.common)
     parser.commands = commands.choices
     return parser
 

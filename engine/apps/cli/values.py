@@ -24,7 +24,7 @@ MAX_SUBDIVISIONS = 512
 _MOST = 999_999_999
 
 
-def resolution(text: str) -> tuple[int, int]:
+def size(text: str) -> tuple[int, int]:
     """Parse ``1280x720`` or ``1280,720``."""
     match = re.fullmatch(r"\s*(\d+)\s*[xX,]\s*(\d+)\s*", text)
     if not match:
@@ -73,7 +73,7 @@ bloom = _real(f"a number from 0 to {MAX_BLOOM}", lambda value: 0.0 <= value <= M
 #: Slope of ground in degrees.
 slope = _real("from 0 to less than 90 degrees", lambda value: 0.0 <= value < 90.0)
 #: A vertical field of view in degrees.
-view_angle = _real("from 0.1 to 170 degrees", lambda value: 0.1 <= value <= 170.0)
+yfov = _real("from 0.1 to 170 degrees", lambda value: 0.1 <= value <= 170.0)
 
 
 def _whole(least: int = -_MOST, most: int = _MOST) -> Callable[[str], int]:

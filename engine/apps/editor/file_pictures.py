@@ -116,7 +116,7 @@ def _draw_model(path: str, size: int) -> NDArray[np.uint8]:
         document = document_of(source, None, split=True)
     viewed = moved_near(view_document(document, path))
     settings = Settings({}, look="studio")
-    quality = {"samples": 4, "antialias": "msaa", "threads": 1}
+    quality = {"samples": 4, "antialiasing": "msaa", "threads": 1}
     with ViewRenderer(viewed, settings, (size, size), **quality) as view_renderer:
         view = view_renderer.view()
         view_renderer.fill(view)

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import FileFormatError, InvalidArgumentError
+from ...version import PICTURES, __version__
 from . import names
 from .comparison import Difference, compare
 from .display import displayed
@@ -148,6 +149,7 @@ class Golden:
                 return
             if golden.digest == result.digest:
                 return
+            case.pictures = golden.pictures
             case.expected = golden.pixels()
         except FileFormatError as error:
             result.status, result.message = CHANGED, str(error)
@@ -169,6 +171,7 @@ class Golden:
         ]
         if result.difference is not None:
             lines.append(f"  difference: {result.difference}")
+        lines += _other_version(case.pictures)
         lines.append(f"If it is meant, look at it, then: pytest --golden-update={which}")
         return "\n".join(lines)
 
@@ -193,6 +196,7 @@ class _Case:
     path: str
     pixels: np.ndarray
     expected: np.ndarray | None = None
+    pictures: int | None = None
     difference: Difference | None = None
 
 
@@ -224,6 +228,16 @@ def _passes(case: _Case, foreign: bool, allowances: tuple) -> bool:
     shown = displayed(case.pixels, case.expected), displayed(case.expected)
     result.flip = mean_flip(*shown)
     return result.flip <= max_flip
+
+
+def _other_version(pictures: int | None) -> list[str]:
+    """Return a line if an engine3d that draws other pictures wrote the golden file."""
+    if pictures is None or pictures == PICTURES:
+        return []
+    return [
+        f"The golden picture is one of engine3d.PICTURES {pictures}. This is engine3d "
+        f"{__version__} with PICTURES {PICTURES}: docs/versions.md lists what each number changed."
+    ]
 
 
 def _what_differs(case: _Case) -> str:

@@ -3,10 +3,11 @@
 In:  an array of pixels. Out: the bytes of a PNG file, and back.
 
 Two chunks are the project's own; by their names, a program that edits the picture drops them. The
-first, ``goLD``, holds type, shape and hash of the pixels, so that comparing decodes nothing, and a
-seal: the hash of everything else in the file. A picture that was changed by other means does not
-fit its seal, and is then decoded and compared as it is. The second, ``daTA``, holds the numbers of
-arrays that are no colours of 8 or 16 bits: depths, identities. The picture only shows these.
+first, ``goLD``, holds type, shape and hash of the pixels, so that comparing decodes nothing,
+`PICTURES`, and a seal: the hash of everything else in the file. A picture that was changed by other
+means does not fit its seal, and is then decoded and compared as it is. The second, ``daTA``, holds
+the numbers of arrays that are no colours of 8 or 16 bits: depths, identities. The picture only
+shows these.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from ...base.files.atomic_write import atomic_write
 from ...base.files.making_folders import make_folder_of
 from ...base.files.png import encode_pixels
 from ...errors import FileAccessError, FileFormatError
+from ...version import PICTURES
 from . import png_files
 from .display import displayed
 from .picture_files import decode_picture
@@ -39,7 +41,8 @@ _SHAPE = shapes.members(
         "shape": shapes.listed(shapes.count),
         "sha256": shapes.sound_text,
         "seal": shapes.sound_text,
-    }
+    },
+    {"pictures": shapes.count},
 )
 
 
@@ -54,11 +57,14 @@ class GoldenFile:
         The whole file.
     digest : str or None
         What `pixel_hash` said of the pixels; None where the picture was made by other means.
+    pictures : int or None
+        `engine3d.PICTURES` of the engine3d that wrote the file; None if the file does not say it.
     """
 
     path: str
     data: bytes
     digest: str | None
+    pictures: int | None = None
 
     def pixels(self) -> np.ndarray:
         """Decode the exact pixels. Raises `FileFormatError`."""
@@ -82,7 +88,9 @@ def read_golden(path: str) -> GoldenFile | None:
         identity = _identity(png_files.split_chunks(data), path)
     except png_files.DamagedPng as error:
         raise FileFormatError(str(error), path) from error
-    return GoldenFile(path, data, identity["sha256"] if identity else None)
+    if identity is None:
+        return GoldenFile(path, data, None)
+    return GoldenFile(path, data, identity["sha256"], identity.get("pictures"))
 
 
 def is_golden_file(path: str | os.PathLike) -> bool:
@@ -116,6 +124,7 @@ def encode_golden(pixels: np.ndarray) -> bytes:
         "shape": pixels.shape,
         "sha256": pixel_hash(pixels),
         "seal": _seal([header, *body]),
+        "pictures": PICTURES,
     }
     text = json.dumps(identity, separators=(",", ":")).encode("ascii")
     return png_files.join_chunks([header, (_IDENTITY, text), *body, end])

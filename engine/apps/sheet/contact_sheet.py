@@ -174,7 +174,7 @@ def _at(panel: Panel, model: int, x: int, y: int, report: dict[str, Any]) -> dic
     return found | {
         "node": node,
         "name": names[node],
-        "triangle": int(frame.triangle_id[row, column]),
+        "triangle": int(frame.face_id[row, column]),
         "instance": int(frame.instance_id[row, column]),
         "material": int(frame.material_id[row, column]),
         "depth": depth,

@@ -53,7 +53,7 @@ def draw_pages(
     unit: str | None,
     drawing: Mapping[str, Any],
 ) -> Pages:
-    """Draw all models; see `engine3d.contact_sheet`."""
+    """Draw all models; see `engine3d.sheets.contact_sheet`."""
     if up is not None and up not in UP_DIRECTIONS:
         raise InvalidArgumentError(f"up must be one of {', '.join(UP_DIRECTIONS)}, not {up!r}")
     if unit is not None and not isinstance(unit, str):

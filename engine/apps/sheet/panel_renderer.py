@@ -25,7 +25,7 @@ from ...stage.viewed_scene import ViewedScene
 from ...stage.views.viewpoint import UP_DIRECTIONS
 from .layout import Rectangle
 
-OUTPUTS = ("color", "depth", "object_id", "instance_id", "material_id", "triangle_id")
+OUTPUTS = ("color", "depth", "object_id", "instance_id", "material_id", "face_id")
 _SMALL = (160, 120)
 _SAMPLES = 4
 #: Radius of ambient occlusion, in radii of the model.
@@ -68,7 +68,7 @@ class PanelRenderer:
             isinstance(thing, Material) and thing.normal_texture is not None
             for thing in uses_in([self.scene])
         )
-        self._options = {"samples": _SAMPLES, "antialias": "msaa", **drawing}
+        self._options = {"samples": _SAMPLES, "antialiasing": "msaa", **drawing}
         self._drawing = dict(drawing)
         self._cull = viewed.appearance.get("cull", "back")
         self._points = count_points(self.scene)

@@ -148,7 +148,7 @@ def _show_caps(panel: Panel, plane: Plane, origin) -> None:
     nodes = ids[rows, columns]
     other = frame.object_id[rows, columns] != nodes
     frame.material_id[rows[other], columns[other]] = 0
-    frame.object_id[rows, columns], frame.triangle_id[rows, columns] = nodes, -1
+    frame.object_id[rows, columns], frame.face_id[rows, columns] = nodes, -1
     # The intersections of the lines of sight with the plane.
     across, down, away, start = panel.matrices.world_from_pixel[plane.axis].tolist()
     x, y = columns + (panel.rectangle.x + 0.5), rows + (panel.rectangle.y + 0.5)
@@ -222,7 +222,7 @@ def _ink(panel: Panel, studio: PanelRenderer) -> None:
     frame = panel.frame
     things = (frame.object_id[window].astype(np.int64) << 32) + frame.instance_id[window]
     # Points and lines get no outlines.
-    things = np.where(panel.shown[window] & (frame.triangle_id[window] >= 0), things, -1)
+    things = np.where(panel.shown[window] & (frame.face_id[window] >= 0), things, -1)
     depth, normals = frame.depth[window], frame.world_normal[window]
     if panel.caps is not None:
         ids = panel.caps.ids[window]

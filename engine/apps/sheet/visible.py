@@ -122,7 +122,7 @@ class PartShown(NamedTuple):
 def count_parts(frame: Frame, mask: np.ndarray, scene: Scene) -> Iterator[PartShown]:
     """Yield the visible named groups of faces, node by node."""
     nodes = {node.id: node for node in scene.nodes}
-    for shown in count_by_key(frame.object_id, mask & (frame.triangle_id >= 0)):
+    for shown in count_by_key(frame.object_id, mask & (frame.face_id >= 0)):
         mesh = mesh_of_node(nodes[shown.key])
         if mesh is not None and mesh.groups:
             for name, pixels, box in _groups(frame, mask, shown, mesh):
@@ -133,7 +133,7 @@ def _groups(frame: Frame, mask: np.ndarray, shown: Shown, mesh: Mesh):
     """Yield name, pixels and box of each group of a mesh, within its node's pixels."""
     x, y, width, height = shown.box
     window = slice(y, y + height), slice(x, x + width)
-    faces = frame.triangle_id[window]
+    faces = frame.face_id[window]
     table = _count(faces, mask[window] & (frame.object_id[window] == shown.key) & (faces >= 0))
     place = np.full(len(mesh.faces), -1)
     place[table[:, 0]] = np.arange(len(table))

@@ -119,7 +119,7 @@ class Visibility:
 
         Returns
         -------
-        shown : list of (object_id, triangle_id, instance_id)
+        shown : list of (object_id, face_id, instance_id)
             Arrays (H, W) int32; the first is None where there is one object, the last where nothing
             has instances.
         """
@@ -135,7 +135,7 @@ class Visibility:
     def _look(self, renderer: Renderer, projection, pose, place: int) -> tuple:
         """Return the visible IDs at one position; consecutive pictures share the scene."""
         names = [
-            *(["triangle_id"] if self._is_single else ["object_id", "triangle_id"]),
+            *(["face_id"] if self._is_single else ["object_id", "face_id"]),
             *(["instance_id"] if self._has_instances else []),
         ]
         kind = tuple(names), renderer.width, renderer.height
@@ -149,7 +149,7 @@ class Visibility:
         frames[place] = frame = renderer.render(
             self._scene, (camera, pose), out=frames[place], options=options
         )
-        every = ("object_id", "triangle_id", "instance_id")
+        every = ("object_id", "face_id", "instance_id")
         return tuple(getattr(frame, name) if name in names else None for name in every)
 
     def depths(self, renderer: Renderer, projection, pose) -> np.ndarray:

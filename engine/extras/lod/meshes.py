@@ -75,7 +75,7 @@ class DetailedMeshes(Closed):
     def add_to(self, scene: Scene, *, name: str = "", parent: Node | None = None) -> Node:
         """Add all meshes to a scene, once; return their group node.
 
-        It has a child for each mesh, whose ID frames show for all its levels. ``triangle_id``
+        It has a child for each mesh, whose ID frames show for all its levels. ``face_id``
         belongs to the level.
 
         Raises

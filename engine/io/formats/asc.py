@@ -252,8 +252,8 @@ class _Parser:
             self._item = LightRecord("point", name=self._name)
             self.lights.append(self._item)
         elif camera is not None:
-            fov = self._field_of_view(camera[1])
-            self._item = CameraRecord((0.0, 0.0, 0.0), (0.0, 1.0, 0.0), fov, _UP, 0.0, self._name)
+            yfov = self._field_of_view(camera[1])
+            self._item = CameraRecord((0.0, 0.0, 0.0), (0.0, 1.0, 0.0), yfov, _UP, 0.0, self._name)
             self.cameras.append(self._item)
         elif keyword == "Ambient light color":
             color = self._color(rest)

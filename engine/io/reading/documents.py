@@ -74,7 +74,7 @@ class CameraRecord:
     Attributes
     ----------
     position, target : tuple of 3 float
-    fov : float
+    yfov : float
         Vertical field of view, radians.
     up : tuple of 3 float
     roll : float
@@ -84,7 +84,7 @@ class CameraRecord:
 
     position: tuple[float, float, float]
     target: tuple[float, float, float]
-    fov: float
+    yfov: float
     up: tuple[float, float, float] = (0.0, 1.0, 0.0)
     roll: float = 0.0
     name: str = ""

@@ -129,7 +129,7 @@ def _add_camera(scene: Scene, record: CameraRecord, bounds: np.ndarray) -> None:
     znear = max(0.9 * (distance - radius), 1e-3 * zfar)
     try:
         pose = linalg.look_at(record.position, record.target, record.up)
-        camera = PerspectiveCamera(record.fov, znear=znear, zfar=zfar)
+        camera = PerspectiveCamera(record.yfov, znear=znear, zfar=zfar)
     except InvalidArgumentError as error:
         scene.warnings.append(f"camera {record.name!r} is left out: {error}")
         return

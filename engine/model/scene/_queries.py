@@ -85,7 +85,7 @@ class SceneQueries:
     def pick(self, frame: Frame, x: int, y: int) -> RayHit | None:
         """Return the object that a pixel of a frame of this scene shows.
 
-        A frame with the outputs ``object_id``, ``instance_id`` and ``triangle_id`` gives an exact
+        A frame with the outputs ``object_id``, ``instance_id`` and ``face_id`` gives an exact
         answer. Otherwise, a ray is cast through the pixel's centre into the scene as it is now.
 
         Parameters

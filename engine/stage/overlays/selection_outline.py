@@ -16,7 +16,7 @@ from ...model.spatial.rays import RayHit
 from ...rendering.frame import Frame, Output
 
 #: The outputs that a frame needs for clicks, and for an outline.
-CLICK_OUTPUTS: tuple[Output, ...] = ("color", "object_id", "instance_id", "triangle_id")
+CLICK_OUTPUTS: tuple[Output, ...] = ("color", "object_id", "instance_id", "face_id")
 OUTLINE_OUTPUTS: tuple[Output, ...] = ("color", "object_id", "instance_id")
 OUTLINE = (255, 160, 40, 255)
 WIDTH = 2

@@ -42,7 +42,7 @@ class Editor(Desktop):
 
     def __init__(self, screen, folder, *arguments):
         homes = {name: str(folder / name) for name in ("XDG_STATE_HOME", "XDG_CACHE_HOME")}
-        command = ["-m", "engine3d", "edit", *arguments, "--resolution", "1000x700"]
+        command = ["-m", "engine3d", "edit", *arguments, "--size", "1000x700"]
         super().__init__(screen, folder, command, **homes)
         self._mouse = None
         place = self.do("getwindowgeometry", "--shell", self.window).split()

@@ -25,8 +25,9 @@ static void random_glow(random_stream *r, glow *g)
     int dark = random_once_in(r, 8);
     int32_t values = 3 * bloom->width * bloom->height;
     for (int32_t i = 0, end = 0; i < values;) {
-        float most = dark || !random_once_in(r, 4) ? 1.0f : random_once_in(r, 8) ? 3e38f
-                                                                                 : 90.0f;
+        float most = 1.0f;
+        if (!dark && random_once_in(r, 4))
+            most = random_once_in(r, 8) ? 3e38f : 90.0f;
         for (end = i + 1 + random_below(r, 60); i < end && i < values; i++)
             g->radiance[i] = random_float(r, 0.0f, most);
     }

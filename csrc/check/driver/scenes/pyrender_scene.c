@@ -117,7 +117,7 @@ static void set_steps(random_stream *r, scene *s, int visible)
         *step = (e3d_pyr_step){.draw_of_object = s->draw_of_object};
         for (int p = 0; p < E3D_PYR_PLACES; p++) {
             step->object_id[p] = s->object[p];
-            step->triangle_id[p] = s->triangle[p];
+            step->face_id[p] = s->triangle[p];
             for (int32_t i = 0; i < size; i++) {
                 int again = i > 0 && !random_once_in(r, 4);
                 s->object[p][i] = again ? s->object[p][i - 1] : random_below(r, visible);

@@ -61,8 +61,9 @@ static void add_map(scene *s, e3d_light *light, const float *depths, e3d_shadow_
     int32_t taps = 1 + 2 * random_below(r, 3);
     light->shadow.kind = E3D_SHADOW_MAP;
     shadow->first = *count;
-    shadow->count = layout == E3D_MAPS_CUBE ? CUBE : layout == E3D_MAPS_AHEAD ? 1
-                                                                              : 1 + random_below(r, 3);
+    shadow->count = layout == E3D_MAPS_CUBE ? CUBE : 1;
+    if (layout == E3D_MAPS_CASCADES)
+        shadow->count += random_below(r, 3);
     shadow->size = 24 + random_below(r, MOST_SIDE - 24 + 1);
     shadow->taps = taps;
     shadow->step = random_once_in(r, 2) ? 256 : random_below(r, 1000);

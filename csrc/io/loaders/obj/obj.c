@@ -41,8 +41,9 @@ static int32_t smoothing_group(const uint8_t *at, const uint8_t *end)
             return -1;
         number = number * 10 + (*at - '0');
     }
-    return negative ? 0 : number > INT32_MAX ? INT32_MAX
-                                             : (int32_t)number;
+    if (negative)
+        return 0;
+    return number > INT32_MAX ? INT32_MAX : (int32_t)number;
 }
 
 static bool add_setter(e3d_obj *obj, e3d_obj_setter_kind kind, const obj_line *line,

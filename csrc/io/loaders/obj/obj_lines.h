@@ -65,10 +65,13 @@ static inline obj_element_kind obj_elements_of(obj_line *line)
     line->at = obj_skip_gaps(line->at, line->end);
     if (line->at == line->end)
         return OBJ_ELEMENT_KINDS;
-    const obj_element_kind kind = obj_begins(line, 'f', 0) || obj_begins(line, 'f', 'o') ? OBJ_FACES
-                                  : obj_begins(line, 'l', 0)                             ? OBJ_LINES
-                                  : obj_begins(line, 'p', 0)                             ? OBJ_POINTS
-                                                                                         : OBJ_ELEMENT_KINDS;
+    obj_element_kind kind = OBJ_ELEMENT_KINDS;
+    if (obj_begins(line, 'f', 0) || obj_begins(line, 'f', 'o'))
+        kind = OBJ_FACES;
+    else if (obj_begins(line, 'l', 0))
+        kind = OBJ_LINES;
+    else if (obj_begins(line, 'p', 0))
+        kind = OBJ_POINTS;
     if (kind != OBJ_ELEMENT_KINDS)
         line->at = obj_word_end(line->at, line->end);
     return kind;

@@ -98,8 +98,9 @@ bool obj_read_row(e3d_obj *obj, e3d_obj_list list, const obj_line *line)
 static uint8_t color_byte(double value, double scale)
 {
     const double scaled = value * scale;
-    return (uint8_t)(scaled <= 0 ? 0 : scaled >= 255 ? 255
-                                                     : scaled + 0.5);
+    if (scaled <= 0)
+        return 0;
+    return scaled >= 255 ? 255 : (uint8_t)(scaled + 0.5);
 }
 
 bool obj_convert_colors(e3d_obj *obj)

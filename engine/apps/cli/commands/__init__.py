@@ -23,12 +23,15 @@ class Command(NamedTuple):
         Adds the options to the command's parser.
     is_quiet : bool
         Whether there are warnings that may be left out.
+    common : tuple of str
+        The long options that ``--help`` shows, where it does not show all.
     """
 
     help: str
     description: str
     add: Callable[[argparse.ArgumentParser], None]
     is_quiet: bool = True
+    common: tuple[str, ...] = ()
 
 
 def _add_edit(command: argparse.ArgumentParser) -> None:
@@ -36,8 +39,8 @@ def _add_edit(command: argparse.ArgumentParser) -> None:
 
     command.add_argument("model", metavar="FILE", nargs="?", help="the file to edit, of any format")
     command.add_argument(
-        "--resolution",
-        type=values.resolution,
+        "--size",
+        type=values.size,
         metavar="WxH",
         help="size of the window in pixels; 1600x900 by default",
     )
@@ -75,11 +78,21 @@ def _of_modules(*names: str) -> Callable[[argparse.ArgumentParser], None]:
     return add
 
 
+#: What people ask of a picture, in a window and in a file.
+_OF_PICTURES = (
+    *("--scene", "--texture", "--color", "--animation-time", "--output"),
+    *("--size", "--look", "--samples", "--background-color", "--grid"),
+    *("--mode", "--wireframe", "--edges", "--shadows", "--environment", "--exposure"),
+    *("--scalar-coloring", "--bar", "--up"),
+    *("--camera-azimuth-angle", "--camera-elevation-angle", "--camera-zoom-factor"),
+)
+
 COMMANDS = {
     "run": Command(
         "show a model or a scene in a window",
         "Show a model or a scene in a window. H in the window lists the keys.",
         _of_modules("scene_options", "run_options", "shared_options"),
+        common=(*_OF_PICTURES, "--animate", "--camera", "--watch"),
     ),
     "edit": Command(
         "put a scene together in a window with panels",
@@ -92,6 +105,7 @@ COMMANDS = {
         "Draw a model or a scene to a picture (PNG, JPEG, TGA, WebP) or, with --turntable, to an "
         "animation (GIF, WebP, APNG).",
         _of_modules("scene_options", "render_options", "shared_options"),
+        common=(*_OF_PICTURES, "--turntable", "--animation", "--no-background"),
     ),
     "info": Command(
         "print what model files hold, or what a report of a bug should say",

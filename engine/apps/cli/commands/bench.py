@@ -26,7 +26,7 @@ def bench(args: argparse.Namespace) -> int:
     cases = [(name, backend) for name in args.workloads for backend in _backends(args.backends)]
     quiet = args.json == STANDARD_OUTPUT
     if not quiet:
-        print("\n".join(figures.heading(args.resolution)), end="\n\n")
+        print("\n".join(figures.heading(args.size)), end="\n\n")
         print(figures.columns(), flush=True)
     rows = []
     for row in _measure(args, cases):
@@ -62,13 +62,13 @@ def _measure(args, cases) -> Iterator[dict]:
             made = workloads.make(name)
         share = max(0.0, end - time.perf_counter()) / (len(cases) - number)
         share = min(share, LONGEST)
-        yield measuring.measure(made, args.resolution, backend, threads, share)
+        yield measuring.measure(made, args.size, backend, threads, share)
 
 
 def _write_json(args, rows) -> None:
     result = {
         **figures.machine(),
-        "resolution": list(args.resolution),
+        "size": list(args.size),
         "picture": "default",
         "rows": rows,
     }

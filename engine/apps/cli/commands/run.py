@@ -60,8 +60,8 @@ def _run(args: argparse.Namespace, found: list[argparse.Namespace], reason: str 
 
 
 def _check(args: argparse.Namespace) -> None:
-    if args.terminal and (args.headless or args.resolution is not None):
-        other = "--headless" if args.headless else "--resolution"
+    if args.terminal and (args.headless or args.size is not None):
+        other = "--headless" if args.headless else "--size"
         raise UsageError(
             f"--terminal shows what the terminal has room for: {other} goes without it"
         )
@@ -165,7 +165,7 @@ def _window(args: argparse.Namespace, viewed):
         return TerminalWindow()
     from ...viewer.window import Window
 
-    size = args.resolution or WINDOW_SIZE
+    size = args.size or WINDOW_SIZE
     return Window(*size, f"{viewed.title} - engine3d", vsync=args.vsync)
 
 

@@ -27,7 +27,7 @@ WIREFRAMES = get_args(Wireframe)
 def add_appearance(parser) -> None:
     """Add the options for drawing surfaces and lines."""
     group = parser.add_argument_group("look")
-    group.add_argument("--mode", choices=MODES, help="what the pixels show")
+    group.add_argument("--mode", choices=MODES, help="what the pixels show; lit by default")
     group.add_argument("--unlit", action="store_true", help="the same as --mode unlit")
     group.add_argument(
         "--wireframe",

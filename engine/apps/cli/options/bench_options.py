@@ -35,8 +35,8 @@ def add(command) -> None:
         help="numbers of threads to measure with; 0 is one per available CPU (default: 1,0)",
     )
     command.add_argument(
-        "--resolution",
-        type=values.resolution,
+        "--size",
+        type=values.size,
         default=(1920, 1080),
         metavar="WxH",
         help="size in pixels (default: 1920x1080)",

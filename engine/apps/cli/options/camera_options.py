@@ -53,8 +53,8 @@ def add_camera(parser) -> None:
         help="direction that points up in the picture",
     )
     group.add_argument(
-        "--camera-view-angle",
-        type=values.view_angle,
+        "--camera-yfov",
+        type=values.yfov,
         metavar="DEGREES",
         help="vertical field of view",
     )
@@ -62,19 +62,19 @@ def add_camera(parser) -> None:
         "--camera-azimuth-angle",
         type=values.number,
         metavar="DEGREES",
-        help="move the camera around the model, to the right",
+        help="move the camera around the model, to the right; 0 by default, 30° from the front",
     )
     group.add_argument(
         "--camera-elevation-angle",
         type=values.number,
         metavar="DEGREES",
-        help="move the camera around the model, upwards",
+        help="move the camera around the model, upwards; 0 by default, 18° above the middle",
     )
     group.add_argument(
         "--camera-zoom-factor",
         type=values.positive,
         metavar="F",
-        help="divide the distance from the focal point by this",
+        help="divide the distance from the focal point by this; 1 by default",
     )
     group.add_argument(
         "--camera-orthographic", action="store_true", help="use a parallel projection"
@@ -92,7 +92,7 @@ def first_view(args: argparse.Namespace) -> FirstView:
     """Return the first view that the options describe."""
     from ....stage.views.first_view import DEFAULT_YFOV, FirstView
 
-    angle, index, position = args.camera_view_angle, args.camera_index, args.camera_position
+    angle, index, position = args.camera_yfov, args.camera_index, args.camera_position
     through = index is not None and index >= 0
     if not through and position is not None and position == args.camera_focal_point:
         raise UsageError("--camera-position and --camera-focal-point are the same")

@@ -78,7 +78,7 @@ def add_tone(parser) -> None:
         "--exposure",
         type=values.stops,
         metavar="STOPS",
-        help="make what is lit brighter: twice for each stop; below 0 darker",
+        help="make what is lit brighter: twice for each stop; below 0 darker; 0 by default",
     )
     group.add_argument(
         "--bloom",

@@ -42,8 +42,8 @@ def add_picture(parser) -> None:
     """Add the options for the picture's size and drawing."""
     group = parser.add_argument_group("picture")
     group.add_argument(
-        "--resolution",
-        type=values.resolution,
+        "--size",
+        type=values.size,
         metavar="WxH",
         help="size in pixels; 1280x720 by default",
     )
@@ -51,9 +51,9 @@ def add_picture(parser) -> None:
         "--look",
         choices=LOOKS,
         default=LOOKS[0],
-        help="studio: models stand on their shadow before a gradient, in soft light, with ambient "
-        "occlusion, neutral tone mapping and 4 samples per pixel; plain: before one colour, with "
-        "none of these. Other options have the last word",
+        help="studio, the default: models stand on their shadow before a gradient, in soft light, "
+        "with ambient occlusion, neutral tone mapping and 4 samples per pixel; plain: before one "
+        "colour, with none of these. Other options have the last word",
     )
     _add_antialiasing(group)
     add_drawing(group)
@@ -93,8 +93,8 @@ def _add_antialiasing(group) -> None:
         "--samples",
         type=int,
         choices=get_args(Samples),
-        help="samples per pixel: more give smoother edges. In a window 4 while nothing moves, and "
-        "fewer in motion where it would be slow, if this is not given",
+        help="samples per pixel: more give smoother edges; 4 by default, in a window fewer in "
+        "motion where it would be slow",
     )
     group.add_argument(
         "--antialiasing",

@@ -78,7 +78,7 @@ def add(parser) -> None:
         "--animation-time",
         type=values.number,
         metavar="T",
-        help="seconds of the animation at which the model stands, or begins to play",
+        help="seconds of the animation at which the model stands, or begins to play; 0 by default",
     )
     group.add_argument(
         "--variant",

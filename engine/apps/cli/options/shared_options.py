@@ -101,7 +101,7 @@ class Viewing(NamedTuple):
             backend=self.backend,
             threads=self.threads,
             samples=samples,
-            antialias=method,
+            antialiasing=method,
             transparent=transparent,
             report=report.frame if self.verbose else None,
         )
@@ -112,7 +112,7 @@ def viewing(args: argparse.Namespace, **more) -> Viewing:
     return Viewing(
         settings(args, **more),
         camera_options.first_view(args),
-        args.resolution,
+        args.size,
         args.antialiasing,
         args.samples,
         args.backend,

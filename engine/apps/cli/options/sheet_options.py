@@ -48,7 +48,7 @@ def add(parser) -> None:
     )
     group.add_argument(
         "--size",
-        type=values.resolution,
+        type=values.size,
         metavar="WxH",
         help="pixels of each model's part; parts stand one below another. 1600x1200 by default, "
         "1600x480 with several models",

@@ -1,0 +1,14 @@
+/* Numbers and sizes of pictures that programs tend to get wrong. */
+#pragma once
+
+#include <stdint.h>
+
+#include "check/driver/random.h"
+
+float hostile_float(random_stream *r);
+/* The same for factors of light: zero, denormal, tiny or huge, and always finite. */
+float hostile_factor(random_stream *r);
+/* Replaces about one value in `odds`. */
+void hostile_replace(float *values, int32_t count, random_stream *r, int32_t odds);
+/* Mostly one of the larger sizes. Sides are limited to `most_side` pixels; 0: by nothing. */
+void hostile_size(random_stream *r, int32_t most_side, int32_t *width, int32_t *height);

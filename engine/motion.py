@@ -1,0 +1,8 @@
+"""What moves: clips and their channels, skins, morph targets."""
+
+from .model.geometry.morph_targets import MorphTarget
+from .model.motion.clips import AnimationClip, Channel
+from .model.motion.properties import PropertyChannel
+from .model.motion.skins import Skin
+
+__all__ = ["AnimationClip", "Channel", "MorphTarget", "PropertyChannel", "Skin"]

@@ -1,0 +1,25 @@
+"""An editor with a train in it, in a window that nobody sees."""
+
+from importlib.resources import files
+
+import pytest
+
+from engine3d import data
+
+
+@pytest.fixture
+def editor(monkeypatch, tmp_path):
+    from editor.ui.editor_hands import SIZE, settle  # which skip the tests that lack the extra
+
+    from engine3d.apps.editor.ui.editor_window import EditorWindow
+
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    for variable in ("XDG_STATE_HOME", "XDG_CACHE_HOME"):
+        monkeypatch.setenv(variable, str(tmp_path / variable))
+    path = files(data) / "models" / "train.asc"
+    with EditorWindow(str(path), size=SIZE) as editor:
+        editor.window.present = lambda pixels: None  # nobody looks, and nobody waits for a screen
+        editor._scene._overlays.shown["marks"] = False
+        editor._scene._draw_times = lambda corner: None
+        settle(editor)
+        yield editor

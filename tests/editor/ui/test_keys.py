@@ -1,0 +1,100 @@
+"""What keys do in the editor: to the scene, to names, to time, and to questions."""
+
+import functools
+
+import pytest
+from editor.ui.editor_hands import do, find, press, settle
+
+from engine3d import events
+
+
+def test_keys_duplicate_delete_and_undo(editor):
+    scene, workspace = editor.workspace.scene, editor.workspace
+    count = len(scene.nodes)
+    cab = find(editor, "Cab")
+    workspace.document.selection.set([cab])
+    press(editor, "D", control=True)
+    assert len(scene.nodes) == count + 1
+    assert workspace.document.selection.active.name == "Cab" != cab
+    press(editor, "Delete")
+    assert len(scene.nodes) == count
+    press(editor, "Z", control=True)
+    press(editor, "Z", control=True)
+    assert len(scene.nodes) == count and not workspace.document.is_modified
+    press(editor, "Z", control=True, shift=True)
+    assert len(scene.nodes) == count + 1 and workspace.document.is_modified
+
+
+def test_keys_that_come_at_once_count_one_after_the_other(editor):
+    nodes = editor.workspace.scene.nodes
+    name = "Left Ctrl"
+    for key in "AQAQ":
+        editor._late += [
+            events.KeyDown(name, name, False, True),
+            events.KeyDown(key, key, False, True),
+            *(events.KeyUp(name, name), events.KeyUp(key, key))[:: 1 if key == "Q" else -1],
+        ]
+    while editor._pictures_due or editor._late:
+        editor.turn(0.0)
+    assert editor.workspace.wants_exit
+    assert len(nodes) > 1 and editor.workspace.document.selection.nodes == ()
+
+
+def test_f2_renames(editor):
+    cab = find(editor, "Cab")
+    editor.workspace.document.selection.set([cab])
+    press(editor, "F2")
+    do(editor, *(events.TextEntered(letter) for letter in "Hütte"))
+    press(editor, "Return")
+    assert cab.name == "Hütte"
+    press(editor, "Z", control=True)
+    assert cab.name == "Cab"
+
+
+def test_letters_choose_tools_unless_somebody_types(editor):
+    press(editor, "W")
+    assert editor.workspace.tools.chosen == "move"
+    editor.workspace.document.selection.set([find(editor, "Cab")])
+    press(editor, "F2")
+    press(editor, "E")
+    assert editor.workspace.tools.chosen == "move"
+
+
+def test_time_goes_on_until_space_is_pressed_again(editor):
+    workspace, base = editor.workspace, find(editor, "Base")
+    press(editor, "Space")
+    assert not workspace.plays and "nothing moves" in workspace.console.entries[-1].text
+    workspace.document.animator.spin(base, period=5)
+    still = settle(editor)
+    press(editor, "Space")
+    assert workspace.moments > 0 and editor._pictures_due
+    press(editor, "Space")
+    moments, paused = workspace.moments, settle(editor)
+    assert (paused != still).any() and (settle(editor) == paused).all()
+    assert workspace.moments == moments and not workspace.document.is_modified
+    workspace.rewind()
+    assert base.rotation.tolist() == [0, 0, 0, 1]
+
+
+@pytest.mark.parametrize(
+    "key, answer", [("Return", "one"), ("Keypad Enter", "one"), ("Escape", "three")]
+)
+def test_a_question_hears_keys(editor, key, answer):
+    given = []
+    answers = ("one", "two", "three")
+    editor._files._ask("Which?", {name: functools.partial(given.append, name) for name in answers})
+    settle(editor)
+    press(editor, key)
+    assert given == [answer]
+    press(editor, key)
+    assert given == [answer], "the question is closed"
+
+
+def test_a_question_hears_the_arrows(editor):
+    given = []
+    answers = ("one", "two", "three")
+    editor._files._ask("Which?", {name: functools.partial(given.append, name) for name in answers})
+    settle(editor)
+    press(editor, "Right")
+    press(editor, "Return")
+    assert given == ["two"]

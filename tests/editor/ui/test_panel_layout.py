@@ -1,0 +1,42 @@
+"""Which panels are open, and where, is kept from one editor to the next."""
+
+from editor.ui.editor_hands import settle
+
+from engine3d.apps.editor.ui.panel_layout import layout_path, load_layout, save_layout
+from engine3d.apps.editor.ui.workspace import Workspace
+
+
+def test_panels_can_be_closed_and_come_back(editor):
+    everything = settle(editor)
+    editor.workspace.panels.closed.add("Console")
+    assert (settle(editor) != everything).any()
+    editor.workspace.panels.wants_usual_places = True
+    assert (settle(editor) == everything).all() and not editor.workspace.panels.closed
+
+
+def test_closed_panels_and_steps_are_kept(editor):
+    editor.workspace.panels.closed.add("Resources")
+    editor.workspace.tools.steps["turn"] = 22.5
+    save_layout(editor.workspace)
+    again = Workspace()
+    assert load_layout(again)
+    assert (again.panels.closed, again.tools.steps) == (
+        editor.workspace.panels.closed,
+        editor.workspace.tools.steps,
+    )
+    layout_path().write_text("[engine3d][Editor]\nmove=-1\nturn=x\nscale\nclosed=Console,Cat\n")
+    damaged = Workspace()
+    assert load_layout(damaged)
+    assert damaged.tools.steps == Workspace().tools.steps and damaged.panels.closed <= {"Console"}
+
+
+def test_places_of_panels_are_kept(editor):
+    save_layout(editor.workspace)
+    assert "[Docking]" in layout_path().read_text("utf-8")
+
+
+def test_a_layout_that_cannot_be_kept_does_no_harm(editor, monkeypatch, tmp_path):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "file"))
+    save_layout(editor.workspace)
+    assert not layout_path().exists()

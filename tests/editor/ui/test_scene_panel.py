@@ -1,0 +1,111 @@
+"""What hands do in the picture of the scene: they select, move the camera, and drag the gizmo."""
+
+import numpy as np
+from editor.ui.editor_hands import (
+    SIZE,
+    click,
+    do,
+    drag,
+    find,
+    middle_of,
+    press,
+    scene_corner,
+    settle,
+)
+
+from engine3d import events
+
+
+def test_the_scene_is_shown_to_the_byte_between_the_panels(editor):
+    x, y = scene_corner(editor)
+    height, width = editor._scene._frame.color.shape[:2]
+    assert x > 100 and y > 20 and x + width < SIZE[0] - 100
+    assert height > 200 and len(np.unique(editor._pixels[:, :x].reshape(-1, 4), axis=0)) > 50
+
+
+def test_a_click_in_the_scene_selects(editor):
+    selection = editor.workspace.document.selection
+    smoke, cab = find(editor, "Smoke"), find(editor, "Cab")
+    click(editor, *middle_of(editor, smoke))
+    assert selection.nodes == (smoke,)
+    click(editor, *middle_of(editor, cab), shift=True)
+    assert selection.nodes == (smoke, cab)
+    x, y = scene_corner(editor)
+    click(editor, x + 20, y + 20)
+    assert selection.nodes == ()
+
+
+def test_a_rectangle_in_the_scene_selects_what_shows_in_it(editor):
+    smoke = find(editor, "Smoke")
+    x, y = middle_of(editor, smoke)
+    drag(editor, "left", (x - 3, y - 6), (x + 2, y), (x + 6, y + 6))
+    assert editor.workspace.document.selection.nodes == (smoke,)
+
+
+def test_the_middle_button_turns_the_camera_and_the_wheel_approaches(editor):
+    view = editor.workspace.view
+    x, y = (side // 2 for side in SIZE)
+    azimuth, elevation, distance = view.azimuth, view.elevation, view.distance
+    drag(editor, "middle", (x, y - 100), (x + 10, y - 95))
+    assert view.azimuth < azimuth and view.elevation > elevation
+    do(editor, events.Wheel(2.0, x, y - 100))
+    assert view.distance < distance
+
+
+def test_the_right_button_looks_around_and_keys_fly(editor):
+    view = editor.workspace.view
+    x, y = scene_corner(editor)
+    position, target = view.position(), view.target.copy()
+    drag(editor, "right", (x + 90, y + 90), (x + 130, y + 80))
+    assert np.allclose(view.position(), position) and not np.allclose(view.target, target)
+    ahead = -view.rotation()[:, 2]
+    position = view.position()
+    do(editor, events.MouseButton("right", True, x=x + 90, y=y + 90))
+    do(editor, events.KeyDown("W", "W"))
+    assert editor._scene.is_flying and editor._pictures_due
+    do(editor, events.KeyUp("W", "W"), events.MouseButton("right", False, x=x + 90, y=y + 90))
+    moved = view.position() - position
+    assert np.allclose(moved / np.linalg.norm(moved), ahead)
+    assert editor.workspace.tools.chosen == "select"
+
+
+def test_a_drag_of_the_gizmo_is_one_step(editor):
+    workspace = editor.workspace
+    cab = find(editor, "Cab")
+    workspace.document.selection.set([cab])
+    press(editor, "W")
+    pixel, _ = editor._scene._frame.project(cab.world_pose[:3, 3])
+    x, y = np.add(scene_corner_of_gizmo(editor), pixel).astype(int)
+    drag(editor, "left", (x, y), (x + 9, y - 4), (x + 20, y - 9))
+    assert np.abs(cab.translation).max() > 0.1
+    assert workspace.document.history.position == 1
+    assert workspace.document.selection.nodes == (cab,)
+    assert np.array_equal(cab.world_pose[:3, :3], np.eye(3))
+    press(editor, "Z", control=True)
+    assert np.array_equal(cab.world_pose, np.eye(4))
+
+
+def scene_corner_of_gizmo(editor):
+    """The scene's corner, found before the gizmo was drawn over it."""
+    tool, editor.workspace.tools.chosen = editor.workspace.tools.chosen, "select"
+    settle(editor)
+    corner = scene_corner(editor)
+    editor.workspace.tools.chosen = tool
+    settle(editor)
+    return corner
+
+
+def test_what_can_be_shown_over_the_scene_is_drawn_and_stays_within_it(editor):
+    overlays, workspace = editor._scene._overlays, editor.workspace
+    workspace.document.selection.set([find(editor, "Cab"), find(editor, "Camera01")])
+    workspace.orbit.dolly(-12)
+    overlays.shown = dict.fromkeys(overlays.shown, False)
+    plain = settle(editor)
+    x, y = scene_corner(editor)
+    for name in overlays.shown:
+        overlays.shown = dict.fromkeys(overlays.shown, False) | {name: True}
+        changed = (settle(editor) != plain).any(-1)
+        assert changed.sum() > 20, name
+        height, width = editor._scene._frame.color.shape[:2]
+        changed[y : y + height, x : x + width] = False
+        assert not changed.any()

@@ -57,6 +57,7 @@ _PUBLIC = {
     "HemisphereLight": "model.scene.ambient_lights",
     "LightProbe": "model.scene.ambient_lights",
     "Animator": "model.scene.animation",
+    "Values": "model.geometry.values",
     "AnimationPlayer": "model.motion.player",
     "Node": "model.scene.nodes",
     "NodeSelection": "model.scene.selection",

@@ -46,6 +46,7 @@ __all__ = [
     "SizeUnit",
     "SurfaceColor",
     "ToneMapping",
+    "ValuesOn",
     "Wireframe",
     "Wrap",
 ]
@@ -82,6 +83,7 @@ HiddenSurfaces = Literal["zbuffer", "painter", "none"]
 LineShape = Literal["plain", "round"]
 PointShape = Literal["square", "round"]
 SizeUnit = Literal["pixels", "picture"]
+ValuesOn = Literal["vertices", "faces", "points"]
 Culling = Literal["all", "tree", "frustum", "none", "always"]
 ToneMapping = Literal["none", "neutral", "aces", "agx"]
 Filter = Literal["trilinear", "bilinear", "nearest"]

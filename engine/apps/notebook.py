@@ -10,17 +10,19 @@ import asyncio
 import base64
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .._native.images import encode_png
+from ..base.calls import refuse_unknown
 from ..base.image_size import check_size
 from ..errors import InvalidArgumentError
 from ..model.geometry.mesh import Mesh
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.nodes import Node
 from ..model.scene.scene import Scene
+from ..stage.numbers import MarkKeywords, take_marks
 from ..stage.stage_settings import Settings
 from ..stage.view_renderer import ViewRenderer
 from ..stage.viewed_scene import TURN_SECONDS
@@ -29,6 +31,9 @@ from ..stage.views.first_view import view_of_scene
 from . import events
 from .viewer.sampling import Sampling
 from .viewer.viewer import Viewer
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 try:
     from jupyter_rfb import RemoteFrameBuffer
@@ -40,6 +45,7 @@ except ImportError as error:
 
 __all__ = ["View"]
 
+_KEYWORDS = ("size", "up", "update", "period", "quality")
 _BUTTONS = {1: "left", 2: "right", 3: "middle"}
 _KEYS = {
     " ": "Space",
@@ -74,6 +80,9 @@ class View(RemoteFrameBuffer):
         Seconds after which the time begins again at 0.
     quality : int
         Of the JPEGs while something moves, 1 to 100; with 100 they are PNGs as well.
+    **marks
+        ``color_by``, ``colormap``, ``clim``, ``component``, ``on``, ``bar`` and ``axes_grid``: see
+        `engine3d.render`.
 
     Raises
     ------
@@ -99,10 +108,13 @@ class View(RemoteFrameBuffer):
         update: Callable[[float], None] | None = None,
         period: float = TURN_SECONDS,
         quality: int = 80,
+        **marks: Unpack[MarkKeywords],
     ) -> None:
+        refuse_unknown(View, marks, (*_KEYWORDS, *MarkKeywords.__annotations__))
         width, height = check_size(size)
         check_motion(update, "update")
-        viewed = viewed_thing(thing, title=None, up=up, update=update, period=period)
+        taken = take_marks(dict(marks))
+        viewed = viewed_thing(thing, title=None, up=up, update=update, period=period, marks=taken)
         if viewed is None:
             raise InvalidArgumentError(
                 f"a view shows a scene, a node or a mesh, not {type(thing).__name__}"
@@ -111,7 +123,8 @@ class View(RemoteFrameBuffer):
             raise InvalidArgumentError(f"quality must be a whole number in 1..100, not {quality!r}")
         super().__init__(css_width=f"{width}px", css_height=f"{height}px", quality=quality)
         self._page = _Page((width, height))
-        self._view_renderer = ViewRenderer(viewed, Settings({}), (width, height))
+        settings = Settings({}, bar=taken.bar, axes_grid=taken.axes_grid)
+        self._view_renderer = ViewRenderer(viewed, settings, (width, height))
         self._viewer = Viewer(
             self._view_renderer,
             self._page,

@@ -317,7 +317,11 @@ def _content(thing: Any) -> tuple[Any, ...]:
             digest.update(array)
     materials = tuple(_material_content(material) for material in thing.materials)
     groups = tuple((name, array.tobytes()) for name, array in thing.groups.items())
-    return ("mesh", digest.digest(), tuple(shapes), materials, groups)
+    values = tuple(
+        (name, on, array.shape, array.dtype.str, array.tobytes())
+        for name, (array, on) in thing.values.held().items()
+    )
+    return ("mesh", digest.digest(), tuple(shapes), materials, groups, values)
 
 
 def _material_content(material: Material) -> tuple[Any, ...]:

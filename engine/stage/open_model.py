@@ -18,16 +18,18 @@ from ..io.reading.documents import Document
 from ..io.reading.sources import File
 from ..io.scenes.scene_loading import scene_from_document
 from ..model.geometry.mesh import Mesh
+from ..model.geometry.twins import take_over
 from ..model.materials.material import Material, says_something, textures_of
 from ..model.materials.textures import Texture
 from ..model.scene.scene import Scene
+from .coloring import Coloring
+from .numbers import Numbers
 from .overlays.theme import DARK
-from .scalars import ScalarColoring
 from .viewed_scene import ViewedScene
 from .visibility import DRAWABLE, mesh_of
 
 
-def color_by(viewed: ViewedScene, document: Document, scalars: ScalarColoring) -> None:
+def color_by(viewed: ViewedScene, document: Document, numbers: Numbers) -> None:
     """Colour a model's meshes by numbers instead of their own colours.
 
     Parameters
@@ -35,7 +37,7 @@ def color_by(viewed: ViewedScene, document: Document, scalars: ScalarColoring) -
     viewed : ViewedScene
     document : Document
         The document that the scene was made from; both hold the same meshes.
-    scalars : ScalarColoring
+    numbers : Numbers
 
     Raises
     ------
@@ -43,11 +45,15 @@ def color_by(viewed: ViewedScene, document: Document, scalars: ScalarColoring) -
         The file has no such numbers.
     """
     try:
-        viewed.bar = scalars.dress(document, viewed.up)
+        things = [(entry.mesh, entry.pose) for entry in document.objects]
+        coloring = Coloring(numbers, things, viewed.up, document.unit)
     except InvalidArgumentError as error:
         if viewed.path is None:
             raise
         raise InvalidArgumentError(f"{printable(viewed.path)}: {error}") from None
+    for mesh in dict.fromkeys(mesh for mesh, _ in things):
+        take_over(mesh, coloring.colored(mesh))
+    viewed.bar = coloring.bar
 
 
 def open_model(
@@ -87,7 +93,7 @@ def read_model(
     texture: File | None = None,
     color: ColorLike | None = None,
     variant: str | int | None = None,
-    scalars: ScalarColoring | None = None,
+    numbers: Numbers | None = None,
     **options: Any,
 ) -> tuple[ViewedScene, Document]:
     """Load a file for viewing, to be coloured by other numbers later.
@@ -102,7 +108,7 @@ def read_model(
         The base colour of the meshes without materials. If there are none, a warning says so.
     variant : str or int, optional
         As in `engine3d.load_scene`.
-    scalars : ScalarColoring, optional
+    numbers : Numbers, optional
         Colours the meshes by a number of their vertices or faces, instead of the file's colours.
     **options
         Options of `engine3d.loaders.load_document`; a texture or colour disables its ``companion``
@@ -123,14 +129,14 @@ def read_model(
     is_dressed = image is not None or color is not None
     if is_dressed:
         options["companion"] = _no_image
-    document = load_document(path, scalars=None if scalars is None else scalars.kind, **options)
+    document = load_document(path, values=numbers is not None, **options)
     is_named = not hasattr(path, "read")
     name = os.fsdecode(cast("str | os.PathLike[str]", path)) if is_named else None
     if is_dressed:
         _dress([mesh for _, mesh, _ in document.objects if not has_materials(mesh)], image, color)
     viewed = view_document(document, name, variant)
-    if scalars is not None:
-        color_by(viewed, document, scalars)
+    if numbers is not None:
+        color_by(viewed, document, numbers)
         # Tone mapping would change the colours shown in the bar.
         viewed.appearance = {**viewed.appearance, "tone_mapping": "none"}
     return viewed, document

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -23,8 +22,8 @@ from ..model.scene.orbiting import home_axes
 from ..model.scene.scene import Scene
 from ..model.scene.shown import placing_pose, shown_object
 from .near_origin import moved_near
+from .numbers import Numbers
 from .open_model import color_by, read_model
-from .scalars import ScalarColoring
 from .viewed_scene import ViewedScene
 from .views.viewpoint import UP_DIRECTIONS
 
@@ -74,7 +73,7 @@ def open_models(
     """
     opened = [read_model(path, **options) for path in paths]
     if len(opened) > 1:
-        _share_range(opened, options.get("scalars"))
+        _share_range(opened, options.get("numbers"))
     viewed_scenes = [viewed for viewed, _ in opened]
     if animation is not None:
         for viewed in viewed_scenes:
@@ -102,15 +101,13 @@ def open_models(
     return moved_near(viewed)
 
 
-def _share_range(
-    opened: list[tuple[ViewedScene, Document]], scalars: ScalarColoring | None
-) -> None:
+def _share_range(opened: list[tuple[ViewedScene, Document]], numbers: Numbers | None) -> None:
     """Give all models one colour range, which is known only after all are read."""
     ranges = {viewed.bar[1:3] for viewed, _ in opened if viewed.bar is not None}
-    if scalars is None or len(ranges) < 2:
+    if numbers is None or len(ranges) < 2:
         return
     lows, highs = zip(*ranges, strict=True)
-    shared = replace(scalars, range=(min(lows), max(highs)))
+    shared = numbers.within(min(lows), max(highs))
     for viewed, document in opened:
         color_by(viewed, document, shared)
 

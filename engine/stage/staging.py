@@ -66,7 +66,8 @@ class Staging:
         self.settings = settings
         self._transparent = transparent
         self.scene = scene = StagedScene(viewed.scene)
-        self.visibility = Visibility(scene)
+        coloring = viewed.coloring
+        self.visibility = Visibility(scene, None if coloring is None else coloring.colored_thing)
         self.alone: np.ndarray | None = None
         settings.filtering.put(viewed.scene)
         self.show_textures(settings.textures)
@@ -154,7 +155,7 @@ class Staging:
         """
         if self._studio is not None:
             self._set_studio(self._studio, view, appearance, split, draw_alone)
-        self.box.follow(view, self.settings.axes_grid and not split)
+        self.box.follow(view.position(), self.settings.axes_grid and not split)
 
     def _set_studio(
         self,

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ..model.motion.player import AnimationPlayer
     from ..model.navigation import Walker
     from ..model.scene.scene import Scene
-    from .scalars import ScalarBar
+    from .coloring import Coloring, ScalarBar
 
 #: Seconds per turn of a turntable.
 TURN_SECONDS = 6.0
@@ -90,6 +90,8 @@ class ViewedScene:
         Unit of its coordinates; empty if unknown.
     bar : ScalarBar or None
         The colour bar, if its colours represent numbers.
+    coloring : Coloring or None
+        How its meshes show numbers, unless they are coloured by them already.
     """
 
     scene: Scene
@@ -117,6 +119,7 @@ class ViewedScene:
     warnings: list[str] = field(default_factory=list)
     unit: str = ""
     bar: ScalarBar | None = None
+    coloring: Coloring | None = None
 
     @cached_property
     def bounds(self) -> Sphere:

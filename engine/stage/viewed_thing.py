@@ -6,6 +6,8 @@ from collections.abc import Callable
 
 from ..base.numbers import real, shown
 from ..errors import InvalidArgumentError
+from .coloring import show_numbers
+from .numbers import NO_MARKS, Marks
 from .overlays.theme import DARK
 from .played_clips import play_clips
 from .scenes_of_things import scene_of
@@ -20,6 +22,7 @@ def viewed_thing(
     up: str,
     update: Callable[[float], None] | None,
     period: float,
+    marks: Marks = NO_MARKS,
 ) -> ViewedScene | None:
     """Return the viewed scene that `show` displays for a thing; None for unsuitable things."""
     scene = scene_of(thing)
@@ -35,6 +38,7 @@ def viewed_thing(
     title = title or getattr(thing, "name", "") or type(thing).__name__.lower()
     viewed = ViewedScene(scene, title, up, update=update, period=period, plays=update is not None)
     viewed.themed = scene is not thing
+    show_numbers(viewed, marks)
     if update is None:
         play_clips(viewed)
     return viewed

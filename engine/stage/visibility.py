@@ -7,7 +7,7 @@ unchanged.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
@@ -41,16 +41,23 @@ class Visibility:
     Parameters
     ----------
     staged : StagedScene
+    shown_as : callable, optional
+        Returns what is drawn for a `Mesh` or `InstancedMesh`, with its faces in the same order.
     """
 
-    def __init__(self, staged: StagedScene) -> None:
+    def __init__(
+        self, staged: StagedScene, shown_as: Callable[[Any], Drawable] | None = None
+    ) -> None:
         self._staged = staged
+        self._shown_as = shown_as
         nodes = staged.scene.nodes
         self._nodes = [node for node in nodes if isinstance(node.object, DRAWABLE)]
         used = [material for mesh in self._meshes() for material in mesh.materials]
         self._materials = list(dict.fromkeys(map(_key, used)))
         self._hidden_nodes: set[Node] = set()
         self._hidden_materials: set[MaterialKey] = set()
+        if shown_as is not None:
+            self._apply()
 
     def _meshes(self) -> Iterator[Mesh]:
         return (mesh_of(thing) for thing in self._things())
@@ -105,7 +112,7 @@ class Visibility:
             frame.face_id[y, x] = np.flatnonzero(kept)[face]
 
     def _apply(self) -> None:
-        part_of = self._visible_part if self._hidden_materials else None
+        part_of = self._visible_part if self._hidden_materials else self._shown_as
         self._staged.hide(self._hidden_nodes, part_of)
 
     def _kept(self, mesh: Mesh) -> np.ndarray:
@@ -115,11 +122,11 @@ class Visibility:
 
     def _visible_part(self, thing: Drawable) -> Drawable:
         """Return a mesh, or instances of one, without the faces of hidden materials."""
-        mesh = mesh_of(thing)
-        kept = self._kept(mesh)
+        kept = self._kept(mesh_of(thing))
+        thing = thing if self._shown_as is None else self._shown_as(thing)
         if kept.all():
             return thing
-        part = _with_faces(mesh, kept)
+        part = _with_faces(mesh_of(thing), kept)
         if isinstance(thing, InstancedMesh):
             return InstancedMesh(part, thing.poses, colors=thing.colors)
         return part

@@ -108,3 +108,12 @@ def test_python_examples_run(page, tmp_path, monkeypatch, closing_windows):
         pytest.importorskip("trimesh")
     for block in re.findall(r"^```python\n(.*?)^```", text, re.M | re.S):
         exec(compile(block, page.name, "exec"), names)
+
+
+def test_the_column_of_a_table_becomes_a_picture(tmp_path, monkeypatch):
+    pytest.importorskip("pandas")
+    text = (ROOT / "docs" / "numbers.md").read_text(encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    for block in re.findall(r"^```python\n(.*?)^```", text, re.M | re.S):
+        exec(compile(block, "numbers.md", "exec"), {})
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["heat.ply", "heat.png"]

@@ -13,6 +13,7 @@ from engine3d._native import rasterizer as native
 from engine3d.apps.viewer import pixels
 from engine3d.apps.viewer.window import POINTERS
 from engine3d.model.environments import environment
+from engine3d.model.geometry import values
 from engine3d.model.geometry.vertex_attributes import vertex_attributes
 from engine3d.model.materials import colors, textures
 from engine3d.model.materials.material import TEXTURE_SLOTS
@@ -39,6 +40,7 @@ ACCEPTED = {
     "LineShape": native.LINE_SHAPES,
     "PointShape": native.POINT_SHAPES,
     "SizeUnit": render_options.SIZE_UNITS,
+    "ValuesOn": values.KINDS,
     "Culling": native.CULLINGS,
     "ToneMapping": native.TONE_MAPPINGS,
     "Filter": native.FILTERS,

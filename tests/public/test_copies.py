@@ -52,6 +52,7 @@ COPIED = {
     "Mesh": lambda: drawn().find("ball").object,
     "InstancedMesh": lambda: drawn().find("crowd").object,
     "MorphTarget": lambda: e3d.motion.MorphTarget(np.ones((3, 3)), np.ones((3, 3))),
+    "Values": lambda: e3d.Values(np.ones(3), on="faces"),
     "Texture": lambda: painted().materials[0].texture,
     "PlacedTexture": lambda: e3d.PlacedTexture(painted().materials[0].texture, uv_set=1),
     "Material": lambda: painted().materials[0],

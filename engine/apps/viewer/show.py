@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...base.calls import checks_types
+from ...base.calls import checks_types, refuse_unknown
 from ...base.image_size import check_size
 from ...base.numbers import shown
 from ...choices import PixelFormat
@@ -22,6 +22,7 @@ from ...model.scene.nodes import Node
 from ...model.scene.scene import Scene
 from ...rendering.canvas import Canvas
 from ...rendering.frame import Frame
+from ...stage.numbers import MarkKeywords, Marks, take_marks
 from ...stage.stage_settings import Settings
 from ...stage.view_renderer import ViewRenderer
 from ...stage.viewed_scene import TURN_SECONDS, ViewedScene
@@ -33,7 +34,11 @@ from .sampling import Sampling
 from .viewer import Viewer
 from .window import Window
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
 SIZE = (1280, 720)
+_KEYWORDS = ("size", "title", "up", "update", "period", "format")
 
 
 @checks_types
@@ -46,6 +51,7 @@ def show(
     update: Callable[[float], None] | None = None,
     period: float = TURN_SECONDS,
     format: PixelFormat | None = None,
+    **marks: Unpack[MarkKeywords],
 ) -> None:
     """Show a thing in a window until the user closes it.
 
@@ -73,6 +79,9 @@ def show(
         Seconds after which the time restarts at 0.
     format : {"rgba", "bgra"}, optional
         Byte order of an array; see `Window.present`.
+    **marks
+        ``color_by``, ``colormap``, ``clim``, ``component``, ``on``, ``bar`` and ``axes_grid``: see
+        `render`.
 
     Raises
     ------
@@ -86,8 +95,9 @@ def show(
     >>> e3d.show(e3d.torus())
     >>> e3d.show(e3d.render(scene, mode="depth"))
     """
+    refuse_unknown("show", marks, (*_KEYWORDS, *MarkKeywords.__annotations__))
     try:
-        _show(thing, size, title, up, update, period, format)
+        _show(thing, size, title, up, update, period, format, take_marks(dict(marks)))
     except DisplayError as error:
         if not _in_a_kernel():
             raise
@@ -103,9 +113,9 @@ def _in_a_kernel() -> bool:
     return shell is not None and hasattr(shell.get_ipython(), "kernel")
 
 
-def _show(thing, size, title, up, update, period, format) -> None:
+def _show(thing, size, title, up, update, period, format, marks: Marks) -> None:
     size = None if size is None else check_size(size)
-    viewed = viewed_thing(thing, title=title, up=up, update=update, period=period)
+    viewed = viewed_thing(thing, title=title, up=up, update=update, period=period, marks=marks)
     if viewed is None:
         if not isinstance(thing, (Frame, Canvas, np.ndarray, Sequence)):
             raise InvalidArgumentError(
@@ -113,14 +123,15 @@ def _show(thing, size, title, up, update, period, format) -> None:
             )
         _show_picture(thing, size, title, format)
         return
-    _show_scene(viewed, size)
+    _show_scene(viewed, size, marks)
 
 
-def _show_scene(viewed: ViewedScene, size: tuple[int, int] | None) -> None:
+def _show_scene(viewed: ViewedScene, size: tuple[int, int] | None, marks: Marks) -> None:
     size = size or SIZE
+    settings = Settings({}, bar=marks.bar, axes_grid=marks.axes_grid)
     with (
         Window(*size, f"{viewed.title} - engine3d") as window,
-        ViewRenderer(viewed, Settings({}), size) as view_renderer,
+        ViewRenderer(viewed, settings, size) as view_renderer,
     ):
         view = view_of_scene(view_renderer)
         try:

@@ -16,6 +16,7 @@ from ...base import linalg
 from ...base.calls import checks_types
 from ...errors import InvalidArgumentError
 from ...model.geometry.mesh import Mesh
+from ...model.geometry.values import put_values, taken_rows
 from ...model.geometry.vertex_attributes import attributes_of, vertex_attributes
 
 _ATTRIBUTES = ("normals", *vertex_attributes(Mesh))
@@ -39,7 +40,8 @@ def simplify(mesh: Mesh, ratio: float) -> tuple[Mesh, float]:
     Returns
     -------
     coarse : Mesh
-        With the same materials; its vertices have attributes of old ones near by.
+        With the same materials; its vertices have attributes and ``values`` of old ones near by.
+        Values of faces and points are dropped.
     error : float
         The farthest that a vertex of ``mesh`` is from the triangles that took its place, in its own
         units.
@@ -161,7 +163,7 @@ def _joined(mesh: Mesh, parts: Sequence[tuple[np.ndarray, np.ndarray, np.ndarray
         for name in _ATTRIBUTES
         if (mesh.has_normals if name == "normals" else getattr(mesh, name) is not None)
     }
-    return Mesh(
+    coarse = Mesh(
         np.concatenate(positions),
         np.concatenate([part + start for part, start in zip(faces, starts, strict=True)]),
         materials=mesh.materials,
@@ -170,3 +172,5 @@ def _joined(mesh: Mesh, parts: Sequence[tuple[np.ndarray, np.ndarray, np.ndarray
         name=mesh.name,
         **attributes,
     )
+    put_values(coarse, taken_rows(mesh.values, vertices=source))
+    return coarse

@@ -15,6 +15,7 @@ from ...model.geometry.derived import arrays_of
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.origins import FileOrigin, remember_origin
 from ...model.geometry.twins import twin_of
+from ...model.geometry.values import Values
 from ...model.materials.material import Material, copy_of
 from ..reading.json_values import JsonValue
 from ..reading.linked_files import LinkedFileError, LinkedFiles
@@ -76,6 +77,9 @@ class SceneMeshes:
                 crease_angle=angle,
                 name="",
             )
+            values = entry.get("values")
+            if values is not None:
+                mesh.values = {key: _values(held) for key, held in values.members().items()}
             if groups is not None:
                 mesh.groups = {key: value.array() for key, value in groups.members().items()}
         except InvalidArgumentError as error:
@@ -122,6 +126,11 @@ class SceneMeshes:
         if path is not None:
             remember_origin(mesh, FileOrigin(path, format, part, True, angle))
         return mesh
+
+
+def _values(entry: JsonValue) -> Values:
+    on: Any = entry.need("on").text()
+    return Values(entry.need("array").array(), on)
 
 
 def _crease_angle(entry: JsonValue, usual: float) -> float:

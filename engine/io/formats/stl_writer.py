@@ -38,7 +38,7 @@ def write_stl(mesh: Mesh, path: str, files: Files, ascii: bool = False) -> list[
         file.write(_HEADER + len(facets).to_bytes(4, "little"))
         file.write(facets.tobytes())
     parts = ("uvs", "uvs1", "tangents", "colors", "materials", "lines", "points", "groups")
-    return told + lost_parts(mesh, "stl", *parts, "normals", "edge_visible")
+    return told + lost_parts(mesh, "stl", *parts, "values", "normals", "edge_visible")
 
 
 def _write_text(file: Any, name: bytes, facets: np.ndarray) -> None:

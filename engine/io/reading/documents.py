@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from ...model.environments.environment import Environment
-from ...model.geometry.mesh import Mesh, scalars_of
+from ...model.geometry.mesh import Mesh
 from ...model.materials.material import Material
 from .json_values import JsonValue
 
@@ -424,7 +424,8 @@ class Document:
     unit : str
         The symbol of the coordinates' unit, such as ``"mm"``; empty if the format has none.
     arrays : dict of str to list of str
-        Names of the numbers that ``scalars`` can hold, of ``"vertices"`` and of ``"faces"``.
+        Names of the custom numbers of ``"vertices"`` and of ``"faces"``, also if they are not read
+        into ``Mesh.values``.
     up : str
         The format's usual up axis: ``"+Y"`` or ``"+Z"``.
     """
@@ -440,13 +441,3 @@ class Document:
     unit: str = ""
     arrays: dict[str, list[str]] = field(default_factory=dict)
     up: str = "+Y"
-
-    @property
-    def scalars(self) -> list[dict[str, np.ndarray]]:
-        """Numbers of vertices, (V,) or (V, N) by name, for the mesh of each object.
-
-        Custom data, if `load_document` was asked for it: properties of PLY files, attributes of
-        glTF files whose names begin with ``_``. Each vertex gets the numbers of its faces, if they
-        belong to faces.
-        """
-        return [scalars_of(entry.mesh) for entry in self.objects]

@@ -13,7 +13,8 @@ import numpy as np
 
 from ..._native import loaders as native
 from ...model.geometry.creases import CREASE_ANGLE, SMOOTH
-from ...model.geometry.mesh import Mesh, scalars_of
+from ...model.geometry.mesh import Mesh
+from ...model.geometry.values import OF_FACES, Values, check_values, put_values
 from ...model.geometry.vertex_attributes import vertex_attributes
 from .smoothing import join_seams
 from .welding import number_rows
@@ -45,10 +46,10 @@ class IndexedGeometry:
     position_ids : (V,) number or None
         Vertices with the same number are one point of the surface.
     edge_visible : (T, 3) bool or None
-    scalars : dict of str to (V,) or (V, N) number
+    values : dict of str to (V,) or (V, N) number
         Numbers of the vertices, by name.
-    face_scalars : dict of str to (T,) or (T, N) number
-        Numbers of the faces, transferred to vertices, which are split for them.
+    face_values : dict of str to (T,) or (T, N) number
+        Numbers of the faces, by name; a name that the vertices have too gets `OF_FACES`.
     crease_angle : float
         Radians, for computed normals.
     """
@@ -66,8 +67,8 @@ class IndexedGeometry:
     lines: np.ndarray | None = None
     position_ids: np.ndarray | None = None
     edge_visible: np.ndarray | None = None
-    scalars: dict[str, np.ndarray] = field(default_factory=dict)
-    face_scalars: dict[str, np.ndarray] = field(default_factory=dict)
+    values: dict[str, np.ndarray] = field(default_factory=dict)
+    face_values: dict[str, np.ndarray] = field(default_factory=dict)
     crease_angle: float = CREASE_ANGLE
 
 
@@ -83,11 +84,10 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
             name=name,
             **_chosen(geometry, None),
         )
-        scalars_of(cloud).update(geometry.scalars)
+        _put_values(cloud, geometry, None)
         return cloud
-    of_corner, kinds = _corner_attributes(geometry), _face_kinds(geometry)
-    splitting = [*of_corner.values(), *([] if kinds is None else [np.repeat(kinds, 3, axis=0)])]
-    faces, vertices, first_corner = _split(corners, splitting, count)
+    of_corner = _corner_attributes(geometry)
+    faces, vertices, first_corner = _split(corners, list(of_corner.values()), count)
     vertex_of, vertices, added = _vertices_for(lines.ravel(), vertices, count)
     attributes = _chosen(geometry, vertices)
     for attribute, rows in of_corner.items():
@@ -98,19 +98,25 @@ def build_indexed_mesh(geometry: IndexedGeometry, name: str) -> Mesh:
         faces,
         lines=vertex_of.reshape(-1, 2),
         edge_visible=geometry.edge_visible,
-        position_ids=_position_ids(geometry, vertices, bool(splitting)),
+        position_ids=_position_ids(geometry, vertices, bool(of_corner)),
         crease_angle=SMOOTH if geometry.normals is not None else geometry.crease_angle,
         name=name,
         **attributes,
     )
-    scalars = scalars_of(mesh)
-    scalars.update((name, _rows(row, vertices)) for name, row in geometry.scalars.items())
-    for name, row in geometry.face_scalars.items():
-        filler = np.full((added, *row.shape[1:]), np.nan)
-        scalars[name] = np.concatenate([row[first_corner // 3], *([filler] * bool(added))])
+    _put_values(mesh, geometry, vertices)
     if not mesh.has_normals and geometry.position_ids is None:
         join_seams(mesh)
     return mesh
+
+
+def _put_values(mesh: Mesh, geometry: IndexedGeometry, vertices: np.ndarray | None) -> None:
+    """Give a mesh the numbers of its vertices and faces."""
+    values = {
+        name: Values(_rows(array, vertices), "vertices") for name, array in geometry.values.items()
+    }
+    for name, array in geometry.face_values.items():
+        values[name + OF_FACES if name in values else name] = Values(array, "faces")
+    put_values(mesh, check_values(mesh, values))
 
 
 def _chosen(geometry: IndexedGeometry, vertices: np.ndarray | None) -> dict[str, np.ndarray]:
@@ -145,15 +151,6 @@ def _corner_attributes(geometry: IndexedGeometry) -> dict[str, np.ndarray]:
     elif geometry.face_colors is not None and geometry.colors is None:
         found["colors"] = np.repeat(geometry.face_colors, 3, axis=0)
     return found
-
-
-def _face_kinds(geometry: IndexedGeometry) -> np.ndarray | None:
-    """Return a number (T, 1) uint32 for each face, equal for faces with equal numbers."""
-    if not geometry.face_scalars:
-        return None
-    rows = [row.reshape(len(row), -1) for row in geometry.face_scalars.values()]
-    bits = np.concatenate([row.astype(np.float64).view(np.uint32) for row in rows], axis=1)
-    return number_rows(bits)[0].astype(np.uint32).reshape(-1, 1)
 
 
 def _split(

@@ -19,7 +19,19 @@ from .sources import Source
 from .text import checked_text, shown
 
 # Dtypes of arrays, by their names in files; little-endian.
-ARRAY_TYPES = {"float32": "<f4", "int32": "<i4", "uint8": "u1", "bool": "?"}
+ARRAY_TYPES = {
+    "float32": "<f4",
+    "int32": "<i4",
+    "uint8": "u1",
+    "bool": "?",
+    "float64": "<f8",
+    "int8": "i1",
+    "int16": "<i2",
+    "int64": "<i8",
+    "uint16": "<u2",
+    "uint32": "<u4",
+    "uint64": "<u8",
+}
 _MAX_AXES = 3
 
 

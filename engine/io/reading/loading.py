@@ -7,11 +7,12 @@ import errno
 import os
 import warnings
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...base.calls import checks_types
+from ...base.validation import flag
 from ...errors import Engine3DWarning, FileFormatError, InvalidArgumentError
 from ...model.geometry.creases import CREASE_ANGLE, check_crease_angle
 from ...model.geometry.mesh import Mesh
@@ -95,7 +96,7 @@ def load_document(
     progress: Progress | None = None,
     companion: Callable[[str], bool] | None = None,
     crease_angle: float = CREASE_ANGLE,
-    scalars: Literal["vertices", "faces"] | None = None,
+    values: bool = True,
     root: str | os.PathLike[str] | None = None,
 ) -> Document:
     """Load everything in a model file: its objects one by one, lights and cameras.
@@ -107,14 +108,16 @@ def load_document(
     companion : callable, optional
         ``companion(path)`` returns whether an image beside a model without materials may become its
         texture by name alone (`companion_texture`); by default any may.
-    scalars : {"vertices", "faces"}, optional
-        Also read custom numbers of vertices or faces: `Document.scalars`. Vertices are split where
-        their faces have different numbers.
+    values : bool
+        Whether to read custom numbers of vertices and faces into ``mesh.values``: properties of PLY
+        files, attributes of glTF files whose names begin with ``_``.
     """
     root = checked_root(root)
     with read_source(path) as source:
         source = source._replace(
-            crease_angle=check_crease_angle(crease_angle), scalars=scalars, root=root
+            crease_angle=check_crease_angle(crease_angle),
+            values=flag(values, "values"),
+            root=root,
         )
         if companion is not None:
             source = source._replace(companion=companion)

@@ -69,8 +69,8 @@ class Source(NamedTuple):
         ``companion(path) -> bool``: whether an image may become the texture by name alone.
     crease_angle : float
         Radians, for normals that the file lacks.
-    scalars : {"vertices", "faces"} or None
-        Whose custom numbers to read.
+    values : bool
+        Whether to read custom numbers into ``Mesh.values``.
     root : str or None
         A second folder, besides the model's own, for files named in the model.
     """
@@ -80,7 +80,7 @@ class Source(NamedTuple):
     progress: Callable[[float], object] = _no_progress
     companion: Callable[[str], bool] = _any_image
     crease_angle: float = CREASE_ANGLE
-    scalars: str | None = None
+    values: bool = True
     root: str | None = None
 
     def __enter__(self) -> Source:

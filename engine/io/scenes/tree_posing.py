@@ -16,6 +16,7 @@ from ...base import linalg
 from ...base.linalg import single
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.normals import unit_vectors
+from ...model.geometry.values import put_values
 from ...model.geometry.vertex_attributes import attributes_of
 from ..reading.documents import MeshRecord, NodeRecord, SkinRecord, TreeRecord
 
@@ -207,7 +208,7 @@ def _changed(mesh: Mesh, arrays: dict[str, np.ndarray]) -> Mesh:
     held = {"positions": mesh.positions, **attributes_of(mesh)}
     if mesh.has_normals:
         held["normals"] = mesh.normals
-    return type(mesh)(
+    changed = type(mesh)(
         **{**held, **arrays},
         faces=mesh.faces,
         materials=mesh.materials,
@@ -218,3 +219,5 @@ def _changed(mesh: Mesh, arrays: dict[str, np.ndarray]) -> Mesh:
         crease_angle=mesh.crease_angle,
         name=mesh.name,
     )
+    put_values(changed, mesh.values)
+    return changed

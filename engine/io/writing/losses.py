@@ -17,6 +17,7 @@ _NAMES = {
     "lines": "lines",
     "points": "points",
     "groups": "groups",
+    "values": "values",
 }
 # This many materials are listed by name.
 _MOST_NAMED = 3

@@ -370,8 +370,13 @@ def _arrays(mesh: Mesh) -> dict[str, Any]:
         if name not in VERTEX_AXES and array is not None and (len(array) or name == "positions")
     }
     groups = {name: _array(faces) for name, faces in mesh.groups.items()}
+    values = {
+        name: {"on": on, "array": _array(np.asarray(array))}
+        for name, (array, on) in mesh.values.held().items()
+    }
     angle = {} if mesh.crease_angle == SMOOTH else {"crease_angle": mesh.crease_angle}
-    return {"arrays": arrays, **({"groups": groups} if groups else {}), **angle}
+    named = {"groups": groups, "values": values}
+    return {"arrays": arrays, **{key: held for key, held in named.items() if held}, **angle}
 
 
 def _array(array: np.ndarray) -> dict[str, Any]:

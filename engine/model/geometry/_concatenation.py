@@ -19,6 +19,7 @@ from ..materials.material import Material
 from .creases import mesh_with_creases
 from .groups import put_groups
 from .posing import posed_mesh
+from .values import joined_values, put_values
 from .vertex_attributes import VertexAttribute, attributes_of, vertex_attributes
 
 
@@ -74,6 +75,7 @@ def concatenate(mesh_type: type, meshes: list[Any], name: str) -> Any:
         **_joined_attributes(meshes),
     )
     put_groups(joined, _joined_groups(meshes))
+    put_values(joined, joined_values(meshes))
     joined.warnings = [warning for mesh in meshes for warning in mesh.warnings]
     return joined
 

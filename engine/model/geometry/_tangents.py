@@ -13,8 +13,8 @@ import numpy as np
 
 from ..._native import loaders as native
 from ...errors import InvalidArgumentError
-from ._splitting import split_mesh
 from .creases import mesh_with_creases
+from .splitting import split_mesh
 from .vertex_attributes import attributes_of
 
 if TYPE_CHECKING:

@@ -17,8 +17,8 @@ import numpy as np
 from ..._native import loaders as native
 from ...base import linalg
 from ...base.angles import limited_angle
-from ._splitting import split_mesh
 from .normals import vertex_normals
+from .splitting import split_mesh
 
 if TYPE_CHECKING:
     from .mesh import Mesh

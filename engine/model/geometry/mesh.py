@@ -45,6 +45,7 @@ from .creases import SMOOTH, check_crease_angle, mesh_with_creases
 from .derived import derived
 from .groups import put_groups
 from .morph_targets import MorphTarget
+from .values import MeshValues, Values, check_values, drop_misfits, put_values
 from .vertex_attributes import VertexAttribute
 
 _Floats: TypeAlias = ArrayAttribute[ArrayLike, NDArray[np.float32]]
@@ -121,6 +122,10 @@ class Mesh(Closed):
     materials : list of Material
     groups : dict of str to (N,) int32
         Face indices of named parts; emptied when the number of faces changes.
+    values : dict of str to (N,) or (N, K) number
+        Numbers of the vertices, faces or points by name, such as temperatures.
+        Pictures show them by ``color_by``. They are dropped when the number of their elements
+        changes.
     warnings : list of str
         The loader's warnings: what it omitted or replaced.
     version : int
@@ -150,6 +155,7 @@ class Mesh(Closed):
     _origin: Any = None  # see origins.py
     _morph_targets: tuple[MorphTarget, ...] = ()
     _groups: dict[str, NDArray[np.int32]]
+    _values: MeshValues
     _FORGOTTEN = ("_derived", "_origin")
     # The UV set that tangents are computed from when the mesh is drawn without any, or None.
     _tangent_uv_set: int | None = None
@@ -178,7 +184,7 @@ class Mesh(Closed):
     ) -> None:
         self.name = text(name, "name")
         put_groups(self, {})
-        self._scalars: dict[str, NDArray[np.number]] = {}
+        put_values(self, {})
         self.warnings = []
         self._arrays: dict[str, np.ndarray | None] = dict.fromkeys(_movers.VERTEX_AXES)
         self._morph_targets = ()
@@ -321,6 +327,22 @@ class Mesh(Closed):
     def groups(self, value: Mapping[str, ArrayLike]) -> None:
         put_groups(self, check_groups(value, len(self.faces)))
 
+    @property
+    def values(self) -> MeshValues:
+        """Numbers of the vertices, faces or points by name, each (N,) or (N, K), read-only.
+
+        ``mesh.values["t"] = array`` copies the array; its length tells what it belongs to, and
+        ``mesh.values.on("t")`` returns that. Where the length fits several kinds of elements,
+        assign ``Values(array, on="faces")``; a name that exists keeps its kind if it fits.
+        """
+        return self._values
+
+    @values.setter
+    def values(self, value: Mapping[str, ArrayLike | Values]) -> None:
+        put_values(self, check_values(self, value))
+        self._origin = None
+        renew(self)
+
     @classmethod
     @checks_types
     def concatenate(
@@ -333,8 +355,8 @@ class Mesh(Closed):
         """Return one mesh that holds several meshes, in their order.
 
         Attributes that only some meshes have are filled in: computed normals, zero texture
-        coordinates, white vertex colours. Equal material objects are kept once. One mesh draws
-        faster than many small ones; for copies of one mesh use `InstancedMesh`.
+        coordinates, white vertex colours, NaN for ``values``. Equal material objects are kept once.
+        One mesh draws faster than many small ones; for copies of one mesh use `InstancedMesh`.
 
         Parameters
         ----------
@@ -539,9 +561,10 @@ class Mesh(Closed):
         save_mesh(self, path, format=format, **options)
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        super().__setstate__({**state, "_derived": {}})
-        for arrays in (self._arrays, self._scalars):
-            arrays.update({name: own(array) for name, array in arrays.items()})
+        values = state["_values"]
+        super().__setstate__({**state, "_derived": {}, "_values": {}})
+        self._arrays.update({name: own(array) for name, array in self._arrays.items()})
+        self._values = values
         own_containers(self)
 
     def _repr_png_(self) -> bytes | None:
@@ -571,6 +594,8 @@ class Mesh(Closed):
                 break
         if anew:
             put_groups(self, {})
+        if self._values:
+            drop_misfits(self)
         self._changed()
 
     def _put(self, fresh: dict[str, Any]) -> None:
@@ -597,14 +622,7 @@ def own_containers(mesh: Mesh) -> None:
     """Replace plain lists and dicts, set by copies and the editor, with the mesh's own types."""
     mesh._materials = CheckedList(mesh, _take_materials, mesh._materials)
     put_groups(mesh, mesh._groups)
-
-
-def scalars_of(mesh: Mesh) -> dict[str, NDArray[np.number]]:
-    """Return per-vertex numbers stored by loaders, (V,) or (V, N) by name.
-
-    The viewers colour meshes by them.
-    """
-    return mesh._scalars
+    put_values(mesh, mesh._values)
 
 
 def _take_materials(mesh: Mesh, materials: list[Any], put: Callable[[list[Any]], None]) -> None:

@@ -16,8 +16,11 @@ from .mesh import Mesh
 from .vertex_attributes import vertex_attributes
 
 
-def find_tangents_when_drawn(mesh: Mesh, uv_set: int) -> None:
-    """Mark a mesh whose file lacks tangents: they are computed from a UV set when it is drawn."""
+def find_tangents_when_drawn(mesh: Mesh, uv_set: int | None) -> None:
+    """Mark a mesh whose file lacks tangents: they are computed from a UV set when it is drawn.
+
+    None takes the mark away.
+    """
     mesh._tangent_uv_set = uv_set
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from ...base.linalg import normal_matrix, transform_directions, transform_points
 from .normals import unit_vectors
+from .values import put_values
 from .vertex_attributes import attributes_of
 
 if TYPE_CHECKING:
@@ -50,6 +51,7 @@ def posed_mesh(mesh: Mesh, pose: np.ndarray) -> Mesh:
     if mesh.tangents is not None:
         posed.tangents = _posed_tangents(mesh.tangents, pose, mirrored)
     posed.groups = mesh.groups
+    put_values(posed, mesh.values)
     return posed
 
 

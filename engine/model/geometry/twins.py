@@ -43,6 +43,7 @@ def take_over(mesh: Mesh, other: Mesh) -> None:
     mesh._crease_angle = other._crease_angle
     mesh._derived = {}
     mesh._materials, mesh._groups = other._materials, other._groups
+    mesh._values = other._values
     own_containers(mesh)
     mesh.warnings = list(other.warnings)
     mesh._origin = other._origin

@@ -20,6 +20,7 @@ from ..geometry.mesh import Mesh
 from ..geometry.movers import VERTEX_AXES
 from ..geometry.native_meshes import make_native_mesh
 from ..geometry.twins import put_arrays
+from ..geometry.values import put_values
 
 _MOST_COLUMNS = 8  # that C numbers in one call
 _rests: WeakKeyDictionary[Mesh, tuple[dict[str, Any], NativeRest]] = WeakKeyDictionary()
@@ -101,6 +102,7 @@ class PosedMesh:
         put_arrays(copy, {**self._made_of, **gone, "positions": copy.positions})
         copy.normals, copy.tangents = normals, tangents
         copy.materials = self.mesh.materials
+        put_values(copy, self.mesh.values)
         return copy
 
 

@@ -11,7 +11,6 @@ from ...model.scene.nodes import Node
 from ...model.scene.staged_scene import StagedScene
 from ...rendering.frame import Frame
 from ..viewed_scene import ViewedScene
-from ..views.viewpoint import Viewpoint
 from .axes_grid import AxesGrid
 from .theme import Theme
 
@@ -45,13 +44,13 @@ class BoxGrid:
         """Whether the grid is drawn."""
         return self._node is not None and self._node.visible
 
-    def follow(self, view: Viewpoint, shown: bool) -> None:
-        """Update the grid for a view, or hide it."""
+    def follow(self, eye: np.ndarray, shown: bool) -> None:
+        """Update the grid for a camera's position, (3,) in world space, or hide it."""
         if shown and not np.isfinite([self._grid.low, self._grid.high]).all():
             return
         if shown:
             middle = (self._grid.low + self._grid.high) / 2
-            far = self._grid.far_sides(view.position() - middle)
+            far = self._grid.far_sides(eye - middle)
             if self._node is None or far != self._far:
                 mesh = self._grid.lines(far)
                 if self._node is None:

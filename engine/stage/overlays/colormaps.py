@@ -9,12 +9,18 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Callable
+from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from ...base.numbers import as_array
 from ...errors import InvalidArgumentError
 from ...io.loaders import load_texture
+
+#: The choices of a colour map: see `colormap`.
+ColormapLike: TypeAlias = str | ArrayLike | Callable[[Any], Any]
 
 SIZE = 256
 #: The colour of missing numbers.
@@ -34,14 +40,16 @@ _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 _PART = re.compile(r"[^,(]+(?:\([^)]*\))?")  # keeps rgb(1,2,3) together
 
 
-def colormap(name: str) -> NDArray[np.uint8]:
+def colormap(name: ColormapLike) -> NDArray[np.uint8]:
     """Return the table of a colour map.
 
     Parameters
     ----------
-    name : str
+    name : str, colour map of matplotlib, or (N, 3) or (N, 4) array
         One of `COLORMAPS`, the path of a picture, or positions with colours, as in f3d:
         ``0,#000000,1,white`` or, with three numbers from 0 to 1 per colour, ``0,0,0,0,1,1,1,1``.
+        Colours of an array are display values, lowest number first: 0 to 255 if ``uint8``, else 0
+        to 1; alpha is left out.
 
     Returns
     -------
@@ -55,6 +63,10 @@ def colormap(name: str) -> NDArray[np.uint8]:
     FileFormatError
         The file is not a picture.
     """
+    if callable(name):
+        name = np.asarray(name(np.linspace(0.0, 1.0, SIZE)))
+    if not isinstance(name, str):
+        return _checked_table(name)
     if name in _COLORS:
         given = np.array([list(bytes.fromhex(color)) for color in _COLORS[name].split()], float)
         return _table(np.linspace(0.0, 1.0, len(given)), given)
@@ -65,6 +77,20 @@ def colormap(name: str) -> NDArray[np.uint8]:
         raise InvalidArgumentError(f"{name!r} is neither a picture nor one of {known}")
     pixels = load_texture(name).pixels
     return np.ascontiguousarray(pixels[len(pixels) // 2, :, :3])
+
+
+def _checked_table(value: ArrayLike) -> NDArray[np.uint8]:
+    """Return an array of colours as (N, 3) uint8."""
+    array = as_array(value, "colormap")
+    if array.ndim != 2 or array.shape[1] not in (3, 4) or len(array) < 2:
+        raise InvalidArgumentError(
+            f"colormap must be a name or (N, 3) colours from N = 2 on, not of shape {array.shape}"
+        )
+    if array.dtype == np.uint8:
+        return np.ascontiguousarray(array[:, :3])
+    if array.dtype.kind != "f" or not ((array >= 0.0) & (array <= 1.0)).all():
+        raise InvalidArgumentError("the colours of a colormap must be uint8, or from 0.0 to 1.0")
+    return np.rint(array[:, :3] * 255.0).astype(np.uint8)
 
 
 def _table(places: NDArray[np.float64], colors: NDArray[np.float64]) -> NDArray[np.uint8]:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...rendering.canvas import Canvas, text_size
-from ..scalars import ScalarBar
+from ..coloring import ScalarBar
 from ..views.free_region import Taken
 from .overlay import MARGIN, PADDING
 from .theme import DARK, Theme

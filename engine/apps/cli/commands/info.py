@@ -78,7 +78,7 @@ def describe(path, root: str | None = None) -> dict:
     """
     with LoadingBar() as progress, warnings.catch_warnings():
         warnings.simplefilter("ignore", Engine3DWarning)  # they are part of the report
-        document = load_document(path, progress=progress, root=root)
+        document = load_document(path, progress=progress, values=False, root=root)
     return {
         "file": path.name if hasattr(path, "read") else str(path),
         "format": document.format,

@@ -16,7 +16,6 @@ COLORING = (
     "range",
     "bar",
 )
-_DEFAULT_MAP = "viridis"
 
 
 def add_scalars(parser) -> None:
@@ -80,18 +79,19 @@ def add_scalars(parser) -> None:
 
 
 def coloring(args: argparse.Namespace):
-    """Return the `ScalarColoring` that the options describe, or None."""
+    """Return the `Numbers` that the options describe, or None."""
     if "scalar_coloring" not in args:  # some commands have no such options
         return None
     if all(getattr(args, name) is None or getattr(args, name) is False for name in COLORING):
         return None
-    from ....stage.overlays.colormaps import colormap
-    from ....stage.scalars import MAGNITUDE, ScalarColoring
+    from ....stage.numbers import DEFAULT_MAP, MAGNITUDE, Numbers
 
-    colors = colormap(args.colormap or _DEFAULT_MAP)
-    component = MAGNITUDE if args.coloring_component is None else args.coloring_component
-    return ScalarColoring(
-        colors, args.coloring_array, args.range, component, args.coloring_by_cells
+    return Numbers(
+        args.coloring_array,
+        args.colormap or DEFAULT_MAP,
+        args.range,
+        MAGNITUDE if args.coloring_component is None else args.coloring_component,
+        "faces" if args.coloring_by_cells else None,
     )
 
 

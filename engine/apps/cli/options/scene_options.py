@@ -150,7 +150,7 @@ def opening(args: argparse.Namespace) -> dict:
         **creases,
         "format": args.force_reader,
         "root": args.root,
-        "scalars": scalar_options.coloring(args),
+        "numbers": scalar_options.coloring(args),
         "side_by_side": args.side_by_side,
         "up": args.up,
         "texture": args.texture,

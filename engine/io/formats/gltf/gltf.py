@@ -42,7 +42,7 @@ def read_gltf(source: Source, split: bool = False) -> Document:
     file = GltfFile(source)
     check_extensions(file)
     buffers = GltfBuffers(file, source)
-    tree, own = _read_tree(file, buffers, source.scalars == "vertices")
+    tree, own = _read_tree(file, buffers, source.values)
     if file.lost is not None and not any(_draws(tree)):
         raise file.lost
     objects = tree_objects(source, tree, buffers.limit, split)
@@ -58,7 +58,7 @@ def read_gltf(source: Source, split: bool = False) -> Document:
     )
 
 
-def _read_tree(file: GltfFile, buffers: GltfBuffers, scalars: bool) -> tuple[TreeRecord, list[str]]:
+def _read_tree(file: GltfFile, buffers: GltfBuffers, values: bool) -> tuple[TreeRecord, list[str]]:
     """Return the tree, and the names of custom attributes."""
     accessors = GltfAccessors(file, buffers)
     lists = {
@@ -70,7 +70,7 @@ def _read_tree(file: GltfFile, buffers: GltfBuffers, scalars: bool) -> tuple[Tre
     roots = read_roots(file, nodes)
     materials = GltfMaterials(file, GltfTextures(file, buffers))
     draco = GltfDraco(file, buffers)
-    primitives = GltfPrimitives(file, accessors, materials, draco, scalars)
+    primitives = GltfPrimitives(file, accessors, materials, draco, values)
     meshes = GltfMeshes(file, buffers, primitives, materials).all()
     if primitives.left_out:
         first, count = primitives.left_out[0], len(primitives.left_out)

@@ -16,10 +16,11 @@ import numpy as np
 
 from ...._native.loaders import frozen
 from ....model.geometry.creases import SMOOTH
-from ....model.geometry.mesh import Mesh, scalars_of
+from ....model.geometry.mesh import Mesh
 from ....model.geometry.morph_targets import MorphTarget
 from ....model.geometry.native_meshes import find_tangents_when_drawn
 from ....model.geometry.twins import twin_of
+from ....model.geometry.values import Values, joined_rows, put_values
 from ....model.materials.material import Material
 from ....model.materials.textures import PlacedTexture
 from ...reading.documents import MeshRecord
@@ -157,8 +158,7 @@ class GltfMeshes:
             name="",
             **arrays,
         )
-        for key in primitives[0].scalars:
-            scalars_of(mesh)[key] = self._joined([p.scalars[key] for p in primitives])
+        put_values(mesh, self._values_of(primitives))
         if flat:
             join_seams(mesh)
         joints = [p.joints for p in primitives if p.joints is not None]
@@ -170,6 +170,16 @@ class GltfMeshes:
         if kind == "faces" and "normals" in arrays and "tangents" not in arrays:
             mesh = self._with_tangents(mesh, uv_set)
         return mesh
+
+    def _values_of(self, primitives: list[Primitive]) -> dict[str, Values]:
+        """Return the custom numbers of joined primitives; NaN where one has none."""
+        values = {}
+        for name in dict.fromkeys(name for p in primitives for name in p.values):
+            lacking = (np.zeros((len(p.arrays["positions"]), 0), np.float32) for p in primitives)
+            parts = [p.values.get(name, none) for p, none in zip(primitives, lacking, strict=True)]
+            self._buffers.count(sum(part.size for part in parts) if len(parts) > 1 else 0)
+            values[name] = Values(frozen(joined_rows(parts)), "vertices")
+        return values
 
     def _variants(self, chosen: list[_Chosen], name: str) -> dict[int, tuple[Material, ...]]:
         """Return the materials of each variant; none, with a warning, if there are too many."""
@@ -197,8 +207,6 @@ class GltfMeshes:
         """Return a mesh whose tangents are computed at drawing, or now if it is deformable."""
         if uv_set is None or (mesh.uvs1 if uv_set else mesh.uvs) is None:
             return mesh
-        if scalars_of(mesh):
-            return mesh  # it will be coloured by scalars, without textures
         if mesh.joints is None and not mesh.morph_targets:
             find_tangents_when_drawn(mesh, uv_set)
             return mesh
@@ -252,8 +260,7 @@ def _kind_of(primitive: Primitive) -> tuple[object, ...]:
     joints = 0 if primitive.joints is None else primitive.joints.shape[1]
     material = None if primitive.kind == "faces" else primitive.material
     # Different UV sets need different materials, even if only one set is drawn.
-    scalars = tuple((name, values.shape[1]) for name, values in sorted(primitive.scalars.items()))
-    return primitive.kind, tuple(primitive.arrays), joints, material, scalars
+    return primitive.kind, tuple(primitive.arrays), joints, material
 
 
 def tangent_set(material: Material) -> int | None:

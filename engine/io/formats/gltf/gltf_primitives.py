@@ -58,7 +58,7 @@ class Primitive:
     material : int or None
     uv_sets : tuple of int
         The file's UV sets that became ``uvs`` and ``uvs1``.
-    scalars : dict of str to (V, N) number
+    values : dict of str to (V,) or (V, N) number
         Custom attributes, if requested.
     """
 
@@ -70,7 +70,7 @@ class Primitive:
     morphs: list[dict[str, np.ndarray]] = field(default_factory=list)
     material: int | None = None
     uv_sets: tuple[int, ...] = (0, 1)
-    scalars: dict[str, np.ndarray] = field(default_factory=dict)
+    values: dict[str, np.ndarray] = field(default_factory=dict)
 
 
 class GltfPrimitives:
@@ -82,7 +82,7 @@ class GltfPrimitives:
     accessors : GltfAccessors
     materials : GltfMaterials
     draco : GltfDraco
-    scalars : bool
+    values : bool
         Whether to read attributes whose names begin with ``_``.
 
     Attributes
@@ -101,10 +101,10 @@ class GltfPrimitives:
         accessors: GltfAccessors,
         materials: GltfMaterials,
         draco: GltfDraco,
-        scalars: bool = False,
+        values: bool = False,
     ) -> None:
         self._file, self._accessors, self._materials = file, accessors, materials
-        self._scalars = scalars
+        self._reads_values = values
         self._draco = draco
         self._told: set[str] = set()
         self.lists = primitive_lists(file)
@@ -159,12 +159,18 @@ class GltfPrimitives:
         primitive.joints, primitive.weights = influences or (None, None)
         own = [name for name in attributes if name.startswith("_")]
         self.own.update(own)
-        if self._scalars:
-            width_of = {name: self._accessors.width(attributes[name], where) for name in own}
-            usable = [name for name in own if width_of[name] in _WIDTHS]
-            primitive.scalars = {name: vertices.numbers(name) for name in usable}
+        for name in own if self._reads_values else ():
+            values = file.sound(f"{where}.{name}", self._numbers, vertices, name)
+            primitive.values |= {} if values is None else {name: values}
         primitive.morphs = self._morphs(vertices, entry, where)
         return primitive
+
+    def _numbers(self, vertices: _Vertices, name: str) -> np.ndarray | None:
+        """Return a custom attribute, (V,) or (V, N); None for matrices."""
+        if self._accessors.width(vertices.attributes[name], vertices.where) not in _WIDTHS:
+            return None
+        values = vertices.numbers(name)
+        return values[:, 0] if values.shape[1] == 1 else values
 
     def _uv_sets(self, entry: Entry, where: str) -> tuple[int, ...]:
         """Return the two UV sets that the materials of a primitive use."""

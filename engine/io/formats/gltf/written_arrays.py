@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-_TYPES = {"u1": 5121, "u2": 5123, "u4": 5125, "f4": 5126}
+_TYPES = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}
 _SHAPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
 _VERTICES, _INDICES = 34962, 34963
 _STEP = 4  # alignment of arrays in bytes
@@ -47,6 +47,19 @@ class GltfArrays:
         if known not in self._numbers:
             self._numbers[known] = self.add(content, bounds=what == "POSITION", target=_VERTICES)
         return self._numbers[known]
+
+    def numbers(self, array: np.ndarray, what: str) -> int:
+        """Return the accessor of a custom attribute, (V, N); rows begin at multiples of 4 bytes."""
+        width = array.shape[1]
+        if array.dtype.itemsize * width % _STEP == 0:
+            return self.vertices(array, what)
+        lacking = -width % (_STEP // array.dtype.itemsize)
+        number = self.vertices(np.pad(array, ((0, 0), (0, lacking))), f"{what} of {width}")
+        accessor = self.accessors[number]
+        stride = array.dtype.itemsize * (width + lacking)
+        self.views[accessor["bufferView"]]["byteStride"] = stride
+        accessor["type"] = _SHAPES[width]
+        return number
 
     def indices(self, elements: np.ndarray) -> int:
         """Return the accessor of indices, in the narrowest suitable type."""

@@ -21,6 +21,7 @@ from .gltf_meshes import MOST_BENDING, tangent_set
 from .gltf_primitives import compact
 from .written_arrays import GltfArrays
 from .written_materials import GltfMaterialList
+from .written_values import WrittenValues, written_values
 
 _POINTS, _LINES = 0, 1
 _VARIANTS = "KHR_materials_variants"
@@ -42,11 +43,15 @@ class GltfMeshList:
     ----------
     meshes : list of dict
         The list in the JSON.
+    lost : list of str
+        The numbers of meshes that are not written.
     """
 
     def __init__(self, arrays: GltfArrays, materials: GltfMaterialList) -> None:
         self._arrays, self._materials = arrays, materials
         self.meshes: list[dict[str, Any]] = []
+        self.lost: list[str] = []
+        self._values = Mesh([]), WrittenValues({}, [])  # of the latest mesh
 
     def add(self, record: MeshRecord) -> int:
         """Return the number of a new mesh."""
@@ -81,7 +86,9 @@ class GltfMeshList:
     def _points(self, mesh: Mesh) -> dict[str, Any]:
         whole = np.array_equal(mesh.points, np.arange(len(mesh.positions)))
         rows = slice(None) if whole else mesh.points
-        return {**self._vertices(mesh, rows, mesh.faces[:0], flat=False), "mode": _POINTS}
+        entry = self._vertices(mesh, rows, mesh.faces[:0], flat=False)
+        entry["attributes"] |= self._numbers(mesh, slice(None), "points")
+        return {**entry, "mode": _POINTS}
 
     def _primitive(self, mesh: Mesh, elements: np.ndarray, *, flat: bool) -> dict[str, Any]:
         """Return a primitive: faces or lines of one material, with their vertices."""
@@ -124,10 +131,22 @@ class GltfMeshList:
             name: self._arrays.vertices(_as_stored(array, name), name)
             for name, array in arrays.items()
         }
+        found |= self._numbers(mesh, rows, "vertices")
         entry: dict[str, Any] = {"attributes": {**found, **self._influences(mesh, rows)}}
         if mesh.morph_targets:  # all primitives of a mesh must have the same number
             entry["targets"] = [self._target(target, rows, found) for target in mesh.morph_targets]
         return entry
+
+    def _numbers(self, mesh: Mesh, rows: Any, on: str) -> dict[str, int]:
+        """Return the custom attributes for the numbers of some vertices or points."""
+        if self._values[0] is not mesh:
+            self._values = mesh, written_values(mesh)
+            self.lost += self._values[1].lost
+        return {
+            name: self._arrays.numbers(array[rows], name)
+            for name, (array, place) in self._values[1].attributes.items()
+            if place == on
+        }
 
     def _influences(self, mesh: Mesh, rows: Any) -> dict[str, int]:
         found: dict[str, int] = {}

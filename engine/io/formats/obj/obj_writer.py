@@ -49,7 +49,7 @@ def write_obj(mesh: Mesh, path: str, files: Files) -> list[str]:
         unwritten = library.unwritten
         told += _about(side_files, library, mesh, names)
     told += _write_model(mesh, files.create(path), side_files, names)
-    lost = lost_parts(mesh, "obj", "uvs1", "tangents")
+    lost = lost_parts(mesh, "obj", "uvs1", "tangents", "values")
     return [*lost_of_materials(mesh, unwritten), *lost, *told]
 
 

@@ -26,16 +26,16 @@ from .ply_body import open_body
 from .ply_colors import is_splats
 from .ply_faces import (
     PlyFaces,
-    face_scalar_names,
+    face_value_names,
     read_edges,
-    read_face_scalars,
+    read_face_values,
     read_faces,
     read_strips,
 )
 from .ply_header import is_ply, read_header
 from .ply_materials import material_ids, read_materials
 from .ply_tables import PlyTable, read_tables
-from .ply_vertices import PlyVertices, numbers_of, read_vertices, scalar_names
+from .ply_vertices import PlyVertices, numbers_of, read_vertices, value_names
 
 
 def read_ply(source: Source, split: bool = False) -> Document:
@@ -58,24 +58,22 @@ def read_ply(source: Source, split: bool = False) -> Document:
     faces = read_faces(tables.get("face"), vertices.positions, budget, warnings)
     strips = read_strips(tables.get("tristrips"), count)
     lines = read_edges(tables.get("edge"), count)
-    face_scalars = {}
-    if source.scalars == "faces":
-        face_scalars = read_face_scalars(tables.get("face"), faces)
+    face_values = read_face_values(tables.get("face"), faces) if source.values else {}
     if len(strips) and not len(faces.corners):
-        faces, face_scalars = PlyFaces(strips), {}
+        faces, face_values = PlyFaces(strips), {}
     has_uvs = vertices.uvs is not None or faces.uvs is not None
     positions, pose = moved_near(vertices.positions) if split else (vertices.positions, None)
     vertices = vertices._replace(positions=positions)
-    names = scalar_names(table)
-    scalars = numbers_of(table, names) if source.scalars == "vertices" else {}
-    mesh = _mesh(vertices, faces, lines, source, scalars, face_scalars)
+    names = value_names(table)
+    values = numbers_of(table, names) if source.values else {}
+    mesh = _mesh(vertices, faces, lines, source, values, face_values)
     mesh.materials = read_materials(source, header.textures, has_uvs, warnings)
     if is_splats(table):
         mesh.materials = [Material(alpha_mode="blend")]
     mesh.material_ids = material_ids(faces.textures, len(faces.corners), len(mesh.materials))
     counts = _counts(tables, vertices, faces, lines)
     entry = DocumentObject(source.stem, mesh, pose)
-    arrays = {"vertices": names, "faces": face_scalar_names(tables.get("face"))}
+    arrays = {"vertices": names, "faces": face_value_names(tables.get("face"))}
     return Document("ply", [entry], counts=counts, warnings=warnings.messages(), arrays=arrays)
 
 
@@ -84,8 +82,8 @@ def _mesh(
     faces: PlyFaces,
     lines: np.ndarray,
     source: Source,
-    scalars: dict[str, np.ndarray],
-    face_scalars: dict[str, np.ndarray],
+    values: dict[str, np.ndarray],
+    face_values: dict[str, np.ndarray],
 ) -> Mesh:
     geometry = IndexedGeometry(
         vertices.positions,
@@ -98,8 +96,8 @@ def _mesh(
         lines=lines,
         position_ids=vertices.position_ids,
         edge_visible=faces.edge_visible,
-        scalars=scalars,
-        face_scalars=face_scalars,
+        values=values,
+        face_values=face_values,
         crease_angle=source.crease_angle,
     )
     return build_indexed_mesh(geometry, source.stem)

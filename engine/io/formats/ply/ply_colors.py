@@ -37,6 +37,13 @@ def color_names(table: PlyTable) -> tuple[str, ...]:
     return (*names, *_ALPHAS) if names else _ALPHAS
 
 
+def names_of_colors(names: set[str]) -> tuple[str, ...]:
+    """Return the names of colours among those of an element's properties, and all of alpha."""
+    sets = next((one for one in _COLORS if names.issuperset(one)), ())
+    splats = _SPLATS if not sets and names.issuperset(_SPLATS) else ()
+    return (*sets, *_ALPHAS, *splats)
+
+
 def read_colors(table: PlyTable, warnings: WarningList, is_own: bool = False) -> np.ndarray | None:
     """Read the colours of an element.
 

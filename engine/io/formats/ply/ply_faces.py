@@ -19,6 +19,8 @@ from .ply_tables import PlyList, PlyTable
 from .ply_vertices import names_but, numbers_of
 
 _INDEX_LISTS = ("vertex_indices", "vertex_index")
+#: The properties of faces that have a meaning, besides colours.
+FACE_NAMES = (*_INDEX_LISTS, "texcoord", "texnumber")
 _RESTART = -1
 
 
@@ -87,16 +89,16 @@ def read_faces(
     )
 
 
-def face_scalar_names(table: PlyTable | None) -> list[str]:
+def face_value_names(table: PlyTable | None) -> list[str]:
     """Return the names of face numbers that `read_faces` does not read."""
-    return [] if table is None else names_but(table, {*_INDEX_LISTS, "texcoord", "texnumber"})
+    return [] if table is None else names_but(table, FACE_NAMES)
 
 
-def read_face_scalars(table: PlyTable | None, faces: PlyFaces) -> dict[str, np.ndarray]:
+def read_face_values(table: PlyTable | None, faces: PlyFaces) -> dict[str, np.ndarray]:
     """Read the face numbers that `read_faces` does not read, by name: (T, ...)."""
     if table is None or not len(table):
         return {}
-    found = numbers_of(table, face_scalar_names(table))
+    found = numbers_of(table, face_value_names(table))
     if faces.polygons is None:
         return found
     return {name: values[faces.polygons] for name, values in found.items()}

@@ -1,7 +1,7 @@
 """The vertices of a PLY file: positions, normals, colours and texture coordinates.
 
 In: the table of the element ``vertex``. Out: arrays as a `Mesh` takes them. Property names follow
-common programs; other properties are numbers to colour by, on request.
+common programs; others are numbers for ``Mesh.values``.
 """
 
 from __future__ import annotations
@@ -13,11 +13,21 @@ import numpy as np
 
 from ...reading.vertex_values import finite_uvs
 from ...reading.warning_list import WarningList
-from .ply_colors import color_names, is_splats, read_colors, splat_colors
+from .ply_colors import (
+    color_names,
+    is_splats,
+    names_of_colors,
+    read_colors,
+    splat_colors,
+)
 from .ply_tables import PlyTable
 
-_WIDEST = 16  # lists with more items are not vectors
-_UVS = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "texture_t"))
+_HARMONICS = "f_rest_"
+_PLACES = ("x", "y", "z", "nx", "ny", "nz", "position_id")
+#: Lists with more items are not vectors.
+WIDEST_VECTOR = 16
+#: The names of texture coordinates, the usual ones first.
+UV_NAMES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "texture_t"))
 
 
 class PlyVertices(NamedTuple):
@@ -51,7 +61,7 @@ def read_vertices(table: PlyTable, warnings: WarningList, is_own: bool = False) 
         with np.errstate(over="ignore"):
             normals = table.columns("nx", "ny", "nz").astype(np.float32, copy=False)
     uvs = None
-    for names in _UVS:
+    for names in UV_NAMES:
         if table.has(*names):
             uvs = finite_uvs(table.columns(*names))
             break
@@ -62,10 +72,18 @@ def read_vertices(table: PlyTable, warnings: WarningList, is_own: bool = False) 
     return PlyVertices(positions, normals, colors, uvs, position_ids)
 
 
-def scalar_names(table: PlyTable) -> list[str]:
+def value_names(table: PlyTable) -> list[str]:
     """Return the names of vertex numbers that `read_vertices` does not read."""
-    uvs = next((names for names in _UVS if table.has(*names)), ())
-    return names_but(table, {"x", "y", "z", "nx", "ny", "nz", "position_id", *uvs})
+    uvs = next((names for names in UV_NAMES if table.has(*names)), ())
+    found = names_but(table, {*_PLACES, *uvs})
+    # Of splats, the coefficients of view-dependent colours take most of the file.
+    return [name for name in found if not (is_splats(table) and name.startswith(_HARMONICS))]
+
+
+def meant_names(names: set[str]) -> set[str]:
+    """Return those among the names of an element's properties that are taken for other things."""
+    uvs = next((pair for pair in UV_NAMES if names.issuperset(pair)), ())
+    return names & {*_PLACES, *uvs, *names_of_colors(names)}
 
 
 def names_but(table: PlyTable, taken: Collection[str]) -> list[str]:
@@ -83,7 +101,7 @@ def numbers_of(table: PlyTable, names: Iterable[str]) -> dict[str, np.ndarray]:
             continue
         items = table.list(name)
         width = int(items.sizes[0]) if len(table) else 0
-        if 1 <= width <= _WIDEST and (items.sizes == width).all():
+        if 1 <= width <= WIDEST_VECTOR and (items.sizes == width).all():
             values = items.values.astype(np.dtype(table.type(name)), copy=False)
             found[name] = values.reshape(-1, width)
     return found

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .values import put_values, taken_rows
 from .vertex_attributes import attributes_of
 
 if TYPE_CHECKING:
@@ -51,5 +52,6 @@ def split_mesh(mesh: Mesh, faces: np.ndarray, rows: np.ndarray, **given: Any) ->
         **{**attributes, **given},
     )
     made.groups = mesh.groups
+    put_values(made, taken_rows(mesh.values, vertices=rows, faces=..., points=...))
     made.warnings = list(mesh.warnings)
     return made

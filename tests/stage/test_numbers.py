@@ -12,13 +12,14 @@ from engine3d.apps.cli import main
 from engine3d.errors import InvalidArgumentError
 from engine3d.loaders import load_document
 from engine3d.rendering.canvas import Canvas
+from engine3d.stage.coloring import ScalarBar
+from engine3d.stage.numbers import Numbers
 from engine3d.stage.open_model import open_model
 from engine3d.stage.open_models import open_models
 from engine3d.stage.overlays.axes_grid import AxesGrid
 from engine3d.stage.overlays.colormaps import COLORMAPS, MISSING, colormap
 from engine3d.stage.overlays.scalar_bar import draw_scalar_bar, place_bar
 from engine3d.stage.overlays.ticks import label, ticks
-from engine3d.stage.scalars import ScalarBar, ScalarColoring
 from engine3d.stage.stage_settings import Settings
 from engine3d.stage.view_renderer import ViewRenderer
 
@@ -29,7 +30,7 @@ SIZE = (160, 120)
 @pytest.fixture(scope="module")
 def heat(tmp_path_factory):
     """A square from x = 0 to 2 whose heat goes from 10 to 30; a corner behind it has none."""
-    path = tmp_path_factory.mktemp("scalars") / "heat.ply"
+    path = tmp_path_factory.mktemp("heat") / "heat.ply"
     rows = ["0 0 0 10 1", "2 0 0 30 2", "2 2 0 30 3", "0 2 0 10 4", "0 0 -1 nan 5"]
     head = ["ply", "format ascii 1.0", f"element vertex {len(rows)}"]
     head += [f"property float {name}" for name in ("x", "y", "z", "heat", "label")]
@@ -89,8 +90,12 @@ def wind(tmp_path_factory):
     return path
 
 
-def shown(path, coloring, **settings):
-    viewed = open_model(path, scalars=coloring)
+def by(colors, name=None, clim=None, component=-1, by_faces=False):
+    return Numbers(name, colors, clim, component, "faces" if by_faces else None)
+
+
+def shown(path, numbers, **settings):
+    viewed = open_model(path, numbers=numbers)
     look = {"mode": "unlit"}
     with ViewRenderer(viewed, Settings(look, **settings), SIZE) as view_renderer:
         view = view_renderer.view()
@@ -107,63 +112,66 @@ def at(frame, *point):
 
 def test_numbers_are_interpolated_not_colours(heat):
     steps = np.array([(0, 0, 0)] * 128 + [(255, 255, 255)] * 128, np.uint8)
-    viewed, frame = shown(heat, ScalarColoring(steps, "heat"))
+    viewed, frame = shown(heat, by(steps, "heat"))
     assert (viewed.bar.title, viewed.bar.low, viewed.bar.high) == ("heat", 10, 30)
     assert at(frame, 0.9, 1.2, 0) == 0 and at(frame, 1.1, 1.2, 0) == 255
-    _, frame = shown(heat, ScalarColoring(GRAY, "heat"))
+    _, frame = shown(heat, by(GRAY, "heat"))
     for x in (0.25, 1.0, 1.75):
         assert abs(at(frame, x, 1.2, 0) - 255 * x / 2) <= 3
-    _, frame = shown(heat, ScalarColoring(GRAY, "heat", (0.0, 20.0)))
+    _, frame = shown(heat, by(GRAY, "heat", (0.0, 20.0)))
     assert abs(at(frame, 0.5, 1.2, 0) - 191) <= 3 and at(frame, 1.5, 1.2, 0) == 255
 
 
 def test_which_number_it_is(heat):
-    assert shown(heat, ScalarColoring(GRAY))[0].bar.title == "heat"  # the first of them
-    assert shown(heat, ScalarColoring(GRAY, "label"))[0].bar[1:3] == (1, 5)
-    viewed, frame = shown(heat, ScalarColoring(GRAY, "y"))
+    assert shown(heat, by(GRAY))[0].bar.title == "heat"  # the first of them
+    assert shown(heat, by(GRAY, "label"))[0].bar[1:3] == (1, 5)
+    viewed, frame = shown(heat, by(GRAY, "y"))
     assert viewed.bar[:3] == ("y", 0, 2)
     assert abs(at(frame, 1, 0.5, 0) - 64) <= 3
-    with pytest.raises(InvalidArgumentError, match=r"heat\.ply: there is no array 'cold'; .* la"):
-        open_model(heat, scalars=ScalarColoring(GRAY, "cold"))
+    with pytest.raises(InvalidArgumentError, match=r"heat\.ply: no values 'cold'; .* has 'heat'"):
+        open_model(heat, numbers=by(GRAY, "cold"))
 
 
 def test_documents_have_the_numbers(heat):
-    (scalars,) = load_document(heat, scalars="vertices").scalars
-    assert list(scalars) == ["heat", "label"] and scalars["label"].tolist() == [1, 2, 3, 4, 5]
-    assert load_document(heat).scalars == [{}]
+    (entry,) = load_document(heat).objects
+    assert list(entry.mesh.values) == ["heat", "label"]
+    assert entry.mesh.values["label"].tolist() == [1, 2, 3, 4, 5]
+    document = load_document(heat, values=False)
+    assert document.objects[0].mesh.values == {} and document.arrays["vertices"]
 
 
 def test_which_component_it_is(wind):
     bars = {
-        number: open_model(wind, scalars=ScalarColoring(GRAY, "_WIND", component=number)).bar
+        number: open_model(wind, numbers=by(GRAY, "_WIND", component=number)).bar
         for number in (-1, 0, 1, 2)
     }
     assert [bar.title for bar in bars.values()] == ["|_WIND|", "_WIND[0]", "_WIND[1]", "_WIND[2]"]
     assert [bar[1:3] for bar in bars.values()] == [(0, 5), (0, 3), (-4, 0), (0, 1)]
-    with pytest.raises(InvalidArgumentError, match="'_WIND' has no component 3: the last is 2"):
-        open_model(wind, scalars=ScalarColoring(GRAY, "_WIND", component=3))
+    with pytest.raises(InvalidArgumentError, match="'_WIND' have no component 3: the last is 2"):
+        open_model(wind, numbers=by(GRAY, "_WIND", component=3))
     # Of single numbers there is no length: negative ones stay.
-    assert open_model(wind, scalars=ScalarColoring(GRAY, "_HEAT")).bar[:3] == ("_HEAT", -7, 2)
-    viewed, frame = shown(wind, ScalarColoring(GRAY, "_WIND", component=1))
+    assert open_model(wind, numbers=by(GRAY, "_HEAT")).bar[:3] == ("_HEAT", -7, 2)
+    viewed, frame = shown(wind, by(GRAY, "_WIND", component=1))
     assert abs(at(frame, 1.0, 1.2, 0) - 255 / 2) <= 3
 
 
 def test_attributes_of_gltf_files(wind):
-    assert load_document(wind).scalars == [{}, {}]
-    first, second = load_document(wind, scalars="vertices").scalars
+    first, second = (entry.mesh.values for entry in load_document(wind).objects)
     # Whole numbers stay such, those that stand for shares become shares.
-    assert first["_ID"].tolist() == [[16777217], [1], [2], [3]] and "_MATRIX" not in first
-    assert first["_SHARE"].tolist() == [[0], [1], [1], [0]]
+    assert first["_ID"].tolist() == [16777217, 1, 2, 3] and "_MATRIX" not in first
+    assert first["_SHARE"].tolist() == [0, 1, 1, 0]
     assert set(first) == {"_HEAT", "_ID", "_SHARE", "_WIND"} and set(second) == {"_HEAT"}
-    assert open_model(wind, scalars=ScalarColoring(GRAY)).bar.title == "_HEAT"
-    assert load_document(wind, scalars="faces").scalars == [{}, {}]
+    assert open_model(wind, numbers=by(GRAY)).bar.title == "_HEAT"
+    whole = e3d.load_mesh(wind).values  # of both: the second lacks all but one
+    assert set(whole) == set(first) and whole["_HEAT"].tolist() == [-7, 1, 1, 2] * 2
+    assert np.isnan(whole["_WIND"][4:]).all() and whole["_WIND"][:4].tolist()[1] == [3, -4, 0]
 
 
 def test_numbers_that_are_colours(wind):
-    viewed, frame = shown(wind, ScalarColoring(GRAY, "_SHARE", component=-2))
+    viewed, frame = shown(wind, by(GRAY, "_SHARE", component=-2))
     assert viewed.bar is None
     assert at(frame, 0.01, 1.2, 0) < 50 and at(frame, 1.99, 1.2, 0) > 250
-    viewed = open_model(wind, scalars=ScalarColoring(GRAY, "_ID", component=-2))
+    viewed = open_model(wind, numbers=by(GRAY, "_ID", component=-2))
     mesh = next(node.object for node in viewed.scene.nodes if isinstance(node.object, e3d.Mesh))
     assert mesh.colors.tolist() == [[level] * 3 + [255] for level in (255, 1, 2, 3)]
 
@@ -178,15 +186,15 @@ def test_numbers_of_faces(tmp_path):
     vertices = [f"{x} {y} 0 2 {x} {y}" for y in (0, 2) for x in (0, 1, 2)]
     faces = ["4 0 1 4 3 7 9 9 9 3 0 3 4", "4 1 2 5 4 -1 9 9 9 3 0 0 1"]
     path.write_text("\n".join([*head, "end_header", *vertices, *faces]) + "\n")
-    viewed, frame = shown(path, ScalarColoring(GRAY, by_faces=True))
+    viewed, frame = shown(path, by(GRAY, by_faces=True))
     assert viewed.bar[:3] == ("|force|", 1, 5)  # the first in alphabetical order
-    viewed, frame = shown(path, ScalarColoring(GRAY, "group", by_faces=True))
+    viewed, frame = shown(path, by(GRAY, "group", by_faces=True))
     assert viewed.bar[:3] == ("group", -1, 7)
     assert [at(frame, x, 1, 0) for x in (0.1, 0.9, 1.1, 1.9)] == [255, 255, 0, 0]
-    assert open_model(path, scalars=ScalarColoring(GRAY, "flow", component=1)).bar.high == 2
-    for name, said in (("x", "'x'; there are force, group"), ("flow", "'flow'; there are")):
-        with pytest.raises(InvalidArgumentError, match=f"there is no array of faces {said}"):
-            open_model(path, scalars=ScalarColoring(GRAY, name, by_faces=True))
+    assert open_model(path, numbers=by(GRAY, "flow", component=1)).bar.high == 2
+    for name, said in (("x", "'x' of faces; this mesh has 'force', 'g"), ("flow", "'flow' of")):
+        with pytest.raises(InvalidArgumentError, match=f"no values {said}"):
+            open_model(path, numbers=by(GRAY, name, by_faces=True))
 
 
 def test_info_names_the_arrays(wind, heat, capsys):
@@ -198,8 +206,8 @@ def test_info_names_the_arrays(wind, heat, capsys):
 
 
 def test_faces_without_numbers(heat):
-    with pytest.raises(InvalidArgumentError, match="no array of faces; there are none"):
-        open_model(heat, scalars=ScalarColoring(GRAY, by_faces=True))
+    with pytest.raises(InvalidArgumentError, match="no values of faces; this mesh has none"):
+        open_model(heat, numbers=by(GRAY, by_faces=True))
 
 
 def test_normals_are_turned_with_their_mesh(tmp_path):
@@ -207,8 +215,8 @@ def test_normals_are_turned_with_their_mesh(tmp_path):
     scene.add(mesh, scale=(1.0, 2.0, 1.0))  # the normal is that of (1, -2, 0), not twice as high
     e3d.save_scene(scene, tmp_path / "plane.glb")
     for component, expected in ((0, 2 / 5**0.5), (1, 1 / 5**0.5), (2, 0.0)):
-        coloring = ScalarColoring(GRAY, "normals", component=component)
-        bar = open_model(tmp_path / "plane.glb", scalars=coloring).bar
+        coloring = by(GRAY, "normals", component=component)
+        bar = open_model(tmp_path / "plane.glb", numbers=coloring).bar
         assert bar.title == f"normals[{component}]"
         assert abs(bar.low + bar.high) / 2 == pytest.approx(expected, abs=1e-6)
 
@@ -217,7 +225,7 @@ def test_several_models_share_a_range(heat, tmp_path):
     other = tmp_path / "other.ply"
     other.write_text(heat.read_text().replace("0 0 0 10 1", "0 0 0 -30 1"))
     with open(heat, "rb") as file:  # which can be read once only
-        viewed = open_models([file, other], scalars=ScalarColoring(GRAY, "heat"))
+        viewed = open_models([file, other], numbers=by(GRAY, "heat"))
     assert viewed.bar[:3] == ("heat", -30, 30)
     meshes = [node.object for node in viewed.scene.nodes if isinstance(node.object, e3d.Mesh)]
     first, second = (mesh.uvs[mesh.positions[:, 0] == 2, 0].tolist() for mesh in meshes)
@@ -228,7 +236,7 @@ def test_several_models_share_a_range(heat, tmp_path):
 def test_what_has_no_number_is_grey(heat):
     mesh = next(
         node.object
-        for node in open_model(heat, scalars=ScalarColoring(GRAY, "heat")).scene.nodes
+        for node in open_model(heat, numbers=by(GRAY, "heat")).scene.nodes
         if isinstance(node.object, e3d.Mesh)
     )
     missing = mesh.positions[:, 2] == -1
@@ -239,14 +247,14 @@ def test_what_has_no_number_is_grey(heat):
 def test_clouds_and_models_without_numbers(tmp_path):
     cloud = e3d.Mesh([(0, 0, 0), (0, 0, 4), (0, 0, 2)], points=[0, 1, 2])
     e3d.save_mesh(cloud, tmp_path / "cloud.ply")
-    viewed = open_model(tmp_path / "cloud.ply", scalars=ScalarColoring(GRAY, "z"))
+    viewed = open_model(tmp_path / "cloud.ply", numbers=by(GRAY, "z"))
     mesh = next(node.object for node in viewed.scene.nodes if isinstance(node.object, e3d.Mesh))
     assert mesh.colors[:, 0].tolist() == [0, 255, 128]
     e3d.save_mesh(e3d.box(2.0), tmp_path / "box.glb")
-    viewed = open_model(tmp_path / "box.glb", scalars=ScalarColoring(GRAY))
+    viewed = open_model(tmp_path / "box.glb", numbers=by(GRAY))
     assert viewed.bar[:3] == ("y [m]", -1, 1)  # how high it is
     e3d.save_mesh(e3d.plane(), tmp_path / "flat.obj")
-    viewed = open_model(tmp_path / "flat.obj", scalars=ScalarColoring(GRAY))
+    viewed = open_model(tmp_path / "flat.obj", numbers=by(GRAY))
     assert viewed.bar[1:3] == (-0.5, 0.5)  # one number for all is in the middle
 
 
@@ -303,7 +311,7 @@ def test_the_bar_has_all_colours_from_bottom_to_top_or_from_left_to_right(size):
 @pytest.mark.parametrize("size", [(64, 48), (128, 96), (320, 240), (300, 700)])
 def test_the_model_is_beside_the_bar(tmp_path, size, orthographic, turns, title):
     e3d.save_mesh(e3d.box((2.0, 1.0, 1.5)), tmp_path / "box.obj")
-    viewed = open_model(tmp_path / "box.obj", scalars=ScalarColoring(GRAY))
+    viewed = open_model(tmp_path / "box.obj", numbers=by(GRAY))
     viewed.bar = viewed.bar._replace(title=title)
     place = place_bar(*size, viewed.bar)
     look = {"mode": "unlit"}
@@ -403,7 +411,7 @@ def test_on_the_command_line(heat, capsys):
     assert path.read_bytes() in seen
     assert main([*command, "-y", "-3"]) == 2
     assert main([*command, "-c"]) == 1
-    assert "heat.ply: there is no array of faces; there are none" in capsys.readouterr().err
+    assert "heat.ply: no values of faces; this mesh has none" in capsys.readouterr().err
     assert main([*command, "--coloring-array", "cold"]) == 1
     assert main([*command, "--colormap", "jet"]) == 1
     assert main([*command, "--range", "2,1"]) == 2

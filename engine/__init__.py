@@ -30,6 +30,7 @@ _PUBLIC = {
     "SceneChangedError": "errors",
     "Mesh": "model.geometry.mesh",
     "Material": "model.materials.material",
+    "linear": "model.materials.linear_colors",
     "Texture": "model.materials.textures",
     "PlacedTexture": "model.materials.textures",
     "Environment": "model.environments.environment",

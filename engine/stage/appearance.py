@@ -17,6 +17,7 @@ from ..choices import Mode, OutputMode
 from ..model.environments.environment import Environment
 from ..model.geometry.mesh import Mesh
 from ..model.materials.colors import linear_color
+from ..model.materials.linear_colors import linear
 from ..model.scene.gradients import Gradient
 from ..model.scene.instances import InstancedMesh
 from ..model.scene.scene import Scene
@@ -89,7 +90,7 @@ def contrasting(background: Background) -> tuple[int, int, int]:
     if isinstance(background, Gradient):
         ends = linear_color(background.top) + linear_color(background.bottom)
         red, green, blue = (float(component) / 2 for component in ends)
-        background = red, green, blue
+        background = linear(red, green, blue)
     here, dark, light = (
         float(linalg.dot(linear_color(color), _LUMINANCE)) + 0.05
         for color in (background, DARK, LIGHT)

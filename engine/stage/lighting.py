@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..base import linalg
+from ..model.materials.linear_colors import linear
 from ..model.scene.lights import LIGHTS, DirectionalLight, Light, PointLight
 from ..model.scene.nodes import Node
 from ..model.scene.orbiting import home_axes
@@ -66,7 +67,9 @@ class Lighting:
             intensity *= _IN_ENVIRONMENT
         for name, lights in SETUPS.items():
             self._nodes[name] = [
-                staged.beside.add(DirectionalLight(direction, color, strength * intensity, "white"))
+                staged.beside.add(
+                    DirectionalLight(direction, linear(color), strength * intensity, "white")
+                )
                 for direction, color, strength in lights
             ]
         self.names = tuple(self._nodes)

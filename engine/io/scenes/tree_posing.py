@@ -17,6 +17,7 @@ from ...base.linalg import single
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.normals import unit_vectors
 from ...model.geometry.vertex_attributes import attributes_of
+from ...model.materials.linear_colors import marked
 from ..reading.documents import MeshRecord, NodeRecord, SkinRecord, TreeRecord
 
 _IDENTITY = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))
@@ -133,7 +134,7 @@ class RestPose:
 def _tinted(mesh: Mesh, color: np.ndarray) -> Mesh:
     """Return a mesh with multiplied vertex colours; glTF vertex colours are floats."""
     held = np.ones((len(mesh.positions), 4), np.float32) if mesh.colors is None else mesh.colors
-    return _changed(mesh, {"colors": held * color})
+    return _changed(mesh, {"colors": marked(held * color)})
 
 
 def _morphed(mesh: Mesh, weights: np.ndarray) -> Mesh:

@@ -14,7 +14,7 @@ import numpy as np
 from ...base.linalg import compose
 from ...base.validation import matrix4
 from ...errors import InvalidArgumentError
-from ..materials.colors import srgb_to_linear_table
+from ..materials.colors import linear_rows
 from ..materials.material import Material
 from .creases import mesh_with_creases
 from .groups import put_groups
@@ -130,7 +130,7 @@ def _joined_attribute(
     given = [array for array in arrays if array is not None]
     if len({array.dtype for array in given}) > 1:
         arrays = [
-            _linear_from_bytes(array) if array is not None and array.dtype == np.uint8 else array
+            linear_rows(array) if array is not None and array.dtype == np.uint8 else array
             for array in arrays
         ]
         given = [array for array in arrays if array is not None]
@@ -140,12 +140,6 @@ def _joined_attribute(
             for array, count in zip(arrays, counts, strict=True)
         ]
     )
-
-
-def _linear_from_bytes(colors: np.ndarray) -> np.ndarray:
-    linear = srgb_to_linear_table()[colors]
-    linear[:, 3] = colors[:, 3].astype(np.float64) / 255
-    return linear
 
 
 def _joined_edge_flags(meshes: Any) -> Any:

@@ -21,6 +21,7 @@ from ...base.numbers import shown
 from ...base.validation import flag, text, vector3
 from ...choices import ColorLike
 from ...errors import InvalidArgumentError
+from ...model.materials.linear_colors import linear
 from ..environments.environment import Environment
 from ._queries import SceneQueries
 from .gradients import Gradient
@@ -33,6 +34,8 @@ if TYPE_CHECKING:
     from ..motion.clips import AnimationClip
     from .animation import Animator
     from .nodes import SceneObject
+
+_DIM = linear(0.1, 0.1, 0.1)
 
 
 class Scene(Surroundings, SceneQueries):
@@ -86,7 +89,7 @@ class Scene(Surroundings, SceneQueries):
     def __init__(
         self,
         background: ColorLike | Gradient | Environment | None = (0, 0, 0),
-        ambient: ColorLike = (0.1, 0.1, 0.1),
+        ambient: ColorLike = _DIM,
         light_clamp: Sequence[float] | None = None,
         exposure: float = 0.0,
     ) -> None:

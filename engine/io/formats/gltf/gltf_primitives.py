@@ -16,6 +16,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ...._native import loaders as native
+from ....model.materials.linear_colors import marked
 from ...reading.vertex_values import finite_uvs, usable_normals
 from .gltf_accessors import GltfAccessors
 from .gltf_draco import DRACO, GltfDraco
@@ -432,7 +433,7 @@ def _with_alpha(values: np.ndarray) -> np.ndarray:
     """Return colours with alpha, (V, 4)."""
     colors = np.nan_to_num(values).clip(0, 1)
     opaque = np.ones((len(colors), 4 - colors.shape[1]), np.float32)
-    return np.concatenate([colors, opaque], axis=1)
+    return marked(np.concatenate([colors, opaque], axis=1))
 
 
 def _usable(weights: np.ndarray) -> np.ndarray:

@@ -5,6 +5,7 @@ import inspect
 import numpy as np
 import pytest
 
+from engine3d import linear
 from engine3d._native import rasterizer
 from engine3d.errors import InvalidArgumentError
 from engine3d.model.materials.colors import linear_color
@@ -58,7 +59,7 @@ def test_the_core_is_told_all_that_it_wants_to_know():
 
 def test_colors_are_kept_as_given():
     assert Material(color=(255, 128, 0)).color == (255, 128, 0)
-    assert Material(color=(0.5, 0.25, 0.0)).color == (0.5, 0.25, 0.0)
+    assert Material(color=linear(0.5, 0.25, 0.0)).color == (0.5, 0.25, 0.0)
 
 
 def test_assigning_raises_the_version_and_checks():
@@ -103,9 +104,9 @@ def test_metallic_or_roughness_makes_a_material_physical():
 
 def test_a_fourth_component_is_alpha():
     assert (Material().alpha, Material().rgb) == (1, (1, 1, 1))
-    linear = Material(color=(0.5, 0.25, 0.0, 0.75))
-    assert linear.color == (0.5, 0.25, 0.0, 0.75)
-    assert (linear.rgb, linear.alpha) == ((0.5, 0.25, 0.0), 0.75)
+    light = Material(color=linear(0.5, 0.25, 0.0, 0.75))
+    assert light.color == linear(0.5, 0.25, 0.0, 0.75)
+    assert (light.rgb, light.alpha) == (linear(0.5, 0.25, 0.0), 0.75)
     encoded = Material(color=(1, 0, 0, 51))
     assert encoded.alpha == 0.2
     assert np.array_equal(

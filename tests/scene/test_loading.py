@@ -37,7 +37,9 @@ def test_objects_keep_names_and_poses():
 
 
 def test_ambient_light_is_the_scenes():
-    scene = scene_from_document(document_of(lights=[LightRecord("ambient", color=(0.2, 0.4, 0.6))]))
+    scene = scene_from_document(
+        document_of(lights=[LightRecord("ambient", color=e3d.linear(0.2, 0.4, 0.6))])
+    )
     assert scene.ambient == (0.2, 0.4, 0.6)
     assert objects_of(scene, (e3d.PointLight, e3d.DirectionalLight)) == []
 

@@ -134,12 +134,12 @@ def test_materials_and_textures(tmp_path):
     mesh.materials = [
         e3d.Material(
             name="# skin",
-            color=(0.5, 0.25, 0.125, 0.5),
+            color=e3d.linear(0.5, 0.25, 0.125, 0.5),
             alpha_mode="blend",
             texture=texture,
-            specular=(1, 0.5, 0),
+            specular=e3d.linear(1, 0.5, 0),
             shininess=9.5,
-            emissive=(0.0, 2.0, 0.0),
+            emissive=e3d.linear(0.0, 2.0, 0.0),
             extras={"Pm": 0.25, "maps": {"map_Ks": {"name": "s.png"}}},
         ),
         e3d.Material(name="# skin", texture=texture, color=(255, 0, 0)),

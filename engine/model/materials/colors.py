@@ -143,6 +143,13 @@ def split_alpha(color: SurfaceColor) -> tuple[Color, float]:
     return cast(Color, tuple(map(np.uint8, rgb))), int(color[3]) / 255
 
 
+def with_alpha(rgb: Color, alpha: float) -> SurfaceColor:
+    """Return a colour of three components with an alpha from 0 to 1, in the same space."""
+    if isinstance(rgb, LinearColor):
+        return cast(SurfaceColor, LinearColor((*rgb, alpha)))
+    return (*rgb, round(255 * alpha) if is_8bit(rgb) else alpha)
+
+
 def _components(value: Any, what: str) -> tuple[Any, ...]:
     components = tuple(_scalar(component) for component in _sequence(value, what))
     for component in components:

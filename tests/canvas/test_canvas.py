@@ -84,7 +84,7 @@ def test_read_only_pixels_are_refused():
 
 
 @pytest.mark.parametrize(
-    "color", [5, None, "red", (1, 2), (1, 2, 3, 4, 5), (256, 0, 0), (-1, 0, 0), (0.5, 0, 0)]
+    "color", [5, None, "redd", (1, 2), (1, 2, 3, 4, 5), (256, 0, 0), (-1, 0, 0), (1.5, 0, 0)]
 )
 def test_wrong_colors(color):
     canvas = Canvas(4, 4)

@@ -59,7 +59,8 @@ def test_the_core_is_told_all_that_it_wants_to_know():
 
 def test_colors_are_kept_as_given():
     assert Material(color=(255, 128, 0)).color == (255, 128, 0)
-    assert Material(color=linear(0.5, 0.25, 0.0)).color == (0.5, 0.25, 0.0)
+    assert Material(color=linear(0.5, 0.25, 0.0)).color == linear(0.5, 0.25, 0.0)
+    assert Material(color=(0.5, 0.25, 0.0)).color == (0.5, 0.25, 0.0)
 
 
 def test_assigning_raises_the_version_and_checks():
@@ -127,7 +128,7 @@ def test_a_fourth_component_is_alpha():
         ({"alpha_cutoff": -1}, "alpha_cutoff"),
         ({"normal_scale": float("inf")}, "normal_scale must be a finite number"),
         ({"ior": 0.5}, "ior must be 0, or 1 or greater, not 0.5"),
-        ({"sheen_color": (1, 2)}, "sheen_color needs 3 components"),
+        ({"sheen_color": (1, 2)}, "sheen_color needs 3 or 4 components"),
         ({"attenuation_distance": 0}, "attenuation_distance must be greater than 0"),
         ({"normal_texture": "bumps.png"}, "normal_texture must be a Texture or None: str"),
         ({"emissive_strength": -1}, "emissive_strength"),

@@ -167,4 +167,8 @@ def test_scene_files_keep_them(tmp_path):
     back = e3d.load_scene(path)
     probe, sky = back.find("probe").object, back.find("sky").object
     assert np.array_equal(probe.coefficients, numbers) and probe.intensity == 0.5
-    assert (sky.sky_color, sky.ground_color, sky.intensity) == ((0.1, 0.2, 0.3), (10, 20, 30), 2.0)
+    assert (sky.sky_color, sky.ground_color, sky.intensity) == (
+        e3d.linear(0.1, 0.2, 0.3),
+        (10, 20, 30),
+        2.0,
+    )

@@ -216,7 +216,7 @@ def test_a_mesh_becomes_a_file(tmp_path, end):
     again = e3d.load_mesh(tmp_path / f"a{end}")
     assert np.array_equal(again.positions, mesh.positions)
     (material,) = again.materials
-    assert (material.color, material.metallic) == ((0.5, 0.25, 0.0), 0)
+    assert (material.color, material.metallic) == (e3d.linear(0.5, 0.25, 0.0), 0)
     assert material.roughness == pytest.approx(0.25**0.25)
     stream = io.BytesIO()
     with warnings.catch_warnings():

@@ -126,7 +126,7 @@ def check_surface_color(value: ColorLike, what: str = "color") -> SurfaceColor:
     if len(components) == 4 and components[3] > 1:
         raise InvalidArgumentError(f"the alpha of {what} must be in 0..1: {shown(value)}")
     if is_linear(value):
-        return cast(SurfaceColor, LinearColor(map(float, components)))
+        return cast(SurfaceColor, LinearColor(components))
     _require_display(max(components[:3]), what)
     return cast(SurfaceColor, components)
 

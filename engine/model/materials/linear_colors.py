@@ -42,12 +42,14 @@ class LinearColor(tuple[float, ...]):
         return LinearColor(part) if isinstance(index, slice) else part
 
     def __eq__(self, other: object) -> bool:
-        if not isinstance(other, LinearColor) and any(part not in (0, 1) for part in self):
-            return False
-        return tuple.__eq__(self, other) is True
+        if not isinstance(other, tuple):
+            return NotImplemented
+        is_alike = isinstance(other, LinearColor) or all(part in (0, 1) for part in self)
+        return is_alike and tuple.__eq__(self, other)
 
     def __ne__(self, other: object) -> bool:
-        return not self == other
+        is_equal = self.__eq__(other)
+        return is_equal if is_equal is NotImplemented else not is_equal
 
     __hash__ = tuple.__hash__
 

@@ -198,7 +198,7 @@ class GltfPrimitives:
             uvs = self._spare(vertices, f"TEXCOORD_{uv_set}", 2, changed=_flipped)
             arrays.update({} if uvs is None else {name: uvs})
         colors = self._spare(vertices, "COLOR_0", 3, 4, changed=_with_alpha)
-        arrays.update({} if colors is None else {"colors": colors})
+        arrays.update({} if colors is None else {"colors": marked(colors)})
         if "COLOR_1" in named:
             self._tell("colors", f"{vertices.where} has several colours a vertex: COLOR_0 is drawn")
 
@@ -433,7 +433,7 @@ def _with_alpha(values: np.ndarray) -> np.ndarray:
     """Return colours with alpha, (V, 4)."""
     colors = np.nan_to_num(values).clip(0, 1)
     opaque = np.ones((len(colors), 4 - colors.shape[1]), np.float32)
-    return marked(np.concatenate([colors, opaque], axis=1))
+    return np.concatenate([colors, opaque], axis=1)
 
 
 def _usable(weights: np.ndarray) -> np.ndarray:

@@ -1,8 +1,8 @@
 """Wavefront MTL: the material libraries that OBJ files name.
 
 In: the bytes of a library. Out: materials by name. Colours are display values, as in
-most programs. mtl_alpha.py handles alpha, and mtl_physical.py physically based materials and normal maps.
-All other statements, d and Tr, and all maps with their options are kept in the material's
+most programs. mtl_alpha.py handles alpha, and mtl_physical.py physically based materials and normal
+maps. All other statements, d and Tr, and all maps with their options are kept in the material's
 ``extras`` under the file's own keys. An invalid line gives a warning; a library fails only if it is
 not text.
 """

@@ -17,7 +17,7 @@ from ...base.linalg import single
 from ...model.geometry.mesh import Mesh
 from ...model.geometry.normals import unit_vectors
 from ...model.geometry.vertex_attributes import attributes_of
-from ...model.materials.linear_colors import marked
+from ...model.materials.linear_colors import floats_are_linear, marked
 from ..reading.documents import MeshRecord, NodeRecord, SkinRecord, TreeRecord
 
 _IDENTITY = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))
@@ -208,14 +208,15 @@ def _changed(mesh: Mesh, arrays: dict[str, np.ndarray]) -> Mesh:
     held = {"positions": mesh.positions, **attributes_of(mesh)}
     if mesh.has_normals:
         held["normals"] = mesh.normals
-    return type(mesh)(
-        **{**held, **arrays},
-        faces=mesh.faces,
-        materials=mesh.materials,
-        material_ids=mesh.material_ids,
-        lines=mesh.lines,
-        points=mesh.points,
-        position_ids=mesh.position_ids,
-        crease_angle=mesh.crease_angle,
-        name=mesh.name,
-    )
+    with floats_are_linear():
+        return type(mesh)(
+            **{**held, **arrays},
+            faces=mesh.faces,
+            materials=mesh.materials,
+            material_ids=mesh.material_ids,
+            lines=mesh.lines,
+            points=mesh.points,
+            position_ids=mesh.position_ids,
+            crease_angle=mesh.crease_angle,
+            name=mesh.name,
+        )

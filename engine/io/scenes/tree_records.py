@@ -171,7 +171,8 @@ class _Filling:
         colors = record.instance_colors
         key = id(mesh), id(poses), id(colors)
         if key not in self._instances:
-            made = self._instances[key] = InstancedMesh(mesh, poses, colors=colors)
+            held = None if colors is None else linear(colors)
+            made = self._instances[key] = InstancedMesh(mesh, poses, colors=held)
             records[made] = InstanceWords(made.poses, record.instance_parts)
         return self._instances[key]
 

@@ -61,6 +61,7 @@ class LinearColors(np.ndarray[Any, Any]):
     """An array of colours in linear light; its slices and what is computed from it are, too."""
 
     __slots__ = ()
+    __array_priority__ = 1.0  # so that np.concatenate keeps the type
 
 
 @overload

@@ -20,6 +20,7 @@ from ....model.geometry.mesh import Mesh, scalars_of
 from ....model.geometry.morph_targets import MorphTarget
 from ....model.geometry.native_meshes import find_tangents_when_drawn
 from ....model.geometry.twins import twin_of
+from ....model.materials.linear_colors import floats_are_linear
 from ....model.materials.material import Material
 from ....model.materials.textures import PlacedTexture
 from ...reading.documents import MeshRecord
@@ -148,15 +149,16 @@ class GltfMeshes:
             sizes = [len(part) for part in elements]
             self._buffers.count(sum(sizes))
             ids = np.repeat(np.arange(len(primitives), dtype=np.int32), sizes)
-        mesh = Mesh(
-            arrays.pop("positions"),
-            **{kind: self._joined(elements)},
-            materials=[_NO_MATERIAL] * len(primitives),
-            material_ids=ids,
-            crease_angle=SMOOTH,
-            name="",
-            **arrays,
-        )
+        with floats_are_linear():
+            mesh = Mesh(
+                arrays.pop("positions"),
+                **{kind: self._joined(elements)},
+                materials=[_NO_MATERIAL] * len(primitives),
+                material_ids=ids,
+                crease_angle=SMOOTH,
+                name="",
+                **arrays,
+            )
         for key in primitives[0].scalars:
             scalars_of(mesh)[key] = self._joined([p.scalars[key] for p in primitives])
         if flat:

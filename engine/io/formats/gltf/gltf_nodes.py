@@ -14,7 +14,6 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ....base import linalg
-from ....model.materials.linear_colors import marked
 from ...reading.documents import MeshRecord, NodeRecord, SkinRecord
 from ...reading.posed_parts import without_rounding
 from ...reading.text import shown
@@ -290,7 +289,7 @@ def _colors(
     if len(colors) != count:
         raise accessors.file.damaged(f"{len(colors)} colours for {count} instances")
     opaque = np.ones((len(colors), 4 - colors.shape[1]), np.float32)
-    return marked(np.concatenate([colors, opaque], axis=1))
+    return np.concatenate([colors, opaque], axis=1)
 
 
 def poses_of(translations: np.ndarray, rotations: np.ndarray, scales: np.ndarray) -> np.ndarray:

@@ -16,7 +16,6 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ...._native import loaders as native
-from ....model.materials.linear_colors import marked
 from ...reading.vertex_values import finite_uvs, usable_normals
 from .gltf_accessors import GltfAccessors
 from .gltf_draco import DRACO, GltfDraco
@@ -198,7 +197,7 @@ class GltfPrimitives:
             uvs = self._spare(vertices, f"TEXCOORD_{uv_set}", 2, changed=_flipped)
             arrays.update({} if uvs is None else {name: uvs})
         colors = self._spare(vertices, "COLOR_0", 3, 4, changed=_with_alpha)
-        arrays.update({} if colors is None else {"colors": marked(colors)})
+        arrays.update({} if colors is None else {"colors": colors})
         if "COLOR_1" in named:
             self._tell("colors", f"{vertices.where} has several colours a vertex: COLOR_0 is drawn")
 

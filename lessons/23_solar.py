@@ -105,7 +105,7 @@ BALLS = {
 
 def draw(poses, width, height):
     """Return the engine's picture of balls at the given world matrices."""
-    scene = e3d.Scene(background=(8, 9, 16), ambient=(0.05, 0.05, 0.08))
+    scene = e3d.Scene(background=(8, 9, 16), ambient=e3d.linear(0.05, 0.05, 0.08))
     scene.add(e3d.PointLight(intensity=9.0), translation=(0.0, 0.0, 0.0))
     for name, pose in poses.items():
         ball = e3d.uv_sphere(1.0, (24, 12))

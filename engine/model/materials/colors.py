@@ -330,7 +330,7 @@ def is_8bit(components: Sequence[Any]) -> bool:
 
 def _sequence(value: Any, what: str) -> list[Any]:
     try:
-        if not isinstance(value, str):
+        if not isinstance(value, bytes):
             return list(value)
     except TypeError:
         pass

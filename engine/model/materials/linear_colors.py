@@ -7,7 +7,6 @@ are display values; see `colors`.
 from __future__ import annotations
 
 import math
-import numbers
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -16,7 +15,7 @@ from typing import Any, SupportsIndex, cast, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...base.numbers import as_array, shown
+from ...base.numbers import as_array, real, shown
 from ...errors import InvalidArgumentError
 
 _read_as_linear: ContextVar[bool] = ContextVar("_read_as_linear", default=False)
@@ -115,7 +114,7 @@ def linear(*values: Any) -> Any:
 def _single(parts: list[Any], given: Any) -> LinearColor:
     if len(parts) not in (3, 4):
         raise InvalidArgumentError(f"a colour of linear light has 3 or 4 numbers, got {len(parts)}")
-    if not all(isinstance(part, numbers.Real) and 0 <= part < math.inf for part in parts):
+    if not all(0 <= real(part) < math.inf for part in parts):
         raise InvalidArgumentError(f"linear light is finite and not negative: {shown(given)}")
     return LinearColor(map(float, parts))
 

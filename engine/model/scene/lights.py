@@ -80,7 +80,7 @@ class DirectionalLight(DirectLight):
     ----------
     direction : (3,) float
         The direction in which the light travels, in node space; any nonzero length.
-    color : sequence of 3 numbers
+    color : str or sequence of 3 numbers
     intensity : float
         Multiplies the colour; a white surface that faces the light shows ``color * intensity``. For
         physical materials it is in lux: such a surface shows it divided by pi.
@@ -171,7 +171,7 @@ class PointLight(DirectLight):
 
     Parameters
     ----------
-    color : sequence of 3 numbers
+    color : str or sequence of 3 numbers
     intensity : float
         As for `DirectionalLight`, at distance 1 unless the falloff is ``"window"``. For physical
         materials it is in candela.
@@ -239,7 +239,7 @@ class SpotLight(DirectLight):
 
     Parameters
     ----------
-    color : sequence of 3 numbers
+    color : str or sequence of 3 numbers
     intensity : float
         As for `PointLight`, on the axis.
     range : float

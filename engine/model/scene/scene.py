@@ -43,10 +43,10 @@ class Scene(Surroundings, SceneQueries):
 
     Parameters
     ----------
-    background : sequence of 3 numbers, Gradient, Environment or None
+    background : str or sequence of 3 numbers, Gradient, Environment or None
         The background: a colour, a gradient, or the environment as the camera sees it; None is
         transparent black (alpha 0).
-    ambient : sequence of 3 numbers
+    ambient : str or sequence of 3 numbers
         Light that reaches every surface from all sides; physical materials also reflect it, as
         uniform surroundings.
     light_clamp : (low, high), optional

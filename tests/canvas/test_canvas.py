@@ -115,7 +115,7 @@ def test_wrong_arguments():
         lambda: canvas.lines(np.zeros((3, 2)), white),
         lambda: canvas.triangles(np.zeros((3, 2)), white),
         lambda: canvas.points(np.zeros((3, 2)), np.zeros((2, 4), np.uint8)),
-        lambda: canvas.points(np.zeros((3, 2)), np.zeros((3, 4))),
+        lambda: canvas.points(np.zeros((3, 2)), np.full((3, 4), 1.5)),
         lambda: canvas.text(0, 0, "x", white, scale=0),
         lambda: canvas.text(0, 0, "x", white, scale=1.5),
         lambda: canvas.text(0, 0, "x", white, scale=10**9),

@@ -90,7 +90,7 @@ def test_positions_must_be_an_array_of_points():
 def test_colors_of_three_components_get_alpha():
     mesh = square(colors=np.full((4, 3), 7, np.uint8))
     assert mesh.colors[0].tolist() == [7, 7, 7, 255]
-    mesh = square(colors=np.full((4, 3), 0.5))
+    mesh = square(colors=linear(np.full((4, 3), 0.5)))
     assert mesh.colors.dtype == np.float32
     assert mesh.colors[0].tolist() == [0.5, 0.5, 0.5, 1]
 

@@ -93,7 +93,7 @@ def random_scene(random):
         own, ball, e3d.box((1, 2, 0.5)), e3d.icosphere(subdivisions=1), e3d.quad(p0=(-1, -1, 0)),
         e3d.torus(), e3d.cylinder(0.3), e3d.plane((2, 1), (3, 2)), None, None,
         e3d.InstancedMesh(ball, random.normal(size=(4, 4))),
-        e3d.InstancedMesh(own, [np.eye(4)], colors=[(0.1, 0.9, 1.5)]),
+        e3d.InstancedMesh(own, [np.eye(4)], colors=e3d.linear([(0.1, 0.9, 1.5)])),
         e3d.PointLight(e3d.linear(1.0, 0.8, 0.1), 9.0), e3d.PointLight(range=5.0, falloff="window"),
         e3d.DirectionalLight((1, -2, 0.1), intensity=0.3), e3d.PerspectiveCamera(zfar=None),
         e3d.OrthographicCamera(3.0, xmag=2.0), e3d.IntrinsicsCamera(9, 9, 8, 6),

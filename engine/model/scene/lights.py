@@ -1,9 +1,9 @@
 """Direct lights: plain data, placed in the world by the scene's nodes.
 
-A light's colour (a display value, unless it is marked as `linear` light) is multiplied by its intensity.
-Directional lights shine along their node's rotated ``direction``, point lights from their node's
-origin, spot lights from there along its -Z. docs/exactness, sections 9 and 12, has the formulas;
-docs/conventions.md has the units of intensities.
+A light's colour (a display value, unless it is marked as `linear` light) is multiplied by its
+intensity. Directional lights shine along their node's rotated ``direction``, point lights from
+their node's origin, spot lights from there along its -Z. docs/exactness, sections 9 and 12, has the
+formulas; docs/conventions.md has the units of intensities.
 """
 
 from __future__ import annotations

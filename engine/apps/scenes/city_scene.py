@@ -85,7 +85,7 @@ def _dusk(scene: Scene, town: World) -> None:
     scene.add(_sun(LOW_SUN, linear(1.0, 0.55, 0.34), 0.30), name="sun")
     for material in town.materials:
         if material.name.endswith("lit"):
-            material.emissive = tuple(LIT * component for component in material.emissive)
+            material.emissive = linear([LIT * component for component in material.emissive])
 
 
 def _sun(direction: tuple, color: tuple, intensity: float) -> DirectionalLight:

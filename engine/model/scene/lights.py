@@ -29,6 +29,7 @@ from ...base.validation import (
 from ...choices import ColorLike, Falloff, LightShadow, LightUnit, ShadowTaps
 from ...errors import InvalidArgumentError
 from ..materials.colors import check_color
+from ..materials.linear_colors import linear
 from .ambient_lights import AMBIENT_LIGHTS, HemisphereLight, LightProbe
 from .shadow_casting import CastsShadows, CountAttribute, count_of
 
@@ -158,8 +159,8 @@ class DirectionalLight(DirectLight):
         (x, y, z), haze = daylight_arguments(sun_direction, turbidity)
         light = sunlight((x, y, z), haze)
         most = max(light)
-        red, green, blue = (component / most for component in light)
-        return cls((-x, -y, -z), (red, green, blue), most / math.pi, "white")
+        color = linear([component / most for component in light])
+        return cls((-x, -y, -z), color, most / math.pi, "white")
 
     def __repr__(self) -> str:
         direction = tuple(self.direction.tolist())

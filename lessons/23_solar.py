@@ -97,9 +97,9 @@ def seek(system, days):
 
 
 BALLS = {
-    "sun ball": (1.0, 0.75, 0.2),
-    "earth ball": (0.25, 0.5, 1.0),
-    "moon": (0.75, 0.75, 0.72),
+    "sun ball": e3d.linear(1.0, 0.75, 0.2),
+    "earth ball": e3d.linear(0.25, 0.5, 1.0),
+    "moon": e3d.linear(0.75, 0.75, 0.72),
 }
 
 

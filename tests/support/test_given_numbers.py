@@ -60,16 +60,15 @@ SUSPECT = {
         CORNERS, FACE, colors=np.append(BYTES, np.ones((3, 1)), 1)
     ),
     "instance": lambda: e3d.InstancedMesh(e3d.box(), [(0, 0, 0, 1)] * 3, colors=BYTES),
-    "material": lambda: e3d.Material(color=e3d.linear(255.0, 128.0, 0.0)),
+    "material": lambda: e3d.Material(color=(255.0, 128.0, 0.0)),
     "background": lambda: e3d.Scene(background=np.array((255.0, 128.0, 0.0))),
 }
 
 
 @pytest.mark.parametrize("name", SUSPECT)
-def test_floats_that_look_like_8_bit_values_are_warned_of(name):
-    with pytest.warns(e3d.Engine3DWarning, match="up to 255.*give integers") as seen:
+def test_floats_that_are_8_bit_values_are_an_error(name):
+    with pytest.raises(e3d.InvalidArgumentError, match="float 255.*8-bit values are integers"):
         SUSPECT[name]()
-    assert len(seen) == 1 and seen[0].filename == __file__
 
 
 def test_bright_light_is_not_warned_of():
@@ -78,7 +77,7 @@ def test_bright_light_is_not_warned_of():
         e3d.Material(emissive=e3d.linear(12.5, 3.0, 0.0), color=(1.0, 1.0, 1.0))
         e3d.PointLight(color=e3d.linear(900.0, 900.0, 900.0))
         e3d.PointLight(color=e3d.linear(60.5, 60.0, 0.0))
-        e3d.Mesh(CORNERS, FACE, colors=np.eye(3) * 4)
+        e3d.Mesh(CORNERS, FACE, colors=e3d.linear(np.eye(3) * 4))
         e3d.Material(color=(255, 128, 0))
 
 
